@@ -1,11 +1,11 @@
 {-# LANGUAGE BangPatterns #-}
 {-# OPTIONS_GHC -O2 #-}
 
--- | Lines and arcs as bare numbers in mm, and what can be said of two of them at once.
+-- | Distances of segments in plain numbers, as bounds: a faster twin of "Geometry.Distance".
 --
--- The proof is about whole strokes and whole elements. Of nearly all of them a few products tell
--- that they are far enough from one another, or near enough; what is not told here, to 'unsure', is
--- left to the exact comparison.
+-- The proof compares whole motions with whole elements. For nearly all pairs a few products decide
+-- that they are far enough apart, or near enough. An answer that depends on less than 'unsure' is
+-- left to the exact comparison of "Geometry.Distance".
 module Geometry.Distance.Fast
   ( spot,
     isLine,
@@ -33,49 +33,23 @@ module Geometry.Distance.Fast
   )
 where
 
-import Base.Quantity (Mm (..), Rad (..))
 import Data.List (foldl', sort)
-import Geometry.Index.BoundingBox (BoundingBox (BoundingBox))
-import Geometry.Index.BoundingBox qualified as BoundingBox
-import Geometry.Segment (Segment (..))
-import Geometry.Vec (Point (Point))
+import Geometry.Segment (Segment)
+import Geometry.Segment.Fast
 
--- | A segment as bare numbers: a line by its ends, or an arc by its ends, its centre, its radius
--- and its sweep in radians. Nothing of it is ever made: whoever asks takes the numbers that are
--- needed from the segment.
-data Bare
-  = Line Double Double Double Double
-  | Bow Double Double Double Double Double Double Double Double
-
-bare :: Segment -> Bare
-bare s = case s of
-  Straight (Point ax ay) (Point bx by) -> Line ax ay bx by
-  Arc (Point ax ay) (Point bx by) (Point cx cy) (Rad angle) ->
-    Bow ax ay bx by cx cy (hypotenuse (cx - ax) (cy - ay)) angle
-{-# INLINE bare #-}
-
--- | What is nearer to a bound than this is not decided here, in mm. Products of coordinates are
--- exact to less than a hundredth of it.
+-- | Uncertainty of all decisions in this module in mm. Products of coordinates are exact to less
+-- than a hundredth of it.
 unsure :: Double
 unsure = 1e-8
 
--- | More than any distance.
+-- | Distance larger than all others.
 never :: Double
 never = 1 / 0
 
--- | A single point.
-spot :: Double -> Double -> Segment
-spot x y = Straight (Point x y) (Point x y)
-
-isLine :: Segment -> Bool
-isLine course = case bare course of
-  Line {} -> True
-  Bow {} -> False
-
--- | From a point.
+-- | Distance of a point from a segment in mm.
 distance :: Segment -> Double -> Double -> Double
-distance course !px !py = case bare course of
-  Line ax ay bx by ->
+distance segment !px !py = case coordinates segment of
+  LineAt ax ay bx by ->
     let ux = bx - ax
         uy = by - ay
         vx = px - ax
@@ -88,49 +62,32 @@ distance course !px !py = case bare course of
             if along >= uu
               then hypotenuse (px - bx) (py - by)
               else abs (ux * vy - uy * vx) / sqrt uu
-  Bow ax ay bx by cx cy r _
-    | inSector course px py -> abs (hypotenuse (px - cx) (py - cy) - r)
+  ArcAt ax ay bx by cx cy r _
+    | inSector segment px py -> abs (hypotenuse (px - cx) (py - cy) - r)
     | otherwise -> min (hypotenuse (px - ax) (py - ay)) (hypotenuse (px - bx) (py - by))
 
--- | Whether a point may lie within a distance of a course of such a length, or a little more: no
--- point of it is further from its beginning.
+-- | False only if a point is further than @most@ from a segment whose length is @long@. Compares
+-- the distance from the segment's start, from which no point of the segment is further than
+-- @long@.
 mayLieWithin :: Double -> Double -> Segment -> Double -> Double -> Bool
-mayLieWithin most long course !px !py = case bare course of
-  Line ax ay _ _ -> about (px - ax) (py - ay)
-  Bow ax ay _ _ _ _ _ _ -> about (px - ax) (py - ay)
+mayLieWithin most long segment !px !py = case coordinates segment of
+  LineAt ax ay _ _ -> about (px - ax) (py - ay)
+  ArcAt ax ay _ _ _ _ _ _ -> about (px - ax) (py - ay)
   where
     about vx vy = let d = most + long + unsure in vx * vx + vy * vy <= d * d
     {-# INLINE about #-}
 {-# INLINE mayLieWithin #-}
 
--- | A box about it, that of its ends grown by the most that an arc may bulge: @r·(1 − cos(φ/2)) ≤
--- r·φ²/8@.
-box :: Segment -> BoundingBox
-box course = case bare course of
-  Line ax ay bx by -> BoundingBox (min ax bx) (min ay by) (max ax bx) (max ay by)
-  Bow ax ay bx by cx cy r s
-    | abs s < pi ->
-      BoundingBox.inflate
-        (Mm (r * s * s / 8))
-        (BoundingBox (min ax bx) (min ay by) (max ax bx) (max ay by))
-    | otherwise -> BoundingBox (cx - r) (cy - r) (cx + r) (cy + r)
-
--- | By how much the radii of an arc differ at its ends.
-uneven :: Segment -> Double
-uneven course = case bare course of
-  Line {} -> 0
-  Bow _ _ bx by cx cy r _ -> abs (hypotenuse (bx - cx) (by - cy) - r)
-
--- | Whether a course of such a length may come within a distance of what carries the second one, a
--- line or a circle: no point of it is further from its beginning than that length.
+-- | False only if every point of the first segment, whose length is @long@, is further than @most@
+-- from the carrier of the second. Compares the distance of the first segment's start.
 mayComeWithin :: Double -> Double -> Segment -> Segment -> Bool
-mayComeWithin most long e t = case bare t of
-  Line px py qx qy ->
+mayComeWithin most long e t = case coordinates t of
+  LineAt px py qx qy ->
     let ux = qx - px
         uy = qy - py
         side = ux * (y - py) - uy * (x - px)
      in side * side <= far * far * (ux * ux + uy * uy)
-  Bow _ _ _ _ cx cy r _ ->
+  ArcAt _ _ _ _ cx cy r _ ->
     let vv = (x - cx) * (x - cx) + (y - cy) * (y - cy)
      in vv <= (r + far) * (r + far) && (r <= far || vv >= (r - far) * (r - far))
   where
@@ -138,82 +95,40 @@ mayComeWithin most long e t = case bare t of
     (x, y) = begin e
 {-# INLINE mayComeWithin #-}
 
-hypotenuse :: Double -> Double -> Double
-hypotenuse a b = sqrt (a * a + b * b)
-{-# INLINE hypotenuse #-}
-
--- | How a point lies as seen from an arc's centre, each times the radius: how far behind its
--- beginning in the sense of the walk, how far before its end, and how far out towards the
--- beginning. In mm².
-bearing ::
-  Double ->
-  Double ->
-  Double ->
-  Double ->
-  Double ->
-  Double ->
-  Double ->
-  Double ->
-  Double ->
-  (Double -> Double -> Double -> r) ->
-  r
-bearing ax ay bx by cx cy s px py k =
-  k
-    (sense * ((ax - cx) * vy - (ay - cy) * vx))
-    (sense * (vx * (by - cy) - vy * (bx - cx)))
-    ((ax - cx) * vx + (ay - cy) * vy)
-  where
-    sense = if s > 0 then 1 else -1
-    vx = px - cx
-    vy = py - cy
-{-# INLINE bearing #-}
-
--- | Whether a point lies in the sector of an arc.
-inSector :: Segment -> Double -> Double -> Bool
-inSector course !px !py = case bare course of
-  Line {} -> False
-  Bow ax ay bx by cx cy _ s ->
-    bearing ax ay bx by cx cy s px py $ \behind before along ->
-      if abs s > pi
-        then behind >= 0 || before >= 0 || abs s > 3 / 2 * pi && along <= 0
-        else behind >= 0 && before >= 0 && (abs s > pi / 2 || along >= 0)
-
--- | The least distance of two, or less than that by no more than rounding. Those that cross have
--- none.
+-- | Least distance of two segments in mm, or less by no more than rounding; 0 if they intersect.
 apart :: Segment -> Segment -> Double
 apart a b
   | cross a b = 0
   | otherwise = min (ends a b) (min (ends b a) (min (normals a b) (normals b a)))
   where
-    ends c other = case bare c of
-      Line ax ay bx by -> min (distance other ax ay) (distance other bx by)
-      Bow ax ay bx by _ _ _ _ -> min (distance other ax ay) (distance other bx by)
+    ends c other = case coordinates c of
+      LineAt ax ay bx by -> min (distance other ax ay) (distance other bx by)
+      ArcAt ax ay bx by _ _ _ _ -> min (distance other ax ay) (distance other bx by)
 
--- | No points of two courses are nearer to one another than this; it is exact where the second lies
--- beside the first, and found sooner. What carries the first is nowhere further from a point than
--- the first itself.
+-- | Lower bound of the distance of two segments: the distance of the second from the carrier of
+-- the first. It is exact if the second lies beside the first.
 apartAtLeast :: Segment -> Segment -> Double
-apartAtLeast t e = case bare t of
-  Line px py qx qy -> case across px py qx qy e of
+apartAtLeast t e = case coordinates t of
+  LineAt px py qx qy -> case across px py qx qy e of
     Span low high
       | low > 0 -> low
       | high < 0 -> negate high
       | otherwise -> 0
-  Bow _ _ _ _ cx cy r _ -> case spanFrom cx cy e of
+  ArcAt _ _ _ _ cx cy r _ -> case spanFrom cx cy e of
     Span low high
       | low > r -> low - r
       | high < r -> r - high
       | otherwise -> 0
 
--- | From one number to another.
+-- | Closed interval.
 data Span = Span Double Double
 
--- | How far a course is from a point at least and at most.
+-- | Least and greatest distance of a segment from a point.
 spanFrom :: Double -> Double -> Segment -> Span
-spanFrom !px !py e = case bare e of
-  Line ax ay bx by ->
+spanFrom !px !py e = case coordinates e of
+  LineAt ax ay bx by ->
     Span (distance e px py) (max (hypotenuse (ax - px) (ay - py)) (hypotenuse (bx - px) (by - py)))
-  Bow ax ay bx by cx cy r _ ->
+  ArcAt ax ay bx by cx cy r _ ->
     let a = hypotenuse (ax - px) (ay - py)
         b = hypotenuse (bx - px) (by - py)
         ux = cx - px
@@ -227,14 +142,14 @@ spanFrom !px !py e = case bare e of
               (if onLine (r / off) then off + r else max a b)
           else Span r r
 
--- | How far to the left of a line a course lies at least and at most; 0 where the line has no
--- length.
+-- | Least and greatest signed distance of a segment from a line through two points, positive on
+-- its left; 0 if the points coincide.
 across :: Double -> Double -> Double -> Double -> Segment -> Span
 across px py qx qy e
   | l <= 0 = Span 0 0
-  | otherwise = case bare e of
-    Line ax ay bx by -> let a = height ax ay; b = height bx by in Span (min a b) (max a b)
-    Bow ax ay bx by cx cy r _ ->
+  | otherwise = case coordinates e of
+    LineAt ax ay bx by -> let a = height ax ay; b = height bx by in Span (min a b) (max a b)
+    ArcAt ax ay bx by cx cy r _ ->
       let a = height ax ay
           b = height bx by
           c = height cx cy
@@ -249,13 +164,14 @@ across px py qx qy e
     iy = (qy - py) / l
     height x y = ix * (y - py) - iy * (x - px)
 
--- | From where a normal of the first course meets the second, an arc, at a right angle, too.
+-- | Least distance at a common normal of the first segment and the second, which is an arc;
+-- 'never' without one.
 normals :: Segment -> Segment -> Double
-normals a b = case (bare a, bare b) of
-  (Line ax ay bx by, Bow _ _ _ _ cx cy _ _) ->
+normals a b = case (coordinates a, coordinates b) of
+  (LineAt ax ay bx by, ArcAt _ _ _ _ cx cy _ _) ->
     let t = shareOf ax ay bx by cx cy
      in if t > 0 && t < 1 then distance b (ax + t * (bx - ax)) (ay + t * (by - ay)) else never
-  (Bow _ _ _ _ cx cy r _, Bow _ _ _ _ dx dy _ _) ->
+  (ArcAt _ _ _ _ cx cy r _, ArcAt _ _ _ _ dx dy _ _) ->
     let ex = dx - cx
         ey = dy - cy
         e = hypotenuse ex ey
@@ -267,20 +183,11 @@ normals a b = case (bare a, bare b) of
      in if e > 0 then min (from 1) (from (-1)) else never
   _ -> never
 
--- | Where the foot of a point lies on a line, as a share of its length.
-shareOf :: Double -> Double -> Double -> Double -> Double -> Double -> Double
-shareOf ax ay bx by px py =
-  let ux =
-        bx - ax
-      uy = by - ay
-      uu = ux * ux + uy * uy
-   in if uu > 0 then (ux * (px - ax) + uy * (py - ay)) / uu else 0
-{-# INLINE shareOf #-}
-
--- | Whether two cross. What only touches has an end or a normal there.
+-- | True of segments that intersect. At a mere contact there is an end or a common normal, which
+-- 'apart' also compares.
 cross :: Segment -> Segment -> Bool
-cross a b = case (bare a, bare b) of
-  (Line ax ay bx by, Line cx cy dx dy) ->
+cross a b = case (coordinates a, coordinates b) of
+  (LineAt ax ay bx by, LineAt cx cy dx dy) ->
     let side x y = (bx - ax) * (y - ay) - (by - ay) * (x - ax)
         side' x y = (dx - cx) * (y - cy) - (dy - cy) * (x - cx)
      in side cx cy * side dx dy <= 0 && side' ax ay * side' bx by <= 0 && boxesMeet
@@ -288,7 +195,7 @@ cross a b = case (bare a, bare b) of
       boxesMeet =
         max (min ax bx) (min cx dx) <= min (max ax bx) (max cx dx)
           && max (min ay by) (min cy dy) <= min (max ay by) (max cy dy)
-  (Line ax ay bx by, Bow _ _ _ _ cx cy r _) ->
+  (LineAt ax ay bx by, ArcAt _ _ _ _ cx cy r _) ->
     let ux = bx - ax
         uy = by - ay
         l = hypotenuse ux uy
@@ -297,8 +204,8 @@ cross a b = case (bare a, bare b) of
         half = sqrt (r * r - off * off)
         meets t = t >= 0 && t <= l && inSector b (ax + t * ux / l) (ay + t * uy / l)
      in l > 0 && abs off <= r && (meets (along - half) || meets (along + half))
-  (Bow {}, Line {}) -> cross b a
-  (Bow _ _ _ _ cx cy r _, Bow _ _ _ _ dx dy q _) ->
+  (ArcAt {}, LineAt {}) -> cross b a
+  (ArcAt _ _ _ _ cx cy r _, ArcAt _ _ _ _ dx dy q _) ->
     let ex = dx - cx
         ey = dy - cy
         ee = ex * ex + ey * ey
@@ -311,52 +218,54 @@ cross a b = case (bare a, bare b) of
            in inSector a x y && inSector b x y
      in e > 0 && abs along <= r && (meets 1 || meets (-1))
 
--- | No point of the first course is further than this from the second. That is exact where the one
--- runs beside the other, or about one of its ends.
+-- | Upper bound of the distance of any point of the first segment from the second. It is exact if
+-- the first runs beside the second, or around one of its ends.
 furthest :: Segment -> Segment -> Double
 furthest e t =
   min
     (beside e t)
-    ( case bare t of
-        Line ax ay bx by ->
+    ( case coordinates t of
+        LineAt ax ay bx by ->
           fromEnds ax ay bx by
-        Bow ax ay bx by _ _ _ _ -> fromEnds ax ay bx by
+        ArcAt ax ay bx by _ _ _ _ -> fromEnds ax ay bx by
     )
   where
     fromEnds ax ay bx by = min (fromPoint e ax ay) (fromPoint e bx by)
 
--- | No point of a course is further than this from any of some others; 'never' where an end of it
--- is further from one of them than so much.
+-- | Upper bound of the distance of any point of a segment from any of several others; 'never' if
+-- an end of the segment is further than @most@ from one of them.
 furthestFrom :: Double -> Segment -> [Segment] -> Double
 furthestFrom most e ts
   | all endsNear ts = foldl' (\far t -> max far (enough t)) 0 ts
   | otherwise = never
   where
     enough t = let far = beside e t in if far <= most then far else furthest e t
-    endsNear t = case bare e of
-      Line ax ay bx by -> distance t ax ay <= most && distance t bx by <= most
-      Bow ax ay bx by _ _ _ _ -> distance t ax ay <= most && distance t bx by <= most
+    endsNear t = case coordinates e of
+      LineAt ax ay bx by -> distance t ax ay <= most && distance t bx by <= most
+      ArcAt ax ay bx by _ _ _ _ -> distance t ax ay <= most && distance t bx by <= most
 
--- | Whether no point of the first course is further from the second than so much. Mostly its
--- beginning tells that it is.
+-- | True only if every point of the first segment lies within a distance of the second. The start
+-- of the first is compared before all else, since it decides most cases.
 isWithin :: Double -> Segment -> Segment -> Bool
 isWithin most e t = atBegin && (beside e t <= most || fromEnds)
   where
-    fromEnds = case bare t of
-      Line ax ay bx by -> fromPoint e ax ay <= most || fromPoint e bx by <= most
-      Bow ax ay bx by _ _ _ _ -> fromPoint e ax ay <= most || fromPoint e bx by <= most
-    atBegin = case bare e of
-      Line ax ay _ _ -> distance t ax ay <= most
-      Bow ax ay _ _ _ _ _ _ -> distance t ax ay <= most
+    fromEnds = case coordinates t of
+      LineAt ax ay bx by -> fromPoint e ax ay <= most || fromPoint e bx by <= most
+      ArcAt ax ay bx by _ _ _ _ -> fromPoint e ax ay <= most || fromPoint e bx by <= most
+    atBegin = case coordinates e of
+      LineAt ax ay _ _ -> distance t ax ay <= most
+      ArcAt ax ay _ _ _ _ _ _ -> distance t ax ay <= most
 
--- | Whether every point of a line or of an arc of no more than 'aCorner' surely has a point of some
--- others within a distance: those of them that follow one another without a gap are one curve. As
--- seen from the line, or from the arc's centre, that comes past its beginning and past its end, so
--- it comes past all between, and nowhere is it further above it, or out from it, or less so, than
--- the distance. It is so short that it does not go round the centre.
+-- | True only if every point of a line, or of an arc of at most 'aCorner', surely lies within a
+-- distance of some others.
+--
+-- Others that join without a gap are one curve. As seen along the line, or from the arc's
+-- centre, that curve begins before the segment's start and ends after its end, so it passes
+-- every point between. Its distance from the segment's carrier never exceeds the distance asked.
+-- The curve is too short to go round the arc's centre.
 isAccompanied :: Double -> [Segment] -> Segment -> Bool
-isAccompanied most others t = case bare t of
-  Line px py qx qy
+isAccompanied most others t = case coordinates t of
+  LineAt px py qx qy
     | l <- hypotenuse (qx - px) (qy - py),
       l > 0 ->
       let ix = (qx - px) / l
@@ -371,7 +280,7 @@ isAccompanied most others t = case bare t of
             (across px py qx qy)
             (\(Span low high) _ -> low >= negate most' && high <= most')
             others
-  Bow ax ay bx by cx cy r s
+  ArcAt ax ay bx by cx cy r s
     | abs s <= aCorner ->
       let place x y =
             bearing
@@ -401,8 +310,9 @@ isAccompanied most others t = case bare t of
   where
     most' = most - 2 * unsure
 
--- | Whether of curves one behind the other some follow one another without a gap from past one end
--- to past the other, and keep to what is asked.
+-- | True if some of the curves, each beginning where the one before ends, lead without a gap from
+-- before one end to after the other, and satisfy a condition on their interval of distances and
+-- their length.
 chain ::
   (Double -> Double -> Stand) ->
   (Segment -> Span) ->
@@ -434,25 +344,19 @@ chain place spanOf fits = start
             long' = long + lengthOf e
 {-# INLINE chain #-}
 
--- | Past which end a point lies.
+-- | Position of a point relative to the two ends of a segment.
 data Stand = Before | Amidst | Behind
   deriving stock (Eq)
 
--- | A turn by no more than this, in radians, goes round no centre.
+-- | Largest sweep in radians of an arc that 'isAccompanied' treats.
 aCorner :: Double
 aCorner = 1
 
--- | How long it is.
-lengthOf :: Segment -> Double
-lengthOf e = case bare e of
-  Line ax ay bx by -> hypotenuse (bx - ax) (by - ay)
-  Bow _ _ _ _ _ _ r s -> r * abs s
-
--- | How far the furthest point of a course is from a point.
+-- | Greatest distance of a point of a segment from a point.
 fromPoint :: Segment -> Double -> Double -> Double
-fromPoint e px py = case bare e of
-  Line ax ay bx by -> max (hypotenuse (ax - px) (ay - py)) (hypotenuse (bx - px) (by - py))
-  Bow ax ay bx by cx cy r _ ->
+fromPoint e px py = case coordinates e of
+  LineAt ax ay bx by -> max (hypotenuse (ax - px) (ay - py)) (hypotenuse (bx - px) (by - py))
+  ArcAt ax ay bx by cx cy r _ ->
     let d = hypotenuse (cx - px) (cy - py)
         ends = max (hypotenuse (ax - px) (ay - py)) (hypotenuse (bx - px) (by - py))
      in if d > 0 && inSector e (cx + (cx - px)) (cy + (cy - py))
@@ -462,12 +366,12 @@ fromPoint e px py = case bare e of
               then ends
               else max ends r
 
--- | The same, where every point of the first course has its foot on the second, or beyond an end of
--- it by no more than 'overlap'; else 'never'.
+-- | Same bound as 'furthest', if every point of the first segment has its foot on the second, or
+-- lies past an end of it by no more than 'overlap'; otherwise 'never'.
 beside :: Segment -> Segment -> Double
-beside e t = case (bare e, bare t) of
-  (Line ax ay bx by, Line {}) -> max (distance t ax ay) (distance t bx by)
-  (Line ax ay bx by, Bow _ _ _ _ cx cy r s)
+beside e t = case (coordinates e, coordinates t) of
+  (LineAt ax ay bx by, LineAt {}) -> max (distance t ax ay) (distance t bx by)
+  (LineAt ax ay bx by, ArcAt _ _ _ _ cx cy r s)
     | abs s <= pi || isWhole s ->
       let !near = distance e cx cy
           !high =
@@ -478,7 +382,7 @@ beside e t = case (bare e, bare t) of
                   (abs (hypotenuse (bx - cx) (by - cy) - r))
               )
        in aside high (max (pastArc t ax ay) (pastArc t bx by)) near r
-  (Bow ax ay bx by cx cy r _, Line px py qx qy) ->
+  (ArcAt ax ay bx by cx cy r _, LineAt px py qx qy) ->
     let ux = qx - px
         uy = qy - py
         l = hypotenuse ux uy
@@ -505,7 +409,7 @@ beside e t = case (bare e, bare t) of
               l
               0
           else never
-  (Bow ax ay bx by cx cy r _, Bow px py qx qy dx dy q z)
+  (ArcAt ax ay bx by cx cy r _, ArcAt px py qx qy dx dy q z)
     | abs z <= pi || isWhole z ->
       let off = hypotenuse (cx - dx) (cy - dy)
           away x y = hypotenuse (x - dx) (y - dy)
@@ -549,10 +453,12 @@ beside e t = case (bare e, bare t) of
        in if q > 0 then aside high past near q else never
   _ -> never
 
--- | How far something is at most that is so far beside a course, and past an end of it by so much.
--- Past the end of an arc its centre tells, how near that comes, and its radius: the square of the
--- distance from the end is @(ρ − r)² + 4·ρ·r·sin²(φ/2)@, and where @sin φ@ is no more than a
--- hundredth that is less than @(ρ − r)² + 1.001·(r/ρ)·(ρ·sin φ)²@.
+-- | Upper bound of a point's distance from a segment, by its distance from the carrier and its
+-- distance past the end.
+--
+-- For an arc, the distance from the end is known from the distance ρ of the point from the
+-- centre and the radius r: its square is @(ρ − r)² + 4·ρ·r·sin²(φ/2)@. If @sin φ@ is at most a
+-- hundredth, that is less than @(ρ − r)² + 1.001·(r/ρ)·(ρ·sin φ)²@.
 aside :: Double -> Double -> Double -> Double -> Double
 aside high past near r
   | past <= 0 = high
@@ -562,41 +468,24 @@ aside high past near r
   | otherwise = never
 {-# INLINE aside #-}
 
--- | Beyond the end of one course by no more than this another one follows, in mm.
+-- | Greatest distance past the end of a segment, in mm, for which 'beside' gives a bound.
 overlap :: Double
 overlap = 0.1
 
--- | How far a point lies beside the sector of an arc of at most half a turn, or of a whole turn;
--- 'never' far away.
+-- | Distance of a point past the ends of an arc of at most half a turn, or of a full circle; 0
+-- inside the sector, 'never' on the opposite side.
 pastArc :: Segment -> Double -> Double -> Double
-pastArc t !px !py = case bare t of
-  Line {} -> never
-  Bow ax ay bx by cx cy r s
+pastArc t !px !py = case coordinates t of
+  LineAt {} -> never
+  ArcAt ax ay bx by cx cy r s
     | isWhole s -> 0
     | otherwise -> bearing ax ay bx by cx cy s px py $ \behind before along ->
       if abs s <= pi / 2 && along < 0
         then never
         else max 0 (max (negate behind) (negate before) / r)
 
--- | Whether an arc goes all the way round.
-isWhole :: Double -> Bool
-isWhole s = abs s >= 2 * pi
-
--- | The point at a share of the length.
-at :: Segment -> Double -> (Double, Double)
-at e !t = case bare e of
-  Line ax ay bx by -> (ax + t * (bx - ax), ay + t * (by - ay))
-  Bow ax ay _ _ cx cy _ s ->
-    let c =
-          cos (t * s)
-        n = sin (t * s)
-        vx = ax - cx
-        vy = ay - cy
-     in (cx + c * vx - n * vy, cy + n * vx + c * vy)
-{-# INLINE at #-}
-
--- | Whether every point of a course surely has one of some others within a distance, all courses of
--- that other; whether it counts is asked last.
+-- | True only if every point of a segment surely lies within a distance of one of several others.
+-- Each other consists of segments and counts only if a test says so; the test is evaluated last.
 isCovered :: Double -> (a -> [Segment]) -> (a -> Bool) -> [a] -> Segment -> Bool
 isCovered reach coursesOf counts others e =
   any (covers e) others || go others (parts e (concatMap coursesOf others))
@@ -612,9 +501,8 @@ isCovered reach coursesOf counts others e =
     covered ahead part = any (covers part) ahead || any (covers part) others
 {-# INLINE isCovered #-}
 
--- | How far the point of a course is that is furthest from all of some others, of each from that of
--- its courses from which it is furthest: surely further than the one, surely no further than the
--- other.
+-- | Bounds of the greatest distance of a segment's points from several others. The distance from
+-- one of them is the greatest distance from its segments; the least over all others counts.
 range :: [[Segment]] -> Segment -> (Double, Double)
 range others e = (maximum (map from points) - unsure, maximum (map to pieces) + 2 * unsure)
   where
@@ -632,29 +520,30 @@ range others e = (maximum (map from points) - unsure, maximum (map to pieces) + 
     least = foldl' min never
     most = foldl' max 0
 
--- | Where a course may be furthest from another one, beside its ends: on the line of their centres,
--- square above a line.
+-- | Points of the first segment, beside its ends, at which its distance from the second may be
+-- greatest: on the line of both centres, or square to a line.
 summits :: Segment -> Segment -> [(Double, Double)]
-summits e t = case (bare e, bare t) of
-  (Bow _ _ _ _ cx cy r _, Bow _ _ _ _ dx dy _ _) ->
+summits e t = case (coordinates e, coordinates t) of
+  (ArcAt _ _ _ _ cx cy r _, ArcAt _ _ _ _ dx dy _ _) ->
     let d =
           hypotenuse (cx - dx) (cy - dy)
      in if d > 0 then both cx cy (r * (cx - dx) / d) (r * (cy - dy) / d) else []
-  (Bow _ _ _ _ cx cy r _, Line ax ay bx by) ->
+  (ArcAt _ _ _ _ cx cy r _, LineAt ax ay bx by) ->
     let l =
           hypotenuse (bx - ax) (by - ay)
      in if l > 0 then both cx cy (r * (ay - by) / l) (r * (bx - ax) / l) else []
-  (Line ax ay bx by, Bow _ _ _ _ dx dy _ _) ->
+  (LineAt ax ay bx by, ArcAt _ _ _ _ dx dy _ _) ->
     let k =
           shareOf ax ay bx by dx dy
      in [at e k | k > 0, k < 1]
-  (Line {}, Line {}) -> []
+  (LineAt {}, LineAt {}) -> []
   where
     both cx cy ux uy =
       [(x, y) | sense <- [1, -1], let x = cx + sense * ux; y = cy + sense * uy, inSector e x y]
 
--- | The parts of a course between the places where what is nearest changes: there is an end of one
--- of the others. None when it is not cut, or cut into more than 'mostParts'.
+-- | Parts of a segment between the points at which the nearest of several others may change: the
+-- feet of their ends. Empty if there is no such point, or if there would be more than
+-- 'mostParts' parts.
 parts :: Segment -> [Segment] -> [Segment]
 parts e others = case marks of
   [] -> []
@@ -671,90 +560,41 @@ parts e others = case marks of
           uncurry footInside (begin t) <> feet (u : more)
       t : more -> uncurry footInside (begin t) <> uncurry footInside (finish t) <> feet more
     footInside x y = [m | isAbout x y, let m = foot e x y, m > 0, m < 1]
-    isAbout x y = case bare e of
-      Line {} -> True
-      Bow {} -> inSector e x y
+    isAbout x y = case coordinates e of
+      LineAt {} -> True
+      ArcAt {} -> inSector e x y
     rising ms = case ms of
       a : b : more | a == b -> rising (b : more)
       a : more -> a : rising more
       [] -> []
 
--- | So many parts are looked at by themselves.
+-- | Greatest count of parts that are examined one by one.
 mostParts :: Int
 mostParts = 64
 
--- | Its ends.
-begin, finish :: Segment -> (Double, Double)
-begin t = case bare t of
-  Line ax ay _ _ -> (ax, ay)
-  Bow ax ay _ _ _ _ _ _ -> (ax, ay)
-finish t = case bare t of
-  Line _ _ bx by -> (bx, by)
-  Bow _ _ bx by _ _ _ _ -> (bx, by)
-{-# INLINE begin #-}
-{-# INLINE finish #-}
-
--- | Where the foot of a point lies on a course, as a share of its length; of an arc in its sense
--- from its beginning on.
-foot :: Segment -> Double -> Double -> Double
-foot e !x !y = case bare e of
-  Line ax ay bx by -> shareOf ax ay bx by x y
-  Bow ax ay _ _ cx cy _ s ->
-    let vx = ax - cx
-        vy = ay - cy
-        turned = atan2 (vx * (y - cy) - vy * (x - cx)) (vx * (x - cx) + vy * (y - cy)) / s
-     in if turned < 0 then turned + 2 * pi / abs s else turned
-
--- | The two parts of a course before and behind the foot of a point, if that lies on it.
-divided :: Double -> Double -> Segment -> Maybe (Segment, Segment)
-divided x y e
-  | isAbout, m > 0, m < 1 = Just (between e 0 m, between e m 1)
-  | otherwise = Nothing
-  where
-    m = foot e x y
-    isAbout = isLine e || inSector e x y
-
--- | The part of a course between two shares of its length.
-between :: Segment -> Double -> Double -> Segment
-between e a b = case bare e of
-  Line {} -> Straight p q
-  Bow _ _ _ _ cx cy _ s -> Arc p q (Point cx cy) (Rad (s * (b - a)))
-  where
-    p = pointAt a
-    q = pointAt b
-    pointAt t = let (x, y) = at e t in Point x y
-
--- | Whether all of a course surely lies to the left of an element, or of the circle or line that
--- carries it.
+-- | True only if a segment surely lies to the left of the carrier of an element (second argument),
+-- or to its right.
 isLeftOf :: Segment -> Segment -> Bool
-isLeftOf t e = case bare e of
-  Line ax ay bx by -> case across ax ay bx by t of Span low _ -> low > unsure
-  Bow _ _ _ _ cx cy r s ->
+isLeftOf t e = case coordinates e of
+  LineAt ax ay bx by -> case across ax ay bx by t of Span low _ -> low > unsure
+  ArcAt _ _ _ _ cx cy r s ->
     if s > 0 then isInside cx cy (r - unsure) t else isOutside cx cy (r + unsure) t
 
+-- | True only if a segment surely lies to the right of the carrier of an element, its second
+-- argument.
 isRightOf :: Segment -> Segment -> Bool
-isRightOf t e = case bare e of
-  Line ax ay bx by -> case across ax ay bx by t of Span _ high -> high < -unsure
-  Bow _ _ _ _ cx cy r s ->
+isRightOf t e = case coordinates e of
+  LineAt ax ay bx by -> case across ax ay bx by t of Span _ high -> high < -unsure
+  ArcAt _ _ _ _ cx cy r s ->
     if s > 0 then isOutside cx cy (r + unsure) t else isInside cx cy (r - unsure) t
 
--- | Whether all of a course lies within a distance of a point, or all of it beyond.
+-- | True if all points of a segment are nearer to a point than a distance, or further.
 isInside, isOutside :: Double -> Double -> Double -> Segment -> Bool
 isInside cx cy r t = case spanFrom cx cy t of Span _ high -> high < r
 isOutside cx cy r t = case spanFrom cx cy t of Span low _ -> low > r
 
--- | Whether the foot of a point may fall on a course rather than before or behind it.
+-- | False only if the foot of a point lies before the start of a segment or after its end.
 spansAbout :: Segment -> Double -> Double -> Bool
-spansAbout e !px !py = case bare e of
-  Line ax ay bx by -> let t = shareOf ax ay bx by px py in t >= -1e-9 && t <= 1 + 1e-9
-  Bow _ _ _ _ _ _ _ s -> abs s > pi || pastArc e px py <= unsure
-
--- | Where the foot of a point lies on a course, as a share of its length; of one before or behind
--- it the nearer end.
-footOn :: Segment -> Double -> Double -> Double
-footOn e !px !py = case bare e of
-  Line ax ay bx by -> max 0 (min 1 (shareOf ax ay bx by px py))
-  Bow ax ay bx by _ _ _ _
-    | inSector e px py -> max 0 (min 1 (foot e px py))
-    | hypotenuse (px - ax) (py - ay) <= hypotenuse (px - bx) (py - by) -> 0
-    | otherwise -> 1
+spansAbout e !px !py = case coordinates e of
+  LineAt ax ay bx by -> let t = shareOf ax ay bx by px py in t >= -1e-9 && t <= 1 + 1e-9
+  ArcAt _ _ _ _ _ _ _ s -> abs s > pi || pastArc e px py <= unsure

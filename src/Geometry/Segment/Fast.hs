@@ -1,0 +1,202 @@
+{-# LANGUAGE BangPatterns #-}
+{-# OPTIONS_GHC -O2 #-}
+
+-- | Elementary operations on segments in plain numbers, for loops over many segments. They do what
+-- "Geometry.Segment" does, without intermediate points and vectors.
+module Geometry.Segment.Fast
+  ( Coordinates (..),
+    coordinates,
+    spot,
+    isLine,
+    begin,
+    finish,
+    lengthOf,
+    at,
+    uneven,
+    hypotenuse,
+    bearing,
+    inSector,
+    isWhole,
+    box,
+    shareOf,
+    foot,
+    footOn,
+    divided,
+    between,
+  )
+where
+
+import Base.Quantity (Mm (..), Rad (..))
+import Geometry.Index.BoundingBox (BoundingBox (BoundingBox))
+import Geometry.Index.BoundingBox qualified as BoundingBox
+import Geometry.Segment (Segment (..))
+import Geometry.Vec (Point (Point))
+
+-- | Coordinates of a segment in mm: a line by its two ends; an arc by its two ends, its centre,
+-- its radius and its sweep in radians. With INLINE no value of this type is built at run time.
+data Coordinates
+  = LineAt Double Double Double Double
+  | ArcAt Double Double Double Double Double Double Double Double
+
+-- | Coordinates of a segment. An arc's radius is the distance of its centre from its start.
+coordinates :: Segment -> Coordinates
+coordinates s = case s of
+  Straight (Point ax ay) (Point bx by) -> LineAt ax ay bx by
+  Arc (Point ax ay) (Point bx by) (Point cx cy) (Rad angle) ->
+    ArcAt ax ay bx by cx cy (hypotenuse (cx - ax) (cy - ay)) angle
+{-# INLINE coordinates #-}
+
+-- | Segment without length at a point.
+spot :: Double -> Double -> Segment
+spot x y = Straight (Point x y) (Point x y)
+
+-- | True of a straight segment.
+isLine :: Segment -> Bool
+isLine segment = case coordinates segment of
+  LineAt {} -> True
+  ArcAt {} -> False
+
+-- | Start and end of a segment.
+begin, finish :: Segment -> (Double, Double)
+begin t = case coordinates t of
+  LineAt ax ay _ _ -> (ax, ay)
+  ArcAt ax ay _ _ _ _ _ _ -> (ax, ay)
+finish t = case coordinates t of
+  LineAt _ _ bx by -> (bx, by)
+  ArcAt _ _ bx by _ _ _ _ -> (bx, by)
+{-# INLINE begin #-}
+{-# INLINE finish #-}
+
+-- | Length of a segment in mm.
+lengthOf :: Segment -> Double
+lengthOf e = case coordinates e of
+  LineAt ax ay bx by -> hypotenuse (bx - ax) (by - ay)
+  ArcAt _ _ _ _ _ _ r s -> r * abs s
+
+-- | Point at a fraction of the length.
+at :: Segment -> Double -> (Double, Double)
+at e !t = case coordinates e of
+  LineAt ax ay bx by -> (ax + t * (bx - ax), ay + t * (by - ay))
+  ArcAt ax ay _ _ cx cy _ s ->
+    let c =
+          cos (t * s)
+        n = sin (t * s)
+        vx = ax - cx
+        vy = ay - cy
+     in (cx + c * vx - n * vy, cy + n * vx + c * vy)
+{-# INLINE at #-}
+
+-- | Difference of an arc's radii at its two ends in mm; 0 for a line.
+uneven :: Segment -> Double
+uneven segment = case coordinates segment of
+  LineAt {} -> 0
+  ArcAt _ _ bx by cx cy r _ -> abs (hypotenuse (bx - cx) (by - cy) - r)
+
+-- | Length of a vector.
+hypotenuse :: Double -> Double -> Double
+hypotenuse a b = sqrt (a * a + b * b)
+{-# INLINE hypotenuse #-}
+
+-- | Position of a point as seen from the centre of an arc, in mm²: its distance past the start in
+-- the sense of the arc, its distance before the end, and its extent towards the start, each
+-- times the radius. The last argument receives them.
+bearing ::
+  Double ->
+  Double ->
+  Double ->
+  Double ->
+  Double ->
+  Double ->
+  Double ->
+  Double ->
+  Double ->
+  (Double -> Double -> Double -> r) ->
+  r
+bearing ax ay bx by cx cy s px py k =
+  k
+    (sense * ((ax - cx) * vy - (ay - cy) * vx))
+    (sense * (vx * (by - cy) - vy * (bx - cx)))
+    ((ax - cx) * vx + (ay - cy) * vy)
+  where
+    sense = if s > 0 then 1 else -1
+    vx = px - cx
+    vy = py - cy
+{-# INLINE bearing #-}
+
+-- | True of a point inside the sector of an arc; false for a line.
+inSector :: Segment -> Double -> Double -> Bool
+inSector segment !px !py = case coordinates segment of
+  LineAt {} -> False
+  ArcAt ax ay bx by cx cy _ s ->
+    bearing ax ay bx by cx cy s px py $ \behind before along ->
+      if abs s > pi
+        then behind >= 0 || before >= 0 || abs s > 3 / 2 * pi && along <= 0
+        else behind >= 0 && before >= 0 && (abs s > pi / 2 || along >= 0)
+
+-- | True of the sweep of a full circle.
+isWhole :: Double -> Bool
+isWhole s = abs s >= 2 * pi
+
+-- | Bounding box of a segment. That of an arc of less than half a turn is the box of its ends,
+-- inflated by a bound of the sagitta: @r·(1 − cos(φ/2)) ≤ r·φ²/8@.
+box :: Segment -> BoundingBox
+box segment = case coordinates segment of
+  LineAt ax ay bx by -> BoundingBox (min ax bx) (min ay by) (max ax bx) (max ay by)
+  ArcAt ax ay bx by cx cy r s
+    | abs s < pi ->
+      BoundingBox.inflate
+        (Mm (r * s * s / 8))
+        (BoundingBox (min ax bx) (min ay by) (max ax bx) (max ay by))
+    | otherwise -> BoundingBox (cx - r) (cy - r) (cx + r) (cy + r)
+
+-- | Foot of a point on a line through two points, as a fraction of their distance; 0 if the points
+-- coincide.
+shareOf :: Double -> Double -> Double -> Double -> Double -> Double -> Double
+shareOf ax ay bx by px py =
+  let ux =
+        bx - ax
+      uy = by - ay
+      uu = ux * ux + uy * uy
+   in if uu > 0 then (ux * (px - ax) + uy * (py - ay)) / uu else 0
+{-# INLINE shareOf #-}
+
+-- | Foot of a point on a segment as a fraction of its length; on an arc counted in its sense from
+-- its start.
+foot :: Segment -> Double -> Double -> Double
+foot e !x !y = case coordinates e of
+  LineAt ax ay bx by -> shareOf ax ay bx by x y
+  ArcAt ax ay _ _ cx cy _ s ->
+    let vx = ax - cx
+        vy = ay - cy
+        turned = atan2 (vx * (y - cy) - vy * (x - cx)) (vx * (x - cx) + vy * (y - cy)) / s
+     in if turned < 0 then turned + 2 * pi / abs s else turned
+
+-- | Nearest point of a segment as a fraction of its length: the foot, or an end if the foot lies
+-- outside.
+footOn :: Segment -> Double -> Double -> Double
+footOn e !px !py = case coordinates e of
+  LineAt ax ay bx by -> max 0 (min 1 (shareOf ax ay bx by px py))
+  ArcAt ax ay bx by _ _ _ _
+    | inSector e px py -> max 0 (min 1 (foot e px py))
+    | hypotenuse (px - ax) (py - ay) <= hypotenuse (px - bx) (py - by) -> 0
+    | otherwise -> 1
+
+-- | Two parts of a segment, before and after the foot of a point; nothing if the foot does not lie
+-- inside.
+divided :: Double -> Double -> Segment -> Maybe (Segment, Segment)
+divided x y e
+  | isAbout, m > 0, m < 1 = Just (between e 0 m, between e m 1)
+  | otherwise = Nothing
+  where
+    m = foot e x y
+    isAbout = isLine e || inSector e x y
+
+-- | Part of a segment between two fractions of its length.
+between :: Segment -> Double -> Double -> Segment
+between e a b = case coordinates e of
+  LineAt {} -> Straight p q
+  ArcAt _ _ _ _ cx cy _ s -> Arc p q (Point cx cy) (Rad (s * (b - a)))
+  where
+    p = pointAt a
+    q = pointAt b
+    pointAt t = let (x, y) = at e t in Point x y
