@@ -17,7 +17,7 @@ where
 
 import Base.Decimal qualified as Decimal
 import Base.Name (Name (..))
-import Base.Quantity (Mm (..), Rad (..), degrees, plus, times)
+import Base.Quantity (Mm (..), Rad (..), plus, times)
 import Base.Region (Located (..), Region)
 import Data.Text (Text)
 import Geometry.Segment (Segment (..))
@@ -25,13 +25,9 @@ import Geometry.Segment qualified as Segment
 import Geometry.Tolerance qualified as Tolerance
 import Geometry.Vec (Point)
 import Geometry.Vec qualified as Vec
-import Part.Part (Contour (contourName), Element (..), Side (..), Work (..))
-import Report.Report (Label (..), Report (..), ReportCode, ReportPlace (..), report)
-import Report.Report qualified as Report
-
--- | A cutter at work: its radius, and what it leaves.
-data Tool = Tool {work :: Work, radius :: Mm, leaves :: Mm}
-  deriving stock (Eq, Show)
+import Part.Part (Contour (contourName), Element (..), Side (..))
+import Report.Report (Label (..), Report (..))
+import Toolpath.WarningReport
 
 data Error
   = -- | @outside@ or @inside@ of an open contour
@@ -111,99 +107,6 @@ data Intrusion
   | -- | it takes what the statement leaves on the contour
     Taking
   deriving stock (Eq, Show)
-
--- | What is to be known of a path, though nothing is wrong with it.
-data Warning
-  = -- | the statement, the cutter, the places where it leaves material on the contour
-    Leaves Region Tool [Stay]
-  | -- | a rapid move through the part, below its top: the stop, the way, the contour that encloses
-    -- it
-    Through Region Segment (Located Name)
-  | -- | a change of the tool behind which the spindle is not said to turn
-    Standing Region
-  deriving stock (Eq, Show)
-
--- | A place where material stays because the cutter does not get there; and the largest cutter that
--- would, which is looked for when it is told.
-data Stay
-  = -- | in a corner between two elements
-    InCorner Element Element Point
-  | -- | in a concave arc of this radius
-    InHollow Element Mm ~(Maybe Mm)
-  | -- | behind where the cutter, with its centre there, touches two elements
-    Between Element Element Point ~(Maybe Mm)
-  deriving stock (Eq, Show)
-
--- | The words for a warning.
-warningReport :: Warning -> Report
-warningReport warning = case warning of
-  Leaves region tool stays ->
-    ( report
-        Report.Warning
-        "W0401"
-        (InSource region)
-        (cutter tool <> " leaves material at " <> places (length stays))
-    )
-      { others = take 6 (distinct (concatMap labels stays)),
-        message =
-          map (stayWords tool) (take shown stays)
-            <> ["And at " <> places (length stays - shown) <> " more." | length stays > shown],
-        hints =
-          ["Take a smaller cutter afterwards, or leave rest allowed out to have this refused."]
-      }
-  Through region way (Located named contour) ->
-    (report Report.Warning "W0402" (InSource region) "this rapid move goes through the part")
-      { others = [Label named "inside this contour"],
-        message =
-          [ "It goes from "
-              <> Vec.written 3 (Segment.start way)
-              <> " to "
-              <> Vec.written 3 (Segment.end way)
-              <> " inside "
-              <> text contour
-              <> ", not above the top of the part. That it was cleared there is not known."
-          ],
-        hints = ["Lift the cutter first: a third coordinate is a height."]
-      }
-  Standing region ->
-    ( report
-        Report.Warning
-        "W0403"
-        (InSource region)
-        "behind this change nothing lets the spindle turn again"
-    )
-      { message =
-          [ "A spindle stands while its tool is changed; what turned it before holds no \
-            \longer."
-          ],
-        hints = ["Say it again behind the change, for example: spindle cw 800 rpm"]
-      }
-  where
-    shown = 8
-    places n = if n == 1 then "one place" else Decimal.whole n <> " places"
-    distinct ls = case ls of
-      [] -> []
-      l : more -> l : distinct (filter (/= l) more)
-    labels s = case s of
-      InCorner a _ _ -> [Label (origin a) "in the corner behind this"]
-      InHollow a _ _ -> [Label (origin a) "in this hollow"]
-      Between a b _ _ -> [Label (origin a) "beside this", Label (origin b) "beside this"]
-
--- | Where material stays, in words.
-stayWords :: Tool -> Stay -> Text
-stayWords tool s = case s of
-  InCorner _ _ p -> "In the inner corner at " <> Vec.written 3 p <> "."
-  InHollow a old largest ->
-    "In the concave radius of " <> Decimal.mm old <> " of " <> shape a <> ". " <> fits tool largest
-  Between a b p largest ->
-    "Between "
-      <> shape a
-      <> " and "
-      <> shape b
-      <> ", with the centre at "
-      <> Vec.written 3 p
-      <> ". "
-      <> fits tool largest
 
 -- | What a control that is sent the edge of the part does not do.
 data Unsent = OnContour | Swivelling | SharpCorners | LeavingMaterial | Unreached
@@ -574,12 +477,6 @@ unsentHint what = case what of
     \controller."
   Unreached -> "Leave out compensation controller, or take a smaller cutter."
 
-inDegrees :: Double -> Text
-inDegrees a = Decimal.short 3 (degrees (Rad a)) <> " deg"
-
-at :: Region -> ReportCode -> Text -> Report
-at region code = report Report.Error code (InSource region)
-
 -- | The cutter has no room in a pocket, or beside a contour, for a pass that leaves so much.
 noRoom :: Region -> Text -> Text -> Text -> Contour -> Mm -> Report
 noRoom region title called side contour left =
@@ -608,54 +505,9 @@ sideWord side = case side of
   RightSide -> "right"
   On -> "centre line"
 
--- | The largest that fits.
-fits :: Tool -> Maybe Mm -> Text
-fits tool largest = case (work tool, largest) of
-  (_, Nothing) -> "No cutter fits here, however small."
-  (Milled, Just r) -> "The largest cutter that fits has a diameter of " <> fitting tool r <> "."
-  (Turned, Just r) -> "The largest nose that fits has a radius of " <> fitting tool r <> "."
-
--- | The diameter of a cutter, or the radius of a nose, that fits with this radius: down to a
--- thousandth of a millimetre.
-fitting :: Tool -> Mm -> Text
-fitting tool r = case work tool of
-  Milled -> down (times 2 r)
-  Turned -> down r
-  where
-    down (Mm x) = Decimal.mm (Mm (fromInteger (floor (x * 1000)) / 1000))
-
--- | A cutter in words.
-cutter :: Tool -> Text
-cutter Tool {work, radius, leaves} =
-  size <> (if leaves > Mm 0 then " that leaves " <> Decimal.mm leaves else "")
-  where
-    size = case work of
-      Milled -> "a cutter of diameter " <> Decimal.mm (times 2 radius)
-      Turned -> "a nose of radius " <> Decimal.mm radius
-
-worked :: Tool -> Text
-worked tool = case work tool of
-  Milled -> "milled"
-  Turned -> "turned"
-
 -- | So deep.
 intruding :: Intrusion -> Mm -> Text
 intruding intrusion depth = case intrusion of
   CuttingIn -> "cuts into the part by " <> Decimal.mm depth
   Crossing -> "crosses the contour of the part"
   Taking -> "takes " <> Decimal.mm depth <> " of what is to be left on the contour"
-
-shape :: Element -> Text
-shape element = case segment element of
-  Straight _ _ | ofCurve element -> "the curve"
-  Arc {start, centre}
-    | ofCurve element ->
-      "the curve, here of radius " <> Decimal.mm (Segment.radius centre start)
-  Straight a b -> "the line from " <> Vec.written 3 a <> " to " <> Vec.written 3 b
-  Arc {start, centre, sweep = Rad s} ->
-    "the "
-      <> (if s > 0 then "counter-clockwise" else "clockwise")
-      <> " arc of radius "
-      <> Decimal.mm (Segment.radius centre start)
-      <> " about "
-      <> Vec.written 3 centre
