@@ -246,19 +246,19 @@ change frames = do
       pure ("doubled", take (n + 1) frames <> drop n frames)
     ]
       <> case motion f of
-        Round turn ->
+        Round sense ->
           [ pure ("i by " <> show d, with f {centre = centre f + Pulses2 d 0}),
             pure ("j by " <> show d, with f {centre = centre f + Pulses2 0 d}),
             pure
               ( "the long way round",
-                with f {motion = Round (if turn == Clockwise then CounterClockwise else Clockwise)}
+                with f {motion = Round (if sense == Clockwise then CounterClockwise else Clockwise)}
               ),
             pure ("the centre on the other side", with f {centre = Pulses2 (x - i) (y - j)}),
             pure
               ( "both",
                 with
                   f
-                    { motion = Round (if turn == Clockwise then CounterClockwise else Clockwise),
+                    { motion = Round (if sense == Clockwise then CounterClockwise else Clockwise),
                       centre = Pulses2 (x - i) (y - j)
                     }
               ),
