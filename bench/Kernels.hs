@@ -65,54 +65,55 @@ ofContour :: FilePath -> Peers -> Family -> Int -> IO [Case]
 ofContour folder peers family segments = do
   small <- written (Contours.small family)
   file <- written segments
-  forM (Contours.distances family) $ \distance -> do
-    Text.putStr
-      ( Contours.name family
-          <> " "
-          <> signed distance
-          <> ", "
-          <> Decimal.whole segments
-          <> " segments:"
-      )
-    exact <- Peer.interleaved rounds small file distance runs batches (ours peers : keepers peers)
-    chorded <-
-      if isBearable
-        then
-          Peer.interleaved
-            (if few then 3 else 1)
-            small
-            file
-            distance
-            (if few then 3 else 1)
-            1
-            (map ($ coarse) (chorders peers))
-        else pure []
-    finer <-
-      if middling
-        then Peer.interleaved 1 small file distance 1 0 (map ($ fine) (chorders peers))
-        else pure []
-    Text.putStrLn
-      ( Text.concat
-          [ "  " <> either (const "fails") (Table.number . perSegment segments) o
-            | o <- exact <> chorded
-          ]
-      )
-    hFlush stdout
-    pure Case {family, segments, distance, exact, chorded, finer}
+  forM (Contours.distances family) (ofDistance peers family segments small file)
   where
     written n = do
       let file = folder </> Text.unpack (Contours.name family) <> "_" <> show n <> ".bin"
       ContourFile.write file (Contours.contour family n)
       pure file
-    few = segments <= 2000
-    middling = segments > 2000 && segments <= 20000
-    last' = segments > 200000 || (family == FixedStar && segments > 20000)
+
+-- | One distance of one contour: the files are those of the small contour and of the measured one.
+ofDistance :: Peers -> Family -> Int -> FilePath -> FilePath -> Double -> IO Case
+ofDistance peers family segments small file distance = do
+  Text.putStr
+    ( Text.unwords
+        [ Contours.name family,
+          signed distance <> ",",
+          Decimal.whole segments,
+          "segments:"
+        ]
+    )
+  exact <- Peer.interleaved rounds small file distance runs batches (ours peers : keepers peers)
+  chorded <- if isBearable then withChords coarse few' few' 1 else pure []
+  finer <- if isMiddling then withChords fine 1 1 0 else pure []
+  Text.putStrLn
+    ( Text.concat
+        [ "  " <> either (const "fails") (Table.number . perSegment segments) o
+          | o <- exact <> chorded
+        ]
+    )
+  hFlush stdout
+  pure Case {family, segments, distance, exact, chorded, finer}
+  where
+    withChords sagitta rounds' runs' batches' =
+      Peer.interleaved
+        rounds'
+        small
+        file
+        distance
+        runs'
+        batches'
+        (map ($ sagitta) (chorders peers))
+    few' = if isSmall then 3 else 1
+    isSmall = segments <= 2000
+    isMiddling = segments > 2000 && segments <= 20000
+    isLargest = segments > 200000 || (family == FixedStar && segments > 20000)
     -- The chorders would need minutes for larger ones.
     isBearable = segments <= 200000 && (family /= FixedStar || segments <= 20000)
     (rounds, runs, batches)
-      | few = (5, 20, 5)
-      | middling = (3, 2, 3)
-      | last' = (1, 1, 1)
+      | isSmall = (5, 20, 5)
+      | isMiddling = (3, 2, 3)
+      | isLargest = (1, 1, 1)
       | otherwise = (3, 1, 2)
 
 perSegment :: Int -> Outcome -> Double

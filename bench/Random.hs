@@ -130,52 +130,21 @@ named c = case c of
 compared :: Task -> Int -> IO ()
 compared task count = do
   given <- answersOf task 1 (file task) [peer task, file task] indices
-  second <- answersOf task 1 (file task) [peer task, file task, "1e-11"] indices
-  largers <-
-    answersOf
-      task
-      (1 + nudge)
-      (file task <> ".larger")
-      [peer task, file task <> ".larger", "1e-11"]
-      indices
+  second <- precise 1 "" indices
+  largers <- precise (1 + nudge) ".larger" indices
   begin <- getCPUTime
   let found = zipWith4 (\i -> Answer i (kernels (seed task) i)) indices given second largers
-      different =
-        [ a
-          | a <- found,
-            not (same task a (theirs a) || same task a (narrower a)) || not (isLimit task a)
-        ]
+      different = filter isDifferent found
       those = map index different
   end <- length different `seq` getCPUTime
-  smallers <-
-    answersOf
-      task
-      (1 - nudge)
-      (file task <> ".smaller")
-      [peer task, file task <> ".smaller", "1e-11"]
-      those
-  judgeds <-
-    if null (judge task)
-      then pure (map (const Nothing) those)
-      else
-        map Just
-          <$> answersOf
-            task
-            (1 + chordNudge)
-            (file task <> ".judged")
-            (judge task <> [file task <> ".judged"])
-            those
+  smallers <- precise (1 - nudge) ".smaller" those
+  judgeds <- judgedAnswers task those
   let besides = zipWith Beside smallers judgeds
       classes = [(classOf task a b, a, b) | (a, b) <- zip different besides]
   mapM_
     (Text.putStrLn . line task)
     (take (limit task) [(a, b) | (c, a, b) <- classes, c == Failed || c == Undecided])
-  forM_ [minBound .. maxBound] $ \c ->
-    forM_ (zip [0 ..] ["on a grid", "with arcs", "noisy"]) $ \(kind, name) -> do
-      let n = length [() | (c', a, _) <- classes, c' == c, index a `mod` 3 == (kind :: Int)]
-      when (n > 0) $
-        putStrLn
-          (name <> ": " <> show n <> " of " <> show ((count + 2 - kind) `div` 3) <> " " <> named c)
+  printClasses count [(c, index a) | (c, a, _) <- classes]
   putStrLn
     ( show (length different)
         <> " of "
@@ -186,6 +155,33 @@ compared task count = do
     )
   where
     indices = [0 .. count - 1]
+    -- The peer with small tolerances.
+    precise factor ending =
+      answersOf
+        task
+        factor
+        (file task <> ending)
+        [peer task, file task <> ending, "1e-11"]
+    isDifferent a =
+      not (same task a (theirs a) || same task a (narrower a)) || not (isLimit task a)
+
+-- | The answers of the judge, if there is one.
+judgedAnswers :: Task -> [Int] -> IO [Maybe Sums]
+judgedAnswers task those
+  | null (judge task) = pure (map (const Nothing) those)
+  | otherwise = map Just <$> answersOf task (1 + chordNudge) judged (judge task <> [judged]) those
+  where
+    judged = file task <> ".judged"
+
+-- | The number of contours in each class, by their kind.
+printClasses :: Int -> [(Class, Int)] -> IO ()
+printClasses count classes =
+  forM_ [minBound ..] $ \c ->
+    forM_ (zip [0 ..] ["on a grid", "with arcs", "noisy"]) $ \(kind, name) -> do
+      let n = length [() | (c', i) <- classes, c' == c, i `mod` 3 == (kind :: Int)]
+      when (n > 0) $
+        putStrLn
+          (name <> ": " <> show n <> " of " <> show ((count + 2 - kind) `div` 3) <> " " <> named c)
 
 -- | The relative difference of slightly larger and smaller offsets; for a judge that uses chords, a
 -- larger difference.

@@ -54,24 +54,25 @@ ofKind tools most allowed (kind, machine) = do
   once <- foldM first [] (takeWhile (<= min most largest) [100, 1000, 10000, 100000, 1000000])
   sizes <- foldM (\sizes turn -> traverse (again turn) sizes) (reverse once) [2 .. 5]
   let medians = [(n, middles <$> runs) | (n, runs) <- sizes]
+      thousand = [(n, s) | (n, Right s) <- medians, n == 1000]
   forM_ medians $ \(n, s) ->
     Text.putStrLn
-      ( Programs.name kind
-          <> " on "
-          <> machine
-          <> ", "
-          <> Decimal.whole n
+      ( Text.intercalate ", " [Programs.name kind <> " on " <> machine, Decimal.whole n]
           <> ": "
           <> either id (\s' -> Table.number (total s') <> " ms") s
       )
   hFlush stdout
-  pure (concatMap (rows [(n, s) | (n, Right s) <- medians, n == 1000]) medians)
+  pure (concatMap (\(n, s) -> sizeRows (start n) thousand n s) medians)
   where
+    start n = [Programs.name kind, machine, Decimal.whole n]
     -- A million rows only on one machine.
     largest = if machine == "iso6983" then Programs.most kind else min 100000 (Programs.most kind)
     first before n =
       (: before) . (n,)
-        <$> (if expected before > 1000 * allowed then pure (Left "–") else fmap (: []) <$> run n)
+        <$> ( if expectedTime before > 1000 * allowed
+                then pure (Left "–")
+                else fmap (: []) <$> run n
+            )
     again turn (n, runs) = case runs of
       Right done | turn <= turns n (middles done) -> (\new -> (n, (: done) <$> new)) <$> run n
       _ -> pure (n, runs)
@@ -79,33 +80,39 @@ ofKind tools most allowed (kind, machine) = do
     run n =
       (>>= parsed)
         <$> Peer.command (round (3 * allowed)) [timer tools, show kind, show n, Text.unpack machine]
-    -- Ten times as many elements take somewhat more than ten times as long.
-    expected :: [Size] -> Double
-    expected before = case before of
-      (_, Right runs) : _ -> 15 * total (middles runs)
-      (_, Left _) : _ -> 1 / 0
-      [] -> 0
-    -- At most about twelve seconds for a size.
-    turns :: Int -> Staged -> Int
-    turns n s =
-      min (if n <= 1000 then 5 else if n <= 100000 then 3 else 1) (ceiling (12000 / total s))
-    rows thousand (n, outcome) = case outcome of
-      Left why -> [start n <> (if why == "–" then replicate 10 why else [Text.take 80 why])]
-      Right s ->
-        ( start n
-            <> map (Table.number . snd) (stages s)
-            <> [ Table.number (total s),
-                 Table.number (1000 * total s / fromIntegral n),
-                 Table.number (peak s / 1024)
-               ]
-        ) :
-          [ ["", "", "growth"]
-              <> zipWith (\(_, a) (_, b) -> growth (m, a) (n, b)) (stages old) (stages s)
-              <> [growth (m, total old) (n, total s), "", ""]
-            | n > 1000,
-              (m, old) <- thousand
-          ]
-    start n = [Programs.name kind, machine, Decimal.whole n]
+
+-- | The expected milliseconds of the next size: ten times as many elements take somewhat more than
+-- ten times as long.
+expectedTime :: [Size] -> Double
+expectedTime before = case before of
+  (_, Right runs) : _ -> 15 * total (middles runs)
+  (_, Left _) : _ -> 1 / 0
+  [] -> 0
+
+-- | The number of runs of a size: at most about twelve seconds.
+turns :: Int -> Staged -> Int
+turns n s = min (if n <= 1000 then 5 else if n <= 100000 then 3 else 1) (ceiling (12000 / total s))
+
+-- | The rows of a size: the first cells, the runs of a thousand elements for the growth, the size
+-- and its medians.
+sizeRows :: [Text] -> [(Int, Staged)] -> Int -> Either Text Staged -> [Table.Row]
+sizeRows start thousand n outcome = case outcome of
+  Left why -> [start <> (if why == "–" then replicate 10 why else [Text.take 80 why])]
+  Right s ->
+    ( start
+        <> map (Table.number . snd) (stages s)
+        <> [ Table.number (total s),
+             Table.number (1000 * total s / fromIntegral n),
+             Table.number (peak s / 1024)
+           ]
+    ) :
+      [ ["", "", "growth"]
+          <> zipWith (\(_, a) (_, b) -> growth (m, a) (n, b)) (stages old) (stages s)
+          <> [growth (m, total old) (n, total s), "", ""]
+        | n > 1000,
+          (m, old) <- thousand
+      ]
+  where
     growth a@(_, t) b@(_, t') =
       if t < 0.3 || t' < 0.3 then "" else Decimal.fixed 2 (Table.exponent a b)
 
@@ -164,58 +171,70 @@ besideInterpreter tools folder programs allowed = do
       | kind `elem` failed =
         pure (failed, ([Programs.name kind, Decimal.whole n] <> replicate 7 "–") : rows)
       | otherwise = do
-        (fails, row) <- beside (kind, n)
-        pure ([kind | fails] <> failed, row : rows)
+        (isFailed, row) <- compiledAndInterpreted tools folder allowed kind n
+        pure ([kind | isFailed] <> failed, row : rows)
+
+-- | Seconds and peak kilobytes of a command, or the reason of its failure.
+type Cost = Either Text (Double, Double)
+
+-- | Runs both on one program. The answer is the row of the table, and whether partc failed.
+compiledAndInterpreted :: Tools -> FilePath -> Double -> Kind -> Int -> IO (Bool, Table.Row)
+compiledAndInterpreted tools folder allowed kind n = do
+  forM_ ((source, text) : [(folder </> name, t) | (name, t) <- files]) (uncurry Text.writeFile)
+  rounds <- turnsOf (1 :: Int)
+  let ours = traverse fst rounds
+      theirs = traverse snd rounds
+  count <-
+    either (const (pure 0)) (const (length . Text.lines <$> Text.readFile result)) ours
+  Text.putStrLn
+    ( Text.intercalate ", " [Programs.name kind, Decimal.whole n]
+        <> (": partc " <> shownSeconds ours <> ", rs274 " <> shownSeconds theirs)
+    )
+  hFlush stdout
+  pure (either (const True) (const False) ours, costRow kind n count ours theirs)
+  where
+    Written {text, files} = Programs.written kind n
+    (source, result) = (folder </> "program.part", folder </> "program.ngc")
     -- At most about four seconds for ours.
-    turns done action = do
-      turn <- action
+    turnsOf done = do
+      turn <- bothOnce
       case fst turn of
-        Right (s, _) | done < min 7 (ceiling (4 / s)) -> (turn :) <$> turns (done + 1) action
+        Right (s, _) | done < min 7 (ceiling (4 / s)) -> (turn :) <$> turnsOf (done + 1)
         _ -> pure [turn]
-    beside (kind, n) = do
-      let Written {text, files} = Programs.written kind n
-          (source, result) = (folder </> "program.part", folder </> "program.ngc")
-      forM_ ((source, text) : [(folder </> name, t) | (name, t) <- files]) (uncurry Text.writeFile)
-      rounds <- turns (1 :: Int) $ do
-        compiled <- timed [partc tools, "compile", source, "-t", "iso6983", "-o", result]
-        judged <- case (compiled, interpreter tools) of
-          (Right _, Just rs274) -> timed [rs274, "-g", result]
-          (Left _, _) -> pure (Left "nothing to read")
-          (_, Nothing) -> pure (Left "rs274 is not installed")
-        pure (compiled, judged)
-      count <-
-        either
-          (const (pure 0))
-          (const (length . Text.lines <$> Text.readFile result))
-          (traverse fst rounds)
-      let ours = traverse fst rounds
-          theirs = traverse snd rounds
-          cells = either (const "–") Table.number
-      Text.putStrLn
-        ( Programs.name kind
-            <> ", "
-            <> Decimal.whole n
-            <> ": partc "
-            <> either id (\rs -> Table.number (seconds rs) <> " s") ours
-            <> ", rs274 "
-            <> either id (\rs -> Table.number (seconds rs) <> " s") theirs
-        )
-      hFlush stdout
-      let fails = either (const True) (const False) ours
-          row =
-            [ Programs.name kind,
-              Decimal.whole n,
-              if count == 0 then "–" else Decimal.whole count,
-              either (Text.take 80) (Table.number . seconds) ours,
-              cells (seconds <$> theirs),
-              cells ((\a b -> seconds a / seconds b) <$> ours <*> theirs),
-              cells ((\rs -> 1e6 * seconds rs / fromIntegral n) <$> ours),
-              cells ((\rs -> 1e6 * seconds rs / fromIntegral (max 1 count)) <$> theirs),
-              cells ((\rs -> maximum (0 : map snd rs) / 1024) <$> ours)
-            ]
-      pure (fails, row)
-    seconds = Peer.middle . map fst
-    timed words' = (>>= costs) <$> Peer.command (round allowed) (cost tools <> words')
+    bothOnce = do
+      compiled <- timed [partc tools, "compile", source, "-t", "iso6983", "-o", result]
+      judged <- case (compiled, interpreter tools) of
+        (Right _, Just rs274) -> timed [rs274, "-g", result]
+        (Left _, _) -> pure (Left "nothing to read")
+        (_, Nothing) -> pure (Left "rs274 is not installed")
+      pure (compiled, judged)
+    timed :: [String] -> IO Cost
+    timed arguments = (>>= costs) <$> Peer.command (round allowed) (cost tools <> arguments)
     costs out = case map (readMaybe . Text.unpack) (Text.words out) of
-      [Just s, Just k] -> Right (s :: Double, k :: Double)
+      [Just s, Just k] -> Right (s, k)
       _ -> Left ("not understood: " <> Text.take 80 out)
+    shownSeconds = either id (\runs -> Table.number (medianSeconds runs) <> " s")
+
+medianSeconds :: [(Double, Double)] -> Double
+medianSeconds = Peer.middle . map fst
+
+costRow ::
+  Kind ->
+  Int ->
+  Int ->
+  Either Text [(Double, Double)] ->
+  Either Text [(Double, Double)] ->
+  Table.Row
+costRow kind n count ours theirs =
+  [ Programs.name kind,
+    Decimal.whole n,
+    if count == 0 then "–" else Decimal.whole count,
+    either (Text.take 80) (Table.number . medianSeconds) ours,
+    cell (medianSeconds <$> theirs),
+    cell ((\a b -> medianSeconds a / medianSeconds b) <$> ours <*> theirs),
+    cell ((\runs -> 1e6 * medianSeconds runs / fromIntegral n) <$> ours),
+    cell ((\runs -> 1e6 * medianSeconds runs / fromIntegral (max 1 count)) <$> theirs),
+    cell ((\runs -> maximum (0 : map snd runs) / 1024) <$> ours)
+  ]
+  where
+    cell = either (const "–") Table.number

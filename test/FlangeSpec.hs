@@ -36,8 +36,14 @@ spec = do
             | [_, ours, _, _, _, _, x, y, _] <- map cells (Text.lines page),
               Just _ <- [number ours]
           ]
-    [(n, px, py) | (n, px, py) <- rows, Just k <- [number n], (x, y) <- take 1 (drop (round k) nodes), (px, py) /= (Decimal.fixed 3 x, Decimal.fixed 3 y)]
-      `shouldBe` []
+    let wrong =
+          [ (n, px, py)
+            | (n, px, py) <- rows,
+              Just k <- [number n],
+              (x, y) <- take 1 (drop (round k) nodes),
+              (px, py) /= (Decimal.fixed 3 x, Decimal.fixed 3 y)
+          ]
+    wrong `shouldBe` []
     length rows `shouldBe` 18
     Text.lines page `shouldContain` ["| frames | " <> Decimal.whole (length Flange.frames) <> " |"]
     page

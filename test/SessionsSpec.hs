@@ -3,8 +3,7 @@
 -- A block @```console@ contains commands, each after @$@, and their output: reports first, then
 -- results. The commands run in a folder with the last whole program above them, @```part@ or
 -- @```part wrong@, in a file named for the part, or with the last input sheet, @```sheet NAME@.
---  With
--- PARTC_RECORD set, the output is written into the document.
+-- With PARTC_RECORD set, the output is written into the document.
 module SessionsSpec (spec) where
 
 import Blocks qualified

@@ -47,9 +47,9 @@ frames machine source program = table columns rows
       [ Column ToRight "frame" (Decimal.whole . number),
         Column ToLeft "for" (roleWord . role . planned)
       ]
-        <> map (of' (frame . planned)) (motionColumns all')
+        <> map (via (frame . planned)) (motionColumns all')
         <> [Column ToRight "speed" (speedWord . frame . planned), Column ToRight "mm/min" feedOf]
-        <> map (of' (frame . planned)) (brakeColumn all')
+        <> map (via (frame . planned)) (brakeColumn all')
         <> [ Column ToRight "to x" (coordinate . Vec.x . endOf),
              Column ToRight "to y" (coordinate . Vec.y . endOf)
            ]
@@ -57,7 +57,7 @@ frames machine source program = table columns rows
              | hasHeights
            ]
         <> [Column ToRight "line" (lineWord source . planned)]
-        <> map (of' (frame . planned)) (commandColumns all')
+        <> map (via (frame . planned)) (commandColumns all')
     endOf n = Frame.position machine (to n)
     feedOf n =
       maybe
@@ -110,22 +110,22 @@ decoded machine fs = table columns (zip [1 :: Int ..] fs)
   where
     columns =
       [Column ToRight "frame" (Decimal.whole . fst)]
-        <> map (of' snd) (motionColumns fs)
+        <> map (via snd) (motionColumns fs)
         <> [ Column ToRight "speed" (speedWord . snd),
              Column
                ToRight
                "mm/min"
                (\(_, f) -> maybe "" feedWord (FeedCode.given machine f (FeedCode.wayOf machine f)))
            ]
-        <> map (of' snd) (brakeColumn fs <> commandColumns fs)
+        <> map (via snd) (brakeColumn fs <> commandColumns fs)
 
 table :: [Column a] -> [a] -> Text
 table columns rows =
   Table.columns (map align columns) (map title columns : map (\r -> map (`cell` r) columns) rows)
 
 -- | A column for rows that contain the rows of another column.
-of' :: (b -> a) -> Column a -> Column b
-of' get c = c {cell = cell c . get}
+via :: (b -> a) -> Column a -> Column b
+via get c = c {cell = cell c . get}
 
 -- | The increments; the kind of motion if some frames are arcs or rapid; the centres of arcs.
 motionColumns :: [Frame] -> [Column Frame]

@@ -43,7 +43,7 @@ nodes punched Analysis {part, path} =
         <> [contourTable machine job pass cut | (job, pass, cut) <- cutsOf path]
         <> [pocketText machine job pass cleared | (job, pass, cleared) <- clearingsOf path]
         <> holeTable [drilling | Holing (Located _ drilling) _ <- Toolpath.blocks path]
-        <> RestMaterialTable.places path
+        <> RestMaterialTable.tables path
         <> [summary punched path]
     )
   where

@@ -1,6 +1,6 @@
 -- | Tables of rest material: the regions of the part that the cutter does not reach.
 module Cli.RestMaterialTable
-  ( places,
+  ( tables,
   )
 where
 
@@ -25,8 +25,8 @@ import Toolpath.Toolpath (Toolpath)
 
 -- | One table for each statement that leaves rest material: the position, the area in mm² if the
 -- region's boundary is known, the largest cutter that reaches it, and the reason.
-places :: Toolpath -> [Text]
-places path = map table (RestMaterial.ofPath path)
+tables :: Toolpath -> [Text]
+tables path = map table (RestMaterial.ofPath path)
 
 table :: Remaining -> Text
 table Remaining {tool, walls, RestMaterial.places = regions} =

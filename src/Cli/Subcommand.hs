@@ -100,7 +100,7 @@ perform reporter command = case command of
 
 compile :: Reporter -> CompileOptions -> IO Exit
 compile reporter options = withInput reporter (file options) (targets options) $ \given -> do
-  -- What follows keeps the program without its syntax tree.
+  -- From here on the program is kept without its syntax tree.
   let !kept = withoutSurface given
       job = (jobFor (targets options) kept) {verification = chosen}
   settled reporter kept (withWarning =<< Compile.compile job (loaded given)) $ \tapes ->

@@ -25,7 +25,7 @@ data Job = Job
     verification :: Verification
   }
 
--- | Whether each tape is read back and compared with the part.
+-- | Verified tapes are read back and compared with the part.
 data Verification = Verified | Unverified
   deriving stock (Eq, Show)
 

@@ -42,7 +42,7 @@ ownMachines descriptions part path = case Part.machine part of
   Nothing -> pure []
   Just _ -> targets descriptions [] part path
 
--- | Sets a machine up for a toolpath: on a lathe its axes may point the other way.
+-- | Sets a machine up for a toolpath: on a lathe its axes may be reversed.
 setUpFor :: Toolpath -> Machine -> Machine
 setUpFor path machine = if Toolpath.isTurned path then Machine.forTurning machine else machine
 

@@ -1,4 +1,4 @@
--- | The command itself, run as a user runs it: exit status, streams, files.
+-- | The command @partc@ as a user runs it: exit status, streams, files.
 module Cli.CommandSpec (spec) where
 
 import Command (inFolder, partc)
@@ -54,7 +54,7 @@ spec = do
         c <- ByteString.readFile (folder </> "y.tape")
         code `shouldBe` ExitSuccess
         [b, c] `shouldBe` [a, a]
-    it "leaves an old tape as it was when the program is wrong" $
+    it "leaves an old tape unchanged when the program has errors" $
       inFolder $ \folder -> do
         writeFile (folder </> "x.part") "part x\nlet a = (1,\n"
         writeFile (folder </> "x.tape") "keep"
@@ -63,14 +63,14 @@ spec = do
         (code, out) `shouldBe` (ExitFailure 1, "")
         err `shouldSatisfy` isInfixOf "error[E0105]"
         readFile (folder </> "x.tape") `shouldReturn` "keep"
-    it "leaves a file that is write-protected as it is" $
+    it "leaves a write-protected file unchanged" $
       inFolder $ \folder -> do
         copyFlange folder
         writeFile (folder </> "x.tape") "keep"
         permissions <- getPermissions (folder </> "x.tape")
         setPermissions (folder </> "x.tape") permissions {writable = False}
         mayWrite <- writable <$> getPermissions (folder </> "x.tape")
-        -- An administrator may write everywhere.
+        -- An administrator may write to every file.
         if mayWrite
           then pendingWith "run by someone who may write into protected files"
           else do
@@ -79,7 +79,7 @@ spec = do
             (code, out) `shouldBe` (ExitFailure 1, "")
             err `shouldSatisfy` isInfixOf "error[E0802]"
             readFile (folder </> "x.tape") `shouldReturn` "keep"
-    it "names the limit of imports that import imports, which is no circle" $
+    it "reports the limit of nested imports, which is not a cycle" $
       inFolder $ \folder -> do
         forM_ [0 .. 120 :: Int] $ \k ->
           writeFile
@@ -93,7 +93,7 @@ spec = do
         code `shouldBe` ExitFailure 1
         (err, isInfixOf "error[E0112]" err && isInfixOf "more than 100 deep" err)
           `shouldSatisfy` snd
-    it "reads a file once, whatever the paths to it" $
+    it "reads a file once, by whatever paths it is imported" $
       inFolder $ \folder -> do
         writeFile (folder </> "size.part") "let r = 5 mm\n"
         createFileLink "size.part" (folder </> "other.part")
@@ -112,7 +112,7 @@ spec = do
         (code, _, err) <- partc ["check", folder </> "x.part"]
         code `shouldBe` ExitFailure 1
         err `shouldSatisfy` isInfixOf "error[E0113]"
-    it "writes no file for every bad program" $
+    it "writes no file for any bad program" $
       inFolder $ \folder ->
         forM_
           [ "fillet/bad/cannot-fit",
@@ -130,7 +130,7 @@ spec = do
               (code, out) `shouldBe` (ExitFailure 1, "")
               err `shouldSatisfy` isInfixOf "error[E"
               doesFileExist (folder </> "out.tape") `shouldReturn` False
-    it "refuses to write over the program, and into a folder that is not there" $
+    it "refuses to overwrite the program, and to write into a missing folder" $
       inFolder $ \folder -> do
         copyFlange folder
         forM_ [folder </> "flange.part", folder </> "no" </> "x.tape"] $ \place -> do
@@ -138,7 +138,7 @@ spec = do
           code `shouldBe` ExitFailure 1
           err `shouldSatisfy` isInfixOf "error[E080"
         fmap Tape (ByteString.readFile (folder </> "flange.part")) `shouldNotReturn` Flange.tape
-    it "refuses to write over a file that the program reads, whatever it writes" $
+    it "refuses to overwrite a file that the program reads, in every subcommand" $
       inFolder $ \folder -> do
         writeFile (folder </> "h.csv") "x,y\n0,20\n20,25\n60,30\n100,25\n"
         writeFile
@@ -164,7 +164,7 @@ spec = do
           readFile (folder </> "h.csv") `shouldReturn` kept
         (drawn, _, _) <- partc ["plot", folder </> "x.part", "-o", folder </> "x.svg"]
         drawn `shouldBe` ExitSuccess
-    it "refuses to write several tapes to one place" $
+    it "refuses to write several tapes to one file" $
       inFolder $ \folder -> do
         copyFlange folder
         (code, out, err) <-
@@ -179,7 +179,7 @@ spec = do
         code' `shouldBe` ExitFailure 1
         err' `shouldSatisfy` isInfixOf "error[E0811]"
         listDirectory folder >>= (`shouldMatchList` ["flange.part", "same.machine"])
-    it "knows machines by name, and descriptions by their file, in quotation marks" $
+    it "finds machines by name, and descriptions by their file, in quotation marks" $
       inFolder $ \folder -> do
         (_, description, _) <- partc ["machines", "iso6983", "--text"]
         writeFile (folder </> "shop.machine") description
@@ -208,7 +208,7 @@ spec = do
               (named, err) `shouldSatisfy` (isInfixOf report . snd)
               isInfixOf "in quotation marks: machine \"shop.machine\"" err
                 `shouldBe` (named == "shop.machine")
-    it "says so when it does not prove the tape" $
+    it "warns when it does not verify the tape" $
       inFolder $ \folder -> do
         copyFlange folder
         (code, _, err) <-
@@ -239,12 +239,12 @@ spec = do
         (code, out, err) <- partc ["decode", "-t", "lkp-01f", folder </> "cut.tape"]
         (code, out) `shouldBe` (ExitFailure 1, "")
         err `shouldSatisfy` isInfixOf "the tape ends within a frame"
-    it "shows the table that the documentation shows" $ do
+    it "shows the table of the documentation" $ do
       (_, table, _) <- partc ["verify", "examples/flange.part"]
       page <- readFile "README.md"
       page `shouldSatisfy` isInfixOf table
   describe "fmt" $ do
-    it "lays out programs in their places, and has nothing to say of those that are" $
+    it "formats programs in place, and is silent on formatted ones" $
       inFolder $ \folder -> do
         text <- ByteString.readFile "examples/flange.part"
         ByteString.writeFile (folder </> "good.part") text
@@ -261,7 +261,7 @@ spec = do
     it "works from standard input to standard output" $
       readCreateProcessWithExitCode (shell "partc fmt -") "let  a=1\n"
         `shouldReturn` (ExitSuccess, "let a = 1\n", "")
-    it "leaves a program with mistakes as it is, and reports them" $
+    it "leaves a program with mistakes unchanged, and reports them" $
       inFolder $ \folder -> do
         writeFile (folder </> "x.part") "part  x\nlet a = (1,\n"
         (code, out, err) <- partc ["fmt", folder </> "x.part"]
@@ -269,7 +269,7 @@ spec = do
         err `shouldSatisfy` isInfixOf "error[E0105]"
         readFile (folder </> "x.part") `shouldReturn` "part  x\nlet a = (1,\n"
   describe "input sheets" $ do
-    it "compile to the tape of the program that import makes, and come back from it" $
+    it "compile to the same tape as the program of import, and export gives them back" $
       inFolder $ \folder -> do
         let there = (folder </>)
         partc ["compile", "examples/spar.sheet", "-o", there "a.tape"]
@@ -283,7 +283,7 @@ spec = do
         ByteString.readFile (there "b.tape") `shouldReturn` a
         sheet <- readFile "examples/spar.sheet"
         partc ["export-sheet", there "rib.part"] `shouldReturn` (ExitSuccess, sheet, "")
-    it "are no programs: no parameters, no layout, not over themselves" $
+    it "have no parameters and no layout, and are not overwritten" $
       inFolder $ \folder -> do
         ByteString.readFile "examples/spar.sheet" >>= ByteString.writeFile (folder </> "rib.sheet")
         forM_
@@ -297,7 +297,7 @@ spec = do
               (code, out, err) <- partc (arguments <> [folder </> "rib.sheet"])
               (code, out) `shouldBe` (ExitFailure 1, "")
               err `shouldSatisfy` isInfixOf ("error[" <> wanted <> "]")
-    it "that are wrong give no program" $
+    it "with errors give no program" $
       inFolder $ \folder -> do
         (code, out, err) <-
           partc ["import", "test/programs/sheet/bad/piece-short.sheet", "-o", folder </> "x.part"]
@@ -305,17 +305,16 @@ spec = do
         err `shouldSatisfy` isInfixOf "14623"
         doesFileExist (folder </> "x.part") `shouldReturn` False
   describe "formats" $ do
-    it "short: one line a report, and nothing else" $ do
+    it "short: one line for each report, and nothing else" $ do
       (_, _, err) <-
         partc ["check", "--format", "short", "test/programs/surface/bad/five-mistakes.part"]
       length (lines err) `shouldBe` 5
       lines err `shouldSatisfy` all ("test/programs/surface/bad/five-mistakes.part:" `isPrefixOf`)
-    it "json: one object a line, and nothing else" $ do
+    it "json: one object in each line, and nothing else" $ do
       (_, _, err) <-
         partc ["--format", "json", "check", "test/programs/surface/bad/five-mistakes.part"]
       length (lines err) `shouldBe` 5
-      [l | l <- lines err, not (isRight (Aeson.eitherDecodeStrict (LazyByteString.toStrict (Aeson.encode l)) :: Either String Aeson.Value))]
-        `shouldBe` []
+      filter (not . isJson) (lines err) `shouldBe` []
     it "colours only when asked, or on a terminal" $ do
       (_, _, plain) <- partc ["check", "test/programs/surface/bad/five-mistakes.part"]
       (_, _, coloured) <-
@@ -342,7 +341,7 @@ spec = do
         readCreateProcessWithExitCode (shell "partc report examples/flange.part > /dev/full") ""
       code `shouldBe` ExitFailure 1
       err `shouldSatisfy` isInfixOf "the disk is full"
-    it "what the command line says of itself is not lost on it either" $
+    it "a full disk is a report for help and version too" $
       mapM_
         ( \command -> do
             (code, _, err) <-
@@ -351,12 +350,12 @@ spec = do
             err `shouldSatisfy` isInfixOf "the disk is full"
         )
         ["--help", "--version", "compile --help"]
-    it "standard output that is closed is a report" $ do
+    it "closed standard output is a report" $ do
       (code, _, err) <-
         readCreateProcessWithExitCode (shell "partc report examples/flange.part >&-") ""
       code `shouldBe` ExitFailure 1
       err `shouldSatisfy` isInfixOf "cannot write to standard output: it is closed"
-    it "Cyrillic comes through under any locale" $ do
+    it "Cyrillic is intact under any locale" $ do
       (code, out, _) <-
         readCreateProcessWithExitCode (shell "LC_ALL=C partc report examples/flange.part") ""
       code `shouldBe` ExitSuccess
@@ -385,6 +384,13 @@ spec = do
           (code, out, _) <- partc [command, "--help"]
           code `shouldBe` ExitSuccess
           out `shouldSatisfy` isInfixOf ("Example: partc " <> command)
+
+isJson :: String -> Bool
+isJson l =
+  isRight
+    ( Aeson.eitherDecodeStrict (LazyByteString.toStrict (Aeson.encode l)) ::
+        Either String Aeson.Value
+    )
 
 copyFlange :: FilePath -> IO ()
 copyFlange folder =

@@ -8,7 +8,7 @@ import Test.Hspec
 
 spec :: Spec
 spec = do
-  it "tells of a code, whatever the case of its letter" $ do
+  it "explains a code, in upper or lower case" $ do
     (code, out, err) <- partc ["explain", "E0314"]
     (code, err) `shouldBe` (ExitSuccess, "")
     take 1 (lines out) `shouldBe` ["E0314: Neighbours that meet in more than one point"]
@@ -22,14 +22,14 @@ spec = do
     (code, err) `shouldBe` (ExitSuccess, "")
     lines out `shouldContain` ["E0101  A word or sign stands where another is expected"]
     length (lines out) `shouldSatisfy` (> 80)
-  it "refuses a code that there is not, and offers those near to it" $ do
+  it "refuses an unknown code, and offers similar ones" $ do
     (code, out, err) <- partc ["explain", "E0250"]
     (code, out) `shouldBe` (ExitFailure 1, "")
     take 2 (lines err)
       `shouldBe` [ "error[E0809]: no report has the code ‘E0250’",
                    "  = hint: Did you mean E0205 or E0229 or E0228?"
                  ]
-  it "refuses a word that is no code" $ do
+  it "refuses a word that is not a code" $ do
     (code, out, err) <- partc ["explain", "--format", "short", "tangent"]
     (code, out) `shouldBe` (ExitFailure 1, "")
     err `shouldSatisfy` isInfixOf "error[E0809]"

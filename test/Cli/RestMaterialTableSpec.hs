@@ -1,4 +1,4 @@
--- | The table of what a cutter leaves.
+-- | The table of rest material.
 module Cli.RestMaterialTableSpec (spec) where
 
 import Base.Result qualified as Result
@@ -55,11 +55,11 @@ spec = do
       (rows "mill hollow left { approach (-10, 20) rapid  rest allowed  retract (60, 20) rapid }")
       `shouldBe` [["3.999", "mm", "narrow", "place,", "with", "the", "cutter's", "centre", "here"]]
 
--- | The words of the table's rows.
+-- | The words of the rows of the table.
 rows :: Text -> [[Text]]
 rows milling = case Result.output (Compile.analyse [] (LoadedProgram.fromText "p.part" text)) of
   Just found ->
-    [Text.words l | t <- RestMaterialTable.places (path found), l <- drop 3 (Text.lines t)]
+    [Text.words l | t <- RestMaterialTable.tables (path found), l <- drop 3 (Text.lines t)]
   Nothing -> [["no path"]]
   where
     text =

@@ -1,4 +1,4 @@
--- | The command with @--format sarif@: one log a run, on standard error.
+-- | The option @--format sarif@: one log for each run, on standard error.
 module Cli.SarifSpec (spec) where
 
 import Command (inFolder, partc)
@@ -13,13 +13,13 @@ import Test.Hspec
 
 spec :: Spec
 spec = do
-  it "is one log without results when there is nothing to say" $ do
+  it "is one log without results when there are no reports" $ do
     (code, out, err) <- partc ["check", "--format", "sarif", "examples/flange.part"]
     (code, out) `shouldBe` (ExitSuccess, "")
     err
       `shouldBe` "\
                  \{\"$schema\":\"https://json.schemastore.org/sarif-2.1.0.json\",\"version\":\"2.1.0\",\"runs\":[{\"tool\":{\"driver\":{\"name\":\"partc\",\"rules\":[]}},\"columnKind\":\"unicodeCodePoints\",\"results\":[]}]}\n"
-  it "holds the reports of all files, in the order of the command line" $ do
+  it "contains the reports of all files, in the order of the command line" $ do
     (code, out, err) <-
       partc
         [ "--format",
@@ -35,18 +35,18 @@ spec = do
     isJson err `shouldBe` True
     codesOf err `shouldBe` ["E0105", "E0105", "E0101", "E0101", "E0108", "E0801", "W0501", "W0501"]
     err `shouldSatisfy` isInfixOf "\"uri\":\"no%20such.part\""
-  it "leaves results on standard output, and warnings out with -q" $ do
+  it "keeps results on standard output, and omits warnings with -q" $ do
     (code, out, err) <-
       partc ["--format", "sarif", "-q", "report", "test/programs/machine/good/feed-warning.part"]
     code `shouldBe` ExitSuccess
     out `shouldSatisfy` isInfixOf "frames"
     (isJson err, codesOf err) `shouldBe` (True, [])
-  it "keeps the warnings that stop the work with --werror" $ do
+  it "contains the warnings that are errors with --werror" $ do
     (code, _, err) <-
       partc
         ["--format", "sarif", "--werror", "check", "test/programs/machine/good/feed-warning.part"]
     (code, codesOf err) `shouldBe` (ExitFailure 1, ["W0501", "W0501"])
-  it "holds what a damaged tape has to say, and what a command has" $
+  it "contains the reports on a damaged tape and on the command line" $
     inFolder $ \folder -> do
       writeFile (folder </> "x.tape") "abc"
       (code, _, err) <- partc ["--format", "sarif", "decode", "-t", "lkp-01f", folder </> "x.tape"]

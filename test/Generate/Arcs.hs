@@ -141,7 +141,7 @@ arcFrames machine code z at s = case (Segment.bulge s, candidates) of
   (_, []) -> halves
   (_, fs) ->
     let (d, f) =
-          minimumBy (comparing fst) [(largestDeviation f', f') | f' <- fs]
+          minimumBy (comparing fst) [(arcDeviation machine at s f', f') | f' <- fs]
      in if d <= pulse then [f] else halves
   where
     Mm pulse = Machine.pulse machine
@@ -164,35 +164,45 @@ arcFrames machine code z at s = case (Segment.bulge s, candidates) of
         }
     Rad turned = Segment.sweep s
     positive = turned > 0
-    apart f = let (a, b) = radii f in abs (a - b)
-    radii f =
-      let c =
-            Frame.centreOf machine at f
-       in (between (Frame.position machine at) c, between (Frame.position machine end) c)
-    -- A control may use the radius of the beginning or of the end: both at points along the arc. An
-    -- arc must not become a full circle.
-    largestDeviation f =
-      let c = Frame.centreOf machine at f
-          (a, b) = radii f
-          exact = between (Segment.start s) (Segment.centre s)
-          Rad sweep = Segment.sweep (Frame.segment machine at f)
-          Rad begin = Vec.angle (Vec.to c (Frame.position machine at))
-       in maximum
-            ( (if abs (sweep - turned) > 1 then 1e9 else 0) :
-                [ abs
-                    ( between
-                        (Vec.shift (Vec.polar (Mm r) (Rad (begin + sweep * k / 8))) c)
-                        (Segment.centre s)
-                        - exact
-                    )
-                  | r <- [a, b],
-                    k <- [0 .. 8]
-                ]
-            )
+    apart f = let (a, b) = arcRadii machine at f in abs (a - b)
     halves =
       let (a, b) = Segment.cutAt 0.5 s
           first = arcFrames machine code z at a
        in first <> arcFrames machine code z (at + sum (map increment first)) b
+
+-- | The largest distance of a frame from an arc, in mm. A control may use the radius of the
+-- beginning or of the end: both count, at points along the arc. A frame that became a full circle
+-- has an immense distance.
+arcDeviation :: Machine -> Pulses3 -> Segment -> Frame -> Double
+arcDeviation machine at s f =
+  maximum
+    ( (if abs (sweep - turned) > 1 then 1e9 else 0) :
+        [ abs
+            ( between
+                (Vec.shift (Vec.polar (Mm r) (Rad (begin + sweep * k / 8))) c)
+                (Segment.centre s)
+                - exact
+            )
+          | r <- [a, b],
+            k <- [0 .. 8]
+        ]
+    )
+  where
+    c = Frame.centreOf machine at f
+    (a, b) = arcRadii machine at f
+    exact = between (Segment.start s) (Segment.centre s)
+    Rad turned = Segment.sweep s
+    Rad sweep = Segment.sweep (Frame.segment machine at f)
+    Rad begin = Vec.angle (Vec.to c (Frame.position machine at))
+
+-- | The radii of an arc at its beginning and at its end, in mm.
+arcRadii :: Machine -> Pulses3 -> Frame -> (Double, Double)
+arcRadii machine at f =
+  ( between (Frame.position machine at) c,
+    between (Frame.position machine (at + increment f)) c
+  )
+  where
+    c = Frame.centreOf machine at f
 
 between :: Point -> Point -> Double
 between p q = let Mm d = Vec.distance p q in d
@@ -246,19 +256,19 @@ change frames = do
       pure ("doubled", take (n + 1) frames <> drop n frames)
     ]
       <> case motion f of
-        Round turn ->
+        Round sense ->
           [ pure ("i by " <> show d, with f {centre = centre f + Pulses2 d 0}),
             pure ("j by " <> show d, with f {centre = centre f + Pulses2 0 d}),
             pure
               ( "the long way round",
-                with f {motion = Round (if turn == Clockwise then CounterClockwise else Clockwise)}
+                with f {motion = Round (if sense == Clockwise then CounterClockwise else Clockwise)}
               ),
             pure ("the centre on the other side", with f {centre = Pulses2 (x - i) (y - j)}),
             pure
               ( "both",
                 with
                   f
-                    { motion = Round (if turn == Clockwise then CounterClockwise else Clockwise),
+                    { motion = Round (if sense == Clockwise then CounterClockwise else Clockwise),
                       centre = Pulses2 (x - i) (y - j)
                     }
               ),

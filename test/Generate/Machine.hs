@@ -69,42 +69,46 @@ shared = do
           AxisForm a . Mm <$> elements [0.001, 0.01, 0.02] <*> arbitrary <*> arbitrary <*> pure True
       )
       used
-  let bottom =
-        Machine
-          { name = MachineName "random",
-            title = "",
-            medium =
-              Medium
-                { tracks = 8,
-                  pitch = Just (Mm 2.54),
-                  suffix = "tape",
-                  leader = 0,
-                  gap = 0,
-                  evenShift = 0,
-                  spare = Counted,
-                  opening = "",
-                  closing = ""
-                },
-            code =
-              TapeCode
-                { codeName = "random",
-                  symbols = Map.empty,
-                  weights = Map.empty,
-                  evenTrack = Nothing,
-                  serviceTrack = Nothing,
-                  skips = []
-                },
-            axes = NonEmpty.fromList forms,
-            arcs = arcKind,
-            layout =
-              Layout {items = NonEmpty.fromList [Literal "x"], measure = how, separator = ""},
-            feeds = Feeds AlongPath feedTable NotAbove Highest,
-            Machine.braking = Braking 5 SlowFrames,
-            Machine.orders = noOrders,
-            limits = Limits Nothing,
-            facts = []
-          }
+  let bottom = blankMachine (NonEmpty.fromList forms) arcKind how feedTable
   pure Shared {used, motions, arcKind, how, feedTable, feedDigits, bottom}
+
+-- | A machine without a code and with a layout to replace.
+blankMachine :: NonEmpty.NonEmpty AxisForm -> Arcs -> AxisMeasure -> FeedCodes -> Machine
+blankMachine forms arcKind how feedTable =
+  Machine
+    { name = MachineName "random",
+      title = "",
+      medium =
+        Medium
+          { tracks = 8,
+            pitch = Just (Mm 2.54),
+            suffix = "tape",
+            leader = 0,
+            gap = 0,
+            evenShift = 0,
+            spare = Counted,
+            opening = "",
+            closing = ""
+          },
+      code =
+        TapeCode
+          { codeName = "random",
+            symbols = Map.empty,
+            weights = Map.empty,
+            evenTrack = Nothing,
+            serviceTrack = Nothing,
+            skips = []
+          },
+      axes = forms,
+      arcs = arcKind,
+      layout =
+        Layout {items = NonEmpty.fromList [Literal "x"], measure = how, separator = ""},
+      feeds = Feeds AlongPath feedTable NotAbove Highest,
+      Machine.braking = Braking 5 SlowFrames,
+      Machine.orders = noOrders,
+      limits = Limits Nothing,
+      facts = []
+    }
 
 -- | Feed codes for a word of @n@ digits: a range, a list, the values of a formula.
 feedCodes :: Int -> Gen FeedCodes
@@ -448,22 +452,25 @@ frame m feeds' at = do
       base <- atFeed
       (sense, d, c) <- arc m at
       pure base {motion = Round sense, increment = d, centre = c}
-    atFeed = do
-      code' <- elements feeds'
-      slow <-
-        if null [() | w <- wordsOf m, BrakingHole <- service (form w)]
-          then pure False
-          else arbitrary
-      given <- ordersOf m 3
-      pure
-        Frame
-          { motion = Straightway,
-            increment = 0,
-            centre = 0,
-            speed = code',
-            braking = slow,
-            orders = given
-          }
+    atFeed = frameAt m =<< elements feeds'
+
+-- | A frame without increments at a feed, with random commands and braking.
+frameAt :: Machine -> FeedCode -> Gen Frame
+frameAt m speed' = do
+  isSlow <-
+    if null [() | w <- wordsOf m, BrakingHole <- service (form w)]
+      then pure False
+      else arbitrary
+  given <- ordersOf m 3
+  pure
+    Frame
+      { motion = Straightway,
+        increment = 0,
+        centre = 0,
+        speed = speed',
+        braking = isSlow,
+        orders = given
+      }
 
 parts :: Pulses3 -> [Pulses]
 parts (Pulses3 x y z) = [x, y, z]

@@ -182,7 +182,7 @@ traced joined filled = loopsOf (Map.fromListWith (<>) [(a, [b]) | (a, b) <- Set.
           [] -> (reverse seen, left)
           [r] -> go (q : seen) q r (leave q r left)
           rs -> let r = best p q rs in go (q : seen) q r (leave q r left)
-    -- Where two cells touch only at a corner, the boundary continues on the other cell or stays.
+    -- At a shared corner of two cells, the boundary continues on the other cell or stays.
     best (px, py) (qx, qy) rs =
       case [ r
              | r@(rx, ry) <- rs,

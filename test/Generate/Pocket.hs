@@ -169,61 +169,71 @@ roomOf p =
 -- them where they meet, keeps the sections that are nowhere too near to the walls, and joins them.
 insetOf :: [Loop] -> Mm -> [Loop]
 insetOf walls d@(Mm d') =
-  joined [section | (i, s) <- numbered, section <- divided i s, isAdmissible section]
+  joined [section | (i, s) <- numbered, section <- divided (others i) s, isAdmissible section]
   where
     numbered = zip [0 :: Int ..] (filter (\s -> Segment.length s > Mm 1e-9) (concatMap raw walls))
+    others i = [s | (j, s) <- numbered, j /= i]
     raw loop =
       concat
         ( zipWith
-            (\s next -> moved s <> corner s next)
+            (\s next -> moved d' s <> rounding d' s next)
             (NonEmpty.toList loop)
             (NonEmpty.tail loop <> [NonEmpty.head loop])
         )
-    moved s = case s of
-      Straight a b ->
-        let n =
-              Vec.scale d' (Vec.left (Vec.unit (Vec.to a b)))
-         in [Straight (Vec.shift n a) (Vec.shift n b)]
-      Arc {start = a, end = b, centre, sweep = w@(Rad angle)} ->
-        let Mm r = Segment.radius centre a
-            r' = r - signum angle * d'
-            to p = Vec.shift (Vec.scale (r' / r) (Vec.to centre p)) centre
-         in [Arc {start = to a, end = to b, centre, sweep = w} | r' > 1e-6]
-    corner s next =
-      let Rad t = Vec.turn (Segment.endDirection s) (Segment.startDirection next)
-          beside dir = Vec.shift (Vec.scale d' (Vec.left dir)) (Segment.end s)
-       in [ Arc
-              { start = beside (Segment.endDirection s),
-                end = beside (Segment.startDirection next),
-                centre = Segment.end s,
-                sweep = Rad t
-              }
-            | t < -1e-9
-          ]
-    divided i s =
-      let marks =
-            sort
-              ( 0 :
-                1 :
-                  [ t
-                    | (j, other) <- numbered,
-                      j /= i,
-                      p <- Distance.crossings s other,
-                      let t = Segment.fraction s p,
-                      t > 1e-9,
-                      t < 1 - 1e-9
-                  ]
-              )
-       in [ snd (Segment.cutAt (if b > 0 then a / b else 0) (fst (Segment.cutAt b s)))
-            | (a, b) <- zip marks (drop 1 marks),
-              b - a > 1e-9
-          ]
     isAdmissible section =
       Segment.length section > Mm 1e-7
         && all
           (\w -> Distance.toPoint (Segment.at 0.5 section) w > Mm (d' - 1e-7))
           (concatMap NonEmpty.toList walls)
         && d > Mm 0
+
+-- | A segment moved to its left by a distance in mm; nothing if an arc vanishes.
+moved :: Double -> Segment -> [Segment]
+moved d s = case s of
+  Straight a b ->
+    let n = Vec.scale d (Vec.left (Vec.unit (Vec.to a b)))
+     in [Straight (Vec.shift n a) (Vec.shift n b)]
+  Arc {start = a, end = b, centre, sweep = w@(Rad angle)} ->
+    let Mm r = Segment.radius centre a
+        r' = r - signum angle * d
+        to p = Vec.shift (Vec.scale (r' / r) (Vec.to centre p)) centre
+     in [Arc {start = to a, end = to b, centre, sweep = w} | r' > 1e-6]
+
+-- | The arc on the left at the corner between two segments, if the corner turns right.
+rounding :: Double -> Segment -> Segment -> [Segment]
+rounding d s next =
+  [ Arc
+      { start = beside (Segment.endDirection s),
+        end = beside (Segment.startDirection next),
+        centre = Segment.end s,
+        sweep = Rad t
+      }
+    | t < -1e-9
+  ]
+  where
+    Rad t = Vec.turn (Segment.endDirection s) (Segment.startDirection next)
+    beside direction = Vec.shift (Vec.scale d (Vec.left direction)) (Segment.end s)
+
+-- | A segment, divided at its intersections with others.
+divided :: [Segment] -> Segment -> [Segment]
+divided others s =
+  [ snd (Segment.cutAt (if b > 0 then a / b else 0) (fst (Segment.cutAt b s)))
+    | (a, b) <- zip marks (drop 1 marks),
+      b - a > 1e-9
+  ]
+  where
+    marks =
+      sort
+        ( 0 :
+          1 :
+            [ t
+              | other <- others,
+                p <- Distance.crossings s other,
+                let t = Segment.fraction s p,
+                t > 1e-9,
+                t < 1 - 1e-9
+            ]
+        )
 
 -- | Joins segments whose ends coincide to loops.
 joined :: [Segment] -> [Loop]

@@ -49,61 +49,66 @@ every = elements [minBound .. maxBound]
 
 -- | A name. It may be a word of the language that is not reserved.
 name :: Gen Name
-name = Name <$> frequency [(4, elements plain), (2, elements words'), (1, made)]
+name = Name <$> frequency [(4, elements plainNames), (2, elements softWords), (1, made)]
   where
-    plain =
-      [ "a",
-        "b",
-        "p",
-        "lug",
-        "радиус",
-        "Ёж",
-        "x1",
-        "_",
-        "half_turn",
-        "a_rather_long_name_for_a_thing"
-      ]
-    words' =
-      [ "by",
-        "at",
-        "depth",
-        "step",
-        "diameter",
-        "nose",
-        "line",
-        "arc",
-        "out",
-        "round",
-        "sharp",
-        "climb",
-        "conventional",
-        "start",
-        "plunge",
-        "peck",
-        "corners",
-        "compensation",
-        "controller",
-        "compiler",
-        "lead",
-        "cipher",
-        "joggle",
-        "radius",
-        "cone",
-        "blade",
-        "gear",
-        "bevel1",
-        "to",
-        "rpm1",
-        "min",
-        "byte",
-        "pocket",
-        "islands",
-        "rest",
-        "allowed"
-      ]
     made =
       (Text.pack <$> ((:) <$> elements "abхуz_" <*> listOf (elements "abхуz_019")))
         `suchThat` (not . Keyword.isReserved)
+
+plainNames :: [Text]
+plainNames =
+  [ "a",
+    "b",
+    "p",
+    "lug",
+    "радиус",
+    "Ёж",
+    "x1",
+    "_",
+    "half_turn",
+    "a_rather_long_name_for_a_thing"
+  ]
+
+-- | Words of the language that are names elsewhere.
+softWords :: [Text]
+softWords =
+  [ "by",
+    "at",
+    "depth",
+    "step",
+    "diameter",
+    "nose",
+    "line",
+    "arc",
+    "out",
+    "round",
+    "sharp",
+    "climb",
+    "conventional",
+    "start",
+    "plunge",
+    "peck",
+    "corners",
+    "compensation",
+    "controller",
+    "compiler",
+    "lead",
+    "cipher",
+    "joggle",
+    "radius",
+    "cone",
+    "blade",
+    "gear",
+    "bevel1",
+    "to",
+    "rpm1",
+    "min",
+    "byte",
+    "pocket",
+    "islands",
+    "rest",
+    "allowed"
+  ]
 
 number :: Gen Numeral
 number =

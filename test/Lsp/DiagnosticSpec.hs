@@ -1,4 +1,4 @@
--- | Reports as diagnostics, where a program has several files.
+-- | Reports as diagnostics, for programs of several files.
 module Lsp.DiagnosticSpec (spec) where
 
 import Base.Region (Region (Region), Source)
@@ -20,15 +20,15 @@ import Test.Hspec
 
 spec :: Spec
 spec = do
-  it "a report on an imported file stands at the import and names the true place" $
+  it "a report on an imported file is at the import and gives the true position" $
     shown (report Error "E0101" (InSource (Region 9 10)) "wrong")
       `shouldBe` [(at (1, 0), String "/tmp/ж.part:2:3: wrong")]
-  it "a report on the file as a whole stands at its top" $
+  it "a report on the whole file is at its beginning" $
     shown (report Error "E0804" InFile "wrong") `shouldBe` [(at (0, 0), String "wrong")]
-  it "a report on the document stands at its place" $
+  it "a report on the document is at its region" $
     shown (report Error "E0101" (InSource (Region 3 4)) "wrong")
       `shouldBe` [(at (1, 0), String "wrong")]
-  it "a place in the document keeps the client's address; one in another file has that file's" $
+  it "a location in the document has the client's address, in another file that of the file" $
     map (field "uri" . Location.location uri' source) [Region 3 4, Region 9 10]
       `shouldBe` [String "file:///tmp/%61.part", String "file:///tmp/%D0%B6.part"]
 
@@ -38,7 +38,7 @@ uri' = Uri "file:///tmp/%61.part"
 text' :: Text
 text' = "🙂\r\nx"
 
--- | The document, and behind it a file that it imports.
+-- | The document, and after it a file that it imports.
 source :: Source
 source = Region.add "/tmp/ж.part" "a\nbcd" (Region.fromText "/tmp/a.part" text')
 

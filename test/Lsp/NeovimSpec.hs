@@ -1,4 +1,4 @@
--- | A real Neovim with the set-up of editors/nvim shows what the command line reports.
+-- | Neovim with the set-up of editors/nvim shows the reports of the command line.
 module Lsp.NeovimSpec (spec) where
 
 import Control.Monad (when)
@@ -20,7 +20,7 @@ import Test.Hspec
 
 spec :: Spec
 spec = do
-  it "shows the command line's reports at their places, jumps, tells, and forgets what is fixed" $
+  it "shows the command line's reports, jumps, hovers, and drops fixed reports" $
     inFolder $ \folder -> do
       file <- written folder
       expected <- reported file
@@ -39,7 +39,7 @@ spec = do
       [(diagnostics a, jumped a, hover a, fixed a) | a <- [silent, missing]]
         `shouldBe` replicate 2 ([], False, "", False)
 
--- | What Neovim shows of a mistake: line and byte of both ends from 0, the code, whether it is an
+-- | A diagnostic of Neovim: line and byte of both ends from 0, the code, and whether it is an
 -- error.
 data Shown = Shown {from :: (Int, Int), to :: (Int, Int), code :: Text, severe :: Bool}
   deriving stock (Eq, Ord, Show)
@@ -68,7 +68,7 @@ instance FromJSON Answer where
         .: "hover" <*> o
         .: "fixed"
 
--- | A program with two mistakes behind characters of two and of four bytes.
+-- | A program with two mistakes after characters of two and of four bytes.
 program :: Text
 program =
   Text.unlines
@@ -88,7 +88,7 @@ written folder = file <$ ByteString.writeFile file (Encoding.encodeUtf8 program)
   where
     file = folder </> "деталь.part"
 
--- | What the command line reports, in the units of Neovim.
+-- | The reports of the command line, in the units of Neovim.
 reported :: FilePath -> IO [Shown]
 reported file = do
   (_, out, err) <-
@@ -124,8 +124,9 @@ inBytes r =
           )
       )
 
--- | Open a file in Neovim with this server, and ask what the editor shows; so many milliseconds for
--- each wait.
+-- | Opens a file in Neovim with this server, and reads what the editor shows. Each wait takes at
+-- most
+-- @patience@ milliseconds.
 neovim :: Int -> String -> FilePath -> FilePath -> IO Answer
 neovim patience server folder file = do
   there <- findExecutable "nvim"

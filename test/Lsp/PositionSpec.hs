@@ -1,4 +1,4 @@
--- | Positions in UTF-16 units.
+-- | Positions in UTF-16 code units.
 module Lsp.PositionSpec (spec) where
 
 import Base.Region (Region (..))
@@ -40,17 +40,17 @@ spec = do
         let at =
               Position.offset (Region.fromText "a" text) LspPosition {line, character}
          in at >= 0 && at <= Text.length text
-    it "takes a position within a pair as the beginning of the character" $
+    it "takes a position within a surrogate pair as the beginning of the character" $
       Position.offset (Region.fromText "a" "ж🙂b") LspPosition {line = 0, character = 2} `shouldBe` 1
-    it "takes a position behind its line as the end of the line" $
+    it "takes a position after its line as the end of the line" $
       Position.offset (Region.fromText "a" "ab\r\nc") LspPosition {line = 0, character = 9}
         `shouldBe` 2
-    it "takes a line behind the text as its end, however large its number" $
+    it "takes a line after the text as its end, however large its number" $
       [ Position.offset (Region.fromText "a" "ab\nc") LspPosition {line, character}
         | (line, character) <- [(7, 0), (maxBound, 0), (maxBound, maxBound), (1, maxBound)]
       ]
         `shouldBe` [4, 4, 4, 4]
-  it "knows the file of a region" $
+  it "finds the file of a region" $
     let source = Region.add "b" "cd" (Region.fromText "a" "xy\n")
      in map
           (\r -> (Position.fileOf source r, Position.position source (start r)))

@@ -1,4 +1,4 @@
--- | The server itself, as an editor starts it: streams, statuses, time.
+-- | The server as an editor starts it: streams, exit status, time.
 module Lsp.ServerSpec (spec) where
 
 import Base.Crash (bug)
@@ -68,7 +68,7 @@ spec = do
           []
           (opening <> [question 1 "shutdown" Null, notice "exit" Null, question 2 "shutdown" Null])
       [a, b, c, d] `shouldBe` [ExitFailure 1, ExitFailure 1, ExitFailure 1, ExitSuccess]
-  it "what is no message is refused, and the server lives on" $ do
+  it "input that is not a message is refused, and the server continues" $ do
     (status, _, answers) <-
       conversation
         []
@@ -80,7 +80,7 @@ spec = do
     map (field "code" . field "error") (take 4 (drop 1 answers))
       `shouldBe` map Number [-32700, -32600, -32600, -32700]
     field "id" (last answers) `shouldBe` Number 4
-  it "publishes when the text has rested, without being asked" $
+  it "publishes when the text has rested, without a request" $
     talking [] $ \to from -> do
       mapM_ (send to) opening
       (_, first) <- diagnosticsFrom "" from
@@ -100,7 +100,7 @@ spec = do
           )
       (_, second) <- diagnosticsFrom "" from
       version second `shouldBe` Number 9
-  it "a failure refuses its own request, shows itself, and the server lives on" $
+  it "an exception refuses its own request, is reported, and the server continues" $
     inProcess
       ( \loaded ->
           if "нет" `Text.isInfixOf` Region.text (LoadedProgram.source loaded)
@@ -125,7 +125,7 @@ spec = do
                 )
             )
           send to (question 2 "textDocument/hover" (about addressOf (0, 4)))
-          -- While the server waits, nothing else runs in this process; so either may come first.
+          -- While the server waits, nothing else runs in this process; so the order is not fixed.
           (d, one) <- nextFrom c from
           (_, other) <- nextFrom d from
           field "id" welcome `shouldBe` Number 0
@@ -200,8 +200,8 @@ encoded fields =
 send :: Handle -> ByteString -> IO ()
 send to message = ByteString.hPut to (Transport.framed message) *> hFlush to
 
--- | Say all this and hang up: the status, what is left on standard output behind the messages, the
--- messages that are no diagnostics.
+-- | Sends messages and closes the stream: the exit status, the bytes after the last message, the
+-- messages other than diagnostics.
 conversation :: [String] -> [ByteString] -> IO (ExitCode, ByteString, [Value])
 conversation arguments messages = within . withServer arguments $ \to from process -> do
   ByteString.hPut to (ByteString.concat (map Transport.framed messages))
@@ -216,11 +216,11 @@ unframed bytes = case Transport.next bytes of
   Complete body rest | Just value <- Aeson.decodeStrict body -> (value :) <$> unframed rest
   _ -> (bytes, [])
 
--- | Talk to a server, and leave.
+-- | Talks to a server, and ends it.
 talking :: [String] -> (Handle -> Handle -> IO ()) -> IO ()
 talking arguments act = void . within . withServer arguments $ \to from _ -> act to from
 
--- | The next message that arrives, and what arrives behind it.
+-- | The next message, and the bytes received after it.
 nextFrom :: ByteString -> Handle -> IO (ByteString, Value)
 nextFrom waiting from = case Transport.next waiting of
   Complete body rest | Just value <- Aeson.decodeStrict body -> pure (rest, value)
@@ -229,7 +229,7 @@ nextFrom waiting from = case Transport.next waiting of
     if ByteString.null bytes then fail "the server is gone" else nextFrom (waiting <> bytes) from
   _ -> fail "this is not the protocol"
 
--- | The next diagnostics that arrive.
+-- | The next diagnostics.
 diagnosticsFrom :: ByteString -> Handle -> IO (ByteString, Value)
 diagnosticsFrom waiting from = do
   (rest, value) <- nextFrom waiting from
@@ -242,7 +242,7 @@ diagnosticsOf message = case field "diagnostics" (field "params" message) of
   Array ds -> foldMap pure ds
   _ -> []
 
--- | Talk to a server in this process, with another check of the program.
+-- | Talks to a server in this process, with this check of the program.
 inProcess :: Check -> (Handle -> Handle -> IO ()) -> IO ()
 inProcess check act = within $ do
   (input, to) <- createPipe
@@ -263,7 +263,7 @@ inProcess check act = within $ do
   hClose to
   takeMVar done `shouldReturn` Abrupt
 
--- | Nothing here takes half a minute.
+-- | Fails after half a minute.
 within :: IO a -> IO a
 within act = timeout 30000000 act >>= maybe (fail "the server did not answer in time") pure
 

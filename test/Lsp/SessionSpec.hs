@@ -40,7 +40,7 @@ spec = do
       heard
         (say (Notification "workspace/didChangeConfiguration" (object ["settings" .= Null])) ready)
         `shouldBe` []
-    it "parameters that are none are refused" $
+    it "wrong parameters are refused" $
       refusals (say (Request (Number 7) "textDocument/hover" (String "no")) ready)
         `shouldBe` [(Number 7, InvalidParams)]
     it "a document that is not open has no answers" $
@@ -85,7 +85,7 @@ spec = do
     it "do not come after closing" $
       length (published (pause 900 (close addressOf (replace addressOf 2 wrong (opened wrong)))))
         `shouldBe` 2
-    it "stand beside an answer that came first" $
+    it "come although an answer came first" $
       length
         ( published
             ( pause
@@ -97,7 +97,7 @@ spec = do
             )
         )
         `shouldBe` 1
-    it "follow what is imported, while it is edited in another window" $ do
+    it "follow an imported file that is edited in another window" $ do
       let both =
             pause
               500
@@ -127,7 +127,7 @@ spec = do
           latest talk =
             [map code there | (String u, _, there) <- reverse (published talk), u == addressOf]
       map (take 1 . latest) [alone, found] `shouldBe` [[["E0112"]], [[]]]
-    it "of an imported file stand at the import, and name the file" $ do
+    it "of an imported file are at the import, and name the file" $ do
       let talk =
             pause
               500
@@ -137,14 +137,15 @@ spec = do
                   importing
                   (open "file:///tmp/pins.part" 1 "part pins\nlet pin = 3 mm + 1 deg\n" ready)
               )
-      [map (\f -> (from f, code f, "pins.part:2" `Text.isInfixOf` message f)) found | (String u, _, found) <- published talk, u == addressOf]
+      let facts f = (from f, code f, "pins.part:2" `Text.isInfixOf` message f)
+      [map facts found | (String u, _, found) <- published talk, u == addressOf]
         `shouldBe` [[((1, 7), "E0206", True)]]
-    it "have the hint and the other places in the message, for clients that show nothing else" $
+    it "have the hint and the related regions in the message, for clients without them" $
       map message (squiggles (header <> "let a = 1\nlet a = 2\n"))
         `shouldBe` [ "‘a’ is defined twice\ndefined again here\nline 7: first defined here\nhint: \
                      \Give one of them another name."
                    ]
-    it "name the other places apart when the client can show them" $ do
+    it "have the related regions apart when the client can show them" $ do
       let talk =
             pause
               0
@@ -154,7 +155,13 @@ spec = do
                   (header <> "let a = 1\nlet a = 2\n")
                   (running (object ["publishDiagnostics" .= object ["relatedInformation" .= True]]))
               )
-      [field "relatedInformation" d | Send (Notify _ p) <- heard talk, Array ds <- [field "diagnostics" p], d <- foldMap pure ds]
+          related =
+            [ field "relatedInformation" d
+              | Send (Notify _ p) <- heard talk,
+                Array ds <- [field "diagnostics" p],
+                d <- foldMap pure ds
+            ]
+      related
         `shouldBe` [ Array
                        ( pure
                            ( object
@@ -168,7 +175,7 @@ spec = do
                            )
                        )
                    ]
-    it "of a text with a mark of the byte order stand where the client sees them" $
+    it "of a text with a byte order mark are where the client sees them" $
       map from (squiggles ("\xFEFFpart p junk\n" <> Text.drop 7 header)) `shouldBe` [(0, 8)]
     prop "a text with Cyrillic and emoji before the place shifts its columns by its UTF-16 length"
       . forAll (listOf (elements "aж€🙂𝔸 -"))
@@ -191,11 +198,11 @@ spec = do
                 version === Number (fromIntegral (1 + length steps))
               ]
     programs <- runIO (sort . filter ((== ".part") . takeExtension) <$> walk "test/programs")
-    it "have the places and codes of the command line's reports, for all programs of the tests" $
+    it "have the regions and codes of the command line's reports, for all test programs" $
       forM_ programs $ \file -> do
         text <- readText file
         map (\s -> (from s, to s, code s)) (squiggles text) `shouldBe` reported text
-    it "nothing kills the server: every question at every place of every program" $
+    it "nothing kills the server: every request at every position of every program" $
       forM_ programs $ \file -> do
         text <- readText file
         let talk = opened text
@@ -223,9 +230,9 @@ opened :: Text -> Talk
 opened text = pause 0 (open addressOf 1 text ready)
 
 refusals :: Talk -> [(Value, ErrorCode)]
-refusals talk = [(ident, trouble) | Send (Refusal ident (Failure trouble _)) <- heard talk]
+refusals talk = [(ident, errorCode) | Send (Refusal ident (Failure errorCode _)) <- heard talk]
 
--- | A sound beginning of six lines.
+-- | The first six lines of a program, without errors.
 header :: Text
 header =
   "part p\nmachine lkp-01f\ntool mill(diameter 2 mm)\nfeed 60 mm/min\ntolerance 0.02 mm\nfrom (0, \
@@ -235,8 +242,8 @@ right, wrong :: Text
 right = header <> "let a = 1\nlet b = a\n"
 wrong = header <> "let a = 1\nlet b = c\n"
 
--- | What the command line says: the ends of the places, in the units of the protocol, and the
--- codes.
+-- | The reports of the command line: both ends of the regions, in the units of the protocol, and
+-- the codes.
 reported :: Text -> [((Int, Int), (Int, Int), Text)]
 reported text =
   [ (ends Region.start r, ends Region.end r, c)
@@ -250,7 +257,7 @@ reported text =
       InTape _ -> (0, 0)
       InFile -> (0, 0)
 
--- | Texts in which most lines are wrong.
+-- | Texts with errors in most lines.
 broken :: Gen Text
 broken =
   (header <>) . Text.unlines
@@ -267,7 +274,7 @@ broken =
           ]
       )
 
--- | A text and edits: where they begin and end in the text that is there then, and what they put.
+-- | A text and edits: both ends as shares of the present text, and the new text.
 edits :: Gen (Text, [[(Double, Double, Text)]])
 edits =
   (,)
@@ -277,7 +284,7 @@ edits =
     piece =
       elements ["", "a", "ж", "🙂", "\n", "\r\n", "\r", "let z = a\n", "(", "\"", "-- 🙂 ж", "1"]
 
--- | The same edits on a text and in a session.
+-- | Applies edits to a text and in a session.
 edited :: (Text, Talk) -> (Int, [(Double, Double, Text)]) -> (Text, Talk)
 edited (text, talk) (version, steps) =
   (final, change addressOf version (map snd changes) (pause 30 talk))

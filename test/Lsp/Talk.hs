@@ -1,4 +1,4 @@
--- | A client for tests: a session without processes, and a clock that is moved by hand.
+-- | A client for tests: a session without processes, and a simulated clock.
 module Lsp.Talk
   ( Talk,
     begin,
@@ -40,15 +40,15 @@ import Project.LoadedProgram qualified as LoadedProgram
 import Query.Snapshot qualified as Snapshot
 import Surface.Import qualified as Import
 
--- | A session, the time, and all that has been sent, the last first.
+-- | A session, the time in ms, and all messages sent so far, the last first.
 data Talk = Talk Session Int [Effect]
 
--- | Before the first word.
+-- | The state before the first message.
 begin :: Talk
 begin = Talk Session.start 0 []
 
--- | After @initialize@ with these capabilities of text documents; what was sent up to then is
--- forgotten.
+-- | The state after @initialize@ with these capabilities of text documents. Earlier messages are
+-- dropped.
 running :: Value -> Talk
 running capabilities = Talk session now []
   where
@@ -61,7 +61,7 @@ running capabilities = Talk session now []
         )
         begin
 
--- | The client sends something.
+-- | Sends a message from the client.
 say :: Incoming -> Talk -> Talk
 say incoming = happen (Received incoming)
 
@@ -70,8 +70,8 @@ happen event (Talk session now sent) = Talk session' now (reverse effects <> sen
   where
     time = Milliseconds now
     (session', effects) =
-      Session.step time event (foldl look session (Session.awaited time event session))
-    look s Awaited {path, text} =
+      Session.step time event (foldl supply session (Session.awaited time event session))
+    supply s Awaited {path, text} =
       Session.supply
         path
         ( Snapshot.take
@@ -79,11 +79,11 @@ happen event (Talk session now sent) = Talk session' now (reverse effects <> sen
             (runIdentity (LoadedProgram.load (Import.byName (opened s)) (Text.unpack path) text))
         )
         s
-    -- What is imported is what is open.
+    -- Imports find only open documents.
     opened s there =
       Identity (maybe (Left "it is not open") Right (Session.openText s (Text.pack there)))
 
--- | Time passes.
+-- | Lets time pass, in ms.
 pause :: Int -> Talk -> Talk
 pause milliseconds talk@(Talk session now sent) = case Session.deadline session of
   Just (Milliseconds due)
@@ -91,7 +91,7 @@ pause milliseconds talk@(Talk session now sent) = case Session.deadline session 
       pause (now + milliseconds - max now due) (happen Due (Talk session (max now due) sent))
   _ -> let Talk s _ e = talk in Talk s (now + milliseconds) e
 
--- | All that has been sent, in order.
+-- | All messages sent so far, in order.
 heard :: Talk -> [Effect]
 heard (Talk _ _ sent) = reverse sent
 
@@ -102,7 +102,7 @@ ask method params talk = case say (Request (String "q") method params) talk of
   Talk _ _ (Send (Refusal (String "q") failure) : _) -> Left failure
   Talk _ _ sent -> error ("no answer: " <> show (take 1 sent))
 
--- | Open a text under an address.
+-- | Opens a text under an address.
 open :: Text -> Int -> Text -> Talk -> Talk
 open uri version text =
   say
@@ -120,7 +120,7 @@ open uri version text =
         )
     )
 
--- | Change an open text.
+-- | Changes an open text.
 change :: Text -> Int -> [Value] -> Talk -> Talk
 change uri version edits =
   say
@@ -133,7 +133,7 @@ change uri version edits =
         )
     )
 
--- | Replace the whole of an open text.
+-- | Replaces the whole of an open text.
 replace :: Text -> Int -> Text -> Talk -> Talk
 replace uri version text = change uri version [object ["text" .= text]]
 
@@ -141,18 +141,18 @@ close :: Text -> Talk -> Talk
 close uri =
   say (Notification "textDocument/didClose" (object ["textDocument" .= object ["uri" .= uri]]))
 
--- | The text of an open file as the server has it.
+-- | The server's text of an open file.
 textOf :: Text -> Talk -> Maybe Text
 textOf path (Talk session _ _) = Session.openText session path
 
--- | What has been published: address, version, diagnostics.
+-- | The published diagnostics, with address and version.
 published :: Talk -> [(Value, Value, [Squiggle])]
 published talk =
   [ (field "uri" p, field "version" p, map squiggle (list (field "diagnostics" p)))
     | Send (Notify "textDocument/publishDiagnostics" p) <- heard talk
   ]
 
--- | A diagnostic: line and character of its beginning and of its end, its code, its words.
+-- | A diagnostic: line and character of both ends, code, message.
 data Squiggle = Squiggle {from :: (Int, Int), to :: (Int, Int), code :: Text, message :: Text}
   deriving stock (Eq, Show)
 
@@ -176,13 +176,13 @@ int v = case v of
   Number n -> round n
   _ -> error ("no number: " <> show v)
 
--- | The diagnostics of a text that has just been opened.
+-- | The diagnostics of a newly opened text.
 squiggles :: Text -> [Squiggle]
 squiggles text = case published (pause 0 (open addressOf 1 text (running (object [])))) of
   [(_, _, found)] -> found
   other -> error (show other)
 
--- | The address that tests use when any will do.
+-- | An arbitrary address.
 addressOf :: Text
 addressOf = "file:///tmp/a.part"
 
@@ -206,11 +206,11 @@ list v = case v of
   Array xs -> toList xs
   _ -> []
 
--- | The UTF-16 units of a text, counted by writing them.
+-- | The number of UTF-16 code units of a text, by encoding it.
 units :: Text -> Int
 units text = ByteString.length (Encoding.encodeUtf16LE text) `div` 2
 
--- | The line and the UTF-16 units of an offset, by looking at every character before it.
+-- | The line and the UTF-16 code units of an offset, by counting all characters before it.
 placeIn :: Text -> Int -> (Int, Int)
 placeIn text offset = go 0 "" (Text.unpack (Text.take offset text)) (Text.drop offset text)
   where

@@ -36,7 +36,7 @@ spec = do
       ]
       `shouldBe` replicate 4 (Headless "rest")
   it
-    "finds the next message behind one whose header does not say how long it is (catches a stream \
+    "finds the next message after one whose header has no length (catches a stream \
     \that stays deaf)"
     $ case Transport.next "X: 1\r\n\r\n{\"a\": 1}Content-Length: 2\r\n\r\n{}rest" of
       Headless rest -> Transport.next rest `shouldBe` Complete "{}" "rest"

@@ -1,4 +1,4 @@
--- | A new layout as a change of the lines that differ.
+-- | A new layout as a change of the differing lines.
 module Query.FormattingSpec (spec) where
 
 import Base.Region (Region (..))
@@ -12,12 +12,12 @@ import Test.QuickCheck
 
 spec :: Spec
 spec = do
-  prop "the change makes the new text of the old one" . forAll ((,) <$> text' <*> text') $
+  prop "the change turns the old text into the new one" . forAll ((,) <$> text' <*> text') $
     \(old, new) ->
       maybe old (applied old) (Formatting.change old new) === new
   prop "there is no change between a text and itself" . forAll text' $ \text ->
     Formatting.change text text === Nothing
-  it "only the lines that differ change" $
+  it "only the differing lines change" $
     Formatting.change "a\nb  \nc\n" "a\nb\nc\n"
       `shouldBe` Just Change {region = Region 2 6, newText = "b\n"}
 

@@ -17,17 +17,17 @@ spec = do
     it "shows the value of a name, at its use and at its definition" $ do
       hovered "let длина = 41 mm\nlet b = ^длина\n" `shouldBe` Just ("длина", Just "41 mm")
       hovered "let ^длина = 41 mm\n" `shouldBe` Just ("длина", Just "41 mm")
-    it "takes the cursor behind a name for one on it" $
+    it "takes a cursor after a name as a cursor on it" $
       hovered "let a = 1\nlet b = (a^, 2)\n" `shouldBe` Just ("a", Just "1 mm")
     it "knows functions, their parameters and the names of the language" $ do
       hovered "let f(x) = x\nlet b = ^f(1)\n" `shouldBe` Just ("f", Nothing)
       hovered "let f(x) = ^x\n" `shouldBe` Just ("x", Nothing)
       hovered "let b = ^sqrt(4)\n" `shouldBe` Just ("sqrt", Nothing)
-    it "says nothing of numbers, words of the language and unknown names" $
+    it "has no answer for numbers, words of the language and unknown names" $
       map hovered ["let b = ^4\n", "^let b = 4\n", "let b = ^c\n"]
         `shouldBe` [Nothing, Nothing, Nothing]
   describe "definition" $ do
-    it "leads from a use to the name that is defined" $
+    it "leads from a use to the defined name" $
       defined "let a = 1\nlet b = ^a\n" `shouldBe` Just "a@4"
     it "leads to the parameter within a function, and to the definition above outside" $ do
       defined "let a = 1\nlet f(a) = ^a\n" `shouldBe` Just "a@16"
@@ -38,12 +38,12 @@ spec = do
     it "names of the language have none" $
       defined "let b = ^pi\n" `shouldBe` Nothing
   describe "while the text is broken" $ do
-    it "a definition that cannot be read is what it was" $ do
+    it "a definition with a syntax error keeps its last meaning" $ do
       let sound = header <> "let aa = 41 mm\nlet b = aa\n"
           text = header <> "let aa = (41 mm\nlet b = aa\n"
       (Name.hover (look text) (Just (look sound)) (offsetOf "= aa" text + 2) >>= value)
         `shouldBe` Just "41 mm"
-    it "the last sound text answers for names that lie outside the change" $ do
+    it "the last text without errors answers for names outside the change" $ do
       let sound = header <> "let aa = 1\nlet f(x) = x + aa\nlet c = 2\n"
           text = header <> "let aa = 1\nlet f(x = x + aa\nlet c = 2\n"
           asked = Name.definition (look text) (Just (look sound)) (offsetOf "+ aa" text + 2)
@@ -60,13 +60,13 @@ look = Snapshot.take (Snapshot.checkWith []) . LoadedProgram.fromText "a.part"
 offsetOf :: Text -> Text -> Int
 offsetOf word = Text.length . fst . Text.breakOn word
 
--- | The name and the value at the place that is marked.
+-- | The name and the value at the marked position.
 hovered :: Text -> Maybe (Text, Maybe Text)
 hovered marked =
   (\h -> (name h, value h))
     <$> Name.hover (look (Text.replace "^" "" marked)) Nothing (offsetOf "^" marked)
 
--- | The definition of the name at the place that is marked: its text and its offset.
+-- | The definition of the name at the marked position: its text and its offset.
 defined :: Text -> Maybe Text
 defined marked = said . region <$> Name.definition (look text) Nothing (offsetOf "^" marked)
   where

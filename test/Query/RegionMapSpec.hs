@@ -1,4 +1,4 @@
--- | Places of an old text in a new one.
+-- | Regions of an old text in a new one.
 module Query.RegionMapSpec (spec) where
 
 import Base.Region (Region (..))
@@ -11,8 +11,9 @@ import Test.QuickCheck
 
 spec :: Spec
 spec = do
-  prop "what is carried forward holds the same text" . forAll ((,) <$> text' <*> text') $
-    \(old, new) ->
+  prop "a region that is carried forward contains the same text"
+    . forAll ((,) <$> text' <*> text')
+    $ \(old, new) ->
       forAll (stretch old) $ \region -> case RegionMap.forward (RegionMap.between old new) region of
         Nothing -> property True
         Just there -> slice new there === slice old region
@@ -23,7 +24,7 @@ spec = do
           | from < to ->
             RegionMap.back (RegionMap.between old new) there === Just from
         _ -> property True
-  prop "in the same text everything stays" . forAll text' $ \text ->
+  prop "in the same text every region stays" . forAll text' $ \text ->
     forAll (stretch text) $ \region ->
       RegionMap.forward (RegionMap.between text text) region === Just region
   it "a word that grows is another word" $
