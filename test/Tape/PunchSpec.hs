@@ -1,4 +1,4 @@
--- | Tapes of all machines: written and read back, and damaged in every possible way.
+-- | Laws of tapes: written and read back on all machines, and damaged in every way.
 module Tape.PunchSpec (spec) where
 
 import Base.PulseVector (Pulses2 (..), Pulses3 (..))
@@ -149,7 +149,7 @@ randomMachineLaws = do
                 (FastFrameReader.Read g end, slowly) -> slowly == Right (g, end)
                 (FastFrameReader.NotSimple, _) -> True
               changedRow rows = take k rows <> [w] <> drop (k + 1) rows
-              -- As if nothing had been said before.
+              -- The state in which no axis and no feed has been written yet.
               unwritten state =
                 (ModalState.initial (ModalState.changesHeight fs) (ModalState.position state))
                   { ModalState.ordinal =
@@ -183,7 +183,7 @@ randomMachineLaws = do
             ==> Punch.write reversedX (mirroredPosition at) (map mirroredFrame fs)
               === Punch.write m at fs
 
--- | Blank and erased rows, where the reader passes over them, do not count.
+-- | Rows without those that the reader skips.
 withoutSkippedRows :: Machine -> ByteString -> ByteString
 withoutSkippedRows m rows = case Machine.spare (Machine.medium m) of
   Counted -> rows
@@ -228,7 +228,7 @@ mirroredFrame f =
       Rapid -> Rapid
       Straightway -> Straightway
 
--- | A straight frame of a feed of 60.
+-- | Straight frame with the feed code 60.
 straightAt60 :: Pulses -> Pulses -> Frame
 straightAt60 x y =
   (Frame.still []) {motion = Straightway, increment = Pulses3 x y 0, speed = FeedCode 60}
@@ -295,7 +295,7 @@ knownTapes = do
     Tape.metres lkp01f (Tape (ByteString.replicate 1000 0)) `shouldBe` Just 2.54
     Tape.metres iso6983 (Tape (ByteString.replicate 1000 0)) `shouldBe` Nothing
 
--- | Frames that may be taken for some.
+-- | Frames that may be expected on a tape with the given ones.
 expectedFor :: [Frame] -> Gen [Frame]
 expectedFor fs = do
   k <- choose (0, length fs)
@@ -355,7 +355,7 @@ oneHole = do
       ]
       `shouldBe` []
 
--- | The frame of every row of a machine's journey.
+-- | Frame of every row on the tape of a machine's journey.
 frameRows :: Machine -> [Maybe Int]
 frameRows m = map RowMeaning.frame (Punch.rows m start (journey m))
 
@@ -438,12 +438,12 @@ damage = do
       (Punch.toReport (Damage 31 (Just 1) (Just (Machine.Along Machine.Y)) (NoDigit 5 2)))
       `shouldBe` "row 31 (frame 1, y): the holes 00010 are no digit"
 
--- | A frame with a check digit in front and a gap behind.
+-- | Frame with a check digit before it.
 withCheckDigit :: [Word8] -> [Word8]
 withCheckDigit ws =
   fromIntegral ((10 - sum (map ((`mod` 16) . fromIntegral) ws :: [Int]) `mod` 10) `mod` 10) : ws
 
--- | Why a lettered tape is refused that ends with this frame.
+-- | Reason why a tape with these rows before its trailer is refused.
 faultOf :: Machine -> [Word8] -> Maybe Reason
 faultOf m rows =
   either
@@ -451,7 +451,7 @@ faultOf m rows =
     (const Nothing)
     (Punch.read m start (Tape (ByteString.pack (rows <> blank 28))))
 
--- | Why lines of characters are refused.
+-- | Reason why a tape with these lines is refused.
 faultLine :: Text.Text -> Maybe Reason
 faultLine lines' =
   faultOf
@@ -493,7 +493,7 @@ changed n f rows = case ByteString.splitAt (n - 1) rows of
     Just (w, c) -> a <> ByteString.cons (f w) c
     Nothing -> rows
 
--- | The reason that is reported in a row when that row, from 1, is changed.
+-- | Reason that is reported for a row, from 1, when that row is changed.
 reasonAt :: Machine -> [Frame] -> Int -> (Word8 -> Word8) -> Maybe Reason
 reasonAt m fs n f =
   case Punch.read m start (Tape (changed n f (rowsOf (Punch.write m start fs)))) of
