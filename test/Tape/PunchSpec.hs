@@ -42,6 +42,7 @@ import Tape.ModalState qualified as ModalState
 import Tape.Punch (Damage (..), Reason (..))
 import Tape.Punch qualified as Punch
 import Tape.RowMeaning qualified as RowMeaning
+import Tape.Symbol qualified as Symbol
 import Tape.Tape (Tape (..))
 import Tape.Tape qualified as Tape
 import Test.Hspec
@@ -129,45 +130,53 @@ randomMachineLaws = do
   it
     "simple frames are read in one go as they are word by word (catches a shortcut with another \
     \result)"
-    $ checkCoverage . forAll Generate.machine $ \m ->
+    $ withMaxSuccess 1000 . checkCoverage . forAll Generate.machine $ \m ->
       forAll (Generate.frames m) $ \(at, fs) ->
-        forAll (choose (0, 40)) $ \k -> forAll (oneof [arbitrary, elements [0, 0xFF]]) $ \w ->
-          let layout = Layout.fromMachine m
-              states =
-                scanl (Layout.after layout) (ModalState.initial (ModalState.changesHeight fs) at) fs
-              rowsFor state f = map Layout.holes (FrameWriter.frameRows layout state f)
-              readBoth state rows =
-                ( FastFrameReader.readFrame layout state (Short.pack rows) 0,
-                  FrameReader.wordByWord layout state (Short.pack rows) 0
-                )
-              isRead state f = case readBoth state (rowsFor state f) of
-                (FastFrameReader.Read g end, slowly) ->
-                  Layout.isPlain layout && slowly == Right (g, end) && g == f
-                (FastFrameReader.NotSimple, _) ->
-                  not (Layout.isPlain layout && ModalState.isSimple f && Frame.isMoving f)
-              isSame state rows = case readBoth state rows of
-                (FastFrameReader.Read g end, slowly) -> slowly == Right (g, end)
-                (FastFrameReader.NotSimple, _) -> True
-              changedRow rows = take k rows <> [w] <> drop (k + 1) rows
-              -- The state in which no axis and no feed has been written yet.
-              unwritten state =
-                (ModalState.initial (ModalState.changesHeight fs) (ModalState.position state))
-                  { ModalState.ordinal =
-                      ModalState.ordinal state
-                  }
-           in cover
-                20
-                (Layout.isPlain layout && any (\f -> ModalState.isSimple f && Frame.isMoving f) fs)
-                "frames that go straight"
-                $ conjoin
-                  [ counterexample
-                      (show f)
-                      ( isRead state f
-                          && isSame state (changedRow (rowsFor state f))
-                          && isSame state (rowsFor (unwritten state) f)
-                      )
-                    | (state, f) <- zip states fs
-                  ]
+        forAll (choose (0, 40)) $ \k ->
+          forAll (oneof [arbitrary, elements [0, 0xFF], numberRow m]) $ \w ->
+            let layout = Layout.fromMachine m
+                states =
+                  scanl
+                    (Layout.after layout)
+                    (ModalState.initial (ModalState.changesHeight fs) at)
+                    fs
+                rowsFor state f = map Layout.holes (FrameWriter.frameRows layout state f)
+                readBoth state rows =
+                  ( FastFrameReader.readFrame layout state (Short.pack rows) 0,
+                    FrameReader.wordByWord layout state (Short.pack rows) 0
+                  )
+                isRead state f = case readBoth state (rowsFor state f) of
+                  (FastFrameReader.Read g end, slowly) ->
+                    Layout.isPlain layout && slowly == Right (g, end) && g == f
+                  (FastFrameReader.NotSimple, _) ->
+                    not (Layout.isPlain layout && ModalState.isSimple f && Frame.isMoving f)
+                isSame state rows = case readBoth state rows of
+                  (FastFrameReader.Read g end, slowly) -> slowly == Right (g, end)
+                  (FastFrameReader.NotSimple, _) -> True
+                changedRow rows =
+                  take (index rows) rows <> [w] <> drop (index rows + 1) rows
+                index rows = k `mod` max 1 (length rows)
+                -- The state in which no axis and no feed has been written yet.
+                unwritten state =
+                  (ModalState.initial (ModalState.changesHeight fs) (ModalState.position state))
+                    { ModalState.ordinal =
+                        ModalState.ordinal state
+                    }
+             in cover
+                  20
+                  ( Layout.isPlain layout
+                      && any (\f -> ModalState.isSimple f && Frame.isMoving f) fs
+                  )
+                  "simple frames"
+                  $ conjoin
+                    [ counterexample
+                        (show f)
+                        ( isRead state f
+                            && isSame state (changedRow (rowsFor state f))
+                            && isSame state (rowsFor (unwritten state) f)
+                        )
+                      | (state, f) <- zip states fs
+                    ]
   it
     "an axis in the opposite direction negates its numbers and reverses the arcs (catches a sign \
     \that is forgotten)"
@@ -182,6 +191,12 @@ randomMachineLaws = do
        in isJust (Machine.axisForm m Machine.X)
             ==> Punch.write reversedX (mirroredPosition at) (map mirroredFrame fs)
               === Punch.write m at fs
+
+-- | Row of a symbol of a number, in the code of a machine.
+numberRow :: Machine -> Gen Word8
+numberRow m = elements [Symbol.holes (Symbol.symbol table c) | c <- "0123456789+-."]
+  where
+    table = Symbol.fromMachine m
 
 -- | Rows without those that the reader skips.
 withoutSkippedRows :: Machine -> ByteString -> ByteString
