@@ -234,7 +234,7 @@ framesOf context !made instructions = case instructions of
 -- | Make the frames of the next instruction. Commands go into the frame of the next move if there
 -- is room for them. Once the frames are too many or cannot be made, no more are added.
 next :: Context -> Making -> Instruction -> Making
-next context@Context {machine, grid, instructionContext} made instruction = case instruction of
+next context@Context {machine, instructionContext} made instruction = case instruction of
   Words region translation ->
     let (full, pending') =
           Command.add machine region (Command.numbers translation) (pending made)
@@ -250,7 +250,7 @@ next context@Context {machine, grid, instructionContext} made instruction = case
             foldl'
               (addStep context instruction)
               made {instructionFindings = findings}
-              (stepsOf machine grid (at made) instruction chordEnds)
+              (stepsOf context (at made) instruction chordEnds)
        in stepped
             { at = Rounding.rounded machine (Segment.end (segment final), snd (heights final)),
               here = origin final
@@ -331,15 +331,15 @@ frameOf machine feedMode pace begin ArcStep {target, turnsAbout} = case turnsAbo
 -- Steps of a run ----------------------------------------------------------------------------------
 
 -- | Steps of an instruction from a position, given the ends of the chords of its run.
-stepsOf :: Machine -> Arc.Grid -> Pulses3 -> Instruction -> [PathPosition] -> [ArcStep]
-stepsOf machine grid begin instruction chordEnds = case instruction of
+stepsOf :: Context -> Pulses3 -> Instruction -> [PathPosition] -> [ArcStep]
+stepsOf context@Context {machine} begin instruction chordEnds = case instruction of
   Words _ _ -> []
   Run {tolerance, run = m :| []}
     | Straight a b <- segment m,
       isForSegment tolerance ->
       map straightTo (Rounding.split machine begin ((a, fst (heights m)), (b, snd (heights m))))
   Run {tolerance, run} -> case Machine.arcs machine of
-    Arcs {} | Rounding.isLevel machine run -> arcSteps machine grid begin tolerance run
+    Arcs {} | Rounding.isLevel machine run -> arcSteps context begin tolerance run
     _ -> map straightTo (chordSteps machine begin run chordEnds)
   where
     isForSegment tolerance = case tolerance of
@@ -352,9 +352,9 @@ straightTo :: Pulses3 -> ArcStep
 straightTo target = ArcStep {target, turnsAbout = Nothing}
 
 -- | Steps of a level run on a machine with arcs.
-arcSteps :: Machine -> Arc.Grid -> Pulses3 -> ChordTolerance -> NonEmpty Move -> [ArcStep]
-arcSteps machine grid begin tolerance run = case tolerance of
-  OnCurve bounds -> curveSteps machine grid begin bounds run
+arcSteps :: Context -> Pulses3 -> ChordTolerance -> NonEmpty Move -> [ArcStep]
+arcSteps context@Context {machine} begin tolerance run = case tolerance of
+  OnCurve bounds -> curveSteps context begin bounds run
   Sagitta y -> ofSegment y y
   ArcBand inwards outwards -> ofSegment inwards outwards
   where
@@ -362,8 +362,7 @@ arcSteps machine grid begin tolerance run = case tolerance of
     pulse = Machine.pulse machine
     ofSegment inwards outwards =
       segmentSteps
-        machine
-        grid
+        context
         (ArcTolerance pulse (plus pulse inwards) (plus pulse outwards))
         (Chord.raisedToRounding machine tolerance)
         m
@@ -372,20 +371,20 @@ arcSteps machine grid begin tolerance run = case tolerance of
 
 -- | Steps of a level run along a curve: those of the division with the fewest steps. The deviation
 -- of the fitted arcs from the curve is subtracted from the tolerance of their steps.
-curveSteps :: Machine -> Arc.Grid -> Pulses3 -> Bounds -> NonEmpty Move -> [ArcStep]
-curveSteps machine grid begin bounds run =
+curveSteps :: Context -> Pulses3 -> Bounds -> NonEmpty Move -> [ArcStep]
+curveSteps context begin bounds run =
   minimumBy
     (comparing length)
     ( fmap
-        (concat . snd . mapAccumL (partSteps machine grid bounds (NonEmpty.head run)) begin)
-        (ArcFitting.divisions machine bounds run)
+        (concat . snd . mapAccumL (partSteps context bounds (NonEmpty.head run)) begin)
+        (ArcFitting.divisions (machine context) bounds run)
     )
 
 -- | Position at the end of a part of a run, and its steps. The given move of the run has its
 -- height.
 partSteps ::
-  Machine -> Arc.Grid -> Bounds -> Move -> Pulses3 -> RunPart -> (Pulses3, [ArcStep])
-partSteps machine grid bounds m begin part = case part of
+  Context -> Bounds -> Move -> Pulses3 -> RunPart -> (Pulses3, [ArcStep])
+partSteps context@Context {machine} bounds m begin part = case part of
   ArcFitting.Chords ms ->
     let ends = chordSteps machine begin ms (chordEndsOf machine (OnCurve bounds) ms)
      in (lastOr begin ends, map straightTo ends)
@@ -396,7 +395,7 @@ partSteps machine grid bounds m begin part = case part of
         ends = [Rounding.rounded machine (Segment.end s, level) | s <- NonEmpty.toList segments]
         parts =
           zipWith
-            (segmentSteps machine grid tolerance chordError m)
+            (segmentSteps context tolerance chordError m)
             (begin : ends)
             (NonEmpty.toList segments)
      in (lastOr begin ends, concat parts)
@@ -406,8 +405,8 @@ partSteps machine grid bounds m begin part = case part of
 
 -- | Steps along one segment, whose chords take all but the geometry from the given move.
 segmentSteps ::
-  Machine -> Arc.Grid -> ArcTolerance -> ChordTolerance -> Move -> Pulses3 -> Segment -> [ArcStep]
-segmentSteps machine grid tolerance chordError m =
+  Context -> ArcTolerance -> ChordTolerance -> Move -> Pulses3 -> Segment -> [ArcStep]
+segmentSteps Context {machine, grid} tolerance chordError m =
   Arc.steps
     grid
     tolerance

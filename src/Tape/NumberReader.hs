@@ -185,7 +185,7 @@ digitsUpTo layout rows end ds
             Just d <- [Symbol.digitAt table (Short.index rows k)]
         ]
 
--- | The same with a service track.
+-- | Read digits up to row @end@ with the service track beside them.
 serviceDigits :: Layout -> ShortByteString -> Int -> Digits -> Digits
 serviceDigits layout rows end ds =
   go (at ds) (amount ds) (negative ds) (commandBits ds) (braking ds) (weights ds) (services ds)

@@ -1,4 +1,4 @@
--- | The laws of curves on machines that walk arcs.
+-- | Laws of curves on machines with circular interpolation.
 module Frame.ArcFittingSpec (spec) where
 
 import Base.Quantity (Feed (..), Mm (..))
@@ -96,7 +96,7 @@ spec = describe "a curve" $ do
                 let counts = [NonEmpty.length (ArcFitting.arcs (Mm y) cut) | y <- [0.005, 0.05]]
             ]
 
--- | Whether frames and path are nowhere further from each other than so much and a pulse.
+-- | The law that frames and toolpath are nowhere further apart than the tolerance and a pulse.
 staysWithin :: Double -> Machine -> Toolpath -> Frame.FrameProgram -> Property
 staysWithin tolerance m path program =
   counterexample
@@ -108,7 +108,7 @@ staysWithin tolerance m path program =
     Mm pulse = Machine.pulse m
     most = tolerance + pulse + 1e-6
 
--- | A wave whose arcs are larger than 2 m, or nearly so.
+-- | Wave of arcs with radii of about 2 m and more.
 nearlyStraight :: Gen Case
 nearlyStraight = do
   a <- choose (0.3, 3)
@@ -120,7 +120,7 @@ nearlyStraight = do
     Right pieces -> pure Case {contour, side = LeftOf, radius = Mm 1, pieces}
     Left _ -> nearlyStraight
 
--- | Curves of many arcs take their time.
+-- | Law with few cases, because curves of many arcs take long.
 thirtyTimes :: Testable t => t -> Property
 thirtyTimes = withMaxSuccess 30 . property
 

@@ -1,4 +1,4 @@
--- | The laws of arcs in whole pulses.
+-- | Laws of arcs in whole pulses.
 module Frame.ArcSpec (spec) where
 
 import Base.PulseVector (Pulses2 (..), Pulses3 (..))
@@ -66,8 +66,7 @@ spec = do
               Mm r = Segment.radius (centre a) (start a)
               Rad exact = sweep a
               straight = length (filter (not . Made.isArc) (framesOf p))
-              -- A frame that is written straight turns by no more than half a pulse of sagitta
-              -- does.
+              -- A straight frame stands for a sweep with a sagitta of at most half a pulse.
               rounds = length (filter Made.isArc (framesOf p))
               slack =
                 fromIntegral (max 1 rounds) * 4 * pulse / r
@@ -204,7 +203,7 @@ onArc m a law =
           False
       Just p -> counterexample (show (take 12 (framesOf p))) (law p)
 
--- | A machine that neither brakes nor ends programs.
+-- | Machine without braking frames and without frames at the end of a program.
 withFramesOnly :: Machine -> Machine
 withFramesOnly m =
   m
@@ -218,11 +217,11 @@ framesOf = map frame . Frame.planned
 feed :: Part.Pace
 feed = Part.At (Located (Region 0 0) (Feed 60))
 
--- | The machines that walk arcs.
+-- | Machines with circular interpolation.
 machine :: Gen Machine
 machine = elements [m | m <- Machines.known, Machine.arcs m /= NoArcs]
 
--- | How far another arc is from the circle of one, at most.
+-- | Largest distance in mm of the second arc from the circle of the first.
 circleError :: Segment -> Segment -> Double
 circleError a w =
   maximum
@@ -233,16 +232,15 @@ circleError a w =
   where
     Mm r = Segment.radius (centre a) (start a)
 
--- | Whether some lattice point near the centre of an arc gives one frame that stays well within a
--- pulse.
+-- | True if some grid point near the centre of an arc gives one frame well within a pulse.
 fitsOneFrame :: Machine -> Segment -> Bool
 fitsOneFrame m a = any (<= 0.98 * pulse) (errorsAbout 3 m a)
   where
     Mm pulse = Machine.pulse m
 
--- | How far frames about lattice points are off in mm, so many pulses from the centre of an arc at
--- most, that stay well within a pulse with the radius of either end and turn by what the arc turns,
--- as far as one frame may.
+-- | Deviations in mm of one frame for an arc, about each grid point up to @most@ pulses from its
+-- centre. Only those are listed that stay well within a pulse with the radius of either end, whose
+-- radii differ by at most two pulses, and that keep the sweep of the arc.
 errorsAbout :: Double -> Machine -> Segment -> [Double]
 errorsAbout most m a =
   [ arcError a c w
@@ -265,19 +263,20 @@ errorsAbout most m a =
     Mm pulse = Machine.pulse m
     on p = Vec.point (nearest (Vec.x p)) (nearest (Vec.y p))
     nearest x = pulse * fromIntegral (floor (x / pulse + 0.5) :: Int)
-    -- With the radius of the end all the way.
+    -- The arc with the radius of its end throughout.
     withEndRadius c w =
       let k =
             distance c (end w) / distance c (start w)
           scaled p = Vec.shift (Vec.scale k (Vec.to c p)) c
        in w {start = scaled (start w), end = scaled (end (withStartRadius c w))}
 
--- | With the radius of its beginning all the way, or going evenly to that of its end.
+-- | Largest deviation in mm of an arc about the point @c@, with the radius of its beginning or with
+-- a linear change to that of its end.
 arcError :: Segment -> Point -> Segment -> Double
 arcError a c w = max (circleError a (withStartRadius c w)) (linearError a c w)
 
--- | How far an arc about a point is off another one at most, when its radius changes evenly from
--- the beginning to the end.
+-- | Largest deviation in mm of an arc about the point @c@ whose radius changes linearly from its
+-- beginning to its end.
 linearError :: Segment -> Point -> Segment -> Double
 linearError a c w =
   maximum
@@ -294,7 +293,7 @@ linearError a c w =
                 c
     ]
 
--- | With the radius of the beginning all the way.
+-- | Arc with the radius of its beginning throughout.
 withStartRadius :: Point -> Segment -> Segment
 withStartRadius c w =
   let r =
@@ -308,8 +307,8 @@ circle :: Point -> Double -> Segment
 circle c r =
   let a = Vec.shift (Vec.vec r 0) c in Arc {start = a, end = a, centre = c, sweep = Rad (2 * pi)}
 
--- | Arcs of all sizes: from a hundredth of a millimetre to a metre, now and then nearly circles,
--- nearly nothing, with ends and centres on the axes and on the grid.
+-- | Arcs of all sizes, with radii from a hundredth of a millimetre to a metre. Some are nearly full
+-- circles, some nearly points; some have ends and centres on the axes or on the grid.
 arc :: Gen Segment
 arc = do
   r <- oneof [(10 **) <$> choose (-2, 3), fromIntegral <$> choose (1, 60 :: Int)]
@@ -340,7 +339,7 @@ ordinaryArc sweeps = do
   s <- choose sweeps
   arcAt <$> (Vec.point <$> offGrid <*> offGrid) <*> pure r <*> choose (-4, 4) <*> elements [s, -s]
 
--- | Arcs that begin and end well within quadrants or on the axes, with the number of quadrants.
+-- | Arcs that begin and end on the axes or well within quadrants, with the number of quadrants.
 arcWithQuadrants :: Gen (Segment, Int)
 arcWithQuadrants = do
   r <- choose (2, 300)

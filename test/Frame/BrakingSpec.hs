@@ -1,4 +1,4 @@
--- | The laws of braking, held against a walk along the frames and along the path.
+-- | Laws of braking, compared with sums over the frames and over the toolpath.
 module Frame.BrakingSpec (spec) where
 
 import Base.PulseVector (Pulses3 (..))
@@ -32,7 +32,7 @@ spec = do
         forAll moves $ \ms -> onMachine ms $ \m fs ->
           let pulse = let Mm g = Machine.pulse m in g
               lengths = map fst fs
-              -- Lower feeds behind a frame with the way up to them; the last one is the end of the
+              -- Lower feeds after a frame with the distance to them; the last one is the end of the
               -- program.
               ahead k =
                 [ (v, sum (take (j - k - 1) (drop (k + 1) lengths)), j - k)
@@ -112,7 +112,7 @@ framesFor m ms =
         )
     )
 
--- | The ways of the frames in mm with their feeds in mm/s; none in those that slow down.
+-- | Lengths of the frames in mm with their feeds in mm/s; no feed for braking frames.
 onMachine :: Testable t => [Move] -> (Machine -> [(Double, Maybe Double)] -> t) -> Property
 onMachine ms law =
   forAllBlind (elements (map Machines.named ["lki-fm", "lki-u", "lki-un"])) $ \m ->
@@ -129,8 +129,8 @@ onMachine ms law =
               ]
           )
 
--- | The way on which the feeds that the machine gets are too fast for what comes behind, step by
--- step.
+-- | Length in mm on which the obtained feeds are too high for a later lower feed, summed in small
+-- steps.
 neededLength :: Machine -> [Move] -> Double
 neededLength m ms =
   sum
@@ -149,7 +149,7 @@ neededLength m ms =
       At (Located _ (Feed v)) -> case Machine.choose m v of
         Machine.Given _ g -> g / 60
         Machine.NoSuchFeed _ _ -> v / 60
-    -- The lower feeds behind the end of each move, and how far behind.
+    -- The lower feeds after the end of each move, and their distances.
     feedLimits = [[(s, v2) | (s, v2) <- limits k] | k <- [0 .. length ms - 1]]
     limits k =
       concat
@@ -166,7 +166,7 @@ neededLength m ms =
     tooFast v rest later =
       or [v * v > v2 * v2 + 2 * 5 * (rest + s) | (s, v2) <- later]
 
--- | Lines and arcs one behind the other, at all feeds, now and then slow at their ends.
+-- | Consecutive lines and arcs at all feeds, some of them with braking at their ends.
 moves :: Gen [Move]
 moves = do
   n <- choose (1, 6)

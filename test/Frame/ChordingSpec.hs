@@ -1,4 +1,4 @@
--- | The laws of chords along a curve.
+-- | Laws of chords along a curve.
 module Frame.ChordingSpec (spec) where
 
 import Base.Quantity (Feed (..), Mm (..), Rad (..))
@@ -218,7 +218,7 @@ spec = do
       let at t = Vec.point (r * cos t) (r * sin t)
       pure (Arc (at 0.7) (at (0.7 + sign * s)) (Vec.point 0 0) (Rad (sign * s)))
 
--- | The ends of the chords of a chain, from its beginning on.
+-- | Ends of the chords of a chain of segments.
 chordsOf :: Bounds -> [Segment] -> [Point]
 chordsOf b ss = map fst (Chording.chordEnds 100000 b (Curve.run ss))
 
@@ -228,19 +228,19 @@ bounds = do
   b <- oneof [pure a, elements [0.005, 0.02, 0.1, 1]]
   pure Bounds {left = Mm a, right = Mm b, rise = Mm 0.01, shortest = Mm 0.001}
 
--- | Bounds that ask for a few chords of a curve of a length.
+-- | Bounds under which a curve of the given length has few chords.
 coarseBounds :: Double -> Gen Bounds
 coarseBounds whole = do
   a <- (whole *) . (10 **) <$> choose (-3.2, -1.2)
   b <- oneof [pure a, (a *) <$> choose (0.1, 1)]
   pure Bounds {left = Mm a, right = Mm b, rise = Mm 0.01, shortest = Mm 0.001}
 
--- | How far beside a chain its chords may meet: in the middle of what is allowed.
+-- | Largest distance from the chain at which chords may meet: the middle between the two bounds.
 largestOffset :: Bounds -> Double
 largestOffset Bounds {left = Mm l, right = Mm r} = abs (l - r) / 2
 
--- | Of each chord, the stretches of the chain that it stands for: segments with the fractions from
--- which and to which. Each end is looked for behind the one before.
+-- | Chords with the parts of the chain that they replace: segments with their first and last
+-- fraction. Each end of a chord is searched after the previous one.
 coveredParts :: Bounds -> [Segment] -> [Point] -> [(Point, Point, [(Segment, Double, Double)])]
 coveredParts b ss ends = go (Segment.start (head ss)) [(s, 0) | s <- ss] ends
   where
@@ -256,12 +256,12 @@ coveredParts b ss ends = go (Segment.start (head ss)) [(s, 0) | s <- ss] ends
         where
           u
             | Vec.distance q (Segment.end s) <= Mm 1e-12 = 1
-            -- A foot a hair before the beginning of an arc is told as one a turn behind it.
+            -- A foot just before the beginning of an arc has a fraction of nearly a whole turn.
             | Arc {sweep = Rad a} <- s, 2 * pi - Segment.fraction s q * abs a <= 1e-9 = 0
             | otherwise = Segment.fraction s q
           Mm off = Vec.distance q (Segment.at u s)
 
--- | By how much some point of a chain is further from its chord than it may be, at most.
+-- | Largest excess in mm of a point of the chain over the bounds of its chord.
 largestExcess :: Bounds -> [Segment] -> [Point] -> Double
 largestExcess b ss ends =
   maximum
@@ -269,7 +269,7 @@ largestExcess b ss ends =
   where
     offs p q s t u = [excessOf b p q (Segment.at (t + (u - t) * k / 8) s) | k <- [0 .. 8]]
 
--- | By how much a point is further from a chord than it may be.
+-- | Excess in mm of a point over the bounds of a chord.
 excessOf :: Bounds -> Point -> Point -> Point -> Double
 excessOf b@Bounds {left = Mm l, right = Mm r} p q x =
   maximum
@@ -283,8 +283,8 @@ excessOf b@Bounds {left = Mm l, right = Mm r} p q x =
     aside = Vec.cross along (Vec.to p x)
     ahead = Vec.dot along (Vec.to p x)
 
--- | By how much the height of a run differs from that of its chords at the ends of its moves, at
--- most.
+-- | Largest difference in mm between the heights of a run and of its chords, at the ends of its
+-- moves.
 largestHeightError :: Bounds -> [Move] -> [(Point, Double)] -> Double
 largestHeightError b moves ends =
   maximum
@@ -307,8 +307,7 @@ largestHeightError b moves ends =
               Just h <- [lookup s levels]
           ]
 
--- | Places along a chain about equally far apart, with the direction there, not reduced to one
--- turn.
+-- | About equidistant points of a chain with the direction there, which is not reduced to one turn.
 grid :: Int -> [Segment] -> Vector (Point, Double)
 grid n ss =
   Vector.fromList (concat (zipWith points headings ss) <> [(Segment.end (last ss), last headings)])
@@ -326,13 +325,13 @@ grid n ss =
       Straight _ _ -> 0
       Arc {sweep = Rad a} -> a
 
--- | The fewest chords between places of a grid, each of which keeps the places between within the
--- bounds and does not turn by more than a quarter turn.
+-- | Least number of chords between points of a grid. Each chord keeps the points between its ends
+-- within the bounds and spans at most a quarter turn.
 fewestOn :: Bounds -> Vector (Point, Double) -> Int
 fewestOn b points = go 0 [0] [1 .. final]
   where
     final = Vector.length points - 1
-    -- The places that so many chords reach and no fewer, and those that they do not.
+    -- The points that need exactly n chords, and those that need more.
     go :: Int -> [Int] -> [Int] -> Int
     go n reached others
       | null reached || final `elem` reached = n

@@ -1,4 +1,4 @@
--- | The laws of commands.
+-- | Laws of commands.
 module Frame.CommandSpec (spec) where
 
 import Base.Quantity (Feed (..), Mm (..))
@@ -137,7 +137,7 @@ spec = do
     kontur = Machines.named "kontur-3p"
     iso = Machines.named "iso6983"
 
--- | Commands and moves so far along x.
+-- | Frames of commands and of moves along x, whose lengths are given in mm.
 quantised :: Machine -> [Either Command Double] -> Result.Result Warning Error Frame.FrameProgram
 quantised m parts = Made.quantised m (base {blocks = blocksFrom 0 parts})
   where
@@ -153,7 +153,7 @@ quantised m parts = Made.quantised m (base {blocks = blocksFrom 0 parts})
           )
           <> blocksFrom (x + d) more
 
--- | Whether each frame moves, and what it commands.
+-- | Commands of each frame, and True for a frame with a motion.
 commandsOf :: Machine -> [Either Command Double] -> [(Bool, [(Text, Int)])]
 commandsOf m parts =
   [ (Frame.isMoving f, [(w, n) | (CommandName w, n) <- orders f])

@@ -1,4 +1,4 @@
--- | The laws of feeds.
+-- | Laws of feed codes.
 module Frame.FeedCodeSpec (spec) where
 
 import Base.PulseVector (Pulses3 (..))
@@ -130,8 +130,8 @@ spec = do
             (Frame.Straightway, FeedCode 9)
           ]
   where
-    -- In mm/min: so often a second a pulse of 0.01 mm of the axis that goes further, and more along
-    -- the way.
+    -- The feed in mm/min: the frequency times the pulse of 0.01 mm gives the speed of the leading
+    -- axis; the speed along the path is higher.
     obtained f =
       let Pulses3 (Pulses x) (Pulses y) _ = increment f
           (dx, dy) = (fromIntegral (abs x), fromIntegral (abs y)) :: (Double, Double)
@@ -155,7 +155,7 @@ here = Located (Region 0 0) . Feed
 kontur :: Machine
 kontur = Machine.forTurning (Machines.named "kontur-3p")
 
--- | The first moves of the shaft.
+-- | First moves of the shaft.
 shaftPath :: Toolpath
 shaftPath =
   toward

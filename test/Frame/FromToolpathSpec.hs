@@ -1,4 +1,4 @@
--- | The laws of frames.
+-- | Laws of frames.
 module Frame.FromToolpathSpec (spec) where
 
 import Base.Quantity (Feed (..), Mm (..), Rad (..))
@@ -134,7 +134,7 @@ spec = do
               ) of
               Nothing -> counterexample "no path" False
               Just path -> case Made.program m path of
-                -- A tolerance may be larger than the cutter.
+                -- The tolerance is too large for the cutter.
                 Nothing -> label "none" True
                 Just p ->
                   Proof.findings (Verify.prove m path p (map frame (Frame.planned p))) === []
@@ -254,7 +254,7 @@ spec = do
             [Toolpath.Travelling (Mm 0) [down]]
             False
 
--- | The path around so many squares.
+-- | Toolpath along @n@ contours.
 contoursOf :: Int -> Toolpath
 contoursOf n =
   Made.pathOf
@@ -282,7 +282,7 @@ errorsOn m path =
 machine :: Gen Machine
 machine = elements Machines.known
 
--- | A law of the frames of a path on a machine.
+-- | Law of the frames of a toolpath on a machine.
 onPath ::
   Testable t =>
   Machine ->
@@ -302,7 +302,7 @@ chordsOf :: Double -> Segment -> [Segment]
 chordsOf y a =
   let ends = start a : FromToolpath.chords lkp01f (Mm y) a in zipWith Straight ends (drop 1 ends)
 
--- | Arcs from a hundredth of a millimetre to ten metres.
+-- | Arcs with radii from a hundredth of a millimetre to ten metres.
 arc :: Gen Segment
 arc = do
   r <- (10 **) <$> choose (-2, 4)

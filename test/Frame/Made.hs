@@ -1,4 +1,5 @@
--- | Frames for the laws: programs compiled as far as the path, and what the frames walk.
+-- | Frames for the laws: toolpaths of small programs, their frames, and the segments that the
+-- frames describe.
 module Frame.Made
   ( pathOf,
     pathAlong,
@@ -38,7 +39,7 @@ import Toolpath.FromPart qualified as Toolpath
 import Toolpath.Toolpath (Block (..), Move (Move), Toolpath (Toolpath))
 import Toolpath.Toolpath qualified as Toolpath
 
--- | The path of a program that has no mistakes.
+-- | Toolpath of a program without errors.
 pathOf :: Text -> Toolpath
 pathOf text = need "path" (Toolpath.lay part)
   where
@@ -48,7 +49,7 @@ pathOf text = need "path" (Toolpath.lay part)
     need :: String -> Result w e a -> a
     need what = fromMaybe (error ("the program of the test has no " <> what)) . Result.output
 
--- | A path without cutting along segments that follow one another, at one height.
+-- | Toolpath of linking moves along consecutive segments, at one height.
 pathAlong :: Pace -> [Segment] -> Toolpath
 pathAlong pace segments = case segments of
   [] -> error "a path of nothing"
@@ -69,7 +70,7 @@ quantised = FromToolpath.quantise
 program :: Machine -> Toolpath -> Maybe FrameProgram
 program machine = Result.settled . quantised machine
 
--- | What each frame does in the plane.
+-- | Line or arc of each frame in the plane.
 frameSegments :: Machine -> FrameProgram -> [Segment]
 frameSegments machine p =
   zipWith (Frame.segment machine) (scanl (+) (Frame.start p) (map increment frames)) frames
@@ -84,7 +85,8 @@ isArc f = case motion f of
 arcCount :: FrameProgram -> Int
 arcCount = length . filter (isArc . frame) . planned
 
--- | How far the points of some segments are from others: in 24ths, or fewer where there are many.
+-- | Largest distance in mm of the points of @these@ from @those@. Each segment has up to 25 points,
+-- fewer if there are many segments.
 largestDistance :: [Segment] -> [Segment] -> Double
 largestDistance those these =
   maximum
@@ -98,7 +100,7 @@ largestDistance those these =
   where
     parts = max 2 (min 24 (1000 `div` max 1 (length these))) :: Int
 
--- | The ends of the moves along contours.
+-- | Ends of the moves along contours.
 nodesOf :: Toolpath -> [Point]
 nodesOf path =
   [ Segment.end (Toolpath.segment m)

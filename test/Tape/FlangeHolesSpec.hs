@@ -1,5 +1,5 @@
--- | The table of docs/machines.md: which share of all single holes, one more or one less, reading a
--- tape of the flange finds. With PARTC_RECORD set the table is written anew.
+-- | Table in docs/machines.md: the share of all single wrong holes, one more or one less, that
+-- reading a tape of the flange finds. With PARTC_RECORD set the table is written anew.
 module Tape.FlangeHolesSpec (spec) where
 
 import Base.Decimal qualified as Decimal
@@ -45,7 +45,7 @@ spec = describe "docs/machines.md" $
     heading = "| machine | single holes | found by reading | read as other frames |"
     rule = "|---|--:|--:|--:|"
 
--- | A line of the table; a text is not punched.
+-- | Line of the table; none for a machine whose tape is a text.
 row :: Machine -> [Text]
 row machine = case Machine.pitch (Machine.medium machine) of
   Nothing -> []

@@ -1,4 +1,4 @@
--- | Tapes with one hole more or less, and how many of them a machine's tape gives away.
+-- | Tapes with one hole more or less, and the share of them that reading finds.
 module Tape.Holes (Share (..), share, changes) where
 
 import Base.PulseVector (Pulses3)
@@ -10,12 +10,12 @@ import Machine.Machine qualified as Machine
 import Tape.Punch qualified as Punch
 import Tape.Tape (Tape (..))
 
--- | Of so many single holes so many are found, and these are read as other frames: row from 1 and
--- track. The rest changes nothing.
+-- | Number of single holes tried, number of those found, and those that are read as other frames,
+-- by their row from 1 and their track. The remaining ones change nothing.
 data Share = Share {tried :: Int, found :: Int, unseen :: [(Int, Int)]}
   deriving stock (Eq, Show)
 
--- | What reading finds of all single holes in the tape of some frames.
+-- | Share of single holes in the tape of some frames that reading finds.
 share :: Machine -> Pulses3 -> [Frame] -> Share
 share machine start frames =
   Share
@@ -29,7 +29,7 @@ share machine start frames =
         | (position, t) <- changes machine (Punch.write machine start frames)
       ]
 
--- | Every tape that differs in one hole on one of its tracks, with its row from 1 and the track.
+-- | All tapes that differ in one hole, with its row from 1 and its track.
 changes :: Machine -> Tape -> [((Int, Int), Tape)]
 changes machine (Tape rows) =
   [ ((k + 1, track), Tape (before <> ByteString.cons (complementBit w (track - 1)) after))

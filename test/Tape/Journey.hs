@@ -1,5 +1,4 @@
--- | Frames that every machine can be told: round a plate, with arcs, rapid moves and commands where
--- it has them.
+-- | Frames around a plate for every machine, with arcs, rapid moves and commands where it has them.
 module Tape.Journey (machines, start, journey) where
 
 import Base.PulseVector (Pulses2 (..), Pulses3 (..))
@@ -21,14 +20,14 @@ import Machine.Machine
 import Machine.Machine qualified as Machine
 import Machines qualified
 
--- | The machines that the tapes are tried on.
+-- | Machines on which the tapes are tested.
 machines :: [Machine]
 machines = Machines.known
 
 start :: Pulses3
 start = Pulses3 500 (-200) 100
 
--- | Frames that keep the invariants of a machine; the same way round for all.
+-- | Frames that keep the rules of a machine, with the same increments for all machines.
 journey :: Machine -> [Frame]
 journey machine =
   filter
@@ -103,7 +102,7 @@ journey machine =
       or [s == BrakingHole | w <- Machine.wordsOf machine, s <- Machine.service (Machine.form w)]
     hasZ = Machine.capacity machine Z > 0
 
--- | Some codes from low to high.
+-- | Some feed codes from low to high.
 feedCodes :: Machine -> [FeedCode]
 feedCodes machine = case Machine.codes (Machine.feeds machine) of
   Direct a b -> [FeedCode (max a (min b n)) | n <- [60, 240, 900]]
