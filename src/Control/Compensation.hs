@@ -42,6 +42,7 @@ import Geometry.Vec (Point)
 import Geometry.Vec qualified as Vec
 import Machine.Machine (CommandValue (..), CommandWord (..), CompensationCommands (..), Machine)
 import Machine.Machine qualified as Machine
+import Toolpath.Tolerance qualified as Tolerance
 
 -- | Programmed motion and the path of the cutter's centre in it, in the plane: the arc round the
 -- corner before it, if there is one, then the offset. A vertical motion has a path without length.

@@ -56,6 +56,7 @@ import Offset.SourceOffset
     numberOf,
   )
 import Offset.SourceOffset qualified as SourceOffset
+import Offset.Tolerance qualified as Tolerance
 import Offset.TrimmedOffset (TrimmedOffset (TrimmedOffset))
 import Offset.TrimmedOffset qualified as TrimmedOffset
 
@@ -94,7 +95,7 @@ pointed source = concatMap along [0 .. elementCount source - 1]
   where
     along i =
       OffsetSegment (Along i) (SourceOffset.shortened (front (cutsAfter (previous i))) (back (cutsAfter i)) (movedElement source i)) :
-      [OffsetSegment (Around i) s | Just s <- [SourceOffset.cornerStep source i]]
+        [OffsetSegment (Around i) s | Just s <- [SourceOffset.cornerStep source i]]
     previous i = if i == 0 then elementCount source - 1 else i - 1
     cutsAfter i = SourceOffset.cutsAt source i (movedElement source i) (movedElement source (next source i))
 
@@ -229,7 +230,8 @@ gapBetween source p q =
           Just r <- radiusOf tight,
           r <= plus (distanceAt source tight) Tolerance.clearance ->
           [ Concave tight r
-            | let Mm d = minus (distanceAt source tight) r, Mm d > Tolerance.clearance
+            | let Mm d = minus (distanceAt source tight) r,
+              Mm d > Tolerance.clearance
           ]
       (o, o') -> [Collision (numberOf o) (numberOf o') (Segment.end (segment p))]
     radiusOf i = case elements source Vector.! i of

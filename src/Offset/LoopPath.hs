@@ -56,6 +56,7 @@ import Offset.SourceOffset
     next,
     shortened,
   )
+import Offset.Tolerance qualified as Tolerance
 
 -- | Loops of the kernel, the raw offset that they are parts of, and the number of the element for
 -- each segment of the flat contour.
@@ -261,7 +262,8 @@ isNegligible structure run = case origin run of
 jointBetween :: OffsetSource -> OffsetSource -> Origin -> Run -> Maybe Cuts
 jointBetween structure source p run = case (p, origin run) of
   (Along i, Along j)
-    | j == next source i, not (isConnecting run) -> case cornerAt structure i of
+    | j == next source i,
+      not (isConnecting run) -> case cornerAt structure i of
       Smooth -> agreed i j
       Slight _ -> agreed i j
       Outer -> Nothing

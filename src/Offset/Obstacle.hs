@@ -23,11 +23,13 @@ import Data.Vector qualified as Vector
 import Geometry.Distance (ClosestPoint (..))
 import Geometry.Distance qualified as Distance
 import Geometry.Index.BoundingBox qualified as BoundingBox
+import Geometry.Index.BoxTree qualified as BoxTree
 import Geometry.Segment (Segment (..))
 import Geometry.Segment qualified as Segment
 import Geometry.Tolerance qualified as Tolerance
 import Geometry.Vec (Point)
 import Offset.SourceOffset
+import Offset.Tolerance qualified as Tolerance
 
 -- | A reason why a cutter does not fit, and the largest radius that fits, if there is one.
 data Obstacle = Obstacle {cause :: Cause, largest :: Maybe Mm}
@@ -104,12 +106,12 @@ gouges source = concatMap gougesOf
   where
     count = elementCount source
     index =
-      BoundingBox.index
+      BoxTree.index
         (BoundingBox.ofSegment . snd)
         (Vector.toList (Vector.indexed (elements source)))
     gougesOf (OffsetSegment o s) =
       [ (d, numberOf o, j, p)
-        | (j, other) <- BoundingBox.select (isNear s) index,
+        | (j, other) <- BoxTree.select (isNear s) index,
           let ClosestPoint d p = Distance.segments s other,
           plus d Tolerance.clearance < distanceAt source j
       ]

@@ -26,9 +26,9 @@ import Geometry.Polyarc (Ends (..), Polyarc (..))
 import Geometry.Polyarc qualified as Polyarc
 import Geometry.Segment (Segment (..))
 import Geometry.Segment qualified as Segment
-import Geometry.Tolerance qualified as Tolerance
 import Geometry.Vec (Point)
 import Offset.SourceOffset (OffsetSegment (..), Origin (..), leftward, numberOf)
+import Offset.Tolerance qualified as Tolerance
 import Offset.TrimmedOffset (TrimmedOffset)
 import Offset.TrimmedOffset qualified as TrimmedOffset
 

@@ -51,6 +51,7 @@ import Geometry.Segment qualified as Segment
 import Geometry.Tolerance qualified as Tolerance
 import Geometry.Vec (Point)
 import Geometry.Vec qualified as Vec
+import Offset.Tolerance qualified as Tolerance
 
 -- | The shape of outer corners, and the allowances of single elements.
 data CornerStyle = CornerStyle

@@ -23,7 +23,6 @@ import Geometry.Polyarc (Ends (..))
 import Geometry.Polyarc qualified as Polyarc
 import Geometry.Segment (Segment (..))
 import Geometry.Segment qualified as Segment
-import Geometry.Tolerance qualified as Tolerance
 import Geometry.Vec qualified as Vec
 import Offset.Loop qualified as Loop
 import Offset.LoopPath (Circuit (Circuit), Run (firstFlat, isBeside, lastFlat))
@@ -38,6 +37,7 @@ import Offset.SourceOffset
     numberOf,
   )
 import Offset.SourceOffset qualified as SourceOffset
+import Offset.Tolerance qualified as Tolerance
 
 -- | A path of the centre without a gap, closed or from end to end.
 data TrimmedOffset = TrimmedOffset

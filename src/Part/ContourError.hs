@@ -20,10 +20,10 @@ import Data.Text qualified as Text
 import Geometry.Carrier (Sense (..))
 import Geometry.Construction.Fillet qualified as Fillet
 import Geometry.ElementCarrier (ElementCarrier (..))
-import Geometry.Tolerance qualified as Tolerance
 import Geometry.Vec (Point)
 import Geometry.Vec qualified as Vec
 import Part.ErrorText (andMore, at, describe, downTo, stop)
+import Part.Tolerance qualified as Tolerance
 import Report.Report (Label (..), Report (..), ReportCode, quote)
 
 -- | A fault of a contour; the region that the report points at comes first.

@@ -44,6 +44,7 @@ import Geometry.Tolerance qualified as Tolerance
 import Geometry.Transformation (Transformation)
 import Geometry.Vec (Point)
 import Geometry.Vec qualified as Vec
+import Part.Tolerance qualified as Tolerance
 
 -- | Rows of x and y in mm, and of columns with these names in units of mm, radians and minutes.
 data PartTable = PartTable {rows :: NumberTable, names :: [Name]}

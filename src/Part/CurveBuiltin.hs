@@ -42,6 +42,7 @@ import Part.Evaluation qualified as Evaluation
 import Part.Parameter (Range (FromTo))
 import Part.Parameter qualified as Parameter
 import Part.Selection (answerPoints, picked)
+import Part.Tolerance qualified as Tolerance
 import Part.Value
 
 -- | The value of a function of tables or curves; nothing for other functions and arguments.

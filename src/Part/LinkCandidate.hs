@@ -33,6 +33,7 @@ import Geometry.Tolerance qualified as Tolerance
 import Geometry.Vec (Point, Vec)
 import Geometry.Vec qualified as Vec
 import Part.ContourError (ContourFault (..), LinkFault (..), Neighbours (..))
+import Part.Tolerance qualified as Tolerance
 
 -- | A link with its values.
 data Link

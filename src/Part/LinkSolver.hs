@@ -39,6 +39,7 @@ import Part.Curve (PartCurve)
 import Part.LinkCandidate (Joint (..), Link (..))
 import Part.LinkCandidate qualified as LinkCandidate
 import Part.Part (Element (Element, continues, origin, segment), Finish, plainFinish)
+import Part.Tolerance qualified as Tolerance
 
 -- | An element of a contour, and the link to the element after it.
 data LinkedElement = LinkedElement

@@ -22,11 +22,11 @@ import Base.Region (Located (..), Region)
 import Data.Text (Text)
 import Geometry.Segment (Segment (..))
 import Geometry.Segment qualified as Segment
-import Geometry.Tolerance qualified as Tolerance
 import Geometry.Vec (Point)
 import Geometry.Vec qualified as Vec
 import Part.Part (Contour (contourName), Element (..), Side (..))
 import Report.Report (Label (..), Report (..))
+import Toolpath.Tolerance qualified as Tolerance
 import Toolpath.WarningReport
 
 data Error

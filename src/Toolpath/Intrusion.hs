@@ -20,10 +20,13 @@ import Data.Ord (comparing)
 import Geometry.Distance (ClosestPoint (..))
 import Geometry.Distance qualified as Distance
 import Geometry.Index.BoundingBox qualified as BoundingBox
+import Geometry.Index.BoxTree (BoxTree)
+import Geometry.Index.BoxTree qualified as BoxTree
 import Geometry.Segment (Segment (Arc, Straight))
 import Geometry.Segment qualified as Segment
 import Geometry.Tolerance qualified as Tolerance
 import Geometry.Vec qualified as Vec
+import Offset.Tolerance qualified as Tolerance
 import Part.Part
   ( Contour (elements),
     Milling (contour, radius, side),
@@ -63,7 +66,7 @@ depth e = case e of
 
 -- | All machined contours of a program.
 data Machined = Machined
-  { index :: BoundingBox.Index Wall,
+  { index :: BoxTree Wall,
     -- | the largest height at which a tool still cuts, in mm
     top :: Mm,
     -- | the number of every milling statement that has walls
@@ -75,7 +78,7 @@ data Machined = Machined
 data Wall = Wall
   { statement :: Int,
     milling :: Milling,
-    groups :: BoundingBox.Index (NonEmpty Part.Element)
+    groups :: BoxTree (NonEmpty Part.Element)
   }
 
 -- | The number of elements in one bounding box.
@@ -85,14 +88,14 @@ groupSize = 16
 machinedOf :: [Block] -> Machined
 machinedOf blocks =
   Machined
-    { index = BoundingBox.index (BoundingBox.around . groups) walls,
+    { index = BoxTree.index (BoxTree.around . groups) walls,
       -- The axis of a blade may be above the top of the part while the blade is in it.
       top = maximum (Mm 0 : [Swivel.highest milling | Wall {milling} <- walls]),
       statements = map statement walls
     }
   where
     walls =
-      [ Wall n milling (BoundingBox.index boxOf (concatMap (grouped . NonEmpty.toList . elements) cs))
+      [ Wall n milling (BoxTree.index boxOf (concatMap (grouped . NonEmpty.toList . elements) cs))
         | (n, milling, cs) <-
             map NonEmpty.head (NonEmpty.groupBy ((==) `on` numberOf) (mapMaybe contoursOf blocks))
       ]
@@ -185,9 +188,9 @@ intrusionsOfMove machined intruder m
 hits :: Machined -> Intruder -> Move -> [(Int, Error)]
 hits machined Intruder {tool, own, leaving} m =
   [ (statement wall, e)
-    | wall <- BoundingBox.within reach (index machined),
+    | wall <- BoxTree.within reach (index machined),
       Just (statement wall) /= own,
-      group <- BoundingBox.within reach (groups wall),
+      group <- BoxTree.within reach (groups wall),
       element <- NonEmpty.take groupSize group,
       BoundingBox.meets reach (BoundingBox.ofSegment (Part.segment element)),
       Just e <- [hit tool (keptFrom wall) (milling wall) m element]

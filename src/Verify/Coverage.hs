@@ -28,6 +28,7 @@ import Geometry.Segment (Segment)
 import Geometry.Segment qualified as Segment
 import Geometry.Tolerance qualified as Tolerance
 import Geometry.Vec (Point)
+import Offset.Tolerance qualified as Tolerance
 
 -- | Set of members that may cover a segment.
 data Cover a = Cover

@@ -8,6 +8,7 @@ import Base.Quantity (Mm (..), minus, plus, times)
 import Base.Region (Located (..))
 import Geometry.Distance qualified as Distance
 import Geometry.Index.BoundingBox qualified as BoundingBox
+import Geometry.Index.BoxTree qualified as BoxTree
 import Geometry.Segment qualified as Segment
 import Geometry.Vec (Point)
 import Machine.Machine (Machine)
@@ -34,14 +35,14 @@ foreignCuts machine path own motions =
     pulse = Machine.pulse machine
     isDeep z = z < minus (Mm 0) pulse
     index =
-      BoundingBox.index
+      BoxTree.index
         (BoundingBox.ofSegment . segment)
         (filter ((< Mm 0) . lowest) own)
     slack = plus (times 2 pulse) (times 2 (largestTolerance path))
     isKnown p z =
       or
         [ Distance.toPoint p (segment o) <= slack && lowest o <= plus z pulse
-          | o <- BoundingBox.within (BoundingBox.inflate slack (BoundingBox.ofPoints p [])) index
+          | o <- BoxTree.within (BoundingBox.inflate slack (BoundingBox.ofPoints p [])) index
         ]
 
 -- | Lower one of the heights of a motion.

@@ -18,8 +18,8 @@ import Geometry.Index.BoundingBox qualified as BoundingBox
 import Geometry.Index.BoxTree (BoxTree)
 import Geometry.Index.BoxTree qualified as BoxTree
 import Geometry.Segment (Segment)
-import Geometry.Tolerance qualified as Tolerance
 import Geometry.Vec (Point)
+import Offset.Tolerance qualified as Tolerance
 import Part.Part (Element)
 import Part.Part qualified as Part
 import Verify.Edge (Edge (element, shape))

@@ -21,13 +21,13 @@ import Data.Maybe (fromMaybe, isJust)
 import Geometry.Carrier (Side (..))
 import Geometry.Index.BoxTree (BoxTree)
 import Geometry.Segment qualified as Segment
-import Geometry.Tolerance qualified as Tolerance
 import Geometry.Vec (Point)
 import Geometry.Vec qualified as Vec
 import Machine.Machine (Machine)
 import Machine.Machine qualified as Machine
 import Part.Part (Milling)
 import Part.Part qualified as Part
+import Toolpath.Tolerance qualified as Tolerance
 import Toolpath.Toolpath (Block, Move)
 import Toolpath.Toolpath qualified as Toolpath
 import Verify.Deviation (MillingPass (..))

@@ -27,10 +27,10 @@ import Geometry.Index.BoxTree (BoxTree)
 import Geometry.Index.BoxTree qualified as BoxTree
 import Geometry.Segment (Segment)
 import Geometry.Segment qualified as Segment
-import Geometry.Tolerance qualified as Tolerance
 import Geometry.Vec (Point)
 import Geometry.Vec qualified as Vec
 import Machine.Machine (Machine)
+import Offset.Tolerance qualified as Tolerance
 import Part.Part (Element, Milling, Pocketing)
 import Part.Part qualified as Part
 import Toolpath.Toolpath (Block)

@@ -21,6 +21,7 @@ import Geometry.Segment (Segment (..))
 import Geometry.Segment qualified as Segment
 import Geometry.Tolerance qualified as Tolerance
 import Geometry.Vec qualified as Vec
+import Offset.Tolerance qualified as Tolerance
 
 -- | Distance that the centre keeps from some segments of a contour: the cutter's radius and the
 -- allowances.

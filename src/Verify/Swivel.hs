@@ -18,6 +18,8 @@ import Data.Vector qualified as Vector
 import Geometry.Carrier (Side (..))
 import Geometry.Distance qualified as Distance
 import Geometry.Index.BoundingBox qualified as BoundingBox
+import Geometry.Index.BoxTree (BoxTree)
+import Geometry.Index.BoxTree qualified as BoxTree
 import Geometry.Segment (Segment (..))
 import Geometry.Segment qualified as Segment
 import Geometry.Vec (Point)
@@ -52,7 +54,7 @@ data BladePass = BladePass
     -- | allowed chord error
     tolerance :: Mm,
     -- | elements of the contour with their numbers from 0
-    elements :: BoundingBox.Index (Int, Segment),
+    elements :: BoxTree (Int, Segment),
     -- | heights of the axis at the start and at the end of each element
     axisHeights :: Vector (Mm, Mm)
   }
@@ -72,7 +74,7 @@ bladePass milling Toolpath.Pass {Toolpath.left, Toolpath.atHeight} =
           ),
       tolerance = uncurry max (Part.deepest (Part.tolerance milling)),
       elements =
-        BoundingBox.index
+        BoxTree.index
           (BoundingBox.ofSegment . snd)
           (zip [0 ..] (map Part.segment (NonEmpty.toList (Part.elements contour)))),
       axisHeights =
@@ -120,7 +122,7 @@ isRightHeight machine pass p z = case demanded of
     near =
       [ (d, i, s)
         | (i, s) <-
-            BoundingBox.within
+            BoxTree.within
               (BoundingBox.inflate limit (BoundingBox.ofPoints p []))
               (elements pass),
           let d = Distance.toPoint p s,
