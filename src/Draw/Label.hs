@@ -19,6 +19,8 @@ import Geometry.Distance (ClosestPoint (..))
 import Geometry.Distance qualified as Distance
 import Geometry.Index.BoundingBox (BoundingBox (..))
 import Geometry.Index.BoundingBox qualified as BoundingBox
+import Geometry.Index.BoxTree (BoxTree)
+import Geometry.Index.BoxTree qualified as BoxTree
 import Geometry.Segment (Segment (..))
 import Geometry.Vec (Point, Vec)
 import Geometry.Vec qualified as Vec
@@ -39,7 +41,7 @@ size = 3
 
 -- | The middles of the labels, in order, in an area and clear of lines. A label for which there is
 -- no room is left out.
-settle :: Area -> BoundingBox.Index Segment -> [PointLabel] -> [(Point, Text)]
+settle :: Area -> BoxTree Segment -> [PointLabel] -> [(Point, Text)]
 settle area drawn = catMaybes . snd . List.mapAccumL next Map.empty
   where
     next taken label = case find (free area drawn taken) (candidates label) of
@@ -85,7 +87,7 @@ candidates PointLabel {caption, anchor, outward, distances} = [at d a | d <- dis
 angles :: [Rad]
 angles = map radians [0, 30, -30, 60, -60, 90, -90, 180, 150, -150]
 
-free :: Area -> BoundingBox.Index Segment -> Taken -> BoundingBox -> Bool
+free :: Area -> BoxTree Segment -> Taken -> BoundingBox -> Bool
 free area drawn taken box@BoundingBox {left, bottom, right, top} =
   all (holds area) [Vec.point left bottom, Vec.point right top]
     && not
@@ -93,7 +95,7 @@ free area drawn taken box@BoundingBox {left, bottom, right, top} =
           (BoundingBox.meets around)
           (concatMap (\square -> Map.findWithDefault [] square taken) (squares around))
       )
-    && all clear (BoundingBox.within around drawn)
+    && all clear (BoxTree.within around drawn)
   where
     around = BoundingBox.inflate (Mm 0.6) box
     half = (top - bottom) / 2

@@ -28,6 +28,7 @@ import Draw.TitleBlock qualified as TitleBlock
 import Geometry.Carrier (Circle (..), Sense (..))
 import Geometry.Index.BoundingBox (BoundingBox (..))
 import Geometry.Index.BoundingBox qualified as BoundingBox
+import Geometry.Index.BoxTree qualified as BoxTree
 import Geometry.Polyarc (Ends (..))
 import Geometry.Segment (Segment (Straight))
 import Geometry.Segment qualified as Segment
@@ -87,12 +88,12 @@ material shapes = bands <> map snd (sortOn fst (map painted bodies <> map painte
             beginning s
        in length
             [ w
-              | w <- BoundingBox.within (BoundingBox.ofPoints p []) index,
+              | w <- BoxTree.within (BoundingBox.ofPoints p []) index,
                 outline w /= outline s,
                 WindingNumber.about p (outline w) /= 0
             ]
     index =
-      BoundingBox.index
+      BoxTree.index
         ( \w ->
             foldr
               (BoundingBox.union . BoundingBox.ofSegment)
@@ -238,7 +239,7 @@ numbers Scene {shapes, cuts, feeds, rapids, start} =
             foldr1 BoundingBox.union (fmap BoundingBox.ofSegment (Scene.lines cut))
        in max (right - left) (top - bottom) > Label.size
     index =
-      BoundingBox.index BoundingBox.ofSegment (filter (\s -> Segment.length s > Mm 1e-6) lines')
+      BoxTree.index BoundingBox.ofSegment (filter (\s -> Segment.length s > Mm 1e-6) lines')
     lines' =
       concatMap outline shapes
         <> concatMap cutLines cuts

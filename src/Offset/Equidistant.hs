@@ -49,6 +49,7 @@ import Geometry.Carrier (Sense (..), Side (..))
 import Geometry.Distance (ClosestPoint (..))
 import Geometry.Distance qualified as Distance
 import Geometry.Index.BoundingBox qualified as BoundingBox
+import Geometry.Index.BoxTree qualified as BoxTree
 import Geometry.Polyarc (Ends (..), Polyarc (..))
 import Geometry.Polyarc qualified as Polyarc
 import Geometry.Segment (Segment (..))
@@ -381,13 +382,13 @@ struck :: CornerStyle -> Mm -> Polyarc -> [OffsetSegment] -> [(Mm, Int, Int, Poi
 struck style radius contour = concatMap strikes
   where
     index =
-      BoundingBox.index
+      BoxTree.index
         (BoundingBox.ofSegment . snd)
         (zip [0 ..] (NonEmpty.toList (segments contour)))
     strikes (OffsetSegment origin s) =
       [ (d, numberOf origin, j, p)
         | (j, other) <-
-            BoundingBox.select
+            BoxTree.select
               ( \box ->
                   BoundingBox.meets (BoundingBox.inflate widest (BoundingBox.ofSegment s)) box
                     && BoundingBox.atLeast (`Distance.toPoint` s) box < widest

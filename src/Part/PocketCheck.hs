@@ -16,6 +16,7 @@ import Data.List.NonEmpty qualified as NonEmpty
 import Geometry.Distance qualified as Distance
 import Geometry.Index.BoundingBox (BoundingBox)
 import Geometry.Index.BoundingBox qualified as BoundingBox
+import Geometry.Index.BoxTree qualified as BoxTree
 import Geometry.Polyarc qualified as Polyarc
 import Geometry.Segment (Segment)
 import Geometry.Segment qualified as Segment
@@ -63,13 +64,13 @@ crossings numbered =
   [ (i, j, p)
     | (j, n) <- numbered,
       s <- segments n,
-      (i, other) <- BoundingBox.within (BoundingBox.ofSegment s) index,
+      (i, other) <- BoxTree.within (BoundingBox.ofSegment s) index,
       i < j,
       p <- take 1 (Distance.crossings s other)
   ]
   where
     index =
-      BoundingBox.index (BoundingBox.ofSegment . snd) [(i, s) | (i, n) <- numbered, s <- segments n]
+      BoxTree.index (BoundingBox.ofSegment . snd) [(i, s) | (i, n) <- numbered, s <- segments n]
 
 segments :: Named -> [Segment]
 segments n = NonEmpty.toList (Polyarc.segments (Part.outline (contour n)))

@@ -27,6 +27,7 @@ import Geometry.Carrier qualified as Carrier
 import Geometry.Distance (ClosestPoint (..))
 import Geometry.Distance qualified as Distance
 import Geometry.Index.BoundingBox qualified as BoundingBox
+import Geometry.Index.BoxTree qualified as BoxTree
 import Geometry.Polyarc qualified as Polyarc
 import Geometry.Segment (Segment (Arc, Straight))
 import Geometry.Segment qualified as Segment
@@ -558,10 +559,10 @@ intrusions path = worst (concatMap inBlock (Toolpath.blocks path))
         Just (number pass, Part.wall p, contour (Part.wall p) : Part.islands p)
       _ -> Nothing
     index =
-      BoundingBox.index
-        (BoundingBox.around . snd)
+      BoxTree.index
+        (BoxTree.around . snd)
         [ ( (n, milling),
-            BoundingBox.index boxOf (concatMap (grouped . NonEmpty.toList . elements) walls)
+            BoxTree.index boxOf (concatMap (grouped . NonEmpty.toList . elements) walls)
           )
           | (n, milling, walls) <- jobs
         ]
@@ -640,9 +641,9 @@ intrusions path = worst (concatMap inBlock (Toolpath.blocks path))
                 BoundingBox.inflate
                   (plus tool (maybe (Mm 0) snd leaving))
                   (BoundingBox.ofSegment (Toolpath.segment m)),
-          ((n, milling), walls) <- BoundingBox.within reach index,
+          ((n, milling), walls) <- BoxTree.within reach index,
           Just n /= own,
-          group <- BoundingBox.within reach walls,
+          group <- BoxTree.within reach walls,
           element <- NonEmpty.take some group,
           BoundingBox.meets reach (BoundingBox.ofSegment (Part.segment element)),
           let ClosestPoint d p = Distance.segments (Toolpath.segment m) (Part.segment element),

@@ -32,6 +32,7 @@ import Geometry.Distance (ClosestPoint (..))
 import Geometry.Distance qualified as Distance
 import Geometry.Index.BoundingBox (BoundingBox (..))
 import Geometry.Index.BoundingBox qualified as BoundingBox
+import Geometry.Index.BoxTree qualified as BoxTree
 import Geometry.Segment (Segment (Straight))
 import Geometry.Segment qualified as Segment
 import Geometry.Tolerance qualified as Tolerance
@@ -121,7 +122,7 @@ nearest' room = plus (radius room) (leaves room)
 linked :: PocketRoom -> Point -> Point -> [PocketMove]
 linked room = link
   where
-    index = BoundingBox.index BoundingBox.ofSegment (NonEmpty.toList (walls room))
+    index = BoxTree.index BoundingBox.ofSegment (NonEmpty.toList (walls room))
     link p q
       | Vec.near p q = []
       | free (Straight p q) = [Across (Straight p q)]
@@ -129,7 +130,7 @@ linked room = link
     free s =
       all
         (\w -> plus (distanceTo s w) Tolerance.clearance >= nearest' room)
-        (BoundingBox.within (BoundingBox.inflate (nearest' room) (BoundingBox.ofSegment s)) index)
+        (BoxTree.within (BoundingBox.inflate (nearest' room) (BoundingBox.ofSegment s)) index)
     distanceTo s w = let ClosestPoint d _ = Distance.segments s w in d
 
 -- The walk

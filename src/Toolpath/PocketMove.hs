@@ -19,6 +19,7 @@ import Geometry.Carrier qualified as Carrier
 import Geometry.Distance (ClosestPoint (..))
 import Geometry.Distance qualified as Distance
 import Geometry.Index.BoundingBox qualified as BoundingBox
+import Geometry.Index.BoxTree qualified as BoxTree
 import Geometry.Polyarc qualified as Polyarc
 import Geometry.Segment (Segment (Straight))
 import Geometry.Tolerance qualified as Tolerance
@@ -273,13 +274,13 @@ gapsBetween r contours =
       zip
         [0 :: Int ..]
         [(k, s) | (k, c) <- zip [0 :: Int ..] contours, s <- NonEmpty.toList (Polyarc.segments c)]
-    index = BoundingBox.index (BoundingBox.ofSegment . snd . snd) numbered
+    index = BoxTree.index (BoundingBox.ofSegment . snd . snd) numbered
     widest = minus (times 2 r) (times 2 Tolerance.clearance)
     found =
       [ ((k, l), (d, (i, j, centre p s')))
         | (i, (k, s)) <- numbered,
           (j, (l, s')) <-
-            BoundingBox.within (BoundingBox.inflate widest (BoundingBox.ofSegment s)) index,
+            BoxTree.within (BoundingBox.inflate widest (BoundingBox.ofSegment s)) index,
           k < l,
           let ClosestPoint d p = Distance.segments s s',
           d < widest

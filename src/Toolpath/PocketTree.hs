@@ -18,8 +18,10 @@ import Data.Map.Strict qualified as Map
 import Data.Maybe (fromMaybe, mapMaybe)
 import Data.Ord (Down (..))
 import Geometry.Distance qualified as Distance
-import Geometry.Index.BoundingBox (BoundingBox (..), Index)
+import Geometry.Index.BoundingBox (BoundingBox (..))
 import Geometry.Index.BoundingBox qualified as BoundingBox
+import Geometry.Index.BoxTree (BoxTree)
+import Geometry.Index.BoxTree qualified as BoxTree
 import Geometry.Polyarc (Ends (Closed), Polyarc (Polyarc))
 import Geometry.Polyarc qualified as Polyarc
 import Geometry.Segment (Segment (..))
@@ -88,7 +90,7 @@ grouped c loops trips inside = mapMaybe part (Map.toList members)
   where
     numbered = zip [0 ..] loops
     index =
-      BoundingBox.index
+      BoxTree.index
         (BoundingBox.ofSegment . snd)
         [(n, s) | (n, loop) <- numbered, s <- NonEmpty.toList loop]
     (outers, holes) = partition (isOuter . snd) numbered
@@ -134,13 +136,13 @@ rightmost loop =
          in a : [furthest | Segment.spans s furthest]
 
 -- | Of the loops, but for one of them, the first that the way from a point to the right meets.
-firstHit :: Index (Int, Segment) -> Maybe Int -> Point -> Maybe Int
+firstHit :: BoxTree (Int, Segment) -> Maybe Int -> Point -> Maybe Int
 firstHit index own p = snd <$> foldl nearer Nothing hits
   where
     nearer best (x, n) = case best of
       Just (x', _) | x' <= x -> best
       _ -> Just (x, n)
-    hits = [(x, n) | (n, s) <- BoundingBox.select onTheWay index, Just n /= own, x <- crossings p s]
+    hits = [(x, n) | (n, s) <- BoxTree.select onTheWay index, Just n /= own, x <- crossings p s]
     onTheWay box =
       right box >= Vec.x p && bottom box <= Vec.y p + slack && top box >= Vec.y p - slack
     Mm slack = Tolerance.coincident

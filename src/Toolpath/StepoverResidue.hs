@@ -21,6 +21,8 @@ import Data.Map.Strict (Map)
 import Data.Map.Strict qualified as Map
 import Geometry.Distance qualified as Distance
 import Geometry.Index.BoundingBox qualified as BoundingBox
+import Geometry.Index.BoxTree (BoxTree)
+import Geometry.Index.BoxTree qualified as BoxTree
 import Geometry.Segment (Segment (..))
 import Geometry.Segment qualified as Segment
 import Geometry.Tolerance qualified as Tolerance
@@ -52,7 +54,7 @@ between radius apart edges passes = foldr (gather . gapsOf) none edges
           | (n, loop) <- zip [0 ..] passes
         ]
     index =
-      BoundingBox.index
+      BoxTree.index
         (BoundingBox.inflate Tolerance.clearance . BoundingBox.ofSegment . snd)
         [ ((n, i), s')
           | (n, loop) <- zip [0 ..] passes,
@@ -142,14 +144,14 @@ outwards (Mm d) s = case s of
           else Nothing
 
 -- | A segment of the edge in stretches.
-marked :: BoundingBox.Index ((Int, Int), Segment) -> Segment -> [Mark]
+marked :: BoxTree ((Int, Int), Segment) -> Segment -> [Mark]
 marked index s =
   stretches
     0
     ( sortOn
         (fst . fst)
         [ (range, owner)
-          | (owner, other) <- BoundingBox.within (BoundingBox.ofSegment s) index,
+          | (owner, other) <- BoxTree.within (BoundingBox.ofSegment s) index,
             range <- covered s other
         ]
     )

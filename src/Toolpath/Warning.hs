@@ -13,6 +13,7 @@ import Data.Map.Strict qualified as Map
 import Data.Maybe (mapMaybe)
 import Data.Ord (comparing)
 import Geometry.Index.BoundingBox qualified as BoundingBox
+import Geometry.Index.BoxTree qualified as BoxTree
 import Geometry.Polyarc qualified as Polyarc
 import Geometry.Segment (Segment (Straight))
 import Geometry.Segment qualified as Segment
@@ -58,7 +59,7 @@ throughPart path =
     ways b = case b of
       Cutting {approach, retract} -> approach <> retract
       _ -> Toolpath.moves b
-    index = BoundingBox.index boxOf (concatMap NonEmpty.toList (mapMaybe bodiesOf firsts))
+    index = BoxTree.index boxOf (concatMap NonEmpty.toList (mapMaybe bodiesOf firsts))
     boxOf body =
       foldr1 BoundingBox.union (fmap BoundingBox.ofSegment (Polyarc.segments (outline body)))
     -- Passes of one statement tell the same.
@@ -68,7 +69,7 @@ throughPart path =
     innermost p =
       case filter
         ((`WindingNumber.encloses` p) . outline)
-        (BoundingBox.within (BoundingBox.ofPoints p []) index) of
+        (BoxTree.within (BoundingBox.ofPoints p []) index) of
         [] -> Nothing
         found -> Just (minimumBy (comparing (abs . Polyarc.signedArea . outline)) found)
     numberOf b = case b of

@@ -569,7 +569,7 @@ strangers machine path own traces =
   where
     pulse = Machine.pulse machine
     index =
-      BoundingBox.index
+      BoxTree.index
         (BoundingBox.ofSegment . line)
         (filter (\t -> uncurry min (heights t) < Mm 0) own)
     -- Chords of another tolerance lie within both.
@@ -592,7 +592,7 @@ strangers machine path own traces =
     known p z =
       or
         [ Distance.toPoint p (line o) <= slack && uncurry min (heights o) <= plus z pulse
-          | o <- BoundingBox.within (BoundingBox.inflate slack (BoundingBox.ofPoints p [])) index
+          | o <- BoxTree.within (BoundingBox.inflate slack (BoundingBox.ofPoints p [])) index
         ]
     places t =
       [ ( Segment.at k (line t),

@@ -17,6 +17,8 @@ import Data.Vector qualified as Vector
 import Geometry.Carrier (Side (..))
 import Geometry.Distance qualified as Distance
 import Geometry.Index.BoundingBox qualified as BoundingBox
+import Geometry.Index.BoxTree (BoxTree)
+import Geometry.Index.BoxTree qualified as BoxTree
 import Geometry.Segment (Segment (..))
 import Geometry.Segment qualified as Segment
 import Geometry.Vec (Point)
@@ -49,7 +51,7 @@ data Blade = Blade
   { level :: Mm,
     furthest :: Mm,
     allowed :: Mm,
-    elements :: BoundingBox.Index (Int, Segment),
+    elements :: BoxTree (Int, Segment),
     axes :: Vector (Mm, Mm)
   }
 
@@ -65,7 +67,7 @@ blade milling Toolpath.Pass {Toolpath.reach, Toolpath.atHeight} =
           ),
       allowed = uncurry max (Part.deepest (Part.tolerance milling)),
       elements =
-        BoundingBox.index
+        BoxTree.index
           (BoundingBox.ofSegment . snd)
           (zip [0 ..] (map Part.segment (NonEmpty.toList (Part.elements (Part.contour milling))))),
       axes =
@@ -108,7 +110,7 @@ onLevel machine b t
     beside p =
       [ (d, i, s)
         | (i, s) <-
-            BoundingBox.within
+            BoxTree.within
               (BoundingBox.inflate around (BoundingBox.ofPoints p []))
               (elements b),
           let d = Distance.toPoint p s,

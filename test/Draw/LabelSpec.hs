@@ -10,6 +10,7 @@ import Draw.Page qualified as Page
 import Draw.Svg qualified as Svg
 import Geometry.Index.BoundingBox (BoundingBox (BoundingBox))
 import Geometry.Index.BoundingBox qualified as BoundingBox
+import Geometry.Index.BoxTree qualified as BoxTree
 import Geometry.Vec (Point)
 import Geometry.Vec qualified as Vec
 import Test.Hspec
@@ -45,7 +46,7 @@ spec =
             === n
 
 settled :: [PointLabel] -> [(Point, Text)]
-settled = Label.settle Page.field (BoundingBox.index id' [])
+settled = Label.settle Page.field (BoxTree.index id' [])
   where
     id' = const (BoundingBox 0 0 0 0)
 

@@ -10,20 +10,12 @@ module Geometry.Index.BoundingBox
     distance,
     apart,
     atLeast,
-    Index,
-    index,
-    around,
-    within,
-    select,
-    pairs,
-    closest,
   )
 where
 
 import Base.Quantity (Mm (..), Rad (..), minus)
 import Geometry.Segment (Segment (..))
 import Geometry.Segment qualified as Segment
-import Geometry.Tolerance qualified as Tolerance
 import Geometry.Vec (Point)
 import Geometry.Vec qualified as Vec
 
@@ -85,100 +77,3 @@ distance p (BoundingBox l b r t) =
   Mm (Vec.norm (Vec.vec (outside l (Vec.x p) r) (outside b (Vec.y p) t)))
   where
     outside low c high = max 0 (max (low - c) (c - high))
-
--- Replaced by Geometry.Index.BoxTree -----------------------------------------------------------
-
--- | Things in the order in which they were given, with the boxes of their groups: the order of a
--- contour is a good order in space.
-data Index a
-  = Empty
-  | Leaf {-# UNPACK #-} BoundingBox a
-  | Node {-# UNPACK #-} BoundingBox (Index a) (Index a)
-
--- | Build an index of things by their boxes; linear.
-index :: (a -> BoundingBox) -> [a] -> Index a
-index box things = fst (build (length things) things)
-  where
-    -- Of so many things at the front of a list; and what is behind them.
-    build n ts = case ts of
-      [] -> (Empty, [])
-      t : rest
-        | n == 1 -> (Leaf (box t) t, rest)
-        | otherwise ->
-          let half = n `div` 2
-              (a, behind) = build half ts
-              (b, left') = build (n - half) behind
-           in (node a b, left')
-    node a b = case (a, b) of
-      (Leaf p _, Leaf q _) -> Node (p `union` q) a b
-      (Leaf p _, Node q _ _) -> Node (p `union` q) a b
-      (Node p _ _, Leaf q _) -> Node (p `union` q) a b
-      (Node p _ _, Node q _ _) -> Node (p `union` q) a b
-      (Empty, _) -> b
-      (_, Empty) -> a
-{-# INLINE index #-}
-
--- | A box around everything in an index; of nothing, one that meets no other.
-around :: Index a -> BoundingBox
-around i = case i of
-  Empty -> BoundingBox (1 / 0) (1 / 0) (-1 / 0) (-1 / 0)
-  Leaf p _ -> p
-  Node p _ _ -> p
-
--- | All things whose boxes meet a box, in order.
-within :: BoundingBox -> Index a -> [a]
-within box = select (meets box)
-
--- | All things for whose boxes something holds, in order. It holds for a box that holds one for
--- which it does.
-select :: (BoundingBox -> Bool) -> Index a -> [a]
-select holds i = go i []
-  where
-    go i' rest = case i' of
-      Empty -> rest
-      Leaf p a -> if holds p then a : rest else rest
-      Node p a b -> if holds p then go a (go b rest) else rest
-
--- | All pairs of things whose boxes meet, in no order; of each pair the earlier thing is the first.
-pairs :: Index a -> [(a, a)]
-pairs i = inside i []
-  where
-    inside one rest = case one of
-      Empty -> rest
-      Leaf _ _ -> rest
-      Node _ a b -> inside a (across a b (inside b rest))
-    across one other rest = case (one, other) of
-      (Leaf p a, Leaf q b) -> if meets p q then (a, b) : rest else rest
-      (Leaf p _, Node q b b') -> if meets p q then across one b (across one b' rest) else rest
-      (Node p a a', Leaf q _) -> if meets p q then across a other (across a' other rest) else rest
-      (Node p a a', Node q b b') ->
-        if meets p q then across a b (across a b' (across a' b (across a' b' rest))) else rest
-      (Empty, _) -> rest
-      (_, Empty) -> rest
-
--- | What a measure makes of two things, one of each index, that are nearest to one another; of
--- several it is one of them. The distance that the measure tells is no less than that of their
--- boxes, but for 'Tolerance.coincident': both are rounded.
-closest :: (a -> b -> c) -> (c -> Mm) -> Index a -> Index b -> Maybe c
-closest measure distanceOf = go Nothing
-  where
-    go best one other
-      | Just c <- best,
-        minus (apart (around one) (around other)) Tolerance.coincident > distanceOf c =
-        best
-      | otherwise = case (one, other) of
-        (Leaf _ a, Leaf _ b) -> better best (measure a b)
-        (Leaf _ _, Node _ b b') -> nearer best (one, b) (one, b')
-        (Node _ a a', Leaf _ _) -> nearer best (a, other) (a', other)
-        (Node p a a', Node q b b')
-          | size p > size q -> nearer best (a, other) (a', other)
-          | otherwise -> nearer best (one, b) (one, b')
-        (Empty, _) -> best
-        (_, Empty) -> best
-    better best c = case best of
-      Just b | distanceOf b <= distanceOf c -> best
-      _ -> Just c
-    nearer best (a, b) (a', b')
-      | apart (around a) (around b) <= apart (around a') (around b') = go (go best a b) a' b'
-      | otherwise = go (go best a' b') a b
-    size (BoundingBox l b r t) = (r - l) + (t - b)
