@@ -21,11 +21,12 @@ import Geometry.Curve qualified as Curve
 import Geometry.Curve.Base qualified as Base
 import Geometry.Curve.Spline qualified as Spline
 import Geometry.Numeric.PowerSeries qualified as PowerSeries
-import Geometry.Numeric.TaylorExpansion (TaylorExpansion (..))
+import Geometry.Numeric.TaylorExpansion (TaylorExpansion)
 import Geometry.Segment (Segment (..))
 import Geometry.Transformation qualified as Transformation
 import Geometry.Vec (Point, Vec)
 import Geometry.Vec qualified as Vec
+import Linear.V2 (V2 (..))
 import Test.Hspec
 import Test.QuickCheck
 
@@ -382,9 +383,9 @@ chord c u = Exts.toList (Base.chords (Curve.base c)) !! min (Curve.spans c - 1) 
 
 -- | The derivatives by the chord length.
 firstBy, secondBy :: Double -> TaylorExpansion -> Vec
-firstBy h (TaylorExpansion a b) =
+firstBy h (V2 a b) =
   Vec.scale (1 / h) (Vec.vec (PowerSeries.coefficient 1 a) (PowerSeries.coefficient 1 b))
-secondBy h (TaylorExpansion a b) =
+secondBy h (V2 a b) =
   Vec.scale (2 / h / h) (Vec.vec (PowerSeries.coefficient 2 a) (PowerSeries.coefficient 2 b))
 
 joinsTwice :: Curve -> Property

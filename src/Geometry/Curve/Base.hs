@@ -47,7 +47,7 @@ import Geometry.Curve.Spline (Cubics)
 import Geometry.Curve.Spline qualified as Spline
 import Geometry.Numeric.ArcLength (ArcLength)
 import Geometry.Numeric.ArcLength qualified as ArcLength
-import Geometry.Numeric.TaylorExpansion (Approach (..), TaylorExpansion (..))
+import Geometry.Numeric.TaylorExpansion (Approach (..), TaylorExpansion)
 import Geometry.Numeric.TaylorExpansion qualified as TaylorExpansion
 import Geometry.Segment (Segment)
 import Geometry.Segment qualified as Segment
@@ -56,6 +56,7 @@ import Geometry.Transformation (Transformation)
 import Geometry.Transformation qualified as Transformation
 import Geometry.Vec (Point, Vec)
 import Geometry.Vec qualified as Vec
+import Linear.V2 (V2 (..))
 
 data Base = Base
   { method :: CurveKind,
@@ -437,7 +438,7 @@ spot approach u base =
 jet :: Int -> Base -> SpanPoint -> TaylorExpansion
 jet n base s = case course base of
   Cubical xs ys ->
-    TaylorExpansion
+    V2
       (Spline.series n (Spline.at xs (number s)) (local s))
       (Spline.series n (Spline.at ys (number s)) (local s))
   Mixed parts -> Span.jet n (parts Vector.! number s) (local s)

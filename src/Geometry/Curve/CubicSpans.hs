@@ -18,8 +18,8 @@ import Geometry.Curve.ShiftedCurve qualified as ShiftedCurve
 import Geometry.Curve.Spline (Cubic (..), Cubics)
 import Geometry.Curve.Spline qualified as Spline
 import Geometry.Numeric.PowerSeries qualified as PowerSeries
-import Geometry.Numeric.TaylorExpansion (TaylorExpansion (..))
 import Geometry.Tolerance qualified as Tolerance
+import Linear.V2 (V2 (..))
 
 -- | Spans in x and y that stay so near to a curve, and how near; those of a spline are its own.
 -- Nothing for a curve with arcs, and for one that stands still somewhere or nearly so.
@@ -36,7 +36,7 @@ along (Mm tolerance) curve = case curve of
   where
     onStretch (a, b) = refined most (between (node (a, b)) a (node (a, b) a) b (node (a, b) b))
     node stretch u = case ShiftedCurve.jetAt 1 curve (PointSearch.within stretch curve u) of
-      TaylorExpansion x y ->
+      V2 x y ->
         Node
           (PowerSeries.value x)
           (PowerSeries.value y)

@@ -15,11 +15,11 @@ import Geometry.Curve.ShiftedCurve qualified as ShiftedCurve
 import Geometry.Numeric.PowerSeries (PowerSeries)
 import Geometry.Numeric.PowerSeries qualified as PowerSeries
 import Geometry.Numeric.RootFinding qualified as RootFinding
-import Geometry.Numeric.TaylorExpansion (TaylorExpansion (..))
 import Geometry.Numeric.TaylorExpansion qualified as TaylorExpansion
 import Geometry.Tolerance qualified as Tolerance
 import Geometry.Vec (Point)
 import Geometry.Vec qualified as Vec
+import Linear.V2 (V2 (..))
 
 -- | The tightest place of the innermost shift that does not fit.
 data Cusp = Cusp
@@ -79,7 +79,7 @@ folded top lower whole
     slowest s =
       RootFinding.rising (quickening s) [(u, fst (quickening s u)) | u <- PointSearch.samples s]
     quickening s u =
-      let TaylorExpansion a b = ShiftedCurve.jetAt 3 lower (PointSearch.within s whole u)
+      let V2 a b = ShiftedCurve.jetAt 3 lower (PointSearch.within s whole u)
           w =
             PowerSeries.add
               (squared (PowerSeries.derivative a))

@@ -26,11 +26,12 @@ import Geometry.Curve.ShiftedCurve (Curve (..))
 import Geometry.Curve.ShiftedCurve qualified as ShiftedCurve
 import Geometry.Numeric.PowerSeries qualified as PowerSeries
 import Geometry.Numeric.RootFinding qualified as RootFinding
-import Geometry.Numeric.TaylorExpansion (Approach (..), TaylorExpansion (..))
+import Geometry.Numeric.TaylorExpansion (Approach (..))
 import Geometry.Numeric.TaylorExpansion qualified as TaylorExpansion
 import Geometry.Tolerance qualified as Tolerance
 import Geometry.Vec (Point, Vec)
 import Geometry.Vec qualified as Vec
+import Linear.V2 (V2 (..))
 
 -- | The smooth stretches, each from one parameter to another.
 stretches :: Curve -> [(Double, Double)]
@@ -84,7 +85,7 @@ nearest p curve =
       ]
     approaching stretch u = (Vec.dot out v, Vec.dot v v + Vec.dot out bend)
       where
-        jet@(TaylorExpansion x y) = ShiftedCurve.jetAt 2 curve (within stretch curve u)
+        jet@(V2 x y) = ShiftedCurve.jetAt 2 curve (within stretch curve u)
         out = Vec.to p (TaylorExpansion.place jet)
         v = TaylorExpansion.velocity jet
         bend = Vec.vec (2 * PowerSeries.coefficient 2 x) (2 * PowerSeries.coefficient 2 y)
@@ -112,7 +113,7 @@ atX :: Double -> Curve -> [Double]
 atX abscissa curve = distinct (concatMap found (stretches curve))
   where
     x order stretch u =
-      let TaylorExpansion a _ = ShiftedCurve.jetAt order curve (within stretch curve u) in a
+      let V2 a _ = ShiftedCurve.jetAt order curve (within stretch curve u) in a
     found stretch =
       roots
         (map (\u -> (u, off (PowerSeries.value (x 0 stretch u)))) (merged (samples stretch) turns))
@@ -144,7 +145,7 @@ atX abscissa curve = distinct (concatMap found (stretches curve))
       _ -> (a, us)
     same = 1e-3 / fromIntegral steps
     isThere u =
-      let TaylorExpansion a _ =
+      let V2 a _ =
             ShiftedCurve.jetAt 0 curve (ShiftedCurve.spot After u curve)
        in off (PowerSeries.value a) == 0
 

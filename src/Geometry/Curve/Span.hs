@@ -19,7 +19,7 @@ import Geometry.Curve.Spline (Cubic (..))
 import Geometry.Curve.Spline qualified as Spline
 import Geometry.Numeric.PowerSeries (PowerSeries)
 import Geometry.Numeric.PowerSeries qualified as PowerSeries
-import Geometry.Numeric.TaylorExpansion (TaylorExpansion (..))
+import Geometry.Numeric.TaylorExpansion (TaylorExpansion)
 import Geometry.Segment (Segment (..))
 import Geometry.Segment qualified as Segment
 import Geometry.Tolerance qualified as Tolerance
@@ -27,6 +27,7 @@ import Geometry.Transformation (Transformation)
 import Geometry.Transformation qualified as Transformation
 import Geometry.Vec (Point, Vec)
 import Geometry.Vec qualified as Vec
+import Linear.V2 (V2 (..))
 
 -- | A part of a curve, its own parameter running from 0 to 1.
 data Span
@@ -87,7 +88,7 @@ isPoint s = case s of
 -- | The power series of the place up to an order.
 jet :: Int -> Span -> Double -> TaylorExpansion
 jet n s t = case s of
-  Polynomial x y -> TaylorExpansion (Spline.series n x t) (Spline.series n y t)
+  Polynomial x y -> V2 (Spline.series n x t) (Spline.series n y t)
   Round (Arc {start, centre, sweep = Rad sweep}) ->
     -- Each derivative turns by a quarter and grows by the sweep.
     let turned = Vec.rotate (Rad (sweep * t)) (Vec.to centre start)
@@ -97,7 +98,7 @@ jet n s t = case s of
 
 -- | From a point, by these coefficients.
 along :: Int -> Point -> [Vec] -> TaylorExpansion
-along n p terms = TaylorExpansion (part (Vec.x p) (map fst parts)) (part (Vec.y p) (map snd parts))
+along n p terms = V2 (part (Vec.x p) (map fst parts)) (part (Vec.y p) (map snd parts))
   where
     parts = map components (take (n + 1) terms)
     part :: Double -> [Double] -> PowerSeries

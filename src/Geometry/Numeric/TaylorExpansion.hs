@@ -1,6 +1,6 @@
--- | A point that moves with a parameter, near one place of it: a power series for each coordinate.
+-- | Taylor expansions of a point that moves with a parameter: a vector of two power series.
 module Geometry.Numeric.TaylorExpansion
-  ( TaylorExpansion (..),
+  ( TaylorExpansion,
     place,
     velocity,
     speed,
@@ -19,81 +19,81 @@ import Geometry.Numeric.PowerSeries qualified as PowerSeries
 import Geometry.Tolerance qualified as Tolerance
 import Geometry.Vec (Point, Vec)
 import Geometry.Vec qualified as Vec
+import Linear.V2 (V2 (..))
 
--- | The coordinates, in mm, by the parameter.
-data TaylorExpansion = TaylorExpansion {across :: PowerSeries, up :: PowerSeries}
-  deriving stock (Eq, Show)
+-- | The coordinates x and y, in mm, as series in the parameter.
+type TaylorExpansion = V2 PowerSeries
 
--- | From which side a place on a curve is reached: at a corner that makes a difference.
+-- | The side from which a point of a curve is approached. It matters at corners.
 data Approach = Before | After
   deriving stock (Eq, Show, Enum, Bounded)
 
 -- | The point itself.
 place :: TaylorExpansion -> Point
-place (TaylorExpansion a b) = Vec.point (PowerSeries.value a) (PowerSeries.value b)
+place expansion = Vec.point x y
+  where
+    V2 x y = fmap PowerSeries.value expansion
 
--- | The first derivative of the place, in mm for 1 of the parameter.
+-- | The first derivative, in mm per unit of the parameter.
 velocity :: TaylorExpansion -> Vec
-velocity (TaylorExpansion a b) = Vec.vec (PowerSeries.coefficient 1 a) (PowerSeries.coefficient 1 b)
+velocity expansion = Vec.vec x y
+  where
+    V2 x y = fmap (PowerSeries.coefficient 1) expansion
 
--- | The length of the velocity, one order less. The point does not stand still.
+-- | The length of the velocity, one order less. The velocity must not be 0.
 speed :: TaylorExpansion -> PowerSeries
-speed jet = PowerSeries.power 0.5 (squaredSpeed jet)
+speed expansion = PowerSeries.power 0.5 (squared (fmap PowerSeries.derivative expansion))
 
-squaredSpeed :: TaylorExpansion -> PowerSeries
-squaredSpeed (TaylorExpansion a b) =
-  PowerSeries.add (PowerSeries.multiply a' a') (PowerSeries.multiply b' b')
-  where
-    a' = PowerSeries.derivative a
-    b' = PowerSeries.derivative b
+-- | The scalar product of a vector with itself.
+squared :: V2 PowerSeries -> PowerSeries
+squared v = dot v v
 
--- | The point moved along the left normal by a distance (mm, to the right when negative), one order
--- less:
--- @P = C + d·N@, @N = (−y′, x′)/√(x′² + y′²)@. The point does not stand still.
+dot :: V2 PowerSeries -> V2 PowerSeries -> PowerSeries
+dot v w = foldr1 PowerSeries.add (PowerSeries.multiply <$> v <*> w)
+
+-- | The z component of the vector product.
+cross :: V2 PowerSeries -> V2 PowerSeries -> PowerSeries
+cross (V2 x y) (V2 x' y') =
+  PowerSeries.subtract (PowerSeries.multiply x y') (PowerSeries.multiply y x')
+
+-- | The point offset by a distance along the left normal, or to the right when it is negative; one
+-- order less: @P = C + d·N@ with @N = (−y′, x′)/√(x′² + y′²)@. The velocity must not be 0.
 moved :: PowerSeries -> TaylorExpansion -> TaylorExpansion
-moved d (TaylorExpansion a b) =
-  TaylorExpansion
-    (PowerSeries.subtract a (PowerSeries.multiply e b'))
-    (PowerSeries.add b (PowerSeries.multiply e a'))
+moved d expansion@(V2 x y) =
+  V2
+    (PowerSeries.subtract x (PowerSeries.multiply share y'))
+    (PowerSeries.add y (PowerSeries.multiply share x'))
   where
-    a' = PowerSeries.derivative a
-    b' = PowerSeries.derivative b
-    e =
-      PowerSeries.multiply
-        d
-        ( PowerSeries.power
-            (-0.5)
-            (PowerSeries.add (PowerSeries.multiply a' a') (PowerSeries.multiply b' b'))
-        )
+    velocities@(V2 x' y') = fmap PowerSeries.derivative expansion
+    share = PowerSeries.multiply d (PowerSeries.power (-0.5) (squared velocities))
 
--- | The direction of the motion, of length 1. Where the point stands still it is the limit from the
--- side asked for, by the first derivative that does not vanish.
+-- | The direction of travel, of length 1. Where the velocity is 0 it is the limit from the given
+-- side, by the first derivative that is longer than 'Tolerance.still'. There is none when all
+-- derivatives of the expansion vanish.
 direction :: Approach -> TaylorExpansion -> Maybe Vec
-direction approach (TaylorExpansion a b) = case find moves (zip [1 :: Int ..] derivatives) of
+direction approach expansion = case find moves (zip [1 :: Int ..] derivatives) of
   Just (k, v) -> Just (Vec.unit (if even k && approach == Before then Vec.negate v else v))
   Nothing -> Nothing
   where
-    derivatives = drop 1 (zipWith Vec.vec (PowerSeries.coefficients a) (PowerSeries.coefficients b))
+    derivatives = drop 1 (zipWith Vec.vec xs ys)
+    V2 xs ys = fmap PowerSeries.coefficients expansion
     moves (_, v) = Mm (Vec.norm v) > Tolerance.still
 
--- | The curvature, in 1/mm, positive when the way bends to the left. The order is at least 2.
+-- | The curvature in 1/mm, positive to the left. The order must be at least 2.
 curvature :: TaylorExpansion -> Double
-curvature (TaylorExpansion a b) =
-  2 * (a1 * PowerSeries.coefficient 2 b - b1 * PowerSeries.coefficient 2 a) / (w * sqrt w)
+curvature expansion = 2 * (x' * y'' - y' * x'') / (w * sqrt w)
   where
-    a1 = PowerSeries.coefficient 1 a
-    b1 = PowerSeries.coefficient 1 b
-    w = a1 * a1 + b1 * b1
+    V2 x' y' = fmap (PowerSeries.coefficient 1) expansion
+    V2 x'' y'' = fmap (PowerSeries.coefficient 2) expansion
+    w = x' * x' + y' * y'
 
 -- | The curvature as a series, two orders less: @(x′·y″ − y′·x″) / (x′² + y′²)^(3/2)@.
 bending :: TaylorExpansion -> PowerSeries
-bending jet@(TaylorExpansion a b) =
-  PowerSeries.multiply turning (PowerSeries.multiply slow (PowerSeries.multiply slow slow))
+bending expansion =
+  PowerSeries.multiply
+    (cross velocities accelerations)
+    (PowerSeries.multiply inverseSpeed (PowerSeries.multiply inverseSpeed inverseSpeed))
   where
-    a' = PowerSeries.derivative a
-    b' = PowerSeries.derivative b
-    turning =
-      PowerSeries.subtract
-        (PowerSeries.multiply a' (PowerSeries.derivative b'))
-        (PowerSeries.multiply b' (PowerSeries.derivative a'))
-    slow = PowerSeries.power (-0.5) (squaredSpeed jet)
+    velocities = fmap PowerSeries.derivative expansion
+    accelerations = fmap PowerSeries.derivative velocities
+    inverseSpeed = PowerSeries.power (-0.5) (squared velocities)

@@ -26,10 +26,10 @@ import Geometry.Curve.Base qualified as Base
 import Geometry.Curve.Column qualified as Column
 import Geometry.Curve.Cusp (Cusp (..))
 import Geometry.Numeric.PowerSeries qualified as PowerSeries
-import Geometry.Numeric.TaylorExpansion (TaylorExpansion (..))
 import Geometry.Segment (Segment (..))
 import Geometry.Vec (Point, Vec)
 import Geometry.Vec qualified as Vec
+import Linear.V2 (V2 (..))
 import Test.Hspec
 import Test.QuickCheck
 
@@ -355,7 +355,7 @@ spec = do
                   Vec.dot (velocity approach s) (Vec.left (Curve.tangentFrom approach c u))
                     / Vec.norm (velocity approach c)
                 velocity approach curve =
-                  let TaylorExpansion a b =
+                  let V2 a b =
                         Curve.jet approach 1 curve u
                    in Vec.vec (PowerSeries.coefficient 1 a) (PowerSeries.coefficient 1 b)
              in near' 1e-9 (rate Before) (rate After)
@@ -394,7 +394,7 @@ derivativesLaw c u e =
   alike (1e-4 * (1 + Vec.norm first)) first byFirst
     .&&. alike (1e-2 * (1 + Vec.norm second + Vec.norm first)) second bySecond
   where
-    TaylorExpansion a b = Curve.jet After 2 c u
+    V2 a b = Curve.jet After 2 c u
     first = Vec.vec (PowerSeries.coefficient 1 a) (PowerSeries.coefficient 1 b)
     second = Vec.scale 2 (Vec.vec (PowerSeries.coefficient 2 a) (PowerSeries.coefficient 2 b))
     byFirst =
