@@ -38,6 +38,7 @@ import Geometry.Vec (Point)
 import Geometry.Vec qualified as Vec
 import Machine.Machine (CommandValue (..), CommandWord (..), CompensationCommands (..), Machine)
 import Machine.Machine qualified as Machine
+import Toolpath.Tolerance qualified as Tolerance
 
 -- | A stroke and what the cutter's centre does in it, in the plane: round the corner before it and
 -- then along; without length where it goes straight up or down.

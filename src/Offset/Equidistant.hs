@@ -58,6 +58,7 @@ import Geometry.Tolerance qualified as Tolerance
 import Geometry.Vec (Point)
 import Geometry.Vec qualified as Vec
 import Offset.RestMaterial (RestMaterial (..), standings)
+import Offset.Tolerance qualified as Tolerance
 import Offset.TrimmedOffset
   ( CornerStyle (..),
     OffsetSegment (..),

@@ -33,7 +33,6 @@ import Geometry.FlatPolyarc qualified as FlatPolyarc
 import Geometry.Index.SegmentTree (SegmentTree)
 import Geometry.Index.SegmentTree qualified as SegmentTree
 import Geometry.Polyarc (Ends (..))
-import Geometry.Tolerance qualified as Tolerance
 import Offset.Arrangement qualified as Arrangement
 import Offset.Certificate qualified as Certificate
 import Offset.Loop (OffsetLoops)
@@ -42,6 +41,7 @@ import Offset.RawOffset (Corners (..))
 import Offset.RawOffset qualified as RawOffset
 import Offset.SelfIntersection (SearchResult (..), SelfIntersections)
 import Offset.SelfIntersection qualified as SelfIntersection
+import Offset.Tolerance qualified as Tolerance
 import Offset.Trimming qualified as Trimming
 import Offset.WindingNumber (Outward (..))
 import Offset.WindingNumber qualified as WindingNumber

@@ -20,8 +20,8 @@ import Geometry.Polyarc (Ends (..), Polyarc (..))
 import Geometry.Polyarc qualified as Polyarc
 import Geometry.Segment (Segment (..))
 import Geometry.Segment qualified as Segment
-import Geometry.Tolerance qualified as Tolerance
 import Geometry.Vec (Point)
+import Offset.Tolerance qualified as Tolerance
 import Offset.TrimmedOffset (OffsetSegment (..), Origin (..), TrimmedOffset, leftward, numberOf)
 import Offset.TrimmedOffset qualified as TrimmedOffset
 

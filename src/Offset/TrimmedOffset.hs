@@ -31,10 +31,10 @@ import Geometry.Polyarc (Ends (..), Polyarc (segments))
 import Geometry.Polyarc qualified as Polyarc
 import Geometry.Segment (Segment (..))
 import Geometry.Segment qualified as Segment
-import Geometry.Tolerance qualified as Tolerance
 import Geometry.Vec qualified as Vec
 import Offset.Kernel qualified as Kernel
 import Offset.Loop qualified as Loop
+import Offset.Tolerance qualified as Tolerance
 
 -- | How the path goes round outer corners, and how much further than the radius it stays from each
 -- segment.

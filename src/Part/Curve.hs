@@ -41,6 +41,7 @@ import Geometry.Tolerance qualified as Tolerance
 import Geometry.Transformation (Transformation)
 import Geometry.Vec (Point)
 import Geometry.Vec qualified as Vec
+import Part.Tolerance qualified as Tolerance
 
 -- | Rows of x, y and the columns with these names, in mm, radians and minutes.
 data PartTable = PartTable {rows :: NumberTable, names :: [Name]}

@@ -35,6 +35,7 @@ import Part.Curve qualified as Curve
 import Part.Error (Candidate (..), ListFault (..), Listing (..), ValueFact (..))
 import Part.Evaluation (Eval)
 import Part.Evaluation qualified as Evaluation
+import Part.Tolerance qualified as Tolerance
 import Part.Value
 
 -- | The value of a function on tables or curves; nothing when it has no such form.

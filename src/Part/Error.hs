@@ -28,6 +28,7 @@ import Geometry.Vec (Point)
 import Geometry.Vec qualified as Vec
 import Part.PocketError (PocketMisfit)
 import Part.PocketError qualified as PocketError
+import Part.Tolerance qualified as Tolerance
 import Report.Report (Label (..), Report (..), ReportCode, ReportPlace (..), quote, report)
 import Report.Report qualified as Report
 

@@ -28,6 +28,7 @@ import Geometry.Tolerance qualified as Tolerance
 import Geometry.Vec (Point)
 import Geometry.Vec qualified as Vec
 import Part.Error (Joined (..), ValueFact (..))
+import Part.Tolerance qualified as Tolerance
 
 -- | A link with its values.
 data Link

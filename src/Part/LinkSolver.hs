@@ -41,6 +41,7 @@ import Part.Error qualified as Error
 import Part.LinkCandidate (Joint (..), Link (..))
 import Part.LinkCandidate qualified as LinkCandidate
 import Part.Part (Element (Element, continues, origin, segment), Finish, plainFinish)
+import Part.Tolerance qualified as Tolerance
 
 -- | An element, its place, the ends that it has of its own, what is asked on it, and the link
 -- behind it with its place.

@@ -21,12 +21,12 @@ import Geometry.Carrier qualified as Carrier
 import Geometry.MeasuredPolyarc qualified as MeasuredPolyarc
 import Geometry.Segment (Segment)
 import Geometry.Segment qualified as Segment
-import Geometry.Tolerance qualified as Tolerance
 import Geometry.Vec qualified as Vec
 import Part.Curve qualified as Curve
 import Part.LinkCandidate qualified as LinkCandidate
 import Part.Part (Milling, Part)
 import Part.Part qualified as Part
+import Part.Tolerance qualified as Tolerance
 import Sheet.FromCurve (here)
 import Sheet.FromCurve qualified as FromCurve
 import Sheet.Sheet

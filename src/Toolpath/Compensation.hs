@@ -35,6 +35,7 @@ import Offset.Equidistant qualified as Equidistant
 import Part.Part (Element, Milling)
 import Part.Part qualified as Part
 import Toolpath.Error (Error (..), Unsent (..))
+import Toolpath.Tolerance qualified as Tolerance
 import Toolpath.Toolpath (Manner (..), Move (..), Sent (Sent), unbraked)
 import Toolpath.Toolpath qualified as Toolpath
 

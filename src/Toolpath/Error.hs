@@ -20,12 +20,12 @@ import Base.Region (Located (..), Region)
 import Data.Text (Text)
 import Geometry.Segment (Segment (..))
 import Geometry.Segment qualified as Segment
-import Geometry.Tolerance qualified as Tolerance
 import Geometry.Vec (Point)
 import Geometry.Vec qualified as Vec
 import Part.Part (Contour (contourName), Element (..), Side (..), Work (..))
 import Report.Report (Label (..), Report (..), ReportCode, ReportPlace (..), report)
 import Report.Report qualified as Report
+import Toolpath.Tolerance qualified as Tolerance
 
 -- | A cutter at work: its radius, and what it leaves.
 data Tool = Tool {work :: Work, radius :: Mm, leaves :: Mm}

@@ -35,6 +35,7 @@ import Geometry.Tolerance qualified as Tolerance
 import Geometry.Vec (Point)
 import Geometry.Vec qualified as Vec
 import Offset.Equidistant qualified as Equidistant
+import Offset.Tolerance qualified as Tolerance
 import Part.Part
   ( Contour (elements),
     Drilling,

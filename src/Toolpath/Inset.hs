@@ -20,9 +20,9 @@ import Geometry.Polyarc (Ends (Closed), Polyarc (Polyarc))
 import Geometry.Polyarc qualified as Polyarc
 import Geometry.Segment (Segment)
 import Geometry.Segment qualified as Segment
-import Geometry.Tolerance qualified as Tolerance
 import Offset.Kernel qualified as Kernel
 import Offset.Loop qualified as Loop
+import Offset.Tolerance qualified as Tolerance
 import Toolpath.PocketTree (Loop)
 
 -- | An outline and islands, each walked with the free space on its left.

@@ -38,6 +38,7 @@ import Geometry.Segment qualified as Segment
 import Geometry.Tolerance qualified as Tolerance
 import Geometry.Vec (Point)
 import Geometry.Vec qualified as Vec
+import Offset.Tolerance qualified as Tolerance
 import Toolpath.PocketTree (Loop, PocketTree (..), Ring (..), RingSegment (..))
 import Toolpath.PocketTree qualified as PocketTree
 

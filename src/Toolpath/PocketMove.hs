@@ -22,10 +22,10 @@ import Geometry.Index.BoundingBox qualified as BoundingBox
 import Geometry.Index.BoxTree qualified as BoxTree
 import Geometry.Polyarc qualified as Polyarc
 import Geometry.Segment (Segment (Straight))
-import Geometry.Tolerance qualified as Tolerance
 import Geometry.Vec (Point)
 import Geometry.Vec qualified as Vec
 import Offset.Equidistant qualified as Equidistant
+import Offset.Tolerance qualified as Tolerance
 import Part.Part
   ( Element,
     Milling (contour, feed),

@@ -28,6 +28,7 @@ import Geometry.Segment qualified as Segment
 import Geometry.Tolerance qualified as Tolerance
 import Geometry.Vec (Point)
 import Geometry.Vec qualified as Vec
+import Offset.Tolerance qualified as Tolerance
 
 -- | Trips by the loop of the inner pass and the number of the segment, both from 0, from whose end
 -- they go and where they come back; loops of the edge into which no inner pass leads.

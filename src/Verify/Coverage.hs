@@ -25,6 +25,7 @@ import Geometry.Segment (Segment)
 import Geometry.Segment qualified as Segment
 import Geometry.Tolerance qualified as Tolerance
 import Geometry.Vec (Point)
+import Offset.Tolerance qualified as Tolerance
 import Prelude hiding (lines)
 
 -- | What may lie within reach, by an index of it.

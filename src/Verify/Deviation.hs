@@ -39,6 +39,7 @@ import Geometry.Vec (Point)
 import Geometry.Vec qualified as Vec
 import Machine.Machine (Axis (Z), Machine)
 import Machine.Machine qualified as Machine
+import Offset.Tolerance qualified as Tolerance
 import Part.Part (Element, Milling)
 import Part.Part qualified as Part
 import Verify.Coverage qualified as Coverage

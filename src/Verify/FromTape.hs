@@ -41,7 +41,6 @@ import Geometry.Distance qualified as Distance
 import Geometry.Index.BoundingBox qualified as BoundingBox
 import Geometry.Index.BoxTree qualified as BoxTree
 import Geometry.Segment qualified as Segment
-import Geometry.Tolerance qualified as Tolerance
 import Geometry.Vec (Point)
 import Geometry.Vec qualified as Vec
 import Machine.Machine (Machine)
@@ -49,6 +48,7 @@ import Machine.Machine qualified as Machine
 import Part.Part (Milling, SpacePoint (..))
 import Part.Part qualified as Part
 import Toolpath.FromPart qualified as Toolpath (leadingSide)
+import Toolpath.Tolerance qualified as Tolerance
 import Toolpath.Toolpath (Block, Toolpath)
 import Toolpath.Toolpath qualified as Toolpath
 import Verify.Deviation (MillingPass (..))

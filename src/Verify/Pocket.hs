@@ -46,6 +46,7 @@ import Geometry.Vec (Point)
 import Geometry.Vec qualified as Vec
 import Machine.Machine (Machine)
 import Machine.Machine qualified as Machine
+import Offset.Tolerance qualified as Tolerance
 import Part.Part (Element, Milling, Pocketing)
 import Part.Part qualified as Part
 import Toolpath.FromPart qualified as Toolpath (leadingSide)

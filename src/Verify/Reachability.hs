@@ -21,6 +21,7 @@ import Geometry.Segment (Segment (..))
 import Geometry.Segment qualified as Segment
 import Geometry.Tolerance qualified as Tolerance
 import Geometry.Vec qualified as Vec
+import Offset.Tolerance qualified as Tolerance
 
 -- | The parts of a segment that a cutter touches with its centre at a distance on a side, among all
 -- segments of the contour by the distances that the centre keeps from them. Where more is kept from

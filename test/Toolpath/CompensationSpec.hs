@@ -106,7 +106,7 @@ control r sent = onto : go entered (NonEmpty.toList edges)
               _ -> go finish rest
 
 -- | Whether somewhere the contour turns slightly towards the cutter. A control goes straight on
--- there, the path to where the ways meet: less than 'Geometry.Tolerance.slightRest' apart.
+-- there, the path to where the ways meet: less than 'Offset.Tolerance.slightRest' apart.
 turnsIn :: Case -> Bool
 turnsIn c =
   or
