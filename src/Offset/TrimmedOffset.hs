@@ -16,7 +16,7 @@ import Data.List (sortOn)
 import Data.List.NonEmpty (NonEmpty (..))
 import Data.List.NonEmpty qualified as NonEmpty
 import Data.Maybe (mapMaybe)
-import Data.Primitive.PrimArray (sizeofPrimArray)
+import Data.Primitive.PrimArray (indexPrimArray, sizeofPrimArray)
 import Data.Vector qualified as Vector
 import Geometry.ClosedPolyarcs qualified as ClosedPolyarcs
 import Geometry.Polyarc (Ends (..))
@@ -136,13 +136,14 @@ whole structure source = case LoopPath.region structure of
     firstOf = numberOf . origin . NonEmpty.head . pieces
     finalOf = numberOf . origin . NonEmpty.last . pieces
 
--- | Nothing of the raw offset was cut away.
+-- | Nothing of the raw offset was cut away: its segments are the loop, in order.
 isUncut :: LoopPath.Region -> Bool
 isUncut region =
   Loop.count loops == 1
-    && sizeofPrimArray (Loop.raws loops)
-      == sizeofPrimArray (ClosedPolyarcs.xs (LoopPath.raw region)) - 1
+    && count == sizeofPrimArray (ClosedPolyarcs.xs (LoopPath.raw region)) - 1
+    && and [indexPrimArray (Loop.raws loops) i == fromIntegral i | i <- [0 .. count - 1]]
   where
+    count = sizeofPrimArray (Loop.raws loops)
     loops = LoopPath.loops region
 
 -- | The numbers do not decrease, and elements without a number have shrunk to a point.
