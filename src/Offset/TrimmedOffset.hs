@@ -26,7 +26,7 @@ import Geometry.Segment qualified as Segment
 import Geometry.Tolerance qualified as Tolerance
 import Geometry.Vec qualified as Vec
 import Offset.Loop qualified as Loop
-import Offset.LoopPath (Circuit (Circuit), Run (firstFlat, isBeside, lastFlat))
+import Offset.LoopPath (Circuit (Circuit), Run (flat, isBeside))
 import Offset.LoopPath qualified as LoopPath
 import Offset.SourceOffset
   ( OffsetSegment (..),
@@ -61,9 +61,10 @@ pathsIn structure source region =
     (origin . NonEmpty.head . pieces)
     (concatMap (inLoop . LoopPath.circuit region) [0 .. Loop.count (LoopPath.loops region) - 1])
   where
+    open = openPath structure source (LoopPath.flatCount region)
     inLoop (Circuit before runs) = case runs of
       r : rest
-        | not (isBeside r) -> mapMaybe (openPath structure source (LoopPath.flatCount region)) (stretches r rest)
+        | not (isBeside r) -> mapMaybe open (stretches r rest)
       _ ->
         [ TrimmedOffset {ends = Closed, pieces = chained Closed ps, stops = (Nothing, Nothing)}
           | Just ps <- [NonEmpty.nonEmpty (LoopPath.path structure source (Just before) runs)]
@@ -99,13 +100,13 @@ openPath structure source count (before, runs, after) =
         { ends = Open,
           pieces = chained Open ps,
           stops =
-            ( stopAt (2 * count - 1) before (firstFlat (NonEmpty.head runs) == 0),
-              stopAt (count - 1) after (lastFlat (NonEmpty.last runs) == count - 1)
+            ( stopAt (2 * count - 1) before (flat (NonEmpty.head runs) == 0),
+              stopAt (count - 1) after (flat (NonEmpty.last runs) == count - 1)
             )
         }
     -- The arc about the contour's own end, next to the element that ends there, stops nothing.
     stopAt end other endsThere = case LoopPath.origin other of
-      Around _ | firstFlat other == end, endsThere -> Nothing
+      Around _ | flat other == end, endsThere -> Nothing
       o -> Just (numberOf o)
 
 -- | The pieces along a contour that the cutter reaches everywhere: there is one path,
