@@ -36,7 +36,7 @@ spec = do
       $ property $
         forAll anyContour $ \(contour', side', radius') ->
           forAll styles (agreementLaw contour' side' radius')
-    it "distance, open contours (catches a corner arc at an end that has no corner)" $
+    it "distance, open contours (catches an open path that is closed)" $
       property $
         forAll Generate.openCase distanceLaw
     it
