@@ -40,8 +40,8 @@ spec = do
       property $
         forAll Generate.openCase distanceLaw
     it
-      "clearance: no piece comes nearer to any element, by closed form (catches ways that are not \
-      \shortened where they meet)"
+      "clearance: no piece comes nearer to any element, by closed form (catches an arc that \
+      \continues beyond its end)"
       $ property $
         forAll Generate.closedCase clearanceLaw
     it
@@ -203,7 +203,8 @@ agreementLaw contour' side' radius' (isSharp, extras) =
         }
     alike p q = counterexample (show (p, q)) $ case (segment p, segment q) of
       (Arc a b m (Rad s), Arc a' b' m' (Rad s')) ->
-        m == m' && apart a a' < 1e-9 && apart b b' < 1e-9 && abs (s - s') < 1e-9
+        -- A degenerate contour may close with a gap of 10⁻⁶ mm.
+        m == m' && apart a a' < 1e-9 && apart b b' < 1e-9 && abs (s - s') < 2e-6
       (Straight a b, Straight a' b') -> apart a a' < 1e-9 && apart b b' < 1e-9
       _ -> False
 
