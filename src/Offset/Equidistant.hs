@@ -80,7 +80,9 @@ attempt source = case Obstacle.localCauses source of
   []
     | radius source <= Mm 0 -> Right (connected source (pointed source))
     | Just path <- TrimmedOffset.whole source source <|> fitting ->
-      Right (connected source path)
+      case crevices source path of
+        cause : _ -> Left cause
+        [] -> Right (connected source path)
     | otherwise ->
       Left (Obstacle.collision source (connected source (TrimmedOffset.untrimmed source)))
   where
@@ -88,16 +90,34 @@ attempt source = case Obstacle.localCauses source of
     smaller = source {radius = minus (radius source) Tolerance.clearance}
     fitting = if radius smaller > Mm 0 then TrimmedOffset.whole smaller source else Nothing
 
+-- | The cusps of a contour into which a path does not lead, since it changes from one element to
+-- the next there.
+crevices :: OffsetSource -> [OffsetSegment] -> [Cause]
+crevices source path
+  -- Without cusps the path need not be in memory at once.
+  | any (SourceOffset.isCusp source) [0 .. elementCount source - 1] =
+    [ InnerCorner i j (Segment.end (elements source Vector.! i))
+      | (p, q) <- zip path (drop 1 path <> around),
+        (Along i, Along j) <- [(origin p, origin q)],
+        j == next source i,
+        SourceOffset.isCusp source i
+    ]
+  | otherwise = []
+  where
+    around = if SourceOffset.ends source == Closed then take 1 path else []
+
 -- | The path of a point, which has no radius: elements at their own extra distances, joined by
 -- straight lines.
 pointed :: OffsetSource -> [OffsetSegment]
 pointed source = concatMap along [0 .. elementCount source - 1]
   where
     along i =
-      OffsetSegment (Along i) (SourceOffset.shortened (front (cutsAfter (previous i))) (back (cutsAfter i)) (movedElement source i)) :
+      OffsetSegment (Along i) (shortened i (movedElement source i)) :
         [OffsetSegment (Around i) s | Just s <- [SourceOffset.cornerStep source i]]
+    shortened i = SourceOffset.shortened (front (cutsAfter (previous i))) (back (cutsAfter i))
     previous i = if i == 0 then elementCount source - 1 else i - 1
-    cutsAfter i = SourceOffset.cutsAt source i (movedElement source i) (movedElement source (next source i))
+    cutsAfter i =
+      SourceOffset.cutsAt source i (movedElement source i) (movedElement source (next source i))
 
 -- | A path whose segments have a length and join exactly. A cutter that just fits into an arc does
 -- not move there; beside a contour of such arcs alone it is at one point.
@@ -200,14 +220,14 @@ gapsOf source = concatMap gapsAlong
         | not (isSpent source front [0 .. numberOf (origin first) - 1]),
           Just i <- [fst (TrimmedOffset.stops path)]
       ]
-        <> concat
-          (zipWith (gapBetween source) list (drop 1 list <> [first | TrimmedOffset.ends path == Closed]))
+        <> concat (zipWith (gapBetween source) list (drop 1 list <> around))
         <> [ stopped (origin final) (Along j) back
              | not (isSpent source back [numberOf (origin final) + 1 .. elementCount source - 1]),
                Just j <- [snd (TrimmedOffset.stops path)]
            ]
       where
         list = NonEmpty.toList (TrimmedOffset.pieces path)
+        around = [first | TrimmedOffset.ends path == Closed]
         first = NonEmpty.head (TrimmedOffset.pieces path)
         final = NonEmpty.last (TrimmedOffset.pieces path)
         (front, back) = (Segment.start (segment first), Segment.end (segment final))

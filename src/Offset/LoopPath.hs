@@ -23,8 +23,9 @@ where
 
 import Base.Crash qualified as Crash
 import Base.Quantity (Mm (..), Rad (..))
-import Data.List (find)
+import Data.List (find, minimumBy)
 import Data.Maybe (fromMaybe, isJust)
+import Data.Ord (comparing)
 import Data.Primitive.PrimArray (PrimArray, indexPrimArray, sizeofPrimArray)
 import Data.Vector qualified as Vector
 import Data.Word (Word8)
@@ -107,12 +108,13 @@ request OffsetSource {style, side, radius, elements} numbers =
           else Just (extra style . indexPrimArray numbers)
     }
 
--- | Consecutive segments of a loop that belong to one element or corner.
+-- | A segment of a loop, or consecutive segments of one arc.
 data Run = Run
   { origin :: Origin,
-    -- | the numbers of its first and its last segment in the flat contour, there and back
-    firstFlat :: Int,
-    lastFlat :: Int,
+    -- | number of its first segment in the flat contour, there and back
+    flat :: Int,
+    -- | joins both halves of an arc over half a turn
+    isInterior :: Bool,
     -- | on the asked side of an open contour; all runs beside a closed one
     isBeside :: Bool,
     -- | joins the offsets of two elements at an inner corner, and is an offset of none
@@ -170,28 +172,22 @@ circuitFrom r a z begin = Circuit (earlier begin) (go begin (z - a))
       | otherwise = originAt r i'
       where
         i' = if i == a then z - 1 else i - 1
-    after i = if i + 1 == z then a else i + 1
     go !i !left
       | left <= 0 = []
-      | otherwise = extend (runAt r i (after i)) (after i) (left - 1)
-    -- Segments of one arc are one run.
-    extend !run !i !left
-      | left > 0,
-        turned run /= 0,
-        s <- runAt r i (after i),
-        origin s == origin run,
-        turned s /= 0,
-        isBeside s == isBeside run =
-        extend run {lastFlat = lastFlat s, to = to s, turned = turned run + turned s} (after i) (left - 1)
-      | otherwise = run : go i left
+      | otherwise = runAt r i after : go after (left - 1)
+      where
+        after = if i + 1 == z then a else i + 1
 
 -- | The run of one segment of a loop, which ends at a vertex.
 runAt :: Region -> Int -> Int -> Run
 runAt r i j =
   Run
     { origin = originAt r i,
-      firstFlat = flatAt r i,
-      lastFlat = flatAt r i,
+      flat = flatAt r i,
+      isInterior =
+        (isAroundAt r i || isConnectingAt r i)
+          && flatAt r i + 1 < flatCount r
+          && indexPrimArray (numbers r) (flatAt r i) == indexPrimArray (numbers r) (flatAt r i + 1),
       isBeside = isBesideAt r i,
       isConnecting = isConnectingAt r i,
       from = vertex i,
@@ -237,7 +233,7 @@ isBesideAt r i = contourEnds r == Closed || flatAt r i < (if isAroundAt r i then
 -- fits. The first segment follows a run of the given origin when the path is closed. Segments are
 -- not chained yet: neighbours may differ by 'Tolerance.coincident' where they join.
 path :: OffsetSource -> OffsetSource -> Maybe Origin -> [Run] -> [OffsetSegment]
-path structure source previous runs = case filter (not . isNegligible structure) runs of
+path structure source previous runs = case joined (filter (not . isNegligible structure) runs) of
   [] -> []
   first : rest -> go (previous >>= \o -> joint o first) first rest
     where
@@ -250,12 +246,23 @@ path structure source previous runs = case filter (not . isNegligible structure)
     joint = jointBetween structure source
     segmentOf = exactSegment structure source
 
--- | What the kernel leaves at a corner that counts as smooth, or joins at a slight inner corner
--- where an intersection is lost in rounding.
+-- | Makes one run of consecutive runs along one arc.
+joined :: [Run] -> [Run]
+joined runs = case runs of
+  p : q : more
+    | origin p == origin q && turned p /= 0 && turned q /= 0 ->
+      joined (p {to = to q, turned = turned p + turned q} : more)
+    | otherwise -> p : joined (q : more)
+  _ -> runs
+
+-- | What the kernel leaves at a corner that counts as smooth, between both halves of an arc, or at
+-- a slight inner corner where an intersection is lost in rounding.
 isNegligible :: OffsetSource -> Run -> Bool
 isNegligible structure run = case origin run of
-  Around i -> turned run /= 0 && cornerAt structure i == Smooth
-  Along _ -> isConnecting run && Vec.distance (from run) (to run) <= Tolerance.clearance
+  Around i -> turned run /= 0 && cornerAt structure i == Smooth || isInterior run && isShort
+  Along _ -> (isConnecting run || isInterior run) && isShort
+  where
+    isShort = Vec.distance (from run) (to run) <= Tolerance.clearance
 
 -- | The cuts of two neighbouring elements that join at a smooth or slight corner; nothing for other
 -- neighbours, and where the kernel found another intersection of both.
@@ -296,12 +303,15 @@ exactSegment structure source front run back = OffsetSegment (origin run) $ case
     -- Mostly both are one, and the segment is needed once only.
     both f =
       let exact = f source
-       in partOf front run back (if radius structure == radius source then exact else f structure) exact
-    snapped i p =
-      maybe
-        p
-        snd
-        (find (Vec.near p . fst) (zip (cornerPoints structure i) (cornerPoints source i)))
+          structural = if radius structure == radius source then exact else f structure
+       in partOf front run back structural exact
+    -- The exact point of the corner that is closest to a vertex.
+    snapped i p
+      | Vec.near p nearest = snd pair
+      | otherwise = p
+      where
+        pair@(nearest, _) = minimumBy (comparing (Vec.distance p . fst)) points
+        points = zip (cornerPoints structure i) (cornerPoints source i)
 
 -- | The part of an exact segment that a run covers, given the one of the structure.
 partOf :: Maybe Double -> Run -> Maybe Double -> Segment -> Segment -> Segment

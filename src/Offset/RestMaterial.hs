@@ -220,5 +220,6 @@ stretchBetween onPaths ends elements (Position i from) (Position j to)
     n = Vector.length elements
     between = takeWhile (/= j) (drop 1 (take n (iterate (\k -> (k + 1) `mod` n) i)))
     on k = IntMap.findWithDefault [] k onPaths
-    passes k beyond p =
-      beyond (case origin p of Around _ -> 1; Along _ -> foot elements k (Segment.at 0.5 (segment p)))
+    passes k isBeyond p = isBeyond $ case origin p of
+      Around _ -> 1
+      Along _ -> foot elements k (Segment.at 0.5 (segment p))

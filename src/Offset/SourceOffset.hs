@@ -28,6 +28,7 @@ module Offset.SourceOffset
     -- * Corners
     Corner (..),
     cornerAt,
+    isCusp,
     Cuts (..),
     noCuts,
     cutsAt,
@@ -176,7 +177,7 @@ cornerAt source i
   | ends source == Open && i + 1 == elementCount source = NoCorner
   | abs turned <= smooth = Smooth
   | isInner && r1 == distanceAt source (next source i), Just t <- slight r1 = Slight t
-  | isInner && radius source > Mm 0 && pi - abs turned > smooth = Blocked
+  | isInner && radius source > Mm 0 && not (isCusp source i) = Blocked
   | otherwise = Outer
   where
     isInner = turned * leftward (side source) > 0
@@ -188,6 +189,14 @@ cornerAt source i
        in if r * (1 / cos (turned / 2) - 1) <= rest
             then Just (r * tan (abs turned / 2))
             else Nothing
+
+-- | Whether the contour turns back after an element. A fold of the material is rounded like an
+-- outer corner; a crevice between two arcs that curve away from each other is not. Only the
+-- kernel's loop tells which of both it is.
+isCusp :: OffsetSource -> Int -> Bool
+isCusp source i = pi - abs (indexPrimArray (turnings source) i) <= smooth
+  where
+    Rad smooth = Tolerance.smoothAngle
 
 -- | Lengths in mm by which the segment before a corner is shortened at its end, and the segment
 -- after it at its start.

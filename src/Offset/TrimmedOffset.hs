@@ -16,7 +16,7 @@ import Data.List (sortOn)
 import Data.List.NonEmpty (NonEmpty (..))
 import Data.List.NonEmpty qualified as NonEmpty
 import Data.Maybe (mapMaybe)
-import Data.Primitive.PrimArray (sizeofPrimArray)
+import Data.Primitive.PrimArray (indexPrimArray, sizeofPrimArray)
 import Data.Vector qualified as Vector
 import Geometry.ClosedPolyarcs qualified as ClosedPolyarcs
 import Geometry.Polyarc (Ends (..))
@@ -25,7 +25,7 @@ import Geometry.Segment (Segment (..))
 import Geometry.Segment qualified as Segment
 import Geometry.Vec qualified as Vec
 import Offset.Loop qualified as Loop
-import Offset.LoopPath (Circuit (Circuit), Run (firstFlat, isBeside, lastFlat))
+import Offset.LoopPath (Circuit (Circuit), Run (flat, isBeside))
 import Offset.LoopPath qualified as LoopPath
 import Offset.SourceOffset
   ( OffsetSegment (..),
@@ -61,9 +61,10 @@ pathsIn structure source region =
     (origin . NonEmpty.head . pieces)
     (concatMap (inLoop . LoopPath.circuit region) [0 .. Loop.count (LoopPath.loops region) - 1])
   where
+    open = openPath structure source (LoopPath.flatCount region)
     inLoop (Circuit before runs) = case runs of
       r : rest
-        | not (isBeside r) -> mapMaybe (openPath structure source (LoopPath.flatCount region)) (stretches r rest)
+        | not (isBeside r) -> mapMaybe open (stretches r rest)
       _ ->
         [ TrimmedOffset {ends = Closed, pieces = chained Closed ps, stops = (Nothing, Nothing)}
           | Just ps <- [NonEmpty.nonEmpty (LoopPath.path structure source (Just before) runs)]
@@ -99,13 +100,13 @@ openPath structure source count (before, runs, after) =
         { ends = Open,
           pieces = chained Open ps,
           stops =
-            ( stopAt (2 * count - 1) before (firstFlat (NonEmpty.head runs) == 0),
-              stopAt (count - 1) after (lastFlat (NonEmpty.last runs) == count - 1)
+            ( stopAt (2 * count - 1) before (flat (NonEmpty.head runs) == 0),
+              stopAt (count - 1) after (flat (NonEmpty.last runs) == count - 1)
             )
         }
     -- The arc about the contour's own end, next to the element that ends there, stops nothing.
     stopAt end other endsThere = case LoopPath.origin other of
-      Around _ | firstFlat other == end, endsThere -> Nothing
+      Around _ | flat other == end, endsThere -> Nothing
       o -> Just (numberOf o)
 
 -- | The pieces along a contour that the cutter reaches everywhere: there is one path,
@@ -136,13 +137,14 @@ whole structure source = case LoopPath.region structure of
     firstOf = numberOf . origin . NonEmpty.head . pieces
     finalOf = numberOf . origin . NonEmpty.last . pieces
 
--- | Nothing of the raw offset was cut away.
+-- | Nothing of the raw offset was cut away: its segments are the loop, in order.
 isUncut :: LoopPath.Region -> Bool
 isUncut region =
   Loop.count loops == 1
-    && sizeofPrimArray (Loop.raws loops)
-      == sizeofPrimArray (ClosedPolyarcs.xs (LoopPath.raw region)) - 1
+    && count == sizeofPrimArray (ClosedPolyarcs.xs (LoopPath.raw region)) - 1
+    && and [indexPrimArray (Loop.raws loops) i == fromIntegral i | i <- [0 .. count - 1]]
   where
+    count = sizeofPrimArray (Loop.raws loops)
     loops = LoopPath.loops region
 
 -- | The numbers do not decrease, and elements without a number have shrunk to a point.

@@ -72,12 +72,14 @@ block p path = do
       !lastSegment = Toolpath.segment (NonEmpty.last cut)
       (leadIn, leadOut) = leads p around firstSegment lastSegment
       begin = maybe (Segment.start firstSegment) Segment.start (segmentOf (listToMaybe leadIn))
-      finish = maybe (Segment.end lastSegment) Segment.end (segmentOf (listToMaybe (reverse leadOut)))
+      finish =
+        maybe (Segment.end lastSegment) Segment.end (segmentOf (listToMaybe (reverse leadOut)))
       segmentOf = fmap Toolpath.segment
       -- The axis of a blade is higher or lower.
       (inZ, outZ) = case swivels of
         Nothing -> levels p
-        Just hs -> (plus (level p) (fst (NonEmpty.head hs)), plus (level p) (snd (NonEmpty.last hs)))
+        Just hs ->
+          (plus (level p) (fst (NonEmpty.head hs)), plus (level p) (snd (NonEmpty.last hs)))
       (before, after) = case (Part.levels milling, Part.clearance milling) of
         (_ : _, Just clear) -> LinkingMove.deep (visit p) clear (inZ, outZ) begin finish
         _ -> LinkingMove.flat (visit p) (level p) (inZ, outZ) begin finish
@@ -185,14 +187,15 @@ leads p around firstSegment lastSegment = (leadIn, leadOut)
   where
     milling = value (milled p)
     lead = Lead.lead (wordOf p) milling (cutterSide p)
+    written = elements (contour milling)
     leadIn =
       lead
         Lead.In
-        (directionOf Segment.startDirection firstSegment (NonEmpty.head (elements (contour milling))))
+        (directionOf Segment.startDirection firstSegment (NonEmpty.head written))
         (Segment.start firstSegment)
     leadOut = case lead
       Lead.Out
-      (directionOf Segment.endDirection lastSegment (NonEmpty.last (elements (contour milling))))
+      (directionOf Segment.endDirection lastSegment (NonEmpty.last written))
       (Segment.end lastSegment) of
       [] | around -> Compensation.onward (wordOf p) milling firstSegment
       moves -> moves

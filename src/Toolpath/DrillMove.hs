@@ -27,7 +27,9 @@ moves at (Located region d) =
       Located hole p : rest ->
         let over = LinkingMove.ways from [Part.Stop (Located hole p) (Just clear) Part.Rapid]
          in over
-              <> [Move (Straight p p) (Manner heights pace False) hole False | (heights, pace) <- pecks]
+              <> [ Move (Straight p p) (Manner heights pace False) hole False
+                   | (heights, pace) <- pecks
+                 ]
               <> go (SpacePoint p clear) rest
     -- The vertical moves are the same at each hole.
     pecks = concat (zipWith peck (Nothing : map Just depths) depths)

@@ -95,11 +95,12 @@ machinedOf blocks =
     }
   where
     walls =
-      [ Wall n milling (BoxTree.index boxOf (concatMap (grouped . NonEmpty.toList . elements) cs))
+      [ Wall n milling (BoxTree.index boxOf (concatMap groupsOf cs))
         | (n, milling, cs) <-
             map NonEmpty.head (NonEmpty.groupBy ((==) `on` numberOf) (mapMaybe contoursOf blocks))
       ]
     numberOf (n, _, _) = n
+    groupsOf = grouped . NonEmpty.toList . elements
     grouped es = case es of
       [] -> []
       e : rest -> (e :| rest) : grouped (drop groupSize es)
@@ -169,8 +170,8 @@ intrusionsOfBlock machined b = case b of
       CutsPart at move element deep _ _ -> HoleCuts at (Segment.end move) element deep
       _ -> e
 
--- | The deepest intrusion of a move into each statement's contours. A contour that is milled several
--- times is listed once.
+-- | The deepest intrusion of a move into each statement's contours. A contour that is milled
+-- several times is listed once.
 intrusionsOfMove :: Machined -> Intruder -> Move -> [Error]
 intrusionsOfMove machined intruder m
   | fst (Toolpath.heights m) > top machined && snd (Toolpath.heights m) > top machined = []

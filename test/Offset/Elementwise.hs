@@ -36,7 +36,10 @@ elementwise style side radius (Polyarc ends segments) =
           let j = (i + 1) `mod` count
       ]
     way i = moved side (radiusAt style radius i) i (segments NonEmpty.!! i)
-    before i = if i == 0 then if ends == Open then Nothing else Just (last corners) else Just (corners !! (i - 1))
+    before i
+      | i > 0 = Just (corners !! (i - 1))
+      | ends == Open = Nothing
+      | otherwise = Just (last corners)
     after i = if i < length corners then Just (corners !! i) else Nothing
     pieces i =
       shortened (maybe 0 (\c -> front c) (before i)) (maybe 0 (\c -> back c) (after i)) (way i) :

@@ -1,5 +1,5 @@
--- | The laws of what can be reached beside a contour into which the cutter does not fit everywhere.
--- Each says which bug it would catch.
+-- | The laws of reachable paths beside a contour in which the cutter does not fit everywhere. Each
+-- says which bug it would catch.
 module Offset.ReachableSpec (spec, Subject (..), subject, reached, laws) where
 
 import Base.Quantity (Mm (..), Rad (..), plus)
@@ -47,8 +47,8 @@ spec = describe "laws of what can be reached" $ do
     )
     laws
   it
-    "some of it is not reached, at corners, in hollows and between elements (the cases are what \
-    \they are meant to be)"
+    "covers gaps at corners, in concave arcs and between elements (the cases are what they are \
+    \meant to be)"
     $ checkCoverage . forAll subject $ \s ->
       let causes = map (cause . stop) (snd (reached s))
        in cover 30 (not (null causes)) "rests"
@@ -64,11 +64,11 @@ spec = describe "laws of what can be reached" $ do
             . cover 2 (any isHollow causes) "hollows"
             $ cover 5 (any isCollision causes) "collisions" True
 
--- | A contour, the side and the radius of a cutter that may not fit everywhere.
+-- | A contour with the side and the radius in mm of a cutter that may not fit everywhere.
 data Subject = Subject {contour :: Polyarc, side :: Side, radius :: Double}
   deriving stock (Show)
 
--- | What is wrong, if anything is.
+-- | A law; its result lists the violations.
 type Law = Subject -> [String]
 
 laws :: [(String, Law)]
@@ -77,37 +77,36 @@ laws =
       \a piece of the wrong loop)",
       waysLaw
     ),
-    ( "whole: a place at the radius beside an element, and no nearer to another one, is on a way \
-      \(catches a way that is lost)",
+    ( "whole: a point at the radius beside an element, and no nearer to another one, is on a path \
+      \(catches a path that is lost)",
       wholeLaw
     ),
-    ( "told: where something beside an element cannot be reached, there is a rest (catches a cut \
-      \that nobody hears of)",
-      toldLaw
+    ( "reported: where a part beside an element cannot be reached, there is rest material (catches \
+      \a gap that is not reported)",
+      reportedLaw
     ),
-    ( "middle: there the cutter touches what stops it (catches the place of another cut)",
+    ( "middle: there the cutter touches what stops it (catches the position of another gap)",
       middleLaw
     ),
-    ( "material: beside a closed contour just that stays of which no place is within the radius of \
-      \a way (catches edges of the cutter that cross one another)",
+    ( "material: beside a closed contour, exactly the points that are farther than the radius from \
+      \all paths are rest material (catches edges of the cutter that intersect)",
       materialLaw
     ),
-    ( "standing: a chain that closes, from where the cutter touches the one element to where it \
-      \touches the other (catches an arc the other way round)",
-      standingLaw
+    ( "boundary: it is closed, from where the cutter touches the one element to where it touches \
+      \the other (catches an arc the other way round)",
+      boundaryLaw
     ),
     ( "largest: a cutter of that radius is not stopped there, a slightly larger one is (catches a \
       \search from the wrong end)",
       largestLaw
     ),
-    ( "answered: with sharp corners and with other distances there are ways and rests too, to \
-      \their last digit (catches a part that is not there)",
-      answeredLaw
+    ( "evaluated: with sharp corners and with other distances there are paths and rest material, \
+      \too, to their last digit (catches a part that is missing)",
+      evaluatedLaw
     )
   ]
 
--- | Closed contours and open ones, of lines and arcs, smooth or with corners, on grids and
--- degenerate.
+-- | Closed and open contours of lines and arcs: smooth, with corners, on grids, degenerate.
 subject :: Gen Subject
 subject = do
   c <- frequency [(2, rooms), (5, anyhow)]
@@ -138,7 +137,7 @@ subject = do
             pure whole
         _ -> outlined gen
 
--- | Rooms in a row with passages between them, of which some are too narrow for a cutter.
+-- | Rooms in a row with passages between them, some of which are too narrow for a cutter.
 rooms :: Gen Polyarc
 rooms = do
   count <- choose (2, 5)
@@ -163,7 +162,8 @@ rooms = do
         (NonEmpty.fromList (zipWith Straight corners (drop 1 corners <> take 1 corners)))
     )
 
--- | Arcs that are nearly their chords are chords: distances by centres lose their digits there.
+-- | Replaces arcs that are nearly straight by their chords: distances from their centres lose too
+-- many digits.
 straightened :: FlatPolyarc -> FlatPolyarc
 straightened o =
   FlatPolyarc.outline
@@ -176,7 +176,7 @@ style = CornerStyle {sharp = False, extra = const (Mm 0)}
 reached :: Subject -> ([TrimmedOffset], [UnreachedPart])
 reached s = Equidistant.reachable style (side s) (Mm (radius s)) (contour s)
 
--- | Points may be off by so much.
+-- | The allowed error of points, in mm.
 slack :: Subject -> Double
 slack s =
   1e-9
@@ -197,7 +197,7 @@ distanceTo p s = let Mm d = Distance.toPoint p s in d
 gap :: Point -> Point -> Double
 gap p q = let Mm d = Vec.distance p q in d
 
--- | Each piece keeps the radius; the pieces of a way hang together.
+-- | Every piece keeps the radius, and the pieces of a path join.
 waysLaw :: Law
 waysLaw s = concatMap way (fst (reached s))
   where
@@ -220,8 +220,8 @@ waysLaw s = concatMap way (fst (reached s))
                    abs (d - radius s) > slack s
                ]
 
--- | Places beside the elements at the radius, with the number of the element, and how near the
--- others come.
+-- | Points at the radius beside the elements, with the number of the element and the distance from
+-- the closest other one.
 beside :: Subject -> [(Int, Point, Double)]
 beside s =
   [ (i, p, minimum (1 / 0 : [distanceTo p o | (j, o) <- numbered, j /= i]))
@@ -234,7 +234,7 @@ beside s =
     left = if side s == LeftOf then 1 else -1
     moved e t =
       Vec.shift (Vec.scale (left * radius s) (Vec.left (Segment.directionAt t e))) (Segment.at t e)
-    -- Not beyond the centre of an arc, nor there.
+    -- No point at the centre of an arc, or beyond it.
     aside e t
       | gap (moved e 0) (moved e 0.5) > 1e-5 && distanceTo (moved e t) e > radius s - slack s =
         Just (moved e t)
@@ -242,7 +242,7 @@ beside s =
 
 wholeLaw :: Law
 wholeLaw s =
-  [ "not on a way: " <> show p <> " beside " <> show i
+  [ "not on a path: " <> show p <> " beside " <> show i
     | (i, p, near) <- beside s,
       near > radius s + 1e-5,
       all (\w -> all ((> slack s) . distanceTo p . segment) (pieces w)) ways
@@ -250,9 +250,9 @@ wholeLaw s =
   where
     ways = fst (reached s)
 
-toldLaw :: Law
-toldLaw s =
-  [ "no rest though "
+reportedLaw :: Law
+reportedLaw s =
+  [ "no rest material though "
       <> show p
       <> " beside "
       <> show i
@@ -278,7 +278,7 @@ middleLaw s =
     (snd (reached s))
   where
     n = length (elementsOf s)
-    -- A hollow stops the cutter where it touches both neighbours.
+    -- A concave arc stops the cutter where it touches both neighbours.
     touched c = case c of
       Concave i _ -> [(i + n - 1) `mod` n, (i + 1) `mod` n]
       InnerCorner i j _ -> [i, j]
@@ -288,7 +288,7 @@ materialLaw :: Law
 materialLaw s
   | ends (contour s) == Open || null ways || any ((== Unbounded) . standing) rests = []
   | otherwise =
-    [ "stays " <> show stays <> ", told " <> show told <> " at " <> show p
+    [ "stays " <> show stays <> ", reported " <> show told <> " at " <> show p
       | p <- places,
         let far = minimum (map (distanceTo p) wayPieces),
         abs (far - radius s) > 1e-5,
@@ -300,7 +300,7 @@ materialLaw s
     (ways, rests) = reached s
     wayPieces = map segment (concatMap (NonEmpty.toList . pieces) ways)
     outlines = [NonEmpty.toList outline | Within outline <- map standing rests]
-    -- On the cutter's side of the contour, nearer to it than the radius.
+    -- Points on the cutter's side of the contour, nearer to it than the radius.
     places =
       [ p
         | e <- elementsOf s,
@@ -316,8 +316,8 @@ materialLaw s
     left = if side s == LeftOf then 1 else -1
     isInside = (Polyarc.signedArea (contour s) > 0) == (side s == LeftOf)
 
-standingLaw :: Law
-standingLaw s = concatMap one (snd (reached s))
+boundaryLaw :: Law
+boundaryLaw s = concatMap one (snd (reached s))
   where
     rests = snd (reached s)
     edgesIn chain = [a | a@Arc {centre} <- chain, any ((<= slack s) . gap centre . middle) rests]
@@ -342,7 +342,7 @@ standingLaw s = concatMap one (snd (reached s))
                      WindingNumber.about (Vec.between (-0.5) (middle r) (Segment.at 0.5 edge)) chain
                        /= 0
                  ]
-              <> [ "a way goes through it: " <> show (cause (stop r))
+              <> [ "a path goes through it: " <> show (cause (stop r))
                    | w <- fst (reached s),
                      p <- NonEmpty.toList (pieces w),
                      let at = Segment.at 0.5 (segment p),
@@ -368,7 +368,7 @@ largestLaw s = concatMap one (nub (map stop (snd (reached s))))
         | not (stopped c (plus r (Mm 1e-4))) && plus r (Mm 1e-4) < Mm (radius s) ->
           ["a larger one is not stopped: " <> show (c, r)]
         | otherwise -> []
-    -- It is named again, or what it is about is not reached at all.
+    -- The cause is named again, or its elements are not reached at all.
     stopped c r =
       let (ways, rests) = Equidistant.reachable style (side s) r (contour s)
        in any (sameAs c . cause . stop) rests || any (\e -> not (isOn ways e)) (about c)
@@ -385,8 +385,8 @@ largestLaw s = concatMap one (nub (map stop (snd (reached s))))
       (Collision i j _, Collision k l _) -> (i, j) == (k, l) || (i, j) == (l, k)
       _ -> False
 
-answeredLaw :: Law
-answeredLaw s =
+evaluatedLaw :: Law
+evaluatedLaw s =
   [ show answer
     | answer <-
         [ Equidistant.reachable
