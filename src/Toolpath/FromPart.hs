@@ -70,7 +70,7 @@ lay part = case (Part.start part, Part.operations part) of
         let path = Toolpath begin blocks (turns part)
             wrong = Intrusion.intrusions path
          in Result
-              (staying path <> (if null wrong then Warning.warnings path else []))
+              (restWarnings path <> (if null wrong then Warning.warnings path else []))
               wrong
               (Just path)
       (errors, _) -> Result [] errors Nothing
@@ -87,8 +87,8 @@ turns part = or [isTurning c | Just c <- [Part.firstCutter part]] || any asks (P
 
 -- | The warnings of rest material beside milled contours. The rest material that one cutter leaves
 -- at a statement that is carried out several times is one warning.
-staying :: Toolpath -> [Warning]
-staying path =
+restWarnings :: Toolpath -> [Warning]
+restWarnings path =
   [ Leaves word tool (concatMap (map fst . NonEmpty.toList . places) (r : more))
     | r@Remaining {word, tool} :| more <- Map.elems statements
   ]

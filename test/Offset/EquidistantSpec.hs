@@ -208,7 +208,7 @@ agreementLaw contour' side' radius' (isSharp, extras) =
       (Straight a b, Straight a' b') -> apart a a' < 1e-9 && apart b b' < 1e-9
       _ -> False
 
--- | The same segments, whichever comes first.
+-- | Compares two paths; the first segment may differ.
 sameWalk :: [Segment] -> [Segment] -> Property
 sameWalk as bs =
   length as === length bs .&&. conjoin [counterexample (show a) (any (alike a) bs) | a <- as]
@@ -218,7 +218,7 @@ sameWalk as bs =
         && apart (Segment.end a) (Segment.end b) < 1e-6
         && apart (Segment.at 0.5 a) (Segment.at 0.5 b) < 1e-6
 
--- | Whether a corner turns slightly towards the cutter: the path is cut off there.
+-- | Whether a corner turns slightly towards the cutter. The path is shorter there.
 cutOff :: Case -> Bool
 cutOff c =
   or
@@ -238,8 +238,8 @@ lengthLaw c = counterexample (show (len, old, r)) (abs (len - (old + sign * 2 * 
     outside = (Polyarc.signedArea (contour c) > 0) == (side c == RightOf)
     sign = if outside then 1 else -1
 
--- | Two elements, of which one at least is an arc, at a corner so slight that the cutter passes it:
--- the centre is then at its radius from both.
+-- | At a corner between two elements, at least one of them an arc, that is so slight that the cutter
+-- passes it, the centre is at the radius from both.
 slightCornerLaw :: Property
 slightCornerLaw =
   forAll (choose (2e-7, 0.0039)) $ \turned ->
@@ -333,7 +333,7 @@ square = Polyarc Closed (lines' :| rest)
         Straight (Vec.point 0 10) (Vec.point 0 0)
       ]
 
--- | A block with a slot of width 8 that widens to a round of radius 20, walked counter-clockwise.
+-- | A block with a slot of width 8 that widens to a circle of radius 20, counter-clockwise.
 keyhole :: Polyarc
 keyhole =
   Polyarc
@@ -351,8 +351,8 @@ keyhole =
   where
     neck = -20 + sqrt (20 * 20 - 4 * 4)
 
--- | A wall, walked with its inside on the left, that goes round and comes back beneath its own
--- beginning: a line, three quarters of a turn and more, a line.
+-- | A wall with its inside on the left that comes back below its own start: a line, an arc of more
+-- than three quarters of a turn, a line.
 hook :: Polyarc
 hook =
   Polyarc
