@@ -186,7 +186,7 @@ provenanceLaws = do
     "every fact keeps its mark, and the line's own comes before that around it (history made nicer \
     \than it is)"
     $ do
-      values <- describedValues <$> readText "examples/machines/fm-8.machine"
+      values <- valuesOf <$> readText "examples/machines/fm-8.machine"
       take 2 (filter (Text.isInfixOf "axis z" . snd) values)
         `shouldBe` [ ( Corrected,
                        "axis z: pulse 0.0125 mm — manual, page 1: 0.125 mm, which would make its \
@@ -197,7 +197,7 @@ provenanceLaws = do
       lookup Corrected (filter (Text.isInfixOf "25 = " . snd) values)
         `shouldBe` Just "feeds: table: 25 = 420 — manual, page 10: 42, between 300 and 600"
   it "the mark on a word comes before that on the frame (history made nicer than it is)" $ do
-    values <- describedValues <$> readText "machines/kontur-3p.machine"
+    values <- valuesOf <$> readText "machines/kontur-3p.machine"
     filter (isPresenceOfWord . snd) values
       `shouldBe` [ (Sourced, "frame: word \"Е\" along x: when needed"),
                    (Reconstructed, "frame: word \"Т\" along z: when needed"),
@@ -206,7 +206,7 @@ provenanceLaws = do
                    )
                  ]
   where
-    describedValues text =
+    valuesOf text =
       [ (mark, fact)
         | Just m <- [Result.settled (reading text)],
           DescribedValue mark fact <- facts m
