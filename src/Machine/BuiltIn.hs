@@ -1,5 +1,5 @@
--- | The machines that partc knows by itself: the descriptions in the folder @machines/@. Each is
--- read when it is asked for.
+-- | The built-in machines: the descriptions in the folder @machines/@. Each is read when it is
+-- first used.
 module Machine.BuiltIn
   ( names,
     find,
@@ -20,32 +20,35 @@ import Machine.Embedded qualified as Embedded
 import Machine.FromText qualified as FromText
 import Machine.Machine (Machine, MachineName (..))
 
--- | In the order of the alphabet.
+-- | Names of all built-in machines, in alphabetical order.
 names :: [MachineName]
-names = map fst known
+names = map fst builtIn
 
+-- | Finds a machine by its name.
 find :: MachineName -> Maybe Machine
-find name = snd <$> lookup name known
+find name = snd <$> lookup name builtIn
 
--- | All of them, in the order of their names.
+-- | All built-in machines, in the order of their names.
 machines :: [Machine]
-machines = [m | (_, (_, m)) <- known]
+machines = [m | (_, (_, m)) <- builtIn]
 
--- | The description of a machine.
+-- | Finds the description of a machine by its name.
 text :: MachineName -> Maybe Text
-text name = fst <$> lookup name known
+text name = fst <$> lookup name builtIn
 
--- | Each file is named for its machine.
-known :: [(MachineName, (Text, Machine))]
-known =
-  [ (name, described name bytes)
+-- | Names, descriptions and machines. The name of a file without its extension is that of the
+-- machine.
+builtIn :: [(MachineName, (Text, Machine))]
+builtIn =
+  [ (name, machineIn name bytes)
     | (file, bytes) <- sortOn fst Embedded.files,
       Just n <- [Text.stripSuffix ".machine" (Text.pack file)],
       let name = MachineName n
   ]
 
-described :: MachineName -> ByteString -> (Text, Machine)
-described (MachineName name) bytes = (content, machine)
+-- | Reads a file. A mistake in a built-in description is a bug of the program.
+machineIn :: MachineName -> ByteString -> (Text, Machine)
+machineIn (MachineName name) bytes = (content, machine)
   where
     content = fromRight (Crash.bug (name <> ".machine is not UTF-8")) (Encoding.decodeUtf8' bytes)
     machine = case Result.settled (FromText.read content) of

@@ -1,4 +1,4 @@
--- | The section @code@ of a description: the rows of the symbols.
+-- | Reads the section @code@ of a description: the rows of the symbols.
 module Machine.CodeFromText
   ( code,
     check,
@@ -17,91 +17,77 @@ import Data.Maybe (catMaybes, isNothing, maybeToList)
 import Data.Text (Text)
 import Data.Text qualified as Text
 import Data.Word (Word8)
-import Machine.Error (Error (..), Holes (..))
+import Machine.Error (Error (..), HoleFault (..))
 import Machine.Machine (TapeCode (..))
 import Machine.Section
 import Machine.Syntax
 
--- | The code of a tape with so many tracks, if that is known.
+-- | Reads the section. The first argument is the number of tracks; it is 'Nothing' if the tape
+-- cannot be read, and then a pattern may have 1 to 8 digits.
 code :: Maybe Int -> Statement -> Result w Error TapeCode
-code given s = do
-  (name, section) <- opened ["code \"NAME\" { … }"] "the code" named s
+code trackCount s = do
+  (name, section) <- withBlock ["code \"NAME\" { … }"] "the code" codeNameFrom s
   made <-
     TapeCode name
-      <$> ( Map.map value
-              <$> required "symbols" "symbols { 0 = 0000 … }" (symbolsFrom width) section
-          )
-      <*> (Map.map value <$> optional "weights" Map.empty weightsFrom section)
+      <$> (Map.map value <$> locatedSymbols section)
+      <*> (Map.map value <$> locatedWeights section)
       <*> track "parity-track" section
       <*> track "service-track" section
       <*> optional "skip" [] (skipsFrom width) section
-      <* known ["symbols", "weights", "parity-track", "service-track", "skip"] [] section
-  Result.failing
-    ( maybe
-        []
-        (\given' -> check (most width) section made given' <> unknown section given')
-        (output (required "symbols" "" (symbolsFrom width) section))
-    )
-    made
+      <* allowKeys ["symbols", "weights", "parity-track", "service-track", "skip"] [] section
+  let faults = case output (locatedSymbols section) of
+        Nothing -> []
+        Just located -> check (most width) section made located <> unknownWeights section located
+  Result.failing faults made
   where
-    width = maybe (Width 1 8) (\n -> Width (max 1 (n - 1)) n) given
-    named args = case map value args of
+    width = maybe (Width 1 8) (\n -> Width (max 1 (n - 1)) n) trackCount
+    codeNameFrom args = case map value args of
       [Quoted n] -> Just (pure n)
       _ -> Nothing
-    -- A weight of a symbol that there is not, such as a letter of another alphabet that looks like
-    -- it.
-    unknown section symbols' =
+    locatedSymbols = required "symbols" "symbols { 0 = 0000 … }" (symbolsFrom width)
+    locatedWeights = optional "weights" Map.empty weightsFrom
+    -- An unknown symbol may be a letter of another alphabet that looks like a known one.
+    unknownWeights section located =
       [ NotInCode r "the weight" [c]
-        | Just weights' <- [output (optional "weights" Map.empty weightsFrom section)],
+        | Just weights' <- [output (locatedWeights section)],
           (c, Located r _) <- Map.toList weights',
-          Map.notMember c symbols'
+          Map.notMember c located
       ]
-    track word =
-      optional
-        word
-        Nothing
-        (plain [word <> " 5"] (single (fmap (fmap Just) . wholeIn "the track" 1 (most width))))
+    track word = optional word Nothing (withArguments [word <> " 5"] (single trackNumber))
+    trackNumber = fmap (fmap Just) . wholeIn "the track" 1 (most width)
 
+-- | Accepts a line with one argument.
 single :: (Argument -> Maybe (Result w Error a)) -> [Argument] -> Maybe (Result w Error a)
 single f args = case args of
   [a] -> f a
   _ -> Nothing
 
--- | How many tracks a pattern may name: the highest may be left out, since it is often that of the
--- service or of the parity.
+-- | Least and largest number of tracks in a pattern. The highest track may be left out, because it
+-- is often the service track or the parity track.
 data Width = Width {least :: Int, most :: Int}
 
--- | The symbols, each with where it is given.
+-- | Reads the symbols, each with its region.
 symbolsFrom :: Width -> Statement -> Result w Error (Map Char (Located Word8))
 symbolsFrom width s = do
-  ((), section) <-
-    opened
-      ["symbols { 0 = 0000 … }"]
-      "the symbols"
-      (\args -> if null args then Just (pure ()) else Nothing)
-      s
-  given <- concat . catMaybes <$> traverse (tried . symbol) (entries section)
+  ((), section) <- withBlock ["symbols { 0 = 0000 … }"] "the symbols" noArguments s
+  given <- concat . catMaybes <$> traverse (attempt . symbol) (entries section)
   Result.failing
-    (repeated "the symbol " [(c, r) | (c, Located r _) <- given])
+    (repetitions "the symbol " [(c, r) | (c, Located r _) <- given])
     (Map.fromListWith (\_ first -> first) given)
   where
     symbol e
       | keyWord e == Just "ascii" && null (arguments e) && isNothing (formula e) =
         if most width < 7
-          then Result.failed (BadHoles (told e) TooFewTracks)
-          else pure [(c, Located (told e) (fromIntegral (ord c))) | c <- '\n' : [' ' .. '~']]
+          then Result.failed (BadHoles (extent e) TooFewTracks)
+          else pure [(c, Located (extent e) (fromIntegral (ord c))) | c <- '\n' : [' ' .. '~']]
       | otherwise = case (charOf e, formula e) of
-        _ | broken e -> Result [] [] Nothing
+        _ | broken e -> alreadyReported
         (Just c, Just (Located r (Constant digits _)))
           | null (arguments e) ->
             (\p -> [(c, Located (region (key e)) p)]) <$> holesOf width (Located r digits)
         _ -> malformed ["X = 0101", "\"\\n\" = 0101", "ascii"] e
 
--- | Go on with what can be read.
-tried :: Result w e a -> Result w e (Maybe a)
-tried r = r {output = Just (output r)}
-
--- | The one character that a key is.
+-- | The key as a symbol; 'Nothing' if it is not a single character.
 charOf :: Statement -> Maybe Char
 charOf s = case value (key s) of
   Word w -> one w
@@ -115,16 +101,18 @@ charOf s = case value (key s) of
       [c] -> Just c
       _ -> Nothing
 
-repeated :: Text -> [(Char, Region)] -> [Error]
-repeated title given =
+-- | Reports symbols that are given before; the title is for the report.
+repetitions :: Text -> [(Char, Region)] -> [Error]
+repetitions title given =
   [ Twice r (title <> "‘" <> Text.singleton c <> "’") first
-    | ((c, r), before) <- zip given befores,
-      Just first <- [Map.lookup c before]
+    | ((c, r), earlier) <- zip given earlierOnes,
+      Just first <- [Map.lookup c earlier]
   ]
   where
-    befores = scanl (\m (c, r) -> Map.insertWith (\_ old -> old) c r m) Map.empty given
+    earlierOnes = scanl (\m (c, r) -> Map.insertWith (\_ old -> old) c r m) Map.empty given
 
--- | A pattern of holes, the highest track first. Tracks above those that are written have no hole.
+-- | Reads a pattern of holes, the highest track first. Tracks that the pattern leaves out have no
+-- hole.
 holesOf :: Width -> Located Text -> Result w Error Word8
 holesOf width (Located r digits)
   | Text.any (`notElem` ("01" :: String)) digits || size > most width || size < least width =
@@ -133,8 +121,9 @@ holesOf width (Located r digits)
   where
     size = Text.length digits
 
+-- | Reads the rows to skip. Their patterns name every track.
 skipsFrom :: Width -> Statement -> Result w Error [Word8]
-skipsFrom width = plain ["skip 00000 11111"] rows
+skipsFrom width = withArguments ["skip 00000 11111"] rows
   where
     rows args = if null args then Nothing else traverse row args >>= Just . sequenceA
     row a = case value a of
@@ -146,71 +135,69 @@ skipsFrom width = plain ["skip 00000 11111"] rows
           )
       _ -> Nothing
 
--- | The weights, each with where it is given.
+-- | Reads the weights, each with its region.
 weightsFrom :: Statement -> Result w Error (Map Char (Located Int))
 weightsFrom s = do
-  ((), section) <-
-    opened
-      ["weights { digits … }"]
-      "the weights"
-      (\args -> if null args then Just (pure ()) else Nothing)
-      s
-  given <- concat . catMaybes <$> traverse (tried . weight) (entries section)
+  ((), section) <- withBlock ["weights { digits … }"] "the weights" noArguments s
+  given <- concat . catMaybes <$> traverse (attempt . weight) (entries section)
   Result.failing
-    (repeated "the weight of " [(c, r) | (c, Located r _) <- given])
+    (repetitions "the weight of " [(c, r) | (c, Located r _) <- given])
     (Map.fromListWith (\_ first -> first) given)
   where
     weight e
       | keyWord e == Just "digits" && null (arguments e) && isNothing (formula e) =
-        pure [(c, Located (told e) n) | (c, n) <- zip ['0' .. '9'] [0 ..]]
+        pure [(c, Located (extent e) n) | (c, n) <- zip ['0' .. '9'] [0 ..]]
       | otherwise = case (charOf e, formula e) of
-        _ | broken e -> Result [] [] Nothing
+        _ | broken e -> alreadyReported
         (Just c, Just (Located r (Constant t v)))
           | null (arguments e),
             Just n <- wholeIn "the weight" 0 1000000 (Located r (Number t v)) ->
             (\k -> [(c, Located (region (key e)) k)]) <$> n
         _ -> malformed ["X = 7", "digits"] e
 
--- | What the tracks say of one another.
+-- | Checks the rows against each other and against the parity track, the service track and the rows
+-- to skip. The first argument is the number of tracks.
 check :: Int -> Section -> TapeCode -> Map Char (Located Word8) -> [Error]
-check tracks section made given = alike <> parity <> service <> twice <> skipped
+check tracks section made located =
+  equalRows <> parityFaults <> serviceFaults <> sharedTrack <> skippedSymbols
   where
-    rows = Map.toList given
-    alike =
+    rows = Map.toList located
+    equalRows =
       [ BadHoles r (SameHoles (Text.singleton d) r')
         | (k, (_, Located r p)) <- zip [0 ..] rows,
           (d, Located r' _) <- take 1 [e | e@(_, Located _ q) <- take k rows, q == p]
       ]
-    parity =
+    parityFaults =
       [ BadHoles r (InParityTrack t)
         | t <- maybeToList (evenTrack made),
           (_, Located r p) <- rows,
           testBit p (t - 1)
       ]
-    service =
+    serviceFaults =
       [ BadHoles r (InServiceTrack t)
         | t <- maybeToList (serviceTrack made),
           (c, Located r p) <- rows,
           c `elem` ("0123456789+-." :: String),
           testBit p (t - 1)
       ]
-    twice =
-      [ BadHoles (told s) TwoUses
+    sharedTrack =
+      [ BadHoles (extent s) SharedTrack
         | Just t <- [evenTrack made],
           serviceTrack made == Just t,
           s <- entries section,
           keyWord s == Just "service-track"
       ]
-    skipped =
-      [ BadHoles (told s) (SkippedSymbol (Text.singleton c))
+    skippedSymbols =
+      [ BadHoles (extent s) (SkippedSymbol (Text.singleton c))
         | s <- entries section,
           keyWord s == Just "skip",
           row <- skips made,
           (c, _) <- take 1 [e | e@(_, Located _ p) <- rows, row `elem` rowsOf tracks made p]
       ]
 
--- | The rows that a symbol can be on the tape: with the hole of the parity, with and without that
--- of the service.
+-- | Rows that a symbol can have on the tape: without and with a hole in the service track, each
+-- with its parity hole. The arguments are the number of tracks, the code and the holes of the
+-- symbol.
 rowsOf :: Int -> TapeCode -> Word8 -> [Word8]
 rowsOf tracks made p = map even' (p : [p .|. bit' t | Just t <- [serviceTrack made], t <= tracks])
   where

@@ -1,13 +1,16 @@
--- | The section @commands@ of a description: what a frame says for each command of a program.
+-- | Reads the section @commands@ of a description: the words of a frame for each command of a part
+-- program.
 module Machine.CommandFromText
   ( CommandContext (..),
+    noCommands,
     commands,
     check,
   )
 where
 
-import Base.Region (Located (..))
-import Base.Result (Result (..))
+import Base.Crash qualified as Crash
+import Base.Region (Located (..), Region)
+import Base.Result (Result)
 import Base.Result qualified as Result
 import Data.List.NonEmpty (NonEmpty)
 import Data.List.NonEmpty qualified as NonEmpty
@@ -31,197 +34,218 @@ import Machine.Machine qualified as Machine
 import Machine.Section
 import Machine.Syntax
 
--- | The commands, and each of their numbers where it stands with the event that it is for.
-data CommandContext = CommandContext {orders :: CommandWords, each :: [(Text, Located CommandWord)]}
+-- | The words of all commands. Each word is listed once more with its region and with the name of
+-- the command event that it is for.
+data CommandContext = CommandContext
+  { allWords :: CommandWords,
+    eventWords :: [(Text, Located CommandWord)]
+  }
 
+-- | The context of a description without commands.
+noCommands :: CommandContext
+noCommands = CommandContext Machine.noOrders []
+
+-- | Located words of the commands, before they are put into a 'CommandContext'.
+data Events = Events
+  { -- | words of the events of 'simpleEvents', in that order
+    simple :: [[Located CommandWord]],
+    compensations :: Maybe CompensationEvents,
+    endFrames :: [NonEmpty (Located CommandWord)]
+  }
+
+-- | Located words of cutter compensation.
+data CompensationEvents = CompensationEvents
+  { left :: Located CommandWord,
+    right :: Located CommandWord,
+    off :: Located CommandWord
+  }
+
+-- | Keys of the events that are lists of words.
+simpleEvents :: [Text]
+simpleEvents =
+  [ "spindle-clockwise",
+    "spindle-counterclockwise",
+    "spindle-off",
+    "coolant-on",
+    "coolant-off",
+    "tool-change",
+    "auxiliary"
+  ]
+
+-- | Reads the section.
 commands :: Statement -> Result w Error CommandContext
 commands s = do
-  ((), section) <- opened ["commands { … }"] "the commands" none s
-  let event word = optional word [] (eventFrom word) section
-  made <-
-    (,,,,,,,,)
-      <$> event "spindle-clockwise"
-      <*> event "spindle-counterclockwise"
-      <*> event "spindle-off"
-      <*> event "coolant-on"
-      <*> event "coolant-off"
-      <*> event "tool-change"
-      <*> event "auxiliary"
+  ((), section) <- withBlock ["commands { … }"] "the commands" noArguments s
+  events <-
+    Events
+      <$> traverse (\word -> optional word [] (eventFrom word) section) simpleEvents
       <*> optional "compensation" Nothing (fmap Just . compensationFrom) section
       <*> optional "finish" [] finishFrom section
-      <* known
-        [ "spindle-clockwise",
-          "spindle-counterclockwise",
-          "spindle-off",
-          "coolant-on",
-          "coolant-off",
-          "tool-change",
-          "auxiliary",
-          "compensation",
-          "finish"
-        ]
-        []
-        section
-  let (cw, ccw, off, on', off', tool', aux, comp, end) = made
-      given =
-        concat
-          [ [ (w, o)
-              | (w, os) <-
-                  [ ("spindle-clockwise", cw),
-                    ("spindle-counterclockwise", ccw),
-                    ("spindle-off", off),
-                    ("coolant-on", on'),
-                    ("coolant-off", off'),
-                    ("tool-change", tool'),
-                    ("auxiliary", aux)
-                  ],
-                o <- os
-            ],
-            [("compensation", o) | Just (a, b, c) <- [comp], o <- [a, b, c]],
-            [("finish", o) | os <- end, o <- NonEmpty.toList os]
-          ]
-      plainly = map value
-  pure
-    CommandContext
-      { orders =
-          CommandWords
-            (plainly cw)
-            (plainly ccw)
-            (plainly off)
-            (plainly on')
-            (plainly off')
-            (plainly tool')
-            (plainly aux)
-            ((\(a, b, c) -> CompensationCommands (value a) (value b) (value c)) <$> comp)
-            (map (fmap value) end),
-        each = given
+      <* allowKeys (simpleEvents <> ["compensation", "finish"]) [] section
+  pure CommandContext {allWords = commandWords events, eventWords = withEvents events}
+
+-- | The words by themselves.
+commandWords :: Events -> CommandWords
+commandWords events = case map (map value) (simple events) of
+  [clockwise, counterClockwise, stop, on', off', tool', aux] ->
+    CommandWords
+      { spindleClockwise = clockwise,
+        spindleCounterClockwise = counterClockwise,
+        spindleOff = stop,
+        coolantOn = on',
+        coolantOff = off',
+        toolChange = tool',
+        auxiliary = aux,
+        compensation = unlocated <$> compensations events,
+        finish = map (fmap value) (endFrames events)
       }
+  _ -> Crash.bug "the events of a machine are as many as their keys"
+  where
+    unlocated c = CompensationCommands (value (left c)) (value (right c)) (value (off c))
 
-none :: [Argument] -> Maybe (Result w Error ())
-none args = if null args then Just (pure ()) else Nothing
+-- | Each word with the key of its event.
+withEvents :: Events -> [(Text, Located CommandWord)]
+withEvents events =
+  concat
+    [ [(word, w) | (word, ws) <- zip simpleEvents (simple events), w <- ws],
+      [("compensation", w) | Just c <- [compensations events], w <- [left c, right c, off c]],
+      [("finish", w) | ws <- endFrames events, w <- NonEmpty.toList ws]
+    ]
 
--- | The lines @set M 8@ of an event.
+-- | Reads the lines of an event, such as @set M 8@.
 eventFrom :: Text -> Statement -> Result w Error [Located CommandWord]
 eventFrom word s = do
-  ((), section) <- opened [word <> " { set M 8 }"] ("‘" <> word <> "’") none s
-  NonEmpty.toList <$> setsFrom section
+  ((), section) <- withBlock [word <> " { set M 8 }"] ("‘" <> word <> "’") noArguments s
+  NonEmpty.toList <$> wordsFrom section
 
--- | At least one number, each of another word.
-setsFrom :: Section -> Result w Error (NonEmpty (Located CommandWord))
-setsFrom section = do
+-- | Reads one or more numbers, each for another word.
+wordsFrom :: Section -> Result w Error (NonEmpty (Located CommandWord))
+wordsFrom section = do
   found <-
-    traverse orderFrom (filter ((== Just "set") . keyWord) (entries section))
-      <* known [] ["set"] section
+    traverse wordFrom (filter ((== Just "set") . keyWord) (entries section))
+      <* allowKeys [] ["set"] section
   case NonEmpty.nonEmpty found of
-    Nothing -> Result.failed (Missing (place section) (what section) "set" "set M 8")
-    Just some -> Result.failing (twice (NonEmpty.toList some)) some
+    Nothing ->
+      Result.failed (Missing (sectionRegion section) (sectionName section) "set" "set M 8")
+    Just some -> Result.failing (repetitions (NonEmpty.toList some)) some
   where
-    twice os =
+    repetitions ws =
       [ Twice r ("the number of ‘" <> n <> "’") first
-        | (k, Located r o) <- zip [0 ..] os,
-          let CommandName n = order o,
-          Located first _ <- take 1 [p | p <- take k os, order (value p) == order o]
+        | (k, Located r w) <- zip [0 ..] ws,
+          let CommandName n = order w,
+          Located first _ <- take 1 [p | p <- take k ws, order (value p) == order w]
       ]
 
-orderFrom :: Statement -> Result w Error (Located CommandWord)
-orderFrom s = case (arguments s, block s) of
+-- | Reads one number of a command.
+wordFrom :: Statement -> Result w Error (Located CommandWord)
+wordFrom s = case (arguments s, block s) of
   ([name, Located _ (Word "steps")], Just ss)
     | not (broken s),
       Nothing <- formula s,
-      Just n <- named name ->
-      placed n . Step
-        <$> FeedFromText.table Section {what = "the steps", place = told s, entries = ss}
-  _ -> plain ["set M 8", "set S argument", "set D diameter", "set S steps { 1 = 63 … }"] simple s
+      Just n <- nameFrom name ->
+      located n . Step <$> FeedFromText.table (stepSection ss)
+  _ -> withArguments forms oneNumber s
   where
-    placed n v = Located (told s) (CommandWord (CommandName n) v)
-    named a = case value a of
+    forms = ["set M 8", "set S argument", "set D diameter", "set S steps { 1 = 63 … }"]
+    stepSection ss =
+      Section {sectionName = "the steps", sectionRegion = extent s, entries = ss}
+    located n v = Located (extent s) (CommandWord (CommandName n) v)
+    nameFrom a = case value a of
       Word n -> Just n
       Quoted n -> Just n
       _ -> Nothing
-    simple args = case args of
-      [name, Located _ (Word "argument")] -> pure . (`placed` Argument) <$> named name
-      [name, Located _ (Word "diameter")] -> pure . (`placed` Diameter) <$> named name
+    oneNumber args = case args of
+      [name, Located _ (Word "argument")] -> pure . (`located` Argument) <$> nameFrom name
+      [name, Located _ (Word "diameter")] -> pure . (`located` Diameter) <$> nameFrom name
       [name, a] -> do
-        n <- named name
-        fmap (placed n . Fixed) <$> wholeIn "the number" 0 999999999 a
+        n <- nameFrom name
+        fmap (located n . Fixed) <$> wholeIn "the number" 0 999999999 a
       _ -> Nothing
 
-compensationFrom ::
-  Statement ->
-  Result w Error (Located CommandWord, Located CommandWord, Located CommandWord)
+-- | Reads the three events of cutter compensation, each of one number.
+compensationFrom :: Statement -> Result w Error CompensationEvents
 compensationFrom s = do
-  ((), section) <-
-    opened ["compensation { left { … } right { … } off { … } }"] "the compensation" none s
-  (,,)
+  ((), section) <- withBlock [example] "the compensation" noArguments s
+  CompensationEvents
     <$> side "left" section
       <*> side "right" section
-      <*> side "off" section <* known ["left", "right", "off"] [] section
+      <*> side "off" section
+      <* allowKeys ["left", "right", "off"] [] section
   where
+    example = "compensation { left { … } right { … } off { … } }"
     side word = required word (word <> " { set D diameter }") (one word)
     one word e = do
       found <- eventFrom word e
       case found of
-        [o] -> pure o
+        [w] -> pure w
         _ -> malformed [word <> " { set D diameter }, with one number"] e
 
--- | The frames at the end of a program.
+-- | Reads the last frames of a program.
 finishFrom :: Statement -> Result w Error [NonEmpty (Located CommandWord)]
 finishFrom s = do
-  ((), section) <- opened ["finish { frame { set M 2 } }"] "the end of a program" none s
+  ((), section) <- withBlock ["finish { frame { set M 2 } }"] "the end of a program" noArguments s
   traverse frame (filter ((== Just "frame") . keyWord) (entries section))
-    <* known [] ["frame"] section
+    <* allowKeys [] ["frame"] section
   where
-    frame e = opened ["frame { set M 2 }"] "this frame" none e >>= setsFrom . snd
+    frame e = withBlock ["frame { set M 2 }"] "this frame" noArguments e >>= wordsFrom . snd
 
--- | What the commands ask of the frame.
+-- | Checks the numbers of the commands against the words of the frame.
 check :: Machine -> CommandContext -> [Error]
-check machine given = concatMap one (each given)
+check machine context = concatMap (wordFaults machine) (eventWords context)
+
+-- | Lists the mistakes in one number of an event.
+wordFaults :: Machine -> (Text, Located CommandWord) -> [Error]
+wordFaults machine (event, Located r (CommandWord name v)) =
+  case Machine.orderCapacity machine name of
+    Nothing -> [BadCommand r (UnknownCommandName (nameText name) (namesIn machine))]
+    Just most ->
+      sizeFaults machine r name most v
+        <> eventFaults r event v
+        <> [ BadCommand r ZeroIsNoCommand
+             | givesZero v,
+               not (Machine.canOrder machine name 0)
+           ]
   where
-    names =
-      [ n
-        | w <- Machine.wordsOf machine,
-          CommandName n <- [o | Command o <- [content w]] <> [o | OrderBit o _ <- service (form w)]
-      ]
-    one (event, Located r (CommandWord (CommandName n) v)) =
-      case Machine.orderCapacity machine (CommandName n) of
-        Nothing -> [BadCommand r (NoPlace n names)]
-        Just most ->
-          fits r n most v
-            <> means r event v
-            <> [ BadCommand r AsksNothing
-                 | asksZero v,
-                   not (Machine.canOrder machine (CommandName n) 0)
-               ]
-    asksZero v = case v of
-      Fixed k -> k == 0
-      Step t -> Map.member 0 t
-      Argument -> False
-      Diameter -> False
-    fits r n most v = case v of
-      Fixed k -> tooLarge r most [k] <> whole r n
-      Argument -> whole r n
-      Step t -> tooLarge r most (take 1 (filter (> most) (Map.keys t))) <> whole r n
-      Diameter -> []
-    tooLarge r most ks = [BadCommand r (TooLarge k most) | k <- ks, k > most]
-    whole r n =
+    nameText (CommandName n) = n
+
+-- | Names of the commands for which the frame has a word or bits.
+namesIn :: Machine -> [Text]
+namesIn machine =
+  [ n
+    | w <- Machine.wordsOf machine,
+      CommandName n <- [o | Command o <- [content w]] <> [o | OrderBit o _ <- service (form w)]
+  ]
+
+givesZero :: CommandValue -> Bool
+givesZero v = case v of
+  Fixed k -> k == 0
+  Step t -> Map.member 0 t
+  Argument -> False
+  Diameter -> False
+
+-- | Reports numbers above the largest one of a word, and whole numbers in a word with decimals.
+sizeFaults :: Machine -> Region -> CommandName -> Int -> CommandValue -> [Error]
+sizeFaults machine r name most v = case v of
+  Fixed k -> tooLarge [k] <> decimalsFault
+  Argument -> decimalsFault
+  Step t -> tooLarge (take 1 (filter (> most) (Map.keys t))) <> decimalsFault
+  Diameter -> []
+  where
+    tooLarge ks = [BadCommand r (NumberTooLarge k most) | k <- ks, k > most]
+    decimalsFault =
       [ BadCommand r InDecimals
         | w <- Machine.wordsOf machine,
-          content w == Command (CommandName n),
+          content w == Command name,
           decimals (form w) > 0
       ]
-    means r event v = case v of
-      Fixed _ -> []
-      Argument ->
-        [ BadCommand r (NoSuchValue "argument" event)
-          | event
-              `notElem` [ "spindle-clockwise",
-                          "spindle-counterclockwise",
-                          "tool-change",
-                          "auxiliary"
-                        ]
-        ]
-      Step _ ->
-        [ BadCommand r (NoSuchValue "steps" event)
-          | event `notElem` ["spindle-clockwise", "spindle-counterclockwise"]
-        ]
-      Diameter -> [BadCommand r (NoSuchValue "diameter" event) | event /= "compensation"]
+
+-- | Reports a value that the event does not have.
+eventFaults :: Region -> Text -> CommandValue -> [Error]
+eventFaults r event v = case v of
+  Fixed _ -> []
+  Argument -> onlyFor "argument" (spindleEvents <> ["tool-change", "auxiliary"])
+  Step _ -> onlyFor "steps" spindleEvents
+  Diameter -> onlyFor "diameter" ["compensation"]
+  where
+    spindleEvents = ["spindle-clockwise", "spindle-counterclockwise"]
+    onlyFor kind events = [BadCommand r (NoSuchValue kind event) | event `notElem` events]

@@ -1,4 +1,5 @@
--- | Whether the words of a frame say what the machine needs, and nothing of what it lacks.
+-- | Checks the words of a frame against the machine: each thing that the machine needs has one
+-- word, and no word is for a thing that the machine lacks.
 module Machine.Completeness
   ( check,
   )
@@ -10,129 +11,142 @@ import Base.Region (Located (..), Region)
 import Data.List (nub, sort)
 import Data.Map.Strict qualified as Map
 import Data.Maybe (catMaybes, isNothing)
-import Data.Text (Text)
-import Machine.Error (Error (..), FrameMisfit (..), ServiceFault (..))
+import Machine.Axis (axisName)
+import Machine.Error (Error (..), FrameFault (..), ServiceFault (..))
 import Machine.Machine
 
--- | What is wrong: the machine, where its axes, arcs and feeds stand, the items of its frame.
+-- | Lists the mistakes. The arguments are the machine, its axes, the regions of its arcs and feeds,
+-- and the items of its frame.
 check :: Machine -> [Located AxisForm] -> Region -> Region -> [(Region, LayoutItem)] -> [Error]
-check machine axes' arcsAt feedsAt items' =
+check machine locatedAxes arcsRegion feedsRegion locatedItems =
   concat
-    [ concatMap (strange machine) placed,
-      twice placed,
-      [ Unfit r (NoWord (contentWord (Along (axis a))))
-        | Located r a <- axes',
+    [ concatMap (wordFaults machine) locatedWords,
+      duplicates locatedWords,
+      [ BadFrame r (NoWord (contentWord (Along (axis a))))
+        | Located r a <- locatedAxes,
           isNothing (wordFor machine (Along (axis a)))
       ],
-      [Unfit feedsAt (NoWord (contentWord FeedWord)) | isNothing (wordFor machine FeedWord)],
-      arcWords machine arcsAt,
-      bits placed,
-      [Unfit r (NoCheckDigit m) | (r, CheckDigit m) <- items', not (solves (code machine) m)]
+      [BadFrame feedsRegion (NoWord (contentWord FeedWord)) | isNothing (wordFor machine FeedWord)],
+      arcFaults machine arcsRegion,
+      bitFaults locatedWords,
+      [ BadFrame r (NoCheckDigit m)
+        | (r, CheckDigit m) <- locatedItems,
+          not (hasAllRemainders (code machine) m)
+      ]
     ]
   where
-    placed = [(r, w) | (r, AWord w) <- items']
+    locatedWords = [(r, w) | (r, AWord w) <- locatedItems]
 
--- | A word for what is not there, or of another measure.
-strange :: Machine -> (Region, Word') -> [Error]
-strange machine (r, w) = case content w of
-  Along a -> onAxis a
-  Centre Z -> [Unfit r CentreOfZ]
-  Centre a -> onAxis a
-  Motion m -> motions m
+-- | Reports a word for an axis that the machine lacks, or in a unit other than the machine's
+-- pulses.
+wordFaults :: Machine -> (Region, Word') -> [Error]
+wordFaults machine (r, w) = case content w of
+  Along a -> axisFaults a
+  Centre Z -> [BadFrame r CentreOfZ]
+  Centre a -> axisFaults a
+  Motion m -> motionFaults m
   FrameNumber -> []
   FeedWord -> []
   Command _ -> []
   where
-    onAxis a = case axisForm machine a of
-      Nothing -> [Unfit r (NoSuchAxis (axisText a))]
+    axisFaults a = case axisForm machine a of
+      Nothing -> [BadFrame r (NoSuchAxis (axisName a))]
       Just f ->
-        [ Unfit r (PulseNotDecimal (decimals (form w)) (step f))
+        [ BadFrame r (PulseNotDecimal (decimals (form w)) (step f))
           | decimals (form w) > 0,
-            not (isLast (decimals (form w)) (step f))
+            not (isLastPlace (decimals (form w)) (step f))
         ]
-          <> [Unfit r (NoSign (contentWord (content w))) | sign (form w) == Unsigned]
-    isLast n (Mm p) = abs (p * 10 ^ n - 1) < samePulse
-    motions m =
+          <> [BadFrame r (NoSign (contentWord (content w))) | sign (form w) == Unsigned]
+    isLastPlace n (Mm p) = abs (p * 10 ^ n - 1) < pulseTolerance
+    motionFaults m =
       let ns = catMaybes [rapid m, Just (straight m), clockwise m, counterClockwise m]
-       in [ Unfit r (BadMotion n)
+       in [ BadFrame r (BadMotion n)
             | (k, n) <- zip [0 ..] ns,
               n `elem` take k ns || n >= 10 ^ digits (form w)
           ]
 
--- | Pulses are the same when they differ by this part.
-samePulse :: Double
-samePulse = 1e-9
+-- | Relative difference up to which two pulses count as equal.
+pulseTolerance :: Double
+pulseTolerance = 1e-9
 
-axisText :: Axis -> Text
-axisText a = case a of
-  X -> "x"
-  Y -> "y"
-  Z -> "z"
-
--- | Words that hold the same.
-twice :: [(Region, Word')] -> [Error]
-twice placed =
-  [ Unfit r (TwoWords (contentWord (content w)) first)
-    | (k, (r, w)) <- zip [0 ..] placed,
-      (first, _) <- take 1 [p | p@(_, v) <- take k placed, same (content v) (content w)]
+-- | Reports words with the same content as an earlier word.
+duplicates :: [(Region, Word')] -> [Error]
+duplicates locatedWords =
+  [ BadFrame r (TwoWords (contentWord (content w)) first)
+    | (k, (r, w)) <- zip [0 ..] locatedWords,
+      (first, _) <- take 1 [p | p@(_, v) <- take k locatedWords, isSame (content v) (content w)]
   ]
   where
-    same a b = case (a, b) of
+    isSame a b = case (a, b) of
       (Motion _, Motion _) -> True
       _ -> a == b
 
--- | What arcs need.
-arcWords :: Machine -> Region -> [Error]
-arcWords machine r = case arcs machine of
+-- | Reports words and axes that a machine with arcs lacks.
+arcFaults :: Machine -> Region -> [Error]
+arcFaults machine r = case arcs machine of
   NoArcs -> []
   Arcs {} ->
-    [ Unfit r (NoWord (contentWord (Centre a)))
+    [ BadFrame r (NoWord (contentWord (Centre a)))
       | a <- [X, Y],
         isNothing (wordFor machine (Centre a))
     ]
-      <> [ Unfit r (NoWord "the direction of an arc")
-           | null
-               [ ()
-                 | w <- wordsOf machine,
-                   Motion MotionCodes {clockwise = Just _, counterClockwise = Just _} <- [content w]
-               ]
-         ]
-      <> [Unfit r (NoSuchAxis (axisText a)) | a <- [X, Y], isNothing (axisForm machine a)]
-
--- | The bits of commands: each once, without a gap, in words that are always there, and no word for
--- them besides.
-bits :: [(Region, Word')] -> [Error]
-bits placed =
-  [ BadService r (SameMeaning (bitText o k))
-    | (i, (r, o, k, _)) <- zip [0 ..] given,
-      or [(o, k) == (o', k') | (_, o', k', _) <- take i given]
-  ]
-    <> [ BadService r (BitGap (orderText o))
-         | (r, o) <- firsts,
-           nub (sort [k | (_, o', k, _) <- given, o' == o])
-             /= [0 .. length (nub [k | (_, o', k, _) <- given, o' == o]) - 1]
-       ]
-    <> [BadService r (BitsMayLack (orderText o)) | (r, o, _, Just ()) <- given]
-    <> [ Unfit r (TwoWords (contentWord (Command o)) r')
-         | (r, o) <- firsts,
-           (r', w) <- placed,
-           content w == Command o
-       ]
-    <> [ BadService r (SameMeaning "braking")
-         | (r, _) <-
-             drop 1 [b | b@(_, w) <- placed, _ <- filter (== BrakingHole) (service (form w))]
-       ]
+      <> [BadFrame r (NoWord "the direction of an arc") | not (any hasBothSenses (wordsOf machine))]
+      <> [BadFrame r (NoSuchAxis (axisName a)) | a <- [X, Y], isNothing (axisForm machine a)]
   where
-    given =
-      [ (r, o, k, if presence w == Always then Nothing else Just ())
-        | (r, w) <- placed,
-          OrderBit o k <- service (form w)
-      ]
-    firsts = Map.elems (Map.fromListWith (\_ first -> first) [(o, (r, o)) | (r, o, _, _) <- given])
-    orderText (CommandName n) = n
-    bitText (CommandName n) k = n <> ":" <> Decimal.whole k
+    hasBothSenses w = case content w of
+      Motion MotionCodes {clockwise = Just _, counterClockwise = Just _} -> True
+      _ -> False
 
--- | Whether for every sum there is a digit that makes it a multiple.
-solves :: TapeCode -> Int -> Bool
-solves c modulus =
+-- | A bit of a command, in the word with this region.
+data BitPlace = BitPlace
+  { wordRegion :: Region,
+    command :: CommandName,
+    bit :: Int,
+    -- | true if not every frame contains the word
+    isOptional :: Bool
+  }
+
+-- | Checks the service bits. Each bit of a command occurs once; bits are numbered without a gap;
+-- each is in a word that every frame contains; and a command with bits has no word. There is at
+-- most one braking hole.
+bitFaults :: [(Region, Word')] -> [Error]
+bitFaults locatedWords =
+  concat
+    [ [ BadService (wordRegion b) (SameMeaning (bitText b))
+        | (k, b) <- zip [0 ..] bits,
+          any (isSameBit b) (take k bits)
+      ],
+      [BadService r (BitGap (commandText c)) | (r, c) <- firsts, hasGap c],
+      [ BadService (wordRegion b) (OptionalBits (commandText (command b)))
+        | b <- bits,
+          isOptional b
+      ],
+      [ BadFrame r (TwoWords (contentWord (Command c)) r')
+        | (r, c) <- firsts,
+          (r', w) <- locatedWords,
+          content w == Command c
+      ],
+      [BadService r (SameMeaning "braking") | r <- drop 1 brakingHoles]
+    ]
+  where
+    bits =
+      [ BitPlace {wordRegion = r, command = c, bit = k, isOptional = presence w /= Always}
+        | (r, w) <- locatedWords,
+          OrderBit c k <- service (form w)
+      ]
+    brakingHoles =
+      [r | (r, w) <- locatedWords, _ <- filter (== BrakingHole) (service (form w))]
+    firsts =
+      Map.elems
+        (Map.fromListWith (\_ first -> first) [(command b, (wordRegion b, command b)) | b <- bits])
+    isSameBit a b = command a == command b && bit a == bit b
+    hasGap c =
+      let ks = nub (sort [bit b | b <- bits, command b == c])
+       in ks /= [0 .. length ks - 1]
+    commandText (CommandName n) = n
+    bitText b = commandText (command b) <> ":" <> Decimal.whole (bit b)
+
+-- | True if the weights of the digits have every remainder, so that each sum has a check digit.
+hasAllRemainders :: TapeCode -> Int -> Bool
+hasAllRemainders c modulus =
   length (nub [Map.findWithDefault 0 d (weights c) `mod` modulus | d <- ['0' .. '9']]) == modulus

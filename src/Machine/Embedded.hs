@@ -1,7 +1,7 @@
 {-# LANGUAGE TemplateHaskell #-}
 
--- | The files of the folder @machines/@, as they were when the program was built. What they mean is
--- read in "Machine.FromText".
+-- | The files of the folder @machines/@ as they are when the program is built. "Machine.FromText"
+-- reads them.
 module Machine.Embedded
   ( files,
   )
@@ -11,7 +11,7 @@ import Data.ByteString (ByteString)
 import Data.FileEmbed (embedDir)
 import Language.Haskell.TH.Syntax (addDependentFile)
 
--- | Names and contents. A changed file compiles this module anew by itself; a new one does through
--- @partc.cabal@, which is generated with the list of them.
+-- | Names and contents of the files. A changed file makes GHC recompile this module. So does a new
+-- file, because it changes @partc.cabal@, which is generated with a list of the files.
 files :: [(FilePath, ByteString)]
 files = $(addDependentFile "partc.cabal" *> embedDir "machines")

@@ -1,12 +1,12 @@
 {-# OPTIONS_GHC -O0 #-}
 
--- | What can be wrong with the description of a machine.
+-- | The mistakes of machine descriptions, and their reports.
 module Machine.Error
   ( Error (..),
-    Holes (..),
-    Unclear (..),
+    HoleFault (..),
+    DecodingFault (..),
     ServiceFault (..),
-    FrameMisfit (..),
+    FrameFault (..),
     TableFault (..),
     CommandFault (..),
     toReport,
@@ -29,152 +29,156 @@ import Report.Report
     report,
   )
 
--- | A fact about the description, and where it stands.
+-- | A mistake in a description, with its region.
 data Error
-  = -- | something else was expected: what stands there, what was expected
+  = -- | unexpected token: the token found, and the kind of token expected
     Unexpected Region Text Text
-  | -- | a brace that is never closed
+  | -- | opening brace without a closing one
     Unclosed Region
-  | -- | a closing brace without an opening one
+  | -- | closing brace without an opening one
     Unopened Region
-  | -- | blocks nested deeper than so many
+  | -- | block nested more deeply than this limit
     TooDeep Region Int
-  | -- | a key that its section does not have: the key as it is written, the section, the keys that
-    -- it has
+  | -- | unknown key: the key as written, the name of the section, and the keys that it allows
     UnknownKey Region Text Text [Text]
-  | -- | something given twice: what, and where it stands first
+  | -- | repeated entry: its name, and the region of the first one
     Twice Region Text Region
-  | -- | a section lacks this key: the section, the key, how it is written
+  | -- | missing key: the name of the section, the key, and an example
     Missing Region Text Text Text
-  | -- | a statement that is not written as it has to be: its key, the ways to write it
+  | -- | malformed statement: its key, and the forms that it may have
     Malformed Region Text [Text]
-  | -- | a value without its mark, and how many more the section has
+  | -- | value without a mark of provenance, and the count of further ones in the section
     Unmarked Region Int
-  | -- | a number that may be from one to another: what it is
+  | -- | number out of range: its name, the lowest and the highest value
     OutOfRange Region Text Text Text
-  | BadHoles Region Holes
-  | -- | characters that the code lacks: what needs them
+  | BadHoles Region HoleFault
+  | -- | characters that the code lacks, and the name of the part that needs them
     NotInCode Region Text [Char]
-  | Unreadable Region Unclear
+  | NotDecodable Region DecodingFault
   | BadService Region ServiceFault
-  | Unfit Region FrameMisfit
+  | BadFrame Region FrameFault
   | BadTable Region TableFault
   | BadCommand Region CommandFault
   deriving stock (Eq, Ord, Show)
 
--- | How the holes of a row are wrong.
-data Holes
-  = -- | how many tracks there are, and how many of them a pattern may name at least
+-- | Mistake in the holes of a row.
+data HoleFault
+  = -- | pattern with another number of digits than the tape has tracks: the number of tracks, and
+    -- the least number of digits
     WrongWidth Int Int
-  | -- | this track is the parity's
+  | -- | hole in the parity track, which is this one
     InParityTrack Int
-  | -- | this track is that of the service, and the symbol may stand in a number
+  | -- | hole of a digit, sign or point in the service track, which is this one
     InServiceTrack Int
-  | -- | two symbols with the same holes: the other one
+  | -- | same holes as another symbol: that symbol and its region
     SameHoles Text Region
-  | -- | a row to skip that is a symbol
+  | -- | row to skip that is also this symbol
     SkippedSymbol Text
-  | -- | one track for service and for parity
-    TwoUses
-  | -- | the ready code needs seven tracks
+  | -- | one track for both service and parity
+    SharedTrack
+  | -- | fewer than the seven tracks that ASCII needs
     TooFewTracks
   deriving stock (Eq, Ord, Show)
 
--- | Why a frame cannot be read back.
-data Unclear
-  = -- | a word that need not stand there has no address
+-- | Reason why frames cannot be decoded uniquely.
+data DecodingFault
+  = -- | optional word without an address
     NoAddress
-  | -- | the address of another word
+  | -- | address of another word, and the region of that word
     SameAddress Text Region
-  | -- | an address or a separator that begins like a number
+  | -- | address or separator that begins like a number
     LikeNumber Text
-  | -- | what begins with an address that may stand in the same place
+  | -- | symbols that are a prefix of others which may follow at the same point: the prefix, the
+    -- longer symbols, and the region of the other item
     Prefix Text Text Region
-  | -- | a number of any length, and what may follow it begins with a digit
-    RunsOn Region
-  | -- | the same, and the closing symbols begin with a digit
-    RunsOnClosing
-  | -- | the same, and blank rows are skipped that read as this digit
-    RunsOnBlank Char
-  | -- | nothing stands in every frame
-    NothingFixed
-  | -- | blank rows are skipped, and the frame may begin with one
+  | -- | number without fixed length before an item that may begin with a digit
+    NumberRunsOn Region
+  | -- | number without fixed length before closing symbols that begin with a digit
+    NumberRunsIntoClosing
+  | -- | number without fixed length before skipped blank rows that read as this digit
+    NumberRunsIntoBlank Char
+  | -- | no item that every frame contains
+    NoFixedItem
+  | -- | blank rows are skipped, but a frame may begin with one
     BlankStart
-  | -- | a second check digit
+  | -- | second check digit, and the region of the first one
     TwoChecks Region
-  | -- | the closing symbols begin like a frame
+  | -- | closing symbols that begin like a frame
     ClosingLikeFrame
   deriving stock (Eq, Ord, Show)
 
+-- | Mistake in the holes beside the digits of a word.
 data ServiceFault
-  = -- | holes are named, but no track for them
+  = -- | holes of a code without a service track
     NoTrack
-  | -- | so many are named for so many digits
+  | -- | number of holes that differs from the number of digits: holes, digits
     WrongCount Int Int
-  | -- | a number of any length has no fixed place for holes
+  | -- | holes of a number without fixed length
     AnyLength
-  | -- | the same meaning twice
+  | -- | repeated meaning of a hole
     SameMeaning Text
-  | -- | the bits of a command are not 0, 1, … up to the highest
+  | -- | bits of a command that are not 0, 1, … up to the highest
     BitGap Text
-  | -- | a command's bits in a word that is not in every frame
-    BitsMayLack Text
-  | -- | frames are to be braked, and no hole says so
+  | -- | bits of a command in a word that not every frame contains
+    OptionalBits Text
+  | -- | no hole for braking, although the machine brakes by such frames
     NoBrakingHole
   deriving stock (Eq, Ord, Show)
 
--- | How the words of the frame do not fit the machine.
-data FrameMisfit
-  = -- | a word for an axis that the machine lacks
+-- | Conflict between the words of the frame and the machine.
+data FrameFault
+  = -- | word for an axis that the machine lacks
     NoSuchAxis Text
-  | -- | two words for the same
+  | -- | two words with the same content: its name, and the region of the first word
     TwoWords Text Region
-  | -- | no word for this
+  | -- | missing word: the name of its content
     NoWord Text
-  | -- | the word cannot be so: what it holds, what is wrong
+  | -- | form that does not suit the content: the name of the content, and the reason
     Unsuited Text Text
-  | -- | decimals behind the point, and a pulse that is not one of the last
+  | -- | number of decimals whose last place is not this pulse
     PulseNotDecimal Int Mm
-  | -- | a number of a motion that its digits do not hold, or the same for two
+  | -- | code of a motion that does not fit the digits, or is used twice
     BadMotion Int
-  | -- | a centre along z
+  | -- | centre word along z
     CentreOfZ
-  | -- | no digit makes the sum a multiple of this
+  | -- | modulus for which some sums have no check digit
     NoCheckDigit Int
-  | -- | a word of an axis that cannot say which way
+  | -- | word of an axis without a sign
     NoSign Text
-  | -- | frames are to be braked to a feed where codes are frequencies
+  | -- | braking to a feed in mm/min, although the codes are frequencies
     BrakedFrequencies
   deriving stock (Eq, Ord, Show)
 
+-- | Mistake in a table, or in the codes of feeds.
 data TableFault
   = EmptyTable
-  | -- | a value that is no feed or speed above 0
+  | -- | value for this code that is not between 0 and 10^9
     NoValue Int
-  | -- | a code that the word of the feed does not hold: the largest
+  | -- | code that does not fit the feed word, and the largest one that does
     CodeTooLarge Int Int
-  | -- | the table lacks this code
+  | -- | code that the table lacks
     NoSuchCode Int
-  | -- | from more to less, or too many
+  | -- | range that is reversed or too long
     BadRange Int Int
-  | -- | the end of braking lies outside the feeds: the lowest and the highest
+  | -- | feed at the end of braking that is outside the feeds: the lowest and the highest one
     NoSuchFeed Double Double
   deriving stock (Eq, Ord, Show)
 
+-- | Mistake in the words of a command.
 data CommandFault
-  = -- | neither a word nor bits for this command; the commands that there are
-    NoPlace Text [Text]
-  | -- | a number that the place does not hold: the largest
-    TooLarge Int Int
-  | -- | a value that the event does not have
+  = -- | name for which the frame has neither a word nor bits, and the names that it has
+    UnknownCommandName Text [Text]
+  | -- | number that does not fit, and the largest one that does
+    NumberTooLarge Int Int
+  | -- | kind of value that the event does not allow: the kind, the event
     NoSuchValue Text Text
-  | -- | whole numbers in a word with decimals
+  | -- | whole number in a word with decimals
     InDecimals
-  | -- | the number 0, where it stands when nothing is asked
-    AsksNothing
+  | -- | the number 0 in a word that is 0 if no command is given
+    ZeroIsNoCommand
   deriving stock (Eq, Ord, Show)
 
--- | The words for it.
+-- | Converts an error to its report.
 toReport :: Error -> Report
 toReport err = case err of
   Unexpected region found expected ->
@@ -241,7 +245,7 @@ toReport err = case err of
     (at region "E1007" (what <> " cannot be this number"))
       { hints = ["It lies between " <> low <> " and " <> high <> "."]
       }
-  BadHoles region fault -> holesReport region fault
+  BadHoles region fault -> holeReport region fault
   NotInCode region what chars ->
     (at region "E1009" (what <> " needs " <> listed chars <> ", which the code lacks"))
       { hints =
@@ -250,24 +254,24 @@ toReport err = case err of
               <> "\" = 00101"
           ]
       }
-  Unreadable region unclear -> unclearReport region unclear
+  NotDecodable region fault -> decodingReport region fault
   BadService region fault -> serviceReport region fault
-  Unfit region misfit -> misfitReport region misfit
+  BadFrame region fault -> frameReport region fault
   BadTable region fault -> tableReport region fault
   BadCommand region fault -> commandReport region fault
   where
     listed cs =
       Text.intercalate ", " (map (quote . Text.pack . unquoted . show) (take 12 cs))
         <> (if length cs > 12 then " …" else "")
-    -- A character as Haskell shows it, a Cyrillic one as itself.
+    -- Control characters as escape sequences; all other characters as they are.
     unquoted s = case s of
       "'\\n'" -> "\\n"
       ['\'', c, '\''] -> [c]
       '\'' : '\\' : number | [(n, "'")] <- reads number -> [toEnum n]
       _ -> s
 
-holesReport :: Region -> Holes -> Report
-holesReport region fault = case fault of
+holeReport :: Region -> HoleFault -> Report
+holeReport region fault = case fault of
   WrongWidth tracks least ->
     (at region "E1008" "a row of other tracks than the tape's")
       { hints =
@@ -298,7 +302,7 @@ holesReport region fault = case fault of
     (at region "E1008" ("a row to skip is the symbol " <> quote other))
       { hints = ["Skip only rows that mean nothing."]
       }
-  TwoUses ->
+  SharedTrack ->
     (at region "E1008" "one track for service and for parity")
       { hints =
           ["Give each a track of its own."]
@@ -309,8 +313,8 @@ holesReport region fault = case fault of
           ["Give the row of each symbol: X = 0101"]
       }
 
-unclearReport :: Region -> Unclear -> Report
-unclearReport region unclear = case unclear of
+decodingReport :: Region -> DecodingFault -> Report
+decodingReport region fault = case fault of
   NoAddress ->
     (because "A word that need not stand in a frame is known by its address only.")
       { hints =
@@ -335,20 +339,20 @@ unclearReport region unclear = case unclear of
             \number."
           ]
       }
-  RunsOn next ->
+  NumberRunsOn next ->
     (because "The number has any length, and what follows it may begin with a digit.")
       { others = [Label next "follows it"],
         hints =
           ["Give the number a fixed length: digits " <> "4", "Or give what follows an address."]
       }
-  RunsOnClosing ->
+  NumberRunsIntoClosing ->
     (because "The number has any length, and the symbols behind the last frame begin with a digit.")
       { hints =
           [ "Give the number a fixed length: digits 4",
             "Or end every frame with a symbol: symbols \"\\n\""
           ]
       }
-  RunsOnBlank digit ->
+  NumberRunsIntoBlank digit ->
     ( because
         ( "The number has any length, and a blank row, which is skipped behind the frame, reads as "
             <> quote (Text.singleton digit)
@@ -357,7 +361,7 @@ unclearReport region unclear = case unclear of
     )
       { hints = ["Give the number a fixed length: digits 4", "Or let the blank rows be ‘counted’."]
       }
-  NothingFixed ->
+  NoFixedItem ->
     ( because
         "No word and no symbol stands in every frame, so nothing tells one frame from the next."
     )
@@ -365,7 +369,8 @@ unclearReport region unclear = case unclear of
       }
   BlankStart ->
     (because "Blank rows are skipped, but a frame may begin with one.")
-      { hints = ["Begin the frame with a symbol that has holes, or let the blank rows be ‘counted’."]
+      { hints =
+          ["Begin the frame with a symbol that has holes, or let the blank rows be ‘counted’."]
       }
   TwoChecks first ->
     (because "With two check digits one of them can be any digit.")
@@ -409,7 +414,7 @@ serviceReport region fault = case fault of
       { hints =
           ["They are counted from 0, without a gap: " <> name <> ":1 " <> name <> ":0"]
       }
-  BitsMayLack name ->
+  OptionalBits name ->
     (wrong ("the bits of " <> quote name <> " are not in every frame"))
       { hints =
           ["Let the word stand in every frame: leave out ‘when’."]
@@ -422,8 +427,8 @@ serviceReport region fault = case fault of
   where
     wrong = at region "E1011"
 
-misfitReport :: Region -> FrameMisfit -> Report
-misfitReport region misfit = case misfit of
+frameReport :: Region -> FrameFault -> Report
+frameReport region fault = case fault of
   NoSuchAxis axis ->
     (wrong ("the machine has no axis " <> axis))
       { hints =
@@ -509,7 +514,7 @@ tableReport region fault = case fault of
 
 commandReport :: Region -> CommandFault -> Report
 commandReport region fault = case fault of
-  NoPlace name known ->
+  UnknownCommandName name known ->
     (wrong ("the frame has no place for " <> quote name))
       { hints =
           [ "Did you mean " <> quote w <> "?"
@@ -517,7 +522,7 @@ commandReport region fault = case fault of
           ]
             <> ["Give it a word in the frame: word \"" <> name <> "\" command " <> name]
       }
-  TooLarge n largest ->
+  NumberTooLarge n largest ->
     (wrong ("the number " <> Decimal.whole n <> " does not fit"))
       { hints =
           ["Its place in the frame holds 0 to " <> Decimal.whole largest <> "."]
@@ -532,7 +537,7 @@ commandReport region fault = case fault of
       { hints =
           ["Only a diameter goes into a word with decimals."]
       }
-  AsksNothing ->
+  ZeroIsNoCommand ->
     (wrong "0 stands there when nothing is asked")
       { hints =
           ["Give it another number, or let the word stand only where it is needed: when needed"]

@@ -1,4 +1,4 @@
--- | Tables of numbers with formulas, and the sections @feeds@ and @braking@ of a description.
+-- | Reads tables of codes with formulas, and the sections @feeds@ and @braking@ of a description.
 module Machine.FeedFromText
   ( feeds,
     braking,
@@ -9,7 +9,7 @@ where
 
 import Base.Quantity (Feed (..))
 import Base.Region (Located (..), Region)
-import Base.Result (Result (..))
+import Base.Result (Result)
 import Base.Result qualified as Result
 import Data.Map.Strict (Map)
 import Data.Map.Strict qualified as Map
@@ -29,148 +29,144 @@ import Machine.Machine
 import Machine.Section
 import Machine.Syntax
 
--- | The lines @1 = 15@ and @0..40 = 10 * 10^(n/20)@ of a block.
+-- | Reads the lines of a table, such as @1 = 15@ and @0..40 = 10 * 10^(n/20)@. Each line gives the
+-- values of a code or of a range of codes, as a formula in the code @n@. Values are above 0.
 table :: Section -> Result w Error (Map Int Double)
 table section = do
-  given <- concat . catMaybes <$> traverse (tried . line) (entries section)
+  given <- concat . catMaybes <$> traverse (attempt . tableLine) (entries section)
   let values = Map.fromListWith (\_ first -> first) [(n, v) | (n, _, v) <- given]
   Result.failing
-    (repeated given <> [BadTable (place section) EmptyTable | null (entries section)])
+    (repetitions given <> [BadTable (sectionRegion section) EmptyTable | null (entries section)])
     values
-  where
-    tried r = r {output = Just (output r)}
-    line e = case (codesOf e, formula e) of
-      _ | broken e -> Result [] [] Nothing
-      (Just (a, b), Just (Located r f))
-        | null (arguments e),
-          Nothing <- block e ->
-          range (region (key e)) a b >>= traverse (entry (region (key e)) r f)
-      _ -> malformed ["1 = 15", "0..40 = 10 * 10^(n/20)"] e
-    range r a b =
-      if a > b || b - a >= longest then Result.failed (BadTable r (BadRange a b)) else pure [a .. b]
-    entry r r' f n =
-      let v =
-            evaluate (fromIntegral n) f
-       in if v > 0 && v < 1e9 then pure (n, r, v) else Result.failed (BadTable r' (NoValue n))
-    codesOf e = case value (key e) of
-      Number t v | Text.all (/= '.') t && v < 1e9 -> Just (round v, round v)
-      Range a b -> Just (a, b)
-      _ -> Nothing
 
--- | Codes that are given twice, once for each line.
-repeated :: [(Int, Region, Double)] -> [Error]
-repeated given =
-  dedupe
+-- | Reads one line of a table: each code with the region of the line's key and with its value.
+tableLine :: Statement -> Result w Error [(Int, Region, Double)]
+tableLine e = case (codesOf e, formula e) of
+  _ | broken e -> alreadyReported
+  (Just (a, b), Just located)
+    | null (arguments e),
+      Nothing <- block e ->
+      rangeFrom keyRegion a b >>= traverse (entry located)
+  _ -> malformed ["1 = 15", "0..40 = 10 * 10^(n/20)"] e
+  where
+    keyRegion = region (key e)
+    rangeFrom r a b =
+      if a > b || b - a >= longestRange
+        then Result.failed (BadTable r (BadRange a b))
+        else pure [a .. b]
+    entry (Located formulaRegion f) n =
+      let v = evaluate (fromIntegral n) f
+       in if v > 0 && v < 1e9
+            then pure (n, keyRegion, v)
+            else Result.failed (BadTable formulaRegion (NoValue n))
+
+-- | First and last code of a line.
+codesOf :: Statement -> Maybe (Int, Int)
+codesOf e = case value (key e) of
+  Number t v | Text.all (/= '.') t && v < 1e9 -> Just (round v, round v)
+  Range a b -> Just (a, b)
+  _ -> Nothing
+
+-- | Reports codes that an earlier line has; one report for each line.
+repetitions :: [(Int, Region, Double)] -> [Error]
+repetitions given =
+  withoutRuns
     [Twice r "a code" first | (n, r, _) <- given, Just first <- [Map.lookup n firsts], first /= r]
   where
     firsts = Map.fromListWith (\_ first -> first) [(n, r) | (n, r, _) <- given]
-    dedupe es = case es of
-      e : rest -> e : dedupe (dropWhile (== e) rest)
+    withoutRuns es = case es of
+      e : rest -> e : withoutRuns (dropWhile (== e) rest)
       [] -> []
 
--- | A table has at most so many lines by one formula.
-longest :: Int
-longest = 10000
+-- | Largest number of codes in a line.
+longestRange :: Int
+longestRange = 10000
 
+-- | Reads the section @feeds@.
 feeds :: Statement -> Result w Error Feeds
 feeds s = do
-  ((), section) <-
-    opened ["feeds { … }"] "the feeds" (\args -> if null args then Just (pure ()) else Nothing) s
+  ((), section) <- withBlock ["feeds { … }"] "the feeds" noArguments s
   Feeds
-    <$> required
-      "measure"
-      "measure mm/min"
-      (choice [("mm/min", AlongPath), ("Hz", LeadingAxis)])
-      section
+    <$> required "measure" "measure mm/min" measureFrom section
     <*> codesFrom section
-    <*> required
-      "rule"
-      "rule nearest"
-      (choice [("not-above", NotAbove), ("nearest", Nearest)])
-      section
-    <*> required "rapid" "rapid highest" (plain ["rapid highest", "rapid code 9"] rapid) section
-    <* known ["measure", "table", "direct", "rule", "rapid"] [] section
+    <*> required "rule" "rule nearest" ruleFrom section
+    <*> required "rapid" "rapid highest" rapidFrom section
+    <* allowKeys ["measure", "table", "direct", "rule", "rapid"] [] section
   where
-    rapid args = case args of
+    measureFrom = choice [("mm/min", AlongPath), ("Hz", LeadingAxis)]
+    ruleFrom = choice [("not-above", NotAbove), ("nearest", Nearest)]
+    rapidFrom = withArguments ["rapid highest", "rapid code 9"] rapidCode
+    rapidCode args = case args of
       [Located _ (Word "highest")] -> Just (pure Highest)
       [Located _ (Word "code"), n] -> fmap (ByCode . FeedCode) <$> wholeIn "the code" 0 999999999 n
       _ -> Nothing
 
--- | Either a table or codes that are the values.
+-- | Reads the codes: either a table, or a range of codes that are their own values.
 codesFrom :: Section -> Result w Error FeedCodes
 codesFrom section =
   case ( [s | s <- entries section, keyWord s == Just "table"],
          [s | s <- entries section, keyWord s == Just "direct"]
        ) of
-    (t : _, d : _) -> Result.failed (Twice (told d) "the codes of the feeds" (told t))
+    (t : _, d : _) -> Result.failed (Twice (extent d) "the codes of the feeds" (extent t))
     (_, []) ->
       Listed . Map.mapKeysMonotonic FeedCode
         <$> required "table" "table { 1 = 15 … }, or: direct 1..999" listed section
-    ([], d : _) -> plain ["direct 1..999"] direct d
+    ([], d : _) -> withArguments ["direct 1..999"] direct d
   where
-    listed t =
-      opened
-        ["table { 1 = 15 … }"]
-        "the table of feeds"
-        (\args -> if null args then Just (pure ()) else Nothing)
-        t
-        >>= table . snd
+    listed t = withBlock ["table { 1 = 15 … }"] "the table of feeds" noArguments t >>= table . snd
     direct args = case args of
       [Located r (Range a b)]
         | a < 1 || b < a -> Just (Result.failed (BadTable r (BadRange a b)))
         | otherwise -> Just (pure (Direct a b))
       _ -> Nothing
 
+-- | Reads the section @braking@.
 braking :: Statement -> Result w Error Braking
 braking s = do
-  ((), section) <-
-    opened
-      ["braking { … }"]
-      "the braking"
-      (\args -> if null args then Just (pure ()) else Nothing)
-      s
+  ((), section) <- withBlock ["braking { … }"] "the braking" noArguments s
   Braking
-    <$> required
-      "deceleration"
-      "deceleration 5 mm/s2"
-      (plain ["deceleration 5 mm/s2"] deceleration')
-      section
-    <*> required
-      "by"
-      "by control"
-      (plain ["by control", "by slow-frames", "by braked-frames 10 mm/min"] form)
-      section
-    <* known ["deceleration", "by"] [] section
+    <$> required "deceleration" "deceleration 5 mm/s2" decelerationFrom section
+    <*> required "by" "by control" formFrom section
+    <* allowKeys ["deceleration", "by"] [] section
   where
-    deceleration' args = case args of
-      [a, b] -> amountIn "the deceleration" "mm/s2" 1000000 a b
+    decelerationFrom = withArguments ["deceleration 5 mm/s2"] oneDeceleration
+    oneDeceleration args = case args of
+      [a, b] -> quantityIn "the deceleration" "mm/s2" 1000000 a b
       _ -> Nothing
-    form args = case args of
+    formFrom = withArguments ["by control", "by slow-frames", "by braked-frames 10 mm/min"] oneForm
+    oneForm args = case args of
       [Located _ (Word "control")] -> Just (pure ByControl)
       [Located _ (Word "slow-frames")] -> Just (pure SlowFrames)
       [Located _ (Word "braked-frames"), a, b] ->
-        fmap (BrakedFrames . Feed) <$> amountIn "the feed" "mm/min" 1e9 a b
+        fmap (BrakedFrames . Feed) <$> quantityIn "the feed" "mm/min" 1e9 a b
       _ -> Nothing
 
--- | What feeds and braking say of each other: where each stands, and the largest code that the word
--- of the feed holds.
+-- | Checks feeds and braking against each other. The last argument is the largest code that the
+-- feed word can hold, if there is one.
 checkFeeds :: Located Feeds -> Located Braking -> Maybe Int -> [Error]
-checkFeeds (Located r f) (Located r' b) holds = rapid <> held <> slow
+checkFeeds (Located feedsRegion f) (Located brakingRegion b) wordCapacity =
+  rapidFaults <> capacityFaults <> brakingFaults
   where
-    rapid = [BadTable r (NoSuchCode n) | ByCode (FeedCode n) <- [rapidFeed f], not (isCode n)]
+    rapidFaults =
+      [BadTable feedsRegion (NoSuchCode n) | ByCode (FeedCode n) <- [rapidFeed f], not (isCode n)]
     isCode n = case codes f of
       Listed t -> Map.member (FeedCode n) t
       Direct a z -> a <= n && n <= z
     highest = case codes f of
       Listed t -> maybe 0 (\(FeedCode n, _) -> n) (Map.lookupMax t)
       Direct _ z -> z
-    held = [BadTable r (CodeTooLarge highest most) | Just most <- [holds], highest > most]
+    capacityFaults =
+      [ BadTable feedsRegion (CodeTooLarge highest most)
+        | Just most <- [wordCapacity],
+          highest > most
+      ]
     values = case codes f of
       Listed t -> Map.elems t
       Direct a z -> [fromIntegral a, fromIntegral z]
-    slow = case (brakingForm b, feedMeasure f, values) of
+    brakingFaults = case (brakingForm b, feedMeasure f, values) of
       (BrakedFrames (Feed v), AlongPath, _ : _) ->
-        let (low, high) =
-              (minimum values, maximum values)
-         in [BadTable r' (NoSuchFeed low high) | v < low - 1e-9 * low || v > high + 1e-9 * high]
+        let (low, high) = (minimum values, maximum values)
+         in [ BadTable brakingRegion (NoSuchFeed low high)
+              | v < low - 1e-9 * low || v > high + 1e-9 * high
+            ]
       _ -> []

@@ -1,6 +1,6 @@
--- | The section @frame@ of a description: the words of a frame in order.
+-- | Reads the section @frame@ of a description: the layout of a frame.
 module Machine.FrameFromText
-  ( Placed (..),
+  ( LocatedLayout (..),
     frame,
     quotedText,
   )
@@ -13,7 +13,7 @@ import Data.List.NonEmpty (NonEmpty)
 import Data.List.NonEmpty qualified as NonEmpty
 import Data.Maybe (catMaybes, fromMaybe, isJust)
 import Data.Text (Text)
-import Machine.Error (Error (..), FrameMisfit (..), ServiceFault (..))
+import Machine.Error (Error (..), FrameFault (..), ServiceFault (..))
 import Machine.Machine
   ( Axis (..),
     AxisMeasure (..),
@@ -32,81 +32,82 @@ import Machine.Machine qualified as Machine
 import Machine.Section
 import Machine.Syntax
 
--- | The layout, and where its items and its separator stand.
-data Placed = Placed
+-- | A layout with the regions of its items and of its separator. If the description has no
+-- separator, its region is that of the frame.
+data LocatedLayout = LocatedLayout
   { layout :: Layout,
-    sites :: NonEmpty (Region, LayoutItem),
-    separatorSite :: Region
+    locatedItems :: NonEmpty (Region, LayoutItem),
+    separatorRegion :: Region
   }
 
--- | The layout, for a code with or without a service track; where the code cannot be read, holes
--- are taken as they are.
-frame :: Maybe Bool -> Statement -> Result w Error Placed
-frame service s = do
-  ((), section) <-
-    opened ["frame { … }"] "the frame" (\args -> if null args then Just (pure ()) else Nothing) s
+-- | Reads the section. The first argument is true if the code has a service track; it is 'Nothing'
+-- if the code cannot be read, and then every hole is accepted.
+frame :: Maybe Bool -> Statement -> Result w Error LocatedLayout
+frame hasService s = do
+  ((), section) <- withBlock ["frame { … }"] "the frame" noArguments s
   (numbers, between, found) <-
     (,,)
-      <$> required
-        "numbers"
-        "numbers increments"
-        (choice [("increments", Increments), ("positions", Positions)])
-        section
-      <*> optional "separator" (told s, "") (\e -> (told e,) <$> quotedText e) section
-      <*> itemsFrom service section
-      <* known ["numbers", "separator"] ["symbols", "word", "check"] section
+      <$> required "numbers" "numbers increments" measureFrom section
+      <*> optional "separator" (extent s, "") separatorFrom section
+      <*> itemsFrom hasService section
+      <* allowKeys ["numbers", "separator"] ["symbols", "word", "check"] section
   case NonEmpty.nonEmpty found of
-    Nothing -> Result.failed (Missing (told s) "the frame" "word" "word \"X\" along x { digits 6 }")
+    Nothing ->
+      Result.failed (Missing (extent s) "the frame" "word" "word \"X\" along x { digits 6 }")
     Just some ->
       pure
-        Placed
+        LocatedLayout
           { layout = Layout {items = fmap snd some, measure = numbers, separator = snd between},
-            sites = some,
-            separatorSite = fst between
+            locatedItems = some,
+            separatorRegion = fst between
           }
+  where
+    measureFrom = choice [("increments", Increments), ("positions", Positions)]
+    separatorFrom e = (extent e,) <$> quotedText e
 
+-- | Reads all items of a frame, in their order.
 itemsFrom :: Maybe Bool -> Section -> Result w Error [(Region, LayoutItem)]
-itemsFrom service section = concat <$> traverse item (entries section)
+itemsFrom hasService section = concat <$> traverse item (entries section)
   where
     item e = case keyWord e of
-      Just "symbols" ->
-        quotedText e >>= \t ->
-          if t == "" then malformed ["symbols \"*\""] e else pure [(told e, Literal t)]
-      Just "check" -> (\m -> [(told e, CheckDigit m)]) <$> plain ["check modulo 10"] modulus e
-      Just "word" -> (\w -> [(told e, AWord w)]) <$> word service e
+      Just "symbols" -> do
+        t <- quotedText e
+        if t == "" then malformed ["symbols \"*\""] e else pure [(extent e, Literal t)]
+      Just "check" ->
+        (\m -> [(extent e, CheckDigit m)]) <$> withArguments ["check modulo 10"] modulus e
+      Just "word" -> (\w -> [(extent e, AWord w)]) <$> word hasService e
       _ -> pure []
     modulus args = case args of
       [Located _ (Word "modulo"), n] -> wholeIn "the modulus" 2 10 n
       _ -> Nothing
 
--- | A line with one text between quotation marks.
+-- | Reads a line with one text in quotation marks.
 quotedText :: Statement -> Result w Error Text
-quotedText e = plain [keyText e <> " \"…\""] text e
+quotedText e = withArguments [keyText e <> " \"…\""] text e
   where
     text args = case args of
       [Located _ (Quoted t)] -> Just (pure t)
       _ -> Nothing
 
--- | A word of a frame: an address, what it holds, and how.
+-- | Reads a word of a frame: its address, its content and its form.
 word :: Maybe Bool -> Statement -> Result w Error Word'
-word service e = do
-  ((address', kind), section) <- opened forms "this word" headed e
-  case kind of
-    Just fixed -> described address' fixed section <* known common [] section
+word hasService e = do
+  ((address', found), section) <- withBlock forms "this word" heading e
+  case found of
+    Just fixed -> wordFrom hasService e address' fixed section <* allowKeys keys [] section
     Nothing -> do
-      codes <-
-        motionCodes section
-          <* known (common <> ["rapid", "straight", "clockwise", "counterclockwise"]) [] section
-      described address' (Motion codes) section
+      codes <- motionCodes section <* allowKeys (keys <> motionKeys) [] section
+      wordFrom hasService e address' (Motion codes) section
   where
-    common = ["digits", "decimals", "sign", "holes", "when"]
+    keys = ["digits", "decimals", "sign", "holes", "when"]
+    motionKeys = ["rapid", "straight", "clockwise", "counterclockwise"]
     forms = ["word \"X\" along x { … }", "word along x { … }"]
-    described = wordFrom service e
-    headed args = case args of
+    heading args = case args of
       Located _ (Quoted a) : rest -> (\c -> pure (a, c)) <$> contentFrom rest
       _ -> (\c -> pure ("", c)) <$> contentFrom args
 
--- | What a word holds; nothing for a kind of motion, whose numbers stand in its block.
+-- | Reads the content of a word. The inner result is 'Nothing' for a kind of motion, because its
+-- codes are in the block of the word.
 contentFrom :: [Argument] -> Maybe (Maybe Content)
 contentFrom args = case map value args of
   [Word "frame-number"] -> Just (Just FrameNumber)
@@ -121,6 +122,7 @@ contentFrom args = case map value args of
 axisNamed :: Text -> Maybe Axis
 axisNamed a = lookup a [("x", X), ("y", Y), ("z", Z)]
 
+-- | Reads the codes of the kinds of motion.
 motionCodes :: Section -> Result w Error MotionCodes
 motionCodes section =
   MotionCodes
@@ -129,72 +131,73 @@ motionCodes section =
     <*> optional "clockwise" Nothing (fmap Just . number) section
     <*> optional "counterclockwise" Nothing (fmap Just . number) section
   where
-    number s = plain [keyText s <> " 1"] one s
+    number s = withArguments [keyText s <> " 1"] one s
     one args = case args of
       [a] -> wholeIn "the number of a motion" 0 999999999 a
       _ -> Nothing
 
+-- | Reads the block of a word with this address and content.
 wordFrom :: Maybe Bool -> Statement -> Text -> Content -> Section -> Result w Error Word'
-wordFrom service e address' holds section = do
-  (exactly, n) <-
-    required "digits" "digits 4" (plain ["digits 4", "digits at-most 4"] digitCount) section
-  (places, given, named, stands) <-
+wordFrom hasService e address' content' section = do
+  (exactly, n) <- required "digits" "digits 4" digitsFrom section
+  (places, givenSign, givenHoles, presence') <-
     (,,,)
-      <$> optional "decimals" 0 (plain ["decimals 3"] (one "the decimals" n)) section
-      <*> optional
-        "sign"
-        Unsigned
-        (plain ["sign none", "sign minus", "sign both", "sign priority 5 6 1 2"] signFrom)
-        section
-      <*> optional
-        "holes"
-        Nothing
-        ( fmap Just
-            . plain
-              [ "holes minus aux:1 aux:0 -",
-                "the words are minus, marker, braking, and NAME:0 for a bit of a command"
-              ]
-              holesFrom
-        )
-        section
-      <*> optional
-        "when"
-        Always
-        ( choice
-            [ ("always", Always),
-              ("moving", InMotion),
-              ("needed", WhenNeeded),
-              ("changed", WhenChanged)
-            ]
-        )
-        section
-  let holes = fromMaybe (if service /= Just False && exactly then replicate n NoHole else []) named
+      <$> optional "decimals" 0 (decimalsFrom n) section
+      <*> optional "sign" Unsigned (withArguments signForms signFrom) section
+      <*> optional "holes" Nothing (fmap Just . withArguments holeForms holesFrom) section
+      <*> optional "when" Always presenceFrom section
+  let withoutHoles = if hasService /= Just False && exactly then replicate n NoHole else []
+      holes = fromMaybe withoutHoles givenHoles
+      isMinusHoled = MinusHole `elem` holes && givenSign == Unsigned
       form' =
         NumberForm
           { digits = n,
             padded = exactly,
             decimals = places,
-            sign = if MinusHole `elem` holes && given == Unsigned then ServiceSign else given,
+            sign = if isMinusHoled then ServiceSign else givenSign,
             service = holes
           }
-      faults =
-        holeFaults service (told e) (isJust named) form'
-          <> suits (told e) holds address' form' stands
-  Result.failing faults Word' {address = address', content = holds, form = form', presence = stands}
+      made = Word' {address = address', content = content', form = form', presence = presence'}
+  Result.failing
+    (holeFaults hasService (extent e) (isJust givenHoles) form' <> unsuited (extent e) made)
+    made
+  where
+    signForms = ["sign none", "sign minus", "sign both", "sign priority 5 6 1 2"]
+    holeForms =
+      [ "holes minus aux:1 aux:0 -",
+        "the words are minus, marker, braking, and NAME:0 for a bit of a command"
+      ]
+    presenceFrom =
+      choice
+        [ ("always", Always),
+          ("moving", InMotion),
+          ("needed", WhenNeeded),
+          ("changed", WhenChanged)
+        ]
+
+-- | Reads the number of digits, and true if a number always has all of them.
+digitsFrom :: Statement -> Result w Error (Bool, Int)
+digitsFrom = withArguments ["digits 4", "digits at-most 4"] digitCount
   where
     digitCount args = case args of
       [Located _ (Word "at-most"), a] ->
         fmap (False,) <$> wholeIn "the number of digits" 0 mostDigits a
       [a] -> fmap (True,) <$> wholeIn "the number of digits" 0 mostDigits a
       _ -> Nothing
-    one what most args = case args of
-      [a] -> wholeIn what 0 most a
+
+-- | Reads the number of decimals, at most the number of digits.
+decimalsFrom :: Int -> Statement -> Result w Error Int
+decimalsFrom most = withArguments ["decimals 3"] one
+  where
+    one args = case args of
+      [a] -> wholeIn "the decimals" 0 most a
       _ -> Nothing
 
--- | More digits are more than pulses can be.
+-- | Largest number of digits. Every number of pulses is shorter.
 mostDigits :: Int
 mostDigits = 15
 
+-- | Reads the notation of the sign.
 signFrom :: [Argument] -> Maybe (Result w Error Sign)
 signFrom args = case args of
   [Located _ (Word "none")] -> Just (pure Unsigned)
@@ -202,14 +205,15 @@ signFrom args = case args of
   [Located _ (Word "both")] -> Just (pure EitherSign)
   [Located _ (Word "priority"), a, b, c, d] ->
     case traverse (wholeIn "a digit of the priority" 0 9) [a, b, c, d] of
-      Just found -> Just (sequenceA found >>= four)
+      Just found -> Just (sequenceA found >>= priority)
       Nothing -> Nothing
   _ -> Nothing
   where
-    four ns = case ns of
+    priority ns = case ns of
       [a, b, c, d] -> pure (Priority a b c d)
-      _ -> Result [] [] Nothing
+      _ -> alreadyReported
 
+-- | Reads the meanings of the service track, one for each digit.
 holesFrom :: [Argument] -> Maybe (Result w Error [Service])
 holesFrom args = if null args then Nothing else pure <$> traverse (hole . value) args
   where
@@ -221,11 +225,12 @@ holesFrom args = if null args then Nothing else pure <$> traverse (hole . value)
       Dash -> Just NoHole
       _ -> Nothing
 
--- | What is wrong with the holes beside the digits.
+-- | Lists the mistakes in the holes beside the digits. The flag is true if the description gives
+-- holes.
 holeFaults :: Maybe Bool -> Region -> Bool -> NumberForm -> [Error]
-holeFaults service' r named f
-  | not named = []
-  | service' == Just False = [BadService r NoTrack]
+holeFaults hasService r isGiven f
+  | not isGiven = []
+  | hasService == Just False = [BadService r NoTrack]
   | not (padded f) = [BadService r AnyLength]
   | otherwise =
     [BadService r (WrongCount (length holes) (digits f)) | length holes /= digits f]
@@ -233,48 +238,69 @@ holeFaults service' r named f
   where
     holes = service f
 
--- | Whether a word can be so with what it holds.
-suits :: Region -> Content -> Text -> NumberForm -> Presence -> [Error]
-suits r holds address' f stands =
+-- | Kinds of content that differ in the forms that suit them.
+data ContentKind = AxisOrCentre | CommandNumber | OtherNumber
+  deriving stock (Eq)
+
+kindOf :: Content -> ContentKind
+kindOf c = case c of
+  Along _ -> AxisOrCentre
+  Centre _ -> AxisOrCentre
+  Command _ -> CommandNumber
+  FrameNumber -> OtherNumber
+  Motion _ -> OtherNumber
+  FeedWord -> OtherNumber
+
+-- | Lists the properties of a word that do not suit its content.
+unsuited :: Region -> Word' -> [Error]
+unsuited r w =
   map
-    (Unfit r . Unsuited (Machine.contentWord holds))
-    (catMaybes [signs, empty, points, standing, ways])
+    (BadFrame r . Unsuited (Machine.contentWord (content w)))
+    ( catMaybes
+        [ unsuitedSign kind (form w),
+          unsuitedLength kind (address w) (form w),
+          unsuitedDecimals kind (form w),
+          unsuitedPresence (content w) (presence w),
+          unsuitedPriority kind (form w)
+        ]
+    )
   where
-    signed = sign f /= Unsigned
-    along = case holds of
-      Along _ -> True
-      _ -> False
-    centred = case holds of
-      Centre _ -> True
-      _ -> False
-    commands = case holds of
-      Command _ -> True
-      _ -> False
-    signs
-      | signed && not (along || centred) = Just "It is never below zero, so it has no sign."
-      | MinusHole `elem` service f && sign f /= ServiceSign =
-        Just "Its sign is said twice: by a hole and by symbols."
-      | otherwise = Nothing
-    empty
-      | digits f == 0 && not (commands && address' /= "") =
-        Just "Without digits it says nothing; only a command may be its address alone."
-      | otherwise = Nothing
-    points
-      | decimals f > 0 && not (along || centred || commands) =
-        Just "It is a whole number, so it has no decimals."
-      | otherwise = Nothing
-    ways = case sign f of
-      Priority a b c d
-        | not (along || centred) -> Just "Only axes and centres have a priority."
-        | or [p == q | (k, p) <- zip [0 ..] four, q <- take k four] ->
-          Just "The four digits of the priority are different ones."
-        where
-          four = [a, b, c, d]
-      _ -> Nothing
-    standing = case stands of
-      WhenChanged | holds /= FeedWord -> Just "‘when changed’ is for the feed."
-      WhenNeeded
-        | not (along || centred || commands) ->
-          Just "‘when needed’ is for axes, centres and commands."
-      InMotion | commands -> Just "A command may be given in a frame that does not move."
-      _ -> Nothing
+    kind = kindOf (content w)
+
+unsuitedSign :: ContentKind -> NumberForm -> Maybe Text
+unsuitedSign kind f
+  | sign f /= Unsigned && kind /= AxisOrCentre = Just "It is never below zero, so it has no sign."
+  | MinusHole `elem` service f && sign f /= ServiceSign =
+    Just "Its sign is said twice: by a hole and by symbols."
+  | otherwise = Nothing
+
+unsuitedLength :: ContentKind -> Text -> NumberForm -> Maybe Text
+unsuitedLength kind address' f
+  | digits f == 0 && not (kind == CommandNumber && address' /= "") =
+    Just "Without digits it says nothing; only a command may be its address alone."
+  | otherwise = Nothing
+
+unsuitedDecimals :: ContentKind -> NumberForm -> Maybe Text
+unsuitedDecimals kind f
+  | decimals f > 0 && kind == OtherNumber = Just "It is a whole number, so it has no decimals."
+  | otherwise = Nothing
+
+unsuitedPresence :: Content -> Presence -> Maybe Text
+unsuitedPresence content' presence' = case presence' of
+  WhenChanged | content' /= FeedWord -> Just "‘when changed’ is for the feed."
+  WhenNeeded
+    | kind == OtherNumber -> Just "‘when needed’ is for axes, centres and commands."
+  InMotion
+    | kind == CommandNumber -> Just "A command may be given in a frame that does not move."
+  _ -> Nothing
+  where
+    kind = kindOf content'
+
+unsuitedPriority :: ContentKind -> NumberForm -> Maybe Text
+unsuitedPriority kind f = case sign f of
+  Priority a b c d
+    | kind /= AxisOrCentre -> Just "Only axes and centres have a priority."
+    | hasRepetition [a, b, c, d] -> Just "The four digits of the priority are different ones."
+  _ -> Nothing
+  where
+    hasRepetition ns = or [p == q | (k, p) <- zip [0 ..] ns, q <- take k ns]

@@ -1,8 +1,11 @@
--- | Machines from their descriptions.
+-- | Reads machines from their descriptions, in three steps.
 --
--- A description is read in three steps: into statements ("Machine.Parser"), section by section into
--- values, and the sections against each other: the words of the frame against axes, code, feeds and
--- commands. Each step reports all that it finds.
+-- 1. "Machine.Parser" parses the text into statements.
+-- 2. Each section is read by itself. A mistake in one section does not hide those in another.
+-- 3. The sections are checked against each other: the words of the frame against axes, code, feeds
+--    and commands. This step needs all sections.
+--
+-- Each step reports all mistakes that it finds. A description with a mistake gives no machine.
 module Machine.FromText
   ( read,
   )
@@ -21,191 +24,190 @@ import Data.Text qualified as Text
 import Machine.CodeFromText qualified as CodeFromText
 import Machine.CommandFromText qualified as CommandFromText
 import Machine.Completeness qualified as Completeness
-import Machine.Error (Error (..), FrameMisfit (BrakedFrequencies), ServiceFault (..))
+import Machine.Error (Error (..), FrameFault (BrakedFrequencies), ServiceFault (..))
 import Machine.FeedFromText qualified as FeedFromText
-import Machine.FrameFromText (Placed (separatorSite, sites), quotedText)
+import Machine.FrameFromText (LocatedLayout (locatedItems, separatorRegion), quotedText)
 import Machine.FrameFromText qualified as FrameFromText
 import Machine.Machine hiding (value)
 import Machine.Parser (Parsed (..))
 import Machine.Parser qualified as Parser
 import Machine.Provenance qualified as Provenance
 import Machine.Section
-import Machine.Syntax (Argument, Argument_ (..), Statement (..), keyWord)
+import Machine.Syntax (Argument_ (..), Statement (..), keyWord)
 import Machine.UniqueDecoding qualified as UniqueDecoding
 import Prelude hiding (read)
 
--- | The machine that a text describes. Regions are offsets into the text.
+-- | Reads the machine that a text describes. Regions of errors are offsets into the text.
 read :: Text -> Result w Error Machine
 read text
-  | closed parsed = Result.failing (mistakes parsed) () *> described text (statements parsed)
+  | closed parsed = Result.failing (mistakes parsed) () *> machineFrom text (statements parsed)
   | otherwise = Result [] (mistakes parsed) Nothing
   where
     parsed = Parser.parse text
 
-described :: Text -> [Statement] -> Result w Error Machine
-described text ss = marked *> machine
+-- | Reads the statements of a description and checks that each value has a provenance.
+machineFrom :: Text -> [Statement] -> Result w Error Machine
+machineFrom text ss = marked *> machine
   where
-    whole = Section {what = "the machine", place = Region 0 0, entries = ss}
+    whole = Section {sectionName = "the machine", sectionRegion = Region 0 0, entries = ss}
     heading = [s | s <- ss, keyWord s == Just "machine"]
     body = [s | s <- ss, keyWord s /= Just "machine"]
-    byHeading = case heading of
-      s : _ -> note s
+    markOfMachine = case heading of
+      s : _ -> mark s
       [] -> Nothing
-    -- A line of the machine that cannot be read may have had a mark.
+    -- A broken line of the machine may have a mark that holds for all values.
     marked =
-      Result.failing (if any broken heading then [] else Provenance.unmarked byHeading body) ()
+      Result.failing (if any broken heading then [] else Provenance.unmarked markOfMachine body) ()
     machine =
-      assemble (Provenance.facts text byHeading body)
+      assemble (Provenance.describedValues text markOfMachine body)
         <$> required "machine" "machine my-mill \"The mill in hall 3\"" nameFrom whole
         <*> sections whole
-        <* known
+        <* allowKeys
           ["machine", "tape", "code", "arcs", "frame", "feeds", "braking", "commands", "limits"]
           ["axis"]
           whole
 
--- | The sections, each where it stands.
+-- | The values of all sections, with the regions that the checks need.
 data Sections = Sections
-  { tapeOf :: Located Medium,
-    codeOf :: Located TapeCode,
-    axesOf :: NonEmpty (Located AxisForm),
-    arcsOf :: Located Arcs,
-    frameOf :: Placed,
-    feedsOf :: Located Feeds,
-    brakingOf :: Located Braking,
-    commandsOf :: CommandFromText.CommandContext,
-    limitsOf :: Limits
+  { locatedTape :: Located Medium,
+    locatedCode :: Located TapeCode,
+    locatedAxes :: NonEmpty (Located AxisForm),
+    locatedArcs :: Located Arcs,
+    locatedLayout :: LocatedLayout,
+    locatedFeeds :: Located Feeds,
+    locatedBraking :: Located Braking,
+    commandContext :: CommandFromText.CommandContext,
+    programLimits :: Limits
   }
 
 assemble :: [DescribedValue] -> (Text, Text) -> Sections -> Machine
-assemble fs (n, t) s = (machineOf s) {name = MachineName n, title = t, facts = fs}
+assemble values (n, t) s =
+  (machineOf s) {name = MachineName n, title = t, facts = values}
 
--- | The sections, each by itself and then all together. What one lacks does not hide what is wrong
--- in another.
+-- | Reads all sections, and then checks them against each other.
 sections :: Section -> Result w Error Sections
 sections whole =
   ( Sections
       <$> tape
-        <*> coded
-        <*> axes'
-        <*> arcs'
-        <*> framed
-        <*> feeds'
-        <*> braking'
-        <*> commands'
-        <*> limits'
+      <*> codeSection
+      <*> axesFrom whole
+      <*> required "arcs" "arcs none" (located arcsFrom) whole
+      <*> required "frame" "frame { … }" (FrameFromText.frame hasService) whole
+      <*> required "feeds" "feeds { … }" (located FeedFromText.feeds) whole
+      <*> required "braking" "braking { … }" (located FeedFromText.braking) whole
+      <*> optional "commands" CommandFromText.noCommands CommandFromText.commands whole
+      <*> optional "limits" (Limits Nothing) limitsFrom whole
   )
-    >>= together
+    >>= crossChecked
   where
     tape = required "tape" "tape { tracks 8 … }" (located tapeFrom) whole
-    -- Known even where something else of the tape is wrong.
-    tracks' = output (required "tape" "" tracksFrom whole)
-    coded = required "code" "code \"ISO\" { … }" (located (CodeFromText.code tracks')) whole
-    axes' = axesFrom whole
-    arcs' = required "arcs" "arcs none" (located arcsFrom) whole
-    framed = required "frame" "frame { … }" (FrameFromText.frame hasService) whole
-    hasService = isJust . serviceTrack . value <$> Result.settled coded
-    feeds' = required "feeds" "feeds { … }" (located FeedFromText.feeds) whole
-    braking' = required "braking" "braking { … }" (located FeedFromText.braking) whole
-    commands' =
-      optional
-        "commands"
-        (CommandFromText.CommandContext noOrders [])
-        CommandFromText.commands
-        whole
-    limits' = optional "limits" (Limits Nothing) limitsFrom whole
-    located f s = Located (told s) <$> f s
+    -- The number of tracks is read by itself, so that the code can be checked even if there is a
+    -- mistake in another line of the tape.
+    trackCount = output (required "tape" "" tracksFrom whole)
+    codeSection =
+      required "code" "code \"ISO\" { … }" (located (CodeFromText.code trackCount)) whole
+    hasService = isJust . serviceTrack . value <$> Result.settled codeSection
+    located f s = Located (extent s) <$> f s
 
--- | What the sections ask of one another.
-together :: Sections -> Result w Error Sections
-together s = Result.failing faults s
+-- | Checks the sections against each other.
+crossChecked :: Sections -> Result w Error Sections
+crossChecked s = Result.failing faults s
   where
     machine = machineOf s
+    frame = locatedLayout s
     faults =
       concat
         [ Completeness.check
             machine
-            (NonEmpty.toList (axesOf s))
-            (region (arcsOf s))
-            (region (feedsOf s))
-            (NonEmpty.toList (sites (frameOf s))),
+            (NonEmpty.toList (locatedAxes s))
+            (region (locatedArcs s))
+            (region (locatedFeeds s))
+            (NonEmpty.toList (locatedItems frame)),
           UniqueDecoding.check
-            (value (tapeOf s))
-            (region (tapeOf s))
-            (value (codeOf s))
-            (sites (frameOf s))
-            (separatorSite (frameOf s), separator (FrameFromText.layout (frameOf s))),
-          FeedFromText.checkFeeds (feedsOf s) (brakingOf s) feedDigits,
-          [ BadService (region (brakingOf s)) NoBrakingHole
-            | BrakingHole `notElem` concatMap (service . form) (wordsOf machine),
-              BrakedFrames _ <- [brakingForm (value (brakingOf s))]
-          ],
-          [ Unfit (region (brakingOf s)) BrakedFrequencies
-            | LeadingAxis <- [feedMeasure (feeds machine)],
-              BrakedFrames _ <- [brakingForm (value (brakingOf s))]
-          ],
-          CommandFromText.check machine (commandsOf s)
+            (value (locatedTape s))
+            (region (locatedTape s))
+            (value (locatedCode s))
+            (locatedItems frame)
+            (separatorRegion frame, separator (FrameFromText.layout frame)),
+          FeedFromText.checkFeeds (locatedFeeds s) (locatedBraking s) feedCapacity,
+          brakedFrameFaults machine (region (locatedBraking s)),
+          CommandFromText.check machine (commandContext s)
         ]
-    feedDigits = (\w -> 10 ^ digits (form w) - 1) <$> wordFor machine FeedWord
+    feedCapacity = (\w -> 10 ^ digits (form w) - 1) <$> wordFor machine FeedWord
 
+-- | Checks a machine that brakes by marked frames: a hole has to mark them, and feeds have to be in
+-- mm/min.
+brakedFrameFaults :: Machine -> Region -> [Error]
+brakedFrameFaults machine brakingRegion = case brakingForm (braking machine) of
+  ByControl -> []
+  SlowFrames -> []
+  BrakedFrames _ ->
+    [ BadService brakingRegion NoBrakingHole
+      | BrakingHole `notElem` concatMap (service . form) (wordsOf machine)
+    ]
+      <> [BadFrame brakingRegion BrakedFrequencies | feedMeasure (feeds machine) == LeadingAxis]
+
+-- | The machine without its name, its title and its described values.
 machineOf :: Sections -> Machine
 machineOf s =
   Machine
     { name = MachineName "",
       title = "",
-      medium = value (tapeOf s),
-      code = value (codeOf s),
-      axes = fmap value (axesOf s),
-      arcs = value (arcsOf s),
-      layout = FrameFromText.layout (frameOf s),
-      feeds = value (feedsOf s),
-      braking = value (brakingOf s),
-      orders = CommandFromText.orders (commandsOf s),
-      limits = limitsOf s,
+      medium = value (locatedTape s),
+      code = value (locatedCode s),
+      axes = fmap value (locatedAxes s),
+      arcs = value (locatedArcs s),
+      layout = FrameFromText.layout (locatedLayout s),
+      feeds = value (locatedFeeds s),
+      braking = value (locatedBraking s),
+      orders = CommandFromText.allWords (commandContext s),
+      limits = programLimits s,
       facts = []
     }
 
--- | The name by which a program chooses the machine, and what it is.
+-- | Reads the name of a machine and its title. Part programs can write the name without quotation
+-- marks if it has letters, digits, points and single minus signs only.
 nameFrom :: Statement -> Result w Error (Text, Text)
-nameFrom = plain ["machine my-mill \"The mill in hall 3\""] heading
+nameFrom = withArguments ["machine my-mill \"The mill in hall 3\""] heading
   where
     heading args = case map value args of
       [Word n, Quoted t] | isName n -> Just (pure (n, t))
       [Quoted n, Quoted t] | isName n -> Just (pure (n, t))
       _ -> Nothing
-    -- As a program writes it.
     isName n =
       n /= ""
         && Text.all (\c -> isAlphaNum c || c `elem` ("-." :: String)) n
         && not ("--" `Text.isInfixOf` n)
 
+-- | Reads the number of tracks only.
 tracksFrom :: Statement -> Result w Error Int
-tracksFrom s = opened [] "" none s >>= required "tracks" "tracks 8" (count "tracks" 1 8) . snd
+tracksFrom s =
+  withBlock [] "" noArguments s >>= required "tracks" "tracks 8" (countFrom "tracks" 1 8) . snd
 
+-- | Reads the section @tape@.
 tapeFrom :: Statement -> Result w Error Medium
 tapeFrom s = do
-  ((), section) <- opened ["tape { … }"] "the tape" none s
+  ((), section) <- withBlock ["tape { … }"] "the tape" noArguments s
   Medium
-    <$> required "tracks" "tracks 8" (count "tracks" 1 8) section
-    <*> required "pitch" "pitch 2.54 mm" (plain ["pitch 2.54 mm", "pitch none"] pitchFrom) section
+    <$> required "tracks" "tracks 8" (countFrom "tracks" 1 8) section
+    <*> required "pitch" "pitch 2.54 mm" pitchFrom section
     <*> required "suffix" "suffix \"tape\"" suffixFrom section
-    <*> required "leader" "leader 25" (count "leader" 0 mostRows) section
-    <*> required "gap" "gap 3" (count "gap" 0 mostRows) section
-    <*> optional "even-shift" 0 (count "even-shift" 0 mostRows) section
-    <*> required
-      "spare"
-      "spare skipped"
-      (choice [("counted", Counted), ("skipped", Skipped)])
-      section
+    <*> required "leader" "leader 25" (countFrom "leader" 0 mostRows) section
+    <*> required "gap" "gap 3" (countFrom "gap" 0 mostRows) section
+    <*> optional "even-shift" 0 (countFrom "even-shift" 0 mostRows) section
+    <*> required "spare" "spare skipped" spareFrom section
     <*> optional "opening" "" quotedText section
     <*> optional "closing" "" quotedText section
-    <* known
+    <* allowKeys
       ["tracks", "pitch", "suffix", "leader", "gap", "even-shift", "spare", "opening", "closing"]
       []
       section
   where
-    pitchFrom args = case args of
+    spareFrom = choice [("counted", Counted), ("skipped", Skipped)]
+    pitchFrom = withArguments ["pitch 2.54 mm", "pitch none"] onePitch
+    onePitch args = case args of
       [Located _ (Word "none")] -> Just (pure Nothing)
-      [a, b] -> fmap (Just . Mm) <$> amountIn "the pitch" "mm" 1000 a b
+      [a, b] -> fmap (Just . Mm) <$> quantityIn "the pitch" "mm" 1000 a b
       _ -> Nothing
     suffixFrom e = do
       t <- quotedText e
@@ -213,68 +215,73 @@ tapeFrom s = do
         then pure t
         else malformed ["suffix \"tape\""] e
 
--- | Blank rows in a row.
+-- | Largest number of consecutive blank rows.
 mostRows :: Int
 mostRows = 10000
 
--- | A line with a whole number.
-count :: Text -> Int -> Int -> Statement -> Result w Error Int
-count word low high = plain [word <> " " <> Text.pack (show (max low (min 5 high)))] one
+-- | Reads a line with one whole number from @low@ to @high@.
+countFrom :: Text -> Int -> Int -> Statement -> Result w Error Int
+countFrom word low high = withArguments [word <> " " <> Text.pack (show example)] one
   where
+    example = max low (min 5 high)
     one args = case args of
       [a] -> wholeIn ("‘" <> word <> "’") low high a
       _ -> Nothing
 
-none :: [Argument] -> Maybe (Result w Error ())
-none args = if null args then Just (pure ()) else Nothing
-
--- | At least one axis, each once.
+-- | Reads the axes: at least one, and each once.
 axesFrom :: Section -> Result w Error (NonEmpty (Located AxisForm))
 axesFrom whole = do
-  found <- every "axis" axisFrom whole
+  found <- allWith "axis" axisFrom whole
   case NonEmpty.nonEmpty found of
-    Nothing -> Result.failed (Missing (place whole) (what whole) "axis" "axis x { pulse 0.01 mm }")
-    Just some -> Result.failing (twice found) some
+    Nothing -> Result.failed missing
+    Just some -> Result.failing (repetitions found) some
   where
-    twice found =
+    missing =
+      Missing (sectionRegion whole) (sectionName whole) "axis" "axis x { pulse 0.01 mm }"
+    repetitions found =
       [ Twice r "an axis" first
         | (k, Located r a) <- zip [0 ..] found,
           Located first _ <- take 1 [b | b <- take k found, axis (value b) == axis a]
       ]
 
+-- | Reads the section of one axis.
 axisFrom :: Statement -> Result w Error (Located AxisForm)
 axisFrom s = do
-  (a, section) <- opened ["axis x { pulse 0.01 mm }"] "the axis" axisName s
+  (a, section) <- withBlock ["axis x { pulse 0.01 mm }"] "the axis" axisLetter s
   form' <-
     AxisForm a
-      <$> required "pulse" "pulse 0.01 mm" (plain ["pulse 0.01 mm"] pulseFrom) section
+      <$> required "pulse" "pulse 0.01 mm" pulseFrom section
       <*> optional "direction" False (choice [("forwards", False), ("reversed", True)]) section
       <*> optional "lathe" False (choice [("same", False), ("reversed", True)]) section
       <*> optional "moves" True (choice [("yes", True), ("unsure", False)]) section
-      <* known ["pulse", "direction", "lathe", "moves"] [] section
-  pure (Located (told s) form')
+      <* allowKeys ["pulse", "direction", "lathe", "moves"] [] section
+  pure (Located (extent s) form')
   where
-    axisName args = case map value args of
+    axisLetter args = case map value args of
       [Word w] -> pure <$> lookup w [("x", X), ("y", Y), ("z", Z)]
       _ -> Nothing
-    pulseFrom args = case args of
-      [a, b] -> fmap Mm <$> amountIn "the pulse" "mm" 1000 a b
+    pulseFrom = withArguments ["pulse 0.01 mm"] onePulse
+    onePulse args = case args of
+      [a, b] -> fmap Mm <$> quantityIn "the pulse" "mm" 1000 a b
       _ -> Nothing
 
+-- | Reads the arcs that a frame can describe.
 arcsFrom :: Statement -> Result w Error Arcs
-arcsFrom = plain ["arcs none", "arcs quadrant", "arcs any", "arcs any full-circle"] extent
+arcsFrom = withArguments ["arcs none", "arcs quadrant", "arcs any", "arcs any full-circle"] kind
   where
-    extent args = case map value args of
+    kind args = case map value args of
       [Word "none"] -> Just (pure NoArcs)
-      [Word "quadrant"] -> Just (pure (Arcs True False))
-      [Word "quadrant", Word "full-circle"] -> Just (pure (Arcs True True))
-      [Word "any"] -> Just (pure (Arcs False False))
-      [Word "any", Word "full-circle"] -> Just (pure (Arcs False True))
+      [Word "quadrant"] -> arcsOf True False
+      [Word "quadrant", Word "full-circle"] -> arcsOf True True
+      [Word "any"] -> arcsOf False False
+      [Word "any", Word "full-circle"] -> arcsOf False True
       _ -> Nothing
+    arcsOf quadrants fullCircle = Just (pure Arcs {quadrants, fullCircle})
 
+-- | Reads the section @limits@.
 limitsFrom :: Statement -> Result w Error Limits
 limitsFrom s = do
-  ((), section) <- opened ["limits { contours 30 }"] "the limits" none s
+  ((), section) <- withBlock ["limits { contours 30 }"] "the limits" noArguments s
   Limits
-    <$> optional "contours" Nothing (fmap Just . count "contours" 1 1000000) section
-      <* known ["contours"] [] section
+    <$> optional "contours" Nothing (fmap Just . countFrom "contours" 1 1000000) section
+    <* allowKeys ["contours"] [] section

@@ -1,5 +1,7 @@
--- | The text of a description into tokens. Total: what is no token becomes a broken one, which the
--- parser reports.
+-- | Splits the text of a description into tokens.
+--
+-- The lexer is total. Characters that form no token become a token for a mistake, which the parser
+-- reports.
 module Machine.Lexer
   ( Token,
     Token_ (..),
@@ -16,26 +18,28 @@ import Data.Text (Text)
 import Data.Text qualified as Text
 import Report.Report (quote)
 
+-- | Token with its region.
 type Token = Located Token_
 
+-- | Tokens of a description; the last four constructors are mistakes.
 data Token_
   = Name Text
   | Text Text
-  | -- | as it is written, and its value
+  | -- | digits as written, and their value
     Numeral Text Double
-  | -- | a bracket, a sign of a formula, @..@ or @:@
+  | -- | bracket, operator of a formula, @..@ or @:@
     Sign Text
   | LineEnd
-  | -- | a character that has no place in a description
+  | -- | character that no description contains
     Stray Char
-  | -- | a text without its end
+  | -- | text without its closing quotation mark
     OpenText
-  | -- | a text with a backslash before what it cannot stand before
+  | -- | unknown escape sequence in a text
     BadEscape Text
   | BadNumber Text
   deriving stock (Eq, Show)
 
--- | What a token is called in a report.
+-- | Names a token in a report.
 describe :: Token_ -> Text
 describe t = case t of
   Name w -> quote w
@@ -48,26 +52,28 @@ describe t = case t of
   BadEscape s -> quote s <> " in a text"
   BadNumber s -> quote s
 
--- | All tokens of a text, the end of its last line too. Behind @=@ a minus belongs to no word.
+-- | Lists all tokens of a text; the last one is always a 'LineEnd'. In a formula, which begins
+-- after @=@, a minus is an operator and never part of a word.
 tokens :: Text -> [Token]
-tokens = go False 0
+tokens = tokensFrom False 0
 
-go :: Bool -> Int -> Text -> [Token]
-go formula at rest = case Text.uncons rest of
+-- | Lists the tokens of the rest of a text, which begins at an offset. The flag is true within a
+-- formula.
+tokensFrom :: Bool -> Int -> Text -> [Token]
+tokensFrom formula at rest = case Text.uncons rest of
   Nothing -> [Located (Region at at) LineEnd]
   Just (c, after)
-    | isLineEnd c -> Located (Region at (at + 1)) LineEnd : go False (at + 1) after
-    | isSpace c -> go formula (at + 1) after
+    | isLineEnd c -> Located (Region at (at + 1)) LineEnd : tokensFrom False (at + 1) after
+    | isSpace c -> tokensFrom formula (at + 1) after
     | "--" `Text.isPrefixOf` rest ->
-      let size =
-            Text.length (Text.takeWhile (not . isLineEnd) rest)
-       in go formula (at + size) (Text.drop size rest)
+      let size = Text.length (Text.takeWhile (not . isLineEnd) rest)
+       in tokensFrom formula (at + size) (Text.drop size rest)
     | otherwise ->
       let (t, size) = token formula c rest
        in Located (Region at (at + size)) t :
-          go (formula || t == Sign "=") (at + size) (Text.drop size rest)
+          tokensFrom (formula || t == Sign "=") (at + size) (Text.drop size rest)
 
--- | The token at the beginning of a text, and its length.
+-- | Reads the first token of a text, which begins with the character, and its length.
 token :: Bool -> Char -> Text -> (Token_, Int)
 token formula c rest
   | Just unit <- find (`Text.isPrefixOf` rest) ["mm/min", "mm/s2"] = (Name unit, Text.length unit)
@@ -78,19 +84,21 @@ token formula c rest
   | c `elem` ("{}=:+-*/^()" :: String) = (Sign (Text.singleton c), 1)
   | otherwise = (Stray c, 1)
 
--- | Letters and digits, with single minus signs and points between them.
+-- | Reads letters and digits with single minus signs and points between them; in a formula, only
+-- letters and digits.
 word :: Bool -> Text -> Text
-word formula rest = case Text.uncons behind of
+word formula rest = case Text.uncons rest' of
   Just (c, more)
     | not formula && c `elem` ("-." :: String) && Text.any isPart (Text.take 1 more) ->
-      piece <> Text.singleton c <> word formula more
-  _ -> piece
+      letters <> Text.singleton c <> word formula more
+  _ -> letters
   where
-    (piece, behind) = Text.span isPart rest
+    (letters, rest') = Text.span isPart rest
 
+-- | Reads a number and its length. A number with a letter right after it is a mistake.
 numeral :: Text -> (Token_, Int)
 numeral rest
-  | Text.any isPart (Text.take 1 behind) = (BadNumber junk, Text.length junk)
+  | Text.any isPart (Text.take 1 rest') = (BadNumber junk, Text.length junk)
   | otherwise = case Decimal.amount digits of
     Just v -> (Numeral digits v, Text.length digits)
     Nothing -> (BadNumber digits, Text.length digits)
@@ -100,23 +108,24 @@ numeral rest
       Just ('.', more) | Text.any isDigit (Text.take 1 more) -> "." <> Text.takeWhile isDigit more
       _ -> ""
     digits = whole <> fraction
-    behind = Text.drop (Text.length digits) rest
-    junk = digits <> Text.takeWhile (\c -> isPart c || c == '.') behind
+    rest' = Text.drop (Text.length digits) rest
+    junk = digits <> Text.takeWhile (\c -> isPart c || c == '.') rest'
 
--- | A text behind its first quotation mark, and its length with both.
+-- | Reads a text, and its length with both quotation marks. The argument begins after the opening
+-- one.
 quoted :: Text -> (Token_, Int)
-quoted = inside "" 1
+quoted = charactersOf "" 1
   where
-    inside done size rest = case Text.uncons rest of
+    charactersOf done size rest = case Text.uncons rest of
       Just ('"', _) -> (Text (Text.pack (reverse done)), size + 1)
       Just ('\\', more) -> case escape more of
-        Just (c, used) -> inside (c : done) (size + 1 + used) (Text.drop used more)
+        Just (c, used) -> charactersOf (c : done) (size + 1 + used) (Text.drop used more)
         Nothing -> (BadEscape ("\\" <> Text.take 1 more), size + lineRest rest)
-      Just (c, more) | not (isLineEnd c) -> inside (c : done) (size + 1) more
+      Just (c, more) | not (isLineEnd c) -> charactersOf (c : done) (size + 1) more
       _ -> (OpenText, size)
     lineRest = Text.length . Text.takeWhile (not . isLineEnd)
 
--- | What stands behind a backslash: the character, and how many characters say so.
+-- | Decodes the escape sequence after a backslash: the character, and the length of the sequence.
 escape :: Text -> Maybe (Char, Int)
 escape rest = case Text.uncons rest of
   Just ('n', _) -> Just ('\n', 1)
@@ -134,5 +143,6 @@ escape rest = case Text.uncons rest of
 isLineEnd :: Char -> Bool
 isLineEnd c = c == '\n' || c == '\r'
 
+-- | True for a character that words and numbers may contain.
 isPart :: Char -> Bool
 isPart c = isAlphaNum c || c == '_'

@@ -1,10 +1,12 @@
--- | A controller and its tape, as data. Nothing outside this folder knows any machine by name;
--- inside it they are text files.
+-- | A controller and its tape, as data. No module outside this folder knows a machine by its name;
+-- inside, machines are text files.
 --
--- A tape is a sequence of rows, and a 'TapeCode' says which symbol a row is. A frame is a sequence
--- of symbols, and a 'Layout' says which: words, each an address (none in a fixed format) and a
--- number; symbols that always stand there; a check digit. A five-track tape with digits in fixed
--- places, one with letters and one in ASCII differ in their data only.
+-- A tape is a sequence of rows; a 'TapeCode' gives the symbol of each row. A frame is a sequence of
+-- symbols; a 'Layout' divides it into words, literal symbols and a check digit. Machines with fixed
+-- fields on a tape of five tracks, with letters or with ASCII differ in these data only.
+--
+-- This module defines the record 'Machine' and the queries over it. The types of its parts are
+-- defined in the modules that it re-exports.
 module Machine.Machine
   ( Machine (..),
     MachineName (..),
@@ -75,27 +77,60 @@ module Machine.Machine
     -- * Limits
     Limits (..),
 
-    -- * What is known and how
+    -- * Provenance
     DescribedValue (..),
     Provenance (..),
   )
 where
 
-import Base.Quantity (Feed (..), Mm (..), Pulses (..))
+import Base.Quantity (Mm (..), Pulses (..))
 import Data.List (foldl')
 import Data.List.NonEmpty (NonEmpty (..))
 import Data.List.NonEmpty qualified as NonEmpty
-import Data.Map.Strict (Map)
 import Data.Map.Strict qualified as Map
 import Data.Text (Text)
-import Data.Word (Word8)
+import Machine.Axis (Arcs (..), Axis (..), AxisForm (..), among)
+import Machine.Commands
+  ( CommandValue (..),
+    CommandWord (..),
+    CommandWords (..),
+    CompensationCommands (..),
+    noOrders,
+  )
+import Machine.Feeds
+  ( Braking (..),
+    BrakingForm (..),
+    FeedChoice (..),
+    FeedCode (..),
+    FeedCodes (..),
+    FeedMeasure (..),
+    Feeds (..),
+    RapidCode (..),
+    Rule (..),
+  )
+import Machine.FrameLayout
+  ( AxisMeasure (..),
+    CommandName (..),
+    Content (..),
+    Layout (..),
+    LayoutItem (..),
+    MotionCodes (..),
+    NumberForm (..),
+    Presence (..),
+    Service (..),
+    Sign (..),
+    Word' (..),
+    capacityOf,
+    contentWord,
+  )
+import Machine.TapeCode (Medium (..), Spare (..), TapeCode (..))
 
--- | The name by which a program chooses a machine.
+-- | Name by which a part program chooses a machine.
 newtype MachineName = MachineName Text
   deriving newtype (Eq, Ord)
   deriving stock (Show)
 
--- | A controller.
+-- | A controller with its tape and its axes.
 data Machine = Machine
   { name :: MachineName,
     title :: Text,
@@ -112,404 +147,171 @@ data Machine = Machine
   }
   deriving stock (Eq, Show)
 
--- The tape ----------------------------------------------------------------------------------------
-
--- | What is written on, and what stands on it besides frames.
-data Medium = Medium
-  { -- | 1 to 8; bit k−1 of a row is track k
-    tracks :: Int,
-    -- | from row to row; none for a text
-    pitch :: Maybe Mm,
-    -- | the ending of a file's name
-    suffix :: Text,
-    -- | blank rows before the first frame and behind the last
-    leader :: Int,
-    -- | blank rows behind every frame
-    gap :: Int,
-    -- | further blank rows before every frame with an even number, counted from 1
-    evenShift :: Int,
-    spare :: Spare,
-    -- | symbols before the first frame, behind the leader
-    opening :: Text,
-    -- | symbols behind the last frame, before the trailer
-    closing :: Text
+-- | Limits on the size of a program.
+newtype Limits = Limits
+  { -- | largest number of contours; 'Nothing' for no limit
+    mostContours :: Maybe Int
   }
   deriving stock (Eq, Show)
 
--- | What a reader makes of blank rows between frames.
-data Spare
-  = -- | there are as many as the layout says
-    Counted
-  | -- they stand
-
-    -- | there are at least as many as the layout says; rows that the code has for skipping are
-    -- passed over wherever
-    Skipped
+-- | A value of the description, as a sentence, with its provenance.
+data DescribedValue = DescribedValue Provenance Text
   deriving stock (Eq, Show)
 
--- | The rows of the symbols.
-data TapeCode = TapeCode
-  { codeName :: Text,
-    -- | the holes of each symbol, without those of the service track and of the parity track; no
-    -- two alike
-    symbols :: Map Char Word8,
-    -- | what a symbol counts in the sum of a frame; others count 0
-    weights :: Map Char Int,
-    -- | this track, if there is one, makes the number of holes of every row even
-    evenTrack :: Maybe Int,
-    -- | the track that holds signs and marks beside the digits
-    serviceTrack :: Maybe Int,
-    -- | rows that a reader passes over: blank ones and erased ones
-    skips :: [Word8]
-  }
+-- | Origin of a value.
+data Provenance
+  = -- | printed in the source
+    Sourced
+  | -- | printed in the source, but the source contradicts itself
+    Corrected
+  | -- | absent from the source, and chosen for this compiler
+    Reconstructed
   deriving stock (Eq, Show)
 
 -- The axes ----------------------------------------------------------------------------------------
 
-data Axis = X | Y | Z
-  deriving stock (Eq, Ord, Show, Enum, Bounded)
-
-data AxisForm = AxisForm
-  { axis :: Axis,
-    -- | the way of one pulse
-    step :: Mm,
-    -- | the axis of the machine points against that of the part
-    reversed :: Bool,
-    -- | on a lathe it points the other way than it does else
-    reversedOnLathe :: Bool,
-    -- | whether the machine is known to move it; a frame may have a word for it all the same
-    moves :: Bool
-  }
-  deriving stock (Eq, Show)
-
--- | The arcs that a frame can hold, in the plane of x and y.
-data Arcs
-  = NoArcs
-  | -- | whether they end where they cross the axes through the centre, and whether one frame can
-    -- hold a full circle
-    Arcs {quadrants :: Bool, fullCircle :: Bool}
-  deriving stock (Eq, Show)
-
+-- | Properties of an axis; 'Nothing' if the machine lacks it.
 axisForm :: Machine -> Axis -> Maybe AxisForm
-axisForm machine a = formAmong a (NonEmpty.toList (axes machine))
+axisForm machine a = among a (NonEmpty.toList (axes machine))
 
-formAmong :: Axis -> [AxisForm] -> Maybe AxisForm
-formAmong a forms = case forms of
-  [] -> Nothing
-  f : others -> if axis f == a then Just f else formAmong a others
-
--- | The way of one pulse in the plane: of the coarser axis.
+-- | Resolution in the plane of x and y: the larger of the two pulses. A machine with neither axis
+-- has the resolution of z.
 pulse :: Machine -> Mm
-pulse machine = if inPlane > Mm 0 then inPlane else widest (const True)
+pulse machine = if inPlane > Mm 0 then inPlane else largestStep (const True)
   where
-    inPlane = widest (/= Z)
-    widest among = foldl' max (Mm 0) [step f | f <- NonEmpty.toList (axes machine), among (axis f)]
+    inPlane = largestStep (/= Z)
+    largestStep chosen =
+      foldl' max (Mm 0) [step f | f <- NonEmpty.toList (axes machine), chosen (axis f)]
 
--- | The way of one pulse of an axis; for an axis that the machine lacks that of the plane.
+-- | Resolution of an axis. An axis that the machine lacks has the resolution of the plane.
 pulseOf :: Machine -> Axis -> Mm
 pulseOf machine a = case axes machine of
   first :| others
     | axis first == a -> step first
-    | otherwise -> maybe (pulse machine) step (formAmong a others)
+    | otherwise -> maybe (pulse machine) step (among a others)
 
--- | The axes that the machine is known to move.
+-- | Axes that the machine is known to move.
 driven :: Machine -> [Axis]
 driven machine = [axis f | f <- NonEmpty.toList (axes machine), moves f]
 
--- | The machine set up for turning: its axes as they point on a lathe.
+-- | The machine set up for turning: its axes point as on a lathe.
 forTurning :: Machine -> Machine
 forTurning machine =
   machine {axes = fmap (\f -> f {reversed = reversed f /= reversedOnLathe f}) (axes machine)}
 
--- | Whether what is on the left in the part is on the right for the machine.
+-- | True if the left side in the part is the right side for the machine.
 isMirrored :: Machine -> Bool
-isMirrored machine = pointsBack X /= pointsBack Y
+isMirrored machine = isReversed X /= isReversed Y
   where
-    pointsBack a = maybe False reversed (axisForm machine a)
+    isReversed a = maybe False reversed (axisForm machine a)
 
 -- The layout of a frame ---------------------------------------------------------------------------
 
--- | The symbols of a frame in order. Writer and reader both follow it.
-data Layout = Layout
-  { items :: NonEmpty LayoutItem,
-    measure :: AxisMeasure,
-    -- | symbols between two words
-    separator :: Text
-  }
-  deriving stock (Eq, Show)
-
--- | What the words of the axes say. Arc centres are always counted from the arc's beginning.
-data AxisMeasure = Increments | Positions
-  deriving stock (Eq, Show)
-
-data LayoutItem
-  = -- | these symbols always stand here
-    Literal Text
-  | AWord Word'
-  | -- | a digit so that the weights of all symbols of the frame add to a multiple of this
-    CheckDigit Int
-  deriving stock (Eq, Show)
-
-data Word' = Word'
-  { -- | symbols before the number; empty where the place tells what it is
-    address :: Text,
-    content :: Content,
-    form :: NumberForm,
-    presence :: Presence
-  }
-  deriving stock (Eq, Show)
-
-data Content
-  = -- | the number of the frame from 1, modulo what the digits hold
-    FrameNumber
-  | Motion MotionCodes
-  | Along Axis
-  | -- | of an arc: from its beginning to its centre
-    Centre Axis
-  | FeedWord
-  | Command CommandName
-  deriving stock (Eq, Show)
-
--- | Which number says what a frame does; none where the machine does not know it.
-data MotionCodes = MotionCodes
-  { rapid :: Maybe Int,
-    straight :: Int,
-    clockwise :: Maybe Int,
-    counterClockwise :: Maybe Int
-  }
-  deriving stock (Eq, Show)
-
-data NumberForm = NumberForm
-  { -- | digits, those behind the point included: exactly so many, or at most
-    digits :: Int,
-    padded :: Bool,
-    -- | digits behind a decimal point; 0 for no point
-    decimals :: Int,
-    sign :: Sign,
-    -- | what the service track says at each digit; empty without service track
-    service :: [Service]
-  }
-  deriving stock (Eq, Show)
-
-data Sign
-  = -- | not below zero
-    Unsigned
-  | -- | the service track holds it
-    ServiceSign
-  | -- | a minus before a number below zero
-    MinusSign
-  | -- | plus or minus before every number
-    EitherSign
-  | -- leading forwards, leading backwards, following forwards, following backwards
-
-    -- | a digit before the number says direction and which axis leads: the one with most pulses, of
-    -- several the first;
-    Priority Int Int Int Int
-  deriving stock (Eq, Show)
-
--- | What a hole in the service track of a row says.
-data Service
-  = -- | the number is negative
-    MinusHole
-  | -- | a bit of a command, counted from the lowest
-    OrderBit CommandName Int
-  | -- | there always is a hole
-    Marker
-  | -- | the frame slows down to its feed
-    BrakingHole
-  | -- | there never is a hole
-    NoHole
-  deriving stock (Eq, Show)
-
--- | When a word stands in a frame.
-data Presence
-  = Always
-  | -- | in frames that move
-    InMotion
-  | -- it is given
-
-    -- | a word of an axis: where that moves, or its position was not said yet; of a centre: in
-    -- arcs; of a command: where
-    WhenNeeded
-  | -- | a feed: in frames that move at a feed other than the one said last
-    WhenChanged
-  deriving stock (Eq, Show)
-
--- | The word or service bits that hold a command.
-newtype CommandName = CommandName Text
-  deriving newtype (Eq, Ord)
-  deriving stock (Show)
-
+-- | All words of a frame, in their order.
 wordsOf :: Machine -> [Word']
 wordsOf machine = [w | AWord w <- NonEmpty.toList (items (layout machine))]
 
--- | The word with some content.
+-- | First word with the wanted content.
 wordFor :: Machine -> Content -> Maybe Word'
 wordFor machine wanted = case items (layout machine) of
-  first :| others -> wordAmong wanted (first : others)
+  first :| others -> firstWord wanted (first : others)
 
-wordAmong :: Content -> [LayoutItem] -> Maybe Word'
-wordAmong wanted ws = case ws of
+firstWord :: Content -> [LayoutItem] -> Maybe Word'
+firstWord wanted ws = case ws of
   [] -> Nothing
   AWord w : _ | content w == wanted -> Just w
-  _ : others -> wordAmong wanted others
+  _ : others -> firstWord wanted others
 
--- | The largest number of pulses in the word of an axis; 0 for an axis without one.
+-- | Largest number of pulses in the word of an axis; 0 if the frame lacks the word.
 capacity :: Machine -> Axis -> Pulses
-capacity machine a = maybe 0 (Pulses . largest . form) (wordFor machine (Along a))
+capacity machine a = maybe 0 (Pulses . capacityOf . form) (wordFor machine (Along a))
 
--- | The largest number in the words of an arc's centre.
+-- | Largest number that fits every centre word; 0 if the frame has none.
 centreCapacity :: Machine -> Pulses
 centreCapacity machine = if least == maxBound then 0 else Pulses least
   where
-    least = foldl' min maxBound [largest (form w) | w <- wordsOf machine, Centre _ <- [content w]]
+    least = foldl' min maxBound capacities
+    capacities = [capacityOf (form w) | w <- wordsOf machine, Centre _ <- [content w]]
 
-largest :: NumberForm -> Int
-largest f = 10 ^ min 17 (digits f) - 1
-
--- | The largest number of a command; none when a frame has no place for it.
+-- | Largest number of a command; 'Nothing' if the frame has neither a word nor bits for it.
 orderCapacity :: Machine -> CommandName -> Maybe Int
-orderCapacity machine order =
-  case ([form w | w <- wordsOf machine, Command o <- [content w], o == order], bits) of
-    (f : _, _) -> Just (largest f)
+orderCapacity machine command =
+  case ([form w | w <- wordsOf machine, Command c <- [content w], c == command], bits) of
+    (f : _, _) -> Just (capacityOf f)
     ([], []) -> Nothing
     ([], ks) -> Just (sum (map (2 ^) ks))
   where
-    bits = [k | w <- wordsOf machine, OrderBit o k <- service (form w), o == order]
+    bits = [k | w <- wordsOf machine, OrderBit c k <- service (form w), c == command]
 
--- | The digits behind the decimal point in the word of a command.
+-- | Number of digits after the decimal point in the word of a command.
 orderDecimals :: Machine -> CommandName -> Int
-orderDecimals machine order =
-  maximum (0 : [decimals (form w) | w <- wordsOf machine, content w == Command order])
+orderDecimals machine command =
+  maximum (0 : [decimals (form w) | w <- wordsOf machine, content w == Command command])
 
--- | Whether a frame can hold this number of a command. Where the word or the bits stand in every
--- frame, 0 says that there is no command.
+-- | True if a frame can give this number of a command. If every frame contains the word or the
+-- bits, the number 0 means that no command is given.
 canOrder :: Machine -> CommandName -> Int -> Bool
-canOrder machine order v = case orderCapacity machine order of
+canOrder machine command v = case orderCapacity machine command of
   Nothing -> False
   Just most ->
     v <= most
       && ( v > 0
              || v == 0
-               && or [standsAlone (presence w) | w <- wordsOf machine, content w == Command order]
+               && or [isOptional (presence w) | w <- wordsOf machine, content w == Command command]
          )
   where
-    standsAlone p = case p of
+    isOptional p = case p of
       Always -> False
       InMotion -> False
       WhenNeeded -> True
       WhenChanged -> True
 
--- | What a word holds, in words.
-contentWord :: Content -> Text
-contentWord c = case c of
-  FrameNumber -> "frame number"
-  Motion _ -> "kind of motion"
-  Along a -> axisWord a
-  Centre a -> "centre " <> axisWord a
-  FeedWord -> "feed"
-  Command (CommandName n) -> "command " <> n
-  where
-    axisWord a = case a of
-      X -> "x"
-      Y -> "y"
-      Z -> "z"
-
--- | Whether rapid moves are a kind of motion rather than a feed.
+-- | True if rapid moves are a kind of motion rather than a feed.
 hasRapidMotion :: Machine -> Bool
-hasRapidMotion machine = any saysRapid (items (layout machine))
+hasRapidMotion machine = any hasRapidCode (items (layout machine))
   where
-    saysRapid item = case item of
+    hasRapidCode item = case item of
       AWord Word' {content = Motion MotionCodes {rapid = Just _}} -> True
       _ -> False
 
 -- Feeds -------------------------------------------------------------------------------------------
 
--- | What stands in the feed word of a frame.
-newtype FeedCode = FeedCode Int
-  deriving newtype (Eq, Ord)
-  deriving stock (Show)
-
-data Feeds = Feeds
-  { feedMeasure :: FeedMeasure,
-    codes :: FeedCodes,
-    rule :: Rule,
-    rapidFeed :: RapidCode
-  }
-  deriving stock (Eq, Show)
-
--- | What the values of the codes are.
-data FeedMeasure
-  = -- | mm/min along the path
-    AlongPath
-  | -- | pulses a second on the axis that moves by the most of them
-    LeadingAxis
-  deriving stock (Eq, Show)
-
-data FeedCodes
-  = -- | a value for each code
-    Listed (Map FeedCode Double)
-  | -- | the code is the value, from one to another
-    Direct Int Int
-  deriving stock (Eq, Show)
-
--- | Which code a feed gets that has none of its own.
-data Rule
-  = -- | that of the largest value that does not exceed it
-    NotAbove
-  | -- | that of the nearest value; of two the lower code
-    Nearest
-  deriving stock (Eq, Show)
-
-data RapidCode
-  = -- | the code of the highest value
-    Highest
-  | ByCode FeedCode
-  deriving stock (Eq, Show)
-
--- | What a machine makes of a value that is asked for.
-data FeedChoice
-  = -- | the code, and the value that it gives
-    Given FeedCode Double
-  | -- | outside the codes: the lowest and the highest value
-    NoSuchFeed Double Double
-  deriving stock (Eq, Show)
-
--- | The code for a value in the machine's measure: mm/min or pulses a second. A value may lie
--- beyond the ends of the codes by the comparison's slack only.
+-- | Chooses the code for a value in the unit of the machine's codes, mm/min or pulses per second. A
+-- value may lie outside the range of the codes by 'feedTolerance' only.
 choose :: Machine -> Double -> FeedChoice
-choose machine asked
-  | asked < low - sameFeed low || asked > high + sameFeed high = NoSuchFeed low high
+choose machine wanted
+  | wanted < low - feedTolerance low || wanted > high + feedTolerance high = NoSuchFeed low high
   | otherwise = case codes f of
     Direct a b ->
-      let n =
-            max (max 1 a) (min b (nearestTo (rule f)))
+      let n = max (max 1 a) (min b (rounded (rule f)))
        in Given (FeedCode n) (fromIntegral n)
     Listed table -> let (c, v) = pick (Map.toList table) in Given c v
   where
     f = feeds machine
     (low, high) = feedRange machine
-    nearestTo r = case r of
-      NotAbove -> floor (asked + sameFeed asked)
-      Nearest -> floor (asked + 0.5)
+    rounded r = case r of
+      NotAbove -> floor (wanted + feedTolerance wanted)
+      Nearest -> floor (wanted + 0.5)
     pick table = case rule f of
-      Nearest -> least (\(c, v) -> (abs (v - asked), c)) table
-      NotAbove -> least (\(c, v) -> (-v, c)) [e | e@(_, v) <- table, v <= asked + sameFeed asked]
-    least key table = case table of
+      Nearest -> leastBy (\(c, v) -> (abs (v - wanted), c)) table
+      NotAbove ->
+        leastBy (\(c, v) -> (-v, c)) [e | e@(_, v) <- table, v <= wanted + feedTolerance wanted]
+    leastBy key table = case table of
       [] -> (FeedCode 0, 0)
       e : es -> foldl (\best x -> if key x < key best then x else best) e es
 
--- | Values that differ by no more are the same.
-sameFeed :: Double -> Double
-sameFeed v = 1e-9 * max 1 (abs v)
+-- | Largest difference between values that count as equal: a relative error of 1e-9, and an
+-- absolute one below 1.
+feedTolerance :: Double -> Double
+feedTolerance v = 1e-9 * max 1 (abs v)
 
--- | What a code means; nothing for one that the machine does not have.
+-- | Value of a code; 'Nothing' for a code that the machine lacks.
 valueOf :: Machine -> FeedCode -> Maybe Double
 valueOf machine c@(FeedCode n) = case codes (feeds machine) of
   Listed table -> Map.lookup c table
   Direct a b -> if a <= n && n <= b then Just (fromIntegral n) else Nothing
 
--- | The lowest and the highest value of a machine's codes.
+-- | Lowest and highest value of the machine's codes; both 0 for an empty table.
 feedRange :: Machine -> (Double, Double)
 feedRange machine = case codes (feeds machine) of
   Direct a b -> (fromIntegral a, fromIntegral b)
@@ -517,104 +319,20 @@ feedRange machine = case codes (feeds machine) of
     [] -> (0, 0)
     vs -> (minimum vs, maximum vs)
 
--- | The code for rapid moves on a machine without a motion of their own for them.
+-- | Code of rapid moves, for a machine whose rapid moves are a feed.
 rapidCode :: Machine -> FeedCode
 rapidCode machine = case rapidFeed (feeds machine) of
   ByCode c -> c
   Highest -> snd (extreme maximum machine)
 
--- | The code of the lowest value, and the value.
+-- | Code with the lowest value, and that value.
 slowest :: Machine -> (FeedCode, Double)
 slowest machine = let (v, c) = extreme minimum machine in (c, v)
 
--- | The code with an extreme value.
+-- | Selects a code by its value with 'minimum' or 'maximum'.
 extreme :: ([(Double, FeedCode)] -> (Double, FeedCode)) -> Machine -> (Double, FeedCode)
-extreme which machine = case codes (feeds machine) of
-  Direct a b -> which [(fromIntegral n, FeedCode n) | n <- [a, b]]
+extreme select machine = case codes (feeds machine) of
+  Direct a b -> select [(fromIntegral n, FeedCode n) | n <- [a, b]]
   Listed table -> case [(v, c) | (c, v) <- Map.toList table] of
     [] -> (0, FeedCode 0)
-    vs -> which vs
-
--- Braking -----------------------------------------------------------------------------------------
-
--- | How a machine comes down from a feed.
-data Braking = Braking
-  { -- | in mm/s²
-    deceleration :: Double,
-    brakingForm :: BrakingForm
-  }
-  deriving stock (Eq, Show)
-
-data BrakingForm
-  = -- | by itself
-    ByControl
-  | -- | where the program says so, in a frame at the lowest feed
-    SlowFrames
-  | -- | before every lower feed, in frames with a hole of their own; at the end of the program down
-    -- to this feed
-    BrakedFrames Feed
-  deriving stock (Eq, Show)
-
--- Commands ----------------------------------------------------------------------------------------
-
--- | The words for each command; none where the tape can not give it.
-data CommandWords = CommandWords
-  { spindleClockwise :: [CommandWord],
-    spindleCounterClockwise :: [CommandWord],
-    spindleOff :: [CommandWord],
-    coolantOn :: [CommandWord],
-    coolantOff :: [CommandWord],
-    toolChange :: [CommandWord],
-    auxiliary :: [CommandWord],
-    compensation :: Maybe CompensationCommands,
-    -- | frames of their own at the end of the program, in order
-    finish :: [NonEmpty CommandWord]
-  }
-  deriving stock (Eq, Show)
-
--- | A number in the word or the bits of a command.
-data CommandWord = CommandWord {order :: CommandName, value :: CommandValue}
-  deriving stock (Eq, Show)
-
-data CommandValue
-  = Fixed Int
-  | -- | the number that the program gives: of a tool, of an auxiliary command, turns a minute
-    Argument
-  | -- | the step whose value is nearest to the turns a minute that the program gives; of two the
-    -- lower
-    Step (Map Int Double)
-  | -- | the cutter's diameter
-    Diameter
-  deriving stock (Eq, Show)
-
--- | How the control is told to keep the cutter beside the contour, and to stop that.
-data CompensationCommands = CompensationCommands
-  { keepLeft :: CommandWord,
-    keepRight :: CommandWord,
-    release :: CommandWord
-  }
-  deriving stock (Eq, Show)
-
-noOrders :: CommandWords
-noOrders = CommandWords [] [] [] [] [] [] [] Nothing []
-
--- Limits ------------------------------------------------------------------------------------------
-
-newtype Limits = Limits
-  { -- | the most contours of a program, if it is limited
-    mostContours :: Maybe Int
-  }
-  deriving stock (Eq, Show)
-
--- | A statement about the machine, and how it is known.
-data DescribedValue = DescribedValue Provenance Text
-  deriving stock (Eq, Show)
-
-data Provenance
-  = -- | printed in the source
-    Sourced
-  | -- | printed there, but the print contradicts itself
-    Corrected
-  | -- | the source is silent; chosen for this program
-    Reconstructed
-  deriving stock (Eq, Show)
+    vs -> select vs

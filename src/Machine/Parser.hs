@@ -1,5 +1,7 @@
--- | Tokens of a description into statements. Every line that cannot be read is reported, and the
--- next one is read.
+-- | Parses the tokens of a description into statements.
+--
+-- The parser recovers at the end of each line: it reports a line that it cannot read, and continues
+-- with the next one.
 module Machine.Parser
   ( Parsed (..),
     parse,
@@ -16,88 +18,89 @@ import Machine.Lexer (Token, Token_ (..), describe, tokens)
 import Machine.Machine (Provenance (..))
 import Machine.Syntax
 
+-- | Result of the parser.
 data Parsed = Parsed
   { statements :: [Statement],
     mistakes :: [Error],
-    -- | the braces fit
+    -- | true if the braces match, and no block is nested too deeply
     closed :: Bool
   }
 
--- | The statements of a text.
+-- | Parses a text.
 parse :: Text -> Parsed
-parse text = Parsed {statements = ss, mistakes = es, closed = not (any isBrace es)}
+parse text = Parsed {statements = ss, mistakes = es, closed = not (any isBraceError es)}
   where
-    (ss, es) = topLevel (Text.length text) (tokens text)
-    isBrace e = case e of
+    (ss, es) = topLevel (tokens text)
+    isBraceError e = case e of
       Unclosed _ -> True
       Unopened _ -> True
       TooDeep _ _ -> True
       _ -> False
 
-topLevel :: Int -> [Token] -> ([Statement], [Error])
-topLevel size ts = case several size 0 ts of
+-- | Parses all statements. A closing brace without an opening one is reported and skipped.
+topLevel :: [Token] -> ([Statement], [Error])
+topLevel ts = case statementsOf 0 ts of
   (ss, es, Located region (Sign "}") : rest) ->
-    let (more, es') =
-          topLevel size rest
+    let (more, es') = topLevel rest
      in (ss <> more, es <> [Unopened region] <> es')
   (ss, es, _) -> (ss, es)
 
--- | Statements up to a closing brace, which is left, or to the end.
-several :: Int -> Int -> [Token] -> ([Statement], [Error], [Token])
-several size depth ts = case dropWhile ((== LineEnd) . value) ts of
+-- | Parses statements up to the end or up to a closing brace, which it does not consume. The number
+-- is the depth of the block.
+statementsOf :: Int -> [Token] -> ([Statement], [Error], [Token])
+statementsOf depth ts = case dropWhile ((== LineEnd) . value) ts of
   [] -> ([], [], [])
   rest@(Located _ (Sign "}") : _) -> ([], [], rest)
   rest ->
-    let (s, es, behind) = statement size depth rest
-        (more, es', end) = several size depth behind
-     in (s <> more, es <> es', end)
+    let (s, es, afterOne) = statement depth rest
+        (more, es', afterAll) = statementsOf depth afterOne
+     in (s <> more, es <> es', afterAll)
 
--- | One statement with its block.
-statement :: Int -> Int -> [Token] -> ([Statement], [Error], [Token])
-statement size depth ts = case argument ts of
+-- | Parses one statement and its block. A line without a key gives no statement; its block is
+-- parsed for the sake of its errors.
+statement :: Int -> [Token] -> ([Statement], [Error], [Token])
+statement depth ts = case argument ts of
   Left e ->
-    let (_, es, behind) = blockOf size depth (snd (toLineEnd ts))
-     in ([], e : es, behind)
+    let (_, es, rest) = blockOf depth (snd (toLineEnd ts))
+     in ([], e : es, rest)
   Right (first, rest) ->
-    let (args, stopped, rest1) = argumentsOf rest
-        (computed, stopped2, rest2) = formulaOf rest1
-        (known, rest3) = noteOf rest2
-        (skipped, rest4) = toLineEnd rest3
-        (inner, es, rest5) = blockOf size depth rest4
-        (rubbish, rest6) = toLineEnd rest5
-        faults =
-          take
-            1
-            ( stopped
-                <> stopped2
-                <> [ Unexpected (region t) (describe (value t)) "the end of the line"
-                     | t <- take 1 skipped
-                   ]
-            )
-        told =
-          Region.span
-            (Region.region first)
-            (maybe (Region.region (last (first : args))) region computed)
-        s =
-          Statement
-            { key = first,
-              arguments = args,
-              formula = computed,
-              note = known,
-              block = inner,
-              told,
-              broken = not (null faults)
-            }
-     in ( [s],
-          faults
-            <> es
-            <> [ Unexpected (region t) (describe (value t)) "the end of the line"
-                 | t <- take 1 rubbish
-               ],
-          rest6
-        )
+    let (line, faults, afterLine) = lineOf first rest
+        (inner, es, afterBlock) = blockOf depth afterLine
+        (extra, afterExtra) = toLineEnd afterBlock
+     in ([line {block = inner}], faults <> es <> unexpectedIn extra, afterExtra)
 
--- | Arguments as far as they go; what stopped them, if that is no part of a statement.
+-- | Parses the rest of a line after its key, up to its end or a brace: arguments, formula and mark.
+-- Returns the statement without its block, and at most one error.
+lineOf :: Argument -> [Token] -> (Statement, [Error], [Token])
+lineOf first ts = (line, faults, afterLine)
+  where
+    (args, argumentFaults, afterArguments) = argumentsOf ts
+    (computed, formulaFaults, afterFormula) = formulaOf afterArguments
+    (marked, afterMark) = markOf afterFormula
+    (extra, afterLine) = toLineEnd afterMark
+    faults = take 1 (argumentFaults <> formulaFaults <> unexpectedIn extra)
+    extent =
+      Region.span
+        (Region.region first)
+        (maybe (Region.region (last (first : args))) region computed)
+    line =
+      Statement
+        { key = first,
+          arguments = args,
+          formula = computed,
+          mark = marked,
+          block = Nothing,
+          extent,
+          broken = not (null faults)
+        }
+
+-- | Reports the first of the tokens that a line has after its end.
+unexpectedIn :: [Token] -> [Error]
+unexpectedIn extra =
+  [Unexpected (region t) (describe (value t)) "the end of the line" | t <- take 1 extra]
+
+-- | Parses arguments up to the end of the line, a brace, a formula or a mark. Any other token that
+-- is no argument is an error.
 argumentsOf :: [Token] -> ([Argument], [Error], [Token])
 argumentsOf ts = case ts of
   [] -> ([], [], [])
@@ -111,6 +114,7 @@ argumentsOf ts = case ts of
       Name w -> w `elem` map fst marks
       _ -> False
 
+-- | Parses one argument.
 argument :: [Token] -> Either Error (Argument, [Token])
 argument ts = case ts of
   Located r (Numeral a _) : Located _ (Sign "..") : Located r' (Numeral b _) : rest
@@ -134,49 +138,51 @@ argument ts = case ts of
         then Just (Text.foldl' (\n d -> 10 * n + digitToInt d) 0 s)
         else Nothing
 
--- | What stands behind @=@.
+-- | Parses the formula after @=@. Its region ends with the last token that belongs to it.
 formulaOf :: [Token] -> (Maybe (Located Formula), [Error], [Token])
 formulaOf ts = case ts of
   Located r (Sign "=") : rest -> case sums rest of
-    Right (f, behind) ->
-      (Just (Located (foldl Region.merge r (map region (used rest behind))) f), [], behind)
+    Right (f, after) ->
+      (Just (Located (foldl Region.merge r (map region (used rest after))) f), [], after)
     Left e -> (Nothing, [e], rest)
   _ -> (Nothing, [], ts)
   where
-    used rest behind = case behind of
+    used rest after = case after of
       t : _ -> takeWhile ((< Region.start (region t)) . Region.start . region) rest
       [] -> rest
 
+-- | Parser that returns a value and the remaining tokens.
 type Reader a = [Token] -> Either Error (a, [Token])
 
+-- Precedence climbing: sums of products of powers.
 sums, products, powers, factor :: Reader Formula
 sums ts = products ts >>= uncurry (chain products [("+", Add), ("-", Subtract)])
 products ts = powers ts >>= uncurry (chain powers [("*", Multiply), ("/", Divide)])
--- A power binds to the right, and more than the minus before it.
+-- A power is right-associative, and binds more tightly than the minus before it.
 powers ts = case ts of
   Located _ (Sign "-") : rest -> do
-    (a, behind) <- powers rest
-    Right (Negative a, behind)
+    (a, after) <- powers rest
+    Right (Negative a, after)
   _ -> do
     (a, rest) <- factor ts
     case rest of
-      Located _ (Sign "^") : behind -> do
-        (b, end) <- powers behind
+      Located _ (Sign "^") : after -> do
+        (b, end) <- powers after
         Right (Binary Power a b, end)
       _ -> Right (a, rest)
 factor ts = case ts of
   Located _ (Numeral s v) : rest -> Right (Constant s v, rest)
   Located _ (Name "n") : rest -> Right (Variable, rest)
   Located _ (Sign "(") : rest -> do
-    (a, behind) <- sums rest
-    case behind of
+    (a, after) <- sums rest
+    case after of
       Located _ (Sign ")") : end -> Right (a, end)
       Located r t : _ -> Left (Unexpected r (describe t) "‘)’")
       [] -> Left (Unexpected (Region 0 0) "the end" "‘)’")
   Located r t : _ -> Left (Unexpected r (describe t) "a number, ‘n’ or ‘(’")
   [] -> Left (Unexpected (Region 0 0) "the end" "a number, ‘n’ or ‘(’")
 
--- | Operators of one rank, from left to right.
+-- | Parses left-associative operators of one precedence. The formula is the first operand.
 chain ::
   Reader Formula ->
   [(Text, Operator)] ->
@@ -185,34 +191,37 @@ chain ::
   Either Error (Formula, [Token])
 chain next operators a ts = case ts of
   Located _ (Sign s) : rest | Just o <- lookup s operators -> do
-    (b, behind) <- next rest
-    chain next operators (Binary o a b) behind
+    (b, after) <- next rest
+    chain next operators (Binary o a b) after
   _ -> Right (a, ts)
 
-noteOf :: [Token] -> (Maybe (Located Note), [Token])
-noteOf ts = case ts of
+-- | Parses the mark at the end of a line, with the place where the value is printed.
+markOf :: [Token] -> (Maybe (Located Mark), [Token])
+markOf ts = case ts of
   Located r (Name w) : Located r' (Text s) : rest
     | Just m <- lookup w marks ->
-      (Just (Located (Region.span r r') (Note m (Just s))), rest)
-  Located r (Name w) : rest | Just m <- lookup w marks -> (Just (Located r (Note m Nothing)), rest)
+      (Just (Located (Region.span r r') (Mark m (Just s))), rest)
+  Located r (Name w) : rest | Just m <- lookup w marks -> (Just (Located r (Mark m Nothing)), rest)
   _ -> (Nothing, ts)
 
 marks :: [(Text, Provenance)]
 marks = [("sourced", Sourced), ("corrected", Corrected), ("reconstructed", Reconstructed)]
 
-blockOf :: Int -> Int -> [Token] -> (Maybe [Statement], [Error], [Token])
-blockOf size depth ts = case ts of
+-- | Parses the block after a line, if there is one. A block that is nested too deeply ends the
+-- parse.
+blockOf :: Int -> [Token] -> (Maybe [Statement], [Error], [Token])
+blockOf depth ts = case ts of
   Located r (Sign "{") : rest
     | depth >= deepest -> (Nothing, [TooDeep r deepest], [])
-    | otherwise -> case several size (depth + 1) rest of
-      (ss, es, Located _ (Sign "}") : behind) -> (Just ss, es, behind)
-      (ss, es, behind) -> (Just ss, es <> [Unclosed r], behind)
+    | otherwise -> case statementsOf (depth + 1) rest of
+      (ss, es, Located _ (Sign "}") : after) -> (Just ss, es, after)
+      (ss, es, after) -> (Just ss, es <> [Unclosed r], after)
   _ -> (Nothing, [], ts)
 
--- | No description needs blocks within blocks so deep.
+-- | Largest depth of nested blocks.
 deepest :: Int
 deepest = 16
 
--- | What is left of a line, up to a brace.
+-- | Splits off the rest of a line, up to its end or a brace.
 toLineEnd :: [Token] -> ([Token], [Token])
 toLineEnd = break ((`elem` [LineEnd, Sign "{", Sign "}"]) . value)

@@ -1,7 +1,7 @@
--- | How each value of a description is known: by the mark on its line, on the block around it, or
--- on the line of the machine.
+-- | The provenance of each value of a description. A mark is written on the line of the value, on a
+-- block around it, or on the line of the machine; the innermost mark holds.
 module Machine.Provenance
-  ( facts,
+  ( describedValues,
     unmarked,
   )
 where
@@ -15,39 +15,41 @@ import Machine.Error (Error (..))
 import Machine.Machine (DescribedValue (..), Provenance)
 import Machine.Syntax
 
--- | A fact for every line that says something: the sections around it and the line as it is
--- written; behind it, where it is printed.
-facts :: Text -> Maybe (Located Note) -> [Statement] -> [DescribedValue]
-facts text whole = concatMap (walk [] (markOf =<< whole))
+-- | Lists the values of a description, one for each line that describes something. Each value is a
+-- sentence: the sections around the line, the line as written, and the place where it is printed.
+-- The arguments are the text, the mark of the machine and the statements.
+describedValues :: Text -> Maybe (Located Mark) -> [Statement] -> [DescribedValue]
+describedValues text ofMachine = concatMap (valuesIn [] (provenanceOf =<< ofMachine))
   where
-    walk path above s =
-      [DescribedValue m (line path s) | saysSomething s, Just m <- [mark]]
-        <> concatMap (walk (path <> [written text (told s)]) mark) (inner s)
+    valuesIn path outer s =
+      [DescribedValue p (sentence path s) | isDescriptive s, Just p <- [provenance]]
+        <> concatMap (valuesIn (path <> [sourceText text (extent s)]) provenance) (inner s)
       where
-        mark = (note s >>= markOf) <|> above
-    line path s =
-      Text.intercalate ": " (path <> [written text (told s)])
-        <> maybe "" (" — " <>) (note s >>= place)
-    place (Located _ (Note _ where')) = where'
+        provenance = (mark s >>= provenanceOf) <|> outer
+    sentence path s =
+      Text.intercalate ": " (path <> [sourceText text (extent s)])
+        <> maybe "" (" — " <>) (mark s >>= printedAt)
+    printedAt (Located _ (Mark _ location)) = location
 
-markOf :: Located Note -> Maybe Provenance
-markOf (Located _ (Note m _)) = Just m
+provenanceOf :: Located Mark -> Maybe Provenance
+provenanceOf (Located _ (Mark p _)) = Just p
 
--- | The sections with lines that say something, and nothing says how it is known: the first of
--- them, and how many more.
-unmarked :: Maybe (Located Note) -> [Statement] -> [Error]
-unmarked whole sections = case whole of
+-- | Reports the first line without provenance in each section, with the count of further ones.
+unmarked :: Maybe (Located Mark) -> [Statement] -> [Error]
+unmarked ofMachine sections = case ofMachine of
   Just _ -> []
-  Nothing -> [Unmarked first (length more) | s <- sections, first : more <- [walk s]]
+  Nothing ->
+    [Unmarked first (length more) | s <- sections, first : more <- [unmarkedLines s]]
   where
-    walk s
-      | isJust (note s) || broken s = []
-      | otherwise = [told s | saysSomething s] <> concatMap walk (inner s)
+    unmarkedLines s
+      | isJust (mark s) || broken s = []
+      | otherwise = [extent s | isDescriptive s] <> concatMap unmarkedLines (inner s)
 
--- | A heading says nothing by itself; but that of a word says what stands at this place of a frame.
-saysSomething :: Statement -> Bool
-saysSomething s =
-  isNothing (block s) || keyWord s `elem` [Just "word", Just "set"] || isJust (note s)
+-- | True if the line itself describes a value. The heading of a section does not, except that of a
+-- word: it states that the frame contains the word here.
+isDescriptive :: Statement -> Bool
+isDescriptive s =
+  isNothing (block s) || keyWord s `elem` [Just "word", Just "set"] || isJust (mark s)
 
 inner :: Statement -> [Statement]
 inner s = concat (block s)

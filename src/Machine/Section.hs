@@ -1,23 +1,30 @@
--- | Reading statements by their keys: what a section may hold, what it has to hold, and what each
--- line says.
+-- | Access to the statements of a section by their keys, and to the arguments of a statement.
+--
+-- A reader of a line returns 'Nothing' if it does not accept the arguments, and a failed result if
+-- it has reported a mistake in them.
 module Machine.Section
   ( Section (..),
 
     -- * Keys
-    known,
+    allowKeys,
     required,
     optional,
-    every,
+    allWith,
 
     -- * Lines
-    plain,
-    opened,
+    withArguments,
+    withBlock,
+    noArguments,
     malformed,
     keyText,
 
+    -- * Failures
+    attempt,
+    alreadyReported,
+
     -- * Numbers
     wholeIn,
-    amountIn,
+    quantityIn,
     choice,
   )
 where
@@ -34,89 +41,92 @@ import Machine.Syntax
 
 -- | The statements of a block, or of the whole file.
 data Section = Section
-  { -- | in the words of a report: @the tape@
-    what :: Text,
-    -- | where a report about what is missing points
-    place :: Region,
+  { -- | name in reports, such as @the tape@
+    sectionName :: Text,
+    -- | region of a report that something is missing
+    sectionRegion :: Region,
     entries :: [Statement]
   }
 
 -- Keys --------------------------------------------------------------------------------------------
 
--- | Report every key that is none of these, and every second statement of one of the first list.
-known :: [Text] -> [Text] -> Section -> Result w Error ()
-known once often section = Result.failing (concat (zipWith fault [0 ..] (entries section))) ()
+-- | Reports every key that is in neither list, and every repetition of a key in the first list.
+-- Keys of the second list may be repeated.
+allowKeys :: [Text] -> [Text] -> Section -> Result w Error ()
+allowKeys once often section = Result.failing (concat (zipWith fault [0 ..] (entries section))) ()
   where
     fault k s = case keyWord s of
       Just w
         | w `elem` often -> []
         | w `elem` once ->
           [ Twice (region (key s)) (quoted w) (region (key first))
-            | first <- take 1 (named w (take k (entries section)))
+            | first <- take 1 (statementsWith w (take k (entries section)))
           ]
-      _ -> [UnknownKey (region (key s)) (keyText s) (what section) (once <> often)]
+      _ -> [UnknownKey (region (key s)) (keyText s) (sectionName section) (once <> often)]
     quoted w = "‘" <> w <> "’"
 
--- | The statement with a key; the form shows how it is written where it is missing. A key that was
--- meant to be this one is reported as unknown, and that is enough.
+-- | Reads the first statement with a key. If the key is missing, the report shows the example. No
+-- report is made if the section has a misspelt key that 'allowKeys' reports as unknown.
 required :: Text -> Text -> (Statement -> Result w Error a) -> Section -> Result w Error a
-required word form f section = case named word (entries section) of
+required word example f section = case statementsWith word (entries section) of
   s : _ -> f s
   []
-    | or
-        [ not (null (Name.nearest w [word] <> Name.lookAlike w [word]))
-          | s <- entries section,
-            Just w <- [keyWord s]
-        ] ->
-      silent
-    | otherwise -> Result.failed (Missing (place section) (what section) word form)
+    | any isMisspelling (entries section) -> alreadyReported
+    | otherwise ->
+      Result.failed (Missing (sectionRegion section) (sectionName section) word example)
+  where
+    isMisspelling s = case keyWord s of
+      Just w -> not (null (Name.nearest w [word] <> Name.lookAlike w [word]))
+      Nothing -> False
 
--- | The statement with a key, or what holds without it.
+-- | Reads the first statement with a key, or returns the default value.
 optional :: Text -> a -> (Statement -> Result w Error a) -> Section -> Result w Error a
-optional word absent f section = case named word (entries section) of
+optional word absent f section = case statementsWith word (entries section) of
   s : _ -> f s
   [] -> pure absent
 
--- | All statements with a key.
-every :: Text -> (Statement -> Result w Error a) -> Section -> Result w Error [a]
-every word f section = traverse f (named word (entries section))
+-- | Reads all statements with a key.
+allWith :: Text -> (Statement -> Result w Error a) -> Section -> Result w Error [a]
+allWith word f section = traverse f (statementsWith word (entries section))
 
-named :: Text -> [Statement] -> [Statement]
-named word ss = [s | s <- ss, keyWord s == Just word]
+statementsWith :: Text -> [Statement] -> [Statement]
+statementsWith word ss = [s | s <- ss, keyWord s == Just word]
 
 -- Lines -------------------------------------------------------------------------------------------
 
--- | A line with arguments only; the forms are the ways to write it. Nothing fits another number of
--- arguments.
-plain :: [Text] -> ([Argument] -> Maybe (Result w Error a)) -> Statement -> Result w Error a
-plain forms f s
-  | broken s = silent
+-- | Reads a line without formula and block. The report of a malformed line lists the given forms.
+withArguments ::
+  [Text] -> ([Argument] -> Maybe (Result w Error a)) -> Statement -> Result w Error a
+withArguments forms f s
+  | broken s = alreadyReported
   | Just r <- f (arguments s), Nothing <- formula s, Nothing <- block s = r
   | otherwise = malformed forms s
 
--- | A line with a block: what its arguments say, and the section.
-opened ::
+-- | Reads a line with a block: the value of its arguments, and the block as a section with the
+-- given name.
+withBlock ::
   [Text] ->
   Text ->
   ([Argument] -> Maybe (Result w Error a)) ->
   Statement ->
   Result w Error (a, Section)
-opened forms title f s = case block s of
-  _ | broken s -> silent
+withBlock forms title f s = case block s of
+  _ | broken s -> alreadyReported
   Just ss
     | Just r <- f (arguments s),
       Nothing <- formula s ->
-      (,Section {what = title, place = told s, entries = ss}) <$> r
+      (,Section {sectionName = title, sectionRegion = extent s, entries = ss}) <$> r
   _ -> malformed forms s
 
+-- | Accepts a line without arguments.
+noArguments :: [Argument] -> Maybe (Result w Error ())
+noArguments args = if null args then Just (pure ()) else Nothing
+
+-- | Reports a line that has none of the given forms.
 malformed :: [Text] -> Statement -> Result w Error a
-malformed forms s = Result.failed (Malformed (told s) (keyText s) forms)
+malformed forms s = Result.failed (Malformed (extent s) (keyText s) forms)
 
--- | Reported already.
-silent :: Result w e a
-silent = Result [] [] Nothing
-
--- | The key as a report names it.
+-- | The key as a report shows it.
 keyText :: Statement -> Text
 keyText s = case value (key s) of
   Word w -> w
@@ -126,9 +136,20 @@ keyText s = case value (key s) of
   Bit name k -> name <> ":" <> Decimal.whole k
   Dash -> "-"
 
+-- Failures ----------------------------------------------------------------------------------------
+
+-- | Turns a failed result into a successful one without value. Its errors are kept, and the reader
+-- continues.
+attempt :: Result w e a -> Result w e (Maybe a)
+attempt r = r {output = Just (output r)}
+
+-- | Failure without a report, for a mistake that has one.
+alreadyReported :: Result w e a
+alreadyReported = Result [] [] Nothing
+
 -- Numbers -----------------------------------------------------------------------------------------
 
--- | A whole number between two.
+-- | Reads a whole number from @low@ to @high@; the name is for the report.
 wholeIn :: Text -> Int -> Int -> Argument -> Maybe (Result w Error Int)
 wholeIn name low high a = case value a of
   Number t v
@@ -138,24 +159,25 @@ wholeIn name low high a = case value a of
     | otherwise -> Just (pure (round v))
   _ -> Nothing
 
--- | A number above 0 with its unit, up to a largest.
-amountIn :: Text -> Text -> Double -> Argument -> Argument -> Maybe (Result w Error Double)
-amountIn name unit high a b = case (value a, value b) of
+-- | Reads a number with a unit, from 'leastQuantity' to @high@; the name is for the report.
+quantityIn :: Text -> Text -> Double -> Argument -> Argument -> Maybe (Result w Error Double)
+quantityIn name unit high a b = case (value a, value b) of
   (Number _ v, Word u)
     | u /= unit -> Nothing
-    | v < smallest || v > high ->
-      Just
-        (Result.failed (OutOfRange (region a) name (Decimal.exact smallest) (Decimal.exact high)))
+    | v < leastQuantity || v > high ->
+      Just (Result.failed (OutOfRange (region a) name lowText (Decimal.exact high)))
     | otherwise -> Just (pure v)
   _ -> Nothing
+  where
+    lowText = Decimal.exact leastQuantity
 
--- | No length and no feed of a machine is less.
-smallest :: Double
-smallest = 0.000001
+-- | Lower limit of every length, feed and deceleration of a machine.
+leastQuantity :: Double
+leastQuantity = 0.000001
 
--- | A line with one of some words.
+-- | Reads a line whose only argument is one of the words in the table.
 choice :: [(Text, a)] -> Statement -> Result w Error a
-choice table s = plain [keyText s <> " " <> w | (w, _) <- table] one s
+choice table s = withArguments [keyText s <> " " <> w | (w, _) <- table] one s
   where
     one args = case map value args of
       [Word w] -> pure <$> lookup w table

@@ -1,13 +1,16 @@
--- | The text of a machine's description as statements, before anything is known of machines.
+-- | The syntax tree of a machine description: statements with their arguments, marks and blocks.
+--
+-- The tree knows nothing of machines. "Machine.Parser" builds it; the sections are read from it by
+-- "Machine.FromText" and the modules that it calls.
 module Machine.Syntax
   ( Statement (..),
     Argument,
     Argument_ (..),
-    Note (..),
+    Mark (..),
     Formula (..),
     Operator (..),
     keyWord,
-    written,
+    sourceText,
     evaluate,
   )
 where
@@ -17,42 +20,45 @@ import Data.Text (Text)
 import Data.Text qualified as Text
 import Machine.Machine (Provenance)
 
--- | One line: a key, what it says, how that is known; and the statements in its braces.
+-- | One line, together with the statements of its block.
 data Statement = Statement
   { key :: Argument,
     arguments :: [Argument],
-    -- | behind @=@
+    -- | formula after @=@
     formula :: Maybe (Located Formula),
-    note :: Maybe (Located Note),
+    mark :: Maybe (Located Mark),
     block :: Maybe [Statement],
-    -- | from the key to what stands before the mark
-    told :: Region,
-    -- | something in the line could not be read, and was reported
+    -- | region from the key to the end of the last argument or of the formula
+    extent :: Region,
+    -- | true if a part of the line could not be read; this is reported already
     broken :: Bool
   }
   deriving stock (Eq, Show)
 
+-- | Argument with its region.
 type Argument = Located Argument_
 
+-- | A word, a text, a number, or one of the forms that only holes and tables use.
 data Argument_
   = Word Text
-  | -- | between quotation marks
+  | -- | text in quotation marks, without them
     Quoted Text
-  | -- | as it is written, and its value; not below zero
+  | -- | digits as written, and their value; never negative
     Number Text Double
   | -- | @0..40@
     Range Int Int
-  | -- | @name:2@
+  | -- | bit of a command, @name:2@
     Bit Text Int
   | -- | @-@
     Dash
   deriving stock (Eq, Show)
 
--- | How a value is known, and where it stands.
-data Note = Note Provenance (Maybe Text)
+-- | Provenance of a value, and the place in the document that the value comes from.
+data Mark = Mark Provenance (Maybe Text)
   deriving stock (Eq, Show)
 
--- | A formula in n. A lone number keeps how it is written: it may be a pattern of holes.
+-- | Formula in the variable @n@. A constant keeps its digits as written, because it may be a
+-- pattern of holes.
 data Formula
   = Constant Text Double
   | Variable
@@ -60,10 +66,11 @@ data Formula
   | Binary Operator Formula Formula
   deriving stock (Eq, Show)
 
+-- | Binary operator of a formula.
 data Operator = Add | Subtract | Multiply | Divide | Power
   deriving stock (Eq, Show)
 
--- | The key, where it is a word.
+-- | The key if it is a word.
 keyWord :: Statement -> Maybe Text
 keyWord s = case value (key s) of
   Word w -> Just w
@@ -73,12 +80,12 @@ keyWord s = case value (key s) of
   Bit _ _ -> Nothing
   Dash -> Nothing
 
--- | A stretch of the text on one line, blanks made one.
-written :: Text -> Region -> Text
-written text region =
+-- | The text of a region, with each run of white space replaced by one blank.
+sourceText :: Text -> Region -> Text
+sourceText text region =
   Text.unwords (Text.words (Text.take (end region - start region) (Text.drop (start region) text)))
 
--- | The value for an n. Not a number, or without end, where there is none.
+-- | Evaluates a formula at @n@. The result is NaN or infinite if the formula has no value there.
 evaluate :: Double -> Formula -> Double
 evaluate n f = case f of
   Constant _ v -> v

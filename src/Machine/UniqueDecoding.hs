@@ -1,8 +1,8 @@
--- | Whether the frames of a layout can be read back: symbol by symbol, in one way only.
+-- | Checks that the frames of a layout can be decoded uniquely, symbol by symbol.
 --
--- Addresses are no numbers and none begins with another that may stand in its place; a number of
--- any length is followed by what is no digit; something stands in every frame. A reader that tries
--- the items in order needs no more.
+-- The conditions are sufficient for a reader that tries the items in their order. No address begins
+-- like a number. No address is a prefix of symbols that may follow at the same point. A number
+-- without fixed length ends before a symbol that is no digit. Every frame contains some item.
 module Machine.UniqueDecoding
   ( check,
   )
@@ -19,58 +19,63 @@ import Data.Maybe (catMaybes, mapMaybe)
 import Data.Text (Text)
 import Data.Text qualified as Text
 import Machine.CodeFromText qualified as CodeFromText
-import Machine.Error (Error (..), Unclear (..))
+import Machine.Error (DecodingFault (..), Error (..))
 import Machine.Machine
 
--- | What is wrong with the items of a frame on a tape, and with its separator and the closing
--- symbols.
-check :: Medium -> Region -> TapeCode -> NonEmpty (Region, LayoutItem) -> (Region, Text) -> [Error]
-check medium tape code' placed separator' =
+-- | Item of a frame with its region.
+type LocatedItem = (Region, LayoutItem)
+
+-- | Lists the mistakes. The arguments are the medium and its region, the code, the items, and the
+-- separator with its region.
+check :: Medium -> Region -> TapeCode -> NonEmpty LocatedItem -> (Region, Text) -> [Error]
+check medium tapeRegion tapeCode located locatedSeparator =
   concat
-    [ symbolFaults tape medium code' items' separator',
+    [ symbolFaults tapeRegion medium tapeCode items' locatedSeparator,
       concatMap addressFaults items',
-      [ Unreadable (fst separator') (LikeNumber (snd separator'))
-        | beginsLikeNumber (snd separator')
+      [ NotDecodable (fst locatedSeparator) (LikeNumber (snd locatedSeparator))
+        | beginsLikeNumber (snd locatedSeparator)
       ],
-      pairs items',
-      concatMap (runsOn (snd separator')) (followed items'),
-      concatMap (runsOut medium code') (followed items'),
-      [Unreadable r NothingFixed | all (isOptional . snd) items', (r, _) <- take 1 items'],
-      [ Unreadable r (TwoChecks first)
+      prefixFaults items',
+      concatMap (successorFaults (snd locatedSeparator)) (successors items'),
+      concatMap (endFaults medium tapeCode) (successors items'),
+      [NotDecodable r NoFixedItem | all (isOptional . snd) items', (r, _) <- take 1 items'],
+      [ NotDecodable r (TwoChecks first)
         | (k, (r, CheckDigit _)) <- zip [0 ..] items',
           (first, CheckDigit _) <- take 1 [i | i@(_, CheckDigit _) <- take k items']
       ],
-      blankStart medium code' items',
-      [ Unreadable tape ClosingLikeFrame
+      blankStart medium tapeCode items',
+      [ NotDecodable tapeRegion ClosingLikeFrame
         | not (Text.null (closing medium)),
-          mayBegin (closing medium) (map snd items')
+          canBeginWith (closing medium) (map snd items')
       ]
     ]
   where
-    items' = NonEmpty.toList placed
+    items' = NonEmpty.toList located
 
+-- | True if not every frame contains the item.
 isOptional :: LayoutItem -> Bool
-isOptional item = case item of
+isOptional i = case i of
   AWord w -> presence w /= Always
   Literal _ -> False
   CheckDigit _ -> False
 
--- | Characters that the code lacks.
-symbolFaults :: Region -> Medium -> TapeCode -> [(Region, LayoutItem)] -> (Region, Text) -> [Error]
-symbolFaults tape medium code' items' (r, between) =
+-- | Reports characters that the code lacks.
+symbolFaults :: Region -> Medium -> TapeCode -> [LocatedItem] -> (Region, Text) -> [Error]
+symbolFaults tapeRegion medium tapeCode items' (separatorRegion, between) =
   catMaybes
-    ( lacks tape "the opening" (opening medium) :
-      lacks tape "the closing" (closing medium) :
-      lacks r "the separator" between : map ofItem items'
+    ( missing tapeRegion "the opening" (opening medium) :
+      missing tapeRegion "the closing" (closing medium) :
+      missing separatorRegion "the separator" between :
+      map missingInItem items'
     )
   where
-    ofItem (place, item) = case item of
-      Literal t -> lacks place "the frame" t
-      CheckDigit _ -> lacks place "the check digit" "0123456789"
-      AWord w -> lacks place "the word" (address w <> numerals (form w))
-    lacks place what text = case filter (`Map.notMember` symbols code') (nub (Text.unpack text)) of
+    missingInItem (r, i) = case i of
+      Literal t -> missing r "the frame" t
+      CheckDigit _ -> missing r "the check digit" "0123456789"
+      AWord w -> missing r "the word" (address w <> numerals (form w))
+    missing r part text = case filter (`Map.notMember` symbols tapeCode) (nub (Text.unpack text)) of
       [] -> Nothing
-      missing -> Just (NotInCode place what missing)
+      characters -> Just (NotInCode r part characters)
     numerals f =
       (if digits f > 0 then "0123456789" else "")
         <> (if decimals f > 0 then "." else "")
@@ -82,127 +87,159 @@ symbolFaults tape medium code' items' (r, between) =
       EitherSign -> "+-"
       Priority {} -> "0123456789"
 
--- | An address by itself.
+-- | Reports an optional word without address, and an address that begins like a number.
 addressFaults :: (Region, LayoutItem) -> [Error]
-addressFaults (r, item) = case item of
+addressFaults (r, i) = case i of
   AWord w ->
-    [Unreadable r NoAddress | Text.null (address w), isOptional item]
-      <> [Unreadable r (LikeNumber (address w)) | beginsLikeNumber (address w)]
+    [NotDecodable r NoAddress | Text.null (address w), isOptional i]
+      <> [NotDecodable r (LikeNumber (address w)) | beginsLikeNumber (address w)]
   Literal _ -> []
   CheckDigit _ -> []
 
+-- | True if the first symbol is a digit, a sign or a point.
 beginsLikeNumber :: Text -> Bool
 beginsLikeNumber t = Text.any (\c -> isDigit c || c `elem` ("+-." :: String)) (Text.take 1 t)
 
--- | Addresses that are alike or begin alike.
-pairs :: [(Region, LayoutItem)] -> [Error]
-pairs items' =
+-- | Reports addresses that are equal, or that are a prefix of other symbols; at most one report for
+-- each item.
+prefixFaults :: [LocatedItem] -> [Error]
+prefixFaults items' =
   concat
-    [take 1 (concat [two first second | first <- take k items']) | (k, second) <- zip [0 ..] items']
-  where
-    two (r, a) (r', b) = case (a, b) of
-      (AWord v, AWord w)
-        | Text.null (address v) || Text.null (address w) -> []
-        | address v == address w -> [Unreadable r' (SameAddress (address w) r)]
-        | address v `Text.isPrefixOf` address w ->
-          [Unreadable r' (Prefix (address v) (address w) r)]
-        | address w `Text.isPrefixOf` address v
-            && continues w (Text.drop (Text.length (address w)) (address v)) ->
-          [Unreadable r (Prefix (address w) (address v) r')]
-        | otherwise -> []
-      (AWord v, Literal t) | isOptional a -> alike r' r (address v) t
-      (Literal t, AWord v) | isOptional b -> alike r r' (address v) t
-      _ -> []
-    alike r r' short long
-      | Text.null short || Text.null long = []
-      | short `Text.isPrefixOf` long = [Unreadable r (Prefix short long r')]
-      | long `Text.isPrefixOf` short = [Unreadable r' (Prefix long short r)]
-      | otherwise = []
+    [ take 1 (concat [pairFaults first second | first <- take k items'])
+      | (k, second) <- zip [0 ..] items'
+    ]
 
--- | Whether a word with the shorter address can go on like the rest of the longer one.
-continues :: Word' -> Text -> Bool
-continues w rest = case content w of
-  Motion m ->
-    or
-      [ rest `Text.isPrefixOf` t || t `Text.isPrefixOf` rest
-        | t <-
-            map
-              (number (form w))
-              (catMaybes [rapid m, Just (straight m), clockwise m, counterClockwise m])
-      ]
+-- | Reports a conflict between two items, the first of which is earlier in the frame.
+pairFaults :: LocatedItem -> LocatedItem -> [Error]
+pairFaults (r, a) (r', b) = case (a, b) of
+  (AWord v, AWord w)
+    | Text.null (address v) || Text.null (address w) -> []
+    | address v == address w -> [NotDecodable r' (SameAddress (address w) r)]
+    | address v `Text.isPrefixOf` address w ->
+      [NotDecodable r' (Prefix (address v) (address w) r)]
+    | address w `Text.isPrefixOf` address v
+        && numberMayBegin w (Text.drop (Text.length (address w)) (address v)) ->
+      [NotDecodable r (Prefix (address w) (address v) r')]
+    | otherwise -> []
+  (AWord v, Literal t) | isOptional a -> commonPrefix r' r (address v) t
+  (Literal t, AWord v) | isOptional b -> commonPrefix r r' (address v) t
+  _ -> []
+
+-- | Reports symbols of an optional word and of a literal if one of the two is a prefix of the
+-- other. The first region is that of the literal.
+commonPrefix :: Region -> Region -> Text -> Text -> [Error]
+commonPrefix literalRegion wordRegion ofWord ofLiteral
+  | Text.null ofWord || Text.null ofLiteral = []
+  | ofWord `Text.isPrefixOf` ofLiteral =
+    [NotDecodable literalRegion (Prefix ofWord ofLiteral wordRegion)]
+  | ofLiteral `Text.isPrefixOf` ofWord =
+    [NotDecodable wordRegion (Prefix ofLiteral ofWord literalRegion)]
+  | otherwise = []
+
+-- | True if the number of a word may begin with these symbols.
+numberMayBegin :: Word' -> Text -> Bool
+numberMayBegin w rest = case content w of
+  Motion m -> any (\t -> rest `Text.isPrefixOf` t || t `Text.isPrefixOf` rest) (numbersOf m)
   _ -> digits (form w) == 0 || beginsLikeNumber rest
   where
-    number f n = (if padded f then Text.justifyRight (digits f) '0' else id) (Decimal.whole n)
+    numbersOf m =
+      map written (catMaybes [rapid m, Just (straight m), clockwise m, counterClockwise m])
+    written n
+      | padded (form w) = Text.justifyRight (digits (form w)) '0' (Decimal.whole n)
+      | otherwise = Decimal.whole n
 
--- | Each item with those that may follow it at once, up to one that stands in every frame; the next
--- frame's too. The flag says whether the two stand in one frame.
-followed :: [(Region, LayoutItem)] -> [((Region, LayoutItem), [(Bool, (Region, LayoutItem))])]
-followed items' =
-  [ (i, upToFixed (map (True,) (drop (k + 1) items') <> map (False,) items'))
+-- | An item with those that may come directly after it, up to the first one that every frame
+-- contains.
+data Successors = Successors
+  { item :: LocatedItem,
+    next :: [Successor]
+  }
+
+-- | Item that may come directly after another one.
+data Successor = Successor
+  { isSameFrame :: Bool,
+    successor :: LocatedItem
+  }
+
+-- | Successors of all items, those in the next frame included.
+successors :: [LocatedItem] -> [Successors]
+successors items' =
+  [ Successors {item = i, next = upToFixed (restOfFrame k <> nextFrame)}
     | (k, i) <- zip [0 ..] items'
   ]
   where
+    restOfFrame k = map (Successor True) (drop (k + 1) items')
+    nextFrame = map (Successor False) items'
     upToFixed is = case is of
-      i : rest | isOptional (snd (snd i)) -> i : upToFixed rest
+      i : rest | isOptional (snd (successor i)) -> i : upToFixed rest
       _ -> take 1 is
 
--- | A number of any length before a digit.
-runsOn :: Text -> ((Region, LayoutItem), [(Bool, (Region, LayoutItem))]) -> [Error]
-runsOn between ((r, item), behind) = case item of
-  AWord w | not (padded (form w)) && digits (form w) > 0 -> take 1 (mapMaybe next behind)
-  _ -> []
+-- | True if the item is a word whose number has digits, but no fixed length.
+hasOpenEnd :: LayoutItem -> Bool
+hasOpenEnd i = case i of
+  AWord w -> not (padded (form w)) && digits (form w) > 0
+  Literal _ -> False
+  CheckDigit _ -> False
+
+-- | Reports a number without fixed length before an item that may begin with a digit. The text is
+-- the separator.
+successorFaults :: Text -> Successors -> [Error]
+successorFaults between Successors {item = (r, i), next}
+  | hasOpenEnd i = take 1 (mapMaybe fault next)
+  | otherwise = []
   where
-    next (same, (r', following)) = case following of
+    fault (Successor isSame (r', following)) = case following of
       AWord w
-        | Text.null (address w) && beginsWithDigit (form w) && (Text.null between || not same) ->
-          Just (Unreadable r (RunsOn r'))
+        | Text.null (address w),
+          sign (form w) /= EitherSign,
+          Text.null between || not isSame ->
+          Just (NotDecodable r (NumberRunsOn r'))
       AWord _ -> Nothing
       Literal t
-        | Text.any (\c -> isDigit c || c == '.') (Text.take 1 t) ->
-          Just (Unreadable r (RunsOn r'))
+        | continuesNumber t -> Just (NotDecodable r (NumberRunsOn r'))
       Literal _ -> Nothing
-      CheckDigit _ -> Just (Unreadable r (RunsOn r'))
-    beginsWithDigit f = sign f /= EitherSign
+      CheckDigit _ -> Just (NotDecodable r (NumberRunsOn r'))
 
--- | A number of any length at the end of a frame, before closing symbols or skipped rows that read
--- like its next digit.
-runsOut :: Medium -> TapeCode -> ((Region, LayoutItem), [(Bool, (Region, LayoutItem))]) -> [Error]
-runsOut medium code' ((r, item), behind) = case item of
-  AWord w
-    | not (padded (form w)) && digits (form w) > 0 && not (all fst behind) ->
-      [ Unreadable r RunsOnClosing
-        | Text.any (\c -> isDigit c || c == '.') (Text.take 1 (closing medium))
-      ]
-        <> [ Unreadable r (RunsOnBlank d)
-             | spare medium == Skipped,
-               d <- ['0' .. '9'],
-               isBlank medium code' d
-           ]
-  _ -> []
+-- | True if the first symbol is a digit or a point.
+continuesNumber :: Text -> Bool
+continuesNumber t = Text.any (\c -> isDigit c || c == '.') (Text.take 1 t)
 
--- | Whether a symbol is a row without holes.
+-- | Reports a number without fixed length at the end of a frame, if closing symbols or skipped
+-- blank rows read as its next digit.
+endFaults :: Medium -> TapeCode -> Successors -> [Error]
+endFaults medium tapeCode Successors {item = (r, i), next}
+  | hasOpenEnd i && not (all isSameFrame next) =
+    [NotDecodable r NumberRunsIntoClosing | continuesNumber (closing medium)]
+      <> [ NotDecodable r (NumberRunsIntoBlank d)
+           | spare medium == Skipped,
+             d <- ['0' .. '9'],
+             isBlank medium tapeCode d
+         ]
+  | otherwise = []
+
+-- | True if the row of a symbol has no holes.
 isBlank :: Medium -> TapeCode -> Char -> Bool
-isBlank medium code' c =
-  or
-    [ 0 `elem` take 1 (CodeFromText.rowsOf (tracks medium) code' p)
-      | Just p <- [Map.lookup c (symbols code')]
-    ]
+isBlank medium tapeCode c = case Map.lookup c (symbols tapeCode) of
+  Nothing -> False
+  Just holes -> 0 `elem` take 1 (CodeFromText.rowsOf (tracks medium) tapeCode holes)
 
--- | The items with which a frame can begin.
-beginning :: [(Region, LayoutItem)] -> [(Region, LayoutItem)]
-beginning items' = let (may, fixed) = span (isOptional . snd) items' in may <> take 1 fixed
+-- | Items that can be the first one in a frame.
+firstItems :: [LocatedItem] -> [LocatedItem]
+firstItems items' =
+  let (optional, fixed) = span (isOptional . snd) items'
+   in optional <> take 1 fixed
 
--- | Blank rows that are skipped, and a frame that may begin with one.
-blankStart :: Medium -> TapeCode -> [(Region, LayoutItem)] -> [Error]
-blankStart medium code' items' = case spare medium of
+-- | Reports skipped blank rows if a frame may begin with one.
+blankStart :: Medium -> TapeCode -> [LocatedItem] -> [Error]
+blankStart medium tapeCode items' = case spare medium of
   Counted -> []
   Skipped ->
-    [ Unreadable r BlankStart
-      | (r, item) <- beginning items',
-        any (isBlank medium code') (firsts item)
+    [ NotDecodable r BlankStart
+      | (r, i) <- firstItems items',
+        any (isBlank medium tapeCode) (firstSymbols i)
     ]
   where
-    firsts item = case item of
+    firstSymbols i = case i of
       Literal t -> Text.unpack (Text.take 1 t)
       CheckDigit _ -> ['0' .. '9']
       AWord w
@@ -211,17 +248,19 @@ blankStart medium code' items' = case spare medium of
         | take 1 (service (form w)) == [Marker] -> ""
         | otherwise -> ['0' .. '9']
 
--- | Whether a frame may begin with these symbols.
-mayBegin :: Text -> [LayoutItem] -> Bool
-mayBegin text items' = case items' of
+-- | True if a frame with these items may begin with the text.
+canBeginWith :: Text -> [LayoutItem] -> Bool
+canBeginWith text items' = case items' of
   _ | Text.null text -> True
   [] -> False
-  Literal t : rest -> maybe (text `Text.isPrefixOf` t) (`mayBegin` rest) (Text.stripPrefix t text)
+  Literal t : rest -> case Text.stripPrefix t text of
+    Nothing -> text `Text.isPrefixOf` t
+    Just more -> canBeginWith more rest
   CheckDigit _ : _ -> beginsLikeNumber text
-  AWord w : rest -> here w rest || (isOptional (AWord w) && mayBegin text rest)
+  AWord w : rest -> wordCanBegin w rest || (isOptional (AWord w) && canBeginWith text rest)
   where
-    here w rest = case Text.stripPrefix (address w) text of
+    wordCanBegin w rest = case Text.stripPrefix (address w) text of
       Nothing -> text `Text.isPrefixOf` address w
-      Just behind
-        | digits (form w) == 0 -> mayBegin behind rest
-        | otherwise -> Text.null behind || beginsLikeNumber behind
+      Just number
+        | digits (form w) == 0 -> canBeginWith number rest
+        | otherwise -> Text.null number || beginsLikeNumber number

@@ -1,4 +1,4 @@
--- | Descriptions of machines: the ones that partc has, ones that are wrong, and random ones.
+-- | Tests of machine descriptions: the built-in ones, wrong ones, and random ones.
 module Machine.FromTextSpec (spec) where
 
 import Base.Quantity (Feed (..), Mm (..))
@@ -10,7 +10,7 @@ import Data.Bits (popCount, testBit)
 import Data.List (nub, sort)
 import Data.List.NonEmpty qualified as NonEmpty
 import Data.Map.Strict qualified as Map
-import Data.Maybe (fromMaybe)
+import Data.Maybe (fromMaybe, isJust)
 import Data.Text (Text)
 import Data.Text qualified as Text
 import Data.Word (Word8)
@@ -32,7 +32,7 @@ import Test.QuickCheck hiding (Fixed, Result)
 
 spec :: Spec
 spec = do
-  describe "the machines that partc has" builtIn
+  describe "the machines that partc has" builtInMachines
   describe "wrong descriptions give their reports, and no machine" $ do
     files <- runIO (sort . filter ((== ".machine") . takeExtension) <$> walk "test/machines/bad")
     forM_ files $ \file -> it file $ do
@@ -49,8 +49,8 @@ spec = do
         )
     it "every kind of report has a description (a code that nothing raises is dead)" $ do
       reports <- Text.concat <$> traverse (readText . (-<.> "report")) files
-      [c | c <- [1001 .. 1014 :: Int], not (Text.isInfixOf ("[E" <> Text.pack (show c) <> "]") reports)]
-        `shouldBe` []
+      let isRaised c = ("[E" <> Text.pack (show c) <> "]") `Text.isInfixOf` reports
+      filter (not . isRaised) [1001 .. 1014 :: Int] `shouldBe` []
   describe "the guide docs/new-machine.md" $
     it
       "holds examples/machines/fm-8.machine, and that is a machine (a guide that nobody can follow)"
@@ -59,7 +59,7 @@ spec = do
         guide <- readText "docs/new-machine.md"
         map titleOf (errors (reading text)) `shouldBe` []
         guide `shouldSatisfy` Text.isInfixOf ("```machine\n" <> text <> "```")
-  describe "reading" laws
+  describe "reading" (laws >> provenanceLaws)
 
 reading :: Text -> Result () Error Machine
 reading = FromText.read
@@ -67,10 +67,10 @@ reading = FromText.read
 titleOf :: Error -> Text
 titleOf = Report.title . Error.toReport
 
--- The machines that partc has ---------------------------------------------------------------------
+-- The built-in machines ---------------------------------------------------------------------------
 
-builtIn :: Spec
-builtIn = do
+builtInMachines :: Spec
+builtInMachines = do
   it "read without a report, each under the name of its file (a machine that stops the program)" $
     forM_ BuiltIn.names $ \n -> do
       fmap (map titleOf . errors . reading) (BuiltIn.text n) `shouldBe` Just []
@@ -86,7 +86,7 @@ builtIn = do
                    "lkp-01f",
                    "n55"
                  ]
-  it "are known value by value: a fact for every line that says one (a value without its history)" $
+  it "list the origin of their values: more than 30 each (a value without its history)" $
     forM_ BuiltIn.machines $ \m -> length (facts m) `shouldSatisfy` (> 30)
   it "5121 is Table 6 of the Ural paper (a digit punched as another)" $
     forM_ ["lkp-01f", "lki-u"] $ \n ->
@@ -124,16 +124,14 @@ builtIn = do
       (\m -> sum [Map.findWithDefault 0 c (weights (code m)) | c <- "9Д56000П27Ш08Н"])
       (found "kontur-3p")
       `shouldBe` Just 50
-  it "a commands' number fits its place (a command that no frame holds)" $
+  it "the word of auxiliary commands holds 7 and 99 (a command that no frame holds)" $
     [capacity' m "aux" | Just m <- map found ["lkp-01f", "kontur-3p"]] `shouldBe` [Just 7, Just 99]
   where
     found = BuiltIn.find . MachineName
-    rows n cs =
-      maybe
-        []
-        (\m -> [p | c <- cs, Just p <- [Map.lookup c (symbols (code m))]])
-        (found n) ::
-        [Word8]
+    rows :: Text -> String -> [Word8]
+    rows n cs = case found n of
+      Just m -> [p | c <- cs, Just p <- [Map.lookup c (symbols (code m))]]
+      Nothing -> []
     capacity' m n = orderCapacity m (CommandName n)
     choose' = Machine.choose
     holesOf n c = case found n of
@@ -155,75 +153,69 @@ laws = do
             (Text.unpack (toText m <> "\n" <> Text.unlines (map titleOf (errors outcome))))
             $ fmap (\read' -> read' {facts = []}) (Result.settled outcome) === Just m {facts = []}
   it
-    "every fact keeps its mark, and the line's own comes before that around it (history made nicer \
-    \than it is)"
-    $ do
-      text <- readText "examples/machines/fm-8.machine"
-      let marks =
-            [ (mark, fact)
-              | Just m <- [Result.settled (reading text)],
-                DescribedValue mark fact <- facts m
-            ]
-      take 2 (filter (Text.isInfixOf "axis z" . snd) marks)
-        `shouldBe` [ ( Corrected,
-                       "axis z: pulse 0.0125 mm — manual, page 1: 0.125 mm, which would make its \
-                       \travel of 2 m one of 20 m"
-                     ),
-                     (Sourced, "axis z: direction reversed — manual, page 1: plus is into the part")
-                   ]
-      lookup Corrected (filter (Text.isInfixOf "25 = " . snd) marks)
-        `shouldBe` Just "feeds: table: 25 = 420 — manual, page 10: 42, between 300 and 600"
-      -- Words with a mark of their own within a frame with another one.
-      kontur <- readText "machines/kontur-3p.machine"
-      [(mark, fact) | Just m <- [Result.settled (reading kontur)], DescribedValue mark fact <- facts m, w <- ["\"Е\"", "\"Т\"", "\"П\""], ("frame: word " <> w) `Text.isPrefixOf` fact, "when" `Text.isInfixOf` fact]
-        `shouldBe` [ (Sourced, "frame: word \"Е\" along x: when needed"),
-                     (Reconstructed, "frame: word \"Т\" along z: when needed"),
-                     ( Reconstructed,
-                       "frame: word \"П\" feed: when moving — П stands in the frames of the example"
-                     )
-                   ]
-  it
     "no text stops the reader, and what it says lies in the text (an exception, a report beside \
     \the file)"
-    $ forAll (mutilated =<< elements whole) sound
-  it "a missing line is noticed, whichever (a value made up)" $ do
+    $ forAll (mutilated =<< elements whole) isSound
+  it "each missing line is reported (a value made up)" $ do
     text <- readText "machines/lki-un.machine"
     let ls = Text.lines text
         needed =
           [ k
             | (k, l) <- zip [0 ..] ls,
               w <- take 1 (Text.words l),
-              w
-                `elem` [ "tracks",
-                         "pitch",
-                         "suffix",
-                         "leader",
-                         "gap",
-                         "spare",
-                         "pulse",
-                         "numbers",
-                         "digits",
-                         "straight",
-                         "measure",
-                         "direct",
-                         "rule",
-                         "rapid",
-                         "deceleration",
-                         "by",
-                         "arcs"
-                       ]
+              w `elem` requiredKeys
           ]
-    [l | k <- needed, (front, l : behind) <- [splitAt k ls], Just _ <- [Result.settled (reading (Text.unlines (front <> behind)))]]
+        isAccepted ls' = isJust (Result.settled (reading (Text.unlines ls')))
+    [l | k <- needed, (front, l : rest) <- [splitAt k ls], isAccepted (front <> rest)]
       `shouldBe` []
   where
-    sound text =
+    requiredKeys =
+      Text.words
+        "tracks pitch suffix leader gap spare pulse numbers digits straight measure direct rule \
+        \rapid deceleration by arcs"
+    isSound text =
       let outcome = reading text
-          places =
+          regions =
             [region | InSource region <- map (Report.place . Error.toReport) (errors outcome)]
-       in length (show outcome)
-            > 0 .&&. and [a >= 0 && a <= b && b <= Text.length text | Region.Region a b <- places]
+          isInText (Region.Region a b) = a >= 0 && a <= b && b <= Text.length text
+       in length (show outcome) > 0 .&&. all isInText regions
 
--- | A text with some characters gone, doubled or changed.
+provenanceLaws :: Spec
+provenanceLaws = do
+  it
+    "every fact keeps its mark, and the line's own comes before that around it (history made nicer \
+    \than it is)"
+    $ do
+      values <- valuesOf <$> readText "examples/machines/fm-8.machine"
+      take 2 (filter (Text.isInfixOf "axis z" . snd) values)
+        `shouldBe` [ ( Corrected,
+                       "axis z: pulse 0.0125 mm — manual, page 1: 0.125 mm, which would make its \
+                       \travel of 2 m one of 20 m"
+                     ),
+                     (Sourced, "axis z: direction reversed — manual, page 1: plus is into the part")
+                   ]
+      lookup Corrected (filter (Text.isInfixOf "25 = " . snd) values)
+        `shouldBe` Just "feeds: table: 25 = 420 — manual, page 10: 42, between 300 and 600"
+  it "the mark on a word comes before that on the frame (history made nicer than it is)" $ do
+    values <- valuesOf <$> readText "machines/kontur-3p.machine"
+    filter (isPresenceOfWord . snd) values
+      `shouldBe` [ (Sourced, "frame: word \"Е\" along x: when needed"),
+                   (Reconstructed, "frame: word \"Т\" along z: when needed"),
+                   ( Reconstructed,
+                     "frame: word \"П\" feed: when moving — П stands in the frames of the example"
+                   )
+                 ]
+  where
+    valuesOf text =
+      [ (mark, fact)
+        | Just m <- [Result.settled (reading text)],
+          DescribedValue mark fact <- facts m
+      ]
+    isPresenceOfWord fact =
+      "when" `Text.isInfixOf` fact
+        && any (\w -> ("frame: word " <> w) `Text.isPrefixOf` fact) ["\"Е\"", "\"Т\"", "\"П\""]
+
+-- | Replaces, inserts and deletes characters of a text, at 1 to 5 random points.
 mutilated :: Text -> Gen Text
 mutilated text = do
   n <- choose (1, 5 :: Int)
@@ -233,100 +225,108 @@ mutilated text = do
       k <- choose (0, Text.length t)
       c <-
         elements
-          [ "",
-            "",
-            "{",
-            "}",
-            "\"",
-            "=",
-            "..",
-            "0",
-            "-",
-            "\n",
-            "(",
-            "^",
-            ":",
-            "reconstructed",
-            "word",
-            "\\"
-          ]
-      gone <- choose (0, 3)
-      pure (Text.take k t <> c <> Text.drop (k + gone) t)
+          (["", "", "{", "}", "\"", "=", "..", "0", "-", "\n", "(", "^", ":"] <> keywordsAndEscapes)
+      deleted <- choose (0, 3)
+      pure (Text.take k t <> c <> Text.drop (k + deleted) t)
+    keywordsAndEscapes = ["reconstructed", "word", "\\"]
 
--- | The machine with any braking, any limit, any title, and commands for the words that it has.
+-- | Gives a machine a random title, braking and limits, and random commands for the words that it
+-- has.
 furnished :: Machine -> Gen Machine
 furnished m = do
   heading <- elements ["", "a \"mill\" \\ with words", "Фрезерный станок"]
-  slow <- oneof [pure ByControl, pure SlowFrames, pure (BrakedFrames (Feed (snd (feedRange m))))]
+  brakingForm' <-
+    elements [ByControl, SlowFrames, BrakedFrames (Feed (snd (feedRange m)))]
   a <- choose (0.001, 1000)
   contours <- elements [Nothing, Just 1, Just 30]
   measured <- elements [AlongPath, LeadingAxis]
-  nearest <- elements [NotAbove, Nearest]
-  quick <- elements [Highest, ByCode (fst (slowest m))]
-  listed <- traverse (const event) [1 .. 7 :: Int]
-  ends <- resize 3 (listOf (fixed =<< elements ("" : places)))
-  beside <- elements [Nothing, Just ()]
-  let holed = BrakingHole `elem` concatMap (service . form) (wordsOf m)
-      finish' = [o NonEmpty.:| [] | Just o <- ends]
-      orders' = case (listed, places) of
-        ([b, c, d, e, f, g, h], n : _) ->
-          CommandWords
-            b
-            c
-            (kept d)
-            (kept e)
-            (kept f)
-            (unstepped g)
-            (unstepped h)
-            ( CompensationCommands
-                (CommandWord (CommandName n) Diameter)
-                (CommandWord (CommandName n) Diameter)
-                (CommandWord (CommandName n) (Fixed (least n)))
-                <$ beside
-            )
-            finish'
-        _ -> noOrders
+  rounding <- elements [NotAbove, Nearest]
+  rapid' <- elements [Highest, ByCode (fst (slowest m))]
+  orders' <- commandsFor m
+  let hasBrakingHole = BrakingHole `elem` concatMap (service . form) (wordsOf m)
+      canBrakeByFrames = hasBrakingHole && measured == AlongPath
   pure
     m
       { title = heading,
-        braking = Braking a (if holed && measured == AlongPath then slow else ByControl),
+        braking = Braking a (if canBrakeByFrames then brakingForm' else ByControl),
         limits = Limits contours,
-        feeds = (feeds m) {feedMeasure = measured, rule = nearest, rapidFeed = quick},
+        feeds = (feeds m) {feedMeasure = measured, rule = rounding, rapidFeed = rapid'},
         orders = orders'
       }
-  where
-    places =
-      nub
-        [ n
-          | w <- wordsOf m,
-            CommandName n <-
-              [o | Command o <- [content w]] <> [o | OrderBit o _ <- service (form w)],
-            least n <= most n
-        ]
-    event = do
-      chosen <- sublistOf places
-      traverse order' chosen
-    order' n = do
-      k <- choose (least n, most n)
-      v <- elements [Fixed k, Argument, Step (Map.fromList [(k, 63), (least n, 12.5)])]
-      pure (CommandWord (CommandName n) v)
-    fixed n =
-      if n == ""
-        then pure Nothing
-        else Just . CommandWord (CommandName n) . Fixed <$> choose (least n, most n)
-    -- In a word that stands in every frame, 0 is no command.
-    least n = if canOrder m (CommandName n) 0 then 0 else 1
-    most n = fromMaybe 0 (orderCapacity m (CommandName n))
-    kept os = [o | o@(CommandWord _ (Fixed _)) <- os]
-    unstepped os = [o | o@(CommandWord _ v) <- os, isPlain v]
-    isPlain v = case v of
-      Step _ -> False
-      Fixed _ -> True
-      Argument -> True
-      Diameter -> True
 
--- | The machine as a description may have it: a word with decimals has the pulse of its axis, a
--- feed stands where it changes, a command where it is given.
+-- | Random commands for the words and bits of a machine.
+commandsFor :: Machine -> Gen CommandWords
+commandsFor m = do
+  listed <- traverse (const event) [1 .. 7 :: Int]
+  ends <- resize 3 (listOf (fixedWord m =<< elements ("" : names)))
+  compensated <- elements [Nothing, Just ()]
+  pure $ case (listed, names) of
+    ([b, c, d, e, f, g, h], n : _) ->
+      CommandWords
+        { spindleClockwise = b,
+          spindleCounterClockwise = c,
+          spindleOff = onlyFixed d,
+          coolantOn = onlyFixed e,
+          coolantOff = onlyFixed f,
+          toolChange = withoutSteps g,
+          auxiliary = withoutSteps h,
+          compensation = compensationBy m n <$ compensated,
+          finish = [o NonEmpty.:| [] | Just o <- ends]
+        }
+    _ -> noOrders
+  where
+    names = namesOfCommands m
+    event = sublistOf names >>= traverse (commandWord m)
+    onlyFixed os = [o | o@(CommandWord _ (Fixed _)) <- os]
+    withoutSteps os = [o | o@(CommandWord _ v) <- os, not (isStep v)]
+    isStep v = case v of
+      Step _ -> True
+      Fixed _ -> False
+      Argument -> False
+      Diameter -> False
+
+-- | Names of the commands for which a frame has a word or bits.
+namesOfCommands :: Machine -> [Text]
+namesOfCommands m =
+  nub
+    [ n
+      | w <- wordsOf m,
+        CommandName n <- [o | Command o <- [content w]] <> [o | OrderBit o _ <- service (form w)],
+        leastNumber m n <= mostNumber m n
+    ]
+
+compensationBy :: Machine -> Text -> CompensationCommands
+compensationBy m n =
+  CompensationCommands
+    (CommandWord (CommandName n) Diameter)
+    (CommandWord (CommandName n) Diameter)
+    (CommandWord (CommandName n) (Fixed (leastNumber m n)))
+
+-- | A random number for the word of a command.
+commandWord :: Machine -> Text -> Gen CommandWord
+commandWord m n = do
+  k <- choose (leastNumber m n, mostNumber m n)
+  v <- elements [Fixed k, Argument, Step (Map.fromList [(k, 63), (leastNumber m n, 12.5)])]
+  pure (CommandWord (CommandName n) v)
+
+-- | A random fixed number for the word of a command; 'Nothing' for an empty name.
+fixedWord :: Machine -> Text -> Gen (Maybe CommandWord)
+fixedWord m n
+  | n == "" = pure Nothing
+  | otherwise =
+    Just . CommandWord (CommandName n) . Fixed <$> choose (leastNumber m n, mostNumber m n)
+
+-- | Least number of a command. In a word of every frame, 0 means that no command is given.
+leastNumber :: Machine -> Text -> Int
+leastNumber m n = if canOrder m (CommandName n) 0 then 0 else 1
+
+-- | Largest number of a command.
+mostNumber :: Machine -> Text -> Int
+mostNumber m n = fromMaybe 0 (orderCapacity m (CommandName n))
+
+-- | Changes a random machine into one that a description can express. An axis has the resolution of
+-- the last decimal of its word. A feed word is in frames with a new feed, and a command word in
+-- frames that give the command.
 describable :: Machine -> Machine
 describable m =
   m {axes = fmap pulsed (axes m), layout = (layout m) {items = fmap fitting (items (layout m))}}
@@ -341,10 +341,10 @@ describable m =
         k : _ -> a {step = Mm (10 ^^ negate k)}
         [] -> a
     fitting item = case item of
-      AWord w -> AWord w {presence = stands (content w) (presence w)}
+      AWord w -> AWord w {presence = expressible (content w) (presence w)}
       Literal _ -> item
       CheckDigit _ -> item
-    stands c p = case (c, p) of
+    expressible c p = case (c, p) of
       (FeedWord, WhenNeeded) -> WhenChanged
       (Command _, InMotion) -> WhenNeeded
       _ -> p

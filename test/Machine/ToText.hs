@@ -1,5 +1,5 @@
--- | A machine as a description with all its numbers spelt out: for the law that what is written is
--- what is read.
+-- | Writes a machine as a description with all its values, for the law that reading it again gives
+-- the same machine.
 module Machine.ToText
   ( toText,
   )
@@ -16,7 +16,7 @@ import Data.Text qualified as Text
 import Machine.Machine
 import Numeric (showHex)
 
--- | The description, all of it reconstructed.
+-- | Writes a description. Every value is marked as reconstructed.
 toText :: Machine -> Text
 toText m =
   Text.unlines
@@ -186,19 +186,19 @@ brakingLines b =
 
 commandLines :: CommandWords -> [Text]
 commandLines o =
-  concat [block event (concatMap orderLines os) | (event, os) <- events, not (null os)]
+  concat [block event (concatMap commandWordLines os) | (event, os) <- events, not (null os)]
     <> concat
       [ block
           "compensation"
-          ( block "left" (orderLines (keepLeft c))
-              <> block "right" (orderLines (keepRight c))
-              <> block "off" (orderLines (release c))
+          ( block "left" (commandWordLines (keepLeft c))
+              <> block "right" (commandWordLines (keepRight c))
+              <> block "off" (commandWordLines (release c))
           )
         | Just c <- [compensation o]
       ]
     <> block
       "finish"
-      (concat [block "frame" (concatMap orderLines (NonEmpty.toList os)) | os <- finish o])
+      (concat [block "frame" (concatMap commandWordLines (NonEmpty.toList os)) | os <- finish o])
   where
     events =
       [ ("spindle-clockwise", spindleClockwise o),
@@ -209,7 +209,7 @@ commandLines o =
         ("tool-change", toolChange o),
         ("auxiliary", auxiliary o)
       ]
-    orderLines (CommandWord (CommandName n) v) = case v of
+    commandWordLines (CommandWord (CommandName n) v) = case v of
       Fixed k -> ["set " <> quoted n <> " " <> Decimal.whole k]
       Argument -> ["set " <> quoted n <> " argument"]
       Diameter -> ["set " <> quoted n <> " diameter"]

@@ -1,0 +1,51 @@
+-- | The axes of a machine, and the arcs that its interpolator can make.
+module Machine.Axis
+  ( Axis (..),
+    AxisForm (..),
+    Arcs (..),
+    among,
+    axisName,
+  )
+where
+
+import Base.Quantity (Mm (..))
+import Data.Text (Text)
+
+-- | Direction of motion, as ISO 841 names it.
+data Axis = X | Y | Z
+  deriving stock (Eq, Ord, Show, Enum, Bounded)
+
+-- | Properties of one axis.
+data AxisForm = AxisForm
+  { axis :: Axis,
+    -- | resolution: length of one pulse
+    step :: Mm,
+    -- | true if the axis of the machine points against that of the part
+    reversed :: Bool,
+    -- | true if the axis points the other way when the machine is set up for turning
+    reversedOnLathe :: Bool,
+    -- | true if the machine is known to move this axis; a frame may have a word for it in any case
+    moves :: Bool
+  }
+  deriving stock (Eq, Show)
+
+-- | Arcs that one frame can describe. All arcs lie in the plane of x and y.
+data Arcs
+  = NoArcs
+  | -- | @quadrants@ is true if an arc must end where it crosses the axes through its centre.
+    -- @fullCircle@ is true if one frame can describe a full circle.
+    Arcs {quadrants :: Bool, fullCircle :: Bool}
+  deriving stock (Eq, Show)
+
+-- | Finds the properties of an axis in a list.
+among :: Axis -> [AxisForm] -> Maybe AxisForm
+among a forms = case forms of
+  [] -> Nothing
+  f : others -> if axis f == a then Just f else among a others
+
+-- | Name of an axis in reports and descriptions: @x@, @y@ or @z@.
+axisName :: Axis -> Text
+axisName a = case a of
+  X -> "x"
+  Y -> "y"
+  Z -> "z"

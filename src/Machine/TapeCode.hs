@@ -1,0 +1,60 @@
+-- | The medium that frames are punched on, and the code that gives each symbol its row of holes.
+module Machine.TapeCode
+  ( Medium (..),
+    Spare (..),
+    TapeCode (..),
+  )
+where
+
+import Base.Quantity (Mm (..))
+import Data.Map.Strict (Map)
+import Data.Text (Text)
+import Data.Word (Word8)
+
+-- | Physical form of a tape, and all that it contains besides frames.
+data Medium = Medium
+  { -- | number of tracks, 1 to 8; bit k−1 of a row is track k
+    tracks :: Int,
+    -- | distance between two rows; 'Nothing' for a text file
+    pitch :: Maybe Mm,
+    -- | extension of a file's name, without the point
+    suffix :: Text,
+    -- | number of blank rows before the first frame, and again after the last one
+    leader :: Int,
+    -- | number of blank rows after each frame
+    gap :: Int,
+    -- | number of additional blank rows before each frame with an even number, counted from 1
+    evenShift :: Int,
+    spare :: Spare,
+    -- | symbols between the leader and the first frame
+    opening :: Text,
+    -- | symbols between the last frame and the trailer
+    closing :: Text
+  }
+  deriving stock (Eq, Show)
+
+-- | Treatment of blank rows between frames by a tape reader.
+data Spare
+  = -- | The tape has exactly the number of blank rows that the medium demands.
+    Counted
+  | -- | The tape has at least the number of blank rows that the medium demands. The reader skips
+    -- the rows in 'skips' wherever they are.
+    Skipped
+  deriving stock (Eq, Show)
+
+-- | Assignment of rows to symbols.
+data TapeCode = TapeCode
+  { codeName :: Text,
+    -- | holes of each symbol, without those of the service track and the parity track; no two
+    -- symbols have the same holes
+    symbols :: Map Char Word8,
+    -- | contribution of a symbol to the check sum of a frame; 0 for symbols that are not listed
+    weights :: Map Char Int,
+    -- | parity track, which makes the number of holes in every row even
+    evenTrack :: Maybe Int,
+    -- | track that holds signs and marks beside the digits
+    serviceTrack :: Maybe Int,
+    -- | rows that a reader skips: blank rows and erased rows
+    skips :: [Word8]
+  }
+  deriving stock (Eq, Show)
