@@ -1,9 +1,8 @@
--- | What a curve is before any shift: spans, one behind the other, each a cubic in both coordinates
--- or an arc.
+-- | Unshifted curves: consecutive spans, each of them a cubic in x and in y, or an arc.
 --
--- The parameter runs from 0 to the number of spans, each span having 1 of it. A base remembers the
--- rows of the table that it came from, so that columns of numbers beside the points can be
--- interpolated in the same way.
+-- The parameter runs from 0 to the count of spans, with a range of 1 for each span. A base keeps
+-- the rows of the table from which it was made, so that columns of numbers can be interpolated in
+-- the same way as the points.
 module Geometry.Curve.Base
   ( Base (..),
     SpanList (..),
@@ -59,76 +58,77 @@ import Geometry.Vec qualified as Vec
 
 data Base = Base
   { method :: CurveKind,
-    -- | the rows of the table, in the order of the walk; made when they are asked for
+    -- | rows of the table in the curve's direction; evaluated on demand
     rows :: ~(Vector Knot),
-    -- | at least one
+    -- | spans, at least one
     course :: SpanList,
-    -- | whether the end is the beginning
+    -- | True if the end is the beginning
     closed :: Bool,
-    -- | along the base; read by 'ruler'
+    -- | arc length along the base; read through 'ruler'
     measure :: ~ArcLength
   }
   deriving stock (Eq, Show)
 
--- | The spans in order.
+-- | Spans in order.
 data SpanList
-  = -- | cubics in x and as many in y
+  = -- | cubics in x, and equally many in y
     Cubical Cubics Cubics
-  | -- | some of them arcs
+  | -- | spans of any kind, at least one of them an arc
     Mixed (Vector Span)
   deriving stock (Eq, Show)
 
--- | How the points became spans.
+-- | Interpolation by which the points became spans.
 data CurveKind
   = -- | a straight line from each row to the next
     Polyline
   | -- | a cubic from each row to the next
     Spline EndCondition
-  | -- | a parabola through rows 1–3, 3–5, …
+  | -- | a parabola y(x) through rows 1–3, 3–5, and so on
     Parabola
-  | -- | pieces given as such
+  | -- | spans that were given one by one
     Joined
   deriving stock (Eq, Show)
 
--- | What holds at the ends of a spline.
+-- | End condition of a spline.
 data EndCondition
-  = -- | no curvature
+  = -- | zero curvature
     Natural
-  | -- | these directions, of length 1
+  | -- | the given unit directions at the start and at the end
     Clamped Vec Vec
-  | -- | the end goes over into the beginning, curvature included
+  | -- | the end continues into the beginning with equal first and second derivatives
     Periodic
   deriving stock (Eq, Show)
 
--- | A point of the table and its parameter on the curve.
+-- | Point of the table with its parameter on the curve.
 data Knot = Knot {at :: Double, place :: Point}
   deriving stock (Eq, Show)
 
--- | Why there is no such curve. Rows and pieces count from 1.
+-- | Reason why the data give no curve. Rows and spans are counted from 1.
 data CurveFault
-  = -- | fewer points than are needed, and how many that is
+  = -- | too few points; the count that is needed
     TooFew Int
-  | -- | this row and the next are one point
+  | -- | the row with this number and the next one coincide
     Coincident Int
-  | -- | so many points that the last parabola lacks one
+  | -- | an even count of points, so that the last parabola lacks one
     EvenCount Int
-  | -- | between this row and the next x does not go on as it began
+  | -- | x reverses between the row with this number and the next one
     NotMonotone Int
-  | -- | a direction at the end of a spline has no length
+  | -- | a direction at an end of a spline is a zero vector
     NoDirection
-  | -- | this piece has no length
+  | -- | the span with this number has no length
     NoLength Int
-  | -- | this piece ends elsewhere than the next begins
+  | -- | the span with this number does not end where the next one begins
     Disjoint Int
-  | -- | this row does not come before the next along the curve, or lies beyond its ends
+  | -- | the row with this number does not lie before the next one along the curve, or lies
+    -- outside of the curve
     Disordered Int
-  | -- | a joggle's radius is not above half of its depth
+  | -- | the radius of a joggle is not above half of its depth
     DeepJoggle
-  | -- | the ramps of a joggle need this length; there is only that
+  | -- | the ramps of a joggle need the first length; only the second is available
     LongJoggle Mm Mm
   deriving stock (Eq, Show)
 
--- | A base of these spans.
+-- | Makes a base of spans and adds its arc length.
 made :: CurveKind -> Bool -> Vector Knot -> SpanList -> Base
 made method closed rows course = base
   where
@@ -142,7 +142,7 @@ made method closed rows course = base
         }
     speed u = let s = spot After u base in speedAt base (number s) (local s)
 
--- | How fast the place changes, in mm for 1 of the parameter, in a span at its own parameter.
+-- | Speed in mm per unit of the parameter, in a span at its local parameter.
 speedAt :: Base -> Int -> Double -> Double
 speedAt base i t = case course base of
   Cubical xs ys ->
@@ -152,15 +152,15 @@ speedAt base i t = case course base of
      in sqrt (a * a + b * b)
   Mixed parts -> Vec.norm (TaylorExpansion.velocity (Span.jet 1 (parts Vector.! i) t))
 
--- | The spans one by one.
+-- | Spans as a vector.
 spans :: Base -> Vector Span
 spans base = case course base of
   Cubical xs ys ->
     Vector.generate (Spline.count xs) (\i -> Polynomial (Spline.at xs i) (Spline.at ys i))
   Mixed parts -> parts
 
--- | The arcs and lines of a base, some of them arcs, if it has no other spans. Of neighbours, one
--- ends where the next begins; spans join to a point.
+-- | Lines and arcs of a base that consists of them and has at least one arc. Spans join within a
+-- tolerance; the segments that are given join exactly.
 asSegments :: Base -> Maybe (NonEmpty Segment)
 asSegments base = case course base of
   Cubical _ _ -> Nothing
@@ -176,7 +176,7 @@ asSegments base = case course base of
       | Segment.start s == p = s
       | otherwise = s {Segment.start = p}
 
--- | Cubics where all spans are.
+-- | Stores spans as cubics if all of them are polynomial.
 coursed :: Vector Span -> SpanList
 coursed parts = case traverse polynomial parts of
   Just both ->
@@ -189,7 +189,7 @@ coursed parts = case traverse polynomial parts of
       Polynomial a b -> Just (a, b)
       Round _ -> Nothing
 
--- | Straight from point to point; closed when the last is the first.
+-- | Polyline through the points. It is closed when the last point equals the first.
 polyline :: Vector Point -> Either CurveFault Base
 polyline points = do
   distinct 2 points
@@ -201,9 +201,9 @@ polyline points = do
         (\i -> Spline.line (part (points Vector.! i)) (part (points Vector.! (i + 1))))
     {-# INLINE lines' #-}
 
--- | A cubic spline by the chord length from point to point; continuous up to the second derivative
--- by it. At clamped ends the derivative by the chord length is the direction given. The points of a
--- periodic one may or may not repeat the first at the end.
+-- | Cubic spline parametrised by chord length, with continuous second derivatives by chord
+-- length. At clamped ends the derivative by chord length is the given direction. A periodic
+-- spline may repeat its first point at the end or not.
 spline :: EndCondition -> Vector Point -> Either CurveFault Base
 spline ends points = case ends of
   Natural -> do
@@ -241,7 +241,7 @@ spline ends points = case ends of
           (cubics Spline.Periodic Spline.Periodic round')
       )
 
--- | The spans of a spline, from what holds at the ends for x and for y.
+-- | Spans of a spline with the given boundary conditions for x and for y.
 cubics :: Spline.Boundary -> Spline.Boundary -> Vector Point -> SpanList
 cubics forX forY points = Cubical (through forX Vec.x) (through forY Vec.y)
   where
@@ -249,14 +249,14 @@ cubics forX forY points = Cubical (through forX Vec.x) (through forY Vec.y)
     through boundary part =
       Spline.interpolate boundary steps (Unboxed.convert (Vector.map part points))
 
--- | The distances from point to point, in mm.
+-- | Distances between neighbouring points, in mm.
 distances :: Vector Point -> Unboxed.Vector Double
 distances points =
   Unboxed.convert
     (Vector.zipWith (\p q -> let Mm d = Vec.distance p q in d) points (Vector.drop 1 points))
 
--- | The distances from row to row, in mm; for a closed base whose last row is not the first again,
--- to that too.
+-- | Distances between neighbouring rows, in mm. For a closed base whose last row does not repeat
+-- the first, the closing distance follows.
 chords :: Base -> Unboxed.Vector Double
 chords base
   | closed base && not (closes points) = distances (Vector.snoc points (Vector.head points))
@@ -264,16 +264,16 @@ chords base
   where
     points = Vector.map place (rows base)
 
--- | Where the middle row of each parabola lies, as a fraction of its span.
+-- | Position of the middle row of each parabola, as a fraction of its span.
 fractions :: Base -> Vector Double
 fractions base =
   Vector.generate
     (count base)
     (\i -> maybe 0.5 (\row -> at row - fromIntegral i) (rows base Vector.!? (2 * i + 1)))
 
--- | Parabolas y(x) through points 1–3, 3–5, … (Lagrange; Ural paper, sections 3–8 and 8–13 of the
--- template). A span is a parabola; its parameter is proportional to x, which rises or falls all
--- along.
+-- | Parabolas y(x) through points 1–3, 3–5, and so on (Lagrange; Ural paper, sections 3–8 and
+-- 8–13 of the template). Each span is one parabola. Its parameter is proportional to x, which
+-- must rise or fall throughout.
 parabola :: Vector Point -> Either CurveFault Base
 parabola points
   | Vector.length points < 3 = Left (TooFew 3)
@@ -300,15 +300,15 @@ parabola points
   where
     x i = Vec.x (points Vector.! i)
     sense = signum (x 1 - x 0)
-    -- Points above one another are no parabola's, however far apart.
+    -- Points with equal x lie on no parabola y(x), whatever their distance.
     advance p q = sense * (Vec.x q - Vec.x p) - (let Mm d = Tolerance.coincident in d)
     middle i = (x (2 * i + 1) - x (2 * i)) / (x (2 * i + 2) - x (2 * i))
 
--- | Pieces one behind the other, and the parameter of every row of a table on them, rising.
+-- | Base of consecutive spans with the given rising parameters of the table's rows.
 ofPieces :: NonEmpty SpanShape -> Vector Double -> Either CurveFault Base
 ofPieces = ofSpans . vector Span.ofPiece
 
--- | The same of lines and arcs.
+-- | Base of consecutive lines and arcs with the given rising parameters of the table's rows.
 ofChain :: NonEmpty Segment -> Vector Double -> Either CurveFault Base
 ofChain = ofSpans . vector Span.ofSegment
 
@@ -332,8 +332,8 @@ ofSpans parts parameters = do
             parameters Vector.! (i - 1)
        in u >= 0 && u <= n && (i >= count' || parameters Vector.! i > u)
 
--- | A chain of lines and arcs; its rows are the ends of the segments, the last one too unless the
--- chain is closed.
+-- | Base of consecutive lines and arcs. Its rows are the starts of the segments, and the end of
+-- the last one unless the base is closed.
 ofSegments :: NonEmpty Segment -> Either CurveFault Base
 ofSegments segments = do
   joined parts
@@ -351,7 +351,7 @@ ofSegments segments = do
     base = chain Vector.empty parts
     starts = Vector.fromList (map Segment.start (NonEmpty.toList segments))
 
--- | What is made of each, at once.
+-- | Strict map of a list into a vector.
 vector :: (a -> b) -> NonEmpty a -> Vector b
 vector f list = Vector.unfoldrN (NonEmpty.length list) next (NonEmpty.toList list)
   where
@@ -359,14 +359,15 @@ vector f list = Vector.unfoldrN (NonEmpty.length list) next (NonEmpty.toList lis
       [] -> Nothing
       a : rest -> let b = f a in b `seq` Just (b, rest)
 
--- | A base of spans that join, of which there is one at least.
+-- | Base of at least one span. The spans must join.
 chain :: Vector Knot -> Vector Span -> Base
 chain rows parts = made Joined (Vec.near first final) rows (coursed parts)
   where
     (first, _) = Span.ends (Vector.head parts)
     (_, final) = Span.ends (Vector.last parts)
 
--- | Each piece has a length and begins where the one before ends. An arc may end where it begins.
+-- | Checks that each span has a length and begins where the one before ends. A span may end where
+-- it begins, as a full circle does.
 joined :: Vector Span -> Either CurveFault ()
 joined parts
   | Just i <- find (Span.isPoint . span') [1 .. n] = Left (NoLength i)
@@ -380,7 +381,7 @@ joined parts
     n = Vector.length parts
     span' i = parts Vector.! (i - 1)
 
--- | There are enough points, and none is the next one's place.
+-- | Checks that there are enough points and that neighbours differ.
 distinct :: Int -> Vector Point -> Either CurveFault ()
 distinct needed points
   | Vector.length points < needed = Left (TooFew needed)
@@ -402,18 +403,18 @@ closes points = case (points Vector.!? 0, points Vector.!? (Vector.length points
 numbered :: Vector Point -> Vector Knot
 numbered = Vector.imap (\i p -> Knot {at = fromIntegral i, place = p})
 
--- | How many spans there are: the parameter of the end.
+-- | Count of spans, which is the parameter of the end.
 count :: Base -> Int
 count base = case course base of
   Cubical xs _ -> Spline.count xs
   Mixed parts -> Vector.length parts
 
--- | Along the base.
+-- | Arc length along the base.
 ruler :: Base -> ArcLength
 ruler = measure
 
--- | A place on a curve: the parameter, the number of its span, the span's own parameter, and the
--- side from which it is reached.
+-- | Position on a curve: the parameter, the index of its span, the local parameter in the span,
+-- and the side from which the position is approached.
 data SpanPoint = SpanPoint
   { parameter :: Double,
     number :: Int,
@@ -422,7 +423,7 @@ data SpanPoint = SpanPoint
   }
   deriving stock (Eq, Show)
 
--- | The place with a parameter; beyond the ends, the end.
+-- | Position at a parameter. Parameters outside of the domain give the nearer end.
 spot :: Approach -> Double -> Base -> SpanPoint
 spot approach u base =
   SpanPoint {parameter, number, local = parameter - fromIntegral number, approach}
@@ -433,7 +434,7 @@ spot approach u base =
       After -> min (n - 1) (truncate parameter)
       Before -> max 0 (ceiling parameter - 1)
 
--- | The power series of the place up to an order.
+-- | Taylor expansion of the point about a position, up to the given order.
 jet :: Int -> Base -> SpanPoint -> TaylorExpansion
 jet n base s = case course base of
   Cubical xs ys ->
@@ -442,7 +443,7 @@ jet n base s = case course base of
       (Spline.series n (Spline.at ys (number s)) (local s))
   Mixed parts -> Span.jet n (parts Vector.! number s) (local s)
 
--- | The same walked from its end.
+-- | Base in the opposite direction.
 reversed :: Base -> Base
 reversed base =
   made
@@ -461,25 +462,24 @@ reversed base =
       Parabola -> Parabola
       Joined -> Joined
 
--- | Other spans in their place, of the same kinds.
+-- | Applies a function to the spans.
 mapped :: (Vector Span -> Vector Span) -> Base -> SpanList
 mapped f base = coursed (f (spans base))
 
--- | What belongs to the rows, in the order of the reversed base.
+-- | Row values in the order of the reversed base.
 backwards :: Base -> Vector a -> Vector a
 backwards base values
   | unrepeated base = Vector.cons (Vector.head values) (Vector.reverse (Vector.tail values))
   | otherwise = Vector.reverse values
 
--- | Whether the base is closed and its first row, at the beginning, does not stand at the end a
--- second time.
+-- | True if the base is closed and its first row, at parameter 0, is not repeated at the end.
 unrepeated :: Base -> Bool
 unrepeated base =
   case (rows base Vector.!? 0, rows base Vector.!? (Vector.length (rows base) - 1)) of
     (Just first, Just final) -> closed base && at first == 0 && at final < fromIntegral (count base)
     _ -> False
 
--- | The base moved, turned, scaled, mirrored: its spans are so, one by one.
+-- | Image of a base under a similarity, span by span.
 transformed :: Transformation -> Base -> Base
 transformed s base =
   made

@@ -1,9 +1,9 @@
--- | A curve as cubic spans: its own, or cubics that stand for a shifted one.
+-- | Cubic spans of a curve: the curve's own, or a cubic approximation of a shifted curve.
 --
--- Between two places h apart in the parameter, Hermite's cubic has the places P and the derivatives
--- V of both. At a share t of the way it differs from a smooth curve by t²(1−t)²·(c + d(t−½) + …),
--- and in the middle its place tells c/16, its derivative there d/16. Half a span has a sixteenth of
--- c and a thirty-second of d.
+-- An interval of width h has the Hermite cubic with the points P and the derivatives V at both
+-- ends. At the fraction t it differs from a smooth curve by t²(1−t)²·(c + d(t−½) + …). At the
+-- middle, the difference of the points is c/16 and that of the derivatives is d/16. Halving an
+-- interval divides c by 16 and d by 32.
 module Geometry.Curve.CubicSpans
   ( along,
   )
@@ -21,8 +21,10 @@ import Geometry.Numeric.PowerSeries qualified as PowerSeries
 import Geometry.Numeric.TaylorExpansion (TaylorExpansion (..))
 import Geometry.Tolerance qualified as Tolerance
 
--- | Spans in x and y that stay so near to a curve, and how near; those of a spline are its own.
--- Nothing for a curve with arcs, and for one that stands still somewhere or nearly so.
+-- | Cubic spans in x and in y within a tolerance of the curve, and the bound of their error.
+-- Polynomial spans of an unshifted curve are returned as they are, with the bound 0. Nothing
+-- for an unshifted curve with arcs, for a curve whose speed vanishes or nearly does, and where
+-- 'most' halvings do not suffice.
 along :: Mm -> Curve -> Maybe (Mm, Cubics, Cubics)
 along (Mm tolerance) curve = case curve of
   Plain b -> case course b of
@@ -53,17 +55,18 @@ along (Mm tolerance) curve = case curve of
         other = between nodeAt m inside end final
     Mm still = Tolerance.still
 
--- | How often a stretch is halved.
+-- | Largest count of halvings of one interval.
 most :: Int
 most = 24
 
--- | A place and the derivative there, in mm for 1 of the parameter.
+-- | Point and derivative (mm per unit of the parameter) at a parameter: x, y, x′, y′.
 data Node = Node Double Double Double Double
 
 speed :: Node -> Double
 speed (Node _ _ vx vy) = sqrt (vx * vx + vy * vy)
 
--- | A piece of a stretch with the nodes at its ends and in its middle, and what gives the others.
+-- | Interval between two parameters with the nodes at its ends and at its middle, and the
+-- function that gives nodes.
 data Piece = Piece {begin, end :: Double, first, inside, final :: Node, nodeAt :: Double -> Node}
 
 between :: (Double -> Node) -> Double -> Node -> Double -> Node -> Piece
@@ -73,10 +76,10 @@ between nodeAt begin first end final =
 middle :: Double -> Double -> Double
 middle a b = 0.5 * (a + b)
 
--- | A cubic in x and one in y.
+-- | Cubic in x and in y.
 data Span = Span {inX :: Cubic, inY :: Cubic}
 
--- | Hermite's cubics between the ends of a piece.
+-- | Hermite cubics between the ends of an interval.
 span' :: Piece -> Span
 span' Piece {begin, end, first = Node px py vx vy, final = Node qx qy wx wy} =
   Span {inX = hermite px qx (h * vx) (h * wx), inY = hermite py qy (h * vy) (h * wy)}
@@ -84,22 +87,22 @@ span' Piece {begin, end, first = Node px py vx vy, final = Node qx qy wx wy} =
     h = end - begin
     hermite p q v w = Cubic p v (3 * (q - p) - 2 * v - w) (2 * (p - q) + v + w)
 
--- | Whether the cubics of both halves of a piece stay so near to the curve: by what is to be
--- expected of a half where the whole differs so, with half of it to spare, and by what each differs
--- itself. The even and the odd of a difference are looked at alike, the one in the place in the
--- middle, the other in the derivative there.
+-- | True if the Hermite cubics of both halves of an interval are within the tolerance. Two tests
+-- apply: the difference of the whole interval, divided by 16 for its halves, with a safety
+-- factor of 2; and the difference of each half. Each test uses both the even term (the point at
+-- the middle) and the odd term (the derivative there).
 near :: Double -> Piece -> Piece -> Piece -> Bool
 near tolerance whole one other =
   place <= 8 * tolerance && bend <= 16 * tolerance && all itself [one, other]
   where
     (place, bend) = difference whole
     itself half = let (e, o) = difference half in e + oddShare * o <= tolerance
-    -- The most of t²(1−t)²(t−½), √5/250 where t is ½ ± √(1/20), by its derivative in the middle,
-    -- 1/16.
+    -- Maximum of t²(1−t)²·(t−½), which is √5/250 at t = ½ ± √(1/20), divided by its derivative at
+    -- the middle, 1/16.
     oddShare = 16 * sqrt 5 / 250
 
--- | By how much the cubic of a piece differs in the middle: in the place, mm, and in the
--- derivative, mm for the whole piece.
+-- | Differences between curve and Hermite cubic at the middle of an interval: of the points in
+-- mm, and of the derivatives in mm per interval.
 difference :: Piece -> (Double, Double)
 difference
   Piece

@@ -1,5 +1,5 @@
--- | Where a shift does not fit: towards the centre of curvature a curve can be shifted by its
--- radius at most; beyond that the outcome runs backwards between two cusps.
+-- | Cusps of shifted curves. A shift towards the centre of curvature is limited by the radius of
+-- curvature. Beyond it, the shifted curve runs backwards between two cusps.
 module Geometry.Curve.Cusp
   ( Cusp (..),
     fold,
@@ -21,22 +21,22 @@ import Geometry.Tolerance qualified as Tolerance
 import Geometry.Vec (Point)
 import Geometry.Vec qualified as Vec
 
--- | The tightest place of the innermost shift that does not fit.
+-- | Point of the largest overshoot in the innermost shift that does not fit.
 data Cusp = Cusp
-  { -- | which shift, from 1, the innermost first
+  { -- | number of the shift, counted from 1 at the innermost
     layer :: Int,
     parameter :: Double,
-    -- | on the curve that is shifted
+    -- | point on the curve that is shifted
     place :: Point,
-    -- | the distance there, above zero
+    -- | absolute value of the requested distance at this point
     asked :: Mm,
-    -- | the radius of curvature there
+    -- | radius of curvature at this point
     largest :: Mm
   }
   deriving stock (Eq, Show)
 
--- | Nothing when every shift stays within the radius of curvature: @1 − d·κ > 0@ with d to the
--- left. Corners are not looked at, only the smooth stretches between them.
+-- | Finds the cusp of a curve. Nothing if every shift d to the left satisfies @1 − d·κ > 0@. Only
+-- smooth stretches are tested, not the corners between them.
 fold :: Curve -> Maybe Cusp
 fold curve = case curve of
   Plain _ -> Nothing
@@ -63,7 +63,8 @@ folded top lower whole
     d =
       PowerSeries.value
         (ShiftedCurve.distanceAt 0 top lower near (PointSearch.within stretch whole parameter))
-    -- Samples, what lies highest between them, and where the curve is slowest: there it bends most.
+    -- Candidates for the maximum: the samples, maxima between them, and local minima of the speed,
+    -- where the curve bends most.
     tightest s = [(s, u, share s u) | u <- PointSearch.samples s <> peaks s <> slowest s]
     share s u = let (g, _) = tightness s 0 u in g
     tightness s n u =
@@ -87,8 +88,8 @@ folded top lower whole
        in slopes w
     squared a = PowerSeries.multiply a a
 
--- | The product @d·κ@ near a place up to an order, and whether the curve that is shifted moves
--- there; when it does not, the distance instead.
+-- | Power series of @d·κ@ about a parameter, up to the given order, and True; or, where the curve
+-- that is shifted has no speed, the series of d alone, and False.
 tightnessAt :: Int -> Layer -> Curve -> Curve -> (Double, Double) -> Double -> (PowerSeries, Bool)
 tightnessAt n top lower whole stretch u
   | Mm (Vec.norm (TaylorExpansion.velocity near)) > Tolerance.still =

@@ -1,9 +1,9 @@
--- | Places on a curve: the nearest to a point, those at an abscissa, those where its direction
--- jumps.
+-- | Search for points on a curve: the nearest to a given point, those with a given x, and the
+-- corners.
 --
--- Every smooth stretch of the curve is sampled at equal steps of the parameter, more closely where
--- it bends for the nearest place, and places are made exact between the samples. What a curve does
--- twice between neighbouring samples may be overlooked.
+-- Every smooth stretch is sampled at equal steps of the parameter. The search for the nearest point
+-- adds samples where the curve bends. Newton's method with bisection then refines the results
+-- between samples. Two solutions between neighbouring samples can be missed.
 module Geometry.Curve.PointSearch
   ( nearest,
     atX,
@@ -32,24 +32,25 @@ import Geometry.Tolerance qualified as Tolerance
 import Geometry.Vec (Point, Vec)
 import Geometry.Vec qualified as Vec
 
--- | The smooth stretches, each from one parameter to another.
+-- | Smooth stretches of the curve as pairs of parameters.
 stretches :: Curve -> [(Double, Double)]
 stretches curve = let bs = ShiftedCurve.breaks curve in zip bs (drop 1 bs)
 
--- | Parameters across a stretch, its ends included.
+-- | Equally spaced parameters over a stretch, both ends included.
 samples :: (Double, Double) -> [Double]
 samples (a, b) =
   [if k == steps then b else a + (b - a) * fromIntegral k / fromIntegral steps | k <- [0 .. steps]]
 
--- | How many steps a smooth stretch is sampled in.
+-- | Count of steps in which a smooth stretch is sampled.
 steps :: Int
 steps = 8
 
--- | The place with a parameter, seen from within a stretch.
+-- | Position at a parameter of a stretch, approached from within the stretch.
 within :: (Double, Double) -> Curve -> Double -> SpanPoint
 within (_, b) curve u = ShiftedCurve.spot (if u >= b then Before else After) u curve
 
--- | The parameter of the place that is nearest to a point. Of several the first.
+-- | Parameter of the point nearest to a given point. Of several equally near points the first is
+-- taken.
 nearest :: Point -> Curve -> Double
 nearest p curve =
   fst
@@ -68,8 +69,8 @@ nearest p curve =
       let jet = ShiftedCurve.jetAt 1 curve (within stretch curve u)
        in (u, TaylorExpansion.place jet, TaylorExpansion.velocity jet)
     best = minimum [Vec.distance p q | (_, found) <- sampled, (_, q, _) <- found]
-    -- Where the way turns from towards the point to away from it, unless that is certainly further
-    -- than a sample.
+    -- Refines each minimum of the distance that neighbouring samples enclose, unless it is
+    -- certainly farther away than the best sample.
     feet (stretch, found) =
       [ ( u,
           Vec.distance
@@ -89,7 +90,7 @@ nearest p curve =
         v = TaylorExpansion.velocity jet
         bend = Vec.vec (2 * PowerSeries.coefficient 2 x) (2 * PowerSeries.coefficient 2 y)
 
--- | Samples, with more of them where the way turns much from one to the next.
+-- | Inserts samples by bisection where the direction changes much between neighbours.
 closely :: (Double -> (Double, Point, Vec)) -> [(Double, Point, Vec)] -> [(Double, Point, Vec)]
 closely sample = go
   where
@@ -102,12 +103,12 @@ closely sample = go
         abs turned > most =
         let m = sample ((u + w) / 2) in between (n - 1) a m <> [m] <> between (n - 1) m b
       | otherwise = []
-    -- In radians, and how often a step is halved at most.
+    -- Largest change of direction between samples, in radians, and the largest count of halvings.
     most = 0.3
     halvings = 6 :: Int
 
--- | The parameters at which the curve has an abscissa (mm), in rising order; of a stretch that runs
--- straight up there, its ends.
+-- | Rising parameters at which the curve has the given x (mm). A stretch on which x is constant
+-- contributes its ends.
 atX :: Double -> Curve -> [Double]
 atX abscissa curve = distinct (concatMap found (stretches curve))
   where
@@ -129,10 +130,10 @@ atX abscissa curve = distinct (concatMap found (stretches curve))
           | otherwise = roots rest
         roots [(a, 0)] = [a]
         roots _ = []
-    -- What is as near as doubles can tell is there.
+    -- Differences within rounding count as zero.
     off v = if abs (v - abscissa) <= Tolerance.equal then 0 else v - abscissa
-    -- Touching samples that follow one another are one place, or the ends of a stretch, but not
-    -- crossings between which the curve goes away and comes back.
+    -- Consecutive solutions between which the curve keeps the given x are one solution, or the two
+    -- ends of a vertical stretch. Solutions between which the curve departs from x stay separate.
     distinct us = case us of
       [] -> []
       a : rest ->
@@ -154,8 +155,8 @@ merged as bs = case (as, bs) of
   (_, []) -> as
   (a : as', b : bs') -> if a <= b then a : merged as' bs else b : merged as bs'
 
--- | The parameters at which the direction jumps by more than 'Tolerance.smoothAngle', in rising
--- order; that of a closed curve's joint is 0.
+-- | Rising parameters at which the direction jumps by more than 'Tolerance.smoothAngle'. The seam
+-- of a closed curve has the parameter 0.
 corners :: Curve -> [Double]
 corners curve =
   [0 | closed curve, jumps 0] <> filter jumps (drop 1 (init (ShiftedCurve.breaks curve)))
@@ -165,23 +166,24 @@ corners curve =
             Vec.turn (directionAt Before curve u) (directionAt After curve u)
        in Rad (abs a) > Tolerance.smoothAngle
 
--- | Whether the curve ends where it begins.
+-- | True if the curve ends where it begins.
 closed :: Curve -> Bool
 closed curve = Vec.near (end After 0) (end Before (ShiftedCurve.domain curve))
   where
     end approach u =
       TaylorExpansion.place (ShiftedCurve.jetAt 0 curve (ShiftedCurve.spot approach u curve))
 
--- | The direction before or behind a place. On a closed curve the way goes on over the joint.
+-- | Unit tangent just before or just after a parameter. On a closed curve the start continues the
+-- end.
 directionAt :: Approach -> Curve -> Double -> Vec
 directionAt approach curve u
   | approach == Before && u <= 0 && closed curve = heading Before curve (ShiftedCurve.domain curve)
   | approach == After && u >= ShiftedCurve.domain curve && closed curve = heading After curve 0
   | otherwise = heading approach curve u
 
--- | The direction before or behind a place; at an end, of what there is. Where the curve stands
--- still it is the limit; where a shift has made a point of a whole stretch it is that of the curve
--- below.
+-- | Unit tangent just before or just after a parameter; at an end of the curve, the one-sided
+-- tangent. Where the speed vanishes it is the limit. Where a shift has collapsed a stretch to a
+-- point it is the tangent of the curve below.
 heading :: Approach -> Curve -> Double -> Vec
 heading approach curve u = case TaylorExpansion.direction approach (near 1) of
   Just d -> d

@@ -1,9 +1,8 @@
--- | Pieces of curves, y over x, through two rows of a table: straight lines, parabolas and circular
--- arcs.
+-- | Sections: lines, parabolas and circular arcs y(x) through two rows of a table.
 --
--- Beside its ends, a parabola or an arc has one number t, and y rises with t at every x between the
--- ends. The largest deviation in y over the rows between is therefore least where two rows miss by
--- the same amount to either side, or where t has come to its limit.
+-- A parabola or an arc through two given rows has one free number t. At every x between the ends, y
+-- rises with t. The largest deviation in y is therefore least where two rows deviate equally to
+-- opposite sides, or where t is at a limit of its range.
 module Geometry.Curve.Section
   ( -- * Tables
     PointTable,
@@ -12,7 +11,7 @@ module Geometry.Curve.Section
     row,
     PointTableFault (..),
 
-    -- * Pieces
+    -- * Sections
     Section (..),
     SectionShape (..),
     SectionKind (..),
@@ -23,7 +22,7 @@ module Geometry.Curve.Section
     formula,
     segment,
 
-    -- * Making them
+    -- * Construction
     parabola,
     best,
     bestWithin,
@@ -43,19 +42,19 @@ import Geometry.Vec qualified as Vec
 
 -- Tables ----------------------------------------------------------------------------------------
 
--- | At least two rows whose x rises throughout or falls throughout; in mm.
+-- | Table of at least two rows whose x rises throughout or falls throughout; in mm.
 data PointTable = PointTable {xs :: Vector Double, ys :: Vector Double}
   deriving stock (Eq, Show)
 
--- | What is wrong with a table. Rows are counted from 1.
+-- | Fault of a table. Rows are counted from 1.
 data PointTableFault
-  = -- | how many rows there are
+  = -- | too few rows; the count of rows
     TooFewRows Int
-  | -- | the first row whose x does not go on the way the first two do
+  | -- | the first row at which x leaves the order of the first two rows
     OutOfOrder Int
   deriving stock (Eq, Show)
 
--- | A table of points, if x rises or falls strictly.
+-- | Makes a table of points if x rises strictly or falls strictly.
 table :: [Point] -> Either PointTableFault PointTable
 table points = case points of
   p : q : _ ->
@@ -70,67 +69,67 @@ table points = case points of
   where
     sameWay a b c d = (b > a && d > c) || (b < a && d < c)
 
--- | How many rows a table has.
+-- | Count of rows.
 rows :: PointTable -> Int
 rows t = Vector.length (xs t)
 
--- | A row, counted from 0.
+-- | Row with an index that is counted from 0.
 row :: PointTable -> Int -> Point
 row t k = Vec.point (xs t Vector.! k) (ys t Vector.! k)
 
--- Pieces ----------------------------------------------------------------------------------------
+-- Sections --------------------------------------------------------------------------------------
 
--- | A piece through two rows of the table.
+-- | Section through two rows of the table.
 data Section = Section
-  { -- | its first row, counted from 1
+  { -- | number of its first row, counted from 1
     first :: Int,
-    -- | its last row
+    -- | number of its last row
     final :: Int,
     from :: Point,
     to :: Point,
     curve :: SectionShape,
-    -- | the largest deviation in y at its rows
+    -- | largest absolute deviation in y at its rows
     largest :: Mm
   }
   deriving stock (Eq, Show)
 
--- | What a piece is beyond its ends.
+-- | Shape of a section between its ends.
 data SectionShape
   = Line
-  | -- | the factor a, in 1/mm, of @y = chord + a·(x − x₁)·(x − x₂)@
+  | -- | the coefficient a, in 1/mm, of @y = chord + a·(x − x₁)·(x − x₂)@
     Parabola Double
-  | -- | the angle between chord and arc at the ends, half of what the arc turns by; positive above
-    -- the chord
+  | -- | the angle between chord and arc at the ends, half of the sweep; positive for an arc above
+    -- its chord
     Arc Rad
   deriving stock (Eq, Show)
 
--- | The kinds of pieces, the simplest first.
+-- | Kinds of sections, the simplest first.
 data SectionKind = LineKind | ParabolaKind | ArcKind
   deriving stock (Eq, Ord, Show, Enum, Bounded)
 
--- | What kind of piece it is.
+-- | Kind of a shape.
 kind :: SectionShape -> SectionKind
 kind c = case c of
   Line -> LineKind
   Parabola _ -> ParabolaKind
   Arc _ -> ArcKind
 
--- | y of a piece at an x between its ends, in mm.
+-- | y in mm of a section at an x between its ends.
 height :: Section -> Double -> Double
 height p x
   | x == Vec.x (from p) = Vec.y (from p)
   | x == Vec.x (to p) = Vec.y (to p)
   | otherwise = Vec.y (from p) + rise (chordOf (from p) (to p)) (curve p) (x - Vec.x (from p))
 
--- | A piece as an equation.
+-- | Equation of a section.
 data SectionFormula
-  = -- | @y = a·x² + b·x + c@; a is 0 for a line and for an arc that hardly bends
+  = -- | @y = a·x² + b·x + c@; a is 0 for a line and for an arc that is nearly straight
     Polynomial Double Double Double
   | -- | centre and radius
     Circle Point Mm
   deriving stock (Eq, Show)
 
--- | The equation of a piece.
+-- | Equation of a section.
 formula :: Section -> SectionFormula
 formula p = case curve p of
   Line -> polynomial 0
@@ -143,22 +142,22 @@ formula p = case curve p of
     (x1, y1, x2) = (Vec.x (from p), Vec.y (from p), Vec.x (to p))
     polynomial a = let s = h / w in Polynomial a (s - a * (x1 + x2)) (y1 - s * x1 + a * x1 * x2)
 
--- | By how much a piece is above a point, in y.
+-- | Deviation in y of a section from a point, positive where the section is above.
 missed :: Section -> Point -> Double
 missed p q = height p (Vec.x q) - Vec.y q
 
--- | The parabola through three points, with respect to the first and the last.
+-- | Parabola through three points, relative to the chord from the first to the last.
 parabola :: Point -> Point -> Point -> SectionShape
 parabola a m b = Parabola ((up - x * h / w) / (x * (x - w)))
   where
     Chord w h = chordOf a b
     Chord x up = chordOf a m
 
--- | Whether an arc is as good as its chord.
+-- | True if an arc with this angle is straight within the tolerance.
 flat :: Double -> Bool
 flat t = Rad (2 * abs t) <= Tolerance.straight
 
--- | The centre of an arc: on the perpendicular bisector of its chord.
+-- | Centre of an arc, which lies on the perpendicular bisector of the chord.
 centre :: Section -> Double -> Point
 centre p t =
   Vec.shift
@@ -168,7 +167,7 @@ centre p t =
     Chord w _ = chordOf (from p) (to p)
     way = signum w
 
--- | The piece as a segment, if it is a line or an arc.
+-- | Section as a segment; Nothing for a parabola.
 segment :: Section -> Maybe Segment
 segment p = case curve p of
   Line -> Just (Straight (from p) (to p))
@@ -184,23 +183,22 @@ segment p = case curve p of
             (to p)
         )
 
--- | From one end of a piece to the other, in x and in y.
+-- | Differences in x and in y from one end of a section to the other.
 data Chord = Chord Double Double
 
 chordOf :: Point -> Point -> Chord
 chordOf a b = Chord (Vec.x b - Vec.x a) (Vec.y b - Vec.y a)
 
--- | How far a piece has risen so far in x from its first end.
+-- | Rise in y of a section at a distance in x from its first end.
 rise :: Chord -> SectionShape -> Double -> Double
 rise chord@(Chord w h) c x = case c of
   Line -> x * h / w
   Parabola a -> x * h / w + a * x * (x - w)
   Arc (Rad t) -> arcRise chord (tan t) x
 
--- | The same for an arc, from the tangent of its angle with the chord. The circles through (0, 0)
--- and (w, h) are
--- @μ·(x·(x − w) + y·(y − h)) + x·h − y·w = 0@, μ the tangent; the arc is the root that is on the
---  chord for μ = 0.
+-- | Rise of an arc, given the tangent of its angle with the chord. The circles through (0, 0) and
+-- (w, h) are @μ·(x·(x − w) + y·(y − h)) + x·h − y·w = 0@ with the tangent μ. The arc is the
+-- root that tends to the chord for μ → 0.
 arcRise :: Chord -> Double -> Double -> Double
 arcRise (Chord w h) tangent x = 2 * q / (p + signum w * sqrt (max 0 (p * p - 4 * mu * q)))
   where
@@ -209,14 +207,15 @@ arcRise (Chord w h) tangent x = 2 * q / (p + signum w * sqrt (max 0 (p * p - 4 *
     q = mu * x * (x - w) + x * h
 {-# INLINE arcRise #-}
 
--- | The best piece of a kind between two rows (counted from 0), and the largest deviation of its
--- rows.
+-- | Best section of a kind between two rows (indices from 0), and the largest deviation of the
+-- rows between.
 best :: PointTable -> SectionKind -> Int -> Int -> (Double, SectionShape)
 best t k i j = let (worst, c, _) = bestWithin (1 / 0) Nothing t k i j in (worst, c)
 
--- | The same as far as the deviation is no more than a limit; else one beyond the limit that it is
--- no less than. Two rows that say so are given, and may be tried first where a piece ends a little
--- further on.
+-- | Best section of a kind between two rows, if its deviation does not exceed the limit;
+-- otherwise a lower bound of the deviation, itself above the limit. The third result is the
+-- pair of rows that proves the deviation. Passing this pair for a slightly longer section saves
+-- most of the work.
 bestWithin ::
   Double ->
   Maybe (Int, Int) ->
@@ -254,8 +253,8 @@ bestWithin limit known t@(PointTable xs ys) k i j = case k of
     up m = Vector.unsafeIndex ys m - Vector.unsafeIndex ys i
     relative c m = rise chord c (across m) - up m
 
--- | The rows strictly between two with the lowest and with the highest value. Without any, the
--- value is 0.
+-- | Rows strictly between two others with the lowest and the highest value. The values are 0 if
+-- there are no rows between.
 extremes :: Int -> Int -> (Int -> Double) -> (Int, Double, Int, Double)
 extremes i j value
   | j <= i + 1 = (i, 0, i, 0)
@@ -270,11 +269,12 @@ extremes i j value
         v = value m
 {-# INLINE extremes #-}
 
--- | The parameter that makes the largest deviation of the rows between two least, that deviation,
--- and the rows that tell. It is where some two rows balance; a row that misses by more takes the
--- place of the one that misses to the same side. The amount by which the two miss rises every time,
--- so there is an end, where it is no longer asked for beyond the limit; it takes about four rounds,
--- or one or two from rows that are nearly right.
+-- | Minimax fit of the free number by single exchange (Remez): returns the least largest
+-- deviation, the free number, and the two rows that determine it. At the optimum the deviations
+-- of two rows balance. A row with a larger deviation replaces the row of the pair on the same
+-- side. The balanced deviation rises with every exchange, so the iteration ends; it also ends
+-- once the deviation exceeds the limit. It takes about four rounds, or one or two from a good
+-- initial pair.
 least ::
   Double ->
   Maybe (Int, Int) ->
@@ -300,9 +300,9 @@ least limit known balance off i j =
         worst = max (-vLow) vHigh
 {-# INLINE least #-}
 
--- | Where a rising function is 0, to the last digit or nearly so; the end of the range where it
--- does not come to 0. A secant cuts off what is on one side of the zero; the value of an end that
--- has stayed is halved, so that it moves, too (the Illinois rule).
+-- | Root of a rising function by the Illinois variant of the false-position method, to nearly
+-- full precision. Returns the end of the range if there is no sign change. The Illinois rule
+-- halves the value at an end that was kept, so that both ends move.
 root :: Double -> (Double -> Double) -> Double
 root limit f
   | f (-limit) >= 0 = -limit

@@ -1,4 +1,5 @@
--- | A base and the shifts laid on it, one on the other, and what they give near a place.
+-- | Curves: a base with any number of shifts on top, evaluated by power series through all
+-- layers.
 module Geometry.Curve.ShiftedCurve
   ( Curve (..),
     Layer (..),
@@ -30,15 +31,15 @@ import Geometry.Vec qualified as Vec
 
 data Curve
   = Plain Base
-  | -- | a curve moved along its left normal; the ruler is that of the outcome
+  | -- | a curve moved along its left normal; the arc length is that of the result
     Shifted Layer Curve ~ArcLength
   deriving stock (Eq, Show)
 
--- | One shift.
+-- | One shift: its side, its distance, and the interval over which the distance changes.
 data Layer = Layer {side :: Side, distance :: Distance, known :: ~ShiftInterval}
   deriving stock (Eq, Show)
 
--- | Every point moved along the normal, to a side, by a distance that is known for the curve.
+-- | Shifts a curve along its normal to a side, by a distance that belongs to this curve.
 shifted :: Side -> Distance -> Curve -> Curve
 shifted side distance lower = whole
   where
@@ -49,13 +50,13 @@ shifted side distance lower = whole
         (ArcLength.measured speed (merged (breaks whole) (knots whole)))
     speed u = Vec.norm (TaylorExpansion.velocity (jetAt 1 whole (spot After u whole)))
 
--- | What lies under all shifts.
+-- | Base under all shifts.
 base :: Curve -> Base
 base curve = case curve of
   Plain b -> b
   Shifted _ lower _ -> base lower
 
--- | The shifts, the innermost first.
+-- | Sides and distances of the shifts, the innermost first.
 layers :: Curve -> [(Side, Distance)]
 layers curve = reverse (outermost curve)
   where
@@ -63,8 +64,7 @@ layers curve = reverse (outermost curve)
       Plain _ -> []
       Shifted layer lower _ -> (side layer, distance layer) : outermost lower
 
--- | The parameters between which the curve is smooth, in rising order, from its beginning to its
--- end.
+-- | Rising parameters between which the curve is smooth, its start and its end included.
 breaks :: Curve -> [Double]
 breaks curve = case curve of
   Plain b -> map fromIntegral [0 .. Base.count b]
@@ -72,8 +72,8 @@ breaks curve = case curve of
   where
     inside u = u > 0 && u < domain curve
 
--- | Where a column goes over from one cubic to the next within a span: the curve is smooth there,
--- but a shift of it has no smooth speed.
+-- | Rising parameters at which a column changes from one cubic to the next within a span. The
+-- curve is smooth there, but the speed of a shift of it is not.
 knots :: Curve -> [Double]
 knots curve = case curve of
   Plain _ -> []
@@ -82,7 +82,7 @@ knots curve = case curve of
   where
     inside u = u > 0 && u < domain curve
 
--- | Two rising lists as one, without repetition.
+-- | Union of two rising lists.
 merged :: [Double] -> [Double] -> [Double]
 merged as bs = case (as, bs) of
   ([], _) -> bs
@@ -92,22 +92,22 @@ merged as bs = case (as, bs) of
     | b < a -> b : merged as bs'
     | otherwise -> a : merged as' bs'
 
--- | The parameter of the end: the number of spans.
+-- | Parameter of the end, which is the count of spans.
 domain :: Curve -> Double
 domain = fromIntegral . Base.count . base
 
--- | How far along the curve its parameter leads.
+-- | Arc length along the curve as a function of its parameter.
 ruler :: Curve -> ArcLength
 ruler curve = case curve of
   Plain b -> Base.ruler b
   Shifted _ _ along -> along
 
--- | The place with a parameter; beyond the ends, the end.
+-- | Position at a parameter. Parameters outside of the domain give the nearer end.
 spot :: Approach -> Double -> Curve -> SpanPoint
 spot approach u curve = Base.spot approach u (base curve)
 
--- | The power series of the place up to an order. Every shift asks the curve under it for one order
--- more, but where there is none.
+-- | Taylor expansion of the point about a position, up to the given order. A shift needs one
+-- order more of the curve below, except where its distance vanishes.
 jetAt :: Int -> Curve -> SpanPoint -> TaylorExpansion
 jetAt n curve s = case curve of
   Plain b -> Base.jet n b s
@@ -118,8 +118,8 @@ jetAt n curve s = case curve of
             jetAt (n + 1) lower s
        in TaylorExpansion.moved (distanceAt n layer lower near s) near
 
--- | The power series of a shift's distance to the left up to an order, given the curve below near
--- the spot.
+-- | Power series of a shift's distance to the left, up to the given order. The expansion is that
+-- of the curve below about the position.
 distanceAt :: Int -> Layer -> Curve -> TaylorExpansion -> SpanPoint -> PowerSeries
 distanceAt n layer lower near s = case side layer of
   LeftOf -> d

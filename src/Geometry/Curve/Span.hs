@@ -1,4 +1,4 @@
--- | Spans: what curves are made of, one behind the other.
+-- | Spans: the consecutive parts of a curve.
 module Geometry.Curve.Span
   ( Span (..),
     SpanShape (..),
@@ -28,19 +28,19 @@ import Geometry.Transformation qualified as Transformation
 import Geometry.Vec (Point, Vec)
 import Geometry.Vec qualified as Vec
 
--- | A part of a curve, its own parameter running from 0 to 1.
+-- | Part of a curve over a local parameter from 0 to 1.
 data Span
-  = -- | x and y
+  = -- | a cubic in x and one in y
     Polynomial Cubic Cubic
-  | -- | an arc, evenly
+  | -- | an arc at constant speed
     Round Segment
   deriving stock (Eq, Show)
 
--- | A part of a curve as it is given.
+-- | Part of a curve in the form in which it is given.
 data SpanShape
   = -- | a straight line from one point to another
     Line Point Point
-  | -- | @y = a·x² + b·x + c@ with a (1/mm), b, c (mm), from one x to another
+  | -- | @y = a·x² + b·x + c@ with a (1/mm), b and c (mm), from one x to another
     Quadratic Double Double Double Double Double
   | -- | an arc
     Circular Segment
@@ -61,7 +61,7 @@ ofSegment s = case s of
   Straight p q -> ofPiece (Line p q)
   Arc {} -> Round s
 
--- | Where a span begins and where it ends.
+-- | Start and end of a span.
 ends :: Span -> (Point, Point)
 ends s = case s of
   Polynomial x y ->
@@ -70,32 +70,31 @@ ends s = case s of
      in (place 0, place 1)
   Round g -> (Segment.start g, Segment.end g)
 
--- | The span as a line or an arc, if it is one.
+-- | Span as a segment, if it is a line or an arc.
 segment :: Span -> Maybe Segment
 segment s = case s of
   Polynomial (Cubic _ _ 0 0) (Cubic _ _ 0 0) -> let (p, q) = ends s in Just (Straight p q)
   Polynomial _ _ -> Nothing
   Round g -> Just g
 
--- | Whether a span that was given as a piece has no length. A full circle ends where it begins and
--- has one.
+-- | True if a span has no length. A full circle ends where it begins, but has a length.
 isPoint :: Span -> Bool
 isPoint s = case s of
   Polynomial _ _ -> let (p, q) = ends s in Vec.near p q
   Round g -> Segment.length g <= Tolerance.coincident
 
--- | The power series of the place up to an order.
+-- | Taylor expansion of the point about a local parameter, up to the given order.
 jet :: Int -> Span -> Double -> TaylorExpansion
 jet n s t = case s of
   Polynomial x y -> TaylorExpansion (Spline.series n x t) (Spline.series n y t)
   Round (Arc {start, centre, sweep = Rad sweep}) ->
-    -- Each derivative turns by a quarter and grows by the sweep.
+    -- Each derivative is the one before, rotated by a quarter turn and multiplied by the sweep.
     let turned = Vec.rotate (Rad (sweep * t)) (Vec.to centre start)
         terms = zipWith Vec.scale (scanl (\k j -> k * sweep / j) 1 [1 ..]) (iterate Vec.left turned)
      in along n centre terms
   Round (Straight p q) -> along n p [Vec.scale t (Vec.to p q), Vec.to p q]
 
--- | From a point, by these coefficients.
+-- | Taylor expansion with a constant term and the given further coefficients.
 along :: Int -> Point -> [Vec] -> TaylorExpansion
 along n p terms = TaylorExpansion (part (Vec.x p) (map fst parts)) (part (Vec.y p) (map snd parts))
   where
@@ -103,13 +102,13 @@ along n p terms = TaylorExpansion (part (Vec.x p) (map fst parts)) (part (Vec.y 
     part :: Double -> [Double] -> PowerSeries
     part c cs = PowerSeries.plusConstant c (PowerSeries.fromList n cs)
 
--- | The same walked from its end.
+-- | Span in the opposite direction.
 reversed :: Span -> Span
 reversed s = case s of
   Polynomial x y -> Polynomial (Spline.reversed x) (Spline.reversed y)
   Round g -> Round (Segment.reverse g)
 
--- | Moved, turned, scaled, mirrored: the coefficients are so.
+-- | Image of a span under a similarity, computed on its coefficients.
 transformed :: Transformation -> Span -> Span
 transformed s g = case g of
   Polynomial (Cubic x0 x1 x2 x3) (Cubic y0 y1 y2 y3) ->
@@ -120,7 +119,7 @@ transformed s g = case g of
      in Polynomial (Cubic (Vec.x p) a1 a2 a3) (Cubic (Vec.y p) b1 b2 b3)
   Round arc -> Round (Transformation.segment s arc)
 
--- | A displacement turned, scaled, mirrored.
+-- | Image of a displacement: rotated, scaled and reflected, but not moved.
 image :: Transformation -> Vec -> Vec
 image s v = Vec.to (Transformation.point s origin) (Transformation.point s (Vec.shift v origin))
   where
