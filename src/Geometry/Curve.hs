@@ -224,9 +224,11 @@ curvature curve u = TaylorExpansion.curvature (jet After 2 curve u)
 jet :: Approach -> Int -> Curve -> Double -> TaylorExpansion
 jet approach n curve u = ShiftedCurve.jetAt n curve (ShiftedCurve.spot approach u curve)
 
+-- | First point of the curve.
 start :: Curve -> Point
 start curve = placeFrom After curve 0
 
+-- | Last point of the curve.
 end :: Curve -> Point
 end curve = placeFrom Before curve (domain curve)
 
@@ -291,6 +293,7 @@ factor s =
     -- Chosen so large that rounding in a large displacement is negligible.
     far = 1024
 
+-- | Opposite side.
 otherSide :: Side -> Side
 otherSide s = case s of
   LeftOf -> RightOf

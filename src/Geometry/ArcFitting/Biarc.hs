@@ -1,15 +1,14 @@
--- | Biarcs: two arcs that go over into one another smoothly, with given ends and directions there.
+-- | Biarcs: two arcs with a common tangent at their joint, between given end points and end
+-- directions.
 --
--- In the complex plane of the chord (from 0 to 1), let the walk set out at the angle α and arrive
--- at the angle β. An arc's chord halves the angle between its ends' directions, so with the
--- direction γ at the joint and the chords @c@ and @r·c@ of the two arcs, @c·e^{i(α+γ)/2} +
--- r·c·e^{i(γ+β)/2} = 1@. Hence with
--- @w = e^{iα/2} + r·e^{iβ/2}@: @γ = −2·arg w@, @c = 1/|w|@, and the joint is
--- @(1 + r·e^{i(α−β)/2}) / |w|²@. For α and β in (−π, π) there is one for every ratio r; equal
---  chords are the
--- rule. (Equal tangent lengths, the other usual choice, have no answer where the two directions are
--- parallel and square to the chord, and differ from equal chords by terms of the third order in the
--- angles.)
+-- Derivation, in the complex plane in which the chord runs from 0 to 1. Let the start direction
+-- have the angle α and the end direction the angle β. The chord of an arc bisects the angle between
+-- its end directions. With the direction γ at the joint and the chords @c@ and @r·c@ of the two
+-- arcs, @c·e^{i(α+γ)/2} + r·c·e^{i(γ+β)/2} = 1@. Hence, with @w = e^{iα/2} + r·e^{iβ/2}@: @γ =
+-- −2·arg w@, @c = 1/|w|@, and the joint is @(1 + r·e^{i(α−β)/2}) / |w|²@. For α and β in (−π, π)
+-- each ratio r gives one biarc; equal chords are the default. Equal tangent lengths, the other
+-- usual choice, have no solution where the two directions are parallel and perpendicular to the
+-- chord. The two choices differ by third-order terms of the angles.
 module Geometry.ArcFitting.Biarc
   ( -- * Between two ends
     join,
@@ -36,15 +35,15 @@ import Geometry.Vec qualified as Vec
 
 -- Between two ends ------------------------------------------------------------------------------
 
--- | The biarc from one point and direction (of length 1) to another: two segments, or one where a
--- straight line or a single arc does it. The arcs have equal chords, unless a curve that bends to
--- one side would be given a bend to the other side; then the chord at the end that leans less to
--- the whole chord is up to four times as long. Nothing where the points are one point or an arc
--- would turn by more than half a turn.
+-- | Biarc from one point and unit direction to another: two segments, or one where a line or a
+-- single arc suffices. The chords are equal, except where that would give an S-shape to a curve
+-- that bends to one side. Then the arc at the end with the smaller angle to the chord gets a
+-- chord up to four times as long. Nothing if the points coincide, or if an arc would sweep more
+-- than half a turn.
 join :: (Point, Vec) -> (Point, Vec) -> Maybe (NonEmpty Segment)
 join from to = joinWith (ratio from to) from to
 
--- | The biarc whose second arc has a chord so many times as long as the first one's.
+-- | Biarc with a given ratio of the second arc's chord to the first one's.
 joinWith :: Double -> (Point, Vec) -> (Point, Vec) -> Maybe (NonEmpty Segment)
 joinWith r from@(p, _) to@(q, _) = do
   guard (not (Vec.near p q))
@@ -55,7 +54,7 @@ joinWith r from@(p, _) to@(q, _) = do
     (alpha, beta) = lean from to
     gamma = -2 * atan2 (sin (alpha / 2) + r * sin (beta / 2)) (cos (alpha / 2) + r * cos (beta / 2))
     opening = (alpha - beta) / 2
-    -- w|²
+    -- The square of |w|.
     square = 1 + r * r + 2 * r * cos opening
     chord = Vec.to p q
     joint =
@@ -71,19 +70,19 @@ joinWith r from@(p, _) to@(q, _) = do
         bent p q (beta - alpha) :| []
       | otherwise = bent p joint (gamma - alpha) :| [bent joint q (beta - gamma)]
 
--- | Whether an angle is no larger than a limit, to either side.
+-- | True if an absolute angle does not exceed a limit.
 most :: Double -> Rad -> Bool
 most a (Rad limit) = abs a <= limit
 
--- | The angles from the chord to the directions at its ends, in (−π, π].
+-- | Angles from the chord to the end directions, in (−π, π].
 lean :: (Point, Vec) -> (Point, Vec) -> (Double, Double)
 lean (p, s) (q, t) = (a, b)
   where
     Rad a = Vec.turn (Vec.to p q) s
     Rad b = Vec.turn (Vec.to p q) t
 
--- | The ratio of the chords that 'join' takes: 1, or what keeps a curve bent to one side: the
--- joint's direction stays at least half of either end's angle away from that end's direction.
+-- | Chord ratio that 'join' uses: 1, or the ratio that avoids an S-shape. It keeps the direction
+-- at the joint at least half of each end's angle away from that end's direction.
 ratio :: (Point, Vec) -> (Point, Vec) -> Double
 ratio from to
   | alpha * beta >= 0 || held == gamma = 1
@@ -93,7 +92,7 @@ ratio from to
     gamma = -((alpha + beta) / 2)
     held = max (min alpha beta / 2) (min (max alpha beta / 2) gamma)
 
--- | The arc between two points that turns by an angle; a straight line where it hardly turns.
+-- | Arc between two points with a given sweep; a line where the sweep is negligible.
 bent :: Point -> Point -> Double -> Segment
 bent p q sweep
   | most sweep Tolerance.straight = Straight p q
@@ -105,12 +104,13 @@ bent p q sweep
 
 -- Through points --------------------------------------------------------------------------------
 
--- | A smooth chain of arcs and lines through points in order; a closed one comes back to the first.
--- The direction at a point is that of the circle through it and its neighbours, at the ends of an
--- open chain that of the circle through the first or last three. Where that circle would turn by
--- more than half a turn between two of them (a sharp turn of the points), it halves the angle
--- instead. Two points are joined by a line, or, closed, by the circle about them. Points that
--- follow at the same place count once; a single one gives a line without length.
+-- | Smooth chain of arcs and lines through points in order; a closed chain returns to the first
+-- point. The direction at a point is that of the circle through the point and its two
+-- neighbours; at the ends of an open chain, that of the circle through the first or the last
+-- three points. Where this circle would sweep more than half a turn between two of them (a
+-- sharp corner), the direction bisects the angle. Two points give a line or, in a closed chain,
+-- the circle through both. Consecutive points that coincide count once; a single point gives a
+-- line of no length.
 through :: Ends -> NonEmpty Point -> NonEmpty Segment
 through ends points = case distinct ends points of
   p :| [] -> Straight p p :| []
@@ -128,7 +128,7 @@ through ends points = case distinct ends points of
   where
     joined a b = maybe [Straight (fst a) (fst b)] NonEmpty.toList (join a b)
 
--- | Without points that follow at the same place.
+-- | Drops points that coincide with the one before.
 distinct :: Ends -> NonEmpty Point -> NonEmpty Point
 distinct ends (first :| others) = first :| back (onward first others)
   where
@@ -141,8 +141,9 @@ distinct ends (first :| others) = first :| back (onward first others)
       Open -> ps
       Closed -> reverse (dropWhile (Vec.near first) (reverse ps))
 
--- | The directions at three or more points of an open chain; the end's one is the neighbour's in
--- the mirror of the perpendicular bisector, so that the last piece is one arc.
+-- | Directions at three or more points of an open chain. The direction at an end mirrors the
+-- neighbour's direction in the perpendicular bisector of the two points, so that the last
+-- segment is a single arc.
 openDirections :: [Point] -> [Vec]
 openDirections ps = case (ps, reverse ps) of
   (a : b : _, z : y : _) ->
@@ -154,8 +155,8 @@ openDirections ps = case (ps, reverse ps) of
   where
     mirrored a b t = Vec.rotate (Vec.turn t (Vec.to a b)) (Vec.unit (Vec.to a b))
 
--- | The direction at the middle one of three points. On the circle, the angles from the first chord
--- to it and from it to the second one are those of the triangle at the far ends.
+-- | Direction at the middle one of three points. On their circle, the angle between tangent and
+-- chord equals the opposite angle of the triangle.
 passing :: Point -> Point -> Point -> Vec
 passing a b c
   | not (Vec.near a c) && Vec.dot round' ab >= 0 && Vec.dot round' bc >= 0 = round'

@@ -1,4 +1,4 @@
--- | The vertices of an open outline, written one behind the other.
+-- | Growing array of the vertices of an open polyarc.
 module Geometry.ArcFitting.Builder
   ( Vertices,
     new,
@@ -14,19 +14,19 @@ import Data.STRef (STRef, newSTRef, readSTRef, writeSTRef)
 import Geometry.FlatPolyarc (FlatPolyarc (..))
 import Geometry.Polyarc (Ends (..))
 
--- | An array that grows by doubling.
+-- | Array that grows by doubling.
 newtype Vertices s = Vertices (STRef s (Written s))
 
--- | How many there are, and x, y and bulge of each, one behind the other.
+-- | Count of vertices, and the array of x, y and bulge of each vertex in turn.
 data Written s = Written Int (MutablePrimArray s Double)
 
--- | None yet.
+-- | Empty array.
 new :: ST s (Vertices s)
 new = do
   array <- PrimArray.newPrimArray (3 * 16)
   Vertices <$> newSTRef (Written 0 array)
 
--- | One more: x and y in mm, the bulge of the segment that begins there.
+-- | Appends a vertex: x and y in mm, and the bulge of the segment that starts there.
 push :: Vertices s -> Double -> Double -> Double -> ST s ()
 push (Vertices ref) x y bulge = do
   Written n array <- readSTRef ref
@@ -37,7 +37,7 @@ push (Vertices ref) x y bulge = do
   PrimArray.writePrimArray array' (3 * n + 2) bulge
   writeSTRef ref (Written (n + 1) array')
 
--- | What has been written; nothing is written behind it.
+-- | Polyarc of all vertices. The array must not be written afterwards.
 outline :: Vertices s -> ST s FlatPolyarc
 outline (Vertices ref) = do
   Written n array <- readSTRef ref

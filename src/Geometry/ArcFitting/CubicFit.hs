@@ -1,18 +1,17 @@
 {-# LANGUAGE BangPatterns #-}
 {-# OPTIONS_GHC -O2 -fno-full-laziness #-}
 
--- | Biarcs along cubic spans, with a bound of their distance in closed form.
+-- | Arc fitting of cubic spans by biarcs, with an error bound in closed form.
 --
--- In the frame of an arc's beginning, x along its direction, y to its left, the circle of the
--- curvature k is where
--- @F = y − k·(x² + y²)/2@ is 0, and a point with @|k·F|@ well below 1 is @|F|·(1 + |k·F|)@ away
---  from it at most. On a
--- cubic F is a polynomial of degree 6; Chebyshev's polynomials bring it down to the third degree,
--- whose greatest value is known, but for a small remainder.
+-- Take the frame of an arc's start, with x along its direction and y to its left. The circle with
+-- the curvature k is the zero set of @F = y − k·(x² + y²)/2@. Where @|k·F|@ is well below 1, a
+-- point is at most @|F|·(1 + |k·F|)@ away from the circle. On a cubic, F is a polynomial of degree
+-- 6. Chebyshev economization reduces it to degree 3, whose maximum is known, plus a small
+-- remainder.
 --
--- That covers one way. As long as the curve goes forwards as seen from both ends of the arc, its
--- feet on the arc go without a jump from the beginning to the end, so that every point of the arc
--- is as near to the curve.
+-- This bounds the distance from the curve to the arc. As long as the curve runs forwards in the
+-- directions of both ends of the arc, its feet on the arc cover the arc without a jump. Then the
+-- same bound holds from the arc to the curve.
 module Geometry.ArcFitting.CubicFit
   ( approximate,
   )
@@ -33,8 +32,9 @@ import Geometry.FlatPolyarc (FlatPolyarc)
 import Geometry.Tolerance qualified as Tolerance
 import Geometry.Vec qualified as Vec
 
--- | Arcs and lines that stay within a distance of the curve with these spans in x and y, both ways,
--- as 'Track.approximate' gives them. The spans move at their ends.
+-- | Arcs and lines within a tolerance of the curve with these spans in x and y; the distance is
+-- bounded in both directions. The biarcs are as long as possible, as in
+-- 'ParametricFit.approximate'. The speed must not vanish at the ends of spans.
 approximate :: Mm -> Cubics -> Cubics -> FlatPolyarc
 approximate (Mm tolerance) xs ys = runST $ do
   vertices <- Builder.new
@@ -82,11 +82,11 @@ approximate (Mm tolerance) xs ys = runST $ do
             u
     aim = tolerance * (1 - Tolerance.roundingShare)
 
--- | Whether a span between two corners is a line.
+-- | True if a cubic is linear. A span between two corners that is linear in x and y is a line.
 isStraight :: Cubic -> Bool
 isStraight (Cubic _ _ c d) = c == 0 && d == 0
 
--- | Whether the curve has a corner at the beginning of a span, behind another.
+-- | True if the curve has a corner at the start of a span other than the first.
 cornered :: Cubics -> Cubics -> Int -> Bool
 cornered xs ys k =
   not (dx a * dx b + dy a * dy b > 0 && abs (dx a * dy b - dy a * dx b) <= sin kink)
@@ -95,7 +95,7 @@ cornered xs ys k =
     b = placed xs ys k 0
     Rad kink = Tolerance.kink
 
--- | The place and the direction in a span.
+-- | Position and direction in a span.
 placed :: Cubics -> Cubics -> Int -> Double -> Pose
 placed xs ys i t = Pose (Spline.value a t) (Spline.value b t) (vx / v) (vy / v)
   where
@@ -106,8 +106,8 @@ placed xs ys i t = Pose (Spline.value a t) (Spline.value b t) (vx / v) (vy / v)
     v = sqrt (vx * vx + vy * vy)
 {-# INLINE placed #-}
 
--- | The place and the direction at a parameter of a stretch, given its span; where spans meet the
--- mean of both directions.
+-- | Position and direction at a parameter of a stretch, given its span. Where spans meet, the
+-- direction is the mean of both.
 poseWithin :: Cubics -> Cubics -> Int -> Int -> Int -> Double -> Pose
 poseWithin xs ys from to i u
   | i >= to = placed xs ys (to - 1) 1
@@ -121,8 +121,8 @@ poseWithin xs ys from to i u
           s = sqrt (sx * sx + sy * sy)
        in b {dx = sx / s, dy = sy / s}
 
--- | How far a biarc is from the curve between two parameters; of what is further than a limit only
--- that it is so.
+-- | Bounds of the distances of a biarc's two arcs from the curve between two parameters. A bound
+-- above the limit only says that the limit is exceeded.
 apart ::
   Cubics ->
   Cubics ->
@@ -154,10 +154,12 @@ apart xs ys most first u from _ v to pair
     !one = frame from (bend1 pair) (if single pair then to else joint pair)
     !two = frame (joint pair) (bend2 pair) to
 
--- | A place on the curve, its span and the span's own parameter, and the distance up to there.
+-- | Position on the curve (its span and the local parameter), and the bound of the distance up to
+-- this position.
 data Reached = Reached Int Double Double
 
--- | Past one arc: to the normal at its end or, on the last one, to a parameter.
+-- | Advances along one arc and bounds the distance: to the normal at the arc's end or, for the
+-- last arc, to a given parameter.
 onward :: Cubics -> Cubics -> Double -> Double -> Bool -> FastArc -> Reached -> Reached
 onward xs ys most v final f (Reached i0 a0 d0) = go i0 a0 d0
   where
@@ -172,7 +174,7 @@ onward xs ys most v final f (Reached i0 a0 d0) = go i0 a0 d0
         b = if whole then v - fromIntegral i else 1
         x = Spline.at xs i
         y = Spline.at ys i
-        -- How far the curve is beyond the normal at the arc's end.
+        -- Signed distance of the curve beyond the normal at the arc's end.
         ahead t =
           (Spline.value x t - px (limit f)) * dx (limit f)
             + (Spline.value y t - py (limit f)) * dy (limit f)
@@ -185,8 +187,8 @@ onward xs ys most v final f (Reached i0 a0 d0) = go i0 a0 d0
         bound = beside f x y
     worse d e = if e <= d then d else e
 
--- | How far a cubic between two parameters can be from an arc; infinite where it may not go
--- forwards.
+-- | Bound of the distance between a cubic's interval and an arc; infinite where the cubic might
+-- not run forwards.
 beside :: FastArc -> Cubic -> Cubic -> Double -> Double -> Double
 beside f (Cubic p0 p1 p2 p3) (Cubic q0 q1 q2 q3) a b
   | forwardsFrom x1 y1
@@ -201,7 +203,7 @@ beside f (Cubic p0 p1 p2 p3) (Cubic q0 q1 q2 q3) a b
     ty = dy (origin f)
     k = abs (bend f)
     h = 0.5 * bend f
-    -- The piece in the arc's frame, its own parameter from 0 to 1.
+    -- The interval in the arc's frame, with a local parameter from 0 to 1.
     ux0 = p0 + a * (p1 + a * (p2 + a * p3)) - px (origin f)
     uy0 = q0 + a * (q1 + a * (q2 + a * q3)) - py (origin f)
     ux1 = w * (p1 + a * (2 * p2 + 3 * a * p3))
@@ -218,7 +220,7 @@ beside f (Cubic p0 p1 p2 p3) (Cubic q0 q1 q2 q3) a b
     y2 = uy2 * tx - ux2 * ty
     x3 = ux3 * tx + uy3 * ty
     y3 = uy3 * tx - ux3 * ty
-    -- F by the powers of the parameter.
+    -- Coefficients of F by powers of the parameter.
     c0 = y0 - h * (x0 * x0 + y0 * y0)
     c1 = y1 - 2 * h * (x0 * x1 + y0 * y1)
     c2 = y2 - h * (x1 * x1 + y1 * y1 + 2 * (x0 * x2 + y0 * y2))
@@ -226,9 +228,9 @@ beside f (Cubic p0 p1 p2 p3) (Cubic q0 q1 q2 q3) a b
     c4 = -(h * (x2 * x2 + y2 * y2 + 2 * (x1 * x3 + y1 * y3)))
     c5 = -(2 * h * (x2 * x3 + y2 * y3))
     c6 = -(h * (x3 * x3 + y3 * y3))
-    -- Between 0 and 1, within 1/2048: t⁶ = 3·t⁵ − 27/8·t⁴ + 7/4·t³ − 105/256·t² + 9/256·t − 1/2048;
-    -- within 1/512: t⁵ = 5/2·t⁴ − 35/16·t³ + 25/32·t² − 25/256·t + 1/512; within 1/128: t⁴ = 2·t³ −
-    -- 5/4·t² + t/4 − 1/128.
+    -- Chebyshev economization on [0, 1]. Within 1/2048: t⁶ = 3·t⁵ − 27/8·t⁴ + 7/4·t³ − 105/256·t² +
+    -- 9/256·t − 1/2048; within 1/512: t⁵ = 5/2·t⁴ − 35/16·t³ + 25/32·t² − 25/256·t + 1/512; within
+    -- 1/128: t⁴ = 2·t³ − 5/4·t² + t/4 − 1/128.
     e5 = c5 + 3 * c6
     e4 = c4 - 3.375 * c6 + 2.5 * e5
     e3 = c3 + 1.75 * c6 - 2.1875 * e5 + 2 * e4
@@ -238,8 +240,8 @@ beside f (Cubic p0 p1 p2 p3) (Cubic q0 q1 q2 q3) a b
     d = greatest e0 e1 e2 e3 + abs c6 / 2048 + abs e5 / 512 + abs e4 / 128
     forwardsFrom vx vy = vx > 0 && vx * cosine f + vy * sine f > 0
 
--- | The greatest absolute value of a cubic between 0 and 1: at an end or where the slope @c₁ +
--- 2·c₂·t + 3·c₃·t²@ is 0.
+-- | Largest absolute value of a cubic on [0, 1], which lies at an end or at a zero of the slope
+-- @c₁ + 2·c₂·t + 3·c₃·t²@.
 greatest :: Double -> Double -> Double -> Double -> Double
 greatest c0 c1 c2 c3
   | square <= 0 = ends
@@ -251,8 +253,8 @@ greatest c0 c1 c2 c3
     q = if c2 > 0 then -(c2 + sqrt square) else sqrt square - c2
     inside t d = if t > 0 && t < 1 then greater d (abs (c0 + t * (c1 + t * (c2 + t * c3)))) else d
 
--- | Some of the spans, from one to before another, as a track: no more than is needed where the
--- bound says nothing.
+-- | Spans @from@ to @to − 1@ as a parametric curve. The caller passes few spans, because the
+-- general fit costs more per span.
 trackOf :: Cubics -> Cubics -> Int -> Int -> ParametricCurve
 trackOf xs ys from to =
   ParametricCurve
@@ -271,7 +273,7 @@ trackOf xs ys from to =
       Arriving -> heading (-1) (held (ceiling u - 1)) u
       Leaving -> heading 1 (held (truncate u)) u
     held i = max from (min (to - 1) i)
-    -- Where the curve stands still, the second derivative tells.
+    -- Where the speed vanishes, the second derivative gives the direction.
     heading way i u
       | Mm (Vec.norm first) > Tolerance.still = Vec.unit first
       | Vec.norm second > 0 = Vec.unit (Vec.scale way second)

@@ -1,7 +1,8 @@
 {-# LANGUAGE BangPatterns #-}
 
--- | The walk along a stretch of a curve without corners in biarcs that go as far as they may: what
--- all curves share whose deviation from a biarc is known in closed form.
+-- | Greedy arc fitting along a smooth stretch of a curve: each biarc is as long as the tolerance
+-- allows. This is the common part for all curves whose deviation from a biarc is known in
+-- closed form.
 module Geometry.ArcFitting.LongestBiarc
   ( ParameterRange (..),
     Spans (..),
@@ -23,7 +24,8 @@ import Geometry.Segment qualified as Segment
 import Geometry.Vec (Point, Vec)
 import Geometry.Vec qualified as Vec
 
--- | From one parameter, the span that begins there, to another, and a first step to try.
+-- | Range of parameters: the span in which it starts, its start and its end, and the first step
+-- to try.
 data ParameterRange = ParameterRange
   { inSpan :: Int,
     begin :: Double,
@@ -31,31 +33,31 @@ data ParameterRange = ParameterRange
     step :: Double
   }
 
--- | How far the two arcs of a biarc are from a curve: no less than the true distances either way,
--- infinite where none is known.
+-- | Upper bounds of the distance between the curve and each of the two arcs of a biarc, in both
+-- directions; infinite where no bound is known.
 data Off = Off Double Double
 
--- | A curve of spans, the parameters at which spans meet belonging to the one behind.
+-- | Curve of consecutive spans. A parameter at which two spans meet belongs to the later span.
 data Spans = Spans
-  { -- | the span of a parameter, given one that is not behind it
+  { -- | span of a parameter, given a span that is not after it
     seek :: Int -> Double -> Int,
-    -- | the pose at a parameter, given its span; where spans meet the mean of both directions
+    -- | pose at a parameter, given its span; where spans meet, the direction is the mean of both
     pose :: Int -> Double -> Pose,
-    -- | how far a biarc is from the curve between two parameters, each given with its span and
-    -- pose; of what is further than the first argument only that it is so
+    -- | distances of a biarc from the curve between two parameters, each given with its span and
+    -- pose; a result above the first argument only says that this limit is exceeded
     off :: Double -> Int -> Double -> Pose -> Int -> Double -> Pose -> FastBiarc -> Off,
-    -- | a biarc from a pose by other means, with a step to try
+    -- | biarc from a pose by the general fit, with a step to try; used where no step succeeds
     other :: Double -> (Point, Vec) -> Double -> Further,
-    -- | whether no biarc between two parameters, each given with its span and pose, stays within a
-    -- distance
+    -- | True if no biarc between two parameters, each given with its span and pose, can stay
+    -- within a distance
     hopeless :: Double -> Int -> Double -> Pose -> Int -> Double -> Pose -> Bool,
-    -- | whether longer biarcs with other ratios are looked for where the curvature does not change
-    -- evenly: fewer by a tenth, where there are few
+    -- | True to try longer biarcs with other chord ratios where the curvature changes unevenly;
+    -- this saves a tenth of the biarcs where there are few
     patient :: Bool
   }
 
--- | The biarcs along a stretch, each as far as it stays within a distance. The vertices up to the
--- last but one are written; the last one begins what follows.
+-- | Writes the biarcs along a range, each as long as the tolerance @aim@ allows. The vertex at
+-- the end of the range is left to the caller, because the next range starts with it.
 along :: Vertices s -> Double -> ParameterRange -> Spans -> ST s ()
 along
   vertices
@@ -77,8 +79,8 @@ along
             (1 / 0)
             1
             (if final - u <= 1.5 * step then final else u + step)
-      -- Between the biarc that held and reached furthest (u when none has) and the nearest
-      -- parameter that was missed.
+      -- Bracketing search between the longest biarc within the tolerance so far (@u@ if there is
+      -- none) and the nearest parameter that failed.
       search !left !i !u !from before !held !missed !r !v
         | v <= u || left <= 0 = settled i u from before held
         | d <= aim =
@@ -115,11 +117,11 @@ along
           Off d1 d2 = off (1e6 * aim) i u from j v to pair
           d = if d1 > d2 then d1 else d2
           known = d < 1e5 * aim
-          -- The arc that is further off is made shorter, until both are equally far off.
+          -- Shortens the arc with the larger deviation, to balance both deviations.
           uneven = if known && d1 > 0.01 * d && d2 > 0.01 * d then d1 / d2 else 1
           balanced = max 0.4 (min 2.5 (r * cubeRoot uneven))
           expected = if uneven > 1 then d / sqrt uneven else d * sqrt uneven
-          -- The deviation grows with the third power of the step where the curve is smooth.
+          -- On a smooth curve the deviation grows with the third power of the step.
           grown = if 60 * expected <= aim then 4 else max 1.02 (cubeRoot (0.97 * aim / expected))
           shrunk = if known then max 0.1 (min 0.97 (cubeRoot (0.97 * aim / expected))) else 0.4
           closer low high w
@@ -143,8 +145,8 @@ along
                 mapM_ written (NonEmpty.toList segments)
                   >> (let j = seek i v in go j v (pose j v) (v - u) 0)
               | otherwise -> pure ()
-      -- Where the curvature does not change evenly, longer biarcs can hold where shorter ones do
-      -- not.
+      -- Where the curvature changes unevenly, a longer biarc can succeed although shorter ones
+      -- fail.
       longer !i !u !from before !j !v !to !pair !step
         | not patient
             || v >= final
@@ -154,7 +156,7 @@ along
         | otherwise = beyond 0
         where
           rate = (bend2 pair - bend1 pair) / (v - u)
-          -- Longer ones first, with several ratios of the chords each.
+          -- Tries the longest step first, and several chord ratios for each step.
           beyond k
             | k >= 5 = taken j from v to pair step rate
             | w >= final = beyond (k + 1 :: Int)
@@ -196,32 +198,31 @@ along
         Arc {sweep = Rad a} -> tan (a / 4)
 {-# INLINE along #-}
 
--- | A biarc that stays near enough: the parameter at its end, and how many times longer than usual
--- its second chord is.
+-- | Biarc within the tolerance: the parameter at its end, and the factor of its chord ratio.
 data Held = Held {reach :: Double, chords :: Double}
 
--- | The biarc before: how far it went, and how fast the curvature changed by it; both by the
--- parameter.
+-- | Previous biarc: its step, and the rate of change of its curvature, both by the parameter.
 data Last = Last {lastStep :: Double, lastRate :: Double}
 
--- | The curvature changes evenly where how fast it does differs by less than this share from one
--- biarc to the next.
+-- | Relative change of that rate from one biarc to the next below which the curvature changes
+-- evenly.
 even' :: Double
 even' = 0.25
 
--- | How many biarcs are tried from a place.
+-- | Largest count of biarcs that are tried from one position.
 tries :: Int
 tries = 20
 
--- | A biarc that is off by this share of what it may be goes far enough.
+-- | Share of the tolerance from which on a biarc is long enough.
 enough :: Double
 enough = 0.9
 
--- | So does one that could not be longer by this share.
+-- | Relative step between success and failure below which a biarc is long enough.
 narrow :: Double
 narrow = 0.03
 
--- | Of a number above zero; good to a few percent for those between 1/1000 and 1000.
+-- | Cube root of a positive number, by two Halley steps; accurate to a few percent between 1/1000
+-- and 1000.
 cubeRoot :: Double -> Double
 cubeRoot a
   | a > 8 = 2 * cubeRoot (a / 8)

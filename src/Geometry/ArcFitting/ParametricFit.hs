@@ -1,4 +1,5 @@
--- | Tracks: curves given by a parameter, and the arcs and lines that stand for them.
+-- | Arc fitting of parametric curves by biarcs. Deviations are measured at sample points, so the
+-- curve may be any function of its parameter.
 module Geometry.ArcFitting.ParametricFit
   ( ParametricCurve (..),
     OneSided (..),
@@ -24,30 +25,31 @@ import Geometry.Tolerance qualified as Tolerance
 import Geometry.Vec (Point, Vec)
 import Geometry.Vec qualified as Vec
 
--- | A curve given by a parameter that rises.
+-- | Curve over a rising parameter.
 data ParametricCurve = ParametricCurve
   { place :: Double -> Point,
-    -- | of length 1; the sides differ at most where one span goes over into the next
+    -- | unit direction; both sides differ only where one span continues into the next
     direction :: OneSided -> Double -> Vec,
-    -- | the parameter where the curve begins
+    -- | parameter at the start of the curve
     begin :: Double,
-    -- | where each span ends, rising; within a span the direction does not jump
+    -- | parameters at the ends of the spans, rising; within a span the direction is continuous
     breaks :: NonEmpty Double
   }
 
--- | The direction in which a walk arrives at a point, or in which it leaves.
+-- | Side from which a direction is taken: at the end of what comes before a point, or at the
+-- start of what follows.
 data OneSided = Arriving | Leaving
   deriving stock (Eq, Show)
 
--- | A part of a track without corners: spans that go over into one another.
+-- | Stretch of a curve without corners: consecutive spans.
 type Stretch = NonEmpty (Double, Double)
 
--- | Arcs and lines that stay within a distance of a curve, both ways, in as few biarcs as going as
--- far as possible each time gives. One group for each stretch between corners; within a group the
--- directions agree. The ends of the biarcs lie on the curve and have its direction (the mean of the
--- two at a kink that is no corner). Where a curve has no direction to go by, a straight line of
--- 'Tolerance.finestStep' of a span is put. A biarc costs some dozens of points of the curve, and a
--- few for each span that it passes.
+-- | Arcs and lines within a tolerance of a curve; the distance is bounded in both directions. The
+-- fit is greedy: each biarc is as long as possible. The result has one group per stretch
+-- between corners; within a group the directions agree. The ends of the biarcs lie on the curve
+-- and have its direction; at a kink that is no corner, the mean of both directions. Where the
+-- curve has no usable direction, a line over the share 'Tolerance.finestStep' of a span is
+-- used. A biarc costs some dozens of curve points, and a few more for each span that it passes.
 approximate :: Mm -> ParametricCurve -> NonEmpty (NonEmpty Segment)
 approximate (Mm tolerance) track =
   case concatMap (long . follow track tolerance) (NonEmpty.toList (stretches track)) of
@@ -59,7 +61,7 @@ approximate (Mm tolerance) track =
     long segments =
       maybe [] pure (NonEmpty.nonEmpty (filter (\s -> Segment.start s /= Segment.end s) segments))
 
--- | The spans of a track, in groups between corners.
+-- | Spans of a curve in groups between corners.
 stretches :: ParametricCurve -> NonEmpty Stretch
 stretches track =
   case filter
@@ -79,8 +81,8 @@ stretches track =
             Vec.turn (direction track Arriving u) (direction track Leaving u)
        in Rad (abs jump) > Tolerance.kink
 
--- | The walk along one stretch: its spans from where the walk is to the end, the largest deviation
--- to aim at.
+-- | State of the fit along one stretch: the largest deviation to aim at, the end of the stretch,
+-- the current parameter and pose, and the spans that lie ahead.
 data Walk = Walk
   { track :: ParametricCurve,
     aim :: Double,
@@ -90,8 +92,8 @@ data Walk = Walk
     ahead :: [(Double, Double)]
   }
 
--- | The segments along a stretch. Where the end may be near, the whole rest is tried first: that a
--- shorter biarc does not do it does not mean that a longer one does not either.
+-- | Segments along a stretch. When the end is near, the whole rest is tried first: a longer biarc
+-- can succeed where a shorter one fails.
 follow :: ParametricCurve -> Double -> Stretch -> [Segment]
 follow track tolerance stretch = go walk (final walk - start)
   where
@@ -118,11 +120,11 @@ follow track tolerance stretch = go walk (final walk - start)
          in NonEmpty.toList pieces <> go next (reached - at w)
       | otherwise = []
 
--- | A biarc, and the parameter at which it ends on the curve.
+-- | Biarc, and the parameter at which it ends on the curve.
 data Further = Further Double (NonEmpty Segment)
 
--- | One biarc of a stretch that ends at a parameter: from a parameter, the place and the direction
--- of the biarc before, and a step to try.
+-- | One biarc of a stretch that ends at the parameter @final@: it starts at a parameter with the
+-- position and direction of the biarc before, and a first step to try.
 further :: Mm -> ParametricCurve -> Double -> Double -> (Point, Vec) -> Double -> Further
 further (Mm tolerance) track final at pose step = Further reached pieces
   where
@@ -133,7 +135,7 @@ further (Mm tolerance) track final at pose step = Further reached pieces
     ahead = takeWhile ((< final) . fst) (dropWhile ((<= at) . snd) (zip (begin track : ends) ends))
     ends = NonEmpty.toList (breaks track)
 
--- | The direction at a joint: the mean of both sides where spans meet.
+-- | Direction at a joint; where spans meet, the mean of both sides.
 heading :: Walk -> Double -> Vec
 heading w u
   | u >= final w = arriving
@@ -143,17 +145,18 @@ heading w u
     arriving = direction (track w) Arriving u
     leaving = direction (track w) Leaving u
 
--- | A biarc that has been tried: how far it reaches, and the largest distance from the curve.
+-- | Biarc that was tried: the parameter at its end, its segments, and its largest distance from
+-- the curve.
 data Trial = Trial {reached :: Double, pieces :: NonEmpty Segment, off :: Double}
 
--- | The biarc that reaches furthest within the tolerance. The deviation grows with the third power
--- of the step where the curve is smooth; the next step to try is taken from that, between the
--- longest that held and the shortest that did not.
+-- | Longest biarc within the tolerance, by a bracketing search. On a smooth curve the deviation
+-- grows with the third power of the step. The next step is extrapolated by this rule, and kept
+-- between the longest success and the shortest failure.
 furthest :: Walk -> Double -> Trial
 furthest w first = beyond (search (24 :: Int) Nothing Nothing first)
   where
     u = at w
-    -- On a rough scale longer biarcs can hold where shorter ones do not.
+    -- On a coarse scale a longer biarc can succeed where shorter ones fail.
     beyond best
       | final w - u > 16 * (reached best - u) = best
       | otherwise =
@@ -184,10 +187,10 @@ furthest w first = beyond (search (24 :: Int) Nothing Nothing first)
         shorter t = case held of
           Just best -> within best (reached t) (step * growth t)
           Nothing -> step * max 0.1 (min 0.9 (growth t))
-    -- By how much the step can grow.
+    -- Factor by which the step can grow.
     growth t = if off t > 0 then (0.97 * aim w / off t) ** (1 / 3) else 4
     narrow best missed = missed - reached best <= 0.02 * (reached best - u)
-    -- A step between two others.
+    -- Clamps a step to the interior of the bracket.
     within best limit s =
       let a =
             reached best - u
@@ -201,8 +204,8 @@ furthest w first = beyond (search (24 :: Int) Nothing Nothing first)
             min (final w) (u + least)
        in Trial v (Straight (fst (pose w)) (place (track w) v) :| []) 0
 
--- | The biarc to a parameter, measured; where the usual ratio of the chords misses, the best of
--- others, among them those that put the joint where spans meet.
+-- | Biarc to a parameter, with its deviation. Where the default chord ratio fails, other ratios
+-- are tried, among them those that put the joint where spans meet.
 try :: Walk -> Double -> Trial
 try w v
   | Vec.near p q = measured (Straight p q :| [])
@@ -220,12 +223,12 @@ try w v
     tried rs =
       [(roughly pieces, r, pieces) | r <- rs, Just pieces <- [Biarc.joinWith r (pose w) end]]
     least some = minimumBy (comparing (\(d, _, _) -> d)) some
-    -- A better ratio in the neighbourhood, where that can be enough.
+    -- Refines the ratio by shrinking steps, where that can reach the tolerance.
     closer left factor best@(d, r, _)
       | left <= 0 || d <= aim w || d > 4 * aim w = best
       | otherwise =
         closer (left - 1) (sqrt factor) (least (best : tried [r / sqrt factor, r * sqrt factor]))
-    -- Few spans are enough: what has many is no chain of lines and arcs.
+    -- Only for few spans: a curve with many is no chain of lines and arcs.
     breaking = case drop 1 parts of
       inner
         | length inner <= 8 ->
@@ -258,8 +261,8 @@ try w v
           )
     interleaved as bs = concat (zipWith (\a b -> [a, b]) as bs)
 
--- | Parts of spans, with the number of points to look at: as many as their share of the parameter
--- or of the length asks for.
+-- | Counts of sample points for parts of spans, in proportion to their share of the parameter or
+-- of the length, whichever is larger.
 counted :: Walk -> Double -> [(Double, Double)] -> [(Int, (Double, Double))]
 counted w v parts = case parts of
   [one] -> [(8, one)]
@@ -272,8 +275,8 @@ counted w v parts = case parts of
       [let Mm d = Vec.distance (place (track w) a) (place (track w) b) in d | (a, b) <- parts]
     whole = sum chords
 
--- | Points of a curve over a part of a span, moved back by a share of their distance; not quite
--- evenly, so that a wave does not pass for its samples.
+-- | Sample points of a curve over a part of a span, shifted back by a share of their spacing. The
+-- spacing is uneven, so that the samples cannot stay in phase with a wave.
 spread :: (Double -> Point) -> Double -> (Int, (Double, Double)) -> [(Double, Point)]
 spread point back (n, (a, b)) =
   [ let u =
@@ -284,13 +287,14 @@ spread point back (n, (a, b)) =
   where
     uneven f = f + 0.2 * f * (1 - f)
 
--- | The distance of a point from the nearest of some segments.
+-- | Distance from a point to the nearest of some segments.
 apart :: NonEmpty Segment -> Point -> Double
 apart pieces p = let Mm d = minimum (fmap (Distance.toPoint p) pieces) in d
 
--- | The largest distance between segments and a curve given by points along it: at these points,
--- near the segments' joint, and at each maximum between them. Infinite where the feet on the
--- segments jump or go back: then not every point of the segments is near the curve.
+-- | Largest distance between segments and a curve that is given by points along it: at the
+-- points, near the joint of the segments, and at every maximum between the points. Infinite
+-- where the feet on the segments jump or reverse, because then some point of the segments may
+-- be far from the curve.
 deviation :: (Double -> Point) -> Double -> NonEmpty Segment -> [(Double, Point)] -> Double
 deviation point aim pieces points
   | largest > aim || covered point aim pieces feet = largest
@@ -317,8 +321,8 @@ deviation point aim pieces points
               (drop 2 known)
         )
 
--- | The maximum about the middle one of three neighbouring values, if that is the largest and
--- matters: the vertex of the parabola through them, again and again until it says nothing new.
+-- | Maximum near the middle one of three neighbouring values, if the middle value is the largest
+-- and large enough to matter. Successive parabolic interpolation, until it yields nothing new.
 highest ::
   (Double -> Double) ->
   Double ->
@@ -346,8 +350,8 @@ highest off aim left one@(a, da) two@(b, db) three@(c, dc)
     again = highest off aim (left - 1)
     max' x y = if snd x > snd y then x else y
 
--- | Whether the feet of a curve's points move along the segments without a jump. Where a foot moves
--- much further than its point, the curve between is looked at more closely.
+-- | True if the feet of a curve's points move along the segments without a jump. Where a foot
+-- moves much farther than its point, the interval is bisected.
 covered :: (Double -> Point) -> Double -> NonEmpty Segment -> [(Double, Point, Double)] -> Bool
 covered point aim pieces feet = and (zipWith (steady (20 :: Int)) feet (drop 1 feet))
   where
@@ -364,7 +368,7 @@ covered point aim pieces feet = and (zipWith (steady (20 :: Int)) feet (drop 1 f
     at w = let p = point w in (w, p, progress pieces p)
     grain = 0.1 * aim
 
--- | How far along segments the foot of a point lies.
+-- | Length along segments up to the foot of a point.
 progress :: NonEmpty Segment -> Point -> Double
 progress pieces p = go 0 (NonEmpty.toList pieces) (1 / 0, 0)
   where

@@ -1,20 +1,17 @@
 {-# LANGUAGE BangPatterns #-}
--- The numbers that a loop carries stay bare even where there are more than ten of them.
+-- The inner loop has more than ten unboxed arguments, which the default limit would box.
 {-# OPTIONS_GHC -O2 -fno-full-laziness -fmax-worker-args=40 #-}
 
--- | Biarcs along a chain of lines and arcs, and how far they are from it in closed form.
+-- | Arc fitting of polyarcs by biarcs, with an error bound in closed form.
 --
--- In the frame of an arc's beginning, x along its direction, y to its left, the circle of the
--- curvature k is where
--- @F = y − k·(x² + y²)/2@ is 0, and a point with @|k·F|@ well below 1 is @|F|·(1 + |k·F|)@ away
---  from it at most. Along a line
--- or an arc F has one extremum at most as long as that turns by less than a quarter turn; there its
--- slope
--- @F′ = d_y − k·(x·d_x + y·d_y)@ is 0, which goes nearly evenly from one end to the other.
+-- Take the frame of an arc's start, with x along its direction and y to its left. The circle with
+-- the curvature k is the zero set of @F = y − k·(x² + y²)/2@. Where @|k·F|@ is well below 1, a
+-- point is at most @|F|·(1 + |k·F|)@ away from the circle. Along a line or an arc that sweeps less
+-- than a quarter turn, F has at most one extremum. It lies where the slope @F′ = d_y − k·(x·d_x +
+-- y·d_y)@ is 0; this slope is nearly linear from one end to the other.
 --
--- As long as the chain goes forwards as seen from both ends of the arc, its feet on the arc go
--- without a jump from the beginning to the end, so that every point of the arc is as near to the
--- chain.
+-- As long as the polyarc runs forwards in the directions of both ends of the arc, its feet on the
+-- arc cover the arc without a jump. Then the same bound holds from the arc to the polyarc.
 module Geometry.ArcFitting.PolyarcFit
   ( approximate,
     smoothed,
@@ -44,13 +41,14 @@ import Geometry.Segment qualified as Segment
 import Geometry.Tolerance qualified as Tolerance
 import Geometry.Vec qualified as Vec
 
--- | A chain by its length in mm: where each piece begins along it and, at the very last, where it
--- ends; seven numbers for each piece: the place where it begins, the directions at its beginning
--- and at its end, the curvature (1/mm).
+-- | Polyarc over its arc length in mm. @stations@ are the arc lengths at the starts of the
+-- segments and, as the last entry, the whole length. @pieces@ has seven numbers per segment:
+-- the start point, the unit directions at the start and at the end, and the curvature (1/mm).
 data Chain = Chain {stations :: Vector Double, pieces :: Vector Double}
 
--- | Arcs and lines that stay within a distance of a chain, both ways, in as few biarcs as going as
--- far as possible each time gives; corners stay. Every segment has a length.
+-- | Arcs and lines within a tolerance of a polyarc; the distance is bounded in both directions.
+-- The fit is greedy: each biarc is as long as possible. Corners are kept. Every segment of the
+-- input must have a length.
 approximate :: Mm -> NonEmpty Segment -> FlatPolyarc
 approximate (Mm tolerance) segments = runST $ do
   vertices <- Builder.new
@@ -88,7 +86,7 @@ approximate (Mm tolerance) segments = runST $ do
     n = Unboxed.length (stations chain) - 1
     end = Segment.end (NonEmpty.last segments)
     aim = tolerance * (1 - Tolerance.roundingShare)
-    -- Of a stretch that goes on to the end of a piece no more than is needed is looked at.
+    -- The general fit looks at no more than 64 segments ahead of the current one.
     sharp to u =
       let i =
             min (to - 1) (BinarySearch.lastBelow n u (stations chain))
@@ -98,9 +96,9 @@ approximate (Mm tolerance) segments = runST $ do
             (station chain (min to (i + 64)))
             u
 
--- | A chain that turns at corners only and stays within a distance of another one: the other
--- itself, neighbours on one circle as one arc; but for stretches between corners with kinks, for
--- which others stand as 'approximate' gives them.
+-- | Polyarc with kinks at corners only, within a tolerance of the given one. Stretches between
+-- corners without kinks are kept, with neighbouring arcs on one circle merged. Stretches with
+-- kinks are replaced by the result of 'approximate'.
 smoothed :: Mm -> NonEmpty Segment -> NonEmpty Segment
 smoothed tolerance (first :| others) = gathered (first :| []) first False others
   where
@@ -126,8 +124,8 @@ smoothed tolerance (first :| others) = gathered (first :| []) first False others
           (MeasuredPolyarc.fromOutline (approximate tolerance (NonEmpty.reverse before)))
       | otherwise = NonEmpty.reverse before
 
--- | An arc and the next one as one arc of half a turn at most, if the circle of the first is that
--- of the next as far as doubles tell.
+-- | Merges two consecutive arcs into one arc of at most half a turn, if they lie on one circle
+-- within rounding.
 together :: Segment -> Segment -> Maybe Segment
 together s next = case (s, next) of
   (Arc {start, centre, sweep = Rad a}, Arc {end, sweep = Rad b})
@@ -143,6 +141,7 @@ together s next = case (s, next) of
     onCircle c (Mm r) p = let Mm d = Vec.distance c p in Mm (abs (d - r)) <= Tolerance.arcLength
     bend both = let Rad t = Vec.turn (Segment.endDirection next) (Segment.endDirection both) in t
 
+-- | Arrays of a polyarc.
 chainOf :: NonEmpty Segment -> Chain
 chainOf segments =
   Chain
@@ -159,7 +158,7 @@ chainOf segments =
     n = NonEmpty.length segments
     list = NonEmpty.toList segments
 
--- | The numbers of a piece from a place in the array on; gives the place behind them.
+-- | Writes the seven numbers of a segment at an index of the array; returns the index after them.
 numbers :: Mutable.MVector s Double -> Int -> Segment -> ST s Int
 numbers array i s = case s of
   Straight p q -> let d = Vec.unit (Vec.to p q) in written p d d 0
@@ -177,26 +176,27 @@ numbers array i s = case s of
       pure (i + 7)
     put j = Mutable.unsafeWrite array (i + j)
 
+-- | Arc length at the start of a segment; at the index after the last one, the whole length.
 station :: Chain -> Int -> Double
 station chain = Unboxed.unsafeIndex (stations chain)
 
--- | The pose at the beginning of a piece.
+-- | Pose at the start of a segment.
 beginning :: Chain -> Int -> Pose
 beginning chain i = Pose (part 0) (part 1) (part 2) (part 3)
   where
     part k = Unboxed.unsafeIndex (pieces chain) (7 * i + k)
 
--- | The direction at the end of a piece.
+-- | Direction at the end of a segment.
 ending :: Chain -> Int -> (Double, Double)
 ending chain i =
   (Unboxed.unsafeIndex (pieces chain) (7 * i + 4), Unboxed.unsafeIndex (pieces chain) (7 * i + 5))
 {-# INLINE ending #-}
 
--- | The curvature of a piece.
+-- | Curvature of a segment in 1/mm.
 curvature :: Chain -> Int -> Double
 curvature chain i = Unboxed.unsafeIndex (pieces chain) (7 * i + 6)
 
--- | Whether the chain has a corner at the beginning of a piece, behind another.
+-- | True if the polyarc has a corner at the start of a segment other than the first.
 cornered :: Chain -> Int -> Bool
 cornered chain k = not (dx b * ex + dy b * ey > 0 && abs (ex * dy b - ey * dx b) <= sin kink)
   where
@@ -204,7 +204,8 @@ cornered chain k = not (dx b * ex + dy b * ey > 0 && abs (ex * dy b - ey * dx b)
     b = beginning chain k
     Rad kink = Tolerance.kink
 
--- | The piece, before another, that holds a place, given one that is not behind it.
+-- | Segment below @to@ that contains an arc length, given a segment that is not after it;
+-- galloping (exponential) search followed by binary search.
 seekFrom :: Chain -> Int -> Int -> Double -> Int
 seekFrom chain to from u = gallop from 1
   where
@@ -212,7 +213,7 @@ seekFrom chain to from u = gallop from 1
       | low + step >= to = if to - low <= 1 then low else search low to
       | station chain (low + step) <= u = gallop (low + step) (2 * step)
       | otherwise = search low (low + step)
-    -- What is sought is low or behind it, and before high.
+    -- Invariant: the result is at least @low@ and below @high@.
     search low high
       | high - low <= 1 = low
       | station chain middle <= u = search middle high
@@ -220,7 +221,7 @@ seekFrom chain to from u = gallop from 1
       where
         middle = (low + high) `div` 2
 
--- | The pose so far along a piece from a pose on it, given its curvature.
+-- | Pose at a distance along a segment from a pose on it, given the segment's curvature.
 advanced :: Double -> Pose -> Double -> Pose
 advanced k (Pose x y ux uy) s
   | k == 0 = Pose (x + s * ux) (y + s * uy) ux uy
@@ -236,8 +237,8 @@ advanced k (Pose x y ux uy) s
     n = sin (0.5 * k * s)
     chord = 2 * n / k
 
--- | The place and the direction at a place of a stretch, given its piece; where pieces meet the
--- mean of both directions.
+-- | Pose at an arc length in a stretch, given its segment. Where segments meet, the direction is
+-- the mean of both.
 poseWithin :: Chain -> Int -> Int -> Int -> Double -> Pose
 poseWithin chain from to i u
   | u >= station chain to = arriving (to - 1)
@@ -262,11 +263,11 @@ poseWithin chain from to i u
           l = sqrt (sx * sx + sy * sy)
        in b {dx = sx / l, dy = sy / l}
 
--- | How far a biarc is from the chain between two places, given the pieces of both; of what is
--- further than a limit only that it is so.
+-- | Bounds of the distances of a biarc's two arcs from the polyarc between two arc lengths, given
+-- their segments. A bound above the limit only says that the limit is exceeded.
 apart :: Chain -> Double -> Int -> Double -> Pose -> Int -> Double -> Pose -> FastBiarc -> Off
 apart chain most first u from final v to pair
-  -- Most of what is too far off is so at one of a few places.
+  -- Rejects most biarcs that are too far off by testing a few vertices first.
   | if final - first >= 4 then stray 1 || stray 2 || stray 3 else strayed (first + 1) = unknown
   | single pair =
     let one =
@@ -285,7 +286,7 @@ apart chain most first u from final v to pair
     _ -> unknown
   | otherwise = unknown
   where
-    -- With the chain's own direction, not the mean of two where pieces meet.
+    -- Uses the polyarc's own direction, not the mean of both where segments meet.
     start =
       Reached
         first
@@ -307,8 +308,8 @@ apart chain most first u from final v to pair
       | otherwise = abs (above (bend2 pair) (joint pair) p) > most
       where
         !p = beginning chain (first + k * (final - first) `quot` 4)
-    -- Where pieces meet, from one of them on: at first beside the first arc, and once beyond its
-    -- end beside the second one.
+    -- Tests the vertices one by one: against the first arc up to its end, then against the second
+    -- arc.
     strayed i
       | i > final = False
       | single pair
@@ -324,9 +325,9 @@ apart chain most first u from final v to pair
                || strayedBehind (i + 1)
            )
 
--- | Whether a place between two others, given with their pieces and poses, is further than a
--- distance from any biarc between these: all of them lie between two circles through both places,
--- one with the direction at the first and one with that at the final.
+-- | True if a vertex between two positions, given with their segments and poses, is farther than
+-- a distance from every biarc between them. All these biarcs lie between two circles through
+-- both positions: one with the start direction, one with the end direction.
 astray :: Chain -> Double -> Int -> Double -> Pose -> Int -> Double -> Pose -> Bool
 astray chain most first _ from final _ to = max (abs bendA) (abs bendB) * most < slack / 2 && go 1
   where
@@ -345,7 +346,7 @@ astray chain most first _ from final _ to = max (abs bendA) (abs bendB) * most <
         !p = beginning chain (first + k * (final - first) `quot` n)
     isOutside a b = a > far && b > far || a < -far && b < -far
 
--- | At so many places it is looked whether a stretch is too far away.
+-- | Largest count of vertices that 'astray' tests.
 places :: Int
 places = 8
 
@@ -353,15 +354,18 @@ places = 8
 slack :: Double
 slack = 0.05
 
--- | A piece, a place on the chain and the pose there, and the distance up to there.
+-- | Segment, arc length and pose of a position on the polyarc, and the bound of the distance up
+-- to this position.
 data Reached = Reached Int Double Pose Double
 
--- | Past one arc: to the normal at its end or, on the last one, to a place with its pose.
+-- | Advances along one arc and bounds the distance: to the normal at the arc's end or, for the
+-- last arc, to a given position with its pose.
 onward :: Chain -> Double -> Double -> Pose -> Bool -> FastArc -> Reached -> Reached
 onward !chain !most !v !to !final !f (Reached i0 u0 begin d0) =
   go i0 u0 (px begin) (py begin) (dx begin) (dy begin) (level f begin) (abs (level f begin))
   where
-    -- The pose in bare numbers, and F there, and the greatest so far: there are many.
+    -- Passes the pose as plain numbers, with F at the pose and the largest F so far, because this
+    -- loop runs once per segment and biarc.
     go !i !u !x !y !hx !hy !here !most'
       | end >= v = lastly i u (Pose x y hx hy) (worse d0 (distant f most'))
       | otherwise = case beginning chain (i + 1) of
@@ -369,7 +373,7 @@ onward !chain !most !v !to !final !f (Reached i0 u0 begin d0) =
           | not final && beyond f arriving >= 0 ->
             across i u end p arriving (worse d0 (distant f most'))
           | not (ahead f p && ahead f arriving) -> Reached (i + 1) end arriving (1 / 0)
-          -- Seldom can there be more between them.
+          -- Tests for an inner extremum only if there can be one; there seldom is.
           | abs here + 1.5 * abs m * (end - u) > greater,
             e <- extreme here m (slope f arriving) (hx * ey - hy * ex) (end - u),
             e > greater ->
@@ -387,13 +391,13 @@ onward !chain !most !v !to !final !f (Reached i0 u0 begin d0) =
               | otherwise = go (i + 1) end nx ny kx ky there now
       where
         !end = station chain (i + 1)
-    -- In the piece that holds the place.
+    -- Ends in the segment that contains the last position.
     lastly !i !u !p !d
       | final = Reached i v to (worse d (beside f p to (v - u)))
       | beyond f to < 0 = Reached i v to (1 / 0)
       | otherwise = across i u v p to d
     {-# NOINLINE lastly #-}
-    -- To the normal at the arc's end, before the end of the piece.
+    -- Ends at the normal of the arc's end, which crosses this segment.
     across !i !u !w !p !q !d = Reached i (u + s) c (worse d (beside f p c s))
       where
         s = newton (held ((u - w) * from / (beyond f q - from)))
@@ -407,17 +411,17 @@ onward !chain !most !v !to !final !f (Reached i0 u0 begin d0) =
     {-# NOINLINE across #-}
     worse d e = if e <= d then d else e
 
--- | How far a place is beyond the normal at an arc's end.
+-- | Signed distance of a position beyond the normal at an arc's end.
 beyond :: FastArc -> Pose -> Double
 beyond f p = (px p - px (limit f)) * dx (limit f) + (py p - py (limit f)) * dy (limit f)
 {-# INLINE beyond #-}
 
--- | F of an arc's circle at a place.
+-- | F of an arc's circle at a position.
 level :: FastArc -> Pose -> Double
 level f = above (bend f) (origin f)
 {-# INLINE level #-}
 
--- | F of the circle of a curvature that begins with a pose.
+-- | F of the circle that starts at a pose with a given curvature.
 above :: Double -> Pose -> Pose -> Double
 above k from p = uy * dx from - ux * dy from - 0.5 * k * (ux * ux + uy * uy)
   where
@@ -425,8 +429,8 @@ above k from p = uy * dx from - ux * dy from - 0.5 * k * (ux * ux + uy * uy)
     uy = py p - py from
 {-# INLINE above #-}
 
--- | How far a part of a piece of a length, from one pose to another, can be from an arc; infinite
--- where it may not go forwards.
+-- | Bound of the distance between an arc and a part of a segment, given by its two poses and its
+-- length; infinite where the segment might not run forwards.
 beside :: FastArc -> Pose -> Pose -> Double -> Double
 beside f p q l
   | ahead f p && ahead f q =
@@ -442,14 +446,14 @@ beside f p q l
     to = level f q
     greater a b = if a > b then a else b
 
--- | The distance that F comes to at most; infinite where it is not known.
+-- | Bound of the distance for a value of F; infinite where no bound is known.
 distant :: FastArc -> Double -> Double
 distant f d = if k * d < 0.2 then d * (1 + k * d) else 1 / 0
   where
     k = abs (bend f)
 {-# INLINE distant #-}
 
--- | Whether a pose goes forwards as seen from both ends of an arc.
+-- | True if a pose runs forwards in the directions of both ends of an arc.
 ahead :: FastArc -> Pose -> Bool
 ahead f p =
   along > 0 && along * cosine f + (dy p * dx (origin f) - dx p * dy (origin f)) * sine f > 0
@@ -457,23 +461,23 @@ ahead f p =
     along = dx p * dx (origin f) + dy p * dy (origin f)
 {-# INLINE ahead #-}
 
--- | How fast F changes along a pose.
+-- | Derivative of F along a pose.
 slope :: FastArc -> Pose -> Double
 slope f p =
   (dy p * dx (origin f) - dx p * dy (origin f))
     - bend f * ((px p - px (origin f)) * dx p + (py p - py (origin f)) * dy p)
 {-# INLINE slope #-}
 
--- | What F comes to between two places a length apart: given it at the first, its slopes at both,
--- and the sine of what the piece turns by; by its square the extremum is not quite a parabola's. 0
--- where there is none, and never more than @|F| + 3/2·|slope|·length@.
+-- | Extremum of F between two positions, given F at the first, the slopes at both, the sine of
+-- the sweep between them, and their distance. The square of the sine corrects the parabola. The
+-- result is 0 where there is no extremum, and never more than @|F| + 3/2·|slope|·length@.
 extreme :: Double -> Double -> Double -> Double -> Double -> Double
 extreme from m n turned l
   | m * n < 0 = abs (from - 0.5 * m * m * l / (n - m) * (1 + 2 * turned * turned))
   | otherwise = 0
 {-# INLINE extreme #-}
 
--- | Some of the pieces, from one to before another, as a track by the chain's length.
+-- | Segments @from@ to @to − 1@ as a parametric curve over arc length.
 trackOf :: Chain -> Int -> Int -> ParametricCurve
 trackOf chain from to =
   ParametricCurve

@@ -56,6 +56,7 @@ import Geometry.Transformation qualified as Transformation
 import Geometry.Vec (Point, Vec)
 import Geometry.Vec qualified as Vec
 
+-- | Unshifted curve with the rows of its table.
 data Base = Base
   { method :: CurveKind,
     -- | rows of the table in the curve's direction; evaluated on demand
@@ -312,6 +313,7 @@ ofPieces = ofSpans . vector Span.ofPiece
 ofChain :: NonEmpty Segment -> Vector Double -> Either CurveFault Base
 ofChain = ofSpans . vector Span.ofSegment
 
+-- | Base of consecutive spans with the given rising parameters of the rows.
 ofSpans :: Vector Span -> Vector Double -> Either CurveFault Base
 ofSpans parts parameters = do
   joined parts
@@ -394,6 +396,7 @@ distinct needed points
           [1 .. Vector.length points - 1]
       )
 
+-- | True if the last of at least three points repeats the first.
 closes :: Vector Point -> Bool
 closes points = case (points Vector.!? 0, points Vector.!? (Vector.length points - 1)) of
   (Just p, Just q) -> Vector.length points > 2 && Vec.near p q

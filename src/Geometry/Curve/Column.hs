@@ -34,6 +34,7 @@ import Geometry.Numeric.TaylorExpansion qualified as TaylorExpansion
 data Column = Column {values :: Vector Double, course :: Interpolation}
   deriving stock (Eq, Show)
 
+-- | Interpolation of a column between the rows.
 data Interpolation
   = -- | a cubic for every span of the base
     BySpan Cubics

@@ -62,6 +62,7 @@ most = 24
 -- | Point and derivative (mm per unit of the parameter) at a parameter: x, y, x′, y′.
 data Node = Node Double Double Double Double
 
+-- | Speed at a node, in mm per unit of the parameter.
 speed :: Node -> Double
 speed (Node _ _ vx vy) = sqrt (vx * vx + vy * vy)
 
@@ -69,10 +70,12 @@ speed (Node _ _ vx vy) = sqrt (vx * vx + vy * vy)
 -- function that gives nodes.
 data Piece = Piece {begin, end :: Double, first, inside, final :: Node, nodeAt :: Double -> Node}
 
+-- | Interval between two nodes, with a new node at its middle.
 between :: (Double -> Node) -> Double -> Node -> Double -> Node -> Piece
 between nodeAt begin first end final =
   Piece {begin, end, first, inside = nodeAt (middle begin end), final, nodeAt}
 
+-- | Mean of two parameters.
 middle :: Double -> Double -> Double
 middle a b = 0.5 * (a + b)
 
@@ -87,10 +90,10 @@ span' Piece {begin, end, first = Node px py vx vy, final = Node qx qy wx wy} =
     h = end - begin
     hermite p q v w = Cubic p v (3 * (q - p) - 2 * v - w) (2 * (p - q) + v + w)
 
--- | True if the Hermite cubics of both halves of an interval are within the tolerance. Two tests
--- apply: the difference of the whole interval, divided by 16 for its halves, with a safety
--- factor of 2; and the difference of each half. Each test uses both the even term (the point at
--- the middle) and the odd term (the derivative there).
+-- | True if the Hermite cubics of both halves of an interval are within the tolerance. The
+-- differences that are expected of the halves, from those of the whole interval, must be at most
+-- half of the tolerance; the measured differences of each half must be within it. Both tests use
+-- the even term (the point at the middle) and the odd term (the derivative there).
 near :: Double -> Piece -> Piece -> Piece -> Bool
 near tolerance whole one other =
   place <= 8 * tolerance && bend <= 16 * tolerance && all itself [one, other]

@@ -44,6 +44,7 @@ fold curve = case curve of
     Just found -> Just found
     Nothing -> folded top lower curve
 
+-- | Cusp of the outermost shift alone: the layer, the curve below it, and the whole curve.
 folded :: Layer -> Curve -> Curve -> Maybe Cusp
 folded top lower whole
   | tight >= 1 =

@@ -24,14 +24,17 @@ import Geometry.Vec qualified as Vec
 -- | Foot of the perpendicular from a point to a curve, and the unit tangent there.
 type Foot = Point -> (Point, Vec)
 
+-- | Foot on a line.
 onLine :: Line -> Foot
 onLine l p = (Carrier.foot l p, Carrier.direction l)
 
+-- | Foot on a circle.
 onCircle :: Circle -> Foot
 onCircle (Circle c (Mm r)) p = (Vec.shift (Vec.scale r out) c, Vec.left out)
   where
     out = Vec.unit (Vec.to c p)
 
+-- | Foot on a curve; at an end of the curve, the nearest point.
 onCurve :: Curve -> Foot
 onCurve c p = let u = Curve.nearest p c in (Curve.at c u, Curve.tangent c u)
 

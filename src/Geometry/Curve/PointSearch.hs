@@ -149,6 +149,7 @@ atX abscissa curve = distinct (concatMap found (stretches curve))
             ShiftedCurve.jetAt 0 curve (ShiftedCurve.spot After u curve)
        in off (PowerSeries.value a) == 0
 
+-- | Merge of two rising lists.
 merged :: [Double] -> [Double] -> [Double]
 merged as bs = case (as, bs) of
   ([], _) -> bs

@@ -186,6 +186,7 @@ segment p = case curve p of
 -- | Differences in x and in y from one end of a section to the other.
 data Chord = Chord Double Double
 
+-- | Chord from one point to another.
 chordOf :: Point -> Point -> Chord
 chordOf a b = Chord (Vec.x b - Vec.x a) (Vec.y b - Vec.y a)
 

@@ -59,6 +59,7 @@ fit kinds (Mm tolerance) t = fmap piece (simplest t steps (bottleneck steps))
     steps = layers t (toList (NonEmpty.nub (NonEmpty.sort kinds))) tolerance
     piece (i, j, k) = let (d, c) = best t k i j in pieceOf t i j c (Mm d)
 
+-- | Section between two rows (indices from 0) with a shape and its largest deviation.
 pieceOf :: PointTable -> Int -> Int -> SectionShape -> Mm -> Section
 pieceOf t i j curve largest =
   Section {first = i + 1, final = j + 1, from = row t i, to = row t j, curve, largest}

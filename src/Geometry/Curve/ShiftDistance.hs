@@ -31,6 +31,7 @@ import Geometry.Numeric.PowerSeries qualified as PowerSeries
 import Geometry.Numeric.TaylorExpansion (Approach (..), TaylorExpansion)
 import Geometry.Numeric.TaylorExpansion qualified as TaylorExpansion
 
+-- | Distance of a shift as a function of the position on the curve.
 data Distance
   = -- | constant (cipher 2)
     Constant Mm

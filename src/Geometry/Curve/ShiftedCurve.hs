@@ -29,6 +29,7 @@ import Geometry.Numeric.TaylorExpansion (Approach (..), TaylorExpansion)
 import Geometry.Numeric.TaylorExpansion qualified as TaylorExpansion
 import Geometry.Vec qualified as Vec
 
+-- | Curve with any number of shifts.
 data Curve
   = Plain Base
   | -- | a curve moved along its left normal; the arc length is that of the result

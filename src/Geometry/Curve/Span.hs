@@ -46,6 +46,7 @@ data SpanShape
     Circular Segment
   deriving stock (Eq, Show)
 
+-- | Span of a shape.
 ofPiece :: SpanShape -> Span
 ofPiece piece = case piece of
   Line p q -> Polynomial (Spline.line (Vec.x p) (Vec.x q)) (Spline.line (Vec.y p) (Vec.y q))
@@ -56,6 +57,7 @@ ofPiece piece = case piece of
           (Cubic (c + from * (b + from * a)) (d * (b + 2 * a * from)) (a * d * d) 0)
   Circular s -> ofSegment s
 
+-- | Span of a line or an arc.
 ofSegment :: Segment -> Span
 ofSegment s = case s of
   Straight p q -> ofPiece (Line p q)
@@ -125,5 +127,6 @@ image s v = Vec.to (Transformation.point s origin) (Transformation.point s (Vec.
   where
     origin = Vec.point 0 0
 
+-- | x and y of a displacement.
 components :: Vec -> (Double, Double)
 components v = (Vec.dot v (Vec.vec 1 0), Vec.dot v (Vec.vec 0 1))

@@ -45,6 +45,7 @@ coefficients (Cubic a b c d) = [a, b, c, d]
 line :: Double -> Double -> Cubic
 line p q = Cubic p (q - p) 0 0
 
+-- | Value at a parameter.
 value :: Cubic -> Double -> Double
 value (Cubic a b c d) t = a + t * (b + t * (c + t * d))
 
