@@ -161,7 +161,7 @@ rowCount = Vector.length . Base.rows . base
 -- | Value of a column at a parameter.
 columnAt :: Curve -> Column -> Double -> Double
 columnAt curve c u =
-  PowerSeries.value (Column.series 0 (base curve) c (ShiftedCurve.spot After u curve))
+  PowerSeries.value (Column.series 0 (base curve) c (ShiftedCurve.spanPoint After u curve))
 
 -- | Row values of the curve, reordered for its reverse.
 backwards :: Curve -> Vector Double -> Vector Double
@@ -172,11 +172,11 @@ backwards curve = Base.backwards (base curve)
 joggled :: Joggle -> Curve -> Either CurveFault Distance
 joggled joggle@Joggle {begins, ends, depth = Mm depth, radius = Mm r} curve
   | r <= 0 || abs depth >= 2 * r = Left DeepJoggle
-  | needed > there = Left (LongJoggle needed there)
+  | needed > available = Left (LongJoggle needed available)
   | otherwise = Right (Joggled joggle)
   where
     needed = times 2 (ramp joggle)
-    there = minus (lengthTo curve ends) (lengthTo curve begins)
+    available = minus (lengthTo curve ends) (lengthTo curve begins)
 
 -- | Segments of an unshifted curve that consists of lines and arcs only and has at least one arc.
 -- Each segment starts exactly where the one before ends.
@@ -222,7 +222,7 @@ curvature curve u = TaylorExpansion.curvature (jet After 2 curve u)
 
 -- | Taylor expansion of the point about a parameter, up to the given order.
 jet :: Approach -> Int -> Curve -> Double -> TaylorExpansion
-jet approach n curve u = ShiftedCurve.jetAt n curve (ShiftedCurve.spot approach u curve)
+jet approach n curve u = ShiftedCurve.expansionAt n curve (ShiftedCurve.spanPoint approach u curve)
 
 -- | First point of the curve.
 start :: Curve -> Point
@@ -238,15 +238,15 @@ isClosed = PointSearch.closed
 
 -- | True arc length. Gaps that a shift opens at corners do not count.
 length :: Curve -> Mm
-length curve = ArcLength.total (ShiftedCurve.ruler curve)
+length curve = ArcLength.total (ShiftedCurve.arcLength curve)
 
 -- | Arc length from the start to a parameter.
 lengthTo :: Curve -> Double -> Mm
-lengthTo curve = ArcLength.lengthTo (ShiftedCurve.ruler curve)
+lengthTo curve = ArcLength.lengthTo (ShiftedCurve.arcLength curve)
 
 -- | Parameter at an arc length from the start; the inverse of 'lengthTo'.
 alongTo :: Curve -> Mm -> Double
-alongTo curve = ArcLength.parameterAt (ShiftedCurve.ruler curve)
+alongTo curve = ArcLength.parameterAt (ShiftedCurve.arcLength curve)
 
 -- | Distance to the left by which the outermost shift moves the point at a parameter; 0 for a
 -- curve without shifts.
@@ -254,10 +254,10 @@ distanceOf :: Curve -> Double -> Mm
 distanceOf curve u = case curve of
   Plain _ -> Mm 0
   Shifted layer lower _ ->
-    let s = ShiftedCurve.spot After u curve
+    let s = ShiftedCurve.spanPoint After u curve
      in Mm
           ( PowerSeries.value
-              (ShiftedCurve.distanceAt 0 layer lower (ShiftedCurve.jetAt 1 lower s) s)
+              (ShiftedCurve.distanceAt 0 layer lower (ShiftedCurve.expansionAt 1 lower s) s)
           )
 
 -- | Curve in the opposite direction.
@@ -287,11 +287,11 @@ factor s =
   let Mm k =
         Vec.distance
           (Transformation.point s (Vec.point 0 0))
-          (Transformation.point s (Vec.point far 0))
-   in k / far
+          (Transformation.point s (Vec.point reach 0))
+   in k / reach
   where
     -- Chosen so large that rounding in a large displacement is negligible.
-    far = 1024
+    reach = 1024
 
 -- | Opposite side.
 otherSide :: Side -> Side

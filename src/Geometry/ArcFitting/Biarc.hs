@@ -47,36 +47,36 @@ join from to = joinWith (ratio from to) from to
 joinWith :: Double -> (Point, Vec) -> (Point, Vec) -> Maybe (NonEmpty Segment)
 joinWith r from@(p, _) to@(q, _) = do
   guard (not (Vec.near p q))
-  guard (most (gamma - alpha) Tolerance.halfTurn && most (beta - gamma) Tolerance.halfTurn)
+  guard (isWithin (gamma - alpha) Tolerance.halfTurn && isWithin (beta - gamma) Tolerance.halfTurn)
   guard (Vec.distance p joint <= Tolerance.reach && Vec.distance joint q <= Tolerance.reach)
   pure result
   where
-    (alpha, beta) = lean from to
+    (alpha, beta) = chordAngles from to
     gamma = -2 * atan2 (sin (alpha / 2) + r * sin (beta / 2)) (cos (alpha / 2) + r * cos (beta / 2))
-    opening = (alpha - beta) / 2
+    halfDifference = (alpha - beta) / 2
     -- The square of |w|.
-    square = 1 + r * r + 2 * r * cos opening
+    square = 1 + r * r + 2 * r * cos halfDifference
     chord = Vec.to p q
     joint =
       Vec.shift
         ( Vec.add
-            (Vec.scale ((1 + r * cos opening) / square) chord)
-            (Vec.scale (r * sin opening / square) (Vec.left chord))
+            (Vec.scale ((1 + r * cos halfDifference) / square) chord)
+            (Vec.scale (r * sin halfDifference / square) (Vec.left chord))
         )
         p
     result
-      | most alpha Tolerance.straight && most beta Tolerance.straight = Straight p q :| []
-      | most (alpha + beta) Tolerance.oneArc && most (beta - alpha) Tolerance.halfTurn =
-        bent p q (beta - alpha) :| []
-      | otherwise = bent p joint (gamma - alpha) :| [bent joint q (beta - gamma)]
+      | isWithin alpha Tolerance.straight && isWithin beta Tolerance.straight = Straight p q :| []
+      | isWithin (alpha + beta) Tolerance.oneArc && isWithin (beta - alpha) Tolerance.halfTurn =
+        arcBySweep p q (beta - alpha) :| []
+      | otherwise = arcBySweep p joint (gamma - alpha) :| [arcBySweep joint q (beta - gamma)]
 
 -- | True if an absolute angle does not exceed a limit.
-most :: Double -> Rad -> Bool
-most a (Rad limit) = abs a <= limit
+isWithin :: Double -> Rad -> Bool
+isWithin a (Rad limit) = abs a <= limit
 
 -- | Angles from the chord to the end directions, in (−π, π].
-lean :: (Point, Vec) -> (Point, Vec) -> (Double, Double)
-lean (p, s) (q, t) = (a, b)
+chordAngles :: (Point, Vec) -> (Point, Vec) -> (Double, Double)
+chordAngles (p, s) (q, t) = (a, b)
   where
     Rad a = Vec.turn (Vec.to p q) s
     Rad b = Vec.turn (Vec.to p q) t
@@ -85,17 +85,17 @@ lean (p, s) (q, t) = (a, b)
 -- at the joint at least half of each end's angle away from that end's direction.
 ratio :: (Point, Vec) -> (Point, Vec) -> Double
 ratio from to
-  | alpha * beta >= 0 || held == gamma = 1
-  | otherwise = max 0.25 (min 4 (-(sin ((alpha + held) / 2) / sin ((held + beta) / 2))))
+  | alpha * beta >= 0 || limited == gamma = 1
+  | otherwise = max 0.25 (min 4 (-(sin ((alpha + limited) / 2) / sin ((limited + beta) / 2))))
   where
-    (alpha, beta) = lean from to
+    (alpha, beta) = chordAngles from to
     gamma = -((alpha + beta) / 2)
-    held = max (min alpha beta / 2) (min (max alpha beta / 2) gamma)
+    limited = max (min alpha beta / 2) (min (max alpha beta / 2) gamma)
 
 -- | Arc between two points with a given sweep; a line where the sweep is negligible.
-bent :: Point -> Point -> Double -> Segment
-bent p q sweep
-  | most sweep Tolerance.straight = Straight p q
+arcBySweep :: Point -> Point -> Double -> Segment
+arcBySweep p q sweep
+  | isWithin sweep Tolerance.straight = Straight p q
   | otherwise = Segment.arc (if sweep > 0 then CounterClockwise else Clockwise) centre p q
   where
     chord = Vec.to p q
@@ -112,32 +112,32 @@ bent p q sweep
 -- the circle through both. Consecutive points that coincide count once; a single point gives a
 -- line of no length.
 through :: Ends -> NonEmpty Point -> NonEmpty Segment
-through ends points = case distinct ends points of
+through ends points = case distinctPoints ends points of
   p :| [] -> Straight p p :| []
   p :| [q] | ends == Open -> Straight p q :| []
   ps@(p :| rest) ->
     let list = NonEmpty.toList ps
         directions = case ends of
-          Closed -> zipWith3 passing (NonEmpty.last ps : list) list (rest <> [p])
+          Closed -> zipWith3 tangentAt (NonEmpty.last ps : list) list (rest <> [p])
           Open -> openDirections list
-        posed = zip list directions
+        poses = zip list directions
         next = case ends of
-          Closed -> drop 1 posed <> take 1 posed
-          Open -> drop 1 posed
-     in fromMaybe (Straight p p :| []) (NonEmpty.nonEmpty (concat (zipWith joined posed next)))
+          Closed -> drop 1 poses <> take 1 poses
+          Open -> drop 1 poses
+     in fromMaybe (Straight p p :| []) (NonEmpty.nonEmpty (concat (zipWith segmentsBetween poses next)))
   where
-    joined a b = maybe [Straight (fst a) (fst b)] NonEmpty.toList (join a b)
+    segmentsBetween a b = maybe [Straight (fst a) (fst b)] NonEmpty.toList (join a b)
 
 -- | Drops points that coincide with the one before.
-distinct :: Ends -> NonEmpty Point -> NonEmpty Point
-distinct ends (first :| others) = first :| back (onward first others)
+distinctPoints :: Ends -> NonEmpty Point -> NonEmpty Point
+distinctPoints ends (first :| others) = first :| withoutLast (withoutRepeats first others)
   where
-    onward before rest = case rest of
+    withoutRepeats before rest = case rest of
       [] -> []
       p : more
-        | Vec.near before p -> onward before more
-        | otherwise -> p : onward p more
-    back ps = case ends of
+        | Vec.near before p -> withoutRepeats before more
+        | otherwise -> p : withoutRepeats p more
+    withoutLast ps = case ends of
       Open -> ps
       Closed -> reverse (dropWhile (Vec.near first) (reverse ps))
 
@@ -147,7 +147,7 @@ distinct ends (first :| others) = first :| back (onward first others)
 openDirections :: [Point] -> [Vec]
 openDirections ps = case (ps, reverse ps) of
   (a : b : _, z : y : _) ->
-    let inner = zipWith3 passing ps (drop 1 ps) (drop 2 ps)
+    let inner = zipWith3 tangentAt ps (drop 1 ps) (drop 2 ps)
      in [mirrored a b t | t <- take 1 inner]
           <> inner
           <> [mirrored y z t | t <- take 1 (reverse inner)]
@@ -157,13 +157,13 @@ openDirections ps = case (ps, reverse ps) of
 
 -- | Direction at the middle one of three points. On their circle, the angle between tangent and
 -- chord equals the opposite angle of the triangle.
-passing :: Point -> Point -> Point -> Vec
-passing a b c
-  | not (Vec.near a c) && Vec.dot round' ab >= 0 && Vec.dot round' bc >= 0 = round'
-  | Vec.norm halving > Tolerance.parallel = Vec.unit halving
+tangentAt :: Point -> Point -> Point -> Vec
+tangentAt a b c
+  | not (Vec.near a c) && Vec.dot circleTangent ab >= 0 && Vec.dot circleTangent bc >= 0 = circleTangent
+  | Vec.norm bisector > Tolerance.parallel = Vec.unit bisector
   | otherwise = Vec.left ab
   where
     ab = Vec.unit (Vec.to a b)
     bc = Vec.unit (Vec.to b c)
-    round' = Vec.unit (Vec.rotate (Vec.turn (Vec.to a c) bc) ab)
-    halving = Vec.add ab bc
+    circleTangent = Vec.unit (Vec.rotate (Vec.turn (Vec.to a c) bc) ab)
+    bisector = Vec.add ab bc

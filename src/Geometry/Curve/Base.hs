@@ -19,11 +19,11 @@ module Geometry.Curve.Base
     ofChain,
     ofSegments,
     count,
-    ruler,
+    arcLength,
     chords,
     fractions,
     SpanPoint (..),
-    spot,
+    spanPoint,
     jet,
     reversed,
     backwards,
@@ -62,11 +62,11 @@ data Base = Base
     -- | rows of the table in the curve's direction; evaluated on demand
     rows :: ~(Vector Knot),
     -- | spans, at least one
-    course :: SpanList,
+    spanList :: SpanList,
     -- | True if the end is the beginning
     closed :: Bool,
-    -- | arc length along the base; read through 'ruler'
-    measure :: ~ArcLength
+    -- | arc length along the base; read through 'arcLength'
+    lengthTable :: ~ArcLength
   }
   deriving stock (Eq, Show)
 
@@ -130,22 +130,22 @@ data CurveFault
   deriving stock (Eq, Show)
 
 -- | Makes a base of spans and adds its arc length.
-made :: CurveKind -> Bool -> Vector Knot -> SpanList -> Base
-made method closed rows course = base
+makeBase :: CurveKind -> Bool -> Vector Knot -> SpanList -> Base
+makeBase method closed rows spanList = base
   where
     base =
       Base
         { method,
           rows,
-          course,
+          spanList,
           closed,
-          measure = ArcLength.measured speed (map fromIntegral [0 .. count base])
+          lengthTable = ArcLength.measured speed (map fromIntegral [0 .. count base])
         }
-    speed u = let s = spot After u base in speedAt base (number s) (local s)
+    speed u = let s = spanPoint After u base in speedAt base (number s) (local s)
 
 -- | Speed in mm per unit of the parameter, in a span at its local parameter.
 speedAt :: Base -> Int -> Double -> Double
-speedAt base i t = case course base of
+speedAt base i t = case spanList base of
   Cubical xs ys ->
     let a =
           Spline.rate (Spline.at xs i) t
@@ -155,7 +155,7 @@ speedAt base i t = case course base of
 
 -- | Spans as a vector.
 spans :: Base -> Vector Span
-spans base = case course base of
+spans base = case spanList base of
   Cubical xs ys ->
     Vector.generate (Spline.count xs) (\i -> Polynomial (Spline.at xs i) (Spline.at ys i))
   Mixed parts -> parts
@@ -163,23 +163,23 @@ spans base = case course base of
 -- | Lines and arcs of a base that consists of them and has at least one arc. Spans join within a
 -- tolerance; the segments that are given join exactly.
 asSegments :: Base -> Maybe (NonEmpty Segment)
-asSegments base = case course base of
+asSegments base = case spanList base of
   Cubical _ _ -> Nothing
   Mixed parts
     | all (isJust . Span.segment) parts ->
-      NonEmpty.nonEmpty (linked Nothing (mapMaybe Span.segment (Vector.toList parts)))
+      NonEmpty.nonEmpty (chained Nothing (mapMaybe Span.segment (Vector.toList parts)))
     | otherwise -> Nothing
   where
-    linked before ss = case ss of
+    chained before ss = case ss of
       [] -> []
-      s : rest -> let s' = maybe s (`from` s) before in s' : linked (Just (Segment.end s')) rest
+      s : rest -> let s' = maybe s (`from` s) before in s' : chained (Just (Segment.end s')) rest
     from p s
       | Segment.start s == p = s
       | otherwise = s {Segment.start = p}
 
 -- | Stores spans as cubics if all of them are polynomial.
-coursed :: Vector Span -> SpanList
-coursed parts = case traverse polynomial parts of
+toSpanList :: Vector Span -> SpanList
+toSpanList parts = case traverse polynomial parts of
   Just both ->
     let part f =
           Spline.generate (Vector.length both) (\i -> f (both Vector.! i))
@@ -193,14 +193,14 @@ coursed parts = case traverse polynomial parts of
 -- | Polyline through the points. It is closed when the last point equals the first.
 polyline :: Vector Point -> Either CurveFault Base
 polyline points = do
-  distinct 2 points
-  Right (made Polyline (closes points) (numbered points) (Cubical (lines' Vec.x) (lines' Vec.y)))
+  checkDistinct 2 points
+  Right (makeBase Polyline (isLoop points) (rowsAtEnds points) (Cubical (lineCubics Vec.x) (lineCubics Vec.y)))
   where
-    lines' part =
+    lineCubics part =
       Spline.generate
         (Vector.length points - 1)
         (\i -> Spline.line (part (points Vector.! i)) (part (points Vector.! (i + 1))))
-    {-# INLINE lines' #-}
+    {-# INLINE lineCubics #-}
 
 -- | Cubic spline parametrised by chord length, with continuous second derivatives by chord
 -- length. At clamped ends the derivative by chord length is the given direction. A periodic
@@ -208,38 +208,38 @@ polyline points = do
 spline :: EndCondition -> Vector Point -> Either CurveFault Base
 spline ends points = case ends of
   Natural -> do
-    distinct 2 points
+    checkDistinct 2 points
     Right
-      ( made
+      ( makeBase
           (Spline ends)
-          (closes points)
-          (numbered points)
+          (isLoop points)
+          (rowsAtEnds points)
           (cubics Spline.Natural Spline.Natural points)
       )
   Clamped from to
     | Vec.norm from <= Tolerance.parallel || Vec.norm to <= Tolerance.parallel -> Left NoDirection
     | otherwise -> do
-      distinct 2 points
+      checkDistinct 2 points
       let f = Vec.unit from
           t = Vec.unit to
-          by part = Spline.Clamped (Vec.dot f part) (Vec.dot t part)
+          derivatives part = Spline.Clamped (Vec.dot f part) (Vec.dot t part)
       Right
-        ( made
+        ( makeBase
             (Spline (Clamped f t))
-            (closes points)
-            (numbered points)
-            (cubics (by (Vec.vec 1 0)) (by (Vec.vec 0 1)) points)
+            (isLoop points)
+            (rowsAtEnds points)
+            (cubics (derivatives (Vec.vec 1 0)) (derivatives (Vec.vec 0 1)) points)
         )
   Periodic -> do
-    let once = if closes points then Vector.init points else points
-        round' = Vector.snoc once (Vector.head once)
-    distinct 3 once
+    let unrepeatedPoints = if isLoop points then Vector.init points else points
+        looped = Vector.snoc unrepeatedPoints (Vector.head unrepeatedPoints)
+    checkDistinct 3 unrepeatedPoints
     Right
-      ( made
+      ( makeBase
           (Spline Periodic)
           True
-          (numbered points)
-          (cubics Spline.Periodic Spline.Periodic round')
+          (rowsAtEnds points)
+          (cubics Spline.Periodic Spline.Periodic looped)
       )
 
 -- | Spans of a spline with the given boundary conditions for x and for y.
@@ -260,7 +260,7 @@ distances points =
 -- the first, the closing distance follows.
 chords :: Base -> Unboxed.Vector Double
 chords base
-  | closed base && not (closes points) = distances (Vector.snoc points (Vector.head points))
+  | closed base && not (isLoop points) = distances (Vector.snoc points (Vector.head points))
   | otherwise = distances points
   where
     points = Vector.map place (rows base)
@@ -280,7 +280,7 @@ parabola points
   | Vector.length points < 3 = Left (TooFew 3)
   | even (Vector.length points) = Left (EvenCount (Vector.length points))
   | otherwise = do
-    distinct 3 points
+    checkDistinct 3 points
     maybe
       (Right ())
       (Left . NotMonotone . (+ 1))
@@ -297,7 +297,7 @@ parabola points
         through part = Spline.parabolas middles (Unboxed.convert (Vector.map part points))
         across =
           Spline.generate (Vector.length middles) (\i -> Spline.line (x (2 * i)) (x (2 * i + 2)))
-    Right (made Parabola False (Vector.imap row points) (Cubical across (through Vec.y)))
+    Right (makeBase Parabola False (Vector.imap row points) (Cubical across (through Vec.y)))
   where
     x i = Vec.x (points Vector.! i)
     sense = signum (x 1 - x 0)
@@ -307,7 +307,7 @@ parabola points
 
 -- | Base of consecutive spans with the given rising parameters of the table's rows.
 ofPieces :: NonEmpty SpanShape -> Vector Double -> Either CurveFault Base
-ofPieces = ofSpans . vector Span.ofPiece
+ofPieces = ofSpans . vector Span.ofShape
 
 -- | Base of consecutive lines and arcs with the given rising parameters of the table's rows.
 ofChain :: NonEmpty Segment -> Vector Double -> Either CurveFault Base
@@ -316,13 +316,13 @@ ofChain = ofSpans . vector Span.ofSegment
 -- | Base of consecutive spans with the given rising parameters of the rows.
 ofSpans :: Vector Span -> Vector Double -> Either CurveFault Base
 ofSpans parts parameters = do
-  joined parts
+  checkJoined parts
   maybe (Right ()) (Left . Disordered) (find (not . ordered) [1 .. count'])
   Right
     base
       { rows =
           Vector.map
-            (\u -> Knot {at = u, place = TaylorExpansion.place (jet 0 base (spot After u base))})
+            (\u -> Knot {at = u, place = TaylorExpansion.place (jet 0 base (spanPoint After u base))})
             parameters
       }
   where
@@ -338,11 +338,11 @@ ofSpans parts parameters = do
 -- the last one unless the base is closed.
 ofSegments :: NonEmpty Segment -> Either CurveFault Base
 ofSegments segments = do
-  joined parts
+  checkJoined parts
   Right
     base
       { rows =
-          numbered
+          rowsAtEnds
             ( if closed base
                 then starts
                 else Vector.snoc starts (Segment.end (NonEmpty.last segments))
@@ -363,15 +363,15 @@ vector f list = Vector.unfoldrN (NonEmpty.length list) next (NonEmpty.toList lis
 
 -- | Base of at least one span. The spans must join.
 chain :: Vector Knot -> Vector Span -> Base
-chain rows parts = made Joined (Vec.near first final) rows (coursed parts)
+chain rows parts = makeBase Joined (Vec.near first lastPoint) rows (toSpanList parts)
   where
     (first, _) = Span.ends (Vector.head parts)
-    (_, final) = Span.ends (Vector.last parts)
+    (_, lastPoint) = Span.ends (Vector.last parts)
 
 -- | Checks that each span has a length and begins where the one before ends. A span may end where
 -- it begins, as a full circle does.
-joined :: Vector Span -> Either CurveFault ()
-joined parts
+checkJoined :: Vector Span -> Either CurveFault ()
+checkJoined parts
   | Just i <- find (Span.isPoint . span') [1 .. n] = Left (NoLength i)
   | Just i <-
       find
@@ -384,8 +384,8 @@ joined parts
     span' i = parts Vector.! (i - 1)
 
 -- | Checks that there are enough points and that neighbours differ.
-distinct :: Int -> Vector Point -> Either CurveFault ()
-distinct needed points
+checkDistinct :: Int -> Vector Point -> Either CurveFault ()
+checkDistinct needed points
   | Vector.length points < needed = Left (TooFew needed)
   | otherwise =
     maybe
@@ -397,24 +397,24 @@ distinct needed points
       )
 
 -- | True if the last of at least three points repeats the first.
-closes :: Vector Point -> Bool
-closes points = case (points Vector.!? 0, points Vector.!? (Vector.length points - 1)) of
+isLoop :: Vector Point -> Bool
+isLoop points = case (points Vector.!? 0, points Vector.!? (Vector.length points - 1)) of
   (Just p, Just q) -> Vector.length points > 2 && Vec.near p q
   _ -> False
 
 -- | Rows at the ends of the spans.
-numbered :: Vector Point -> Vector Knot
-numbered = Vector.imap (\i p -> Knot {at = fromIntegral i, place = p})
+rowsAtEnds :: Vector Point -> Vector Knot
+rowsAtEnds = Vector.imap (\i p -> Knot {at = fromIntegral i, place = p})
 
 -- | Count of spans, which is the parameter of the end.
 count :: Base -> Int
-count base = case course base of
+count base = case spanList base of
   Cubical xs _ -> Spline.count xs
   Mixed parts -> Vector.length parts
 
 -- | Arc length along the base.
-ruler :: Base -> ArcLength
-ruler = measure
+arcLength :: Base -> ArcLength
+arcLength = lengthTable
 
 -- | Position on a curve: the parameter, the index of its span, the local parameter in the span,
 -- and the side from which the position is approached.
@@ -427,8 +427,8 @@ data SpanPoint = SpanPoint
   deriving stock (Eq, Show)
 
 -- | Position at a parameter. Parameters outside of the domain give the nearer end.
-spot :: Approach -> Double -> Base -> SpanPoint
-spot approach u base =
+spanPoint :: Approach -> Double -> Base -> SpanPoint
+spanPoint approach u base =
   SpanPoint {parameter, number, local = parameter - fromIntegral number, approach}
   where
     n = count base
@@ -439,7 +439,7 @@ spot approach u base =
 
 -- | Taylor expansion of the point about a position, up to the given order.
 jet :: Int -> Base -> SpanPoint -> TaylorExpansion
-jet n base s = case course base of
+jet n base s = case spanList base of
   Cubical xs ys ->
     TaylorExpansion
       (Spline.series n (Spline.at xs (number s)) (local s))
@@ -449,11 +449,11 @@ jet n base s = case course base of
 -- | Base in the opposite direction.
 reversed :: Base -> Base
 reversed base =
-  made
+  makeBase
     method'
     (closed base)
     (Vector.imap back (backwards base (rows base)))
-    (mapped (Vector.map Span.reversed . Vector.reverse) base)
+    (mapSpans (Vector.map Span.reversed . Vector.reverse) base)
   where
     back i row =
       row {at = if i == 0 && unrepeated base then 0 else fromIntegral (count base) - at row}
@@ -466,8 +466,8 @@ reversed base =
       Joined -> Joined
 
 -- | Applies a function to the spans.
-mapped :: (Vector Span -> Vector Span) -> Base -> SpanList
-mapped f base = coursed (f (spans base))
+mapSpans :: (Vector Span -> Vector Span) -> Base -> SpanList
+mapSpans f base = toSpanList (f (spans base))
 
 -- | Row values in the order of the reversed base.
 backwards :: Base -> Vector a -> Vector a
@@ -479,17 +479,17 @@ backwards base values
 unrepeated :: Base -> Bool
 unrepeated base =
   case (rows base Vector.!? 0, rows base Vector.!? (Vector.length (rows base) - 1)) of
-    (Just first, Just final) -> closed base && at first == 0 && at final < fromIntegral (count base)
+    (Just first, Just lastPoint) -> closed base && at first == 0 && at lastPoint < fromIntegral (count base)
     _ -> False
 
 -- | Image of a base under a similarity, span by span.
 transformed :: Transformation -> Base -> Base
 transformed s base =
-  made
+  makeBase
     method'
     (closed base)
     (Vector.map (\row -> row {place = Transformation.point s (place row)}) (rows base))
-    (mapped (Vector.map (Span.transformed s)) base)
+    (mapSpans (Vector.map (Span.transformed s)) base)
   where
     method' = case method base of
       Spline (Clamped from to) ->

@@ -31,7 +31,7 @@ import Geometry.Numeric.PowerSeries qualified as PowerSeries
 import Geometry.Numeric.TaylorExpansion qualified as TaylorExpansion
 
 -- | Row values in any unit, and their interpolation.
-data Column = Column {values :: Vector Double, course :: Interpolation}
+data Column = Column {values :: Vector Double, interpolation :: Interpolation}
   deriving stock (Eq, Show)
 
 -- | Interpolation of a column between the rows.
@@ -47,14 +47,14 @@ column :: Base -> Vector Double -> Column
 column base values
   | Vector.length values /= Vector.length (Base.rows base) =
     Crash.bug "a column of another length than its table"
-  | otherwise = Column {values, course}
+  | otherwise = Column {values, interpolation}
   where
     flat = Unboxed.convert values
     first = Vector.take 1 values
     -- A table that repeats its first point may give the repeated row another value.
-    round' = Base.unrepeated base || first == Vector.drop (Vector.length values - 1) values
-    onceRound = if Base.unrepeated base then Unboxed.convert (values <> first) else flat
-    course = case Base.method base of
+    isPeriodic = Base.unrepeated base || first == Vector.drop (Vector.length values - 1) values
+    periodicValues = if Base.unrepeated base then Unboxed.convert (values <> first) else flat
+    interpolation = case Base.method base of
       Polyline ->
         BySpan
           ( Spline.generate
@@ -65,7 +65,7 @@ column base values
       Spline (Base.Clamped _ _) -> BySpan (Spline.interpolate Natural (Base.chords base) flat)
       Spline Base.Periodic ->
         BySpan
-          (Spline.interpolate (if round' then Periodic else Natural) (Base.chords base) onceRound)
+          (Spline.interpolate (if isPeriodic then Periodic else Natural) (Base.chords base) periodicValues)
       Parabola -> BySpan (Spline.parabolas (Base.fractions base) flat)
       Joined -> byLength base values
 
@@ -80,17 +80,17 @@ byLength base values = case Vector.toList values of
         (if Vector.length values >= 3 then Periodic else Natural)
         (Unboxed.snoc stations whole)
         (Vector.snoc values v)
-    | Base.closed base && aroundOnce && Vector.length values >= 4 -> spline Periodic stations values
+    | Base.closed base && isFullTurn && Vector.length values >= 4 -> spline Periodic stations values
     | otherwise -> spline Natural stations values
   where
-    Mm whole = ArcLength.total (Base.ruler base)
+    Mm whole = ArcLength.total (Base.arcLength base)
     stations =
       Unboxed.convert
         ( Vector.map
-            (\row -> let Mm s = ArcLength.lengthTo (Base.ruler base) (Base.at row) in s)
+            (\row -> let Mm s = ArcLength.lengthTo (Base.arcLength base) (Base.at row) in s)
             (Base.rows base)
         )
-    aroundOnce =
+    isFullTurn =
       Unboxed.take 1 stations == Unboxed.singleton 0
         && Unboxed.last stations == whole
         && Vector.take 1 values == Vector.drop (Vector.length values - 1) values
@@ -105,11 +105,11 @@ byLength base values = case Vector.toList values of
 
 -- | Power series of the value about a position, up to the given order.
 series :: Int -> Base -> Column -> SpanPoint -> PowerSeries
-series n base c spot = case course c of
-  BySpan cubics -> Spline.series n (Spline.at cubics (number spot)) (local spot)
+series n base c spanPoint = case interpolation c of
+  BySpan cubics -> Spline.series n (Spline.at cubics (number spanPoint)) (local spanPoint)
   ByLength stations cubics
-    | here < Unboxed.head stations -> PowerSeries.polynomial (tangentAt 0) fraction
-    | here > Unboxed.last stations -> PowerSeries.polynomial (tangentAt 1) fraction
+    | currentLength < Unboxed.head stations -> PowerSeries.polynomial (tangentAt 0) fraction
+    | currentLength > Unboxed.last stations -> PowerSeries.polynomial (tangentAt 1) fraction
     | otherwise -> PowerSeries.polynomial (Spline.coefficients (Spline.at cubics i)) fraction
     where
       -- The column is continued linearly before the first row and after the last.
@@ -117,26 +117,26 @@ series n base c spot = case course c of
         let ahead = Spline.series 1 (Spline.at cubics i) t
             rise = PowerSeries.coefficient 1 ahead
          in [PowerSeries.value ahead - rise * t, rise]
-      Mm here = ArcLength.lengthTo (Base.ruler base) (parameter spot)
-      i = stretchAt here stations
+      Mm currentLength = ArcLength.lengthTo (Base.arcLength base) (parameter spanPoint)
+      i = intervalAt currentLength stations
       from = stations Unboxed.! i
       width = stations Unboxed.! (i + 1) - from
-      run = case n of
-        0 -> PowerSeries.constant 0 here
-        _ -> PowerSeries.integral here (TaylorExpansion.speed (Base.jet n base spot))
-      fraction = PowerSeries.scale (1 / width) (PowerSeries.plusConstant (-from) run)
+      lengthSeries = case n of
+        0 -> PowerSeries.constant 0 currentLength
+        _ -> PowerSeries.integral currentLength (TaylorExpansion.speed (Base.jet n base spanPoint))
+      fraction = PowerSeries.scale (1 / width) (PowerSeries.plusConstant (-from) lengthSeries)
 
 -- | Rising parameters of the base at which one cubic follows another, apart from the ends of the
 -- base's spans.
 knots :: Base -> Column -> [Double]
-knots base c = case course c of
+knots base c = case interpolation c of
   BySpan _ -> []
   ByLength _ _ -> map Base.at (Vector.toList (Base.rows base))
 
 -- | Index of the interval that contains a length; outside of all intervals, that of the nearer
 -- one.
-stretchAt :: Double -> Unboxed.Vector Double -> Int
-stretchAt s stations = BinarySearch.lastBelow (Unboxed.length stations - 1) s stations
+intervalAt :: Double -> Unboxed.Vector Double -> Int
+intervalAt s stations = BinarySearch.lastBelow (Unboxed.length stations - 1) s stations
 
 -- | Column with scaled values, on the given base.
 scaled :: Base -> Double -> Column -> Column

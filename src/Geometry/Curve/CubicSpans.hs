@@ -11,7 +11,7 @@ where
 
 import Base.Quantity (Mm (..))
 import Data.Vector qualified as Vector
-import Geometry.Curve.Base (SpanList (..), course)
+import Geometry.Curve.Base (SpanList (..), spanList)
 import Geometry.Curve.PointSearch qualified as PointSearch
 import Geometry.Curve.ShiftedCurve (Curve (..))
 import Geometry.Curve.ShiftedCurve qualified as ShiftedCurve
@@ -24,40 +24,40 @@ import Geometry.Tolerance qualified as Tolerance
 -- | Cubic spans in x and in y within a tolerance of the curve, and the bound of their error.
 -- Polynomial spans of an unshifted curve are returned as they are, with the bound 0. Nothing
 -- for an unshifted curve with arcs, for a curve whose speed vanishes or nearly does, and where
--- 'most' halvings do not suffice.
+-- 'maxHalvings' halvings do not suffice.
 along :: Mm -> Curve -> Maybe (Mm, Cubics, Cubics)
 along (Mm tolerance) curve = case curve of
-  Plain b -> case course b of
+  Plain b -> case spanList b of
     Cubical xs ys -> Just (Mm 0, xs, ys)
     Mixed _ -> Nothing
   Shifted {} -> do
-    halves <- traverse onStretch (PointSearch.stretches curve)
+    halves <- traverse refineStretch (PointSearch.stretches curve)
     let spans = Vector.fromList (concat halves)
         part f = Spline.generate (Vector.length spans) (\i -> f (spans Vector.! i))
     Just (Mm tolerance, part inX, part inY)
   where
-    onStretch (a, b) = refined most (between (node (a, b)) a (node (a, b) a) b (node (a, b) b))
-    node stretch u = case ShiftedCurve.jetAt 1 curve (PointSearch.within stretch curve u) of
+    refineStretch (a, b) = refine maxHalvings (between (node (a, b)) a (node (a, b) a) b (node (a, b) b))
+    node stretch u = case ShiftedCurve.expansionAt 1 curve (PointSearch.within stretch curve u) of
       TaylorExpansion x y ->
         Node
           (PowerSeries.value x)
           (PowerSeries.value y)
           (PowerSeries.coefficient 1 x)
           (PowerSeries.coefficient 1 y)
-    refined left piece@Piece {begin, end, first, inside, final, nodeAt}
-      | not (speed first > still && speed final > still && speed inside > still) = Nothing
-      | near tolerance piece one other = Just [span' one, span' other]
-      | left <= 0 = Nothing
-      | otherwise = (<>) <$> refined (left - 1) one <*> refined (left - 1) other
+    refine remaining interval@Interval {begin, end, first, middleNode, final, nodeAt}
+      | not (speed first > still && speed final > still && speed middleNode > still) = Nothing
+      | areHalvesNear tolerance interval firstHalf secondHalf = Just [hermiteSpan firstHalf, hermiteSpan secondHalf]
+      | remaining <= 0 = Nothing
+      | otherwise = (<>) <$> refine (remaining - 1) firstHalf <*> refine (remaining - 1) secondHalf
       where
         m = middle begin end
-        one = between nodeAt begin first m inside
-        other = between nodeAt m inside end final
+        firstHalf = between nodeAt begin first m middleNode
+        secondHalf = between nodeAt m middleNode end final
     Mm still = Tolerance.still
 
 -- | Largest count of halvings of one interval.
-most :: Int
-most = 24
+maxHalvings :: Int
+maxHalvings = 24
 
 -- | Point and derivative (mm per unit of the parameter) at a parameter: x, y, x′, y′.
 data Node = Node Double Double Double Double
@@ -68,12 +68,12 @@ speed (Node _ _ vx vy) = sqrt (vx * vx + vy * vy)
 
 -- | Interval between two parameters with the nodes at its ends and at its middle, and the
 -- function that gives nodes.
-data Piece = Piece {begin, end :: Double, first, inside, final :: Node, nodeAt :: Double -> Node}
+data Interval = Interval {begin, end :: Double, first, middleNode, final :: Node, nodeAt :: Double -> Node}
 
 -- | Interval between two nodes, with a new node at its middle.
-between :: (Double -> Node) -> Double -> Node -> Double -> Node -> Piece
+between :: (Double -> Node) -> Double -> Node -> Double -> Node -> Interval
 between nodeAt begin first end final =
-  Piece {begin, end, first, inside = nodeAt (middle begin end), final, nodeAt}
+  Interval {begin, end, first, middleNode = nodeAt (middle begin end), final, nodeAt}
 
 -- | Mean of two parameters.
 middle :: Double -> Double -> Double
@@ -83,8 +83,8 @@ middle a b = 0.5 * (a + b)
 data Span = Span {inX :: Cubic, inY :: Cubic}
 
 -- | Hermite cubics between the ends of an interval.
-span' :: Piece -> Span
-span' Piece {begin, end, first = Node px py vx vy, final = Node qx qy wx wy} =
+hermiteSpan :: Interval -> Span
+hermiteSpan Interval {begin, end, first = Node px py vx vy, final = Node qx qy wx wy} =
   Span {inX = hermite px qx (h * vx) (h * wx), inY = hermite py qy (h * vy) (h * wy)}
   where
     h = end - begin
@@ -94,29 +94,29 @@ span' Piece {begin, end, first = Node px py vx vy, final = Node qx qy wx wy} =
 -- differences that are expected of the halves, from those of the whole interval, must be at most
 -- half of the tolerance; the measured differences of each half must be within it. Both tests use
 -- the even term (the point at the middle) and the odd term (the derivative there).
-near :: Double -> Piece -> Piece -> Piece -> Bool
-near tolerance whole one other =
-  place <= 8 * tolerance && bend <= 16 * tolerance && all itself [one, other]
+areHalvesNear :: Double -> Interval -> Interval -> Interval -> Bool
+areHalvesNear tolerance interval firstHalf secondHalf =
+  points <= 8 * tolerance && derivatives <= 16 * tolerance && all isNear [firstHalf, secondHalf]
   where
-    (place, bend) = difference whole
-    itself half = let (e, o) = difference half in e + oddShare * o <= tolerance
+    (points, derivatives) = difference interval
+    isNear half = let (e, o) = difference half in e + oddShare * o <= tolerance
     -- Maximum of t²(1−t)²·(t−½), which is √5/250 at t = ½ ± √(1/20), divided by its derivative at
     -- the middle, 1/16.
     oddShare = 16 * sqrt 5 / 250
 
 -- | Differences between curve and Hermite cubic at the middle of an interval: of the points in
 -- mm, and of the derivatives in mm per interval.
-difference :: Piece -> (Double, Double)
+difference :: Interval -> (Double, Double)
 difference
-  Piece
+  Interval
     { begin,
       end,
       first = Node px py vx vy,
-      inside = Node mx my sx sy,
+      middleNode = Node mx my sx sy,
       final = Node qx qy wx wy
     } =
-    (off px mx qx vx wx + off py my qy vy wy, bent px sx qx vx wx + bent py sy qy vy wy)
+    (pointDifference px mx qx vx wx + pointDifference py my qy vy wy, derivativeDifference px sx qx vx wx + derivativeDifference py sy qy vy wy)
     where
       h = end - begin
-      off p m q v w = abs (0.5 * (p + q) + 0.125 * h * (v - w) - m)
-      bent p s q v w = abs (1.5 * (q - p) - h * (0.25 * (v + w) + s))
+      pointDifference p m q v w = abs (0.5 * (p + q) + 0.125 * h * (v - w) - m)
+      derivativeDifference p s q v w = abs (1.5 * (q - p) - h * (0.25 * (v + w) + s))

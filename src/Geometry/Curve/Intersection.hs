@@ -42,18 +42,18 @@ onCurve c p = let u = Curve.nearest p c in (Curve.at c u, Curve.tangent c u)
 -- this point unchanged where there is no intersection nearby, where a curve ends, and where the
 -- curves are nearly parallel.
 exactly :: Foot -> Foot -> Point -> Point
-exactly footA footB place = go (8 :: Int) place
+exactly footA footB initial = newton (8 :: Int) initial
   where
-    go left p
-      | Vec.distance a b <= Tolerance.crossing = if Vec.distance place a <= nearby then a else place
-      | left <= 0 || abs sine < slightest = place
-      | otherwise = go (left - 1) (Vec.shift (Vec.scale (Vec.cross (Vec.to a b) v / sine) u) a)
+    newton remaining p
+      | Vec.distance a b <= Tolerance.crossing = if Vec.distance initial a <= reach then a else initial
+      | remaining <= 0 || abs sine < smallestSine = initial
+      | otherwise = newton (remaining - 1) (Vec.shift (Vec.scale (Vec.cross (Vec.to a b) v / sine) u) a)
       where
         (a, u) = footA p
         (b, v) = footB p
         sine = Vec.cross u v
         -- Bound of the distance between the starting point and the exact intersection, for two
         -- curves that meet at this angle; the factor 8 allows for their curvature.
-        nearby = times (8 / abs sine) Tolerance.curve
+        reach = times (8 / abs sine) Tolerance.curve
     -- Curves that meet at an angle with a smaller sine count as parallel.
-    slightest = 1e-5
+    smallestSine = 1e-5

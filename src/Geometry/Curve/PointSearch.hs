@@ -39,15 +39,15 @@ stretches curve = let bs = ShiftedCurve.breaks curve in zip bs (drop 1 bs)
 -- | Equally spaced parameters over a stretch, both ends included.
 samples :: (Double, Double) -> [Double]
 samples (a, b) =
-  [if k == steps then b else a + (b - a) * fromIntegral k / fromIntegral steps | k <- [0 .. steps]]
+  [if k == sampleSteps then b else a + (b - a) * fromIntegral k / fromIntegral sampleSteps | k <- [0 .. sampleSteps]]
 
 -- | Count of steps in which a smooth stretch is sampled.
-steps :: Int
-steps = 8
+sampleSteps :: Int
+sampleSteps = 8
 
 -- | Position at a parameter of a stretch, approached from within the stretch.
 within :: (Double, Double) -> Curve -> Double -> SpanPoint
-within (_, b) curve u = ShiftedCurve.spot (if u >= b then Before else After) u curve
+within (_, b) curve u = ShiftedCurve.spanPoint (if u >= b then Before else After) u curve
 
 -- | Parameter of the point nearest to a given point. Of several equally near points the first is
 -- taken.
@@ -63,10 +63,10 @@ nearest p curve =
   where
     sampled =
       map
-        (\stretch -> (stretch, closely (sample stretch) (map (sample stretch) (samples stretch))))
+        (\stretch -> (stretch, refineSamples (sample stretch) (map (sample stretch) (samples stretch))))
         (stretches curve)
     sample stretch u =
-      let jet = ShiftedCurve.jetAt 1 curve (within stretch curve u)
+      let jet = ShiftedCurve.expansionAt 1 curve (within stretch curve u)
        in (u, TaylorExpansion.place jet, TaylorExpansion.velocity jet)
     best = minimum [Vec.distance p q | (_, found) <- sampled, (_, q, _) <- found]
     -- Refines each minimum of the distance that neighbouring samples enclose, unless it is
@@ -75,36 +75,36 @@ nearest p curve =
       [ ( u,
           Vec.distance
             p
-            (TaylorExpansion.place (ShiftedCurve.jetAt 0 curve (within stretch curve u)))
+            (TaylorExpansion.place (ShiftedCurve.expansionAt 0 curve (within stretch curve u)))
         )
         | ((a, q, v), (b, r, w)) <- zip found (drop 1 found),
           Vec.dot (Vec.to p q) v < 0,
           Vec.dot (Vec.to p r) w > 0,
           min (Vec.distance p q) (Vec.distance p r) <= plus best (times 2 (Vec.distance q r)),
-          let u = RootFinding.zero (approaching stretch) a b
+          let u = RootFinding.zero (distanceSlope stretch) a b
       ]
-    approaching stretch u = (Vec.dot out v, Vec.dot v v + Vec.dot out bend)
+    distanceSlope stretch u = (Vec.dot out v, Vec.dot v v + Vec.dot out acceleration)
       where
-        jet@(TaylorExpansion x y) = ShiftedCurve.jetAt 2 curve (within stretch curve u)
+        jet@(TaylorExpansion x y) = ShiftedCurve.expansionAt 2 curve (within stretch curve u)
         out = Vec.to p (TaylorExpansion.place jet)
         v = TaylorExpansion.velocity jet
-        bend = Vec.vec (2 * PowerSeries.coefficient 2 x) (2 * PowerSeries.coefficient 2 y)
+        acceleration = Vec.vec (2 * PowerSeries.coefficient 2 x) (2 * PowerSeries.coefficient 2 y)
 
 -- | Inserts samples by bisection where the direction changes much between neighbours.
-closely :: (Double -> (Double, Point, Vec)) -> [(Double, Point, Vec)] -> [(Double, Point, Vec)]
-closely sample = go
+refineSamples :: (Double -> (Double, Point, Vec)) -> [(Double, Point, Vec)] -> [(Double, Point, Vec)]
+refineSamples sample = go
   where
     go found = case found of
       a : rest@(b : _) -> a : (between halvings a b <> go rest)
       _ -> found
     between n a@(u, _, v) b@(w, _, v')
       | n > 0,
-        Rad turned <- Vec.turn v v',
-        abs turned > most =
+        Rad change <- Vec.turn v v',
+        abs change > largestChange =
         let m = sample ((u + w) / 2) in between (n - 1) a m <> [m] <> between (n - 1) m b
       | otherwise = []
     -- Largest change of direction between samples, in radians, and the largest count of halvings.
-    most = 0.3
+    largestChange = 0.3
     halvings = 6 :: Int
 
 -- | Rising parameters at which the curve has the given x (mm). A stretch on which x is constant
@@ -113,15 +113,15 @@ atX :: Double -> Curve -> [Double]
 atX abscissa curve = distinct (concatMap found (stretches curve))
   where
     x order stretch u =
-      let TaylorExpansion a _ = ShiftedCurve.jetAt order curve (within stretch curve u) in a
+      let TaylorExpansion a _ = ShiftedCurve.expansionAt order curve (within stretch curve u) in a
     found stretch =
       roots
-        (map (\u -> (u, off (PowerSeries.value (x 0 stretch u)))) (merged (samples stretch) turns))
+        (map (\u -> (u, deviation (PowerSeries.value (x 0 stretch u)))) (merge (samples stretch) extrema))
       where
         slopes = map (\u -> (u, PowerSeries.coefficient 1 (x 1 stretch u))) (samples stretch)
         slope u =
           let a = x 2 stretch u in (PowerSeries.coefficient 1 a, 2 * PowerSeries.coefficient 2 a)
-        turns = merged (RootFinding.rising slope slopes) (RootFinding.falling slope slopes)
+        extrema = merge (RootFinding.rising slope slopes) (RootFinding.falling slope slopes)
         crossing u =
           let a = x 1 stretch u in (PowerSeries.value a - abscissa, PowerSeries.coefficient 1 a)
         roots ((a, v) : rest@((b, w) : _))
@@ -131,38 +131,38 @@ atX abscissa curve = distinct (concatMap found (stretches curve))
         roots [(a, 0)] = [a]
         roots _ = []
     -- Differences within rounding count as zero.
-    off v = if abs (v - abscissa) <= Tolerance.equal then 0 else v - abscissa
+    deviation v = if abs (v - abscissa) <= Tolerance.equal then 0 else v - abscissa
     -- Consecutive solutions between which the curve keeps the given x are one solution, or the two
     -- ends of a vertical stretch. Solutions between which the curve departs from x stay separate.
     distinct us = case us of
       [] -> []
       a : rest ->
-        let (final, others) =
-              onwards a rest
-         in [a] <> [final | final - a > same] <> distinct others
-    onwards a us = case us of
-      b : rest | isThere ((a + b) / 2) -> onwards b rest
+        let (lastOfRun, others) =
+              endOfRun a rest
+         in [a] <> [lastOfRun | lastOfRun - a > resolution] <> distinct others
+    endOfRun a us = case us of
+      b : rest | isThere ((a + b) / 2) -> endOfRun b rest
       _ -> (a, us)
-    same = 1e-3 / fromIntegral steps
+    resolution = 1e-3 / fromIntegral sampleSteps
     isThere u =
       let TaylorExpansion a _ =
-            ShiftedCurve.jetAt 0 curve (ShiftedCurve.spot After u curve)
-       in off (PowerSeries.value a) == 0
+            ShiftedCurve.expansionAt 0 curve (ShiftedCurve.spanPoint After u curve)
+       in deviation (PowerSeries.value a) == 0
 
 -- | Merge of two rising lists.
-merged :: [Double] -> [Double] -> [Double]
-merged as bs = case (as, bs) of
+merge :: [Double] -> [Double] -> [Double]
+merge as bs = case (as, bs) of
   ([], _) -> bs
   (_, []) -> as
-  (a : as', b : bs') -> if a <= b then a : merged as' bs else b : merged as bs'
+  (a : as', b : bs') -> if a <= b then a : merge as' bs else b : merge as bs'
 
 -- | Rising parameters at which the direction jumps by more than 'Tolerance.smoothAngle'. The seam
 -- of a closed curve has the parameter 0.
 corners :: Curve -> [Double]
 corners curve =
-  [0 | closed curve, jumps 0] <> filter jumps (drop 1 (init (ShiftedCurve.breaks curve)))
+  [0 | closed curve, isCorner 0] <> filter isCorner (drop 1 (init (ShiftedCurve.breaks curve)))
   where
-    jumps u =
+    isCorner u =
       let Rad a =
             Vec.turn (directionAt Before curve u) (directionAt After curve u)
        in Rad (abs a) > Tolerance.smoothAngle
@@ -172,7 +172,7 @@ closed :: Curve -> Bool
 closed curve = Vec.near (end After 0) (end Before (ShiftedCurve.domain curve))
   where
     end approach u =
-      TaylorExpansion.place (ShiftedCurve.jetAt 0 curve (ShiftedCurve.spot approach u curve))
+      TaylorExpansion.place (ShiftedCurve.expansionAt 0 curve (ShiftedCurve.spanPoint approach u curve))
 
 -- | Unit tangent just before or just after a parameter. On a closed curve the start continues the
 -- end.
@@ -186,12 +186,12 @@ directionAt approach curve u
 -- tangent. Where the speed vanishes it is the limit. Where a shift has collapsed a stretch to a
 -- point it is the tangent of the curve below.
 heading :: Approach -> Curve -> Double -> Vec
-heading approach curve u = case TaylorExpansion.direction approach (near 1) of
+heading approach curve u = case TaylorExpansion.direction approach (expansion 1) of
   Just d -> d
-  Nothing -> case TaylorExpansion.direction approach (near 4) of
+  Nothing -> case TaylorExpansion.direction approach (expansion 4) of
     Just d -> d
     Nothing -> case curve of
       Shifted _ lower _ -> heading approach lower u
       Plain _ -> Crash.bug "a span that is a point"
   where
-    near n = ShiftedCurve.jetAt n curve (ShiftedCurve.spot approach u curve)
+    expansion n = ShiftedCurve.expansionAt n curve (ShiftedCurve.spanPoint approach u curve)

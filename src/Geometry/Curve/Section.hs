@@ -60,14 +60,14 @@ table points = case points of
   p : q : _ ->
     case [ k
            | (k, a, b) <- zip3 [2 ..] points (drop 1 points),
-             not (sameWay (Vec.x p) (Vec.x q) (Vec.x a) (Vec.x b))
+             not (isSameOrder (Vec.x p) (Vec.x q) (Vec.x a) (Vec.x b))
          ] of
       k : _ -> Left (OutOfOrder k)
       [] ->
         Right (PointTable (Vector.fromList (map Vec.x points)) (Vector.fromList (map Vec.y points)))
   _ -> Left (TooFewRows (length points))
   where
-    sameWay a b c d = (b > a && d > c) || (b < a && d < c)
+    isSameOrder a b c d = (b > a && d > c) || (b < a && d < c)
 
 -- | Count of rows.
 rows :: PointTable -> Int
@@ -135,7 +135,7 @@ formula p = case curve p of
   Line -> polynomial 0
   Parabola a -> polynomial a
   Arc (Rad t)
-    | flat t -> polynomial 0
+    | isFlat t -> polynomial 0
     | otherwise -> let c = centre p t in Circle c (Vec.distance c (from p))
   where
     Chord w h = chordOf (from p) (to p)
@@ -154,18 +154,18 @@ parabola a m b = Parabola ((up - x * h / w) / (x * (x - w)))
     Chord x up = chordOf a m
 
 -- | True if an arc with this angle is straight within the tolerance.
-flat :: Double -> Bool
-flat t = Rad (2 * abs t) <= Tolerance.straight
+isFlat :: Double -> Bool
+isFlat t = Rad (2 * abs t) <= Tolerance.straight
 
 -- | Centre of an arc, which lies on the perpendicular bisector of the chord.
 centre :: Section -> Double -> Point
 centre p t =
   Vec.shift
-    (Vec.scale (-(way / (2 * tan t))) (Vec.left (Vec.to (from p) (to p))))
+    (Vec.scale (-(sense / (2 * tan t))) (Vec.left (Vec.to (from p) (to p))))
     (Vec.between 0.5 (from p) (to p))
   where
     Chord w _ = chordOf (from p) (to p)
-    way = signum w
+    sense = signum w
 
 -- | Section as a segment; Nothing for a parabola.
 segment :: Section -> Maybe Segment
@@ -173,7 +173,7 @@ segment p = case curve p of
   Line -> Just (Straight (from p) (to p))
   Parabola _ -> Nothing
   Arc (Rad t)
-    | flat t -> Just (Straight (from p) (to p))
+    | isFlat t -> Just (Straight (from p) (to p))
     | otherwise ->
       Just
         ( Segment.arc
@@ -225,11 +225,11 @@ bestWithin ::
   Int ->
   Int ->
   (Double, SectionShape, Maybe (Int, Int))
-bestWithin limit known t@(PointTable xs ys) k i j = case k of
+bestWithin limit initialPair t@(PointTable xs ys) k i j = case k of
   LineKind
-    | Just (p, r) <- known,
+    | Just (p, r) <- initialPair,
       max (abs (relative Line p)) (abs (relative Line r)) > limit ->
-      (max (abs (relative Line p)) (abs (relative Line r)), Line, known)
+      (max (abs (relative Line p)) (abs (relative Line r)), Line, initialPair)
     | otherwise ->
       let (p, low, r, high) =
             extremes i j (relative Line)
@@ -237,16 +237,16 @@ bestWithin limit known t@(PointTable xs ys) k i j = case k of
   _ | j == i + 1 -> (0, case k of ArcKind -> Arc (Rad 0); _ -> Parabola 0, Nothing)
   ParabolaKind ->
     let q m = let x = across m in x * (x - w)
-        off m = relative Line m
+        deviation m = relative Line m
         (worst, s, rows') =
-          least limit known (\p r -> -((off p + off r) / (q p + q r))) (\a m -> off m + a * q m) i j
+          minimax limit initialPair (\p r -> -((deviation p + deviation r) / (q p + q r))) (\a m -> deviation m + a * q m) i j
      in (worst, Parabola s, Just rows')
   ArcKind ->
     let steepest = pi / 2 - atan2 (abs h) (abs w)
-        off a m = arcRise chord (tan a) (across m) - up m
+        deviation a m = arcRise chord (tan a) (across m) - up m
         (worst, s, rows') =
-          least limit known (\p r -> root steepest (\a -> off a p + off a r)) off' i j
-        off' a = let tangent = tan a in \m -> arcRise chord tangent (across m) - up m
+          minimax limit initialPair (\p r -> root steepest (\a -> deviation a p + deviation a r)) deviationOf i j
+        deviationOf a = let tangent = tan a in \m -> arcRise chord tangent (across m) - up m
      in (worst, Arc (Rad s), Just rows')
   where
     chord@(Chord w h) = chordOf (row t i) (row t j)
@@ -276,7 +276,7 @@ extremes i j value
 -- side. The balanced deviation rises with every exchange, so the iteration ends; it also ends
 -- once the deviation exceeds the limit. It takes about four rounds, or one or two from a good
 -- initial pair.
-least ::
+minimax ::
   Double ->
   Maybe (Int, Int) ->
   (Int -> Int -> Double) ->
@@ -284,22 +284,22 @@ least ::
   Int ->
   Int ->
   (Double, Double, (Int, Int))
-least limit known balance off i j =
-  uncurry (go (-1) (1 / 0, 0, (i, i))) (fromMaybe (low0, high0) known)
+minimax limit initialPair balance deviation i j =
+  uncurry (go (-1) (1 / 0, 0, (i, i))) (fromMaybe (low0, high0) initialPair)
   where
-    (low0, _, high0, _) = extremes i j (off 0)
-    go before found one other
+    (low0, _, high0, _) = extremes i j (deviation 0)
+    go lastLevel found one other
       | level > limit = (level, t, (low, high))
-      | worst <= level * (1 + 1e-13) || level <= before = min found (worst, t, (low, high))
+      | worst <= level * (1 + 1e-13) || level <= lastLevel = min found (worst, t, (low, high))
       | vHigh >= -vLow = go level (min found (worst, t, (low, high))) low high'
       | otherwise = go level (min found (worst, t, (low, high))) low' high
       where
         t = balance one other
-        (low, high) = if off t one <= off t other then (one, other) else (other, one)
-        level = max (abs (off t low)) (abs (off t high))
-        (low', vLow, high', vHigh) = extremes i j (off t)
+        (low, high) = if deviation t one <= deviation t other then (one, other) else (other, one)
+        level = max (abs (deviation t low)) (abs (deviation t high))
+        (low', vLow, high', vHigh) = extremes i j (deviation t)
         worst = max (-vLow) vHigh
-{-# INLINE least #-}
+{-# INLINE minimax #-}
 
 -- | Root of a rising function by the Illinois variant of the false-position method, to nearly
 -- full precision. Returns the end of the range if there is no sign change. The Illinois rule
@@ -310,19 +310,19 @@ root limit f
   | f limit <= 0 = limit
   | otherwise = go (100 :: Int) (-limit) (f (-limit)) limit (f limit)
   where
-    go left low below high above
-      | left <= 0 || not (low < t && t < high) || high - low < 1e-16 || v == 0 = t
-      | v < 0 = onward t v high above
-      | otherwise = back low below t v
+    go remaining low below high above
+      | remaining <= 0 || not (low < t && t < high) || high - low < 1e-16 || v == 0 = t
+      | v < 0 = raiseLow t v high above
+      | otherwise = lowerHigh low below t v
       where
         t = low + (high - low) * (below / (below - above))
         v = f t
-        onward a va b vb =
+        raiseLow a va b vb =
           let u =
                 a + (b - a) * (va / (va - vb))
-           in if abs (u - a) < 1e-16 then u else go (left - 1) a va b (0.5 * vb)
-        back a va b vb =
+           in if abs (u - a) < 1e-16 then u else go (remaining - 1) a va b (0.5 * vb)
+        lowerHigh a va b vb =
           let u =
                 a + (b - a) * (va / (va - vb))
-           in if abs (b - u) < 1e-16 then u else go (left - 1) a (0.5 * va) b vb
+           in if abs (b - u) < 1e-16 then u else go (remaining - 1) a (0.5 * va) b vb
 {-# INLINE root #-}

@@ -57,18 +57,18 @@ fit :: NonEmpty SectionKind -> Mm -> PointTable -> NonEmpty Section
 fit kinds (Mm tolerance) t = fmap piece (simplest t steps (bottleneck steps))
   where
     steps = layers t (toList (NonEmpty.nub (NonEmpty.sort kinds))) tolerance
-    piece (i, j, k) = let (d, c) = best t k i j in pieceOf t i j c (Mm d)
+    piece (i, j, k) = let (d, c) = best t k i j in sectionBetween t i j c (Mm d)
 
 -- | Section between two rows (indices from 0) with a shape and its largest deviation.
-pieceOf :: PointTable -> Int -> Int -> SectionShape -> Mm -> Section
-pieceOf t i j curve largest =
+sectionBetween :: PointTable -> Int -> Int -> SectionShape -> Mm -> Section
+sectionBetween t i j curve largest =
   Section {first = i + 1, final = j + 1, from = row t i, to = row t j, curve, largest}
 
 -- | Sections that start at a row: their last rows, and the deviation for each kind.
-type Pieces = [(Int, NonEmpty (SectionKind, Double))]
+type SectionsFrom = [(Int, NonEmpty (SectionKind, Double))]
 
 -- | Sections that a shortest chain can use, by their number in the chain and by their first row.
-type Layers = NonEmpty (IntMap Pieces)
+type Layers = NonEmpty (IntMap SectionsFrom)
 
 -- | Breadth-first search: the rows that are reached with k sections and no fewer, from k = 0,
 -- until the last row is reached.
@@ -80,32 +80,32 @@ layers t kinds tolerance = go (IntMap.singleton 0 ()) (IntMap.singleton 0 ())
     go seen current = case IntMap.mapMaybe id (IntMap.mapWithKey (\i _ -> direct i) current) of
       done | not (IntMap.null done) -> done :| []
       _ ->
-        let out =
+        let reachable =
               IntMap.mapWithKey
-                (\i _ -> grow (`IntMap.member` seen) i (i + 1) [(k, Nothing) | k <- kinds])
+                (\i _ -> lengthen (`IntMap.member` seen) i (i + 1) [(k, Nothing) | k <- kinds])
                 current
-            next = IntMap.fromList [(j, ()) | ps <- IntMap.elems out, (j, _) <- ps]
-         in NonEmpty.cons out (go (IntMap.union seen next) next)
+            next = IntMap.fromList [(j, ()) | ps <- IntMap.elems reachable, (j, _) <- ps]
+         in NonEmpty.cons reachable (go (IntMap.union seen next) next)
     direct i =
       fmap
         (\ks -> [(final, ks)])
         ( NonEmpty.nonEmpty
-            [(k, d) | (k, d, _) <- misses [(k, Nothing) | k <- kinds] i final, d <= within]
+            [(k, d) | (k, d, _) <- deviationsOf [(k, Nothing) | k <- kinds] i final, d <= within]
         )
     -- Lengthens sections from a row. Keeps the kinds that can still come within the tolerance, each
     -- with the two rows of its largest deviations. Skips rows that were reached before.
-    grow reached i j alive
-      | j > final || null alive = []
-      | reached j = grow reached i (j + 1) alive
+    lengthen reached i j candidates
+      | j > final || null candidates = []
+      | reached j = lengthen reached i (j + 1) candidates
       | otherwise =
-        let ms = misses alive i j
-            onward =
+        let ms = deviationsOf candidates i j
+            survivors =
               if j == i + 1
-                then alive
+                then candidates
                 else [(k, most) | (k, d, most) <- ms, d <= tolerance + within]
             good = [(k, d) | (k, d, _) <- ms, d <= within]
-         in maybe id (\g -> ((j, g) :)) (NonEmpty.nonEmpty good) (grow reached i (j + 1) onward)
-    misses ks i j
+         in maybe id (\g -> ((j, g) :)) (NonEmpty.nonEmpty good) (lengthen reached i (j + 1) survivors)
+    deviationsOf ks i j
       | j == i + 1 = [(LineKind, 0, Nothing)]
       | otherwise =
         [(k, d, most) | (k, before) <- ks, let (d, _, most) = bestWithin within before t k i j]
@@ -127,11 +127,11 @@ bottleneck steps = minimum (IntMap.elems (foldl advance (IntMap.singleton 0 0) s
 -- section. Deviations are summed in whole steps of 'Tolerance.equal', so that rounding decides
 -- nothing. Of equal chains the one with the earlier rows is taken.
 simplest :: PointTable -> Layers -> Double -> NonEmpty (Int, Int, SectionKind)
-simplest t steps deviation = case NonEmpty.nonEmpty (reverse walk) of
+simplest t steps deviation = case NonEmpty.nonEmpty (reverse reversedChain) of
   Just chain -> chain
   Nothing -> (0, rows t - 1, LineKind) :| []
   where
-    (_, _, walk) =
+    (_, _, reversedChain) =
       minimumBy
         (comparing cost)
         (IntMap.elems (foldl advance (IntMap.singleton 0 (0 :: Int, 0 :: Int, [])) steps))
@@ -169,24 +169,24 @@ sections t chosen = case NonEmpty.nonEmpty chosen of
   Nothing -> Left NoSections
   Just some -> do
     pieces <- traverse section (NonEmpty.zip (1 :| [2 ..]) some)
-    traverse_' joined (zip3 [1 ..] (1 : map final (toList pieces)) (toList pieces))
+    checkAll checkJoined (zip3 [1 ..] (1 : map final (toList pieces)) (toList pieces))
     let ends = final (NonEmpty.last pieces)
     if ends == rows t then Right pieces else Left (EndsEarly ends (rows t))
   where
-    joined (number, before, p) =
+    checkJoined (number, before, p) =
       if first p == before then Right () else Left (NotJoined number (first p) before)
-    traverse_' f = foldr (\a rest -> f a >> rest) (Right ())
+    checkAll f = foldr (\a rest -> f a >> rest) (Right ())
     section (number, ks) = case filter (\k -> k < 1 || k > rows t) ks of
       k : _ -> Left (NoSuchRow number k)
       [] -> case ks of
-        [a, b] | a < b -> Right (drawn (a - 1) (b - 1) Line)
+        [a, b] | a < b -> Right (chosenSection (a - 1) (b - 1) Line)
         [a, m, b]
           | a < m && m < b ->
-            Right (drawn (a - 1) (b - 1) (parabola (row t (a - 1)) (row t (m - 1)) (row t (b - 1))))
+            Right (chosenSection (a - 1) (b - 1) (parabola (row t (a - 1)) (row t (m - 1)) (row t (b - 1))))
         _ | length ks `elem` [2, 3] -> Left (RowsDoNotRise number)
         _ -> Left (WrongCount number (length ks))
-    drawn i j c =
-      let p = pieceOf t i j c (Mm 0)
+    chosenSection i j c =
+      let p = sectionBetween t i j c (Mm 0)
        in p {largest = Mm (maximum (map (\k -> abs (missed p (row t k))) [i .. j]))}
 
 -- Deviations ------------------------------------------------------------------------------------

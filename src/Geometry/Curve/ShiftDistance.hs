@@ -8,10 +8,10 @@ module Geometry.Curve.ShiftDistance
     Joggle (..),
     ramp,
     ShiftInterval,
-    stretch,
+    intervalOf,
     marks,
     knots,
-    Below (..),
+    CurveBelow (..),
     vanishes,
     series,
     scaled,
@@ -81,27 +81,27 @@ instance Show ShiftInterval where
   show _ = "Stretch"
 
 -- | Interval of a distance on a curve with the given arc length.
-stretch :: ArcLength -> Distance -> ShiftInterval
-stretch ruler distance = case distance of
-  Constant _ -> whole
-  Pointwise _ -> whole
-  Bevelled {} -> whole
-  Growing Growth {between = Nothing} -> whole
+intervalOf :: ArcLength -> Distance -> ShiftInterval
+intervalOf arcLength distance = case distance of
+  Constant _ -> wholeCurve
+  Pointwise _ -> wholeCurve
+  Bevelled {} -> wholeCurve
+  Growing Growth {between = Nothing} -> wholeCurve
   Growing Growth {between = Just (a, b)} ->
     ShiftInterval
       { marks = [a, b],
-        first = ArcLength.lengthTo ruler a,
-        final = ArcLength.lengthTo ruler b
+        first = ArcLength.lengthTo arcLength a,
+        final = ArcLength.lengthTo arcLength b
       }
-  Square _ inner -> stretch ruler inner
+  Square _ inner -> intervalOf arcLength inner
   Joggled joggle@Joggle {begins, ends} ->
-    let first = ArcLength.lengthTo ruler begins
-        final = ArcLength.lengthTo ruler ends
-        on share = ArcLength.parameterAt ruler (plus first (times share (ramp joggle)))
-        off share = ArcLength.parameterAt ruler (minus final (times share (ramp joggle)))
+    let first = ArcLength.lengthTo arcLength begins
+        final = ArcLength.lengthTo arcLength ends
+        on share = ArcLength.parameterAt arcLength (plus first (times share (ramp joggle)))
+        off share = ArcLength.parameterAt arcLength (minus final (times share (ramp joggle)))
      in ShiftInterval {marks = [begins, on 0.5, on 1, off 1, off 0.5, ends], first, final}
   where
-    whole = ShiftInterval {marks = [], first = Mm 0, final = ArcLength.total ruler}
+    wholeCurve = ShiftInterval {marks = [], first = Mm 0, final = ArcLength.total arcLength}
 
 -- | Rising parameters of the base at which the third derivative of a distance may jump, apart
 -- from its marks and the ends of the base's spans.
@@ -117,9 +117,9 @@ knots base distance = case distance of
 
 -- | True if a distance is identically 0 about a position.
 vanishes :: Distance -> SpanPoint -> Bool
-vanishes distance spot = case distance of
-  Joggled Joggle {begins, ends} -> not (spot `isPast` begins) || spot `isPast` ends
-  Square _ inner -> vanishes inner spot
+vanishes distance position = case distance of
+  Joggled Joggle {begins, ends} -> not (position `isPast` begins) || position `isPast` ends
+  Square _ inner -> vanishes inner position
   Constant h -> h == Mm 0
   Pointwise _ -> False
   Bevelled {} -> False
@@ -127,68 +127,68 @@ vanishes distance spot = case distance of
 
 -- | Properties of the curve that is shifted: the base under all layers, the arc length (evaluated
 -- only for distances that depend on it), and the Taylor expansion about the position.
-data Below = Below {under :: Base, along :: ~ArcLength, near :: TaylorExpansion}
+data CurveBelow = CurveBelow {under :: Base, along :: ~ArcLength, near :: TaylorExpansion}
 
 -- | Power series of the distance about a position, up to the given order. The expansion of the
 -- curve below must have one order more.
-series :: Int -> Below -> ShiftInterval -> Distance -> SpanPoint -> PowerSeries
-series n below known distance spot = case distance of
+series :: Int -> CurveBelow -> ShiftInterval -> Distance -> SpanPoint -> PowerSeries
+series n below interval distance position = case distance of
   Constant (Mm h) -> PowerSeries.constant n h
-  Pointwise c -> Column.series n (under below) c spot
+  Pointwise c -> Column.series n (under below) c position
   Bevelled mu height (Mm delta) ->
     PowerSeries.plusConstant
       delta
       ( PowerSeries.multiply
-          (Column.series n (under below) height spot)
-          (PowerSeries.tangent (Column.series n (under below) mu spot))
+          (Column.series n (under below) height position)
+          (PowerSeries.tangent (Column.series n (under below) mu position))
       )
-  Growing growth -> grown n below known growth spot
+  Growing growth -> growthSeries n below interval growth position
   Square mu inner ->
     PowerSeries.divide
-      (series n below known inner spot)
-      (PowerSeries.cosine (Column.series n (under below) mu spot))
-  Joggled joggle -> joggled n below known joggle spot
+      (series n below interval inner position)
+      (PowerSeries.cosine (Column.series n (under below) mu position))
+  Joggled joggle -> joggleSeries n below interval joggle position
 
 -- | @h1 + (h2 − h1)·s/S@ at the length s of a growth over the length S (Kolsanova, cipher 1).
-grown :: Int -> Below -> ShiftInterval -> Growth -> SpanPoint -> PowerSeries
-grown n below known Growth {from = Mm h1, to = Mm h2, between} spot = case between of
+growthSeries :: Int -> CurveBelow -> ShiftInterval -> Growth -> SpanPoint -> PowerSeries
+growthSeries n below interval Growth {from = Mm h1, to = Mm h2, between} position = case between of
   Nothing -> inside
-  Just _ -> case passed spot (marks known) of
+  Just _ -> case marksBefore position (marks interval) of
     0 -> PowerSeries.constant n h1
     1 -> inside
     _ -> PowerSeries.constant n h2
   where
-    Mm s1 = first known
-    Mm s2 = final known
+    Mm s1 = first interval
+    Mm s2 = final interval
     inside
       | s2 > s1 =
         PowerSeries.plusConstant
           h1
           ( PowerSeries.scale
               ((h2 - h1) / (s2 - s1))
-              (PowerSeries.plusConstant (-s1) (run n below spot))
+              (PowerSeries.plusConstant (-s1) (lengthSeries n below position))
           )
       | otherwise = PowerSeries.constant n h1
 
 -- | Joggle at the length t from the start of the ramp: @r − √(r² − t²)@ up to the middle of the
 -- ramp, then @d − (r − √(r² − (ℓ − t)²))@.
-joggled :: Int -> Below -> ShiftInterval -> Joggle -> SpanPoint -> PowerSeries
-joggled n below known joggle@Joggle {depth = Mm depth, radius = Mm r} spot =
+joggleSeries :: Int -> CurveBelow -> ShiftInterval -> Joggle -> SpanPoint -> PowerSeries
+joggleSeries n below interval joggle@Joggle {depth = Mm depth, radius = Mm r} position =
   PowerSeries.scale (signum depth) $
-    case passed spot (marks known) of
-      1 -> low (PowerSeries.plusConstant (-s1) here)
-      2 -> high (PowerSeries.plusConstant (-s1) here)
+    case marksBefore position (marks interval) of
+      1 -> lowerArc (PowerSeries.plusConstant (-s1) runLength)
+      2 -> upperArc (PowerSeries.plusConstant (-s1) runLength)
       3 -> PowerSeries.constant n d
-      4 -> high (PowerSeries.plusConstant s2 (PowerSeries.scale (-1) here))
-      5 -> low (PowerSeries.plusConstant s2 (PowerSeries.scale (-1) here))
+      4 -> upperArc (PowerSeries.plusConstant s2 (PowerSeries.scale (-1) runLength))
+      5 -> lowerArc (PowerSeries.plusConstant s2 (PowerSeries.scale (-1) runLength))
       _ -> PowerSeries.constant n 0
   where
     d = abs depth
-    here = run n below spot
-    Mm s1 = first known
-    Mm s2 = final known
+    runLength = lengthSeries n below position
+    Mm s1 = first interval
+    Mm s2 = final interval
     Mm l = ramp joggle
-    sag t =
+    arcRise t =
       PowerSeries.plusConstant
         r
         ( PowerSeries.scale
@@ -201,27 +201,27 @@ joggled n below known joggle@Joggle {depth = Mm depth, radius = Mm r} spot =
                 )
             )
         )
-    low t = sag t
-    high t =
-      PowerSeries.plusConstant d (PowerSeries.scale (-1) (sag (PowerSeries.plusConstant (-l) t)))
+    lowerArc t = arcRise t
+    upperArc t =
+      PowerSeries.plusConstant d (PowerSeries.scale (-1) (arcRise (PowerSeries.plusConstant (-l) t)))
 
 -- | Power series of the arc length up to the position.
-run :: Int -> Below -> SpanPoint -> PowerSeries
-run n below spot = case n of
-  0 -> PowerSeries.constant 0 here
-  _ -> PowerSeries.integral here (TaylorExpansion.speed (near below))
+lengthSeries :: Int -> CurveBelow -> SpanPoint -> PowerSeries
+lengthSeries n below position = case n of
+  0 -> PowerSeries.constant 0 runLength
+  _ -> PowerSeries.integral runLength (TaylorExpansion.speed (near below))
   where
-    Mm here = ArcLength.lengthTo (along below) (parameter spot)
+    Mm runLength = ArcLength.lengthTo (along below) (parameter position)
 
 -- | Count of marks before the position.
-passed :: SpanPoint -> [Double] -> Int
-passed spot = length . filter (spot `isPast`)
+marksBefore :: SpanPoint -> [Double] -> Int
+marksBefore position = length . filter (position `isPast`)
 
 -- | True if a mark lies before a position.
 isPast :: SpanPoint -> Double -> Bool
-isPast spot mark = case approach spot of
-  After -> mark <= parameter spot
-  Before -> mark < parameter spot
+isPast position mark = case approach position of
+  After -> mark <= parameter position
+  Before -> mark < parameter position
 
 -- | Distance for the curve scaled by a factor, on its new base. Angles are unchanged.
 scaled :: Base -> Double -> Distance -> Distance
@@ -239,8 +239,8 @@ scaled on k distance = case distance of
 reversed :: Base -> Base -> Distance -> Distance
 reversed old new distance = case distance of
   Constant h -> Constant h
-  Pointwise c -> Pointwise (back c)
-  Bevelled mu height delta -> Bevelled (back mu) (back height) delta
+  Pointwise c -> Pointwise (reverseColumn c)
+  Bevelled mu height delta -> Bevelled (reverseColumn mu) (reverseColumn height) delta
   Growing growth ->
     Growing
       Growth
@@ -248,8 +248,8 @@ reversed old new distance = case distance of
           to = from growth,
           between = fmap (\(a, b) -> (n - b, n - a)) (between growth)
         }
-  Square mu inner -> Square (back mu) (reversed old new inner)
+  Square mu inner -> Square (reverseColumn mu) (reversed old new inner)
   Joggled joggle -> Joggled joggle {begins = n - ends joggle, ends = n - begins joggle}
   where
-    back = Column.reversed old new
+    reverseColumn = Column.reversed old new
     n = fromIntegral (Base.count old)

@@ -8,9 +8,9 @@ module Geometry.Curve.ShiftedCurve
     base,
     layers,
     breaks,
-    ruler,
-    spot,
-    jetAt,
+    arcLength,
+    spanPoint,
+    expansionAt,
     distanceAt,
     domain,
   )
@@ -19,7 +19,7 @@ where
 import Geometry.Carrier (Side (..))
 import Geometry.Curve.Base (Base, SpanPoint (..))
 import Geometry.Curve.Base qualified as Base
-import Geometry.Curve.ShiftDistance (Below (..), Distance, ShiftInterval)
+import Geometry.Curve.ShiftDistance (CurveBelow (..), Distance, ShiftInterval)
 import Geometry.Curve.ShiftDistance qualified as ShiftDistance
 import Geometry.Numeric.ArcLength (ArcLength)
 import Geometry.Numeric.ArcLength qualified as ArcLength
@@ -37,7 +37,7 @@ data Curve
   deriving stock (Eq, Show)
 
 -- | One shift: its side, its distance, and the interval over which the distance changes.
-data Layer = Layer {side :: Side, distance :: Distance, known :: ~ShiftInterval}
+data Layer = Layer {side :: Side, distance :: Distance, interval :: ~ShiftInterval}
   deriving stock (Eq, Show)
 
 -- | Shifts a curve along its normal to a side, by a distance that belongs to this curve.
@@ -46,10 +46,10 @@ shifted side distance lower = whole
   where
     whole =
       Shifted
-        Layer {side, distance, known = ShiftDistance.stretch (ruler lower) distance}
+        Layer {side, distance, interval = ShiftDistance.intervalOf (arcLength lower) distance}
         lower
-        (ArcLength.measured speed (merged (breaks whole) (knots whole)))
-    speed u = Vec.norm (TaylorExpansion.velocity (jetAt 1 whole (spot After u whole)))
+        (ArcLength.measured speed (merge (breaks whole) (knots whole)))
+    speed u = Vec.norm (TaylorExpansion.velocity (expansionAt 1 whole (spanPoint After u whole)))
 
 -- | Base under all shifts.
 base :: Curve -> Base
@@ -69,9 +69,9 @@ layers curve = reverse (outermost curve)
 breaks :: Curve -> [Double]
 breaks curve = case curve of
   Plain b -> map fromIntegral [0 .. Base.count b]
-  Shifted layer lower _ -> merged (breaks lower) (filter inside (ShiftDistance.marks (known layer)))
+  Shifted layer lower _ -> merge (breaks lower) (filter isInside (ShiftDistance.marks (interval layer)))
   where
-    inside u = u > 0 && u < domain curve
+    isInside u = u > 0 && u < domain curve
 
 -- | Rising parameters at which a column changes from one cubic to the next within a span. The
 -- curve is smooth there, but the speed of a shift of it is not.
@@ -79,44 +79,44 @@ knots :: Curve -> [Double]
 knots curve = case curve of
   Plain _ -> []
   Shifted layer lower _ ->
-    merged (knots lower) (filter inside (ShiftDistance.knots (base lower) (distance layer)))
+    merge (knots lower) (filter isInside (ShiftDistance.knots (base lower) (distance layer)))
   where
-    inside u = u > 0 && u < domain curve
+    isInside u = u > 0 && u < domain curve
 
 -- | Union of two rising lists.
-merged :: [Double] -> [Double] -> [Double]
-merged as bs = case (as, bs) of
+merge :: [Double] -> [Double] -> [Double]
+merge as bs = case (as, bs) of
   ([], _) -> bs
   (_, []) -> as
   (a : as', b : bs')
-    | a < b -> a : merged as' bs
-    | b < a -> b : merged as bs'
-    | otherwise -> a : merged as' bs'
+    | a < b -> a : merge as' bs
+    | b < a -> b : merge as bs'
+    | otherwise -> a : merge as' bs'
 
 -- | Parameter of the end, which is the count of spans.
 domain :: Curve -> Double
 domain = fromIntegral . Base.count . base
 
 -- | Arc length along the curve as a function of its parameter.
-ruler :: Curve -> ArcLength
-ruler curve = case curve of
-  Plain b -> Base.ruler b
+arcLength :: Curve -> ArcLength
+arcLength curve = case curve of
+  Plain b -> Base.arcLength b
   Shifted _ _ along -> along
 
 -- | Position at a parameter. Parameters outside of the domain give the nearer end.
-spot :: Approach -> Double -> Curve -> SpanPoint
-spot approach u curve = Base.spot approach u (base curve)
+spanPoint :: Approach -> Double -> Curve -> SpanPoint
+spanPoint approach u curve = Base.spanPoint approach u (base curve)
 
 -- | Taylor expansion of the point about a position, up to the given order. A shift needs one
 -- order more of the curve below, except where its distance vanishes.
-jetAt :: Int -> Curve -> SpanPoint -> TaylorExpansion
-jetAt n curve s = case curve of
+expansionAt :: Int -> Curve -> SpanPoint -> TaylorExpansion
+expansionAt n curve s = case curve of
   Plain b -> Base.jet n b s
   Shifted layer lower _
-    | ShiftDistance.vanishes (distance layer) s -> jetAt n lower s
+    | ShiftDistance.vanishes (distance layer) s -> expansionAt n lower s
     | otherwise ->
       let near =
-            jetAt (n + 1) lower s
+            expansionAt (n + 1) lower s
        in TaylorExpansion.moved (distanceAt n layer lower near s) near
 
 -- | Power series of a shift's distance to the left, up to the given order. The expansion is that
@@ -129,7 +129,7 @@ distanceAt n layer lower near s = case side layer of
     d =
       ShiftDistance.series
         n
-        Below {under = base lower, along = ruler lower, near}
-        (known layer)
+        CurveBelow {under = base lower, along = arcLength lower, near}
+        (interval layer)
         (distance layer)
         s

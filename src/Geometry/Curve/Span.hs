@@ -2,7 +2,7 @@
 module Geometry.Curve.Span
   ( Span (..),
     SpanShape (..),
-    ofPiece,
+    ofShape,
     ofSegment,
     ends,
     segment,
@@ -47,8 +47,8 @@ data SpanShape
   deriving stock (Eq, Show)
 
 -- | Span of a shape.
-ofPiece :: SpanShape -> Span
-ofPiece piece = case piece of
+ofShape :: SpanShape -> Span
+ofShape shape = case shape of
   Line p q -> Polynomial (Spline.line (Vec.x p) (Vec.x q)) (Spline.line (Vec.y p) (Vec.y q))
   Quadratic a b c from to ->
     let d = to - from
@@ -60,7 +60,7 @@ ofPiece piece = case piece of
 -- | Span of a line or an arc.
 ofSegment :: Segment -> Span
 ofSegment s = case s of
-  Straight p q -> ofPiece (Line p q)
+  Straight p q -> ofShape (Line p q)
   Arc {} -> Round s
 
 -- | Start and end of a span.
@@ -91,14 +91,14 @@ jet n s t = case s of
   Polynomial x y -> TaylorExpansion (Spline.series n x t) (Spline.series n y t)
   Round (Arc {start, centre, sweep = Rad sweep}) ->
     -- Each derivative is the one before, rotated by a quarter turn and multiplied by the sweep.
-    let turned = Vec.rotate (Rad (sweep * t)) (Vec.to centre start)
-        terms = zipWith Vec.scale (scanl (\k j -> k * sweep / j) 1 [1 ..]) (iterate Vec.left turned)
-     in along n centre terms
-  Round (Straight p q) -> along n p [Vec.scale t (Vec.to p q), Vec.to p q]
+    let rotated = Vec.rotate (Rad (sweep * t)) (Vec.to centre start)
+        terms = zipWith Vec.scale (scanl (\k j -> k * sweep / j) 1 [1 ..]) (iterate Vec.left rotated)
+     in fromCoefficients n centre terms
+  Round (Straight p q) -> fromCoefficients n p [Vec.scale t (Vec.to p q), Vec.to p q]
 
 -- | Taylor expansion with a constant term and the given further coefficients.
-along :: Int -> Point -> [Vec] -> TaylorExpansion
-along n p terms = TaylorExpansion (part (Vec.x p) (map fst parts)) (part (Vec.y p) (map snd parts))
+fromCoefficients :: Int -> Point -> [Vec] -> TaylorExpansion
+fromCoefficients n p terms = TaylorExpansion (part (Vec.x p) (map fst parts)) (part (Vec.y p) (map snd parts))
   where
     parts = map components (take (n + 1) terms)
     part :: Double -> [Double] -> PowerSeries

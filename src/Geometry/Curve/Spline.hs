@@ -166,37 +166,37 @@ secondDerivatives boundary steps values = case boundary of
 -- spline is diagonally dominant.
 tridiagonal :: Int -> (Int -> Row) -> Unboxed.Vector Double
 tridiagonal n row = Unboxed.create $ do
-  above <- Mutable.unsafeNew (max 0 n)
+  superDiagonal <- Mutable.unsafeNew (max 0 n)
   solved <- Mutable.unsafeNew (max 0 n)
-  eliminated above solved 0 0 0
+  eliminate superDiagonal solved 0 0 0
   pure solved
   where
-    eliminated ::
+    eliminate ::
       Mutable.MVector s Double ->
       Mutable.MVector s Double ->
       Int ->
       Double ->
       Double ->
       ST s ()
-    eliminated above solved i c' d'
-      | i >= n = backwards above solved (n - 1) 0
+    eliminate superDiagonal solved i c' d'
+      | i >= n = substitute superDiagonal solved (n - 1) 0
       | otherwise = case row i of
         Row a b c d -> do
           let pivot = b - a * c'
               c'' = c / pivot
               d'' = (d - a * d') / pivot
-          Mutable.unsafeWrite above i c''
+          Mutable.unsafeWrite superDiagonal i c''
           Mutable.unsafeWrite solved i d''
-          eliminated above solved (i + 1) c'' d''
-    backwards :: Mutable.MVector s Double -> Mutable.MVector s Double -> Int -> Double -> ST s ()
-    backwards above solved i next
+          eliminate superDiagonal solved (i + 1) c'' d''
+    substitute :: Mutable.MVector s Double -> Mutable.MVector s Double -> Int -> Double -> ST s ()
+    substitute superDiagonal solved i next
       | i < 0 = pure ()
       | otherwise = do
-        c <- Mutable.unsafeRead above i
+        c <- Mutable.unsafeRead superDiagonal i
         d <- Mutable.unsafeRead solved i
         let m = d - c * next
         Mutable.unsafeWrite solved i m
-        backwards above solved (i - 1) m
+        substitute superDiagonal solved (i - 1) m
 {-# INLINE tridiagonal #-}
 
 -- | Solves a cyclic tridiagonal system: the first equation also contains the last unknown, and
@@ -208,15 +208,15 @@ cyclic n row = Unboxed.zipWith (\x z -> x - factor * z) plain corner
     Row beta firstDiagonal _ _ = row 0
     Row _ _ alpha _ = row (n - 1)
     gamma = -firstDiagonal
-    altered i (Row a b c d)
+    perturbed i (Row a b c d)
       | i == 0 = Row 0 (b - gamma) c d
       | i == n - 1 = Row a (b - alpha * beta / gamma) 0 d
       | otherwise = Row a b c d
-    plain = tridiagonal n (\i -> altered i (row i))
-    corner = tridiagonal n (\i -> altered i (column i (row i)))
+    plain = tridiagonal n (\i -> perturbed i (row i))
+    corner = tridiagonal n (\i -> perturbed i (column i (row i)))
     column i (Row a b c _) = Row a b c (if i == 0 then gamma else if i == n - 1 then alpha else 0)
-    weighed v = Unboxed.head v + beta * Unboxed.last v / gamma
-    factor = weighed plain / (1 + weighed corner)
+    weighted v = Unboxed.head v + beta * Unboxed.last v / gamma
+    factor = weighted plain / (1 + weighted corner)
 {-# INLINE cyclic #-}
 
 -- | Parabolas (Lagrange) through values 1–3, 3–5, and so on. Each fraction gives the position of

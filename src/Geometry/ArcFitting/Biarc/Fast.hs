@@ -8,13 +8,13 @@
 module Geometry.ArcFitting.Biarc.Fast
   ( Pose (..),
     FastBiarc (..),
-    joined,
+    biarc,
     Biarcs,
     between,
-    among,
+    withRatio,
     FastArc (..),
-    frame,
-    forwards,
+    fastArc,
+    isForwards,
   )
 where
 
@@ -40,9 +40,9 @@ data FastBiarc = FastBiarc
 -- | Biarc from one pose to another. The ratio of its chords is that of
 -- 'Geometry.ArcFitting.Biarc.join', times a factor. The result is NaN where an end direction
 -- makes a quarter turn or more with the chord, and where the ends coincide.
-joined :: Double -> Pose -> Pose -> FastBiarc
-joined times from end = among times (between from end)
-{-# INLINE joined #-}
+biarc :: Double -> Pose -> Pose -> FastBiarc
+biarc times from end = withRatio times (between from end)
+{-# INLINE biarc #-}
 
 -- | Family of all biarcs from one pose to another.
 data Biarcs
@@ -116,8 +116,8 @@ between (Pose x0 y0 sx sy) final@(Pose x1 y1 ex ey)
     Rad oneArc = Tolerance.oneArc
 
 -- | Biarc whose chord ratio is that of 'Geometry.ArcFitting.Biarc.join', times a factor.
-among :: Double -> Biarcs -> FastBiarc
-among times biarcs = case biarcs of
+withRatio :: Double -> Biarcs -> FastBiarc
+withRatio times biarcs = case biarcs of
   Only pair -> pair
   Biarcs {x0, y0, cx, cy, l, ux, uy, ca, sa, cb, sb, sinA, sinB, chords} ->
     FastBiarc
@@ -129,16 +129,16 @@ among times biarcs = case biarcs of
         bulge2 = bulge s2 c2
       }
     where
-      usual = times * chords
+      defaultRatio = times * chords
       -- An arc with a negligible sweep is output as a line. Its ratio is replaced by the one for
       -- which it is exactly a line, so that no kink results.
       r
-        | abs ((sa + usual * sb) * ca + (ca + usual * cb) * sa) <= hardly = near (-(sinA / halved))
-        | abs ((ca + usual * cb) * sb + (sa + usual * sb) * cb) <= hardly = near (-(halved / sinB))
-        | otherwise = usual
-      halved = sa * cb + ca * sb
-      hardly = 0.5 * straight * (1 + usual)
-      near exact = if 0.5 * usual < exact && exact < 2 * usual then exact else usual
+        | abs ((sa + defaultRatio * sb) * ca + (ca + defaultRatio * cb) * sa) <= negligible = near (-(sinA / halfSum))
+        | abs ((ca + defaultRatio * cb) * sb + (sa + defaultRatio * sb) * cb) <= negligible = near (-(halfSum / sinB))
+        | otherwise = defaultRatio
+      halfSum = sa * cb + ca * sb
+      negligible = 0.5 * straight * (1 + defaultRatio)
+      near exact = if 0.5 * defaultRatio < exact && exact < 2 * defaultRatio then exact else defaultRatio
       wr = ca + r * cb
       wi = sa + r * sb
       square = wr * wr + wi * wi
@@ -172,14 +172,14 @@ ratio :: Double -> Double -> Double -> Double -> Double
 ratio sinA cosA sinB cosB
   | sinA * sinB >= 0
       || abs sinA <= near * abs sinB && abs sinB <= near * abs sinA
-      || held == gamma =
+      || limited == gamma =
     1
-  | otherwise = max 0.25 (min 4 (-(sin ((alpha + held) / 2) / sin ((held + beta) / 2))))
+  | otherwise = max 0.25 (min 4 (-(sin ((alpha + limited) / 2) / sin ((limited + beta) / 2))))
   where
     alpha = atan2 sinA cosA
     beta = atan2 sinB cosB
     gamma = -((alpha + beta) / 2)
-    held = max (min alpha beta / 2) (min (max alpha beta / 2) gamma)
+    limited = max (min alpha beta / 2) (min (max alpha beta / 2) gamma)
     -- If neither sine exceeds the other by more than this factor, the angles (below a quarter turn)
     -- differ by less than the factor 2.
     near = 1.4
@@ -195,8 +195,8 @@ data FastArc = FastArc
   }
 
 -- | Arc from its start, its curvature in 1/mm and its end.
-frame :: Pose -> Double -> Pose -> FastArc
-frame origin bend limit =
+fastArc :: Pose -> Double -> Pose -> FastArc
+fastArc origin bend limit =
   FastArc
     { origin,
       bend,
@@ -204,9 +204,9 @@ frame origin bend limit =
       cosine = dx origin * dx limit + dy origin * dy limit,
       sine = dx origin * dy limit - dy origin * dx limit
     }
-{-# INLINE frame #-}
+{-# INLINE fastArc #-}
 
 -- | True if an arc sweeps less than a quarter turn.
-forwards :: FastArc -> Bool
-forwards f = cosine f > 0
-{-# INLINE forwards #-}
+isForwards :: FastArc -> Bool
+isForwards f = cosine f > 0
+{-# INLINE isForwards #-}
