@@ -1,15 +1,16 @@
--- | Curves given by tables, pieces or chains, and their shifts (ciphers), exactly.
+-- | Planar curves given by point tables, span shapes or segments, and their shifts (the ciphers
+-- of the Ural paper), without sampling.
 --
--- A curve gives its place for a parameter from 0 to the number of its spans. A shift is one more
--- layer: it moves what is below along the left normal by a distance that is itself a function of
--- the parameter. Places, directions and curvatures come from power series through all layers;
--- nothing is sampled in between, so the only error is that of doubles. Behind a corner that a shift
--- opens, the curve goes on at another place: links are left to others.
+-- A curve maps a parameter from 0 to its span count to a point. A shift adds a layer: it moves
+-- every point of the curve below along the left normal, by a distance that is itself a function of
+-- the parameter. Power series through all layers give points, directions and curvatures, so
+-- rounding is the only error. A shift of a curve with a corner leaves a gap or an overlap there;
+-- this module does not close it, links are the caller's task.
 --
--- The fields of bases, rows, columns and folds are read through the modules of those types below
--- this one.
+-- This module is the interface of the folder. The fields of 'Base', 'Knot', 'Column' and 'Cusp' are
+-- read through the modules of these types.
 module Geometry.Curve
-  ( -- * What curves are
+  ( -- * Types
     Curve,
     base,
     layers,
@@ -20,7 +21,7 @@ module Geometry.Curve
     Span (..),
     CurveFault (..),
 
-    -- * Making them
+    -- * Construction
     polyline,
     spline,
     parabola,
@@ -30,7 +31,7 @@ module Geometry.Curve
     ofChain,
     Segment,
 
-    -- * Shifting them
+    -- * Shifts
     Column,
     column,
     columnAt,
@@ -44,7 +45,7 @@ module Geometry.Curve
     shifted,
     Side (..),
 
-    -- * Looking at them
+    -- * Evaluation and measurement
     chain,
     cubics,
     domain,
@@ -71,7 +72,7 @@ module Geometry.Curve
     Cusp,
     fold,
 
-    -- * Turning them
+    -- * Reversal and transformation
     reversed,
     transformed,
   )
@@ -109,32 +110,33 @@ import Geometry.Vec (Point, Vec)
 import Geometry.Vec qualified as Vec
 import Prelude hiding (length)
 
--- | Straight from point to point; closed when the last is the first.
+-- | Polyline through the points. It is closed when the last point equals the first.
 polyline :: Vector Point -> Either CurveFault Curve
 polyline points = Plain <$> Base.polyline points
 
--- | A cubic spline by the chord length from point to point.
+-- | Cubic spline through the points, parametrised by chord length.
 spline :: EndCondition -> Vector Point -> Either CurveFault Curve
 spline ends points = Plain <$> Base.spline ends points
 
--- | Parabolas y(x) through points 1–3, 3–5, …
+-- | Chain of parabolas y(x) through points 1–3, 3–5, and so on. The count of points is odd.
 parabola :: Vector Point -> Either CurveFault Curve
 parabola points = Plain <$> Base.parabola points
 
--- | Pieces one behind the other, and the parameter of every row of a table on them, rising.
+-- | Curve of consecutive spans with the given rising parameters of the table's rows.
 ofPieces :: NonEmpty SpanShape -> Vector Double -> Either CurveFault Curve
 ofPieces pieces parameters = Plain <$> Base.ofPieces pieces parameters
 
--- | A chain of lines and arcs; its rows are the ends of the segments.
+-- | Curve of consecutive lines and arcs. The rows of its table are the ends of the segments.
 ofSegments :: NonEmpty Segment -> Either CurveFault Curve
 ofSegments segments = Plain <$> Base.ofSegments segments
 
--- | A chain of lines and arcs through the points of a table, in order; a closed one may leave out
--- the first point at its end.
+-- | Curve of consecutive lines and arcs whose rows are the given points, in order. Each point is
+-- an end of a segment. A closed curve need not repeat the first point at the end of the table.
 ofChain :: NonEmpty Segment -> Vector Point -> Either CurveFault Curve
 ofChain segments points = Plain <$> Base.ofChain segments parameters
   where
-    -- Every point is the beginning of a segment, or the end of the last one.
+    -- Finds the row's parameter: the next segment that starts at the point, else the end of the
+    -- last segment.
     parameters =
       Vector.unfoldrN
         (Vector.length points)
@@ -147,112 +149,118 @@ ofChain segments points = Plain <$> Base.ofChain segments parameters
       ([], _ : _) -> Just (u, (u, [], []))
       (_, []) -> Nothing
 
--- | Numbers at the rows of the curve's table, as many as there are, interpolated as the points are.
+-- | Column with one value for each row of the curve's table, interpolated in the same way as the
+-- points.
 column :: Curve -> Vector Double -> Column
 column curve = Column.column (base curve)
 
--- | How many rows the curve's table has.
+-- | Count of rows in the curve's table.
 rowCount :: Curve -> Int
 rowCount = Vector.length . Base.rows . base
 
--- | What a column is at a parameter.
+-- | Value of a column at a parameter.
 columnAt :: Curve -> Column -> Double -> Double
 columnAt curve c u =
-  PowerSeries.value (Column.series 0 (base curve) c (ShiftedCurve.spot After u curve))
+  PowerSeries.value (Column.series 0 (base curve) c (ShiftedCurve.spanPoint After u curve))
 
--- | The values at the rows of a curve in the order of its reverse.
+-- | Row values of the curve, reordered for its reverse.
 backwards :: Curve -> Vector Double -> Vector Double
 backwards curve = Base.backwards (base curve)
 
--- | The distance of a joggle that fits between two parameters of the curve that it is to shift.
+-- | Shift distance of a joggle. Refuses a radius that is not above half of the depth, and ramps
+-- that do not fit between the two parameters of the curve that is shifted.
 joggled :: Joggle -> Curve -> Either CurveFault Distance
 joggled joggle@Joggle {begins, ends, depth = Mm depth, radius = Mm r} curve
   | r <= 0 || abs depth >= 2 * r = Left DeepJoggle
-  | needed > there = Left (LongJoggle needed there)
+  | needed > available = Left (LongJoggle needed available)
   | otherwise = Right (Joggled joggle)
   where
     needed = times 2 (ramp joggle)
-    there = minus (lengthTo curve ends) (lengthTo curve begins)
+    available = minus (lengthTo curve ends) (lengthTo curve begins)
 
--- | The arcs and lines of a curve that consists of them, some of them arcs, and is not shifted. Of
--- neighbours, one ends where the next begins.
+-- | Segments of an unshifted curve that consists of lines and arcs only and has at least one arc.
+-- Each segment starts exactly where the one before ends.
 chain :: Curve -> Maybe (NonEmpty Segment)
 chain curve = case curve of
   Plain b -> Base.asSegments b
   Shifted {} -> Nothing
 
--- | Spans in x and y that stay so near to a curve, and how near; see 'Cubics.along'.
+-- | Cubic spans in x and y within a tolerance of the curve, and the bound of their error; see
+-- 'CubicSpans.along'.
 cubics :: Mm -> Curve -> Maybe (Mm, Cubics, Cubics)
 cubics = CubicSpans.along
 
--- | How many spans there are.
+-- | Count of spans.
 spans :: Curve -> Int
 spans curve = Base.count (base curve)
 
--- | The place with a parameter; beyond the ends, the end.
+-- | Point at a parameter. Parameters outside of the domain give the nearer end.
 at :: Curve -> Double -> Point
 at = placeFrom After
 
--- | The place that the curve comes to before a parameter, or goes on from behind it: they differ
--- where a shift has opened a corner.
+-- | Point at a parameter, approached from before or from after it. The two differ where a shift
+-- has opened a corner.
 placeFrom :: Approach -> Curve -> Double -> Point
 placeFrom approach curve u = TaylorExpansion.place (jet approach 0 curve u)
 
--- | The direction, of length 1, at the place that 'at' gives.
+-- | Unit tangent at the point that 'at' gives.
 tangent :: Curve -> Double -> Vec
 tangent = PointSearch.heading After
 
--- | The direction before or behind a parameter. On a closed curve the way goes on over the joint.
+-- | Unit tangent just before or just after a parameter. On a closed curve the start continues the
+-- end.
 tangentFrom :: Approach -> Curve -> Double -> Vec
 tangentFrom = PointSearch.directionAt
 
--- | The left normal, of length 1.
+-- | Left unit normal.
 normal :: Curve -> Double -> Vec
 normal curve u = Vec.left (tangent curve u)
 
--- | In 1/mm, positive where the curve bends to the left.
+-- | Curvature in 1/mm, positive where the curve bends to the left.
 curvature :: Curve -> Double -> Double
 curvature curve u = TaylorExpansion.curvature (jet After 2 curve u)
 
--- | The power series of the place up to an order.
+-- | Taylor expansion of the point about a parameter, up to the given order.
 jet :: Approach -> Int -> Curve -> Double -> TaylorExpansion
-jet approach n curve u = ShiftedCurve.jetAt n curve (ShiftedCurve.spot approach u curve)
+jet approach n curve u = ShiftedCurve.expansionAt n curve (ShiftedCurve.spanPoint approach u curve)
 
+-- | First point of the curve.
 start :: Curve -> Point
 start curve = placeFrom After curve 0
 
+-- | Last point of the curve.
 end :: Curve -> Point
 end curve = placeFrom Before curve (domain curve)
 
--- | Whether the curve ends where it begins.
+-- | True if the curve ends where it begins.
 isClosed :: Curve -> Bool
 isClosed = PointSearch.closed
 
--- | The true length; what a shift opens at corners is no part of it.
+-- | True arc length. Gaps that a shift opens at corners do not count.
 length :: Curve -> Mm
-length curve = ArcLength.total (ShiftedCurve.ruler curve)
+length curve = ArcLength.total (ShiftedCurve.arcLength curve)
 
--- | The true length up to a parameter.
+-- | Arc length from the start to a parameter.
 lengthTo :: Curve -> Double -> Mm
-lengthTo curve = ArcLength.lengthTo (ShiftedCurve.ruler curve)
+lengthTo curve = ArcLength.lengthTo (ShiftedCurve.arcLength curve)
 
--- | The parameter up to which the curve has a length.
+-- | Parameter at an arc length from the start; the inverse of 'lengthTo'.
 alongTo :: Curve -> Mm -> Double
-alongTo curve = ArcLength.parameterAt (ShiftedCurve.ruler curve)
+alongTo curve = ArcLength.parameterAt (ShiftedCurve.arcLength curve)
 
--- | How far to the left the outermost shift moves the place with a parameter; nothing without a
--- shift.
+-- | Distance to the left by which the outermost shift moves the point at a parameter; 0 for a
+-- curve without shifts.
 distanceOf :: Curve -> Double -> Mm
 distanceOf curve u = case curve of
   Plain _ -> Mm 0
   Shifted layer lower _ ->
-    let s = ShiftedCurve.spot After u curve
+    let s = ShiftedCurve.spanPoint After u curve
      in Mm
           ( PowerSeries.value
-              (ShiftedCurve.distanceAt 0 layer lower (ShiftedCurve.jetAt 1 lower s) s)
+              (ShiftedCurve.distanceAt 0 layer lower (ShiftedCurve.expansionAt 1 lower s) s)
           )
 
--- | The same curve walked from its end.
+-- | Curve in the opposite direction.
 reversed :: Curve -> Curve
 reversed curve = case curve of
   Plain b -> Plain (Base.reversed b)
@@ -263,7 +271,8 @@ reversed curve = case curve of
           (ShiftDistance.reversed (base lower) (base lower') (distance layer))
           lower'
 
--- | The curve moved, turned, scaled, mirrored: distances grow with it and change sides in a mirror.
+-- | Image of a curve under a similarity. Distances are scaled with it; a reflection swaps their
+-- sides.
 transformed :: Transformation -> Curve -> Curve
 transformed s curve = case curve of
   Plain b -> Plain (Base.transformed s b)
@@ -272,18 +281,19 @@ transformed s curve = case curve of
         side' = if Transformation.mirrors s then otherSide (side layer) else side layer
      in shifted side' (ShiftDistance.scaled (base lower') (factor s) (distance layer)) lower'
 
--- | How much longer everything becomes.
+-- | Scale factor of a similarity.
 factor :: Transformation -> Double
 factor s =
   let Mm k =
         Vec.distance
           (Transformation.point s (Vec.point 0 0))
-          (Transformation.point s (Vec.point far 0))
-   in k / far
+          (Transformation.point s (Vec.point reach 0))
+   in k / reach
   where
-    -- So far that the rounding of large displacements does not tell.
-    far = 1024
+    -- Chosen so large that rounding in a large displacement is negligible.
+    reach = 1024
 
+-- | Opposite side.
 otherSide :: Side -> Side
 otherSide s = case s of
   LeftOf -> RightOf

@@ -1,5 +1,5 @@
--- | What curves are before any shift: that they pass where they should, as smoothly as they should,
--- and that they can be measured and searched.
+-- | Laws of unshifted curves: they pass through their points with the required smoothness, have
+-- the right length, and the searches on them find what exists.
 module Geometry.CurveSpec (spec) where
 
 import Base.Quantity (Mm (..), Rad (..), minus)
@@ -207,7 +207,7 @@ spec = do
               found = Curve.atX x c
               side u = Vec.x (Curve.at c u) > x
               bs = Curve.breaks c
-              -- Crossings between close samples, breaks left out.
+              -- Crossings between neighbouring samples, without the breaks.
               steps =
                 [ (a', a' + step)
                   | (a, b) <- zip bs (drop 1 bs),
@@ -367,21 +367,21 @@ circleOf n r =
       | k <- [0 .. n - 1]
     ]
 
--- | Points of a walk, with other ends.
+-- | Same table with another end condition.
 tableWith :: (EndCondition -> EndCondition) -> Gen Curve
 tableWith f = do
   Table ends points <- Generate.winding
   pure (splineOf (f ends) points)
 
--- | Both ends, seen from the curve.
+-- | Positions at both ends, approached from within the curve.
 outer :: Curve -> [(Approach, Double)]
 outer c = [(After, 0), (Before, Curve.domain c)]
 
--- | The chord of the span that begins at a parameter, or at the end the last one's.
+-- | Chord of the span that starts at a parameter; at the end, of the last span.
 chord :: Curve -> Double -> Double
 chord c u = Exts.toList (Base.chords (Curve.base c)) !! min (Curve.spans c - 1) (truncate u)
 
--- | The derivatives by the chord length.
+-- | First and second derivatives by chord length.
 firstBy, secondBy :: Double -> TaylorExpansion -> Vec
 firstBy h (V2 a b) =
   Vec.scale (1 / h) (Vec.vec (PowerSeries.coefficient 1 a) (PowerSeries.coefficient 1 b))
@@ -398,13 +398,13 @@ joinsTwice c =
         let leaving = Curve.jet After 2 c u
     ]
 
--- | The length up to a parameter by chords, twice, and what they tend to.
+-- | Arc length up to a parameter: Richardson extrapolation of two chord sums.
 chordSum :: Curve -> Double -> Double
 chordSum c u = sum [chordsBetween c a (min b u) | (a, b) <- zip bs (drop 1 bs), a < u]
   where
     bs = Curve.breaks c
 
--- | The length of a smooth stretch by its chords, which miss with the square of their number.
+-- | Chord sum over a smooth stretch; its error falls with the square of the count of chords.
 chordsBetween :: Curve -> Double -> Double -> Double
 chordsBetween c a b = fine + (fine - chords 300) / 3
   where
@@ -416,7 +416,7 @@ chordsBetween c a b = fine + (fine - chords 300) / 3
               else Curve.at c (a + (b - a) * fromIntegral k / fromIntegral n)
        in sum [let Mm d = Vec.distance (place k) (place (k + 1)) in d | k <- [0 .. n - 1 :: Int]]
 
--- | Pieces that are shifted by a column and then by so little that no cusp comes of it.
+-- | Consecutive spans, shifted by a column and then by a constant that is too small for a cusp.
 shiftedTwice :: Gen Curve
 shiftedTwice = do
   c <- Generate.pieces
@@ -447,7 +447,7 @@ template =
       Vec.point 70.85 18.76
     ]
 
--- | @a, b, c@ of every parabola, from three of its places.
+-- | @a, b, c@ of every parabola, from three of its points.
 coefficients :: Curve -> [(Double, Double, Double)]
 coefficients c =
   [ ofThree (Curve.at c u) (Curve.at c (u + 0.3)) (Curve.placeFrom Before c (u + 1))

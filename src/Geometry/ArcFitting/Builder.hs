@@ -1,9 +1,9 @@
--- | The vertices of an open outline, written one behind the other.
+-- | Growing array of the vertices of an open polyarc.
 module Geometry.ArcFitting.Builder
   ( Vertices,
     new,
     push,
-    outline,
+    polyarc,
   )
 where
 
@@ -14,33 +14,33 @@ import Data.STRef (STRef, newSTRef, readSTRef, writeSTRef)
 import Geometry.FlatPolyarc (FlatPolyarc (..))
 import Geometry.Polyarc (Ends (..))
 
--- | An array that grows by doubling.
-newtype Vertices s = Vertices (STRef s (Written s))
+-- | Array that grows by doubling.
+newtype Vertices s = Vertices (STRef s (Buffer s))
 
--- | How many there are, and x, y and bulge of each, one behind the other.
-data Written s = Written Int (MutablePrimArray s Double)
+-- | Count of vertices, and the array of x, y and bulge of each vertex in turn.
+data Buffer s = Buffer Int (MutablePrimArray s Double)
 
--- | None yet.
+-- | Empty array.
 new :: ST s (Vertices s)
 new = do
   array <- PrimArray.newPrimArray (3 * 16)
-  Vertices <$> newSTRef (Written 0 array)
+  Vertices <$> newSTRef (Buffer 0 array)
 
--- | One more: x and y in mm, the bulge of the segment that begins there.
+-- | Appends a vertex: x and y in mm, and the bulge of the segment that starts there.
 push :: Vertices s -> Double -> Double -> Double -> ST s ()
 push (Vertices ref) x y bulge = do
-  Written n array <- readSTRef ref
-  room <- PrimArray.getSizeofMutablePrimArray array
-  array' <- if 3 * n < room then pure array else PrimArray.resizeMutablePrimArray array (2 * room)
+  Buffer n array <- readSTRef ref
+  capacity <- PrimArray.getSizeofMutablePrimArray array
+  array' <- if 3 * n < capacity then pure array else PrimArray.resizeMutablePrimArray array (2 * capacity)
   PrimArray.writePrimArray array' (3 * n) x
   PrimArray.writePrimArray array' (3 * n + 1) y
   PrimArray.writePrimArray array' (3 * n + 2) bulge
-  writeSTRef ref (Written (n + 1) array')
+  writeSTRef ref (Buffer (n + 1) array')
 
--- | What has been written; nothing is written behind it.
-outline :: Vertices s -> ST s FlatPolyarc
-outline (Vertices ref) = do
-  Written n array <- readSTRef ref
+-- | Polyarc of all vertices. The array must not be written afterwards.
+polyarc :: Vertices s -> ST s FlatPolyarc
+polyarc (Vertices ref) = do
+  Buffer n array <- readSTRef ref
   written <- PrimArray.unsafeFreezePrimArray array
   let part k = PrimArray.generatePrimArray n (\i -> PrimArray.indexPrimArray written (3 * i + k))
   pure FlatPolyarc {ends = Open, xs = part 0, ys = part 1, bulges = part 2}

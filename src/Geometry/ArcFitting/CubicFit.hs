@@ -1,18 +1,17 @@
 {-# LANGUAGE BangPatterns #-}
 {-# OPTIONS_GHC -O2 -fno-full-laziness #-}
 
--- | Biarcs along cubic spans, with a bound of their distance in closed form.
+-- | Arc fitting of cubic spans by biarcs, with an error bound in closed form.
 --
--- In the frame of an arc's beginning, x along its direction, y to its left, the circle of the
--- curvature k is where
--- @F = y − k·(x² + y²)/2@ is 0, and a point with @|k·F|@ well below 1 is @|F|·(1 + |k·F|)@ away
---  from it at most. On a
--- cubic F is a polynomial of degree 6; Chebyshev's polynomials bring it down to the third degree,
--- whose greatest value is known, but for a small remainder.
+-- Take the frame of an arc's start, with x along its direction and y to its left. The circle with
+-- the curvature k is the zero set of @F = y − k·(x² + y²)/2@. Where @|k·F|@ is well below 1, a
+-- point is at most @|F|·(1 + |k·F|)@ away from the circle. On a cubic, F is a polynomial of degree
+-- 6. Chebyshev economization reduces it to degree 3, whose maximum is known, plus a small
+-- remainder.
 --
--- That covers one way. As long as the curve goes forwards as seen from both ends of the arc, its
--- feet on the arc go without a jump from the beginning to the end, so that every point of the arc
--- is as near to the curve.
+-- This bounds the distance from the curve to the arc. As long as the curve runs forwards in the
+-- directions of both ends of the arc, its feet on the arc cover the arc without a jump. Then the
+-- same bound holds from the arc to the curve.
 module Geometry.ArcFitting.CubicFit
   ( approximate,
   )
@@ -21,9 +20,9 @@ where
 import Base.Quantity (Mm (..), Rad (..))
 import Control.Monad.ST (runST)
 import Data.List.NonEmpty (NonEmpty (..))
-import Geometry.ArcFitting.Biarc.Fast (FastArc (..), FastBiarc (..), Pose (..), forwards, frame)
+import Geometry.ArcFitting.Biarc.Fast (FastArc (..), FastBiarc (..), Pose (..), fastArc, isForwards)
 import Geometry.ArcFitting.Builder qualified as Builder
-import Geometry.ArcFitting.LongestBiarc (Off (..), ParameterRange (..), Spans (..))
+import Geometry.ArcFitting.LongestBiarc (ArcDistances (..), ParameterRange (..), Spans (..))
 import Geometry.ArcFitting.LongestBiarc qualified as LongestBiarc
 import Geometry.ArcFitting.ParametricFit (OneSided (..), ParametricCurve (ParametricCurve))
 import Geometry.ArcFitting.ParametricFit qualified as ParametricFit
@@ -33,8 +32,9 @@ import Geometry.FlatPolyarc (FlatPolyarc)
 import Geometry.Tolerance qualified as Tolerance
 import Geometry.Vec qualified as Vec
 
--- | Arcs and lines that stay within a distance of the curve with these spans in x and y, both ways,
--- as 'Track.approximate' gives them. The spans move at their ends.
+-- | Arcs and lines within a tolerance of the curve with these spans in x and y; the distance is
+-- bounded in both directions. The biarcs are as long as possible, as in
+-- 'ParametricFit.approximate'. The speed must not vanish at the ends of spans.
 approximate :: Mm -> Cubics -> Cubics -> FlatPolyarc
 approximate (Mm tolerance) xs ys = runST $ do
   vertices <- Builder.new
@@ -43,7 +43,7 @@ approximate (Mm tolerance) xs ys = runST $ do
         | otherwise = do
           let to = endOf (from + 1)
           if to == from + 1 && isStraight (Spline.at xs from) && isStraight (Spline.at ys from)
-            then let begin = placed xs ys from 0 in Builder.push vertices (px begin) (py begin) 0
+            then let begin = poseAt xs ys from 0 in Builder.push vertices (px begin) (py begin) 0
             else
               LongestBiarc.along
                 vertices
@@ -57,62 +57,62 @@ approximate (Mm tolerance) xs ys = runST $ do
                 Spans
                   { seek = \_ u -> truncate u,
                     pose = poseWithin xs ys from to,
-                    LongestBiarc.off = apart xs ys,
-                    other = sharp to,
-                    hopeless = \_ _ _ _ _ _ _ -> False,
-                    patient = False
+                    LongestBiarc.arcDistances = biarcDistances xs ys,
+                    fallback = generalFit to,
+                    isHopeless = \_ _ _ _ _ _ _ -> False,
+                    triesLonger = False
                   }
           stretches to
       endOf k
-        | k >= n || cornered xs ys k = k
+        | k >= n || hasCorner xs ys k = k
         | otherwise = endOf (k + 1)
   stretches 0
-  let end = placed xs ys (n - 1) 1
+  let end = poseAt xs ys (n - 1) 1
   Builder.push vertices (px end) (py end) 0
-  Builder.outline vertices
+  Builder.polyarc vertices
   where
     n = Spline.count xs
-    sharp to u =
+    generalFit to u =
       let i =
             max 0 (min (to - 1) (truncate u))
-       in ParametricFit.further
+       in ParametricFit.oneBiarc
             (Mm tolerance)
-            (trackOf xs ys i (min to (i + 64)))
+            (parametricCurve xs ys i (min to (i + 64)))
             (fromIntegral (min to (i + 64)))
             u
     aim = tolerance * (1 - Tolerance.roundingShare)
 
--- | Whether a span between two corners is a line.
+-- | True if a cubic is linear. A span between two corners that is linear in x and y is a line.
 isStraight :: Cubic -> Bool
 isStraight (Cubic _ _ c d) = c == 0 && d == 0
 
--- | Whether the curve has a corner at the beginning of a span, behind another.
-cornered :: Cubics -> Cubics -> Int -> Bool
-cornered xs ys k =
+-- | True if the curve has a corner at the start of a span other than the first.
+hasCorner :: Cubics -> Cubics -> Int -> Bool
+hasCorner xs ys k =
   not (dx a * dx b + dy a * dy b > 0 && abs (dx a * dy b - dy a * dx b) <= sin kink)
   where
-    a = placed xs ys (k - 1) 1
-    b = placed xs ys k 0
+    a = poseAt xs ys (k - 1) 1
+    b = poseAt xs ys k 0
     Rad kink = Tolerance.kink
 
--- | The place and the direction in a span.
-placed :: Cubics -> Cubics -> Int -> Double -> Pose
-placed xs ys i t = Pose (Spline.value a t) (Spline.value b t) (vx / v) (vy / v)
+-- | Position and direction in a span.
+poseAt :: Cubics -> Cubics -> Int -> Double -> Pose
+poseAt xs ys i t = Pose (Spline.value a t) (Spline.value b t) (vx / v) (vy / v)
   where
     a = Spline.at xs i
     b = Spline.at ys i
     vx = Spline.rate a t
     vy = Spline.rate b t
     v = sqrt (vx * vx + vy * vy)
-{-# INLINE placed #-}
+{-# INLINE poseAt #-}
 
--- | The place and the direction at a parameter of a stretch, given its span; where spans meet the
--- mean of both directions.
+-- | Position and direction at a parameter of a stretch, given its span. Where spans meet, the
+-- direction is the mean of both.
 poseWithin :: Cubics -> Cubics -> Int -> Int -> Int -> Double -> Pose
 poseWithin xs ys from to i u
-  | i >= to = placed xs ys (to - 1) 1
-  | t > 0 || i <= from = placed xs ys i t
-  | otherwise = mean (placed xs ys (i - 1) 1) (placed xs ys i 0)
+  | i >= to = poseAt xs ys (to - 1) 1
+  | t > 0 || i <= from = poseAt xs ys i t
+  | otherwise = mean (poseAt xs ys (i - 1) 1) (poseAt xs ys i 0)
   where
     t = u - fromIntegral i
     mean a b =
@@ -121,9 +121,9 @@ poseWithin xs ys from to i u
           s = sqrt (sx * sx + sy * sy)
        in b {dx = sx / s, dy = sy / s}
 
--- | How far a biarc is from the curve between two parameters; of what is further than a limit only
--- that it is so.
-apart ::
+-- | Bounds of the distances of a biarc's two arcs from the curve between two parameters. A bound
+-- above the limit only says that the limit is exceeded.
+biarcDistances ::
   Cubics ->
   Cubics ->
   Double ->
@@ -134,64 +134,66 @@ apart ::
   Double ->
   Pose ->
   FastBiarc ->
-  Off
-apart xs ys most first u from _ v to pair
+  ArcDistances
+biarcDistances xs ys largest first u from _ v to pair
   | single pair =
-    if forwards one
+    if isForwards one
       then
         let Reached _ _ d =
-              onward xs ys most v True one start
-         in Off d d
+              advance xs ys largest v True one start
+         in ArcDistances d d
       else unknown
-  | forwards one && forwards two = case onward xs ys most v False one start of
-    Reached i a d1 | d1 <= most -> case onward xs ys most v True two (Reached i a 0) of
-      Reached _ _ d2 -> Off d1 d2
+  | isForwards one && isForwards two = case advance xs ys largest v False one start of
+    Reached i a d1 | d1 <= largest -> case advance xs ys largest v True two (Reached i a 0) of
+      Reached _ _ d2 -> ArcDistances d1 d2
     _ -> unknown
   | otherwise = unknown
   where
     start = Reached first (u - fromIntegral first) 0
-    unknown = Off (1 / 0) (1 / 0)
-    !one = frame from (bend1 pair) (if single pair then to else joint pair)
-    !two = frame (joint pair) (bend2 pair) to
+    unknown = ArcDistances (1 / 0) (1 / 0)
+    !one = fastArc from (bend1 pair) (if single pair then to else joint pair)
+    !two = fastArc (joint pair) (bend2 pair) to
 
--- | A place on the curve, its span and the span's own parameter, and the distance up to there.
+-- | Position on the curve (its span and the local parameter), and the bound of the distance up to
+-- this position.
 data Reached = Reached Int Double Double
 
--- | Past one arc: to the normal at its end or, on the last one, to a parameter.
-onward :: Cubics -> Cubics -> Double -> Double -> Bool -> FastArc -> Reached -> Reached
-onward xs ys most v final f (Reached i0 a0 d0) = go i0 a0 d0
+-- | Advances along one arc and bounds the distance: to the normal at the arc's end or, for the
+-- last arc, to a given parameter.
+advance :: Cubics -> Cubics -> Double -> Double -> Bool -> FastArc -> Reached -> Reached
+advance xs ys largest v final f (Reached i0 a0 d0) = go i0 a0 d0
   where
     go i a d
-      | d > most = Reached i a d
+      | d > largest = Reached i a d
       | final =
-        if whole then Reached i b (worse d (bound a b)) else go (i + 1) 0 (worse d (bound a b))
-      | ahead b < 0 = if whole then Reached i b (1 / 0) else go (i + 1) 0 (worse d (bound a b))
-      | otherwise = let c = crossing in Reached i c (worse d (bound a c))
+        if whole then Reached i b (larger d (bound a b)) else go (i + 1) 0 (larger d (bound a b))
+      | ahead b < 0 = if whole then Reached i b (1 / 0) else go (i + 1) 0 (larger d (bound a b))
+      | otherwise = let c = crossing in Reached i c (larger d (bound a c))
       where
         whole = fromIntegral (i + 1) >= v
         b = if whole then v - fromIntegral i else 1
         x = Spline.at xs i
         y = Spline.at ys i
-        -- How far the curve is beyond the normal at the arc's end.
+        -- Signed distance of the curve beyond the normal at the arc's end.
         ahead t =
           (Spline.value x t - px (limit f)) * dx (limit f)
             + (Spline.value y t - py (limit f)) * dy (limit f)
-        faster t = Spline.rate x t * dx (limit f) + Spline.rate y t * dy (limit f)
+        aheadSlope t = Spline.rate x t * dx (limit f) + Spline.rate y t * dy (limit f)
         crossing =
           let from = ahead a
-              newton t = held (t - ahead t / faster t)
-              held t = if t > a then if t < b then t else b else a
-           in newton (newton (held (a - (b - a) * from / (ahead b - from))))
-        bound = beside f x y
-    worse d e = if e <= d then d else e
+              newton t = clamped (t - ahead t / aheadSlope t)
+              clamped t = if t > a then if t < b then t else b else a
+           in newton (newton (clamped (a - (b - a) * from / (ahead b - from))))
+        bound = distanceBound f x y
+    larger d e = if e <= d then d else e
 
--- | How far a cubic between two parameters can be from an arc; infinite where it may not go
--- forwards.
-beside :: FastArc -> Cubic -> Cubic -> Double -> Double -> Double
-beside f (Cubic p0 p1 p2 p3) (Cubic q0 q1 q2 q3) a b
-  | forwardsFrom x1 y1
-      && forwardsFrom (x1 + x2) (y1 + y2)
-      && forwardsFrom (x1 + 2 * x2 + 3 * x3) (y1 + 2 * y2 + 3 * y3)
+-- | Bound of the distance between a cubic's interval and an arc; infinite where the cubic might
+-- not run forwards.
+distanceBound :: FastArc -> Cubic -> Cubic -> Double -> Double -> Double
+distanceBound f (Cubic p0 p1 p2 p3) (Cubic q0 q1 q2 q3) a b
+  | isForwardsFrom x1 y1
+      && isForwardsFrom (x1 + x2) (y1 + y2)
+      && isForwardsFrom (x1 + 2 * x2 + 3 * x3) (y1 + 2 * y2 + 3 * y3)
       && k * d < 0.2 =
     d * (1 + k * d)
   | otherwise = 1 / 0
@@ -201,7 +203,7 @@ beside f (Cubic p0 p1 p2 p3) (Cubic q0 q1 q2 q3) a b
     ty = dy (origin f)
     k = abs (bend f)
     h = 0.5 * bend f
-    -- The piece in the arc's frame, its own parameter from 0 to 1.
+    -- The interval in the arc's frame, with a local parameter from 0 to 1.
     ux0 = p0 + a * (p1 + a * (p2 + a * p3)) - px (origin f)
     uy0 = q0 + a * (q1 + a * (q2 + a * q3)) - py (origin f)
     ux1 = w * (p1 + a * (2 * p2 + 3 * a * p3))
@@ -218,7 +220,7 @@ beside f (Cubic p0 p1 p2 p3) (Cubic q0 q1 q2 q3) a b
     y2 = uy2 * tx - ux2 * ty
     x3 = ux3 * tx + uy3 * ty
     y3 = uy3 * tx - ux3 * ty
-    -- F by the powers of the parameter.
+    -- Coefficients of F by powers of the parameter.
     c0 = y0 - h * (x0 * x0 + y0 * y0)
     c1 = y1 - 2 * h * (x0 * x1 + y0 * y1)
     c2 = y2 - h * (x1 * x1 + y1 * y1 + 2 * (x0 * x2 + y0 * y2))
@@ -226,22 +228,22 @@ beside f (Cubic p0 p1 p2 p3) (Cubic q0 q1 q2 q3) a b
     c4 = -(h * (x2 * x2 + y2 * y2 + 2 * (x1 * x3 + y1 * y3)))
     c5 = -(2 * h * (x2 * x3 + y2 * y3))
     c6 = -(h * (x3 * x3 + y3 * y3))
-    -- Between 0 and 1, within 1/2048: t⁶ = 3·t⁵ − 27/8·t⁴ + 7/4·t³ − 105/256·t² + 9/256·t − 1/2048;
-    -- within 1/512: t⁵ = 5/2·t⁴ − 35/16·t³ + 25/32·t² − 25/256·t + 1/512; within 1/128: t⁴ = 2·t³ −
-    -- 5/4·t² + t/4 − 1/128.
+    -- Chebyshev economization on [0, 1]. Within 1/2048: t⁶ = 3·t⁵ − 27/8·t⁴ + 7/4·t³ − 105/256·t² +
+    -- 9/256·t − 1/2048; within 1/512: t⁵ = 5/2·t⁴ − 35/16·t³ + 25/32·t² − 25/256·t + 1/512; within
+    -- 1/128: t⁴ = 2·t³ − 5/4·t² + t/4 − 1/128.
     e5 = c5 + 3 * c6
     e4 = c4 - 3.375 * c6 + 2.5 * e5
     e3 = c3 + 1.75 * c6 - 2.1875 * e5 + 2 * e4
     e2 = c2 - 0.41015625 * c6 + 0.78125 * e5 - 1.25 * e4
     e1 = c1 + 0.03515625 * c6 - 0.09765625 * e5 + 0.25 * e4
     e0 = c0 - c6 / 2048 + e5 / 512 - e4 / 128
-    d = greatest e0 e1 e2 e3 + abs c6 / 2048 + abs e5 / 512 + abs e4 / 128
-    forwardsFrom vx vy = vx > 0 && vx * cosine f + vy * sine f > 0
+    d = largestCubic e0 e1 e2 e3 + abs c6 / 2048 + abs e5 / 512 + abs e4 / 128
+    isForwardsFrom vx vy = vx > 0 && vx * cosine f + vy * sine f > 0
 
--- | The greatest absolute value of a cubic between 0 and 1: at an end or where the slope @c₁ +
--- 2·c₂·t + 3·c₃·t²@ is 0.
-greatest :: Double -> Double -> Double -> Double -> Double
-greatest c0 c1 c2 c3
+-- | Largest absolute value of a cubic on [0, 1], which lies at an end or at a zero of the slope
+-- @c₁ + 2·c₂·t + 3·c₃·t²@.
+largestCubic :: Double -> Double -> Double -> Double -> Double
+largestCubic c0 c1 c2 c3
   | square <= 0 = ends
   | otherwise = inside (q / (3 * c3)) (inside (c1 / q) ends)
   where
@@ -251,10 +253,10 @@ greatest c0 c1 c2 c3
     q = if c2 > 0 then -(c2 + sqrt square) else sqrt square - c2
     inside t d = if t > 0 && t < 1 then greater d (abs (c0 + t * (c1 + t * (c2 + t * c3)))) else d
 
--- | Some of the spans, from one to before another, as a track: no more than is needed where the
--- bound says nothing.
-trackOf :: Cubics -> Cubics -> Int -> Int -> ParametricCurve
-trackOf xs ys from to =
+-- | Spans @from@ to @to − 1@ as a parametric curve. The caller passes few spans, because the
+-- general fit costs more per span.
+parametricCurve :: Cubics -> Cubics -> Int -> Int -> ParametricCurve
+parametricCurve xs ys from to =
   ParametricCurve
     { ParametricFit.place = place,
       ParametricFit.direction = direction,
@@ -264,17 +266,17 @@ trackOf xs ys from to =
   where
     place u =
       let i =
-            held (truncate u)
+            clamped (truncate u)
           t = u - fromIntegral i
        in Vec.point (Spline.value (Spline.at xs i) t) (Spline.value (Spline.at ys i) t)
     direction side u = case side of
-      Arriving -> heading (-1) (held (ceiling u - 1)) u
-      Leaving -> heading 1 (held (truncate u)) u
-    held i = max from (min (to - 1) i)
-    -- Where the curve stands still, the second derivative tells.
-    heading way i u
+      Arriving -> directionAt (-1) (clamped (ceiling u - 1)) u
+      Leaving -> directionAt 1 (clamped (truncate u)) u
+    clamped i = max from (min (to - 1) i)
+    -- Where the speed vanishes, the second derivative gives the direction.
+    directionAt sign i u
       | Mm (Vec.norm first) > Tolerance.still = Vec.unit first
-      | Vec.norm second > 0 = Vec.unit (Vec.scale way second)
+      | Vec.norm second > 0 = Vec.unit (Vec.scale sign second)
       | otherwise = Vec.vec 1 0
       where
         t = u - fromIntegral i

@@ -1,11 +1,12 @@
 {-# LANGUAGE BangPatterns #-}
 
--- | The walk along a stretch of a curve without corners in biarcs that go as far as they may: what
--- all curves share whose deviation from a biarc is known in closed form.
+-- | Greedy arc fitting along a smooth stretch of a curve: each biarc is as long as the tolerance
+-- allows. This is the common part for all curves whose deviation from a biarc is known in
+-- closed form.
 module Geometry.ArcFitting.LongestBiarc
   ( ParameterRange (..),
     Spans (..),
-    Off (..),
+    ArcDistances (..),
     along,
   )
 where
@@ -17,13 +18,14 @@ import Geometry.ArcFitting.Biarc.Fast (FastBiarc (..), Pose (..))
 import Geometry.ArcFitting.Biarc.Fast qualified as FastBiarc
 import Geometry.ArcFitting.Builder (Vertices)
 import Geometry.ArcFitting.Builder qualified as Builder
-import Geometry.ArcFitting.ParametricFit (Further (..))
+import Geometry.ArcFitting.ParametricFit (FitStep (..))
 import Geometry.Segment (Segment (..))
 import Geometry.Segment qualified as Segment
 import Geometry.Vec (Point, Vec)
 import Geometry.Vec qualified as Vec
 
--- | From one parameter, the span that begins there, to another, and a first step to try.
+-- | Range of parameters: the span in which it starts, its start and its end, and the first step
+-- to try.
 data ParameterRange = ParameterRange
   { inSpan :: Int,
     begin :: Double,
@@ -31,147 +33,147 @@ data ParameterRange = ParameterRange
     step :: Double
   }
 
--- | How far the two arcs of a biarc are from a curve: no less than the true distances either way,
--- infinite where none is known.
-data Off = Off Double Double
+-- | Upper bounds of the distance between the curve and each of the two arcs of a biarc, in both
+-- directions; infinite where no bound is known.
+data ArcDistances = ArcDistances Double Double
 
--- | A curve of spans, the parameters at which spans meet belonging to the one behind.
+-- | Curve of consecutive spans. A parameter at which two spans meet belongs to the later span.
 data Spans = Spans
-  { -- | the span of a parameter, given one that is not behind it
+  { -- | span of a parameter, given a span that is not after it
     seek :: Int -> Double -> Int,
-    -- | the pose at a parameter, given its span; where spans meet the mean of both directions
+    -- | pose at a parameter, given its span; where spans meet, the direction is the mean of both
     pose :: Int -> Double -> Pose,
-    -- | how far a biarc is from the curve between two parameters, each given with its span and
-    -- pose; of what is further than the first argument only that it is so
-    off :: Double -> Int -> Double -> Pose -> Int -> Double -> Pose -> FastBiarc -> Off,
-    -- | a biarc from a pose by other means, with a step to try
-    other :: Double -> (Point, Vec) -> Double -> Further,
-    -- | whether no biarc between two parameters, each given with its span and pose, stays within a
-    -- distance
-    hopeless :: Double -> Int -> Double -> Pose -> Int -> Double -> Pose -> Bool,
-    -- | whether longer biarcs with other ratios are looked for where the curvature does not change
-    -- evenly: fewer by a tenth, where there are few
-    patient :: Bool
+    -- | distances of a biarc from the curve between two parameters, each given with its span and
+    -- pose; a result above the first argument only says that this limit is exceeded
+    arcDistances :: Double -> Int -> Double -> Pose -> Int -> Double -> Pose -> FastBiarc -> ArcDistances,
+    -- | biarc from a pose by the general fit, with a step to try; used where no step succeeds
+    fallback :: Double -> (Point, Vec) -> Double -> FitStep,
+    -- | True if no biarc between two parameters, each given with its span and pose, can stay
+    -- within a distance
+    isHopeless :: Double -> Int -> Double -> Pose -> Int -> Double -> Pose -> Bool,
+    -- | True to try longer biarcs with other chord ratios where the curvature changes unevenly;
+    -- this saves a tenth of the biarcs where there are few
+    triesLonger :: Bool
   }
 
--- | The biarcs along a stretch, each as far as it stays within a distance. The vertices up to the
--- last but one are written; the last one begins what follows.
+-- | Writes the biarcs along a range, each as long as the tolerance @aim@ allows. The vertex at
+-- the end of the range is left to the caller, because the next range starts with it.
 along :: Vertices s -> Double -> ParameterRange -> Spans -> ST s ()
 along
   vertices
   aim
   ParameterRange {inSpan, begin, final, step = first}
-  Spans {seek, pose, off, other, hopeless, patient} =
+  Spans {seek, pose, arcDistances, fallback, isHopeless, triesLonger} =
     go inSpan begin (pose inSpan begin) first 0
     where
       go !i !u !from !step !bending
         | u >= final = pure ()
         | otherwise =
-          search
-            tries
+          bracket
+            maxTries
             i
             u
             from
-            (Last step bending)
-            Held {reach = u, chords = 1}
+            (Previous step bending)
+            Success {reach = u, chords = 1}
             (1 / 0)
             1
             (if final - u <= 1.5 * step then final else u + step)
-      -- Between the biarc that held and reached furthest (u when none has) and the nearest
-      -- parameter that was missed.
-      search !left !i !u !from before !held !missed !r !v
-        | v <= u || left <= 0 = settled i u from before held
+      -- Bracketing search between the longest biarc within the tolerance so far (@u@ if there is
+      -- none) and the nearest parameter that failed.
+      bracket !remaining !i !u !from before !success !failed !r !v
+        | v <= u || remaining <= 0 = settle i u from before success
         | d <= aim =
-          if v >= final || d >= enough * aim || missed - v <= narrow * (v - u)
-            then longer i u from before j v to pair ((v - u) * grown)
+          if v >= final || d >= longEnough * aim || failed - v <= narrowBracket * (v - u)
+            then lengthen i u from before j v to pair ((v - u) * grown)
             else
-              search
-                (left - 1)
+              bracket
+                (remaining - 1)
                 i
                 u
                 from
                 before
-                (Held v r)
-                missed
+                (Success v r)
+                failed
                 balanced
-                (closer v missed (u + (v - u) * grown))
-        | reach held > u && v - reach held <= narrow * (reach held - u) =
-          settled i u from before held
+                (closer v failed (u + (v - u) * grown))
+        | reach success > u && v - reach success <= narrowBracket * (reach success - u) =
+          settle i u from before success
         | otherwise =
-          search
-            (left - 1)
+          bracket
+            (remaining - 1)
             i
             u
             from
             before
-            held
+            success
             v
             balanced
-            (closer (reach held) v (u + (v - u) * shrunk))
+            (closer (reach success) v (u + (v - u) * shrunk))
         where
           j = seek i v
           to = pose j v
-          pair = FastBiarc.joined r from to
-          Off d1 d2 = off (1e6 * aim) i u from j v to pair
+          pair = FastBiarc.biarc r from to
+          ArcDistances d1 d2 = arcDistances (1e6 * aim) i u from j v to pair
           d = if d1 > d2 then d1 else d2
-          known = d < 1e5 * aim
-          -- The arc that is further off is made shorter, until both are equally far off.
-          uneven = if known && d1 > 0.01 * d && d2 > 0.01 * d then d1 / d2 else 1
-          balanced = max 0.4 (min 2.5 (r * cubeRoot uneven))
-          expected = if uneven > 1 then d / sqrt uneven else d * sqrt uneven
-          -- The deviation grows with the third power of the step where the curve is smooth.
+          isKnown = d < 1e5 * aim
+          -- Shortens the arc with the larger deviation, to balance both deviations.
+          imbalance = if isKnown && d1 > 0.01 * d && d2 > 0.01 * d then d1 / d2 else 1
+          balanced = max 0.4 (min 2.5 (r * cubeRoot imbalance))
+          expected = if imbalance > 1 then d / sqrt imbalance else d * sqrt imbalance
+          -- On a smooth curve the deviation grows with the third power of the step.
           grown = if 60 * expected <= aim then 4 else max 1.02 (cubeRoot (0.97 * aim / expected))
-          shrunk = if known then max 0.1 (min 0.97 (cubeRoot (0.97 * aim / expected))) else 0.4
+          shrunk = if isKnown then max 0.1 (min 0.97 (cubeRoot (0.97 * aim / expected))) else 0.4
           closer low high w
             | low <= u = w
             | high > final = min final w
             | otherwise = max (low + 0.1 * (high - low)) (min (high - 0.1 * (high - low)) w)
-      settled i u from before held
-        | reach held > u =
+      settle i u from before success
+        | reach success > u =
           let j =
-                seek i (reach held)
-              to = pose j (reach held)
-              pair = FastBiarc.joined (chords held) from to
-           in longer i u from before j (reach held) to pair (reach held - u)
+                seek i (reach success)
+              to = pose j (reach success)
+              pair = FastBiarc.biarc (chords success) from to
+           in lengthen i u from before j (reach success) to pair (reach success - u)
         | otherwise =
-          case other
+          case fallback
             u
             (Vec.point (px from) (py from), Vec.vec (dx from) (dy from))
             (if final - u <= 4 * lastStep before then final - u else lastStep before) of
-            Further v segments
+            FitStep v segments
               | v > u ->
-                mapM_ written (NonEmpty.toList segments)
+                mapM_ writeSegment (NonEmpty.toList segments)
                   >> (let j = seek i v in go j v (pose j v) (v - u) 0)
               | otherwise -> pure ()
-      -- Where the curvature does not change evenly, longer biarcs can hold where shorter ones do
-      -- not.
-      longer !i !u !from before !j !v !to !pair !step
-        | not patient
+      -- Where the curvature changes unevenly, a longer biarc can succeed although shorter ones
+      -- fail.
+      lengthen !i !u !from before !j !v !to !pair !step
+        | not triesLonger
             || v >= final
             || single pair
-            || abs (rate - lastRate before) <= even' * abs rate =
-          taken j from v to pair step rate
-        | otherwise = beyond 0
+            || abs (rate - lastRate before) <= evenRate * abs rate =
+          accept j from v to pair step rate
+        | otherwise = tryLonger 0
         where
           rate = (bend2 pair - bend1 pair) / (v - u)
-          -- Longer ones first, with several ratios of the chords each.
-          beyond k
-            | k >= 5 = taken j from v to pair step rate
-            | w >= final = beyond (k + 1 :: Int)
-            | hopeless aim i u from l w at = beyond (k + 1)
-            | otherwise = divided 0
+          -- Tries the longest step first, and several chord ratios for each step.
+          tryLonger k
+            | k >= 5 = accept j from v to pair step rate
+            | w >= final = tryLonger (k + 1 :: Int)
+            | isHopeless aim i u from l w at = tryLonger (k + 1)
+            | otherwise = tryRatios 0
             where
               w = u + (v - u) * (case k of 0 -> 2.2; 1 -> 1.8; 2 -> 1.5; 3 -> 1.25; _ -> 1.1)
               l = seek i w
               at = pose l w
               biarcs = FastBiarc.between from at
-              divided tried
-                | tried >= 7 = beyond (k + 1)
-                | d1 <= aim && d2 <= aim = longer i u from before l w at pair' (w - u)
-                | otherwise = divided (tried + 1 :: Int)
+              tryRatios tried
+                | tried >= 7 = tryLonger (k + 1)
+                | d1 <= aim && d2 <= aim = lengthen i u from before l w at pair' (w - u)
+                | otherwise = tryRatios (tried + 1 :: Int)
                 where
                   pair' =
-                    FastBiarc.among
+                    FastBiarc.withRatio
                       ( case tried of
                           0 ->
                             1
@@ -183,45 +185,44 @@ along
                           _ -> 2.8
                       )
                       biarcs
-                  Off d1 d2 = off aim i u from l w at pair'
-      taken !j !from !v !to !pair !step !rate = do
+                  ArcDistances d1 d2 = arcDistances aim i u from l w at pair'
+      accept !j !from !v !to !pair !step !rate = do
         Builder.push vertices (px from) (py from) (bulge1 pair)
         if single pair
           then pure ()
           else Builder.push vertices (px (joint pair)) (py (joint pair)) (bulge2 pair)
         go j v to step rate
-      written s = let p = Segment.start s in Builder.push vertices (Vec.x p) (Vec.y p) (bulgeOf s)
+      writeSegment s = let p = Segment.start s in Builder.push vertices (Vec.x p) (Vec.y p) (bulgeOf s)
       bulgeOf s = case s of
         Straight _ _ -> 0
         Arc {sweep = Rad a} -> tan (a / 4)
 {-# INLINE along #-}
 
--- | A biarc that stays near enough: the parameter at its end, and how many times longer than usual
--- its second chord is.
-data Held = Held {reach :: Double, chords :: Double}
+-- | Biarc within the tolerance: the parameter at its end, and the factor of its chord ratio.
+data Success = Success {reach :: Double, chords :: Double}
 
--- | The biarc before: how far it went, and how fast the curvature changed by it; both by the
--- parameter.
-data Last = Last {lastStep :: Double, lastRate :: Double}
+-- | Previous biarc: its step, and the rate of change of its curvature, both by the parameter.
+data Previous = Previous {lastStep :: Double, lastRate :: Double}
 
--- | The curvature changes evenly where how fast it does differs by less than this share from one
--- biarc to the next.
-even' :: Double
-even' = 0.25
+-- | Relative change of that rate from one biarc to the next below which the curvature changes
+-- evenly.
+evenRate :: Double
+evenRate = 0.25
 
--- | How many biarcs are tried from a place.
-tries :: Int
-tries = 20
+-- | Largest count of biarcs that are tried from one position.
+maxTries :: Int
+maxTries = 20
 
--- | A biarc that is off by this share of what it may be goes far enough.
-enough :: Double
-enough = 0.9
+-- | Share of the tolerance from which on a biarc is long enough.
+longEnough :: Double
+longEnough = 0.9
 
--- | So does one that could not be longer by this share.
-narrow :: Double
-narrow = 0.03
+-- | Relative step between success and failure below which a biarc is long enough.
+narrowBracket :: Double
+narrowBracket = 0.03
 
--- | Of a number above zero; good to a few percent for those between 1/1000 and 1000.
+-- | Cube root of a positive number, by two Halley steps; accurate to a few percent between 1/1000
+-- and 1000.
 cubeRoot :: Double -> Double
 cubeRoot a
   | a > 8 = 2 * cubeRoot (a / 8)

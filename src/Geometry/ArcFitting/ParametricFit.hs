@@ -1,12 +1,13 @@
--- | Tracks: curves given by a parameter, and the arcs and lines that stand for them.
+-- | Arc fitting of parametric curves by biarcs. Deviations are measured at sample points, so the
+-- curve may be any function of its parameter.
 module Geometry.ArcFitting.ParametricFit
   ( ParametricCurve (..),
     OneSided (..),
     approximate,
 
     -- * One biarc
-    Further (..),
-    further,
+    FitStep (..),
+    oneBiarc,
   )
 where
 
@@ -24,65 +25,66 @@ import Geometry.Tolerance qualified as Tolerance
 import Geometry.Vec (Point, Vec)
 import Geometry.Vec qualified as Vec
 
--- | A curve given by a parameter that rises.
+-- | Curve over a rising parameter.
 data ParametricCurve = ParametricCurve
   { place :: Double -> Point,
-    -- | of length 1; the sides differ at most where one span goes over into the next
+    -- | unit direction; both sides differ only where one span continues into the next
     direction :: OneSided -> Double -> Vec,
-    -- | the parameter where the curve begins
+    -- | parameter at the start of the curve
     begin :: Double,
-    -- | where each span ends, rising; within a span the direction does not jump
+    -- | parameters at the ends of the spans, rising; within a span the direction is continuous
     breaks :: NonEmpty Double
   }
 
--- | The direction in which a walk arrives at a point, or in which it leaves.
+-- | Side from which a direction is taken: at the end of what comes before a point, or at the
+-- start of what follows.
 data OneSided = Arriving | Leaving
   deriving stock (Eq, Show)
 
--- | A part of a track without corners: spans that go over into one another.
+-- | Stretch of a curve without corners: consecutive spans.
 type Stretch = NonEmpty (Double, Double)
 
--- | Arcs and lines that stay within a distance of a curve, both ways, in as few biarcs as going as
--- far as possible each time gives. One group for each stretch between corners; within a group the
--- directions agree. The ends of the biarcs lie on the curve and have its direction (the mean of the
--- two at a kink that is no corner). Where a curve has no direction to go by, a straight line of
--- 'Tolerance.finestStep' of a span is put. A biarc costs some dozens of points of the curve, and a
--- few for each span that it passes.
+-- | Arcs and lines within a tolerance of a curve; the distance is bounded in both directions. The
+-- fit is greedy: each biarc is as long as possible. The result has one group per stretch
+-- between corners; within a group the directions agree. The ends of the biarcs lie on the curve
+-- and have its direction; at a kink that is no corner, the mean of both directions. Where the
+-- curve has no usable direction, a line over the share 'Tolerance.finestStep' of a span is
+-- used. A biarc costs some dozens of curve points, and a few more for each span that it passes.
 approximate :: Mm -> ParametricCurve -> NonEmpty (NonEmpty Segment)
-approximate (Mm tolerance) track =
-  case concatMap (long . follow track tolerance) (NonEmpty.toList (stretches track)) of
+approximate (Mm tolerance) curve =
+  case concatMap (long . follow curve tolerance) (NonEmpty.toList (stretches curve)) of
     [] ->
-      (Straight (place track (begin track)) (place track (NonEmpty.last (breaks track))) :| [])
+      (Straight (place curve (begin curve)) (place curve (NonEmpty.last (breaks curve))) :| [])
         :| []
     group : more -> group :| more
   where
     long segments =
       maybe [] pure (NonEmpty.nonEmpty (filter (\s -> Segment.start s /= Segment.end s) segments))
 
--- | The spans of a track, in groups between corners.
+-- | Spans of a curve in groups between corners.
 stretches :: ParametricCurve -> NonEmpty Stretch
-stretches track =
+stretches curve =
   case filter
     (uncurry (<))
-    (zip (begin track : NonEmpty.toList (breaks track)) (NonEmpty.toList (breaks track))) of
-    [] -> pure (pure (begin track, begin track))
+    (zip (begin curve : NonEmpty.toList (breaks curve)) (NonEmpty.toList (breaks curve))) of
+    [] -> pure (pure (begin curve, begin curve))
     first : rest -> gather (first :| []) rest
   where
     gather (before :| others) spans = case spans of
       [] -> pure (NonEmpty.reverse (before :| others))
       next : more
-        | corner (snd before) ->
+        | isCorner (snd before) ->
           NonEmpty.cons (NonEmpty.reverse (before :| others)) (gather (next :| []) more)
         | otherwise -> gather (next :| before : others) more
-    corner u =
+    isCorner u =
       let Rad jump =
-            Vec.turn (direction track Arriving u) (direction track Leaving u)
+            Vec.turn (direction curve Arriving u) (direction curve Leaving u)
        in Rad (abs jump) > Tolerance.kink
 
--- | The walk along one stretch: its spans from where the walk is to the end, the largest deviation
--- to aim at.
-data Walk = Walk
-  { track :: ParametricCurve,
+-- | State of the fit along one stretch: the largest deviation to aim at, the end of the stretch,
+-- the current parameter and pose, and the spans that lie ahead.
+data FitState = FitState
+  { curve :: ParametricCurve,
     aim :: Double,
     final :: Double,
     at :: Double,
@@ -90,25 +92,25 @@ data Walk = Walk
     ahead :: [(Double, Double)]
   }
 
--- | The segments along a stretch. Where the end may be near, the whole rest is tried first: that a
--- shorter biarc does not do it does not mean that a longer one does not either.
+-- | Segments along a stretch. When the end is near, the whole rest is tried first: a longer biarc
+-- can succeed where a shorter one fails.
 follow :: ParametricCurve -> Double -> Stretch -> [Segment]
-follow track tolerance stretch = go walk (final walk - start)
+follow curve tolerance stretch = go initial (final initial - start)
   where
     start = fst (NonEmpty.head stretch)
-    walk =
-      Walk
-        { track,
+    initial =
+      FitState
+        { curve,
           aim = tolerance * (1 - Tolerance.deviationShare),
           final = snd (NonEmpty.last stretch),
           at = start,
-          pose = (place track start, direction track Leaving start),
+          pose = (place curve start, direction curve Leaving start),
           ahead = NonEmpty.toList stretch
         }
     go w step
       | at w < final w =
         let rest = final w - at w
-            Trial {reached, pieces} = furthest w (if rest <= 4 * step then rest else step)
+            Trial {reached, pieces} = longestBiarc w (if rest <= 4 * step then rest else step)
             next =
               w
                 { at = reached,
@@ -118,43 +120,44 @@ follow track tolerance stretch = go walk (final walk - start)
          in NonEmpty.toList pieces <> go next (reached - at w)
       | otherwise = []
 
--- | A biarc, and the parameter at which it ends on the curve.
-data Further = Further Double (NonEmpty Segment)
+-- | Biarc, and the parameter at which it ends on the curve.
+data FitStep = FitStep Double (NonEmpty Segment)
 
--- | One biarc of a stretch that ends at a parameter: from a parameter, the place and the direction
--- of the biarc before, and a step to try.
-further :: Mm -> ParametricCurve -> Double -> Double -> (Point, Vec) -> Double -> Further
-further (Mm tolerance) track final at pose step = Further reached pieces
+-- | One biarc of a stretch that ends at the parameter @final@: it starts at a parameter with the
+-- position and direction of the biarc before, and a first step to try.
+oneBiarc :: Mm -> ParametricCurve -> Double -> Double -> (Point, Vec) -> Double -> FitStep
+oneBiarc (Mm tolerance) curve final at pose step = FitStep reached pieces
   where
     Trial {reached, pieces} =
-      furthest
-        Walk {track, aim = tolerance * (1 - Tolerance.deviationShare), final, at, pose, ahead}
+      longestBiarc
+        FitState {curve, aim = tolerance * (1 - Tolerance.deviationShare), final, at, pose, ahead}
         step
-    ahead = takeWhile ((< final) . fst) (dropWhile ((<= at) . snd) (zip (begin track : ends) ends))
-    ends = NonEmpty.toList (breaks track)
+    ahead = takeWhile ((< final) . fst) (dropWhile ((<= at) . snd) (zip (begin curve : ends) ends))
+    ends = NonEmpty.toList (breaks curve)
 
--- | The direction at a joint: the mean of both sides where spans meet.
-heading :: Walk -> Double -> Vec
+-- | Direction at a joint; where spans meet, the mean of both sides.
+heading :: FitState -> Double -> Vec
 heading w u
   | u >= final w = arriving
   | any ((== u) . snd) (takeWhile ((<= u) . fst) (ahead w)) = Vec.unit (Vec.add arriving leaving)
   | otherwise = leaving
   where
-    arriving = direction (track w) Arriving u
-    leaving = direction (track w) Leaving u
+    arriving = direction (curve w) Arriving u
+    leaving = direction (curve w) Leaving u
 
--- | A biarc that has been tried: how far it reaches, and the largest distance from the curve.
-data Trial = Trial {reached :: Double, pieces :: NonEmpty Segment, off :: Double}
+-- | Biarc that was tried: the parameter at its end, its segments, and its largest distance from
+-- the curve.
+data Trial = Trial {reached :: Double, pieces :: NonEmpty Segment, distance :: Double}
 
--- | The biarc that reaches furthest within the tolerance. The deviation grows with the third power
--- of the step where the curve is smooth; the next step to try is taken from that, between the
--- longest that held and the shortest that did not.
-furthest :: Walk -> Double -> Trial
-furthest w first = beyond (search (24 :: Int) Nothing Nothing first)
+-- | Longest biarc within the tolerance, by a bracketing search. On a smooth curve the deviation
+-- grows with the third power of the step. The next step is extrapolated by this rule, and kept
+-- between the longest success and the shortest failure.
+longestBiarc :: FitState -> Double -> Trial
+longestBiarc w first = tryLonger (search (24 :: Int) Nothing Nothing first)
   where
     u = at w
-    -- On a rough scale longer biarcs can hold where shorter ones do not.
-    beyond best
+    -- On a coarse scale a longer biarc can succeed where shorter ones fail.
+    tryLonger best
       | final w - u > 16 * (reached best - u) = best
       | otherwise =
         case [ t
@@ -162,32 +165,32 @@ furthest w first = beyond (search (24 :: Int) Nothing Nothing first)
                  let v = u + f * (reached best - u),
                  v < final w,
                  let t = try w v,
-                 off t <= aim w
+                 distance t <= aim w
              ] of
           [] -> best
           t : _ -> search (8 :: Int) (Just t) Nothing (1.1 * (reached t - u))
-    search left held missed step
-      | step <= least = fromMaybe forced held
-      | off found <= aim w =
-        if enough found then found else search (left - 1) (Just found) missed (longer found)
-      | otherwise = case held of
-        Just best | left <= 0 || narrow best (reached found) -> best
-        _ -> search (left - 1) held (Just (reached found)) (shorter found)
+    search remaining success failure step
+      | step <= least = fromMaybe fallbackLine success
+      | distance found <= aim w =
+        if isLongEnough found then found else search (remaining - 1) (Just found) failure (longer found)
+      | otherwise = case success of
+        Just best | remaining <= 0 || isNarrow best (reached found) -> best
+        _ -> search (remaining - 1) success (Just (reached found)) (shorter found)
       where
         found = try w (min (final w) (u + step))
-        enough t =
-          left <= 0
+        isLongEnough t =
+          remaining <= 0
             || reached t >= final w
-            || off t >= 0.93 * aim w
-            || maybe False (narrow t) missed
-        longer t = within t (fromMaybe (u + 4 * step) missed) (step * growth t)
-        shorter t = case held of
+            || distance t >= 0.93 * aim w
+            || maybe False (isNarrow t) failure
+        longer t = within t (fromMaybe (u + 4 * step) failure) (step * growth t)
+        shorter t = case success of
           Just best -> within best (reached t) (step * growth t)
           Nothing -> step * max 0.1 (min 0.9 (growth t))
-    -- By how much the step can grow.
-    growth t = if off t > 0 then (0.97 * aim w / off t) ** (1 / 3) else 4
-    narrow best missed = missed - reached best <= 0.02 * (reached best - u)
-    -- A step between two others.
+    -- Factor by which the step can grow.
+    growth t = if distance t > 0 then (0.97 * aim w / distance t) ** (1 / 3) else 4
+    isNarrow best failure = failure - reached best <= 0.02 * (reached best - u)
+    -- Clamps a step to the interior of the bracket.
     within best limit s =
       let a =
             reached best - u
@@ -196,42 +199,42 @@ furthest w first = beyond (search (24 :: Int) Nothing Nothing first)
     least = case ahead w of
       (lo, hi) : _ -> (hi - lo) * Tolerance.finestStep
       [] -> final w - u
-    forced =
+    fallbackLine =
       let v =
             min (final w) (u + least)
-       in Trial v (Straight (fst (pose w)) (place (track w) v) :| []) 0
+       in Trial v (Straight (fst (pose w)) (place (curve w) v) :| []) 0
 
--- | The biarc to a parameter, measured; where the usual ratio of the chords misses, the best of
--- others, among them those that put the joint where spans meet.
-try :: Walk -> Double -> Trial
+-- | Biarc to a parameter, with its deviation. Where the default chord ratio fails, other ratios
+-- are tried, among them those that put the joint where spans meet.
+try :: FitState -> Double -> Trial
 try w v
   | Vec.near p q = measured (Straight p q :| [])
   | otherwise = case tried [usual] of
     (d, _, pieces) : _ | d <= aim w -> measured pieces
     _ -> case tried (map (* usual) [1, 0.7, 1.4, 0.5, 2, 0.35, 2.8, 0.25, 4] <> breaking) of
       [] -> Trial v (Straight p q :| []) (8 * aim w)
-      some -> let (_, _, pieces) = closer (6 :: Int) 1.4 (least some) in measured pieces
+      some -> let (_, _, pieces) = refineRatio (6 :: Int) 1.4 (least some) in measured pieces
   where
     u = at w
     p = fst (pose w)
-    q = place (track w) v
+    q = place (curve w) v
     end = (q, heading w v)
     usual = Biarc.ratio (pose w) end
     tried rs =
-      [(roughly pieces, r, pieces) | r <- rs, Just pieces <- [Biarc.joinWith r (pose w) end]]
+      [(sampledDistance pieces, r, pieces) | r <- rs, Just pieces <- [Biarc.joinWith r (pose w) end]]
     least some = minimumBy (comparing (\(d, _, _) -> d)) some
-    -- A better ratio in the neighbourhood, where that can be enough.
-    closer left factor best@(d, r, _)
-      | left <= 0 || d <= aim w || d > 4 * aim w = best
+    -- Refines the ratio by shrinking steps, where that can reach the tolerance.
+    refineRatio remaining factor best@(d, r, _)
+      | remaining <= 0 || d <= aim w || d > 4 * aim w = best
       | otherwise =
-        closer (left - 1) (sqrt factor) (least (best : tried [r / sqrt factor, r * sqrt factor]))
-    -- Few spans are enough: what has many is no chain of lines and arcs.
+        refineRatio (remaining - 1) (sqrt factor) (least (best : tried [r / sqrt factor, r * sqrt factor]))
+    -- Only for few spans: a curve with many is no chain of lines and arcs.
     breaking = case drop 1 parts of
       inner
         | length inner <= 8 ->
           [ b / a
             | (m, _) <- inner,
-              let c = place (track w) m,
+              let c = place (curve w) m,
               let Mm a = Vec.distance p c,
               let Mm b = Vec.distance c q,
               a > 0,
@@ -240,28 +243,28 @@ try w v
       _ -> []
     parts = [(max u lo, min v hi) | (lo, hi) <- takeWhile ((< v) . fst) (ahead w), hi > u]
     middles = concatMap snd stations
-    stations = [(part, spread (place (track w)) 0.5 part) | part <- counted w v parts]
-    roughly pieces = maximum (map (apart pieces . snd) middles)
+    stations = [(part, samplePoints (place (curve w)) 0.5 part) | part <- sampleCounts w v parts]
+    sampledDistance pieces = maximum (map (distanceTo pieces . snd) middles)
     measured pieces
-      | roughly pieces > aim w = Trial v pieces (roughly pieces)
+      | sampledDistance pieces > aim w = Trial v pieces (sampledDistance pieces)
       | otherwise =
         Trial
           v
           pieces
           ( deviation
-              (place (track w))
+              (place (curve w))
               (aim w)
               pieces
               ( (u, p) :
-                concat [interleaved ms (spread (place (track w)) 0 part) | (part, ms) <- stations]
+                concat [interleaved ms (samplePoints (place (curve w)) 0 part) | (part, ms) <- stations]
               )
           )
     interleaved as bs = concat (zipWith (\a b -> [a, b]) as bs)
 
--- | Parts of spans, with the number of points to look at: as many as their share of the parameter
--- or of the length asks for.
-counted :: Walk -> Double -> [(Double, Double)] -> [(Int, (Double, Double))]
-counted w v parts = case parts of
+-- | Counts of sample points for parts of spans, in proportion to their share of the parameter or
+-- of the length, whichever is larger.
+sampleCounts :: FitState -> Double -> [(Double, Double)] -> [(Int, (Double, Double))]
+sampleCounts w v parts = case parts of
   [one] -> [(8, one)]
   _ ->
     [ (max 3 (ceiling (8 * max ((b - a) / (v - at w)) (chord / whole))), (a, b))
@@ -269,13 +272,13 @@ counted w v parts = case parts of
     ]
   where
     chords =
-      [let Mm d = Vec.distance (place (track w) a) (place (track w) b) in d | (a, b) <- parts]
+      [let Mm d = Vec.distance (place (curve w) a) (place (curve w) b) in d | (a, b) <- parts]
     whole = sum chords
 
--- | Points of a curve over a part of a span, moved back by a share of their distance; not quite
--- evenly, so that a wave does not pass for its samples.
-spread :: (Double -> Point) -> Double -> (Int, (Double, Double)) -> [(Double, Point)]
-spread point back (n, (a, b)) =
+-- | Sample points of a curve over a part of a span, shifted back by a share of their spacing. The
+-- spacing is uneven, so that the samples cannot stay in phase with a wave.
+samplePoints :: (Double -> Point) -> Double -> (Int, (Double, Double)) -> [(Double, Point)]
+samplePoints point back (n, (a, b)) =
   [ let u =
           a + (b - a) * uneven ((fromIntegral k - back) / fromIntegral n)
      in (u, point u)
@@ -284,41 +287,42 @@ spread point back (n, (a, b)) =
   where
     uneven f = f + 0.2 * f * (1 - f)
 
--- | The distance of a point from the nearest of some segments.
-apart :: NonEmpty Segment -> Point -> Double
-apart pieces p = let Mm d = minimum (fmap (Distance.toPoint p) pieces) in d
+-- | Distance from a point to the nearest of some segments.
+distanceTo :: NonEmpty Segment -> Point -> Double
+distanceTo pieces p = let Mm d = minimum (fmap (Distance.toPoint p) pieces) in d
 
--- | The largest distance between segments and a curve given by points along it: at these points,
--- near the segments' joint, and at each maximum between them. Infinite where the feet on the
--- segments jump or go back: then not every point of the segments is near the curve.
+-- | Largest distance between segments and a curve that is given by points along it: at the
+-- points, near the joint of the segments, and at every maximum between the points. Infinite
+-- where the feet on the segments jump or reverse, because then some point of the segments may
+-- be far from the curve.
 deviation :: (Double -> Point) -> Double -> NonEmpty Segment -> [(Double, Point)] -> Double
 deviation point aim pieces points
-  | largest > aim || covered point aim pieces feet = largest
+  | largest > aim || isCovered point aim pieces feet = largest
   | otherwise = 1 / 0
   where
-    feet = [(w, p, progress pieces p) | (w, p) <- points]
+    feet = [(w, p, lengthAtFoot pieces p) | (w, p) <- points]
     Mm half = Segment.length (NonEmpty.head pieces)
     atJoint =
-      [ let w = a + (b - a) * (half - s) / (t - s) in (w, off w)
+      [ let w = a + (b - a) * (half - s) / (t - s) in (w, distance w)
         | length pieces > 1,
           ((a, _, s), (b, _, t)) <- zip feet (drop 1 feet),
           s < half,
           half < t
       ]
-    known = sort ([(w, apart pieces p) | (w, p) <- points] <> atJoint)
-    off w = apart pieces (point w)
+    known = sort ([(w, distanceTo pieces p) | (w, p) <- points] <> atJoint)
+    distance w = distanceTo pieces (point w)
     largest =
       maximum
         ( map snd known
             <> zipWith3
-              (\a b c -> snd (highest off aim (6 :: Int) a b c))
+              (\a b c -> snd (highest distance aim (6 :: Int) a b c))
               known
               (drop 1 known)
               (drop 2 known)
         )
 
--- | The maximum about the middle one of three neighbouring values, if that is the largest and
--- matters: the vertex of the parabola through them, again and again until it says nothing new.
+-- | Maximum near the middle one of three neighbouring values, if the middle value is the largest
+-- and large enough to matter. Successive parabolic interpolation, until it yields nothing new.
 highest ::
   (Double -> Double) ->
   Double ->
@@ -327,8 +331,8 @@ highest ::
   (Double, Double) ->
   (Double, Double) ->
   (Double, Double)
-highest off aim left one@(a, da) two@(b, db) three@(c, dc)
-  | left <= 0
+highest distance aim remaining one@(a, da) two@(b, db) three@(c, dc)
+  | remaining <= 0
       || db < da
       || db < dc
       || db < 0.3 * aim
@@ -341,32 +345,32 @@ highest off aim left one@(a, da) two@(b, db) three@(c, dc)
   where
     below = (b - a) * (db - dc) + (c - b) * (db - da)
     w = b - ((b - a) * (b - a) * (db - dc) - (c - b) * (c - b) * (db - da)) / (2 * below)
-    dw = off w
+    dw = distance w
     new = (w, dw)
-    again = highest off aim (left - 1)
+    again = highest distance aim (remaining - 1)
     max' x y = if snd x > snd y then x else y
 
--- | Whether the feet of a curve's points move along the segments without a jump. Where a foot moves
--- much further than its point, the curve between is looked at more closely.
-covered :: (Double -> Point) -> Double -> NonEmpty Segment -> [(Double, Point, Double)] -> Bool
-covered point aim pieces feet = and (zipWith (steady (20 :: Int)) feet (drop 1 feet))
+-- | True if the feet of a curve's points move along the segments without a jump. Where a foot
+-- moves much farther than its point, the interval is bisected.
+isCovered :: (Double -> Point) -> Double -> NonEmpty Segment -> [(Double, Point, Double)] -> Bool
+isCovered point aim pieces feet = and (zipWith (isSteady (20 :: Int)) feet (drop 1 feet))
   where
-    steady left one@(a, p, s) two@(b, q, t)
-      | t < s - grain = False
-      | t - s <= 1.5 * far + grain = True
-      | far <= grain || left <= 0 = False
+    isSteady remaining one@(a, p, s) two@(b, q, t)
+      | t < s - smallestStep = False
+      | t - s <= 1.5 * far + smallestStep = True
+      | far <= smallestStep || remaining <= 0 = False
       | otherwise =
         let middle =
               at ((a + b) / 2)
-         in steady (left - 1) one middle && steady (left - 1) middle two
+         in isSteady (remaining - 1) one middle && isSteady (remaining - 1) middle two
       where
         Mm far = Vec.distance p q
-    at w = let p = point w in (w, p, progress pieces p)
-    grain = 0.1 * aim
+    at w = let p = point w in (w, p, lengthAtFoot pieces p)
+    smallestStep = 0.1 * aim
 
--- | How far along segments the foot of a point lies.
-progress :: NonEmpty Segment -> Point -> Double
-progress pieces p = go 0 (NonEmpty.toList pieces) (1 / 0, 0)
+-- | Length along segments up to the foot of a point.
+lengthAtFoot :: NonEmpty Segment -> Point -> Double
+lengthAtFoot pieces p = go 0 (NonEmpty.toList pieces) (1 / 0, 0)
   where
     go before list best@(nearest, _) = case list of
       [] -> snd best

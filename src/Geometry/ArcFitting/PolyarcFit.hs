@@ -1,20 +1,17 @@
 {-# LANGUAGE BangPatterns #-}
--- The numbers that a loop carries stay bare even where there are more than ten of them.
+-- The inner loop has more than ten unboxed arguments, which the default limit would box.
 {-# OPTIONS_GHC -O2 -fno-full-laziness -fmax-worker-args=40 #-}
 
--- | Biarcs along a chain of lines and arcs, and how far they are from it in closed form.
+-- | Arc fitting of polyarcs by biarcs, with an error bound in closed form.
 --
--- In the frame of an arc's beginning, x along its direction, y to its left, the circle of the
--- curvature k is where
--- @F = y − k·(x² + y²)/2@ is 0, and a point with @|k·F|@ well below 1 is @|F|·(1 + |k·F|)@ away
---  from it at most. Along a line
--- or an arc F has one extremum at most as long as that turns by less than a quarter turn; there its
--- slope
--- @F′ = d_y − k·(x·d_x + y·d_y)@ is 0, which goes nearly evenly from one end to the other.
+-- Take the frame of an arc's start, with x along its direction and y to its left. The circle with
+-- the curvature k is the zero set of @F = y − k·(x² + y²)/2@. Where @|k·F|@ is well below 1, a
+-- point is at most @|F|·(1 + |k·F|)@ away from the circle. Along a line or an arc that sweeps less
+-- than a quarter turn, F has at most one extremum. It lies where the slope @F′ = d_y − k·(x·d_x +
+-- y·d_y)@ is 0; this slope is nearly linear from one end to the other.
 --
--- As long as the chain goes forwards as seen from both ends of the arc, its feet on the arc go
--- without a jump from the beginning to the end, so that every point of the arc is as near to the
--- chain.
+-- As long as the polyarc runs forwards in the directions of both ends of the arc, its feet on the
+-- arc cover the arc without a jump. Then the same bound holds from the arc to the polyarc.
 module Geometry.ArcFitting.PolyarcFit
   ( approximate,
     smoothed,
@@ -30,9 +27,9 @@ import Data.List.NonEmpty qualified as NonEmpty
 import Data.Vector.Unboxed (Vector)
 import Data.Vector.Unboxed qualified as Unboxed
 import Data.Vector.Unboxed.Mutable qualified as Mutable
-import Geometry.ArcFitting.Biarc.Fast (FastArc (..), FastBiarc (..), Pose (..), forwards, frame)
+import Geometry.ArcFitting.Biarc.Fast (FastArc (..), FastBiarc (..), Pose (..), fastArc, isForwards)
 import Geometry.ArcFitting.Builder qualified as Builder
-import Geometry.ArcFitting.LongestBiarc (Off (..), ParameterRange (..), Spans (..))
+import Geometry.ArcFitting.LongestBiarc (ArcDistances (..), ParameterRange (..), Spans (..))
 import Geometry.ArcFitting.LongestBiarc qualified as LongestBiarc
 import Geometry.ArcFitting.ParametricFit (OneSided (..), ParametricCurve (ParametricCurve))
 import Geometry.ArcFitting.ParametricFit qualified as ParametricFit
@@ -44,13 +41,14 @@ import Geometry.Segment qualified as Segment
 import Geometry.Tolerance qualified as Tolerance
 import Geometry.Vec qualified as Vec
 
--- | A chain by its length in mm: where each piece begins along it and, at the very last, where it
--- ends; seven numbers for each piece: the place where it begins, the directions at its beginning
--- and at its end, the curvature (1/mm).
-data Chain = Chain {stations :: Vector Double, pieces :: Vector Double}
+-- | Polyarc over its arc length in mm. @stations@ are the arc lengths at the starts of the
+-- segments and, as the last entry, the whole length. @pieces@ has seven numbers per segment:
+-- the start point, the unit directions at the start and at the end, and the curvature (1/mm).
+data SegmentTable = SegmentTable {stations :: Vector Double, pieces :: Vector Double}
 
--- | Arcs and lines that stay within a distance of a chain, both ways, in as few biarcs as going as
--- far as possible each time gives; corners stay. Every segment has a length.
+-- | Arcs and lines within a tolerance of a polyarc; the distance is bounded in both directions.
+-- The fit is greedy: each biarc is as long as possible. Corners are kept. Every segment of the
+-- input must have a length.
 approximate :: Mm -> NonEmpty Segment -> FlatPolyarc
 approximate (Mm tolerance) segments = runST $ do
   vertices <- Builder.new
@@ -71,81 +69,82 @@ approximate (Mm tolerance) segments = runST $ do
             Spans
               { seek = seekFrom chain to,
                 pose = poseWithin chain from to,
-                LongestBiarc.off = apart chain,
-                other = sharp to,
-                hopeless = astray chain,
-                patient = True
+                LongestBiarc.arcDistances = biarcDistances chain,
+                fallback = generalFit to,
+                isHopeless = isTooFar chain,
+                triesLonger = True
               }
           stretches to
       endOf k
-        | k >= n || cornered chain k = k
+        | k >= n || hasCorner chain k = k
         | otherwise = endOf (k + 1)
   stretches 0
   Builder.push vertices (Vec.x end) (Vec.y end) 0
-  Builder.outline vertices
+  Builder.polyarc vertices
   where
-    chain = chainOf segments
+    chain = tableOf segments
     n = Unboxed.length (stations chain) - 1
     end = Segment.end (NonEmpty.last segments)
     aim = tolerance * (1 - Tolerance.roundingShare)
-    -- Of a stretch that goes on to the end of a piece no more than is needed is looked at.
-    sharp to u =
+    -- The general fit looks at no more than 64 segments ahead of the current one.
+    generalFit to u =
       let i =
             min (to - 1) (BinarySearch.lastBelow n u (stations chain))
-       in ParametricFit.further
+       in ParametricFit.oneBiarc
             (Mm tolerance)
-            (trackOf chain i (min to (i + 64)))
+            (parametricCurve chain i (min to (i + 64)))
             (station chain (min to (i + 64)))
             u
 
--- | A chain that turns at corners only and stays within a distance of another one: the other
--- itself, neighbours on one circle as one arc; but for stretches between corners with kinks, for
--- which others stand as 'approximate' gives them.
+-- | Polyarc with kinks at corners only, within a tolerance of the given one. Stretches between
+-- corners without kinks are kept, with neighbouring arcs on one circle merged. Stretches with
+-- kinks are replaced by the result of 'approximate'.
 smoothed :: Mm -> NonEmpty Segment -> NonEmpty Segment
-smoothed tolerance (first :| others) = gathered (first :| []) first False others
+smoothed tolerance (first :| others) = groups (first :| []) first False others
   where
-    gathered before@(b :| earlier) s kinked rest = case rest of
-      [] -> settled kinked before
+    groups before@(b :| earlier) s hasKink rest = case rest of
+      [] -> finished hasKink before
       next : more
-        | jump > Tolerance.kink -> settled kinked before <> gathered (next :| []) next False more
-        | jump > Tolerance.smoothAngle -> gathered (NonEmpty.cons next before) next True more
+        | jump > Tolerance.kink -> finished hasKink before <> groups (next :| []) next False more
+        | jump > Tolerance.smoothAngle -> groups (NonEmpty.cons next before) next True more
         | otherwise ->
-          gathered
-            (maybe (NonEmpty.cons next before) (:| earlier) (together b next))
+          groups
+            (maybe (NonEmpty.cons next before) (:| earlier) (mergedArc b next))
             next
-            kinked
+            hasKink
             more
         where
           jump =
             let Rad a =
                   Vec.turn (Segment.endDirection s) (Segment.startDirection next)
              in Rad (abs a)
-    settled kinked before
-      | kinked =
+    finished hasKink before
+      | hasKink =
         MeasuredPolyarc.segments
           (MeasuredPolyarc.fromOutline (approximate tolerance (NonEmpty.reverse before)))
       | otherwise = NonEmpty.reverse before
 
--- | An arc and the next one as one arc of half a turn at most, if the circle of the first is that
--- of the next as far as doubles tell.
-together :: Segment -> Segment -> Maybe Segment
-together s next = case (s, next) of
+-- | Merges two consecutive arcs into one arc of at most half a turn, if they lie on one circle
+-- within rounding.
+mergedArc :: Segment -> Segment -> Maybe Segment
+mergedArc s next = case (s, next) of
   (Arc {start, centre, sweep = Rad a}, Arc {end, sweep = Rad b})
     | signum a == signum b
         && abs (a + b) <= pi
-        && all (onCircle centre (Segment.radius centre start)) [Segment.at 0.5 next, end]
+        && all (isOnCircle centre (Segment.radius centre start)) [Segment.at 0.5 next, end]
         && Rad (abs (bend both)) <= Tolerance.oneArc ->
       Just both
     where
       both = Segment.arc (if a > 0 then CounterClockwise else Clockwise) centre start end
   _ -> Nothing
   where
-    onCircle c (Mm r) p = let Mm d = Vec.distance c p in Mm (abs (d - r)) <= Tolerance.arcLength
+    isOnCircle c (Mm r) p = let Mm d = Vec.distance c p in Mm (abs (d - r)) <= Tolerance.arcLength
     bend both = let Rad t = Vec.turn (Segment.endDirection next) (Segment.endDirection both) in t
 
-chainOf :: NonEmpty Segment -> Chain
-chainOf segments =
-  Chain
+-- | Arrays of a polyarc.
+tableOf :: NonEmpty Segment -> SegmentTable
+tableOf segments =
+  SegmentTable
     { stations =
         Unboxed.scanl'
           (+)
@@ -153,66 +152,68 @@ chainOf segments =
           (Unboxed.fromListN n (map (\s -> let Mm l = Segment.length s in l) list)),
       pieces =
         Unboxed.create
-          (Mutable.unsafeNew (7 * n) >>= \array -> array <$ foldM_ (numbers array) 0 list)
+          (Mutable.unsafeNew (7 * n) >>= \array -> array <$ foldM_ (writeSegment array) 0 list)
     }
   where
     n = NonEmpty.length segments
     list = NonEmpty.toList segments
 
--- | The numbers of a piece from a place in the array on; gives the place behind them.
-numbers :: Mutable.MVector s Double -> Int -> Segment -> ST s Int
-numbers array i s = case s of
-  Straight p q -> let d = Vec.unit (Vec.to p q) in written p d d 0
+-- | Writes the seven numbers of a segment at an index of the array; returns the index after them.
+writeSegment :: Mutable.MVector s Double -> Int -> Segment -> ST s Int
+writeSegment array i s = case s of
+  Straight p q -> let d = Vec.unit (Vec.to p q) in writeNumbers p d d 0
   Arc {start, end, centre, sweep = Rad a} ->
     let Mm r = Segment.radius centre start
         k = signum a / r
-     in written
+     in writeNumbers
           start
           (Vec.scale k (Vec.left (Vec.to centre start)))
           (Vec.scale k (Vec.left (Vec.to centre end)))
           k
   where
-    written p (Vec.Vec sx sy) (Vec.Vec ex ey) k = do
+    writeNumbers p (Vec.Vec sx sy) (Vec.Vec ex ey) k = do
       put 0 (Vec.x p) >> put 1 (Vec.y p) >> put 2 sx >> put 3 sy >> put 4 ex >> put 5 ey >> put 6 k
       pure (i + 7)
     put j = Mutable.unsafeWrite array (i + j)
 
-station :: Chain -> Int -> Double
+-- | Arc length at the start of a segment; at the index after the last one, the whole length.
+station :: SegmentTable -> Int -> Double
 station chain = Unboxed.unsafeIndex (stations chain)
 
--- | The pose at the beginning of a piece.
-beginning :: Chain -> Int -> Pose
+-- | Pose at the start of a segment.
+beginning :: SegmentTable -> Int -> Pose
 beginning chain i = Pose (part 0) (part 1) (part 2) (part 3)
   where
     part k = Unboxed.unsafeIndex (pieces chain) (7 * i + k)
 
--- | The direction at the end of a piece.
-ending :: Chain -> Int -> (Double, Double)
+-- | Direction at the end of a segment.
+ending :: SegmentTable -> Int -> (Double, Double)
 ending chain i =
   (Unboxed.unsafeIndex (pieces chain) (7 * i + 4), Unboxed.unsafeIndex (pieces chain) (7 * i + 5))
 {-# INLINE ending #-}
 
--- | The curvature of a piece.
-curvature :: Chain -> Int -> Double
+-- | Curvature of a segment in 1/mm.
+curvature :: SegmentTable -> Int -> Double
 curvature chain i = Unboxed.unsafeIndex (pieces chain) (7 * i + 6)
 
--- | Whether the chain has a corner at the beginning of a piece, behind another.
-cornered :: Chain -> Int -> Bool
-cornered chain k = not (dx b * ex + dy b * ey > 0 && abs (ex * dy b - ey * dx b) <= sin kink)
+-- | True if the polyarc has a corner at the start of a segment other than the first.
+hasCorner :: SegmentTable -> Int -> Bool
+hasCorner chain k = not (dx b * ex + dy b * ey > 0 && abs (ex * dy b - ey * dx b) <= sin kink)
   where
     (ex, ey) = ending chain (k - 1)
     b = beginning chain k
     Rad kink = Tolerance.kink
 
--- | The piece, before another, that holds a place, given one that is not behind it.
-seekFrom :: Chain -> Int -> Int -> Double -> Int
+-- | Segment below @to@ that contains an arc length, given a segment that is not after it;
+-- galloping (exponential) search followed by binary search.
+seekFrom :: SegmentTable -> Int -> Int -> Double -> Int
 seekFrom chain to from u = gallop from 1
   where
     gallop low step
       | low + step >= to = if to - low <= 1 then low else search low to
       | station chain (low + step) <= u = gallop (low + step) (2 * step)
       | otherwise = search low (low + step)
-    -- What is sought is low or behind it, and before high.
+    -- Invariant: the result is at least @low@ and below @high@.
     search low high
       | high - low <= 1 = low
       | station chain middle <= u = search middle high
@@ -220,9 +221,9 @@ seekFrom chain to from u = gallop from 1
       where
         middle = (low + high) `div` 2
 
--- | The pose so far along a piece from a pose on it, given its curvature.
-advanced :: Double -> Pose -> Double -> Pose
-advanced k (Pose x y ux uy) s
+-- | Pose at a distance along a segment from a pose on it, given the segment's curvature.
+poseAlong :: Double -> Pose -> Double -> Pose
+poseAlong k (Pose x y ux uy) s
   | k == 0 = Pose (x + s * ux) (y + s * uy) ux uy
   | otherwise =
     Pose
@@ -236,19 +237,19 @@ advanced k (Pose x y ux uy) s
     n = sin (0.5 * k * s)
     chord = 2 * n / k
 
--- | The place and the direction at a place of a stretch, given its piece; where pieces meet the
--- mean of both directions.
-poseWithin :: Chain -> Int -> Int -> Int -> Double -> Pose
+-- | Pose at an arc length in a stretch, given its segment. Where segments meet, the direction is
+-- the mean of both.
+poseWithin :: SegmentTable -> Int -> Int -> Int -> Double -> Pose
 poseWithin chain from to i u
   | u >= station chain to = arriving (to - 1)
-  | s > 0 || i <= from = advanced (curvature chain i) (beginning chain i) s
+  | s > 0 || i <= from = poseAlong (curvature chain i) (beginning chain i) s
   | otherwise = mean (arriving (i - 1)) (beginning chain i)
   where
     s = u - station chain i
     arriving j =
       let (ex, ey) =
             ending chain j
-       in ( advanced
+       in ( poseAlong
               (curvature chain j)
               (beginning chain j)
               (station chain (j + 1) - station chain j)
@@ -262,30 +263,30 @@ poseWithin chain from to i u
           l = sqrt (sx * sx + sy * sy)
        in b {dx = sx / l, dy = sy / l}
 
--- | How far a biarc is from the chain between two places, given the pieces of both; of what is
--- further than a limit only that it is so.
-apart :: Chain -> Double -> Int -> Double -> Pose -> Int -> Double -> Pose -> FastBiarc -> Off
-apart chain most first u from final v to pair
-  -- Most of what is too far off is so at one of a few places.
-  | if final - first >= 4 then stray 1 || stray 2 || stray 3 else strayed (first + 1) = unknown
+-- | Bounds of the distances of a biarc's two arcs from the polyarc between two arc lengths, given
+-- their segments. A bound above the limit only says that the limit is exceeded.
+biarcDistances :: SegmentTable -> Double -> Int -> Double -> Pose -> Int -> Double -> Pose -> FastBiarc -> ArcDistances
+biarcDistances chain largest first u from final v to pair
+  -- Rejects most biarcs that are too far off by testing a few vertices first.
+  | if final - first >= 4 then isVertexFar 1 || isVertexFar 2 || isVertexFar 3 else isAnyVertexFar (first + 1) = unknown
   | single pair =
     let one =
-          frame from (bend1 pair) to
-     in if forwards one
+          fastArc from (bend1 pair) to
+     in if isForwards one
           then
             let Reached _ _ _ d =
-                  onward chain most v to True one start
-             in Off d d
+                  advance chain largest v to True one start
+             in ArcDistances d d
           else unknown
-  | one <- frame from (bend1 pair) (joint pair),
-    two <- frame (joint pair) (bend2 pair) to,
-    forwards one && forwards two = case onward chain most v to False one start of
-    Reached i s p d1 | d1 <= most -> case onward chain most v to True two (Reached i s p 0) of
-      Reached _ _ _ d2 -> Off d1 d2
+  | one <- fastArc from (bend1 pair) (joint pair),
+    two <- fastArc (joint pair) (bend2 pair) to,
+    isForwards one && isForwards two = case advance chain largest v to False one start of
+    Reached i s p d1 | d1 <= largest -> case advance chain largest v to True two (Reached i s p 0) of
+      Reached _ _ _ d2 -> ArcDistances d1 d2
     _ -> unknown
   | otherwise = unknown
   where
-    -- With the chain's own direction, not the mean of two where pieces meet.
+    -- Uses the polyarc's own direction, not the mean of both where segments meet.
     start =
       Reached
         first
@@ -298,45 +299,45 @@ apart chain most first u from final v to pair
                in from {dx = dx b, dy = dy b}
         )
         0
-    unknown = Off (1 / 0) (1 / 0)
-    stray k
+    unknown = ArcDistances (1 / 0) (1 / 0)
+    isVertexFar k
       | single pair
           || (px p - px (joint pair)) * dx (joint pair) + (py p - py (joint pair)) * dy (joint pair)
             < 0 =
-        abs (above (bend1 pair) from p) > most
-      | otherwise = abs (above (bend2 pair) (joint pair) p) > most
+        abs (above (bend1 pair) from p) > largest
+      | otherwise = abs (above (bend2 pair) (joint pair) p) > largest
       where
         !p = beginning chain (first + k * (final - first) `quot` 4)
-    -- Where pieces meet, from one of them on: at first beside the first arc, and once beyond its
-    -- end beside the second one.
-    strayed i
+    -- Tests the vertices one by one: against the first arc up to its end, then against the second
+    -- arc.
+    isAnyVertexFar i
       | i > final = False
       | single pair
           || (px p - px (joint pair)) * dx (joint pair) + (py p - py (joint pair)) * dy (joint pair)
             < 0 =
-        abs (above (bend1 pair) from p) > most || strayed (i + 1)
-      | otherwise = abs (above (bend2 pair) (joint pair) p) > most || strayedBehind (i + 1)
+        abs (above (bend1 pair) from p) > largest || isAnyVertexFar (i + 1)
+      | otherwise = abs (above (bend2 pair) (joint pair) p) > largest || isAnyFarFromSecond (i + 1)
       where
         !p = beginning chain i
-    strayedBehind i =
+    isAnyFarFromSecond i =
       i <= final
-        && ( abs (above (bend2 pair) (joint pair) (beginning chain i)) > most
-               || strayedBehind (i + 1)
+        && ( abs (above (bend2 pair) (joint pair) (beginning chain i)) > largest
+               || isAnyFarFromSecond (i + 1)
            )
 
--- | Whether a place between two others, given with their pieces and poses, is further than a
--- distance from any biarc between these: all of them lie between two circles through both places,
--- one with the direction at the first and one with that at the final.
-astray :: Chain -> Double -> Int -> Double -> Pose -> Int -> Double -> Pose -> Bool
-astray chain most first _ from final _ to = max (abs bendA) (abs bendB) * most < slack / 2 && go 1
+-- | True if a vertex between two positions, given with their segments and poses, is farther than
+-- a distance from every biarc between them. All these biarcs lie between two circles through
+-- both positions: one with the start direction, one with the end direction.
+isTooFar :: SegmentTable -> Double -> Int -> Double -> Pose -> Int -> Double -> Pose -> Bool
+isTooFar chain largest first _ from final _ to = max (abs bendA) (abs bendB) * largest < slack / 2 && go 1
   where
     cx = px to - px from
     cy = py to - py from
     square = cx * cx + cy * cy
     !bendA = 2 * (cy * dx from - cx * dy from) / square
     !bendB = 2 * (cx * dy to - cy * dx to) / square
-    far = (1 + slack) * most
-    n = min places (final - first)
+    far = (1 + slack) * largest
+    n = min testedVertices (final - first)
     go :: Int -> Bool
     go k
       | k >= n = False
@@ -345,79 +346,82 @@ astray chain most first _ from final _ to = max (abs bendA) (abs bendB) * most <
         !p = beginning chain (first + k * (final - first) `quot` n)
     isOutside a b = a > far && b > far || a < -far && b < -far
 
--- | At so many places it is looked whether a stretch is too far away.
-places :: Int
-places = 8
+-- | Largest count of vertices that 'isTooFar' tests.
+testedVertices :: Int
+testedVertices = 8
 
 -- | F differs from the distance by less than half of this share.
 slack :: Double
 slack = 0.05
 
--- | A piece, a place on the chain and the pose there, and the distance up to there.
+-- | Segment, arc length and pose of a position on the polyarc, and the bound of the distance up
+-- to this position.
 data Reached = Reached Int Double Pose Double
 
--- | Past one arc: to the normal at its end or, on the last one, to a place with its pose.
-onward :: Chain -> Double -> Double -> Pose -> Bool -> FastArc -> Reached -> Reached
-onward !chain !most !v !to !final !f (Reached i0 u0 begin d0) =
+-- | Advances along one arc and bounds the distance: to the normal at the arc's end or, for the
+-- last arc, to a given position with its pose.
+advance :: SegmentTable -> Double -> Double -> Pose -> Bool -> FastArc -> Reached -> Reached
+advance !chain !largest !v !to !final !f (Reached i0 u0 begin d0) =
   go i0 u0 (px begin) (py begin) (dx begin) (dy begin) (level f begin) (abs (level f begin))
   where
-    -- The pose in bare numbers, and F there, and the greatest so far: there are many.
-    go !i !u !x !y !hx !hy !here !most'
-      | end >= v = lastly i u (Pose x y hx hy) (worse d0 (distant f most'))
+    -- Passes the pose as plain numbers, with F at the pose and the largest F so far, because this
+    -- loop runs once per segment and biarc.
+    go !i !u !x !y !hx !hy !here !greatestLevel
+      | end >= v = finish i u (Pose x y hx hy) (larger d0 (distanceOfLevel f greatestLevel))
       | otherwise = case beginning chain (i + 1) of
         Pose nx ny kx ky
           | not final && beyond f arriving >= 0 ->
-            across i u end p arriving (worse d0 (distant f most'))
-          | not (ahead f p && ahead f arriving) -> Reached (i + 1) end arriving (1 / 0)
-          -- Seldom can there be more between them.
+            finishAtNormal i u end p arriving (larger d0 (distanceOfLevel f greatestLevel))
+          | not (runsForwards f p && runsForwards f arriving) -> Reached (i + 1) end arriving (1 / 0)
+          -- Tests for an inner extremum only if there can be one; there seldom is.
           | abs here + 1.5 * abs m * (end - u) > greater,
             e <- extreme here m (slope f arriving) (hx * ey - hy * ex) (end - u),
             e > greater ->
-            onto e
-          | otherwise -> onto greater
+            continue e
+          | otherwise -> continue greater
           where
             p = Pose x y hx hy
             (ex, ey) = ending chain i
             arriving = Pose nx ny ex ey
             !there = level f arriving
             !m = slope f p
-            !greater = if abs there > most' then abs there else most'
-            onto !now
-              | now > most' && distant f now > most = Reached (i + 1) end arriving (1 / 0)
+            !greater = if abs there > greatestLevel then abs there else greatestLevel
+            continue !now
+              | now > greatestLevel && distanceOfLevel f now > largest = Reached (i + 1) end arriving (1 / 0)
               | otherwise = go (i + 1) end nx ny kx ky there now
       where
         !end = station chain (i + 1)
-    -- In the piece that holds the place.
-    lastly !i !u !p !d
-      | final = Reached i v to (worse d (beside f p to (v - u)))
+    -- Ends in the segment that contains the last position.
+    finish !i !u !p !d
+      | final = Reached i v to (larger d (distanceBound f p to (v - u)))
       | beyond f to < 0 = Reached i v to (1 / 0)
-      | otherwise = across i u v p to d
-    {-# NOINLINE lastly #-}
-    -- To the normal at the arc's end, before the end of the piece.
-    across !i !u !w !p !q !d = Reached i (u + s) c (worse d (beside f p c s))
+      | otherwise = finishAtNormal i u v p to d
+    {-# NOINLINE finish #-}
+    -- Ends at the normal of the arc's end, which crosses this segment.
+    finishAtNormal !i !u !w !p !q !d = Reached i (u + s) c (larger d (distanceBound f p c s))
       where
-        s = newton (held ((u - w) * from / (beyond f q - from)))
-        c = advanced (curvature chain i) p s
+        s = newton (clamped ((u - w) * from / (beyond f q - from)))
+        c = poseAlong (curvature chain i) p s
         from = beyond f p
         newton a =
           let b =
-                advanced (curvature chain i) p a
-           in held (a - beyond f b / (dx b * dx (limit f) + dy b * dy (limit f)))
-        held a = if a > 0 then if a < w - u then a else w - u else 0
-    {-# NOINLINE across #-}
-    worse d e = if e <= d then d else e
+                poseAlong (curvature chain i) p a
+           in clamped (a - beyond f b / (dx b * dx (limit f) + dy b * dy (limit f)))
+        clamped a = if a > 0 then if a < w - u then a else w - u else 0
+    {-# NOINLINE finishAtNormal #-}
+    larger d e = if e <= d then d else e
 
--- | How far a place is beyond the normal at an arc's end.
+-- | Signed distance of a position beyond the normal at an arc's end.
 beyond :: FastArc -> Pose -> Double
 beyond f p = (px p - px (limit f)) * dx (limit f) + (py p - py (limit f)) * dy (limit f)
 {-# INLINE beyond #-}
 
--- | F of an arc's circle at a place.
+-- | F of an arc's circle at a position.
 level :: FastArc -> Pose -> Double
 level f = above (bend f) (origin f)
 {-# INLINE level #-}
 
--- | F of the circle of a curvature that begins with a pose.
+-- | F of the circle that starts at a pose with a given curvature.
 above :: Double -> Pose -> Pose -> Double
 above k from p = uy * dx from - ux * dy from - 0.5 * k * (ux * ux + uy * uy)
   where
@@ -425,12 +429,12 @@ above k from p = uy * dx from - ux * dy from - 0.5 * k * (ux * ux + uy * uy)
     uy = py p - py from
 {-# INLINE above #-}
 
--- | How far a part of a piece of a length, from one pose to another, can be from an arc; infinite
--- where it may not go forwards.
-beside :: FastArc -> Pose -> Pose -> Double -> Double
-beside f p q l
-  | ahead f p && ahead f q =
-    distant
+-- | Bound of the distance between an arc and a part of a segment, given by its two poses and its
+-- length; infinite where the segment might not run forwards.
+distanceBound :: FastArc -> Pose -> Pose -> Double -> Double
+distanceBound f p q l
+  | runsForwards f p && runsForwards f q =
+    distanceOfLevel
       f
       ( greater
           (extreme from (slope f p) (slope f q) (dx p * dy q - dy p * dx q) l)
@@ -442,40 +446,40 @@ beside f p q l
     to = level f q
     greater a b = if a > b then a else b
 
--- | The distance that F comes to at most; infinite where it is not known.
-distant :: FastArc -> Double -> Double
-distant f d = if k * d < 0.2 then d * (1 + k * d) else 1 / 0
+-- | Bound of the distance for a value of F; infinite where no bound is known.
+distanceOfLevel :: FastArc -> Double -> Double
+distanceOfLevel f d = if k * d < 0.2 then d * (1 + k * d) else 1 / 0
   where
     k = abs (bend f)
-{-# INLINE distant #-}
+{-# INLINE distanceOfLevel #-}
 
--- | Whether a pose goes forwards as seen from both ends of an arc.
-ahead :: FastArc -> Pose -> Bool
-ahead f p =
+-- | True if a pose runs forwards in the directions of both ends of an arc.
+runsForwards :: FastArc -> Pose -> Bool
+runsForwards f p =
   along > 0 && along * cosine f + (dy p * dx (origin f) - dx p * dy (origin f)) * sine f > 0
   where
     along = dx p * dx (origin f) + dy p * dy (origin f)
-{-# INLINE ahead #-}
+{-# INLINE runsForwards #-}
 
--- | How fast F changes along a pose.
+-- | Derivative of F along a pose.
 slope :: FastArc -> Pose -> Double
 slope f p =
   (dy p * dx (origin f) - dx p * dy (origin f))
     - bend f * ((px p - px (origin f)) * dx p + (py p - py (origin f)) * dy p)
 {-# INLINE slope #-}
 
--- | What F comes to between two places a length apart: given it at the first, its slopes at both,
--- and the sine of what the piece turns by; by its square the extremum is not quite a parabola's. 0
--- where there is none, and never more than @|F| + 3/2·|slope|·length@.
+-- | Extremum of F between two positions, given F at the first, the slopes at both, the sine of
+-- the sweep between them, and their distance. The square of the sine corrects the parabola. The
+-- result is 0 where there is no extremum, and never more than @|F| + 3/2·|slope|·length@.
 extreme :: Double -> Double -> Double -> Double -> Double -> Double
-extreme from m n turned l
-  | m * n < 0 = abs (from - 0.5 * m * m * l / (n - m) * (1 + 2 * turned * turned))
+extreme from m n sweepSine l
+  | m * n < 0 = abs (from - 0.5 * m * m * l / (n - m) * (1 + 2 * sweepSine * sweepSine))
   | otherwise = 0
 {-# INLINE extreme #-}
 
--- | Some of the pieces, from one to before another, as a track by the chain's length.
-trackOf :: Chain -> Int -> Int -> ParametricCurve
-trackOf chain from to =
+-- | Segments @from@ to @to − 1@ as a parametric curve over arc length.
+parametricCurve :: SegmentTable -> Int -> Int -> ParametricCurve
+parametricCurve chain from to =
   ParametricCurve
     { ParametricFit.place = place,
       ParametricFit.direction = direction,
@@ -493,5 +497,5 @@ trackOf chain from to =
                 let (ex, ey) =
                       ending chain (i - 1)
                  in (beginning chain i) {dx = ex, dy = ey}
-            _ -> advanced (curvature chain i) (beginning chain i) (u - station chain i)
+            _ -> poseAlong (curvature chain i) (beginning chain i) (u - station chain i)
        in Vec.vec (dx p) (dy p)

@@ -1,9 +1,8 @@
--- | What a curve is before any shift: spans, one behind the other, each a cubic in both coordinates
--- or an arc.
+-- | Unshifted curves: consecutive spans, each of them a cubic in x and in y, or an arc.
 --
--- The parameter runs from 0 to the number of spans, each span having 1 of it. A base remembers the
--- rows of the table that it came from, so that columns of numbers beside the points can be
--- interpolated in the same way.
+-- The parameter runs from 0 to the count of spans, with a range of 1 for each span. A base keeps
+-- the rows of the table from which it was made, so that columns of numbers can be interpolated in
+-- the same way as the points.
 module Geometry.Curve.Base
   ( Base (..),
     SpanList (..),
@@ -20,11 +19,11 @@ module Geometry.Curve.Base
     ofChain,
     ofSegments,
     count,
-    ruler,
+    arcLength,
     chords,
     fractions,
     SpanPoint (..),
-    spot,
+    spanPoint,
     jet,
     reversed,
     backwards,
@@ -58,94 +57,96 @@ import Geometry.Vec (Point, Vec)
 import Geometry.Vec qualified as Vec
 import Linear.V2 (V2 (..))
 
+-- | Unshifted curve with the rows of its table.
 data Base = Base
   { method :: CurveKind,
-    -- | the rows of the table, in the order of the walk; made when they are asked for
+    -- | rows of the table in the curve's direction; evaluated on demand
     rows :: ~(Vector Knot),
-    -- | at least one
-    course :: SpanList,
-    -- | whether the end is the beginning
+    -- | spans, at least one
+    spanList :: SpanList,
+    -- | True if the end is the beginning
     closed :: Bool,
-    -- | along the base; read by 'ruler'
-    measure :: ~ArcLength
+    -- | arc length along the base; read through 'arcLength'
+    lengthTable :: ~ArcLength
   }
   deriving stock (Eq, Show)
 
--- | The spans in order.
+-- | Spans in order.
 data SpanList
-  = -- | cubics in x and as many in y
+  = -- | cubics in x, and equally many in y
     Cubical Cubics Cubics
-  | -- | some of them arcs
+  | -- | spans of any kind, at least one of them an arc
     Mixed (Vector Span)
   deriving stock (Eq, Show)
 
--- | How the points became spans.
+-- | Interpolation by which the points became spans.
 data CurveKind
   = -- | a straight line from each row to the next
     Polyline
   | -- | a cubic from each row to the next
     Spline EndCondition
-  | -- | a parabola through rows 1–3, 3–5, …
+  | -- | a parabola y(x) through rows 1–3, 3–5, and so on
     Parabola
-  | -- | pieces given as such
+  | -- | spans that were given one by one
     Joined
   deriving stock (Eq, Show)
 
--- | What holds at the ends of a spline.
+-- | End condition of a spline.
 data EndCondition
-  = -- | no curvature
+  = -- | zero curvature
     Natural
-  | -- | these directions, of length 1
+  | -- | the given unit directions at the start and at the end
     Clamped Vec Vec
-  | -- | the end goes over into the beginning, curvature included
+  | -- | the end continues into the beginning with equal first and second derivatives
     Periodic
   deriving stock (Eq, Show)
 
--- | A point of the table and its parameter on the curve.
+-- | Point of the table with its parameter on the curve.
 data Knot = Knot {at :: Double, place :: Point}
   deriving stock (Eq, Show)
 
--- | Why there is no such curve. Rows and pieces count from 1.
+-- | Reason why the data give no curve. Rows and spans are counted from 1.
 data CurveFault
-  = -- | fewer points than are needed, and how many that is
+  = -- | too few points; the count that is needed
     TooFew Int
-  | -- | this row and the next are one point
+  | -- | the row with this number and the next one coincide
     Coincident Int
-  | -- | so many points that the last parabola lacks one
+  | -- | an even count of points, so that the last parabola lacks one
     EvenCount Int
-  | -- | between this row and the next x does not go on as it began
+  | -- | x reverses between the row with this number and the next one
     NotMonotone Int
-  | -- | a direction at the end of a spline has no length
+  | -- | a direction at an end of a spline is a zero vector
     NoDirection
-  | -- | this piece has no length
+  | -- | the span with this number has no length
     NoLength Int
-  | -- | this piece ends elsewhere than the next begins
+  | -- | the span with this number does not end where the next one begins
     Disjoint Int
-  | -- | this row does not come before the next along the curve, or lies beyond its ends
+  | -- | the row with this number does not lie before the next one along the curve, or lies
+    -- outside of the curve
     Disordered Int
-  | -- | a joggle's radius is not above half of its depth
+  | -- | the radius of a joggle is not above half of its depth
     DeepJoggle
-  | -- | the ramps of a joggle need this length; there is only that
+  | -- | the ramps of a joggle need the first length; only the second is available
     LongJoggle Mm Mm
   deriving stock (Eq, Show)
 
--- | A base of these spans.
-made :: CurveKind -> Bool -> Vector Knot -> SpanList -> Base
-made method closed rows course = base
+-- | Makes a base of spans and adds its arc length.
+makeBase :: CurveKind -> Bool -> Vector Knot -> SpanList -> Base
+makeBase method closed rows spanList = base
   where
     base =
       Base
         { method,
           rows,
-          course,
+          spanList,
           closed,
-          measure = ArcLength.measured speed (map fromIntegral [0 .. count base])
+          lengthTable = ArcLength.measured speed (map fromIntegral [0 .. count base])
         }
-    speed u = let s = spot After u base in speedAt base (number s) (local s)
+    speed u = let s = spanPoint After u base in speedAt base (number s) (local s)
 
--- | How fast the place changes, in mm for 1 of the parameter, in a span at its own parameter.
+-- | Speed in mm per unit of the parameter, in a span at its local parameter.
 speedAt :: Base -> Int -> Double -> Double
-speedAt base i t = case course base of
+speedAt base i t = case spanList base of
   Cubical xs ys ->
     let a =
           Spline.rate (Spline.at xs i) t
@@ -153,33 +154,33 @@ speedAt base i t = case course base of
      in sqrt (a * a + b * b)
   Mixed parts -> Vec.norm (TaylorExpansion.velocity (Span.jet 1 (parts Vector.! i) t))
 
--- | The spans one by one.
+-- | Spans as a vector.
 spans :: Base -> Vector Span
-spans base = case course base of
+spans base = case spanList base of
   Cubical xs ys ->
     Vector.generate (Spline.count xs) (\i -> Polynomial (Spline.at xs i) (Spline.at ys i))
   Mixed parts -> parts
 
--- | The arcs and lines of a base, some of them arcs, if it has no other spans. Of neighbours, one
--- ends where the next begins; spans join to a point.
+-- | Lines and arcs of a base that consists of them and has at least one arc. Spans join within a
+-- tolerance; the segments that are given join exactly.
 asSegments :: Base -> Maybe (NonEmpty Segment)
-asSegments base = case course base of
+asSegments base = case spanList base of
   Cubical _ _ -> Nothing
   Mixed parts
     | all (isJust . Span.segment) parts ->
-      NonEmpty.nonEmpty (linked Nothing (mapMaybe Span.segment (Vector.toList parts)))
+      NonEmpty.nonEmpty (chained Nothing (mapMaybe Span.segment (Vector.toList parts)))
     | otherwise -> Nothing
   where
-    linked before ss = case ss of
+    chained before ss = case ss of
       [] -> []
-      s : rest -> let s' = maybe s (`from` s) before in s' : linked (Just (Segment.end s')) rest
+      s : rest -> let s' = maybe s (`from` s) before in s' : chained (Just (Segment.end s')) rest
     from p s
       | Segment.start s == p = s
       | otherwise = s {Segment.start = p}
 
--- | Cubics where all spans are.
-coursed :: Vector Span -> SpanList
-coursed parts = case traverse polynomial parts of
+-- | Stores spans as cubics if all of them are polynomial.
+toSpanList :: Vector Span -> SpanList
+toSpanList parts = case traverse polynomial parts of
   Just both ->
     let part f =
           Spline.generate (Vector.length both) (\i -> f (both Vector.! i))
@@ -190,59 +191,59 @@ coursed parts = case traverse polynomial parts of
       Polynomial a b -> Just (a, b)
       Round _ -> Nothing
 
--- | Straight from point to point; closed when the last is the first.
+-- | Polyline through the points. It is closed when the last point equals the first.
 polyline :: Vector Point -> Either CurveFault Base
 polyline points = do
-  distinct 2 points
-  Right (made Polyline (closes points) (numbered points) (Cubical (lines' Vec.x) (lines' Vec.y)))
+  checkDistinct 2 points
+  Right (makeBase Polyline (isLoop points) (rowsAtEnds points) (Cubical (lineCubics Vec.x) (lineCubics Vec.y)))
   where
-    lines' part =
+    lineCubics part =
       Spline.generate
         (Vector.length points - 1)
         (\i -> Spline.line (part (points Vector.! i)) (part (points Vector.! (i + 1))))
-    {-# INLINE lines' #-}
+    {-# INLINE lineCubics #-}
 
--- | A cubic spline by the chord length from point to point; continuous up to the second derivative
--- by it. At clamped ends the derivative by the chord length is the direction given. The points of a
--- periodic one may or may not repeat the first at the end.
+-- | Cubic spline parametrised by chord length, with continuous second derivatives by chord
+-- length. At clamped ends the derivative by chord length is the given direction. A periodic
+-- spline may repeat its first point at the end or not.
 spline :: EndCondition -> Vector Point -> Either CurveFault Base
 spline ends points = case ends of
   Natural -> do
-    distinct 2 points
+    checkDistinct 2 points
     Right
-      ( made
+      ( makeBase
           (Spline ends)
-          (closes points)
-          (numbered points)
+          (isLoop points)
+          (rowsAtEnds points)
           (cubics Spline.Natural Spline.Natural points)
       )
   Clamped from to
     | Vec.norm from <= Tolerance.parallel || Vec.norm to <= Tolerance.parallel -> Left NoDirection
     | otherwise -> do
-      distinct 2 points
+      checkDistinct 2 points
       let f = Vec.unit from
           t = Vec.unit to
-          by part = Spline.Clamped (Vec.dot f part) (Vec.dot t part)
+          derivatives part = Spline.Clamped (Vec.dot f part) (Vec.dot t part)
       Right
-        ( made
+        ( makeBase
             (Spline (Clamped f t))
-            (closes points)
-            (numbered points)
-            (cubics (by (Vec.vec 1 0)) (by (Vec.vec 0 1)) points)
+            (isLoop points)
+            (rowsAtEnds points)
+            (cubics (derivatives (Vec.vec 1 0)) (derivatives (Vec.vec 0 1)) points)
         )
   Periodic -> do
-    let once = if closes points then Vector.init points else points
-        round' = Vector.snoc once (Vector.head once)
-    distinct 3 once
+    let unrepeatedPoints = if isLoop points then Vector.init points else points
+        looped = Vector.snoc unrepeatedPoints (Vector.head unrepeatedPoints)
+    checkDistinct 3 unrepeatedPoints
     Right
-      ( made
+      ( makeBase
           (Spline Periodic)
           True
-          (numbered points)
-          (cubics Spline.Periodic Spline.Periodic round')
+          (rowsAtEnds points)
+          (cubics Spline.Periodic Spline.Periodic looped)
       )
 
--- | The spans of a spline, from what holds at the ends for x and for y.
+-- | Spans of a spline with the given boundary conditions for x and for y.
 cubics :: Spline.Boundary -> Spline.Boundary -> Vector Point -> SpanList
 cubics forX forY points = Cubical (through forX Vec.x) (through forY Vec.y)
   where
@@ -250,37 +251,37 @@ cubics forX forY points = Cubical (through forX Vec.x) (through forY Vec.y)
     through boundary part =
       Spline.interpolate boundary steps (Unboxed.convert (Vector.map part points))
 
--- | The distances from point to point, in mm.
+-- | Distances between neighbouring points, in mm.
 distances :: Vector Point -> Unboxed.Vector Double
 distances points =
   Unboxed.convert
     (Vector.zipWith (\p q -> let Mm d = Vec.distance p q in d) points (Vector.drop 1 points))
 
--- | The distances from row to row, in mm; for a closed base whose last row is not the first again,
--- to that too.
+-- | Distances between neighbouring rows, in mm. For a closed base whose last row does not repeat
+-- the first, the closing distance follows.
 chords :: Base -> Unboxed.Vector Double
 chords base
-  | closed base && not (closes points) = distances (Vector.snoc points (Vector.head points))
+  | closed base && not (isLoop points) = distances (Vector.snoc points (Vector.head points))
   | otherwise = distances points
   where
     points = Vector.map place (rows base)
 
--- | Where the middle row of each parabola lies, as a fraction of its span.
+-- | Position of the middle row of each parabola, as a fraction of its span.
 fractions :: Base -> Vector Double
 fractions base =
   Vector.generate
     (count base)
     (\i -> maybe 0.5 (\row -> at row - fromIntegral i) (rows base Vector.!? (2 * i + 1)))
 
--- | Parabolas y(x) through points 1–3, 3–5, … (Lagrange; Ural paper, sections 3–8 and 8–13 of the
--- template). A span is a parabola; its parameter is proportional to x, which rises or falls all
--- along.
+-- | Parabolas y(x) through points 1–3, 3–5, and so on (Lagrange; Ural paper, sections 3–8 and
+-- 8–13 of the template). Each span is one parabola. Its parameter is proportional to x, which
+-- must rise or fall throughout.
 parabola :: Vector Point -> Either CurveFault Base
 parabola points
   | Vector.length points < 3 = Left (TooFew 3)
   | even (Vector.length points) = Left (EvenCount (Vector.length points))
   | otherwise = do
-    distinct 3 points
+    checkDistinct 3 points
     maybe
       (Right ())
       (Left . NotMonotone . (+ 1))
@@ -297,31 +298,32 @@ parabola points
         through part = Spline.parabolas middles (Unboxed.convert (Vector.map part points))
         across =
           Spline.generate (Vector.length middles) (\i -> Spline.line (x (2 * i)) (x (2 * i + 2)))
-    Right (made Parabola False (Vector.imap row points) (Cubical across (through Vec.y)))
+    Right (makeBase Parabola False (Vector.imap row points) (Cubical across (through Vec.y)))
   where
     x i = Vec.x (points Vector.! i)
     sense = signum (x 1 - x 0)
-    -- Points above one another are no parabola's, however far apart.
+    -- Points with equal x lie on no parabola y(x), whatever their distance.
     advance p q = sense * (Vec.x q - Vec.x p) - (let Mm d = Tolerance.coincident in d)
     middle i = (x (2 * i + 1) - x (2 * i)) / (x (2 * i + 2) - x (2 * i))
 
--- | Pieces one behind the other, and the parameter of every row of a table on them, rising.
+-- | Base of consecutive spans with the given rising parameters of the table's rows.
 ofPieces :: NonEmpty SpanShape -> Vector Double -> Either CurveFault Base
-ofPieces = ofSpans . vector Span.ofPiece
+ofPieces = ofSpans . vector Span.ofShape
 
--- | The same of lines and arcs.
+-- | Base of consecutive lines and arcs with the given rising parameters of the table's rows.
 ofChain :: NonEmpty Segment -> Vector Double -> Either CurveFault Base
 ofChain = ofSpans . vector Span.ofSegment
 
+-- | Base of consecutive spans with the given rising parameters of the rows.
 ofSpans :: Vector Span -> Vector Double -> Either CurveFault Base
 ofSpans parts parameters = do
-  joined parts
+  checkJoined parts
   maybe (Right ()) (Left . Disordered) (find (not . ordered) [1 .. count'])
   Right
     base
       { rows =
           Vector.map
-            (\u -> Knot {at = u, place = TaylorExpansion.place (jet 0 base (spot After u base))})
+            (\u -> Knot {at = u, place = TaylorExpansion.place (jet 0 base (spanPoint After u base))})
             parameters
       }
   where
@@ -333,15 +335,15 @@ ofSpans parts parameters = do
             parameters Vector.! (i - 1)
        in u >= 0 && u <= n && (i >= count' || parameters Vector.! i > u)
 
--- | A chain of lines and arcs; its rows are the ends of the segments, the last one too unless the
--- chain is closed.
+-- | Base of consecutive lines and arcs. Its rows are the starts of the segments, and the end of
+-- the last one unless the base is closed.
 ofSegments :: NonEmpty Segment -> Either CurveFault Base
 ofSegments segments = do
-  joined parts
+  checkJoined parts
   Right
     base
       { rows =
-          numbered
+          rowsAtEnds
             ( if closed base
                 then starts
                 else Vector.snoc starts (Segment.end (NonEmpty.last segments))
@@ -352,7 +354,7 @@ ofSegments segments = do
     base = chain Vector.empty parts
     starts = Vector.fromList (map Segment.start (NonEmpty.toList segments))
 
--- | What is made of each, at once.
+-- | Strict map of a list into a vector.
 vector :: (a -> b) -> NonEmpty a -> Vector b
 vector f list = Vector.unfoldrN (NonEmpty.length list) next (NonEmpty.toList list)
   where
@@ -360,16 +362,17 @@ vector f list = Vector.unfoldrN (NonEmpty.length list) next (NonEmpty.toList lis
       [] -> Nothing
       a : rest -> let b = f a in b `seq` Just (b, rest)
 
--- | A base of spans that join, of which there is one at least.
+-- | Base of at least one span. The spans must join.
 chain :: Vector Knot -> Vector Span -> Base
-chain rows parts = made Joined (Vec.near first final) rows (coursed parts)
+chain rows parts = makeBase Joined (Vec.near first lastPoint) rows (toSpanList parts)
   where
     (first, _) = Span.ends (Vector.head parts)
-    (_, final) = Span.ends (Vector.last parts)
+    (_, lastPoint) = Span.ends (Vector.last parts)
 
--- | Each piece has a length and begins where the one before ends. An arc may end where it begins.
-joined :: Vector Span -> Either CurveFault ()
-joined parts
+-- | Checks that each span has a length and begins where the one before ends. A span may end where
+-- it begins, as a full circle does.
+checkJoined :: Vector Span -> Either CurveFault ()
+checkJoined parts
   | Just i <- find (Span.isPoint . span') [1 .. n] = Left (NoLength i)
   | Just i <-
       find
@@ -381,9 +384,9 @@ joined parts
     n = Vector.length parts
     span' i = parts Vector.! (i - 1)
 
--- | There are enough points, and none is the next one's place.
-distinct :: Int -> Vector Point -> Either CurveFault ()
-distinct needed points
+-- | Checks that there are enough points and that neighbours differ.
+checkDistinct :: Int -> Vector Point -> Either CurveFault ()
+checkDistinct needed points
   | Vector.length points < needed = Left (TooFew needed)
   | otherwise =
     maybe
@@ -394,27 +397,28 @@ distinct needed points
           [1 .. Vector.length points - 1]
       )
 
-closes :: Vector Point -> Bool
-closes points = case (points Vector.!? 0, points Vector.!? (Vector.length points - 1)) of
+-- | True if the last of at least three points repeats the first.
+isLoop :: Vector Point -> Bool
+isLoop points = case (points Vector.!? 0, points Vector.!? (Vector.length points - 1)) of
   (Just p, Just q) -> Vector.length points > 2 && Vec.near p q
   _ -> False
 
 -- | Rows at the ends of the spans.
-numbered :: Vector Point -> Vector Knot
-numbered = Vector.imap (\i p -> Knot {at = fromIntegral i, place = p})
+rowsAtEnds :: Vector Point -> Vector Knot
+rowsAtEnds = Vector.imap (\i p -> Knot {at = fromIntegral i, place = p})
 
--- | How many spans there are: the parameter of the end.
+-- | Count of spans, which is the parameter of the end.
 count :: Base -> Int
-count base = case course base of
+count base = case spanList base of
   Cubical xs _ -> Spline.count xs
   Mixed parts -> Vector.length parts
 
--- | Along the base.
-ruler :: Base -> ArcLength
-ruler = measure
+-- | Arc length along the base.
+arcLength :: Base -> ArcLength
+arcLength = lengthTable
 
--- | A place on a curve: the parameter, the number of its span, the span's own parameter, and the
--- side from which it is reached.
+-- | Position on a curve: the parameter, the index of its span, the local parameter in the span,
+-- and the side from which the position is approached.
 data SpanPoint = SpanPoint
   { parameter :: Double,
     number :: Int,
@@ -423,9 +427,9 @@ data SpanPoint = SpanPoint
   }
   deriving stock (Eq, Show)
 
--- | The place with a parameter; beyond the ends, the end.
-spot :: Approach -> Double -> Base -> SpanPoint
-spot approach u base =
+-- | Position at a parameter. Parameters outside of the domain give the nearer end.
+spanPoint :: Approach -> Double -> Base -> SpanPoint
+spanPoint approach u base =
   SpanPoint {parameter, number, local = parameter - fromIntegral number, approach}
   where
     n = count base
@@ -434,23 +438,23 @@ spot approach u base =
       After -> min (n - 1) (truncate parameter)
       Before -> max 0 (ceiling parameter - 1)
 
--- | The power series of the place up to an order.
+-- | Taylor expansion of the point about a position, up to the given order.
 jet :: Int -> Base -> SpanPoint -> TaylorExpansion
-jet n base s = case course base of
+jet n base s = case spanList base of
   Cubical xs ys ->
     V2
       (Spline.series n (Spline.at xs (number s)) (local s))
       (Spline.series n (Spline.at ys (number s)) (local s))
   Mixed parts -> Span.jet n (parts Vector.! number s) (local s)
 
--- | The same walked from its end.
+-- | Base in the opposite direction.
 reversed :: Base -> Base
 reversed base =
-  made
+  makeBase
     method'
     (closed base)
     (Vector.imap back (backwards base (rows base)))
-    (mapped (Vector.map Span.reversed . Vector.reverse) base)
+    (mapSpans (Vector.map Span.reversed . Vector.reverse) base)
   where
     back i row =
       row {at = if i == 0 && unrepeated base then 0 else fromIntegral (count base) - at row}
@@ -462,32 +466,31 @@ reversed base =
       Parabola -> Parabola
       Joined -> Joined
 
--- | Other spans in their place, of the same kinds.
-mapped :: (Vector Span -> Vector Span) -> Base -> SpanList
-mapped f base = coursed (f (spans base))
+-- | Applies a function to the spans.
+mapSpans :: (Vector Span -> Vector Span) -> Base -> SpanList
+mapSpans f base = toSpanList (f (spans base))
 
--- | What belongs to the rows, in the order of the reversed base.
+-- | Row values in the order of the reversed base.
 backwards :: Base -> Vector a -> Vector a
 backwards base values
   | unrepeated base = Vector.cons (Vector.head values) (Vector.reverse (Vector.tail values))
   | otherwise = Vector.reverse values
 
--- | Whether the base is closed and its first row, at the beginning, does not stand at the end a
--- second time.
+-- | True if the base is closed and its first row, at parameter 0, is not repeated at the end.
 unrepeated :: Base -> Bool
 unrepeated base =
   case (rows base Vector.!? 0, rows base Vector.!? (Vector.length (rows base) - 1)) of
-    (Just first, Just final) -> closed base && at first == 0 && at final < fromIntegral (count base)
+    (Just first, Just lastPoint) -> closed base && at first == 0 && at lastPoint < fromIntegral (count base)
     _ -> False
 
--- | The base moved, turned, scaled, mirrored: its spans are so, one by one.
+-- | Image of a base under a similarity, span by span.
 transformed :: Transformation -> Base -> Base
 transformed s base =
-  made
+  makeBase
     method'
     (closed base)
     (Vector.map (\row -> row {place = Transformation.point s (place row)}) (rows base))
-    (mapped (Vector.map (Span.transformed s)) base)
+    (mapSpans (Vector.map (Span.transformed s)) base)
   where
     method' = case method base of
       Spline (Clamped from to) ->

@@ -1,9 +1,9 @@
--- | Numbers beside the points of a table, one for every row, interpolated in the same way and on
--- the same parameter as the points: straight between the rows of a polyline, by parabolas where the
--- points are, by splines where they are.
+-- | Columns: numbers given for every row of a table, interpolated in the same way and over the
+-- same parameter as the points. Polylines interpolate linearly, parabolas by parabolas, splines
+-- by splines.
 --
--- On pieces that are put together the numbers are a spline by the true length along them, natural
--- or, on a closed base, periodic: the parameter's speed jumps there from piece to piece.
+-- On a base of spans that were given one by one, the parameter's speed jumps from span to span.
+-- There the column is a cubic spline by arc length, natural or, on a closed base, periodic.
 module Geometry.Curve.Column
   ( Column (..),
     Interpolation (..),
@@ -30,30 +30,31 @@ import Geometry.Numeric.PowerSeries (PowerSeries)
 import Geometry.Numeric.PowerSeries qualified as PowerSeries
 import Geometry.Numeric.TaylorExpansion qualified as TaylorExpansion
 
--- | Row values, in whatever unit, and what they are between the rows.
-data Column = Column {values :: Vector Double, course :: Interpolation}
+-- | Row values in any unit, and their interpolation.
+data Column = Column {values :: Vector Double, interpolation :: Interpolation}
   deriving stock (Eq, Show)
 
+-- | Interpolation of a column between the rows.
 data Interpolation
   = -- | a cubic for every span of the base
     BySpan Cubics
-  | -- | the lengths along the base, in mm, where one cubic follows another, the ends included
+  | -- | the arc lengths (mm) of the knots, both ends included, and a cubic for each interval
     ByLength (Unboxed.Vector Double) Cubics
   deriving stock (Eq, Show)
 
--- | As many values as the base has rows.
+-- | Column with one value for each row of the base. A different count is a fault of the program.
 column :: Base -> Vector Double -> Column
 column base values
   | Vector.length values /= Vector.length (Base.rows base) =
     Crash.bug "a column of another length than its table"
-  | otherwise = Column {values, course}
+  | otherwise = Column {values, interpolation}
   where
     flat = Unboxed.convert values
     first = Vector.take 1 values
-    -- A table that repeats its first point may give that another value the second time.
-    round' = Base.unrepeated base || first == Vector.drop (Vector.length values - 1) values
-    onceRound = if Base.unrepeated base then Unboxed.convert (values <> first) else flat
-    course = case Base.method base of
+    -- A table that repeats its first point may give the repeated row another value.
+    isPeriodic = Base.unrepeated base || first == Vector.drop (Vector.length values - 1) values
+    periodicValues = if Base.unrepeated base then Unboxed.convert (values <> first) else flat
+    interpolation = case Base.method base of
       Polyline ->
         BySpan
           ( Spline.generate
@@ -64,12 +65,11 @@ column base values
       Spline (Base.Clamped _ _) -> BySpan (Spline.interpolate Natural (Base.chords base) flat)
       Spline Base.Periodic ->
         BySpan
-          (Spline.interpolate (if round' then Periodic else Natural) (Base.chords base) onceRound)
+          (Spline.interpolate (if isPeriodic then Periodic else Natural) (Base.chords base) periodicValues)
       Parabola -> BySpan (Spline.parabolas (Base.fractions base) flat)
       Joined -> byLength base values
 
--- | The spline by the length along the base. Of two values and more; a single one is the same
--- everywhere.
+-- | Spline by arc length along the base. A single value is constant along the base.
 byLength :: Base -> Vector Double -> Interpolation
 byLength base values = case Vector.toList values of
   [] -> BySpan (Spline.generate (Base.count base) (const (Cubic 0 0 0 0)))
@@ -80,17 +80,17 @@ byLength base values = case Vector.toList values of
         (if Vector.length values >= 3 then Periodic else Natural)
         (Unboxed.snoc stations whole)
         (Vector.snoc values v)
-    | Base.closed base && aroundOnce && Vector.length values >= 4 -> spline Periodic stations values
+    | Base.closed base && isFullTurn && Vector.length values >= 4 -> spline Periodic stations values
     | otherwise -> spline Natural stations values
   where
-    Mm whole = ArcLength.total (Base.ruler base)
+    Mm whole = ArcLength.total (Base.arcLength base)
     stations =
       Unboxed.convert
         ( Vector.map
-            (\row -> let Mm s = ArcLength.lengthTo (Base.ruler base) (Base.at row) in s)
+            (\row -> let Mm s = ArcLength.lengthTo (Base.arcLength base) (Base.at row) in s)
             (Base.rows base)
         )
-    aroundOnce =
+    isFullTurn =
       Unboxed.take 1 stations == Unboxed.singleton 0
         && Unboxed.last stations == whole
         && Vector.take 1 values == Vector.drop (Vector.length values - 1) values
@@ -103,45 +103,45 @@ byLength base values = case Vector.toList values of
             (Unboxed.fromList (Vector.toList vs))
         )
 
--- | The power series of the value up to an order.
+-- | Power series of the value about a position, up to the given order.
 series :: Int -> Base -> Column -> SpanPoint -> PowerSeries
-series n base c spot = case course c of
-  BySpan cubics -> Spline.series n (Spline.at cubics (number spot)) (local spot)
+series n base c spanPoint = case interpolation c of
+  BySpan cubics -> Spline.series n (Spline.at cubics (number spanPoint)) (local spanPoint)
   ByLength stations cubics
-    | here < Unboxed.head stations -> PowerSeries.polynomial (tangentAt 0) fraction
-    | here > Unboxed.last stations -> PowerSeries.polynomial (tangentAt 1) fraction
+    | currentLength < Unboxed.head stations -> PowerSeries.polynomial (tangentAt 0) fraction
+    | currentLength > Unboxed.last stations -> PowerSeries.polynomial (tangentAt 1) fraction
     | otherwise -> PowerSeries.polynomial (Spline.coefficients (Spline.at cubics i)) fraction
     where
-      -- Before the first row and behind the last the column goes on straight.
+      -- The column is continued linearly before the first row and after the last.
       tangentAt t =
         let ahead = Spline.series 1 (Spline.at cubics i) t
             rise = PowerSeries.coefficient 1 ahead
          in [PowerSeries.value ahead - rise * t, rise]
-      Mm here = ArcLength.lengthTo (Base.ruler base) (parameter spot)
-      i = stretchAt here stations
+      Mm currentLength = ArcLength.lengthTo (Base.arcLength base) (parameter spanPoint)
+      i = intervalAt currentLength stations
       from = stations Unboxed.! i
       width = stations Unboxed.! (i + 1) - from
-      run = case n of
-        0 -> PowerSeries.constant 0 here
-        _ -> PowerSeries.integral here (TaylorExpansion.speed (Base.jet n base spot))
-      fraction = PowerSeries.scale (1 / width) (PowerSeries.plusConstant (-from) run)
+      lengthSeries = case n of
+        0 -> PowerSeries.constant 0 currentLength
+        _ -> PowerSeries.integral currentLength (TaylorExpansion.speed (Base.jet n base spanPoint))
+      fraction = PowerSeries.scale (1 / width) (PowerSeries.plusConstant (-from) lengthSeries)
 
--- | The parameters of the base at which one cubic follows another, in rising order, but for the
--- ends of its spans.
+-- | Rising parameters of the base at which one cubic follows another, apart from the ends of the
+-- base's spans.
 knots :: Base -> Column -> [Double]
-knots base c = case course c of
+knots base c = case interpolation c of
   BySpan _ -> []
   ByLength _ _ -> map Base.at (Vector.toList (Base.rows base))
 
--- | The number of the stretch between two of these lengths that a length belongs to, or the outer
--- one on its side.
-stretchAt :: Double -> Unboxed.Vector Double -> Int
-stretchAt s stations = BinarySearch.lastBelow (Unboxed.length stations - 1) s stations
+-- | Index of the interval that contains a length; outside of all intervals, that of the nearer
+-- one.
+intervalAt :: Double -> Unboxed.Vector Double -> Int
+intervalAt s stations = BinarySearch.lastBelow (Unboxed.length stations - 1) s stations
 
--- | The values times a factor, on a base that may be another.
+-- | Column with scaled values, on the given base.
 scaled :: Base -> Double -> Column -> Column
 scaled base k c = column base (Vector.map (k *) (values c))
 
--- | The column of a reversed base, given the base that it was on and the new one.
+-- | Column for the reversed base, given the original base and the reversed one.
 reversed :: Base -> Base -> Column -> Column
 reversed old new c = column new (Base.backwards old (values c))

@@ -1,9 +1,9 @@
--- | A curve as cubic spans: its own, or cubics that stand for a shifted one.
+-- | Cubic spans of a curve: the curve's own, or a cubic approximation of a shifted curve.
 --
--- Between two places h apart in the parameter, Hermite's cubic has the places P and the derivatives
--- V of both. At a share t of the way it differs from a smooth curve by t²(1−t)²·(c + d(t−½) + …),
--- and in the middle its place tells c/16, its derivative there d/16. Half a span has a sixteenth of
--- c and a thirty-second of d.
+-- An interval of width h has the Hermite cubic with the points P and the derivatives V at both
+-- ends. At the fraction t it differs from a smooth curve by t²(1−t)²·(c + d(t−½) + …). At the
+-- middle, the difference of the points is c/16 and that of the derivatives is d/16. Halving an
+-- interval divides c by 16 and d by 32.
 module Geometry.Curve.CubicSpans
   ( along,
   )
@@ -11,7 +11,7 @@ where
 
 import Base.Quantity (Mm (..))
 import Data.Vector qualified as Vector
-import Geometry.Curve.Base (SpanList (..), course)
+import Geometry.Curve.Base (SpanList (..), spanList)
 import Geometry.Curve.PointSearch qualified as PointSearch
 import Geometry.Curve.ShiftedCurve (Curve (..))
 import Geometry.Curve.ShiftedCurve qualified as ShiftedCurve
@@ -21,96 +21,102 @@ import Geometry.Numeric.PowerSeries qualified as PowerSeries
 import Geometry.Tolerance qualified as Tolerance
 import Linear.V2 (V2 (..))
 
--- | Spans in x and y that stay so near to a curve, and how near; those of a spline are its own.
--- Nothing for a curve with arcs, and for one that stands still somewhere or nearly so.
+-- | Cubic spans in x and in y within a tolerance of the curve, and the bound of their error.
+-- Polynomial spans of an unshifted curve are returned as they are, with the bound 0. Nothing
+-- for an unshifted curve with arcs, for a curve whose speed vanishes or nearly does, and where
+-- 'maxHalvings' halvings do not suffice.
 along :: Mm -> Curve -> Maybe (Mm, Cubics, Cubics)
 along (Mm tolerance) curve = case curve of
-  Plain b -> case course b of
+  Plain b -> case spanList b of
     Cubical xs ys -> Just (Mm 0, xs, ys)
     Mixed _ -> Nothing
   Shifted {} -> do
-    halves <- traverse onStretch (PointSearch.stretches curve)
+    halves <- traverse refineStretch (PointSearch.stretches curve)
     let spans = Vector.fromList (concat halves)
         part f = Spline.generate (Vector.length spans) (\i -> f (spans Vector.! i))
     Just (Mm tolerance, part inX, part inY)
   where
-    onStretch (a, b) = refined most (between (node (a, b)) a (node (a, b) a) b (node (a, b) b))
-    node stretch u = case ShiftedCurve.jetAt 1 curve (PointSearch.within stretch curve u) of
+    refineStretch (a, b) = refine maxHalvings (between (node (a, b)) a (node (a, b) a) b (node (a, b) b))
+    node stretch u = case ShiftedCurve.expansionAt 1 curve (PointSearch.within stretch curve u) of
       V2 x y ->
         Node
           (PowerSeries.value x)
           (PowerSeries.value y)
           (PowerSeries.coefficient 1 x)
           (PowerSeries.coefficient 1 y)
-    refined left piece@Piece {begin, end, first, inside, final, nodeAt}
-      | not (speed first > still && speed final > still && speed inside > still) = Nothing
-      | near tolerance piece one other = Just [span' one, span' other]
-      | left <= 0 = Nothing
-      | otherwise = (<>) <$> refined (left - 1) one <*> refined (left - 1) other
+    refine remaining interval@Interval {begin, end, first, middleNode, final, nodeAt}
+      | not (speed first > still && speed final > still && speed middleNode > still) = Nothing
+      | areHalvesNear tolerance interval firstHalf secondHalf = Just [hermiteSpan firstHalf, hermiteSpan secondHalf]
+      | remaining <= 0 = Nothing
+      | otherwise = (<>) <$> refine (remaining - 1) firstHalf <*> refine (remaining - 1) secondHalf
       where
         m = middle begin end
-        one = between nodeAt begin first m inside
-        other = between nodeAt m inside end final
+        firstHalf = between nodeAt begin first m middleNode
+        secondHalf = between nodeAt m middleNode end final
     Mm still = Tolerance.still
 
--- | How often a stretch is halved.
-most :: Int
-most = 24
+-- | Largest count of halvings of one interval.
+maxHalvings :: Int
+maxHalvings = 24
 
--- | A place and the derivative there, in mm for 1 of the parameter.
+-- | Point and derivative (mm per unit of the parameter) at a parameter: x, y, x′, y′.
 data Node = Node Double Double Double Double
 
+-- | Speed at a node, in mm per unit of the parameter.
 speed :: Node -> Double
 speed (Node _ _ vx vy) = sqrt (vx * vx + vy * vy)
 
--- | A piece of a stretch with the nodes at its ends and in its middle, and what gives the others.
-data Piece = Piece {begin, end :: Double, first, inside, final :: Node, nodeAt :: Double -> Node}
+-- | Interval between two parameters with the nodes at its ends and at its middle, and the
+-- function that gives nodes.
+data Interval = Interval {begin, end :: Double, first, middleNode, final :: Node, nodeAt :: Double -> Node}
 
-between :: (Double -> Node) -> Double -> Node -> Double -> Node -> Piece
+-- | Interval between two nodes, with a new node at its middle.
+between :: (Double -> Node) -> Double -> Node -> Double -> Node -> Interval
 between nodeAt begin first end final =
-  Piece {begin, end, first, inside = nodeAt (middle begin end), final, nodeAt}
+  Interval {begin, end, first, middleNode = nodeAt (middle begin end), final, nodeAt}
 
+-- | Mean of two parameters.
 middle :: Double -> Double -> Double
 middle a b = 0.5 * (a + b)
 
--- | A cubic in x and one in y.
+-- | Cubic in x and in y.
 data Span = Span {inX :: Cubic, inY :: Cubic}
 
--- | Hermite's cubics between the ends of a piece.
-span' :: Piece -> Span
-span' Piece {begin, end, first = Node px py vx vy, final = Node qx qy wx wy} =
+-- | Hermite cubics between the ends of an interval.
+hermiteSpan :: Interval -> Span
+hermiteSpan Interval {begin, end, first = Node px py vx vy, final = Node qx qy wx wy} =
   Span {inX = hermite px qx (h * vx) (h * wx), inY = hermite py qy (h * vy) (h * wy)}
   where
     h = end - begin
     hermite p q v w = Cubic p v (3 * (q - p) - 2 * v - w) (2 * (p - q) + v + w)
 
--- | Whether the cubics of both halves of a piece stay so near to the curve: by what is to be
--- expected of a half where the whole differs so, with half of it to spare, and by what each differs
--- itself. The even and the odd of a difference are looked at alike, the one in the place in the
--- middle, the other in the derivative there.
-near :: Double -> Piece -> Piece -> Piece -> Bool
-near tolerance whole one other =
-  place <= 8 * tolerance && bend <= 16 * tolerance && all itself [one, other]
+-- | True if the Hermite cubics of both halves of an interval are within the tolerance. The
+-- differences that are expected of the halves, from those of the whole interval, must be at most
+-- half of the tolerance; the measured differences of each half must be within it. Both tests use
+-- the even term (the point at the middle) and the odd term (the derivative there).
+areHalvesNear :: Double -> Interval -> Interval -> Interval -> Bool
+areHalvesNear tolerance interval firstHalf secondHalf =
+  points <= 8 * tolerance && derivatives <= 16 * tolerance && all isNear [firstHalf, secondHalf]
   where
-    (place, bend) = difference whole
-    itself half = let (e, o) = difference half in e + oddShare * o <= tolerance
-    -- The most of t²(1−t)²(t−½), √5/250 where t is ½ ± √(1/20), by its derivative in the middle,
-    -- 1/16.
+    (points, derivatives) = difference interval
+    isNear half = let (e, o) = difference half in e + oddShare * o <= tolerance
+    -- Maximum of t²(1−t)²·(t−½), which is √5/250 at t = ½ ± √(1/20), divided by its derivative at
+    -- the middle, 1/16.
     oddShare = 16 * sqrt 5 / 250
 
--- | By how much the cubic of a piece differs in the middle: in the place, mm, and in the
--- derivative, mm for the whole piece.
-difference :: Piece -> (Double, Double)
+-- | Differences between curve and Hermite cubic at the middle of an interval: of the points in
+-- mm, and of the derivatives in mm per interval.
+difference :: Interval -> (Double, Double)
 difference
-  Piece
+  Interval
     { begin,
       end,
       first = Node px py vx vy,
-      inside = Node mx my sx sy,
+      middleNode = Node mx my sx sy,
       final = Node qx qy wx wy
     } =
-    (off px mx qx vx wx + off py my qy vy wy, bent px sx qx vx wx + bent py sy qy vy wy)
+    (pointDifference px mx qx vx wx + pointDifference py my qy vy wy, derivativeDifference px sx qx vx wx + derivativeDifference py sy qy vy wy)
     where
       h = end - begin
-      off p m q v w = abs (0.5 * (p + q) + 0.125 * h * (v - w) - m)
-      bent p s q v w = abs (1.5 * (q - p) - h * (0.25 * (v + w) + s))
+      pointDifference p m q v w = abs (0.5 * (p + q) + 0.125 * h * (v - w) - m)
+      derivativeDifference p s q v w = abs (1.5 * (q - p) - h * (0.25 * (v + w) + s))

@@ -1,5 +1,5 @@
--- | Where a shift does not fit: towards the centre of curvature a curve can be shifted by its
--- radius at most; beyond that the outcome runs backwards between two cusps.
+-- | Cusps of shifted curves. A shift towards the centre of curvature is limited by the radius of
+-- curvature. Beyond it, the shifted curve runs backwards between two cusps.
 module Geometry.Curve.Cusp
   ( Cusp (..),
     fold,
@@ -21,80 +21,82 @@ import Geometry.Vec (Point)
 import Geometry.Vec qualified as Vec
 import Linear.V2 (V2 (..))
 
--- | The tightest place of the innermost shift that does not fit.
+-- | Point of the largest overshoot in the innermost shift that does not fit.
 data Cusp = Cusp
-  { -- | which shift, from 1, the innermost first
+  { -- | number of the shift, counted from 1 at the innermost
     layer :: Int,
     parameter :: Double,
-    -- | on the curve that is shifted
+    -- | point on the curve that is shifted
     place :: Point,
-    -- | the distance there, above zero
+    -- | absolute value of the requested distance at this point
     asked :: Mm,
-    -- | the radius of curvature there
+    -- | radius of curvature at this point
     largest :: Mm
   }
   deriving stock (Eq, Show)
 
--- | Nothing when every shift stays within the radius of curvature: @1 − d·κ > 0@ with d to the
--- left. Corners are not looked at, only the smooth stretches between them.
+-- | Finds the cusp of a curve. Nothing if every shift d to the left satisfies @1 − d·κ > 0@. Only
+-- smooth stretches are tested, not the corners between them.
 fold :: Curve -> Maybe Cusp
 fold curve = case curve of
   Plain _ -> Nothing
   Shifted top lower _ -> case fold lower of
     Just found -> Just found
-    Nothing -> folded top lower curve
+    Nothing -> cuspOfLayer top lower curve
 
-folded :: Layer -> Curve -> Curve -> Maybe Cusp
-folded top lower whole
-  | tight >= 1 =
+-- | Cusp of the outermost shift alone: the layer, the curve below it, and the whole curve.
+cuspOfLayer :: Layer -> Curve -> Curve -> Maybe Cusp
+cuspOfLayer top lower whole
+  | overshoot >= 1 =
     Just
       Cusp
         { layer = length (ShiftedCurve.layers whole),
           parameter,
-          place = TaylorExpansion.place near,
+          place = TaylorExpansion.place expansion,
           asked = Mm (abs d),
-          largest = Mm (if tight > fromIntegral (maxBound :: Int) then 0 else abs d / tight)
+          largest = Mm (if overshoot > fromIntegral (maxBound :: Int) then 0 else abs d / overshoot)
         }
   | otherwise = Nothing
   where
-    (stretch, parameter, tight) =
-      maximumBy (comparing (\(_, _, g) -> g)) (concatMap tightest (PointSearch.stretches whole))
-    near = ShiftedCurve.jetAt 1 lower (PointSearch.within stretch whole parameter)
+    (stretch, parameter, overshoot) =
+      maximumBy (comparing (\(_, _, g) -> g)) (concatMap candidates (PointSearch.stretches whole))
+    expansion = ShiftedCurve.expansionAt 1 lower (PointSearch.within stretch whole parameter)
     d =
       PowerSeries.value
-        (ShiftedCurve.distanceAt 0 top lower near (PointSearch.within stretch whole parameter))
-    -- Samples, what lies highest between them, and where the curve is slowest: there it bends most.
-    tightest s = [(s, u, share s u) | u <- PointSearch.samples s <> peaks s <> slowest s]
-    share s u = let (g, _) = tightness s 0 u in g
-    tightness s n u =
-      let (g, moving) =
-            tightnessAt n top lower whole s u
-       in (if moving then PowerSeries.value g else standing g, g)
-    standing g = if PowerSeries.value g == 0 then 0 else 1 / 0
-    peaks s =
+        (ShiftedCurve.distanceAt 0 top lower expansion (PointSearch.within stretch whole parameter))
+    -- Candidates for the maximum: the samples, maxima between them, and local minima of the speed,
+    -- where the curve bends most.
+    candidates s = [(s, u, shareAt s u) | u <- PointSearch.samples s <> maxima s <> speedMinima s]
+    shareAt s u = let (g, _) = productAt s 0 u in g
+    productAt s n u =
+      let (g, isMoving) =
+            productSeries n top lower whole s u
+       in (if isMoving then PowerSeries.value g else unlessZero g, g)
+    unlessZero g = if PowerSeries.value g == 0 then 0 else 1 / 0
+    maxima s =
       RootFinding.falling
-        (\u -> slopes (snd (tightness s 2 u)))
-        [(u, fst (slopes (snd (tightness s 1 u)))) | u <- PointSearch.samples s]
+        (\u -> slopes (snd (productAt s 2 u)))
+        [(u, fst (slopes (snd (productAt s 1 u)))) | u <- PointSearch.samples s]
     slopes g = (PowerSeries.coefficient 1 g, 2 * PowerSeries.coefficient 2 g)
-    slowest s =
-      RootFinding.rising (quickening s) [(u, fst (quickening s u)) | u <- PointSearch.samples s]
-    quickening s u =
-      let V2 a b = ShiftedCurve.jetAt 3 lower (PointSearch.within s whole u)
+    speedMinima s =
+      RootFinding.rising (speedSlope s) [(u, fst (speedSlope s u)) | u <- PointSearch.samples s]
+    speedSlope s u =
+      let V2 a b = ShiftedCurve.expansionAt 3 lower (PointSearch.within s whole u)
           w =
             PowerSeries.add
-              (squared (PowerSeries.derivative a))
-              (squared (PowerSeries.derivative b))
+              (square (PowerSeries.derivative a))
+              (square (PowerSeries.derivative b))
        in slopes w
-    squared a = PowerSeries.multiply a a
+    square a = PowerSeries.multiply a a
 
--- | The product @d·κ@ near a place up to an order, and whether the curve that is shifted moves
--- there; when it does not, the distance instead.
-tightnessAt :: Int -> Layer -> Curve -> Curve -> (Double, Double) -> Double -> (PowerSeries, Bool)
-tightnessAt n top lower whole stretch u
-  | Mm (Vec.norm (TaylorExpansion.velocity near)) > Tolerance.still =
-    (PowerSeries.multiply d (TaylorExpansion.bending near), True)
+-- | Power series of @d·κ@ about a parameter, up to the given order, and True; or, where the curve
+-- that is shifted has no speed, the series of d alone, and False.
+productSeries :: Int -> Layer -> Curve -> Curve -> (Double, Double) -> Double -> (PowerSeries, Bool)
+productSeries n top lower whole stretch u
+  | Mm (Vec.norm (TaylorExpansion.velocity expansion)) > Tolerance.still =
+    (PowerSeries.multiply d (TaylorExpansion.bending expansion), True)
   | otherwise = (d, False)
   where
     s = PointSearch.within stretch whole u
-    near = ShiftedCurve.jetAt (n + 2) lower s
-    d = ShiftedCurve.distanceAt n top lower near s
+    expansion = ShiftedCurve.expansionAt (n + 2) lower s
+    d = ShiftedCurve.distanceAt n top lower expansion s

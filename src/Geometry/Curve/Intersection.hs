@@ -1,8 +1,8 @@
--- | Where two ways cross exactly, from a place near by.
+-- | Refinement of intersections of curves, lines and circles from a nearby starting point.
 --
--- Curves cross first as the chains of arcs that stand for them, which are up to 'Tolerance.curve'
--- beside them. From there Newton's steps lead to the curves' own crossing: each goes to where the
--- tangents at both feet cross.
+-- Curves are first intersected through their arc approximations, which differ from them by up to
+-- 'Tolerance.curve'. Newton's method then leads to the exact intersection: each step goes to the
+-- intersection of the tangents at both foot points.
 module Geometry.Curve.Intersection
   ( Foot,
     onLine,
@@ -21,36 +21,39 @@ import Geometry.Tolerance qualified as Tolerance
 import Geometry.Vec (Point, Vec)
 import Geometry.Vec qualified as Vec
 
--- | The place of a way that is nearest to a point, and its direction there, of length 1.
+-- | Foot of the perpendicular from a point to a curve, and the unit tangent there.
 type Foot = Point -> (Point, Vec)
 
+-- | Foot on a line.
 onLine :: Line -> Foot
 onLine l p = (Carrier.foot l p, Carrier.direction l)
 
+-- | Foot on a circle.
 onCircle :: Circle -> Foot
 onCircle (Circle c (Mm r)) p = (Vec.shift (Vec.scale r out) c, Vec.left out)
   where
     out = Vec.unit (Vec.to c p)
 
+-- | Foot on a curve; at an end of the curve, the nearest point.
 onCurve :: Curve -> Foot
 onCurve c p = let u = Curve.nearest p c in (Curve.at c u, Curve.tangent c u)
 
--- | The crossing of two ways near a place that is beside each of them by no more than
--- 'Tolerance.curve'. Where the ways do not cross so near, one ends or both run along one another,
--- it is that place.
+-- | Intersection of two curves near a point that is within 'Tolerance.curve' of both. Returns
+-- this point unchanged where there is no intersection nearby, where a curve ends, and where the
+-- curves are nearly parallel.
 exactly :: Foot -> Foot -> Point -> Point
-exactly footA footB place = go (8 :: Int) place
+exactly footA footB initial = newton (8 :: Int) initial
   where
-    go left p
-      | Vec.distance a b <= Tolerance.crossing = if Vec.distance place a <= nearby then a else place
-      | left <= 0 || abs sine < slightest = place
-      | otherwise = go (left - 1) (Vec.shift (Vec.scale (Vec.cross (Vec.to a b) v / sine) u) a)
+    newton remaining p
+      | Vec.distance a b <= Tolerance.crossing = if Vec.distance initial a <= reach then a else initial
+      | remaining <= 0 || abs sine < smallestSine = initial
+      | otherwise = newton (remaining - 1) (Vec.shift (Vec.scale (Vec.cross (Vec.to a b) v / sine) u) a)
       where
         (a, u) = footA p
         (b, v) = footB p
         sine = Vec.cross u v
-        -- Where ways cross at an angle, so far are the crossings of what is beside them; where they
-        -- bend, somewhat further.
-        nearby = times (8 / abs sine) Tolerance.curve
-    -- Ways that lean less, by this sine, run along one another.
-    slightest = 1e-5
+        -- Bound of the distance between the starting point and the exact intersection, for two
+        -- curves that meet at this angle; the factor 8 allows for their curvature.
+        reach = times (8 / abs sine) Tolerance.curve
+    -- Curves that meet at an angle with a smaller sine count as parallel.
+    smallestSine = 1e-5

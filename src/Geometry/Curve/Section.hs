@@ -1,9 +1,8 @@
--- | Pieces of curves, y over x, through two rows of a table: straight lines, parabolas and circular
--- arcs.
+-- | Sections: lines, parabolas and circular arcs y(x) through two rows of a table.
 --
--- Beside its ends, a parabola or an arc has one number t, and y rises with t at every x between the
--- ends. The largest deviation in y over the rows between is therefore least where two rows miss by
--- the same amount to either side, or where t has come to its limit.
+-- A parabola or an arc through two given rows has one free number t. At every x between the ends, y
+-- rises with t. The largest deviation in y is therefore least where two rows deviate equally to
+-- opposite sides, or where t is at a limit of its range.
 module Geometry.Curve.Section
   ( -- * Tables
     PointTable,
@@ -12,7 +11,7 @@ module Geometry.Curve.Section
     row,
     PointTableFault (..),
 
-    -- * Pieces
+    -- * Sections
     Section (..),
     SectionShape (..),
     SectionKind (..),
@@ -23,7 +22,7 @@ module Geometry.Curve.Section
     formula,
     segment,
 
-    -- * Making them
+    -- * Construction
     parabola,
     best,
     bestWithin,
@@ -43,138 +42,138 @@ import Geometry.Vec qualified as Vec
 
 -- Tables ----------------------------------------------------------------------------------------
 
--- | At least two rows whose x rises throughout or falls throughout; in mm.
+-- | Table of at least two rows whose x rises throughout or falls throughout; in mm.
 data PointTable = PointTable {xs :: Vector Double, ys :: Vector Double}
   deriving stock (Eq, Show)
 
--- | What is wrong with a table. Rows are counted from 1.
+-- | Fault of a table. Rows are counted from 1.
 data PointTableFault
-  = -- | how many rows there are
+  = -- | too few rows; the count of rows
     TooFewRows Int
-  | -- | the first row whose x does not go on the way the first two do
+  | -- | the first row at which x leaves the order of the first two rows
     OutOfOrder Int
   deriving stock (Eq, Show)
 
--- | A table of points, if x rises or falls strictly.
+-- | Makes a table of points if x rises strictly or falls strictly.
 table :: [Point] -> Either PointTableFault PointTable
 table points = case points of
   p : q : _ ->
     case [ k
            | (k, a, b) <- zip3 [2 ..] points (drop 1 points),
-             not (sameWay (Vec.x p) (Vec.x q) (Vec.x a) (Vec.x b))
+             not (isSameOrder (Vec.x p) (Vec.x q) (Vec.x a) (Vec.x b))
          ] of
       k : _ -> Left (OutOfOrder k)
       [] ->
         Right (PointTable (Vector.fromList (map Vec.x points)) (Vector.fromList (map Vec.y points)))
   _ -> Left (TooFewRows (length points))
   where
-    sameWay a b c d = (b > a && d > c) || (b < a && d < c)
+    isSameOrder a b c d = (b > a && d > c) || (b < a && d < c)
 
--- | How many rows a table has.
+-- | Count of rows.
 rows :: PointTable -> Int
 rows t = Vector.length (xs t)
 
--- | A row, counted from 0.
+-- | Row with an index that is counted from 0.
 row :: PointTable -> Int -> Point
 row t k = Vec.point (xs t Vector.! k) (ys t Vector.! k)
 
--- Pieces ----------------------------------------------------------------------------------------
+-- Sections --------------------------------------------------------------------------------------
 
--- | A piece through two rows of the table.
+-- | Section through two rows of the table.
 data Section = Section
-  { -- | its first row, counted from 1
+  { -- | number of its first row, counted from 1
     first :: Int,
-    -- | its last row
+    -- | number of its last row
     final :: Int,
     from :: Point,
     to :: Point,
     curve :: SectionShape,
-    -- | the largest deviation in y at its rows
+    -- | largest absolute deviation in y at its rows
     largest :: Mm
   }
   deriving stock (Eq, Show)
 
--- | What a piece is beyond its ends.
+-- | Shape of a section between its ends.
 data SectionShape
   = Line
-  | -- | the factor a, in 1/mm, of @y = chord + a·(x − x₁)·(x − x₂)@
+  | -- | the coefficient a, in 1/mm, of @y = chord + a·(x − x₁)·(x − x₂)@
     Parabola Double
-  | -- | the angle between chord and arc at the ends, half of what the arc turns by; positive above
-    -- the chord
+  | -- | the angle between chord and arc at the ends, half of the sweep; positive for an arc above
+    -- its chord
     Arc Rad
   deriving stock (Eq, Show)
 
--- | The kinds of pieces, the simplest first.
+-- | Kinds of sections, the simplest first.
 data SectionKind = LineKind | ParabolaKind | ArcKind
   deriving stock (Eq, Ord, Show, Enum, Bounded)
 
--- | What kind of piece it is.
+-- | Kind of a shape.
 kind :: SectionShape -> SectionKind
 kind c = case c of
   Line -> LineKind
   Parabola _ -> ParabolaKind
   Arc _ -> ArcKind
 
--- | y of a piece at an x between its ends, in mm.
+-- | y in mm of a section at an x between its ends.
 height :: Section -> Double -> Double
 height p x
   | x == Vec.x (from p) = Vec.y (from p)
   | x == Vec.x (to p) = Vec.y (to p)
   | otherwise = Vec.y (from p) + rise (chordOf (from p) (to p)) (curve p) (x - Vec.x (from p))
 
--- | A piece as an equation.
+-- | Equation of a section.
 data SectionFormula
-  = -- | @y = a·x² + b·x + c@; a is 0 for a line and for an arc that hardly bends
+  = -- | @y = a·x² + b·x + c@; a is 0 for a line and for an arc that is nearly straight
     Polynomial Double Double Double
   | -- | centre and radius
     Circle Point Mm
   deriving stock (Eq, Show)
 
--- | The equation of a piece.
+-- | Equation of a section.
 formula :: Section -> SectionFormula
 formula p = case curve p of
   Line -> polynomial 0
   Parabola a -> polynomial a
   Arc (Rad t)
-    | flat t -> polynomial 0
+    | isFlat t -> polynomial 0
     | otherwise -> let c = centre p t in Circle c (Vec.distance c (from p))
   where
     Chord w h = chordOf (from p) (to p)
     (x1, y1, x2) = (Vec.x (from p), Vec.y (from p), Vec.x (to p))
     polynomial a = let s = h / w in Polynomial a (s - a * (x1 + x2)) (y1 - s * x1 + a * x1 * x2)
 
--- | By how much a piece is above a point, in y.
+-- | Deviation in y of a section from a point, positive where the section is above.
 missed :: Section -> Point -> Double
 missed p q = height p (Vec.x q) - Vec.y q
 
--- | The parabola through three points, with respect to the first and the last.
+-- | Parabola through three points, relative to the chord from the first to the last.
 parabola :: Point -> Point -> Point -> SectionShape
 parabola a m b = Parabola ((up - x * h / w) / (x * (x - w)))
   where
     Chord w h = chordOf a b
     Chord x up = chordOf a m
 
--- | Whether an arc is as good as its chord.
-flat :: Double -> Bool
-flat t = Rad (2 * abs t) <= Tolerance.straight
+-- | True if an arc with this angle is straight within the tolerance.
+isFlat :: Double -> Bool
+isFlat t = Rad (2 * abs t) <= Tolerance.straight
 
--- | The centre of an arc: on the perpendicular bisector of its chord.
+-- | Centre of an arc, which lies on the perpendicular bisector of the chord.
 centre :: Section -> Double -> Point
 centre p t =
   Vec.shift
-    (Vec.scale (-(way / (2 * tan t))) (Vec.left (Vec.to (from p) (to p))))
+    (Vec.scale (-(sense / (2 * tan t))) (Vec.left (Vec.to (from p) (to p))))
     (Vec.between 0.5 (from p) (to p))
   where
     Chord w _ = chordOf (from p) (to p)
-    way = signum w
+    sense = signum w
 
--- | The piece as a segment, if it is a line or an arc.
+-- | Section as a segment; Nothing for a parabola.
 segment :: Section -> Maybe Segment
 segment p = case curve p of
   Line -> Just (Straight (from p) (to p))
   Parabola _ -> Nothing
   Arc (Rad t)
-    | flat t -> Just (Straight (from p) (to p))
+    | isFlat t -> Just (Straight (from p) (to p))
     | otherwise ->
       Just
         ( Segment.arc
@@ -184,23 +183,23 @@ segment p = case curve p of
             (to p)
         )
 
--- | From one end of a piece to the other, in x and in y.
+-- | Differences in x and in y from one end of a section to the other.
 data Chord = Chord Double Double
 
+-- | Chord from one point to another.
 chordOf :: Point -> Point -> Chord
 chordOf a b = Chord (Vec.x b - Vec.x a) (Vec.y b - Vec.y a)
 
--- | How far a piece has risen so far in x from its first end.
+-- | Rise in y of a section at a distance in x from its first end.
 rise :: Chord -> SectionShape -> Double -> Double
 rise chord@(Chord w h) c x = case c of
   Line -> x * h / w
   Parabola a -> x * h / w + a * x * (x - w)
   Arc (Rad t) -> arcRise chord (tan t) x
 
--- | The same for an arc, from the tangent of its angle with the chord. The circles through (0, 0)
--- and (w, h) are
--- @μ·(x·(x − w) + y·(y − h)) + x·h − y·w = 0@, μ the tangent; the arc is the root that is on the
---  chord for μ = 0.
+-- | Rise of an arc, given the tangent of its angle with the chord. The circles through (0, 0) and
+-- (w, h) are @μ·(x·(x − w) + y·(y − h)) + x·h − y·w = 0@ with the tangent μ. The arc is the
+-- root that tends to the chord for μ → 0.
 arcRise :: Chord -> Double -> Double -> Double
 arcRise (Chord w h) tangent x = 2 * q / (p + signum w * sqrt (max 0 (p * p - 4 * mu * q)))
   where
@@ -209,14 +208,15 @@ arcRise (Chord w h) tangent x = 2 * q / (p + signum w * sqrt (max 0 (p * p - 4 *
     q = mu * x * (x - w) + x * h
 {-# INLINE arcRise #-}
 
--- | The best piece of a kind between two rows (counted from 0), and the largest deviation of its
--- rows.
+-- | Best section of a kind between two rows (indices from 0), and the largest deviation of the
+-- rows between.
 best :: PointTable -> SectionKind -> Int -> Int -> (Double, SectionShape)
 best t k i j = let (worst, c, _) = bestWithin (1 / 0) Nothing t k i j in (worst, c)
 
--- | The same as far as the deviation is no more than a limit; else one beyond the limit that it is
--- no less than. Two rows that say so are given, and may be tried first where a piece ends a little
--- further on.
+-- | Best section of a kind between two rows, if its deviation does not exceed the limit;
+-- otherwise a lower bound of the deviation, itself above the limit. The third result is the
+-- pair of rows that proves the deviation. Passing this pair for a slightly longer section saves
+-- most of the work.
 bestWithin ::
   Double ->
   Maybe (Int, Int) ->
@@ -225,11 +225,11 @@ bestWithin ::
   Int ->
   Int ->
   (Double, SectionShape, Maybe (Int, Int))
-bestWithin limit known t@(PointTable xs ys) k i j = case k of
+bestWithin limit initialPair t@(PointTable xs ys) k i j = case k of
   LineKind
-    | Just (p, r) <- known,
+    | Just (p, r) <- initialPair,
       max (abs (relative Line p)) (abs (relative Line r)) > limit ->
-      (max (abs (relative Line p)) (abs (relative Line r)), Line, known)
+      (max (abs (relative Line p)) (abs (relative Line r)), Line, initialPair)
     | otherwise ->
       let (p, low, r, high) =
             extremes i j (relative Line)
@@ -237,16 +237,16 @@ bestWithin limit known t@(PointTable xs ys) k i j = case k of
   _ | j == i + 1 -> (0, case k of ArcKind -> Arc (Rad 0); _ -> Parabola 0, Nothing)
   ParabolaKind ->
     let q m = let x = across m in x * (x - w)
-        off m = relative Line m
+        deviation m = relative Line m
         (worst, s, rows') =
-          least limit known (\p r -> -((off p + off r) / (q p + q r))) (\a m -> off m + a * q m) i j
+          minimax limit initialPair (\p r -> -((deviation p + deviation r) / (q p + q r))) (\a m -> deviation m + a * q m) i j
      in (worst, Parabola s, Just rows')
   ArcKind ->
     let steepest = pi / 2 - atan2 (abs h) (abs w)
-        off a m = arcRise chord (tan a) (across m) - up m
+        deviation a m = arcRise chord (tan a) (across m) - up m
         (worst, s, rows') =
-          least limit known (\p r -> root steepest (\a -> off a p + off a r)) off' i j
-        off' a = let tangent = tan a in \m -> arcRise chord tangent (across m) - up m
+          minimax limit initialPair (\p r -> root steepest (\a -> deviation a p + deviation a r)) deviationOf i j
+        deviationOf a = let tangent = tan a in \m -> arcRise chord tangent (across m) - up m
      in (worst, Arc (Rad s), Just rows')
   where
     chord@(Chord w h) = chordOf (row t i) (row t j)
@@ -254,8 +254,8 @@ bestWithin limit known t@(PointTable xs ys) k i j = case k of
     up m = Vector.unsafeIndex ys m - Vector.unsafeIndex ys i
     relative c m = rise chord c (across m) - up m
 
--- | The rows strictly between two with the lowest and with the highest value. Without any, the
--- value is 0.
+-- | Rows strictly between two others with the lowest and the highest value. The values are 0 if
+-- there are no rows between.
 extremes :: Int -> Int -> (Int -> Double) -> (Int, Double, Int, Double)
 extremes i j value
   | j <= i + 1 = (i, 0, i, 0)
@@ -270,12 +270,13 @@ extremes i j value
         v = value m
 {-# INLINE extremes #-}
 
--- | The parameter that makes the largest deviation of the rows between two least, that deviation,
--- and the rows that tell. It is where some two rows balance; a row that misses by more takes the
--- place of the one that misses to the same side. The amount by which the two miss rises every time,
--- so there is an end, where it is no longer asked for beyond the limit; it takes about four rounds,
--- or one or two from rows that are nearly right.
-least ::
+-- | Minimax fit of the free number by single exchange (Remez): returns the least largest
+-- deviation, the free number, and the two rows that determine it. At the optimum the deviations
+-- of two rows balance. A row with a larger deviation replaces the row of the pair on the same
+-- side. The balanced deviation rises with every exchange, so the iteration ends; it also ends
+-- once the deviation exceeds the limit. It takes about four rounds, or one or two from a good
+-- initial pair.
+minimax ::
   Double ->
   Maybe (Int, Int) ->
   (Int -> Int -> Double) ->
@@ -283,45 +284,45 @@ least ::
   Int ->
   Int ->
   (Double, Double, (Int, Int))
-least limit known balance off i j =
-  uncurry (go (-1) (1 / 0, 0, (i, i))) (fromMaybe (low0, high0) known)
+minimax limit initialPair balance deviation i j =
+  uncurry (go (-1) (1 / 0, 0, (i, i))) (fromMaybe (low0, high0) initialPair)
   where
-    (low0, _, high0, _) = extremes i j (off 0)
-    go before found one other
+    (low0, _, high0, _) = extremes i j (deviation 0)
+    go lastLevel found one other
       | level > limit = (level, t, (low, high))
-      | worst <= level * (1 + 1e-13) || level <= before = min found (worst, t, (low, high))
+      | worst <= level * (1 + 1e-13) || level <= lastLevel = min found (worst, t, (low, high))
       | vHigh >= -vLow = go level (min found (worst, t, (low, high))) low high'
       | otherwise = go level (min found (worst, t, (low, high))) low' high
       where
         t = balance one other
-        (low, high) = if off t one <= off t other then (one, other) else (other, one)
-        level = max (abs (off t low)) (abs (off t high))
-        (low', vLow, high', vHigh) = extremes i j (off t)
+        (low, high) = if deviation t one <= deviation t other then (one, other) else (other, one)
+        level = max (abs (deviation t low)) (abs (deviation t high))
+        (low', vLow, high', vHigh) = extremes i j (deviation t)
         worst = max (-vLow) vHigh
-{-# INLINE least #-}
+{-# INLINE minimax #-}
 
--- | Where a rising function is 0, to the last digit or nearly so; the end of the range where it
--- does not come to 0. A secant cuts off what is on one side of the zero; the value of an end that
--- has stayed is halved, so that it moves, too (the Illinois rule).
+-- | Root of a rising function by the Illinois variant of the false-position method, to nearly
+-- full precision. Returns the end of the range if there is no sign change. The Illinois rule
+-- halves the value at an end that was kept, so that both ends move.
 root :: Double -> (Double -> Double) -> Double
 root limit f
   | f (-limit) >= 0 = -limit
   | f limit <= 0 = limit
   | otherwise = go (100 :: Int) (-limit) (f (-limit)) limit (f limit)
   where
-    go left low below high above
-      | left <= 0 || not (low < t && t < high) || high - low < 1e-16 || v == 0 = t
-      | v < 0 = onward t v high above
-      | otherwise = back low below t v
+    go remaining low below high above
+      | remaining <= 0 || not (low < t && t < high) || high - low < 1e-16 || v == 0 = t
+      | v < 0 = raiseLow t v high above
+      | otherwise = lowerHigh low below t v
       where
         t = low + (high - low) * (below / (below - above))
         v = f t
-        onward a va b vb =
+        raiseLow a va b vb =
           let u =
                 a + (b - a) * (va / (va - vb))
-           in if abs (u - a) < 1e-16 then u else go (left - 1) a va b (0.5 * vb)
-        back a va b vb =
+           in if abs (u - a) < 1e-16 then u else go (remaining - 1) a va b (0.5 * vb)
+        lowerHigh a va b vb =
           let u =
                 a + (b - a) * (va / (va - vb))
-           in if abs (b - u) < 1e-16 then u else go (left - 1) a (0.5 * va) b vb
+           in if abs (b - u) < 1e-16 then u else go (remaining - 1) a (0.5 * va) b vb
 {-# INLINE root #-}

@@ -1,6 +1,6 @@
--- | Curves through a table of points: the fewest straight lines, parabolas and circular arcs that
--- stay within a tolerance of every row, or those that the user has chosen (the second method of the
--- Ural paper, Tables 1–4).
+-- | Piecewise fit of a table of points: the fewest lines, parabolas and circular arcs within a
+-- tolerance of every row, or the sections that the user chooses (second method of the Ural
+-- paper, Tables 1–4).
 module Geometry.Curve.SectionFit
   ( fit,
     sections,
@@ -32,44 +32,46 @@ import Geometry.Curve.Section
   )
 import Geometry.Tolerance qualified as Tolerance
 
--- Choosing them ---------------------------------------------------------------------------------
+-- Choice of sections ---------------------------------------------------------------------------
 
--- | The fewest pieces of some kinds within a tolerance in y; of those the ones whose largest
--- deviation is least; of those the simplest: each piece as simple as it can be without a larger
--- deviation, and the rows so chosen that the kinds are simplest in sum, then that the sum of the
--- deviations is least. Two neighbouring rows can always be joined by a line.
+-- | Fewest sections of the given kinds within a tolerance in y. Among these fits, the largest
+-- deviation is least. Among those, the sections are simplest: each has the simplest kind that
+-- keeps the largest deviation, the sum of the kinds' ranks is least, and then the sum of the
+-- deviations. A fit always exists, because a line joins any two neighbouring rows.
 --
--- A piece that misses by more than /twice/ the tolerance d is not extended, and none is lost by
--- that. Say that a piece A from row i goes on beyond row j and keeps within d, and that B is the
--- best of its kind from i to j, missing by D. The difference of two parabolas, or of two arcs that
--- are single-valued in x, from one point on is monotone behind the second point that they have in
--- common (the sine of an arc's slope is linear in x). B misses by D on one side at some row and on
--- the other side at another, or it has a vertical tangent at an end, with the same result. If D >
--- d, A − B has its second zero between these rows, is at least D − d at the later one, and no
--- smaller at row j; but there it is at most d. So D is at most 2·d.
+-- A section that deviates by more than /twice/ the tolerance d is not extended; no fit is lost by
+-- this pruning. Proof: let a section A start at row i, end after row j and keep within d. Let B be
+-- the best section of its kind from i to j, with the largest deviation D. The difference of two
+-- parabolas, or of two arcs that are single-valued in x, is monotone from some point on after their
+-- second common point (the sine of an arc's slope is linear in x). B deviates by D to one side at
+-- some row and to the other side at another row, or has a vertical tangent at an end, with the same
+-- result. If D > d, then A − B has its second zero between these rows. It is at least D − d at the
+-- later one, and no smaller at row j; but there it is at most d. So D is at most 2·d.
 --
--- With n rows, and pieces over at most m of them at twice the tolerance, n·m pairs of rows are
--- looked at: those that are too far apart by the two rows that said so before, the others in one or
--- two passes over the rows between. One piece over the whole table is found at once; the worst is
--- three, about n³/27 times a pass (300 rows a tenth of a second, 1000 rows a second or two).
+-- With n rows, and sections over at most m of them at twice the tolerance, n·m pairs of rows are
+-- tested. Most pairs are rejected by the two rows that rejected the previous pair; the others take
+-- one or two passes over the rows between. A single section over the whole table is found at once.
+-- The worst case is three sections, at about n³/27 times a pass (300 rows take a tenth of a second,
+-- 1000 rows a second or two).
 fit :: NonEmpty SectionKind -> Mm -> PointTable -> NonEmpty Section
 fit kinds (Mm tolerance) t = fmap piece (simplest t steps (bottleneck steps))
   where
     steps = layers t (toList (NonEmpty.nub (NonEmpty.sort kinds))) tolerance
-    piece (i, j, k) = let (d, c) = best t k i j in pieceOf t i j c (Mm d)
+    piece (i, j, k) = let (d, c) = best t k i j in sectionBetween t i j c (Mm d)
 
-pieceOf :: PointTable -> Int -> Int -> SectionShape -> Mm -> Section
-pieceOf t i j curve largest =
+-- | Section between two rows (indices from 0) with a shape and its largest deviation.
+sectionBetween :: PointTable -> Int -> Int -> SectionShape -> Mm -> Section
+sectionBetween t i j curve largest =
   Section {first = i + 1, final = j + 1, from = row t i, to = row t j, curve, largest}
 
--- | The pieces that start from a row: where they end, with what deviation for each kind.
-type Pieces = [(Int, NonEmpty (SectionKind, Double))]
+-- | Sections that start at a row: their last rows, and the deviation for each kind.
+type SectionsFrom = [(Int, NonEmpty (SectionKind, Double))]
 
--- | The pieces that a shortest chain can use, by their number in it; each from its first row.
-type Layers = NonEmpty (IntMap Pieces)
+-- | Sections that a shortest chain can use, by their number in the chain and by their first row.
+type Layers = NonEmpty (IntMap SectionsFrom)
 
--- | The rows that can be reached with no fewer than k pieces, from k = 0, until the last row can
--- be.
+-- | Breadth-first search: the rows that are reached with k sections and no fewer, from k = 0,
+-- until the last row is reached.
 layers :: PointTable -> [SectionKind] -> Double -> Layers
 layers t kinds tolerance = go (IntMap.singleton 0 ()) (IntMap.singleton 0 ())
   where
@@ -78,37 +80,37 @@ layers t kinds tolerance = go (IntMap.singleton 0 ()) (IntMap.singleton 0 ())
     go seen current = case IntMap.mapMaybe id (IntMap.mapWithKey (\i _ -> direct i) current) of
       done | not (IntMap.null done) -> done :| []
       _ ->
-        let out =
+        let reachable =
               IntMap.mapWithKey
-                (\i _ -> grow (`IntMap.member` seen) i (i + 1) [(k, Nothing) | k <- kinds])
+                (\i _ -> lengthen (`IntMap.member` seen) i (i + 1) [(k, Nothing) | k <- kinds])
                 current
-            next = IntMap.fromList [(j, ()) | ps <- IntMap.elems out, (j, _) <- ps]
-         in NonEmpty.cons out (go (IntMap.union seen next) next)
+            next = IntMap.fromList [(j, ()) | ps <- IntMap.elems reachable, (j, _) <- ps]
+         in NonEmpty.cons reachable (go (IntMap.union seen next) next)
     direct i =
       fmap
         (\ks -> [(final, ks)])
         ( NonEmpty.nonEmpty
-            [(k, d) | (k, d, _) <- misses [(k, Nothing) | k <- kinds] i final, d <= within]
+            [(k, d) | (k, d, _) <- deviationsOf [(k, Nothing) | k <- kinds] i final, d <= within]
         )
-    -- Longer and longer pieces from a row, of the kinds that can still become good, to rows that
-    -- have not been reached; each kind with the rows at which it missed most.
-    grow reached i j alive
-      | j > final || null alive = []
-      | reached j = grow reached i (j + 1) alive
+    -- Lengthens sections from a row. Keeps the kinds that can still come within the tolerance, each
+    -- with the two rows of its largest deviations. Skips rows that were reached before.
+    lengthen reached i j candidates
+      | j > final || null candidates = []
+      | reached j = lengthen reached i (j + 1) candidates
       | otherwise =
-        let ms = misses alive i j
-            onward =
+        let ms = deviationsOf candidates i j
+            survivors =
               if j == i + 1
-                then alive
+                then candidates
                 else [(k, most) | (k, d, most) <- ms, d <= tolerance + within]
             good = [(k, d) | (k, d, _) <- ms, d <= within]
-         in maybe id (\g -> ((j, g) :)) (NonEmpty.nonEmpty good) (grow reached i (j + 1) onward)
-    misses ks i j
+         in maybe id (\g -> ((j, g) :)) (NonEmpty.nonEmpty good) (lengthen reached i (j + 1) survivors)
+    deviationsOf ks i j
       | j == i + 1 = [(LineKind, 0, Nothing)]
       | otherwise =
         [(k, d, most) | (k, before) <- ks, let (d, _, most) = bestWithin within before t k i j]
 
--- | The least largest deviation of a chain through the layers.
+-- | Least possible largest deviation of a chain through the layers.
 bottleneck :: Layers -> Double
 bottleneck steps = minimum (IntMap.elems (foldl advance (IntMap.singleton 0 0) steps))
   where
@@ -121,15 +123,15 @@ bottleneck steps = minimum (IntMap.elems (foldl advance (IntMap.singleton 0 0) s
             (j, ks) <- ps
         ]
 
--- | The simplest chain with that largest deviation: first row, last row and kind of each piece. The
--- sum of the deviations is taken in steps of 'Tolerance.equal', so that rounding does not choose;
--- of chains that are alike the one with the earlier rows.
+-- | Simplest chain with the given largest deviation: first row, last row and kind of each
+-- section. Deviations are summed in whole steps of 'Tolerance.equal', so that rounding decides
+-- nothing. Of equal chains the one with the earlier rows is taken.
 simplest :: PointTable -> Layers -> Double -> NonEmpty (Int, Int, SectionKind)
-simplest t steps deviation = case NonEmpty.nonEmpty (reverse walk) of
+simplest t steps deviation = case NonEmpty.nonEmpty (reverse reversedChain) of
   Just chain -> chain
   Nothing -> (0, rows t - 1, LineKind) :| []
   where
-    (_, _, walk) =
+    (_, _, reversedChain) =
       minimumBy
         (comparing cost)
         (IntMap.elems (foldl advance (IntMap.singleton 0 (0 :: Int, 0 :: Int, [])) steps))
@@ -144,63 +146,63 @@ simplest t steps deviation = case NonEmpty.nonEmpty (reverse walk) of
             (k, d) <- take 1 (NonEmpty.filter ((<= deviation + Tolerance.equal) . snd) ks)
         ]
 
--- | What is wrong with the user's sections. Rows and sections are counted from 1.
+-- | Fault of the user's sections. Rows and sections are counted from 1.
 data SectionFault
   = NoSections
-  | -- | a section, and how many rows it names: neither two nor three
+  | -- | the number of a section, and its count of rows, which is neither two nor three
     WrongCount Int Int
-  | -- | a section, and the row that the table does not have
+  | -- | the number of a section, and a row that the table does not have
     NoSuchRow Int Int
-  | -- | a section whose rows do not rise
+  | -- | the number of a section whose rows do not rise
     RowsDoNotRise Int
-  | -- | a section, the row with which it begins, and the row where it must
+  | -- | the number of a section, the row at which it begins, and the row at which it must begin
     NotJoined Int Int Int
-  | -- | the row with which the last section ends, and the last row of the table
+  | -- | the row at which the last section ends, and the last row of the table
     EndsEarly Int Int
   deriving stock (Eq, Show)
 
--- | The pieces that the user has chosen: for each the rows, counted from 1, that it goes through.
--- Two are joined by a line, three by a parabola. Each begins with the row with which the one before
--- ends, the first with row 1; the last ends with the last row.
+-- | Sections that the user chooses, each by the rows (counted from 1) through which it passes.
+-- Two rows give a line, three a parabola. The first section begins at row 1, each other one at
+-- the last row of the one before; the last section ends at the last row of the table.
 sections :: PointTable -> [[Int]] -> Either SectionFault (NonEmpty Section)
 sections t chosen = case NonEmpty.nonEmpty chosen of
   Nothing -> Left NoSections
   Just some -> do
     pieces <- traverse section (NonEmpty.zip (1 :| [2 ..]) some)
-    traverse_' joined (zip3 [1 ..] (1 : map final (toList pieces)) (toList pieces))
+    checkAll checkJoined (zip3 [1 ..] (1 : map final (toList pieces)) (toList pieces))
     let ends = final (NonEmpty.last pieces)
     if ends == rows t then Right pieces else Left (EndsEarly ends (rows t))
   where
-    joined (number, before, p) =
+    checkJoined (number, before, p) =
       if first p == before then Right () else Left (NotJoined number (first p) before)
-    traverse_' f = foldr (\a rest -> f a >> rest) (Right ())
+    checkAll f = foldr (\a rest -> f a >> rest) (Right ())
     section (number, ks) = case filter (\k -> k < 1 || k > rows t) ks of
       k : _ -> Left (NoSuchRow number k)
       [] -> case ks of
-        [a, b] | a < b -> Right (drawn (a - 1) (b - 1) Line)
+        [a, b] | a < b -> Right (chosenSection (a - 1) (b - 1) Line)
         [a, m, b]
           | a < m && m < b ->
-            Right (drawn (a - 1) (b - 1) (parabola (row t (a - 1)) (row t (m - 1)) (row t (b - 1))))
+            Right (chosenSection (a - 1) (b - 1) (parabola (row t (a - 1)) (row t (m - 1)) (row t (b - 1))))
         _ | length ks `elem` [2, 3] -> Left (RowsDoNotRise number)
         _ -> Left (WrongCount number (length ks))
-    drawn i j c =
-      let p = pieceOf t i j c (Mm 0)
+    chosenSection i j c =
+      let p = sectionBetween t i j c (Mm 0)
        in p {largest = Mm (maximum (map (\k -> abs (missed p (row t k))) [i .. j]))}
 
--- What they miss by -----------------------------------------------------------------------------
+-- Deviations ------------------------------------------------------------------------------------
 
--- | What a row deviates by.
+-- | Deviation of a row from its section.
 data Deviation = Deviation
-  { -- | counted from 1
+  { -- | number of the row, counted from 1
     ofRow :: Int,
-    -- | the piece that the row lies in, counted from 1; the earlier of two
+    -- | number of the section that contains the row, counted from 1; the earlier of two
     onPiece :: Int,
-    -- | y of the piece less y of the row, as in the paper's tables
+    -- | y of the section minus y of the row, as in the paper's tables
     miss :: Mm
   }
   deriving stock (Eq, Show)
 
--- | The deviation of every row that a piece passes.
+-- | Deviations of all rows. A row in two sections is listed once.
 deviations :: PointTable -> NonEmpty Section -> [Deviation]
 deviations t pieces = concat (zipWith onOne [1 ..] (toList pieces))
   where

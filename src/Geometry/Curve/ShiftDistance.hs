@@ -1,17 +1,17 @@
--- | How far a curve is shifted, place by place: the ciphers.
+-- | Distances of shifts along a curve: the ciphers of the Ural paper.
 --
--- A distance is known for the curve that it shifts; it may depend on that curve's true length. It
--- is in mm, positive to the side that the shift names.
+-- A distance belongs to the curve that it shifts and may depend on that curve's arc length. It is
+-- in mm, positive to the side that the shift names.
 module Geometry.Curve.ShiftDistance
   ( Distance (..),
     Growth (..),
     Joggle (..),
     ramp,
     ShiftInterval,
-    stretch,
+    intervalOf,
     marks,
     knots,
-    Below (..),
+    CurveBelow (..),
     vanishes,
     series,
     scaled,
@@ -31,162 +31,164 @@ import Geometry.Numeric.PowerSeries qualified as PowerSeries
 import Geometry.Numeric.TaylorExpansion (Approach (..), TaylorExpansion)
 import Geometry.Numeric.TaylorExpansion qualified as TaylorExpansion
 
+-- | Distance of a shift as a function of the position on the curve.
 data Distance
-  = -- | everywhere the same (cipher 2)
+  = -- | constant (cipher 2)
     Constant Mm
-  | -- | from row to row (cipher 6), mm
+  | -- | interpolated from row to row (cipher 6), mm
     Pointwise Column
-  | -- | for a bevel μ (radians) and a height H (mm): @H·tan μ + δ@ (cipher 4)
+  | -- | @H·tan μ + δ@ for a bevel μ (radians), a height H (mm) and an allowance δ (cipher 4)
     Bevelled Column Column Mm
-  | -- | evenly along the true length (cipher 1)
+  | -- | linear in arc length (cipher 1)
     Growing Growth
-  | -- | measured square to a surface that stands at the bevel μ (radians): the distance divided by
+  | -- | measured square to a surface with the bevel μ (radians): the inner distance divided by
     -- @cos μ@
     Square Column Distance
-  | -- | local, zero elsewhere
+  | -- | local step of the edge, zero elsewhere
     Joggled Joggle
   deriving stock (Eq, Show)
 
--- | From one distance to another, over the whole curve or between two parameters of it in rising
--- order; the first distance before them, the second one behind.
+-- | Linear growth from one distance to another, over the whole curve or between two rising
+-- parameters. The first distance holds before the interval, the second one after it.
 data Growth = Growth {from :: Mm, to :: Mm, between :: Maybe (Double, Double)}
   deriving stock (Eq, Show)
 
--- | Between two parameters, in rising order, the distance is a depth; inside of them it is reached
--- and left on ramps of two arcs of a radius each. The radius is more than half of the depth; a
--- depth below zero goes to the other side.
+-- | Joggle between two rising parameters. Its full depth is reached and left on ramps inside of
+-- the interval; each ramp consists of two arcs of the given radius. The radius is more than
+-- half of the depth. A negative depth shifts to the other side.
 data Joggle = Joggle {begins :: Double, ends :: Double, depth :: Mm, radius :: Mm}
   deriving stock (Eq, Show)
 
--- | The length of a joggle's ramp, @√(d·(4r − d))@.
+-- | Length of a joggle's ramp, @√(d·(4r − d))@ with the depth d and the radius r.
 ramp :: Joggle -> Mm
 ramp Joggle {depth = Mm d, radius = Mm r} = Mm (sqrt (max 0 (abs d * (4 * r - abs d))))
 
--- | Where on the curve that is shifted a distance changes its formula, and the lengths up to where
--- it begins and ends to change.
+-- | Interval over which a distance changes: the parameters at which its formula changes, and the
+-- arc lengths at which the change begins and ends.
 data ShiftInterval = ShiftInterval
-  { -- | parameters, in rising order
+  { -- | parameters in rising order
     marks :: [Double],
     first :: Mm,
     final :: Mm
   }
 
--- | The distance and the curve that it shifts tell a stretch from another.
+-- | Intervals always compare equal: each is determined by the distance and by the curve that it
+-- shifts, which are compared beside it.
 instance Eq ShiftInterval where
   _ == _ = True
 
 instance Show ShiftInterval where
   show _ = "Stretch"
 
--- | Of a distance on a curve with this ruler.
-stretch :: ArcLength -> Distance -> ShiftInterval
-stretch ruler distance = case distance of
-  Constant _ -> whole
-  Pointwise _ -> whole
-  Bevelled {} -> whole
-  Growing Growth {between = Nothing} -> whole
+-- | Interval of a distance on a curve with the given arc length.
+intervalOf :: ArcLength -> Distance -> ShiftInterval
+intervalOf arcLength distance = case distance of
+  Constant _ -> wholeCurve
+  Pointwise _ -> wholeCurve
+  Bevelled {} -> wholeCurve
+  Growing Growth {between = Nothing} -> wholeCurve
   Growing Growth {between = Just (a, b)} ->
     ShiftInterval
       { marks = [a, b],
-        first = ArcLength.lengthTo ruler a,
-        final = ArcLength.lengthTo ruler b
+        first = ArcLength.lengthTo arcLength a,
+        final = ArcLength.lengthTo arcLength b
       }
-  Square _ inner -> stretch ruler inner
+  Square _ inner -> intervalOf arcLength inner
   Joggled joggle@Joggle {begins, ends} ->
-    let first = ArcLength.lengthTo ruler begins
-        final = ArcLength.lengthTo ruler ends
-        on share = ArcLength.parameterAt ruler (plus first (times share (ramp joggle)))
-        off share = ArcLength.parameterAt ruler (minus final (times share (ramp joggle)))
+    let first = ArcLength.lengthTo arcLength begins
+        final = ArcLength.lengthTo arcLength ends
+        on share = ArcLength.parameterAt arcLength (plus first (times share (ramp joggle)))
+        off share = ArcLength.parameterAt arcLength (minus final (times share (ramp joggle)))
      in ShiftInterval {marks = [begins, on 0.5, on 1, off 1, off 0.5, ends], first, final}
   where
-    whole = ShiftInterval {marks = [], first = Mm 0, final = ArcLength.total ruler}
+    wholeCurve = ShiftInterval {marks = [], first = Mm 0, final = ArcLength.total arcLength}
 
--- | The parameters of the base, in rising order, at which the third derivative of a distance may
--- jump, but for its marks and the ends of the base's spans.
+-- | Rising parameters of the base at which the third derivative of a distance may jump, apart
+-- from its marks and the ends of the base's spans.
 knots :: Base -> Distance -> [Double]
 knots base distance = case distance of
   Constant _ -> []
   Pointwise c -> Column.knots base c
-  -- Both columns are of one table.
+  -- Both columns belong to the same table, so the knots of one are enough.
   Bevelled mu _ _ -> Column.knots base mu
   Growing _ -> []
   Square mu _ -> Column.knots base mu
   Joggled _ -> []
 
--- | Whether a distance is 0 about a spot.
+-- | True if a distance is identically 0 about a position.
 vanishes :: Distance -> SpanPoint -> Bool
-vanishes distance spot = case distance of
-  Joggled Joggle {begins, ends} -> not (spot `isPast` begins) || spot `isPast` ends
-  Square _ inner -> vanishes inner spot
+vanishes distance position = case distance of
+  Joggled Joggle {begins, ends} -> not (position `isPast` begins) || position `isPast` ends
+  Square _ inner -> vanishes inner position
   Constant h -> h == Mm 0
   Pointwise _ -> False
   Bevelled {} -> False
   Growing _ -> False
 
--- | What is known of the curve that is shifted: the base under all layers, the way along it (worked
--- out only for distances that depend on it), its place near the spot.
-data Below = Below {under :: Base, along :: ~ArcLength, near :: TaylorExpansion}
+-- | Properties of the curve that is shifted: the base under all layers, the arc length (evaluated
+-- only for distances that depend on it), and the Taylor expansion about the position.
+data CurveBelow = CurveBelow {under :: Base, along :: ~ArcLength, near :: TaylorExpansion}
 
--- | The power series of the distance at a spot up to an order; the place below is known to one
--- order more.
-series :: Int -> Below -> ShiftInterval -> Distance -> SpanPoint -> PowerSeries
-series n below known distance spot = case distance of
+-- | Power series of the distance about a position, up to the given order. The expansion of the
+-- curve below must have one order more.
+series :: Int -> CurveBelow -> ShiftInterval -> Distance -> SpanPoint -> PowerSeries
+series n below interval distance position = case distance of
   Constant (Mm h) -> PowerSeries.constant n h
-  Pointwise c -> Column.series n (under below) c spot
+  Pointwise c -> Column.series n (under below) c position
   Bevelled mu height (Mm delta) ->
     PowerSeries.plusConstant
       delta
       ( PowerSeries.multiply
-          (Column.series n (under below) height spot)
-          (PowerSeries.tangent (Column.series n (under below) mu spot))
+          (Column.series n (under below) height position)
+          (PowerSeries.tangent (Column.series n (under below) mu position))
       )
-  Growing growth -> grown n below known growth spot
+  Growing growth -> growthSeries n below interval growth position
   Square mu inner ->
     PowerSeries.divide
-      (series n below known inner spot)
-      (PowerSeries.cosine (Column.series n (under below) mu spot))
-  Joggled joggle -> joggled n below known joggle spot
+      (series n below interval inner position)
+      (PowerSeries.cosine (Column.series n (under below) mu position))
+  Joggled joggle -> joggleSeries n below interval joggle position
 
--- | @h1 + (h2 − h1)·s/S@ with the length s of S (Kolsanova, cipher 1).
-grown :: Int -> Below -> ShiftInterval -> Growth -> SpanPoint -> PowerSeries
-grown n below known Growth {from = Mm h1, to = Mm h2, between} spot = case between of
+-- | @h1 + (h2 − h1)·s/S@ at the length s of a growth over the length S (Kolsanova, cipher 1).
+growthSeries :: Int -> CurveBelow -> ShiftInterval -> Growth -> SpanPoint -> PowerSeries
+growthSeries n below interval Growth {from = Mm h1, to = Mm h2, between} position = case between of
   Nothing -> inside
-  Just _ -> case passed spot (marks known) of
+  Just _ -> case marksBefore position (marks interval) of
     0 -> PowerSeries.constant n h1
     1 -> inside
     _ -> PowerSeries.constant n h2
   where
-    Mm s1 = first known
-    Mm s2 = final known
+    Mm s1 = first interval
+    Mm s2 = final interval
     inside
       | s2 > s1 =
         PowerSeries.plusConstant
           h1
           ( PowerSeries.scale
               ((h2 - h1) / (s2 - s1))
-              (PowerSeries.plusConstant (-s1) (run n below spot))
+              (PowerSeries.plusConstant (-s1) (lengthSeries n below position))
           )
       | otherwise = PowerSeries.constant n h1
 
--- | With t from the ramp's beginning: @r − √(r² − t²)@ up to its middle, then @d − (r − √(r² − (ℓ −
--- t)²))@.
-joggled :: Int -> Below -> ShiftInterval -> Joggle -> SpanPoint -> PowerSeries
-joggled n below known joggle@Joggle {depth = Mm depth, radius = Mm r} spot =
+-- | Joggle at the length t from the start of the ramp: @r − √(r² − t²)@ up to the middle of the
+-- ramp, then @d − (r − √(r² − (ℓ − t)²))@.
+joggleSeries :: Int -> CurveBelow -> ShiftInterval -> Joggle -> SpanPoint -> PowerSeries
+joggleSeries n below interval joggle@Joggle {depth = Mm depth, radius = Mm r} position =
   PowerSeries.scale (signum depth) $
-    case passed spot (marks known) of
-      1 -> low (PowerSeries.plusConstant (-s1) here)
-      2 -> high (PowerSeries.plusConstant (-s1) here)
+    case marksBefore position (marks interval) of
+      1 -> lowerArc (PowerSeries.plusConstant (-s1) runLength)
+      2 -> upperArc (PowerSeries.plusConstant (-s1) runLength)
       3 -> PowerSeries.constant n d
-      4 -> high (PowerSeries.plusConstant s2 (PowerSeries.scale (-1) here))
-      5 -> low (PowerSeries.plusConstant s2 (PowerSeries.scale (-1) here))
+      4 -> upperArc (PowerSeries.plusConstant s2 (PowerSeries.scale (-1) runLength))
+      5 -> lowerArc (PowerSeries.plusConstant s2 (PowerSeries.scale (-1) runLength))
       _ -> PowerSeries.constant n 0
   where
     d = abs depth
-    here = run n below spot
-    Mm s1 = first known
-    Mm s2 = final known
+    runLength = lengthSeries n below position
+    Mm s1 = first interval
+    Mm s2 = final interval
     Mm l = ramp joggle
-    sag t =
+    arcRise t =
       PowerSeries.plusConstant
         r
         ( PowerSeries.scale
@@ -199,29 +201,29 @@ joggled n below known joggle@Joggle {depth = Mm depth, radius = Mm r} spot =
                 )
             )
         )
-    low t = sag t
-    high t =
-      PowerSeries.plusConstant d (PowerSeries.scale (-1) (sag (PowerSeries.plusConstant (-l) t)))
+    lowerArc t = arcRise t
+    upperArc t =
+      PowerSeries.plusConstant d (PowerSeries.scale (-1) (arcRise (PowerSeries.plusConstant (-l) t)))
 
--- | The true length up to the spot.
-run :: Int -> Below -> SpanPoint -> PowerSeries
-run n below spot = case n of
-  0 -> PowerSeries.constant 0 here
-  _ -> PowerSeries.integral here (TaylorExpansion.speed (near below))
+-- | Power series of the arc length up to the position.
+lengthSeries :: Int -> CurveBelow -> SpanPoint -> PowerSeries
+lengthSeries n below position = case n of
+  0 -> PowerSeries.constant 0 runLength
+  _ -> PowerSeries.integral runLength (TaylorExpansion.speed (near below))
   where
-    Mm here = ArcLength.lengthTo (along below) (parameter spot)
+    Mm runLength = ArcLength.lengthTo (along below) (parameter position)
 
--- | How many of the marks lie before the spot.
-passed :: SpanPoint -> [Double] -> Int
-passed spot = length . filter (spot `isPast`)
+-- | Count of marks before the position.
+marksBefore :: SpanPoint -> [Double] -> Int
+marksBefore position = length . filter (position `isPast`)
 
--- | Whether a mark lies before a spot.
+-- | True if a mark lies before a position.
 isPast :: SpanPoint -> Double -> Bool
-isPast spot mark = case approach spot of
-  After -> mark <= parameter spot
-  Before -> mark < parameter spot
+isPast position mark = case approach position of
+  After -> mark <= parameter position
+  Before -> mark < parameter position
 
--- | The distance of a curve that is larger by a factor, on its new base. Angles stay.
+-- | Distance for the curve scaled by a factor, on its new base. Angles are unchanged.
 scaled :: Base -> Double -> Distance -> Distance
 scaled on k distance = case distance of
   Constant h -> Constant (times k h)
@@ -233,12 +235,12 @@ scaled on k distance = case distance of
   Joggled joggle ->
     Joggled joggle {depth = times k (depth joggle), radius = times k (radius joggle)}
 
--- | The distance of the curve that is walked from its end: given the base as it was and as it is.
+-- | Distance for the reversed curve, given the original base and the reversed one.
 reversed :: Base -> Base -> Distance -> Distance
 reversed old new distance = case distance of
   Constant h -> Constant h
-  Pointwise c -> Pointwise (back c)
-  Bevelled mu height delta -> Bevelled (back mu) (back height) delta
+  Pointwise c -> Pointwise (reverseColumn c)
+  Bevelled mu height delta -> Bevelled (reverseColumn mu) (reverseColumn height) delta
   Growing growth ->
     Growing
       Growth
@@ -246,8 +248,8 @@ reversed old new distance = case distance of
           to = from growth,
           between = fmap (\(a, b) -> (n - b, n - a)) (between growth)
         }
-  Square mu inner -> Square (back mu) (reversed old new inner)
+  Square mu inner -> Square (reverseColumn mu) (reversed old new inner)
   Joggled joggle -> Joggled joggle {begins = n - ends joggle, ends = n - begins joggle}
   where
-    back = Column.reversed old new
+    reverseColumn = Column.reversed old new
     n = fromIntegral (Base.count old)

@@ -1,4 +1,5 @@
--- | A base and the shifts laid on it, one on the other, and what they give near a place.
+-- | Curves: a base with any number of shifts on top, evaluated by power series through all
+-- layers.
 module Geometry.Curve.ShiftedCurve
   ( Curve (..),
     Layer (..),
@@ -7,9 +8,9 @@ module Geometry.Curve.ShiftedCurve
     base,
     layers,
     breaks,
-    ruler,
-    spot,
-    jetAt,
+    arcLength,
+    spanPoint,
+    expansionAt,
     distanceAt,
     domain,
   )
@@ -18,7 +19,7 @@ where
 import Geometry.Carrier (Side (..))
 import Geometry.Curve.Base (Base, SpanPoint (..))
 import Geometry.Curve.Base qualified as Base
-import Geometry.Curve.ShiftDistance (Below (..), Distance, ShiftInterval)
+import Geometry.Curve.ShiftDistance (CurveBelow (..), Distance, ShiftInterval)
 import Geometry.Curve.ShiftDistance qualified as ShiftDistance
 import Geometry.Numeric.ArcLength (ArcLength)
 import Geometry.Numeric.ArcLength qualified as ArcLength
@@ -28,34 +29,35 @@ import Geometry.Numeric.TaylorExpansion (Approach (..), TaylorExpansion)
 import Geometry.Numeric.TaylorExpansion qualified as TaylorExpansion
 import Geometry.Vec qualified as Vec
 
+-- | Curve with any number of shifts.
 data Curve
   = Plain Base
-  | -- | a curve moved along its left normal; the ruler is that of the outcome
+  | -- | a curve moved along its left normal; the arc length is that of the result
     Shifted Layer Curve ~ArcLength
   deriving stock (Eq, Show)
 
--- | One shift.
-data Layer = Layer {side :: Side, distance :: Distance, known :: ~ShiftInterval}
+-- | One shift: its side, its distance, and the interval over which the distance changes.
+data Layer = Layer {side :: Side, distance :: Distance, interval :: ~ShiftInterval}
   deriving stock (Eq, Show)
 
--- | Every point moved along the normal, to a side, by a distance that is known for the curve.
+-- | Shifts a curve along its normal to a side, by a distance that belongs to this curve.
 shifted :: Side -> Distance -> Curve -> Curve
 shifted side distance lower = whole
   where
     whole =
       Shifted
-        Layer {side, distance, known = ShiftDistance.stretch (ruler lower) distance}
+        Layer {side, distance, interval = ShiftDistance.intervalOf (arcLength lower) distance}
         lower
-        (ArcLength.measured speed (merged (breaks whole) (knots whole)))
-    speed u = Vec.norm (TaylorExpansion.velocity (jetAt 1 whole (spot After u whole)))
+        (ArcLength.measured speed (merge (breaks whole) (knots whole)))
+    speed u = Vec.norm (TaylorExpansion.velocity (expansionAt 1 whole (spanPoint After u whole)))
 
--- | What lies under all shifts.
+-- | Base under all shifts.
 base :: Curve -> Base
 base curve = case curve of
   Plain b -> b
   Shifted _ lower _ -> base lower
 
--- | The shifts, the innermost first.
+-- | Sides and distances of the shifts, the innermost first.
 layers :: Curve -> [(Side, Distance)]
 layers curve = reverse (outermost curve)
   where
@@ -63,63 +65,62 @@ layers curve = reverse (outermost curve)
       Plain _ -> []
       Shifted layer lower _ -> (side layer, distance layer) : outermost lower
 
--- | The parameters between which the curve is smooth, in rising order, from its beginning to its
--- end.
+-- | Rising parameters between which the curve is smooth, its start and its end included.
 breaks :: Curve -> [Double]
 breaks curve = case curve of
   Plain b -> map fromIntegral [0 .. Base.count b]
-  Shifted layer lower _ -> merged (breaks lower) (filter inside (ShiftDistance.marks (known layer)))
+  Shifted layer lower _ -> merge (breaks lower) (filter isInside (ShiftDistance.marks (interval layer)))
   where
-    inside u = u > 0 && u < domain curve
+    isInside u = u > 0 && u < domain curve
 
--- | Where a column goes over from one cubic to the next within a span: the curve is smooth there,
--- but a shift of it has no smooth speed.
+-- | Rising parameters at which a column changes from one cubic to the next within a span. The
+-- curve is smooth there, but the speed of a shift of it is not.
 knots :: Curve -> [Double]
 knots curve = case curve of
   Plain _ -> []
   Shifted layer lower _ ->
-    merged (knots lower) (filter inside (ShiftDistance.knots (base lower) (distance layer)))
+    merge (knots lower) (filter isInside (ShiftDistance.knots (base lower) (distance layer)))
   where
-    inside u = u > 0 && u < domain curve
+    isInside u = u > 0 && u < domain curve
 
--- | Two rising lists as one, without repetition.
-merged :: [Double] -> [Double] -> [Double]
-merged as bs = case (as, bs) of
+-- | Union of two rising lists.
+merge :: [Double] -> [Double] -> [Double]
+merge as bs = case (as, bs) of
   ([], _) -> bs
   (_, []) -> as
   (a : as', b : bs')
-    | a < b -> a : merged as' bs
-    | b < a -> b : merged as bs'
-    | otherwise -> a : merged as' bs'
+    | a < b -> a : merge as' bs
+    | b < a -> b : merge as bs'
+    | otherwise -> a : merge as' bs'
 
--- | The parameter of the end: the number of spans.
+-- | Parameter of the end, which is the count of spans.
 domain :: Curve -> Double
 domain = fromIntegral . Base.count . base
 
--- | How far along the curve its parameter leads.
-ruler :: Curve -> ArcLength
-ruler curve = case curve of
-  Plain b -> Base.ruler b
+-- | Arc length along the curve as a function of its parameter.
+arcLength :: Curve -> ArcLength
+arcLength curve = case curve of
+  Plain b -> Base.arcLength b
   Shifted _ _ along -> along
 
--- | The place with a parameter; beyond the ends, the end.
-spot :: Approach -> Double -> Curve -> SpanPoint
-spot approach u curve = Base.spot approach u (base curve)
+-- | Position at a parameter. Parameters outside of the domain give the nearer end.
+spanPoint :: Approach -> Double -> Curve -> SpanPoint
+spanPoint approach u curve = Base.spanPoint approach u (base curve)
 
--- | The power series of the place up to an order. Every shift asks the curve under it for one order
--- more, but where there is none.
-jetAt :: Int -> Curve -> SpanPoint -> TaylorExpansion
-jetAt n curve s = case curve of
+-- | Taylor expansion of the point about a position, up to the given order. A shift needs one
+-- order more of the curve below, except where its distance vanishes.
+expansionAt :: Int -> Curve -> SpanPoint -> TaylorExpansion
+expansionAt n curve s = case curve of
   Plain b -> Base.jet n b s
   Shifted layer lower _
-    | ShiftDistance.vanishes (distance layer) s -> jetAt n lower s
+    | ShiftDistance.vanishes (distance layer) s -> expansionAt n lower s
     | otherwise ->
       let near =
-            jetAt (n + 1) lower s
+            expansionAt (n + 1) lower s
        in TaylorExpansion.moved (distanceAt n layer lower near s) near
 
--- | The power series of a shift's distance to the left up to an order, given the curve below near
--- the spot.
+-- | Power series of a shift's distance to the left, up to the given order. The expansion is that
+-- of the curve below about the position.
 distanceAt :: Int -> Layer -> Curve -> TaylorExpansion -> SpanPoint -> PowerSeries
 distanceAt n layer lower near s = case side layer of
   LeftOf -> d
@@ -128,7 +129,7 @@ distanceAt n layer lower near s = case side layer of
     d =
       ShiftDistance.series
         n
-        Below {under = base lower, along = ruler lower, near}
-        (known layer)
+        CurveBelow {under = base lower, along = arcLength lower, near}
+        (interval layer)
         (distance layer)
         s

@@ -1,8 +1,8 @@
--- | Spans: what curves are made of, one behind the other.
+-- | Spans: the consecutive parts of a curve.
 module Geometry.Curve.Span
   ( Span (..),
     SpanShape (..),
-    ofPiece,
+    ofShape,
     ofSegment,
     ends,
     segment,
@@ -29,26 +29,27 @@ import Geometry.Vec (Point, Vec)
 import Geometry.Vec qualified as Vec
 import Linear.V2 (V2 (..))
 
--- | A part of a curve, its own parameter running from 0 to 1.
+-- | Part of a curve over a local parameter from 0 to 1.
 data Span
-  = -- | x and y
+  = -- | a cubic in x and one in y
     Polynomial Cubic Cubic
-  | -- | an arc, evenly
+  | -- | an arc at constant speed
     Round Segment
   deriving stock (Eq, Show)
 
--- | A part of a curve as it is given.
+-- | Part of a curve in the form in which it is given.
 data SpanShape
   = -- | a straight line from one point to another
     Line Point Point
-  | -- | @y = a·x² + b·x + c@ with a (1/mm), b, c (mm), from one x to another
+  | -- | @y = a·x² + b·x + c@ with a (1/mm), b and c (mm), from one x to another
     Quadratic Double Double Double Double Double
   | -- | an arc
     Circular Segment
   deriving stock (Eq, Show)
 
-ofPiece :: SpanShape -> Span
-ofPiece piece = case piece of
+-- | Span of a shape.
+ofShape :: SpanShape -> Span
+ofShape shape = case shape of
   Line p q -> Polynomial (Spline.line (Vec.x p) (Vec.x q)) (Spline.line (Vec.y p) (Vec.y q))
   Quadratic a b c from to ->
     let d = to - from
@@ -57,12 +58,13 @@ ofPiece piece = case piece of
           (Cubic (c + from * (b + from * a)) (d * (b + 2 * a * from)) (a * d * d) 0)
   Circular s -> ofSegment s
 
+-- | Span of a line or an arc.
 ofSegment :: Segment -> Span
 ofSegment s = case s of
-  Straight p q -> ofPiece (Line p q)
+  Straight p q -> ofShape (Line p q)
   Arc {} -> Round s
 
--- | Where a span begins and where it ends.
+-- | Start and end of a span.
 ends :: Span -> (Point, Point)
 ends s = case s of
   Polynomial x y ->
@@ -71,46 +73,45 @@ ends s = case s of
      in (place 0, place 1)
   Round g -> (Segment.start g, Segment.end g)
 
--- | The span as a line or an arc, if it is one.
+-- | Span as a segment, if it is a line or an arc.
 segment :: Span -> Maybe Segment
 segment s = case s of
   Polynomial (Cubic _ _ 0 0) (Cubic _ _ 0 0) -> let (p, q) = ends s in Just (Straight p q)
   Polynomial _ _ -> Nothing
   Round g -> Just g
 
--- | Whether a span that was given as a piece has no length. A full circle ends where it begins and
--- has one.
+-- | True if a span has no length. A full circle ends where it begins, but has a length.
 isPoint :: Span -> Bool
 isPoint s = case s of
   Polynomial _ _ -> let (p, q) = ends s in Vec.near p q
   Round g -> Segment.length g <= Tolerance.coincident
 
--- | The power series of the place up to an order.
+-- | Taylor expansion of the point about a local parameter, up to the given order.
 jet :: Int -> Span -> Double -> TaylorExpansion
 jet n s t = case s of
   Polynomial x y -> V2 (Spline.series n x t) (Spline.series n y t)
   Round (Arc {start, centre, sweep = Rad sweep}) ->
-    -- Each derivative turns by a quarter and grows by the sweep.
-    let turned = Vec.rotate (Rad (sweep * t)) (Vec.to centre start)
-        terms = zipWith Vec.scale (scanl (\k j -> k * sweep / j) 1 [1 ..]) (iterate Vec.left turned)
-     in along n centre terms
-  Round (Straight p q) -> along n p [Vec.scale t (Vec.to p q), Vec.to p q]
+    -- Each derivative is the one before, rotated by a quarter turn and multiplied by the sweep.
+    let rotated = Vec.rotate (Rad (sweep * t)) (Vec.to centre start)
+        terms = zipWith Vec.scale (scanl (\k j -> k * sweep / j) 1 [1 ..]) (iterate Vec.left rotated)
+     in fromCoefficients n centre terms
+  Round (Straight p q) -> fromCoefficients n p [Vec.scale t (Vec.to p q), Vec.to p q]
 
--- | From a point, by these coefficients.
-along :: Int -> Point -> [Vec] -> TaylorExpansion
-along n p terms = V2 (part (Vec.x p) (map fst parts)) (part (Vec.y p) (map snd parts))
+-- | Taylor expansion with a constant term and the given further coefficients.
+fromCoefficients :: Int -> Point -> [Vec] -> TaylorExpansion
+fromCoefficients n p terms = V2 (part (Vec.x p) (map fst parts)) (part (Vec.y p) (map snd parts))
   where
     parts = map components (take (n + 1) terms)
     part :: Double -> [Double] -> PowerSeries
     part c cs = PowerSeries.plusConstant c (PowerSeries.fromList n cs)
 
--- | The same walked from its end.
+-- | Span in the opposite direction.
 reversed :: Span -> Span
 reversed s = case s of
   Polynomial x y -> Polynomial (Spline.reversed x) (Spline.reversed y)
   Round g -> Round (Segment.reverse g)
 
--- | Moved, turned, scaled, mirrored: the coefficients are so.
+-- | Image of a span under a similarity, computed on its coefficients.
 transformed :: Transformation -> Span -> Span
 transformed s g = case g of
   Polynomial (Cubic x0 x1 x2 x3) (Cubic y0 y1 y2 y3) ->
@@ -121,11 +122,12 @@ transformed s g = case g of
      in Polynomial (Cubic (Vec.x p) a1 a2 a3) (Cubic (Vec.y p) b1 b2 b3)
   Round arc -> Round (Transformation.segment s arc)
 
--- | A displacement turned, scaled, mirrored.
+-- | Image of a displacement: rotated, scaled and reflected, but not moved.
 image :: Transformation -> Vec -> Vec
 image s v = Vec.to (Transformation.point s origin) (Transformation.point s (Vec.shift v origin))
   where
     origin = Vec.point 0 0
 
+-- | x and y of a displacement.
 components :: Vec -> (Double, Double)
 components v = (Vec.dot v (Vec.vec 1 0), Vec.dot v (Vec.vec 0 1))

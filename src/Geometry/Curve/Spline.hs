@@ -1,10 +1,9 @@
--- | Interpolation of a table of numbers by piecewise cubics that are continuous up to the second
--- derivative.
+-- | Cubic splines through a table of numbers, with continuous second derivatives.
 --
--- The system for the second derivatives is tridiagonal and solved in one pass forwards and one
--- backwards.
+-- The second derivatives solve a tridiagonal system by the Thomas algorithm (Gaussian elimination
+-- without pivoting).
 module Geometry.Curve.Spline
-  ( -- * One of them
+  ( -- * One cubic
     Cubic (..),
     coefficients,
     line,
@@ -13,13 +12,13 @@ module Geometry.Curve.Spline
     series,
     reversed,
 
-    -- * Many of them
+    -- * Vectors of cubics
     Cubics,
     generate,
     count,
     at,
 
-    -- * Through values
+    -- * Interpolation
     Boundary (..),
     interpolate,
     parabolas,
@@ -38,22 +37,23 @@ import Geometry.Numeric.PowerSeries qualified as PowerSeries
 data Cubic = Cubic Double Double Double Double
   deriving stock (Eq, Show)
 
--- | From the constant on.
+-- | Coefficients in the order of rising powers.
 coefficients :: Cubic -> [Double]
 coefficients (Cubic a b c d) = [a, b, c, d]
 
--- | From one value to another.
+-- | Linear function from one value at 0 to another at 1.
 line :: Double -> Double -> Cubic
 line p q = Cubic p (q - p) 0 0
 
+-- | Value at a parameter.
 value :: Cubic -> Double -> Double
 value (Cubic a b c d) t = a + t * (b + t * (c + t * d))
 
--- | The first derivative.
+-- | First derivative.
 rate :: Cubic -> Double -> Double
 rate (Cubic _ b c d) t = b + t * (2 * c + 3 * t * d)
 
--- | The power series about a place, up to an order.
+-- | Power series about a parameter, up to the given order.
 series :: Int -> Cubic -> Double -> PowerSeries
 series n (Cubic a b c d) t =
   PowerSeries.ofFour
@@ -63,15 +63,15 @@ series n (Cubic a b c d) t =
     (c + 3 * t * d)
     d
 
--- | The same walked from 1 to 0.
+-- | Cubic with the parameter reversed: c(1 − t).
 reversed :: Cubic -> Cubic
 reversed (Cubic a b c d) = Cubic (a + b + c + d) (-(b + 2 * c + 3 * d)) (c + 3 * d) (-d)
 
--- | Cubics in order, four coefficients each.
+-- | Cubics in order, with four coefficients each.
 newtype Cubics = Cubics (Unboxed.Vector Double)
   deriving newtype (Eq, Show)
 
--- | So many cubics.
+-- | Vector of @n@ cubics, made by a function of the index.
 generate :: Int -> (Int -> Cubic) -> Cubics
 generate n cubic = Cubics $
   Unboxed.create $ do
@@ -88,35 +88,35 @@ generate n cubic = Cubics $
     go 0
 {-# INLINE generate #-}
 
--- | How many they are.
+-- | Count of cubics.
 count :: Cubics -> Int
 count (Cubics array) = Unboxed.length array `div` 4
 
--- | One of them by its number from 0, which is below their count.
+-- | Cubic at an index from 0; the index is not checked.
 at :: Cubics -> Int -> Cubic
 at (Cubics array) i = Cubic (coefficient 0) (coefficient 1) (coefficient 2) (coefficient 3)
   where
     coefficient k = Unboxed.unsafeIndex array (4 * i + k)
 {-# INLINE at #-}
 
--- | What holds at the ends of a spline.
+-- | Boundary condition of a spline.
 data Boundary
-  = -- | the second derivative is zero
+  = -- | zero second derivatives at both ends
     Natural
-  | -- | these first derivatives, by the parameter
+  | -- | the given first derivatives by the parameter at the start and at the end
     Clamped Double Double
-  | -- | the end goes over into the beginning; the last value is the first
+  | -- | the end continues into the beginning; the last value equals the first
     Periodic
   deriving stock (Eq, Show)
 
--- | The cubics between neighbouring values, given the steps of the parameter between them (above
--- zero, one fewer than values, at least one; at least three for a periodic one). Each cubic's own
--- parameter runs from 0 to 1.
+-- | Spline through values at the given steps of the parameter. The steps are above zero, and one
+-- fewer than the values: at least one, or at least three for a periodic spline. Each cubic has
+-- a local parameter from 0 to 1.
 interpolate :: Boundary -> Unboxed.Vector Double -> Unboxed.Vector Double -> Cubics
 interpolate boundary steps values = generate (Unboxed.length steps) cubic
   where
     second = secondDerivatives boundary steps values
-    -- With h the step and M the second derivatives at its ends.
+    -- Step h, and second derivatives M at its two ends.
     cubic i = Cubic p (q - p - h * h * (2 * m + m') / 6) (h * h * m / 2) (h * h * (m' - m) / 6)
       where
         h = Unboxed.unsafeIndex steps i
@@ -125,12 +125,12 @@ interpolate boundary steps values = generate (Unboxed.length steps) cubic
         m = Unboxed.unsafeIndex second i
         m' = Unboxed.unsafeIndex second (i + 1)
 
--- | One equation: the factors of the unknown before, its own and the one behind, and the right
+-- | One equation: the factors of the previous, the own and the next unknown, and the right-hand
 -- side.
 data Row = Row Double Double Double Double
 
--- | The second derivatives M at all values. With steps h and slopes Δ between neighbours, what
--- makes the first derivative continuous is @h_{i−1}·M_{i−1} + 2·(h_{i−1} + h_i)·M_i + h_i·M_{i+1} =
+-- | Second derivatives M at all values. With the steps h and the slopes Δ between neighbours, the
+-- first derivative is continuous if @h_{i−1}·M_{i−1} + 2·(h_{i−1} + h_i)·M_i + h_i·M_{i+1} =
 -- 6·(Δ_i − Δ_{i−1})@.
 secondDerivatives ::
   Boundary ->
@@ -162,64 +162,65 @@ secondDerivatives boundary steps values = case boundary of
     inner i = row (step (i - 1)) (step i) (rise (i - 1)) (rise i)
     row h h' slope slope' = Row h (2 * (h + h')) h' (6 * (slope' - slope))
 
--- | So many equations by their numbers from 0. Elimination without pivoting; the diagonal of a
--- spline's system outweighs the rest of its row.
+-- | Solves a tridiagonal system of @n@ equations. Pivoting is not needed, because the matrix of a
+-- spline is diagonally dominant.
 tridiagonal :: Int -> (Int -> Row) -> Unboxed.Vector Double
 tridiagonal n row = Unboxed.create $ do
-  above <- Mutable.unsafeNew (max 0 n)
+  superDiagonal <- Mutable.unsafeNew (max 0 n)
   solved <- Mutable.unsafeNew (max 0 n)
-  eliminated above solved 0 0 0
+  eliminate superDiagonal solved 0 0 0
   pure solved
   where
-    eliminated ::
+    eliminate ::
       Mutable.MVector s Double ->
       Mutable.MVector s Double ->
       Int ->
       Double ->
       Double ->
       ST s ()
-    eliminated above solved i c' d'
-      | i >= n = backwards above solved (n - 1) 0
+    eliminate superDiagonal solved i c' d'
+      | i >= n = substitute superDiagonal solved (n - 1) 0
       | otherwise = case row i of
         Row a b c d -> do
           let pivot = b - a * c'
               c'' = c / pivot
               d'' = (d - a * d') / pivot
-          Mutable.unsafeWrite above i c''
+          Mutable.unsafeWrite superDiagonal i c''
           Mutable.unsafeWrite solved i d''
-          eliminated above solved (i + 1) c'' d''
-    backwards :: Mutable.MVector s Double -> Mutable.MVector s Double -> Int -> Double -> ST s ()
-    backwards above solved i next
+          eliminate superDiagonal solved (i + 1) c'' d''
+    substitute :: Mutable.MVector s Double -> Mutable.MVector s Double -> Int -> Double -> ST s ()
+    substitute superDiagonal solved i next
       | i < 0 = pure ()
       | otherwise = do
-        c <- Mutable.unsafeRead above i
+        c <- Mutable.unsafeRead superDiagonal i
         d <- Mutable.unsafeRead solved i
         let m = d - c * next
         Mutable.unsafeWrite solved i m
-        backwards above solved (i - 1) m
+        substitute superDiagonal solved (i - 1) m
 {-# INLINE tridiagonal #-}
 
--- | The same where the first row's unknown before is the last one and the last row's unknown behind
--- the first: the two corners are taken out as a matrix of rank one (Sherman and Morrison).
+-- | Solves a cyclic tridiagonal system: the first equation also contains the last unknown, and
+-- the last equation the first. The two corner elements are removed as a matrix of rank one
+-- (Sherman–Morrison).
 cyclic :: Int -> (Int -> Row) -> Unboxed.Vector Double
 cyclic n row = Unboxed.zipWith (\x z -> x - factor * z) plain corner
   where
     Row beta firstDiagonal _ _ = row 0
     Row _ _ alpha _ = row (n - 1)
     gamma = -firstDiagonal
-    altered i (Row a b c d)
+    perturbed i (Row a b c d)
       | i == 0 = Row 0 (b - gamma) c d
       | i == n - 1 = Row a (b - alpha * beta / gamma) 0 d
       | otherwise = Row a b c d
-    plain = tridiagonal n (\i -> altered i (row i))
-    corner = tridiagonal n (\i -> altered i (column i (row i)))
+    plain = tridiagonal n (\i -> perturbed i (row i))
+    corner = tridiagonal n (\i -> perturbed i (column i (row i)))
     column i (Row a b c _) = Row a b c (if i == 0 then gamma else if i == n - 1 then alpha else 0)
-    weighed v = Unboxed.head v + beta * Unboxed.last v / gamma
-    factor = weighed plain / (1 + weighed corner)
+    weighted v = Unboxed.head v + beta * Unboxed.last v / gamma
+    factor = weighted plain / (1 + weighted corner)
 {-# INLINE cyclic #-}
 
--- | Parabolas (Lagrange) through values 1–3, 3–5, …, given where between its neighbours each middle
--- value lies, as a fraction of the parameter. The values are odd in number.
+-- | Parabolas (Lagrange) through values 1–3, 3–5, and so on. Each fraction gives the position of
+-- a middle value between its neighbours. The count of values is odd.
 parabolas :: Vector Double -> Unboxed.Vector Double -> Cubics
 parabolas fractions values =
   generate (Vector.length fractions) (\i -> parabola i (fractions Vector.! i))

@@ -1,4 +1,4 @@
--- | The laws of biarcs. Each says which bug it would catch. Distances are measured here by other
+-- | Laws of biarcs. Each names the bug that it catches. Distances are measured here by other
 -- means than in the program: to an arc by angles, to the curve by the nearest of many of its
 -- points.
 module Geometry.ArcFitting.BiarcSpec (spec) where
@@ -141,7 +141,7 @@ spec = do
 
 type End = (Point, Vec)
 
--- | Any two ends, often in special positions.
+-- | Two end poses, often in special positions.
 pair :: Gen (End, End)
 pair =
   leaning
@@ -151,7 +151,8 @@ pair =
         ]
     )
 
--- | Ends that lean to the chord by less than an angle; parallel and mirrored ones among them.
+-- | End poses whose directions make less than a given angle with the chord, parallel and mirrored
+-- ones among them.
 mild :: Double -> Gen (End, End)
 mild limit = leaning (oneof [choose (-limit, limit), elements [0, limit, -limit, 1e-7, 0.3, -0.3]])
 
@@ -180,7 +181,8 @@ joinLaw (from@(p, s), to@(q, t)) = case Biarc.join from to of
             )
           .&&. smooth list
 
--- | The ends of an arc are on its circle, a sweep apart, and the sweep is at most half a turn.
+-- | Both ends of an arc lie on its circle at the distance of its sweep, which is at most half a
+-- turn.
 sound :: Segment -> Property
 sound s = case s of
   Straight _ _ -> property True
@@ -191,7 +193,7 @@ sound s = case s of
             && away (Vec.shift (Vec.rotate (Rad a) (Vec.to centre start)) centre) end <= 1e-9 * r
             && abs a <= pi + 1e-6
 
--- | Segments that share their joints exactly and have one direction there.
+-- | Neighbouring segments share a point exactly and have one direction there.
 smooth :: [Segment] -> Property
 smooth ss = conjoin (zipWith joined ss (drop 1 ss))
   where
@@ -202,7 +204,7 @@ smooth ss = conjoin (zipWith joined ss (drop 1 ss))
             === Segment.start b .&&. aligned (Segment.endDirection a) (Segment.startDirection b)
         )
 
--- | One direction, but for the digits that a line in place of an arc that hardly bends costs.
+-- | Directions agree, apart from the error of a line in place of a nearly straight arc.
 aligned :: Vec -> Vec -> Property
 aligned a b = let Rad off = Vec.turn a b in counterexample (show off) (abs off < 2.1e-8)
 
@@ -224,7 +226,8 @@ backwardsLaw ((p, s), (q, t)) =
           ]
     both -> counterexample (show both) False
 
--- | Ends of a curve that bends to one side; one leans up to five times as much as the other.
+-- | Ends of a curve that bends to one side; the angle at one end is up to five times that at the
+-- other.
 oneSided :: Gen (End, End)
 oneSided = do
   a <- choose (0.05, 0.3)
@@ -247,7 +250,7 @@ oneSidedLaw (a, b) = case Biarc.join a b of
 
 -- Through points --------------------------------------------------------------------------------
 
--- | Points anywhere, in a row, or there and back.
+-- | Random points, points in a row, and points there and back.
 scattered :: Gen (NonEmpty Point)
 scattered = do
   n <- choose (3, 9)
@@ -276,7 +279,7 @@ throughLaw ends ps =
         | otherwise -> inOrder wanted fs
       (_, []) -> False
 
--- | A circle (none for a line), and points on it in order, less than half a turn apart.
+-- | Circle (Nothing for a line), and points on it in order, less than half a turn apart.
 onCircle :: Gen (Maybe (Point, Double), NonEmpty Point)
 onCircle = do
   n <- choose (3, 8)
@@ -308,19 +311,19 @@ circleLaw ends (shape, ps) = case shape of
 data Tracked = Tracked Curve Double
   deriving stock (Show)
 
--- | Curves in mm, with the parameters where spans meet.
+-- | Curves in mm, with the parameters at which spans meet.
 data Curve
-  = -- | amplitude, length of a wave by 2π
+  = -- | amplitude; wavelength divided by 2π
     Sine Double Double [Double]
-  | -- | the half axes
+  | -- | half axes
     Ellipse Double Double [Double]
   | Lissajous Double Double [Double]
   | -- | factor of the fourth power
     Quartic Double [Double]
-  | -- | nodes: a place, the angle of the direction, how much it changes by there, and the speeds
-    -- before and behind
+  | -- | closed or not, and nodes: point, angle of the direction, change of the angle at the node,
+    -- and the speeds before and after
     Cubic Bool [Node]
-  | -- | lines and arcs that go over into one another: lengths and curvatures
+  | -- | lines and arcs in tangent contact: lengths and curvatures
     Bends [(Double, Double)]
   | -- | nearly a cusp: the speed at its tip
     Cusp Double [Double]
@@ -367,15 +370,15 @@ curve size =
       cubic size
     ]
 
--- | Where the spans end: the last at a given parameter, some far shorter than others.
+-- | Ends of the spans: the last at a given parameter; some spans are far shorter than others.
 breaking :: Double -> Gen [Double]
 breaking end = do
   inner <- resize 5 (listOf (choose (0.01, 0.99)))
   tiny <- elements [[], [0.3, 0.30001, 0.3001]]
   pure (map (* end) (sort (inner <> tiny)) <> [end])
 
--- | Cubic spans between random points: smooth, or with corners or kinks too small to count; often
--- closed.
+-- | Cubic spans between random points: smooth, with corners, or with kinks too small to count;
+-- often closed.
 cubic :: Double -> Gen Curve
 cubic size = do
   n <- choose (2, 6)
@@ -397,7 +400,7 @@ closedCurve c = case c of
   Bends _ -> False
   Cusp _ _ -> False
 
--- | The jumps of direction inside the curve.
+-- | Jumps of direction inside the curve.
 jumps :: Curve -> [Double]
 jumps c = case c of
   Cubic closed nodes ->
@@ -410,7 +413,7 @@ corners c = length (filter ((> 0.01) . abs) (jumps c))
 kinks :: Curve -> Bool
 kinks c = any (\j -> j /= 0 && abs j < 0.01) (jumps c)
 
--- | Whether x both rises and falls.
+-- | True if x both rises and falls.
 doublesBack :: Curve -> Bool
 doublesBack c = or (zipWith (<=) xs (drop 1 xs)) && or (zipWith (>) xs (drop 1 xs))
   where
@@ -477,7 +480,7 @@ trackOf c = case c of
           breaks = fromMaybe (1 :| []) (NonEmpty.nonEmpty bs)
         }
 
--- | A cubic span between two nodes: place and derivative.
+-- | Cubic span between two nodes: point and derivative.
 hermite :: (Node, Node) -> Double -> (Point, Vec)
 hermite ((p, a, jump, _, out), (q, b, _, into, _)) f =
   (Vec.shift (combined h10 h01 h11) p, combined g10 g01 g11)
@@ -526,8 +529,8 @@ arcsLaw w@(Tracked c tolerance) =
     near = nearest (trackOf c)
     ss = chain w
 
--- | The distance from a point to a curve, and where: about the nearest of many points on each
--- strand nearby, more points; before and behind each corner, too.
+-- | Distance from a point to a curve and the parameter of the foot. Adds samples near the closest
+-- of many samples on each strand nearby, and just before and after each corner.
 nearest :: ParametricCurve -> Point -> (Double, Double)
 nearest t =
   \p ->
@@ -566,11 +569,11 @@ kinkLaw (Tracked c tolerance) =
   where
     groups = ParametricFit.approximate (Mm tolerance) (trackOf c)
 
--- | Against the fewest biarcs of any of some ratios between 65 points of the curve that stay near
--- it, which takes many points to know. One biarc ends and the next begins where a joint has the
--- curve's place and direction. Of lines and arcs the end may be the joint in the middle; there
--- segments are counted, and one biarc more is two of them. In a biarc of almost no length the joint
--- in the middle cannot be told from the ends.
+-- | Comparison with the fewest biarcs, of any of several chord ratios, between 65 points of the
+-- curve. A biarc counts only if it is within the tolerance, which many points decide. Biarcs
+-- are separated at joints that have the curve's position and direction. On lines and arcs, the
+-- end of a biarc may be its joint in the middle; there segments are counted, two for each
+-- biarc. In a biarc of nearly no length, the joint in the middle cannot be told from the ends.
 fewLaw :: Tracked -> Property
 fewLaw w@(Tracked c tolerance) =
   corners c == 0
@@ -590,7 +593,8 @@ fewLaw w@(Tracked c tolerance) =
             && abs (Vec.cross (direction t Leaving u) (Vec.to (place t u) (Segment.start s))) < 1e-9
             && abs off < 5e-6
 
--- | The same where the biarcs have other directions than the curve: segments are counted.
+-- | Comparison as in 'fewLaw' for biarcs with other directions than the curve: segments are
+-- counted.
 fewOnCubicsLaw :: Tracked -> Property
 fewOnCubicsLaw (Tracked c tolerance) = case c of
   Cubic closed nodes
@@ -610,7 +614,7 @@ fewOnCubicsLaw (Tracked c tolerance) = case c of
           )
   _ -> discard
   where
-    -- The same cubic as 'hermite', in one coordinate.
+    -- Equals the cubic of 'hermite', in one coordinate.
     spanOf axis ((p, a, jump, _, out), (q, b, _, into, _)) =
       let chord = Vec.to p q
           p0 = Vec.dot axis (Vec.to (Vec.point 0 0) p)
@@ -625,7 +629,7 @@ fewerLaw found fewest slack =
     (show (found, fewest))
     (fromIntegral found <= (1.3 * fromIntegral fewest + fromIntegral slack :: Double))
 
--- | The fewest biarcs by their size.
+-- | Least total cost of a chain of biarcs, with a given cost of each biarc.
 fewestOf :: (NonEmpty Segment -> Int) -> Double -> ParametricCurve -> Int
 fewestOf size tolerance t = best ! n
   where

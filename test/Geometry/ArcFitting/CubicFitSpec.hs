@@ -1,4 +1,4 @@
--- | The laws of biarcs along cubic spans. Distances are measured by other means than in the
+-- | Laws of arc fitting on cubic spans. Distances are measured by other means than in the
 -- program: to an arc by angles, to the curve by the nearest of many of its points.
 module Geometry.ArcFitting.CubicFitSpec (spec) where
 
@@ -60,7 +60,7 @@ spec =
                 cover 20 (n > 8 * Curve.spans c) "many arcs a span" $
                   cover 10 (n < Curve.spans c) "many spans an arc" True
 
--- | What the curve is through, the tolerance in mm, the curve.
+-- | Kind of the test curve, tolerance in mm, and curve.
 data Tracked = Tracked String Double Curve
 
 instance Show Tracked where
@@ -109,7 +109,7 @@ arcsOf tolerance c = case Curve.cubics (Mm 1e-9) c of
 cornersOf :: Curve -> Int
 cornersOf c = length (filter (> 1e-3) (turnsOf c))
 
--- | By how much the curve turns at each joint of its spans.
+-- | Jumps of direction at the ends of the spans.
 turnsOf :: Curve -> [Double]
 turnsOf c =
   [ abs (angle (Curve.tangentFrom Curve.Before c u) (Curve.tangentFrom Curve.After c u))
@@ -118,10 +118,10 @@ turnsOf c =
   where
     angle a b = let Rad t = Vec.turn a b in t
 
--- | Whether a kink that is no corner takes from a fifth to all of the tolerance by itself. An arc
--- across it then has hardly a choice where to lie, and whether one is found that is near for
--- certain is a matter of luck. So it is with a hook between points that are nearer to one another
--- than the tolerance: no arc goes forwards along it.
+-- | True if a kink that is no corner takes up between a fifth and all of the tolerance. An arc
+-- across it then has hardly any freedom, and whether the fit finds one within the bound is
+-- chance. A hook between points nearer than the tolerance has the same effect, because no arc
+-- runs forwards along it.
 tight :: Tracked -> Bool
 tight (Tracked _ tolerance c) =
   or hooks
@@ -162,8 +162,8 @@ arcsLaw (Tracked _ tolerance c) =
       ]
   where
     ss = arcsOf tolerance c
-    -- Each span by itself: at a sharp corner what is near on the one hides what is nearer on the
-    -- other.
+    -- Compares span by span: at a sharp corner a point near one span may hide that the other span
+    -- is far off.
     known = [(span', between 400 span') | span' <- zip (Curve.breaks c) (drop 1 (Curve.breaks c))]
     between :: Int -> (Double, Double) -> [(Double, Vec.Point)]
     between count (a, b) =
@@ -171,7 +171,7 @@ arcsLaw (Tracked _ tolerance c) =
         | k <- [0 .. count],
           let u = a + (b - a) * fromIntegral k / fromIntegral count
       ]
-    -- Where it turns sharply the curve may come near twice between two places.
+    -- At a sharp bend the curve may have two minima of the distance between two samples.
     nearest p =
       minimum
         [ closer p (60 :: Int) a b
@@ -181,9 +181,9 @@ arcsLaw (Tracked _ tolerance c) =
                 (sort [(d, wider span' about) | (span', us) <- known, (d, about) <- valleys p us]),
             (_, (a, b)) <- take 3 (sort (valleys p (between 80 about)))
         ]
-    -- In a sharp turn the nearer branch may begin behind the next place.
+    -- In a sharp bend the nearer branch may begin after the next sample.
     wider (from, to) (a, b) = let w = (b - a) / 2 in (max from (a - w), min to (b + w))
-    -- About the places of a span that are nearer than those beside them.
+    -- Neighbourhoods of the samples of a span that are nearer than both of their neighbours.
     valleys p us =
       let ds = [(away p q, u) | (u, q) <- us]
        in [ (m, (a, b))

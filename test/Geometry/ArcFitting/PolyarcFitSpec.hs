@@ -1,4 +1,4 @@
--- | The laws of biarcs along chains of lines and arcs.
+-- | Laws of arc fitting on polyarcs.
 module Geometry.ArcFitting.PolyarcFitSpec (spec) where
 
 import Base.Quantity (Mm (..), Rad (..))
@@ -61,7 +61,7 @@ spec =
                 cover 20 (2 * n < length pieces) "many for one" $
                   cover 5 (n > length pieces) "one for many" True
 
--- | What the chain is, the tolerance in mm, the chain.
+-- | Kind of the test polyarc, tolerance in mm, and polyarc.
 data Tracked = Tracked String Double (NonEmpty Segment)
 
 instance Show Tracked where
@@ -74,7 +74,7 @@ tracked = oneof [splined, bent, through, polygon]
     tolerance = (10 **) <$> choose (-4, -0.5)
     points =
       choose (3, 9) >>= \n -> vectorOf n (Vec.point <$> choose (-40, 40) <*> choose (-40, 40))
-    -- What stands for a spline, from fine to rough.
+    -- Arc approximation of a spline, from fine to coarse.
     splined = do
       ps <- points
       fine <- (10 **) <$> choose (-5, -2)
@@ -83,7 +83,7 @@ tracked = oneof [splined, bent, through, polygon]
         Right c ->
           (\t -> Tracked "splined" t (sconcat (ParametricFit.approximate (Mm fine) (Part.track c))))
             <$> tolerance
-    -- Lines and arcs that go over into one another.
+    -- Lines and arcs in tangent contact.
     bent = do
       bends <-
         resize
@@ -127,7 +127,8 @@ tracked = oneof [splined, bent, through, polygon]
             )
         )
         <$> tolerance
-    -- Chords of a circle, smooth enough or with corners; a real corner in between.
+    -- Chords of a circle, with kinks below or above the limit of a corner, and one clear corner
+    -- between.
     polygon = do
       n <- choose (5, 60)
       turn <- elements [4e-4, 9e-4, 0.01]
@@ -172,7 +173,7 @@ chainLaw t@(Tracked _ tolerance pieces) = near tolerance (toList pieces) (arcsOf
 arcsLaw :: Tracked -> Property
 arcsLaw t@(Tracked _ tolerance pieces) = near (tolerance + 1e-9) (arcsOf t) (toList pieces)
 
--- | Points of some segments, and their distance from others.
+-- | Points of some segments are within a distance of others.
 near :: Double -> [Segment] -> [Segment] -> Property
 near tolerance ss others =
   forAll (vectorOf 60 ((,) <$> choose (0, length ss - 1) <*> choose (0, 1))) $ \picks ->
@@ -206,7 +207,7 @@ keptLaw t@(Tracked _ _ pieces) =
       | s <- smoothedOf t
     ]
   where
-    -- Of an arc that stands for several, the first one begins it and is of its circle.
+    -- A merged arc starts where the first of its arcs does, and lies on its circle.
     begins s p = Segment.start p == Segment.start s && centreOf p == centreOf s
     centreOf s = case s of
       Arc {centre} -> Just centre
@@ -215,13 +216,13 @@ keptLaw t@(Tracked _ _ pieces) =
 smoothedOf :: Tracked -> [Segment]
 smoothedOf (Tracked _ tolerance pieces) = toList (PolyarcFit.smoothed (Mm tolerance) pieces)
 
--- | Whether a chain has no kinks but corners.
+-- | True if a polyarc has kinks at corners only.
 smoothAlready :: Tracked -> Bool
 smoothAlready (Tracked _ _ pieces) = all (\k -> k <= 1e-7 || k > 1e-3) (turnsOf (toList pieces))
 
--- | Whether a kink that is no corner takes from half to all of the tolerance by itself. An arc
--- across it then has hardly a choice where to lie, and whether one is found that is near for
--- certain is a matter of luck.
+-- | True if a kink that is no corner takes up between half and all of the tolerance. An arc
+-- across it then has hardly any freedom, and whether the fit finds one within the bound is
+-- chance.
 tight :: Tracked -> Bool
 tight (Tracked _ tolerance pieces) =
   or
@@ -262,7 +263,7 @@ fewLaw t@(Tracked _ tolerance pieces) =
                )
         )
   where
-    -- Arcs of more are looked at in parts.
+    -- Arcs of more than half a turn are handled in parts.
     sweepOf s = case s of
       Straight _ _ -> 0
       Arc {sweep = Rad a} -> abs a

@@ -1,4 +1,4 @@
--- | The laws of the cubics that stand for a curve.
+-- | Laws of the cubic approximation of curves.
 module Geometry.Curve.CubicSpansSpec (spec) where
 
 import Base.Quantity (Mm (..))
@@ -40,7 +40,7 @@ spec =
 shifted :: Gen Curve
 shifted = Generate.layered 2 Generate.smooth `suchThat` (isNothing . Cusp.fold)
 
--- | The cubics of its halves are less near than the whole lets expect.
+-- | Curve on which the halves of an interval deviate more than the whole interval lets expect.
 shallow :: Curve
 shallow =
   Curve.shifted
@@ -63,8 +63,8 @@ nearWhere :: [Double] -> Curve -> Double -> Property
 nearWhere fs c tolerance = case placesOf tolerance c of
   Nothing -> classify True "stands still" True
   Just (n, place) ->
-    -- Each span by itself: where a shift has torn the curve, what is near on the one hides what is
-    -- nearer on the other.
+    -- Compares span by span: where a shift has opened a corner, a point near one span may hide that
+    -- the other span is far off.
     let known =
           [ [(w, place i w) | k <- [0 .. 16 :: Int], let w = fromIntegral i + fromIntegral k / 16]
             | i <- [0 .. n - 1]
@@ -125,7 +125,7 @@ joinedLaw c = case placesOf 1e-6 c of
   where
     torn u = away (Curve.placeFrom Curve.Before c u) (Curve.placeFrom Curve.After c u) > 1e-6
 
--- | How many spans there are, and the place on one of them by the spans.
+-- | Count of spans, and the point on one of them by the cubics.
 placesOf :: Double -> Curve -> Maybe (Int, Int -> Double -> Point)
 placesOf tolerance c = case Curve.cubics (Mm tolerance) c of
   Nothing -> Nothing

@@ -1,4 +1,4 @@
--- | The law of exact crossings.
+-- | Law of exact intersections.
 module Geometry.Curve.IntersectionSpec (spec) where
 
 import Base.Quantity (Mm (..), Rad (..))

@@ -1,5 +1,6 @@
--- | The laws of curves through a table. Each says which bug it would catch. What is best is found
--- here by trying every way to split a table, and every piece by narrowing down its one free number.
+-- | Laws of sections through a table. Each names the bug that it catches. The tests find the
+-- optimum by trying all splits of a table, and every section by golden-section search of its
+-- one free number.
 module Geometry.Curve.SectionFitSpec (spec) where
 
 import Base.Quantity (Mm (..), Rad (..))
@@ -176,7 +177,7 @@ tableOf ps = case Section.table ps of
 
 -- Random tables ---------------------------------------------------------------------------------
 
--- | Rows and a tolerance.
+-- | Rows and a tolerance in mm.
 data Case = Case [Point] Double
   deriving stock (Show)
 
@@ -185,7 +186,8 @@ kinds = do
   some <- sublistOf [LineKind, ParabolaKind, ArcKind]
   pure (fromMaybe everyKind (NonEmpty.nonEmpty some))
 
--- | Rows of a curve that is nearly made of a few pieces, x rising or falling, some steep.
+-- | Rows of a curve that nearly consists of a few sections; x rises or falls, and some sections
+-- are steep.
 tabled :: Int -> Int -> Gen Case
 tabled low high = do
   n <- choose (low, high)
@@ -195,8 +197,8 @@ tabled low high = do
   steep <- elements [0.1, 1, 5]
   f <- oneof [wave, bow, bow, broken]
   back <- arbitrary
-  -- Often the rows are just as rough as is allowed: then a longer piece can do what a shorter one
-  -- does not.
+  -- The noise is often as large as the tolerance. Then a longer section can succeed where a shorter
+  -- one fails.
   tolerance <-
     oneof [elements [0.003, 0.03, 0.1, 0.3, 2], max 0.003 . (noise *) <$> choose (0.6, 1.5)]
   let xs = scanl1 (+) steps
@@ -249,7 +251,7 @@ withinLaw ks c@(Case ps tolerance) =
     near p =
       let off = maximum [abs (equation p (Vec.x q) - Vec.y q) | q <- rowsOf p]
        in counterexample (show (p, off)) (off <= tolerance + 1e-6 && abs (off - worst p) < 1e-6)
-    -- The segment of a line or an arc lies on its equation.
+    -- Points on the segment of a line or an arc satisfy its equation.
     onSegment p = case Section.segment p of
       Nothing -> Section.kind (curve p) === ParabolaKind
       Just s ->
@@ -272,7 +274,7 @@ withinLaw ks c@(Case ps tolerance) =
             )
       _ -> 1
 
--- | y of a piece from its equation; of the circle, the branch that the arc is on.
+-- | y of a section from its equation; for a circle, on the branch of the arc.
 equation :: Section -> Double -> Double
 equation p x = case Section.formula p of
   Polynomial a b c -> (a * x + b) * x + c
@@ -283,7 +285,7 @@ equation p x = case Section.formula p of
           _ -> True
      in if r > 1e5 then Section.height p x else if above then Vec.y m + h else Vec.y m - h
 
--- | All splits of a small table, each piece by each kind.
+-- | Comparison with all splits of a small table, with every kind for each section.
 bestLaw :: NonEmpty SectionKind -> Case -> Property
 bestLaw ks c@(Case ps tolerance) =
   counterexample
@@ -300,10 +302,10 @@ bestLaw ks c@(Case ps tolerance) =
       minimum
         [maximum (map (\(_, _, ds) -> minimum (map snd ds)) s) | s <- splits, length s == fewest]
 
--- | No split has simpler pieces in sum that keep the largest deviation. What is best is known here
--- to 1e-5: of splits that may be the better ones by less than that the simplest counts, and against
--- what was found only those that surely are as good, since they have the piece that deviates most,
--- and nothing else comes near it.
+-- | No split keeps the largest deviation with a smaller sum of ranks. The optimum is known to
+-- 1e-5 only. Of splits that may be better by less than that, the simplest counts. It is
+-- compared only with splits that are certainly as good: they contain the section with the
+-- largest deviation, and no other section comes close to it.
 simplestLaw :: NonEmpty SectionKind -> Case -> Property
 simplestLaw ks c@(Case ps tolerance) =
   counterexample
@@ -347,7 +349,7 @@ allSplits ks tolerance ps = from' 0
       | otherwise =
         [(k, d) | k <- nub (sort (toList ks)), let d = narrowed k rows, d <= tolerance + 1e-9]
 
--- | The least largest deviation of a kind through the end rows.
+-- | Least possible largest deviation of a kind of section through the end rows.
 narrowed :: SectionKind -> [Point] -> Double
 narrowed k rows = case k of
   LineKind -> largestOf (const 0)
@@ -365,7 +367,7 @@ narrowed k rows = case k of
           | q <- drop 1 (take (length rows - 1) rows)
         ]
     limit = pi / 2 - atan (abs ((y2 - y1) / (x2 - x1)))
-    -- From the line up to the circle whose ends lean by t to the chord.
+    -- From the line to the circle whose ends make the angle t with the chord.
     bulge t x
       | abs t < 1e-6 =
         let m = (y2 - y1) / (x2 - x1) in t * (x - x1) * (x2 - x) * (1 + m * m) / abs (x2 - x1)
@@ -379,7 +381,7 @@ narrowed k rows = case k of
             (mx, my) = ((x1 + x2) / 2 - s * down * nx, (y1 + y2) / 2 - s * down * ny)
          in my + s * sqrt (max 0 (r * r - (x - mx) * (x - mx))) - lineAt x
 
--- | The least value of a function with one valley.
+-- | Minimum of a unimodal function by golden-section search.
 golden :: Double -> Double -> (Double -> Double) -> Double
 golden low high f = go (120 :: Int) low high
   where

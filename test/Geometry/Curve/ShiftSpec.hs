@@ -1,4 +1,4 @@
--- | The laws of shifts: where they move a curve, how they follow one another, and where they do not
+-- | Laws of shifts: where they move a curve, how several of them combine, and where they do not
 -- fit.
 module Geometry.Curve.ShiftSpec (spec) where
 
@@ -146,7 +146,7 @@ spec = do
         forAll (Generate.layered 2 Generate.gentle) $ \c ->
           forAll (choose (0.05, 0.95)) $ \share ->
             forAll (elements (inner c) `suchThat` \(a, b) -> b - a > 0.01) $ \(a, b) ->
-              -- On a shorter stretch three places do not tell.
+              -- On shorter stretches, rounding dominates the circle through three points.
               let u = a + (b - a) * share
                   e = 1e-3 * (b - a)
                   k = throughThree (Curve.at c (u - e)) (Curve.at c u) (Curve.at c (u + e))
@@ -362,33 +362,34 @@ spec = do
 
 -- Helpers -----------------------------------------------------------------------------------
 
--- | From a place of a curve to that of its shift.
+-- | Displacement from a point of a curve to the point of its shift.
 along :: Curve -> Double -> Curve -> Vec
 along c u s = Vec.to (Curve.at c u) (Curve.at s u)
 
--- | A column of one value.
+-- | Column with one constant value.
 constantly :: Double -> Curve -> Curve.Column
 constantly v c = Curve.column c (Exts.fromList (map (const v) (toList (Base.rows (Curve.base c)))))
 
--- | The two distances give one curve.
+-- | Law that two distances give the same shifted curve.
 sameShift :: Curve -> Distance -> Distance -> Property
 sameShift c d e = forAll (elements [LeftOf, RightOf]) $ \side -> forAll Generate.parameter $ \t ->
   let u =
         Generate.parameterOf c t
    in close 1e-9 (Curve.at (Curve.shifted side d c) u) (Curve.at (Curve.shifted side e c) u)
 
--- | Shares of the radius of curvature that fit, in sum too.
+-- | Shares of the radius of curvature that fit, also when added.
 share' :: Gen Double
 share' = choose (-0.4, 0.4)
 
--- | The stretches without a change of formula: on chains, columns change theirs at the rows.
+-- | Stretches without a change of formula. On curves of lines and arcs, columns change theirs at
+-- the rows.
 inner :: Curve -> [(Double, Double)]
 inner c =
   let bs =
         nubOrd (sort (Curve.breaks c <> map Base.at (toList (Base.rows (Curve.base c)))))
    in filter (\(a, b) -> b - a > 1e-6) (zip bs (drop 1 bs))
 
--- | First and second derivatives by differences of two widths, and what they tend to.
+-- | First and second derivatives, against Richardson extrapolation of two differences.
 derivativesLaw :: Curve -> Double -> Double -> Property
 derivativesLaw c u e =
   alike (1e-4 * (1 + Vec.norm first)) first byFirst
@@ -411,13 +412,14 @@ derivativesLaw c u e =
         )
     refined f = Vec.add (Vec.scale (4 / 3) (f (e / 2))) (Vec.scale (-1 / 3) (f e))
 
--- | The curvature of the circle through three points, positive to the left.
+-- | Curvature of the circle through three points, positive to the left.
 throughThree :: Point -> Point -> Point -> Double
 throughThree p q r = 2 * Vec.cross (Vec.to p q) (Vec.to q r) / (norm p q * norm q r * norm p r)
   where
     norm s t = Vec.norm (Vec.to s t)
 
--- | Constant, bevelled, growing, against each step with a normal by differences of the one before.
+-- | Constant, bevelled and growing shifts in sequence, each against a normal that is computed
+-- from differences of the curve before.
 sequenceLaw :: Curve -> Curve.Column -> Curve.Column -> Double -> Property
 sequenceLaw c mu h u = close 1e-4 (Curve.at third u) byHand
   where
@@ -443,7 +445,7 @@ sequenceLaw c mu h u = close 1e-4 (Curve.at third u) byHand
     byHand =
       step second grown (step first (-(value h * tan (value mu) + 0.2)) (step c 0.5 (Curve.at c u)))
 
--- | The length between two parameters by chords, twice, and what they tend to.
+-- | Arc length between two parameters: Richardson extrapolation of two chord sums.
 chordSum :: Curve -> Double -> Double -> Double
 chordSum c from' to' =
   sum [stretch (max a from') (min b to') | (a, b) <- inner c, a < to', b > from']
@@ -456,7 +458,7 @@ chordSum c from' to' =
               else Curve.at c (a + (b - a) * fromIntegral k / fromIntegral n)
        in sum [mm (Vec.distance (place' k) (place' (k + 1))) | k <- [0 .. n - 1 :: Int]]
 
--- | A line, an arc and a line that touch.
+-- | Line, arc and line in tangent contact.
 touching :: Gen Curve
 touching = do
   r <- choose (10, 40)

@@ -1,58 +1,57 @@
--- | Biarcs in plain numbers, without angles: what "Geometry.ArcFitting.Biarc" makes of two ends
--- whose directions lean to the chord by less than a quarter turn, for loops that try many.
+-- | Biarcs on plain numbers, without angles, for loops that try many. They equal those of
+-- "Geometry.ArcFitting.Biarc" where both end directions make an angle of less than a quarter
+-- turn with the chord.
 --
--- With the notation of that module: the half angles come from the cosines by roots, @e^{iγ/2}@ is
--- the conjugate of
--- @w/|w|@, and an arc over a chord c that turns by 2φ has the curvature @2·sin φ/c@ and the bulge
---  @tan(φ/2)@.
+-- In the notation of that module, square roots of cosines give the half angles, and @e^{iγ/2}@ is
+-- the conjugate of @w/|w|@. An arc with the chord c and the sweep 2φ has the curvature @2·sin φ/c@
+-- and the bulge @tan(φ/2)@.
 module Geometry.ArcFitting.Biarc.Fast
   ( Pose (..),
     FastBiarc (..),
-    joined,
+    biarc,
     Biarcs,
     between,
-    among,
+    withRatio,
     FastArc (..),
-    frame,
-    forwards,
+    fastArc,
+    isForwards,
   )
 where
 
 import Base.Quantity (Mm (..), Rad (..))
 import Geometry.Tolerance qualified as Tolerance
 
--- | A place in mm and a direction of length 1.
+-- | Position in mm and unit direction.
 data Pose = Pose {px :: Double, py :: Double, dx :: Double, dy :: Double}
 
--- | Two arcs that go over into one another at a joint.
+-- | Two arcs with a common tangent at the joint.
 data FastBiarc = FastBiarc
-  { -- | one line or arc is enough: the first one, up to the end
+  { -- | True if one line or arc suffices: the first one, which then ends at the end pose
     single :: Bool,
-    -- | in 1/mm, positive to the left
+    -- | curvature of the first arc in 1/mm, positive to the left
     bend1 :: Double,
-    -- | the tangent of a quarter of what it turns by
+    -- | tangent of a quarter of the first arc's sweep
     bulge1 :: Double,
     joint :: {-# UNPACK #-} Pose,
     bend2 :: Double,
     bulge2 :: Double
   }
 
--- | The biarc from one pose to another, its second chord so many times as long as
--- 'Geometry.ArcFitting.Biarc.join' has it. Its numbers are no numbers where an end leans to the
--- chord by a quarter turn or more, or where the ends are one point.
-joined :: Double -> Pose -> Pose -> FastBiarc
-joined times from end = among times (between from end)
-{-# INLINE joined #-}
+-- | Biarc from one pose to another. The ratio of its chords is that of
+-- 'Geometry.ArcFitting.Biarc.join', times a factor. The result is NaN where an end direction
+-- makes a quarter turn or more with the chord, and where the ends coincide.
+biarc :: Double -> Pose -> Pose -> FastBiarc
+biarc times from end = withRatio times (between from end)
+{-# INLINE biarc #-}
 
--- | All biarcs from one pose to another.
+-- | Family of all biarcs from one pose to another.
 data Biarcs
-  = -- | the only one
+  = -- | one line or arc for every ratio
     Only FastBiarc
-  | -- its direction; the cosines and sines of half the angles of the ends from it, and the sines of
-    -- the whole ones; the ratio of 'Geometry.ArcFitting.Biarc.join'
-
-    -- | what those have in common that differ by the ratio of their chords: where they begin; the
-    -- way between, its length and
+  | -- | data shared by biarcs with different chord ratios: the start; the chord as a vector, its
+    -- length and its direction; cosine and sine of half the angle from the chord at the start
+    -- (a) and at the end (b); the sines of the whole angles; the ratio of
+    -- 'Geometry.ArcFitting.Biarc.join'
     Biarcs
       { x0 :: Double,
         y0 :: Double,
@@ -70,7 +69,7 @@ data Biarcs
         chords :: Double
       }
 
--- | All from one pose to another.
+-- | Family of biarcs from one pose to another.
 between :: Pose -> Pose -> Biarcs
 between (Pose x0 y0 sx sy) final@(Pose x1 y1 ex ey)
   | not (l > coincident && cosA > 0 && cosB > 0) =
@@ -107,7 +106,7 @@ between (Pose x0 y0 sx sy) final@(Pose x1 y1 ex ey)
     sinA = ux * sy - uy * sx
     cosB = ux * ex + uy * ey
     sinB = ux * ey - uy * ex
-    -- Half of the angles from the chord.
+    -- Half angles from the chord.
     ca = sqrt (0.5 + 0.5 * cosA)
     sa = sinA / (2 * ca)
     cb = sqrt (0.5 + 0.5 * cosB)
@@ -116,9 +115,9 @@ between (Pose x0 y0 sx sy) final@(Pose x1 y1 ex ey)
     Rad straight = Tolerance.straight
     Rad oneArc = Tolerance.oneArc
 
--- | The one whose second chord is so many times as long as 'Geometry.ArcFitting.Biarc.join' has it.
-among :: Double -> Biarcs -> FastBiarc
-among times biarcs = case biarcs of
+-- | Biarc whose chord ratio is that of 'Geometry.ArcFitting.Biarc.join', times a factor.
+withRatio :: Double -> Biarcs -> FastBiarc
+withRatio times biarcs = case biarcs of
   Only pair -> pair
   Biarcs {x0, y0, cx, cy, l, ux, uy, ca, sa, cb, sb, sinA, sinB, chords} ->
     FastBiarc
@@ -130,16 +129,16 @@ among times biarcs = case biarcs of
         bulge2 = bulge s2 c2
       }
     where
-      usual = times * chords
-      -- An arc that turns by next to nothing is put as a line; the ratio with which it is one
-      -- leaves no kink.
+      defaultRatio = times * chords
+      -- An arc with a negligible sweep is output as a line. Its ratio is replaced by the one for
+      -- which it is exactly a line, so that no kink results.
       r
-        | abs ((sa + usual * sb) * ca + (ca + usual * cb) * sa) <= hardly = near (-(sinA / halved))
-        | abs ((ca + usual * cb) * sb + (sa + usual * sb) * cb) <= hardly = near (-(halved / sinB))
-        | otherwise = usual
-      halved = sa * cb + ca * sb
-      hardly = 0.5 * straight * (1 + usual)
-      near exact = if 0.5 * usual < exact && exact < 2 * usual then exact else usual
+        | abs ((sa + defaultRatio * sb) * ca + (ca + defaultRatio * cb) * sa) <= negligible = near (-(sinA / halfSum))
+        | abs ((ca + defaultRatio * cb) * sb + (sa + defaultRatio * sb) * cb) <= negligible = near (-(halfSum / sinB))
+        | otherwise = defaultRatio
+      halfSum = sa * cb + ca * sb
+      negligible = 0.5 * straight * (1 + defaultRatio)
+      near exact = if 0.5 * defaultRatio < exact && exact < 2 * defaultRatio then exact else defaultRatio
       wr = ca + r * cb
       wi = sa + r * sb
       square = wr * wr + wi * wi
@@ -147,7 +146,7 @@ among times biarcs = case biarcs of
       -- Half of the angle to the joint's direction.
       cg = wr / size
       sg = -(wi / size)
-      -- Half of what the arcs turn by.
+      -- Half sweeps of the arcs.
       s1 = sg * ca - cg * sa
       c1 = cg * ca + sg * sa
       s2 = sb * cg - cb * sg
@@ -167,27 +166,26 @@ among times biarcs = case biarcs of
   where
     Rad straight = Tolerance.straight
 
--- | The ratio of the chords, as 'Geometry.ArcFitting.Biarc.ratio' chooses it: 1 unless a curve that
--- bends to one side leans more than twice as much at one of its ends as at the other.
+-- | Chord ratio as in 'Geometry.ArcFitting.Biarc.ratio': 1, except where both angles have
+-- opposite signs and one is more than twice the other.
 ratio :: Double -> Double -> Double -> Double -> Double
 ratio sinA cosA sinB cosB
   | sinA * sinB >= 0
       || abs sinA <= near * abs sinB && abs sinB <= near * abs sinA
-      || held == gamma =
+      || limited == gamma =
     1
-  | otherwise = max 0.25 (min 4 (-(sin ((alpha + held) / 2) / sin ((held + beta) / 2))))
+  | otherwise = max 0.25 (min 4 (-(sin ((alpha + limited) / 2) / sin ((limited + beta) / 2))))
   where
     alpha = atan2 sinA cosA
     beta = atan2 sinB cosB
     gamma = -((alpha + beta) / 2)
-    held = max (min alpha beta / 2) (min (max alpha beta / 2) gamma)
-    -- Sines that differ by no more are of angles below a quarter turn that differ by less than the
-    -- factor 2.
+    limited = max (min alpha beta / 2) (min (max alpha beta / 2) gamma)
+    -- If neither sine exceeds the other by more than this factor, the angles (below a quarter turn)
+    -- differ by less than the factor 2.
     near = 1.4
 {-# NOINLINE ratio #-}
 
--- | An arc: where it begins, its curvature, where it ends, and the cosine and the sine of what it
--- turns by.
+-- | Arc with its start, its curvature, its end, and the cosine and sine of its sweep.
 data FastArc = FastArc
   { origin :: {-# UNPACK #-} Pose,
     bend :: Double,
@@ -196,9 +194,9 @@ data FastArc = FastArc
     sine :: Double
   }
 
--- | From its beginning, its curvature in 1/mm and its end.
-frame :: Pose -> Double -> Pose -> FastArc
-frame origin bend limit =
+-- | Arc from its start, its curvature in 1/mm and its end.
+fastArc :: Pose -> Double -> Pose -> FastArc
+fastArc origin bend limit =
   FastArc
     { origin,
       bend,
@@ -206,9 +204,9 @@ frame origin bend limit =
       cosine = dx origin * dx limit + dy origin * dy limit,
       sine = dx origin * dy limit - dy origin * dx limit
     }
-{-# INLINE frame #-}
+{-# INLINE fastArc #-}
 
--- | Whether an arc turns by less than a quarter turn.
-forwards :: FastArc -> Bool
-forwards f = cosine f > 0
-{-# INLINE forwards #-}
+-- | True if an arc sweeps less than a quarter turn.
+isForwards :: FastArc -> Bool
+isForwards f = cosine f > 0
+{-# INLINE isForwards #-}
