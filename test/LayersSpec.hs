@@ -1,15 +1,15 @@
--- | The layers of the program, and a reader of imports that holds every module to them.
+-- | The layers of the program, and the form of its code.
 --
--- The table below is the whole rule. A folder of @src@ is a layer; so is a module that
--- stands alone at the top of @src@. A module may import its own layer, the layers that its
--- row names, and whatever those may import.
+-- The table below is the whole rule on imports. A folder of @src@ is a layer; so is a module at
+-- the top of @src@. A module may import its own layer, the layers that its row names, and whatever
+-- those may import. The rules on form are in "Form".
 module LayersSpec
   ( spec,
   )
 where
 
+import Control.Monad (filterM)
 import Data.ByteString qualified as ByteString
-import Data.Char (isAlpha, isAlphaNum, isAscii, isPunctuation, isSpace, isSymbol)
 import Data.List (sort)
 import Data.Map.Strict (Map)
 import Data.Map.Strict qualified as Map
@@ -19,7 +19,9 @@ import Data.Set qualified as Set
 import Data.Text (Text)
 import Data.Text qualified as Text
 import Data.Text.Encoding qualified as Encoding
-import System.Directory (doesDirectoryExist, listDirectory)
+import Form (Source (..), exceptions, moduleName, problems, sentence, sharedTypes)
+import HaskellSource
+import System.Directory (doesDirectoryExist, doesFileExist, listDirectory)
 import System.FilePath (dropExtension, splitDirectories, takeExtension, (</>))
 import Test.Hspec
 
@@ -104,14 +106,24 @@ impure =
 pureAfterAll :: [Text]
 pureAfterAll = ["System.Console.ANSI.Codes", "System.Console.ANSI.Types", "System.FilePath"]
 
--- | The most lines that a module may have.
-longest :: Int
-longest = 600
+-- | The modules that hold the data of a stage, each with the modules of its own folder that it may
+-- import: further data, and no pass.
+stageData :: Map Text [Text]
+stageData =
+  Map.fromList
+    [ ("Report.Report", []),
+      ("Surface.Syntax", ["Surface.Token"]),
+      ("Checked.Syntax", ["Checked.Dimension"]),
+      ("Part.Part", ["Part.Curve", "Part.Link"]),
+      ("Sheet.Sheet", []),
+      ("Toolpath.Toolpath", []),
+      ("Machine.Machine", []),
+      ("Frame.Frame", []),
+      ("Tape.Tape", []),
+      ("Verify.Proof", [])
+    ]
 
 -- The check ---------------------------------------------------------------------------------
-
--- | A file as found: its path from the root of the project, and its text.
-data Source = Source FilePath Text
 
 data Fault = Fault FilePath Problem
   deriving stock (Eq, Ord, Show)
@@ -125,8 +137,6 @@ data Problem
     Impure Text
   | -- | The module does not say what it exports.
     Unlisted
-  | -- | The module has so many lines.
-    TooLong Int
   deriving stock (Eq, Ord, Show)
 
 -- | Everything wrong with these files under this table.
@@ -141,7 +151,6 @@ check layers sources = concatMap faults sources
       Fault path
         <$> concat
           [ [Unlisted | not (listsExports tokens)],
-            [TooLong count | let count = length (Text.lines text), count > longest],
             maybe [Unplaced] (edges path (imports tokens)) (layerOf layers path)
           ]
       where
@@ -156,6 +165,19 @@ check layers sources = concatMap faults sources
         | name `elem` Map.findWithDefault [] (moduleName path) sanctioned -> Nothing
         | otherwise -> Just (Impure name)
 
+-- | The imports by which a stage's data would depend on a module of its own folder that is not in
+-- the table: the data, the module.
+passesOfData :: Map Text [Text] -> [Source] -> [(Text, Text)]
+passesOfData table' sources =
+  [ (name, other)
+    | Source path text <- sources,
+      let name = moduleName path,
+      Just allowed <- [Map.lookup name table'],
+      other <- imports (tokenise text),
+      Text.takeWhile (/= '.') other == Text.takeWhile (/= '.') name,
+      other `notElem` allowed
+  ]
+
 -- | The layer that a path belongs to, when the table has one of that name and shape.
 layerOf :: [Layer] -> FilePath -> Maybe Text
 layerOf layers path = case splitDirectories (dropExtension path) of
@@ -167,11 +189,6 @@ layerOf layers path = case splitDirectories (dropExtension path) of
     placed shape name
       | or [shape == shape' && name == name' | Layer shape' name' _ <- layers] = Just name
       | otherwise = Nothing
-
--- | The name that a file's path gives to its module.
-moduleName :: FilePath -> Text
-moduleName path =
-  Text.intercalate "." (map Text.pack (drop 1 (splitDirectories (dropExtension path))))
 
 -- | For every layer, all it may import, itself left out.
 reachable :: [Layer] -> Map Text (Set Text)
@@ -205,111 +222,31 @@ render (Fault path problem) = path <> ": " <> Text.unpack (say problem)
       home <> " may not import " <> other <> " (here " <> name <> ")"
     say (Impure name) = "a pure module may not import " <> name
     say Unlisted = "has no export list"
-    say (TooLong count) =
-      "has " <> Text.pack (show count) <> " lines; at most " <> Text.pack (show longest)
-
--- The reader --------------------------------------------------------------------------------
-
--- | As much of Haskell's lexical grammar as finding imports asks for. Comments, pragmas
--- and character literals leave no token.
-data Token
-  = -- | A keyword, a name or a qualified name; a number too.
-    Word Text
-  | -- | A string literal, its content dropped.
-    Literal
-  | -- | An operator, or one bracket, comma or other mark.
-    Mark Text
-  deriving stock (Eq, Show)
-
-tokenise :: Text -> [Token]
-tokenise source = case Text.uncons source of
-  Nothing -> []
-  Just (c, rest)
-    | isSpace c -> tokenise (Text.dropWhile isSpace rest)
-    | "{-" `Text.isPrefixOf` source -> tokenise (afterComment (Text.drop 2 source))
-    | c == '"' -> Literal : tokenise (afterString rest)
-    | c == '\'' -> tokenise (afterQuote rest)
-    | isOperatorChar c -> case Text.span isOperatorChar source of
-      (operator, next)
-        | isDashes operator -> tokenise (Text.dropWhile (/= '\n') next)
-        | otherwise -> Mark operator : tokenise next
-    | isWordChar c ->
-      let word = Text.dropWhileEnd (== '.') (Text.takeWhile isWordChar source)
-       in Word word : tokenise (Text.drop (Text.length word) source)
-    | otherwise -> Mark (Text.singleton c) : tokenise rest
-  where
-    isDashes operator = Text.length operator >= 2 && Text.all (== '-') operator
-
--- | What follows the end of a block comment whose opening has been read. Such comments nest.
-afterComment :: Text -> Text
-afterComment = go (1 :: Int)
-  where
-    go 0 text = text
-    go depth text
-      | Text.null text = text
-      | "{-" `Text.isPrefixOf` text = go (depth + 1) (Text.drop 2 text)
-      | "-}" `Text.isPrefixOf` text = go (depth - 1) (Text.drop 2 text)
-      | otherwise = go depth (Text.drop 1 text)
-
--- | What follows the end of a string literal whose opening quote has been read.
-afterString :: Text -> Text
-afterString text = case Text.unpack (Text.take 2 unremarkable) of
-  '\\' : '^' : _ -> afterString (Text.drop 3 unremarkable)
-  '\\' : c : _
-    | isSpace c ->
-      afterString (Text.drop 1 (Text.dropWhile isSpace (Text.drop 1 unremarkable)))
-  '\\' : _ -> afterString (Text.drop 2 unremarkable)
-  _ -> Text.drop 1 unremarkable
-  where
-    unremarkable = Text.dropWhile (`notElem` ("\\\"" :: String)) text
-
--- | What follows a character literal whose opening quote has been read. A quote that opens
--- none marks a promoted name and is passed over.
-afterQuote :: Text -> Text
-afterQuote text = case Text.unpack (Text.take 2 text) of
-  '\\' : _ -> Text.drop 1 (Text.dropWhile (/= '\'') (Text.drop 2 text))
-  [_, '\''] -> Text.drop 2 text
-  _ -> text
-
-isWordChar :: Char -> Bool
-isWordChar c = isAlphaNum c || c `elem` ("_'." :: String)
-
-isOperatorChar :: Char -> Bool
-isOperatorChar c
-  | isAscii c = c `elem` ("!#$%&*+./<=>?@\\^|-~:" :: String)
-  | otherwise = isSymbol c || isPunctuation c
-
--- | The modules that a module imports, in its order.
-imports :: [Token] -> [Text]
-imports tokens = case tokens of
-  Word "foreign" : Word "import" : rest -> imports rest
-  Word "import" : rest -> case dropWhile isModifier rest of
-    Word name : rest' | isModuleName name -> name : imports rest'
-    rest' -> imports rest'
-  _ : rest -> imports rest
-  [] -> []
-  where
-    isModifier token = token `elem` [Word "qualified", Word "safe", Literal]
-    isModuleName = Text.any isAlpha
-
--- | Whether the header names the exports one by one.
-listsExports :: [Token] -> Bool
-listsExports tokens = case dropWhile (/= Word "module") tokens of
-  Word "module" : Word _ : Mark "(" : _ -> True
-  _ -> False
 
 -- The specification -------------------------------------------------------------------------
 
 spec :: Spec
 spec = do
   describe "this program" $ do
-    sources <- runIO readSources
+    sources <- runIO (readSources ["src", "app"])
     it "has modules to look at" $
       map (\(Source path _) -> path) sources `shouldSatisfy` elem ("app" </> "Main.hs")
     it "keeps to its layers" $
       case check table sources of
         [] -> pure ()
         faults -> expectationFailure (unlines (map render faults))
+    it "keeps the rules on form" $ do
+      everything <- readSources ["src", "app", "test", "bench"]
+      let found = [(path, p) | s@(Source path _) <- everything, p <- problems exceptions s]
+      unlines [path <> ": " <> Text.unpack (sentence p) | (path, p) <- found] `shouldBe` ""
+    it "gives one name to one type" $
+      sharedTypes exceptions sources `shouldBe` []
+    it "keeps the data of every stage free of its passes" $
+      passesOfData stageData sources `shouldBe` []
+    it "explains every folder of src in a README" $ do
+      folders <- filterM doesDirectoryExist . map ("src" </>) =<< listDirectory "src"
+      lacking <- filterM (fmap not . doesFileExist . (</> "README.md")) folders
+      sort lacking `shouldBe` []
 
   describe "the table" $ do
     it "points downwards only" $
@@ -340,6 +277,13 @@ spec = do
                 "Project"
               ]
           )
+
+  describe "the data of a stage" $
+    it "notices an import of a pass" $
+      passesOfData
+        (Map.fromList [("A.Data", ["A.More"])])
+        [good "src/A/Data.hs" ["A.More", "A.FromB", "B.Data"]]
+        `shouldBe` [("A.Data", "A.FromB")]
 
   describe "check" $ do
     it "passes modules that keep the rules" $
@@ -399,81 +343,21 @@ spec = do
         `shouldBe` [Fault "src/Base/Name.hs" Unlisted]
     it "wants a header" $
       faultsOf [Source "app/Main.hs" "main = pure ()\n"] `shouldBe` [Fault "app/Main.hs" Unlisted]
-    it "counts lines" $ do
-      faultsOf [long 600] `shouldBe` []
-      faultsOf [long 601] `shouldBe` [Fault "src/Base/Name.hs" (TooLong 601)]
-
-  describe "imports" $ do
-    it "reads the plain form" $
-      importsOf ["import Data.Text", "import Base.Name (Name)"]
-        `shouldBe` ["Data.Text", "Base.Name"]
-    it "reads qualified before the name" $
-      importsOf ["import qualified Data.Map.Strict as Map"] `shouldBe` ["Data.Map.Strict"]
-    it "reads qualified after the name" $
-      importsOf ["import Data.Map.Strict qualified as Map"] `shouldBe` ["Data.Map.Strict"]
-    it "reads package imports, safe imports and pragmas" $
-      importsOf
-        [ "import \"containers\" Data.Set",
-          "import safe qualified \"text\" Data.Text",
-          "import {-# SOURCE #-} Base.Name"
-        ]
-        `shouldBe` ["Data.Set", "Data.Text", "Base.Name"]
-    it "reads an import over several lines" $
-      importsOf ["import", "  qualified", "  -- why", "  Data.Text", "  as Text"]
-        `shouldBe` ["Data.Text"]
-    it "reads hiding and nested lists" $
-      importsOf ["import Prelude hiding (lookup, (++))", "import A (B (..), (-->))", "import C"]
-        `shouldBe` ["Prelude", "A", "C"]
-    it "reads imports that share a line" $
-      importsOf ["import A; import B"] `shouldBe` ["A", "B"]
-    it "passes over line comments" $
-      importsOf ["-- import A", "--- import B", "import C -- import D"] `shouldBe` ["C"]
-    it "takes an operator with dashes for no comment" $
-      importsOf ["x = a --> b; import A", "y = f.--.g; import B", "import C"]
-        `shouldBe` ["A", "B", "C"]
-    it "passes over block comments, nested ones too" $
-      importsOf ["{- import A {- import B -} import C -}", "import D"] `shouldBe` ["D"]
-    it "passes over strings" $
-      importsOf
-        ["x = \"import A \\\" import B\"", "y = \"{-\"", "z = \"\\", "  \\ import C\"", "import D"]
-        `shouldBe` ["D"]
-    it "passes over character literals and primes" $
-      importsOf ["q = ['\"', '\\'', '\\\\', '\\x41']", "f' = foldl' import' 'A", "import D"]
-        `shouldBe` ["D"]
-    it "passes over foreign imports" $
-      importsOf ["foreign import ccall \"math.h sin\" sine :: Double -> Double", "import A"]
-        `shouldBe` ["A"]
-
-  describe "listsExports" $ do
-    it "sees a list" $
-      listed "module A (b) where" `shouldBe` True
-    it "sees a list after comments and pragmas" $
-      listed
-        "{-# LANGUAGE CPP #-}\n-- | module B where\nmodule A\n  ( -- * Section\n    b,\n  )\nwhere"
-        `shouldBe` True
-    it "sees that there is none" $
-      listed "module A where\nf (x) = x" `shouldBe` False
   where
     faultsOf = check table
-    importsOf = imports . tokenise . Text.unlines
-    listed = listsExports . tokenise
     good path names =
       Source
         path
         ( Text.unlines
             (("module " <> moduleName path <> " (x) where") : ["import " <> name | name <- names])
         )
-    long count =
-      Source
-        "src/Base/Name.hs"
-        (Text.unlines ("module Base.Name (x) where" : replicate (count - 1) "--"))
 
 -- Files -------------------------------------------------------------------------------------
 
--- | All Haskell files of the library and the program. Tests run at the project's root.
-readSources :: IO [Source]
-readSources = do
-  paths <- concat <$> mapM haskellFiles ["src", "app"]
+-- | All Haskell files below some folders of the project. Tests run at its root.
+readSources :: [FilePath] -> IO [Source]
+readSources folders = do
+  paths <- concat <$> mapM haskellFiles folders
   mapM (\path -> Source path . Encoding.decodeUtf8 <$> ByteString.readFile path) (sort paths)
 
 haskellFiles :: FilePath -> IO [FilePath]
