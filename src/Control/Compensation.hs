@@ -1,5 +1,3 @@
-{-# OPTIONS_GHC -O2 #-}
-
 -- | Model of cutter compensation (G41, G42) in the control: the path of the cutter's centre while
 -- the frames describe the edge of the part. The model follows LinuxCNC, whose results were
 -- measured. Without compensation, the centre goes as the frames say.

@@ -1,5 +1,3 @@
-{-# OPTIONS_GHC -O2 #-}
-
 -- | Model of a controller without time: each frame that moves is one motion of the cutter's centre,
 -- on a line or on an arc. Speed, acceleration and pulses in time are not modelled.
 --

@@ -1,5 +1,3 @@
-{-# OPTIONS_GHC -O2 #-}
-
 -- | Arcs in whole pulses: the frames of an exact arc on a machine with circular interpolation.
 --
 -- The ends of an arc are rounded as absolute positions. Its centre becomes the grid point about

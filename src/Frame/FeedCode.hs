@@ -1,5 +1,3 @@
-{-# OPTIONS_GHC -O2 #-}
-
 -- | Feed codes: the code of a frame for a feed, and the feed that a code gives.
 --
 -- On some machines a code is a feed along the path. On others it is a frequency of the leading

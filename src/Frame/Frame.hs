@@ -1,5 +1,4 @@
 {-# LANGUAGE BangPatterns #-}
-{-# OPTIONS_GHC -O2 #-}
 
 -- | Frames: what a controller does at once, in whole pulses along the axes of the part.
 --

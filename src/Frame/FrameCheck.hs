@@ -1,5 +1,3 @@
-{-# OPTIONS_GHC -O2 #-}
-
 -- | Checks of finished frames: feeds that the machine does not have, axes that it lacks, positions
 -- that do not fit their fields. Frames are checked one by one, in order.
 module Frame.FrameCheck

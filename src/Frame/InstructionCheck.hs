@@ -1,5 +1,4 @@
 {-# LANGUAGE BangPatterns #-}
-{-# OPTIONS_GHC -O2 #-}
 
 -- | Checks of instructions before their frames are made: feeds without a code, points out of reach,
 -- too many frames, moves in z that the machine may not have. Instructions are checked one by one,

@@ -30,29 +30,22 @@ data Outcome a = Found Int a | Failed Int [Error]
 -- once, so that no closure is allocated for it.
 steps :: (Int -> Outcome a) -> Eval a
 steps f = Eval (oneShot f)
-{-# INLINE steps #-}
 
 instance Functor Eval where
   fmap f (Eval e) = steps $ \left -> case e left of
     Found left' a -> Found left' (f a)
     Failed left' errors -> Failed left' errors
-  {-# INLINE fmap #-}
   b <$ e = fmap (const b) e
-  {-# INLINE (<$) #-}
 
 instance Applicative Eval where
   pure a = steps (`Found` a)
-  {-# INLINE pure #-}
   e <*> e' = e >>= \f -> fmap f e'
-  {-# INLINE (<*>) #-}
   e *> e' = e >>= const e'
-  {-# INLINE (*>) #-}
 
 instance Monad Eval where
   Eval e >>= f = steps $ \left -> case e left of
     Found left' a -> let Eval e' = f a in e' left'
     Failed left' errors -> Failed left' errors
-  {-# INLINE (>>=) #-}
 
 -- | Runs a computation with a number of steps; yields its result and the steps left.
 run :: Int -> Eval a -> (Either [Error] a, Int)
@@ -83,7 +76,6 @@ gather evals = do
     tried (Eval e) = steps $ \left -> case e left of
       Found left' a -> Found left' (Right a)
       Failed left' errors -> Found left' (Left errors)
-{-# INLINEABLE gather #-}
 
 -- | Runs a computation for each item, even after a failure, and concatenates the results. Fails
 -- with the mistakes of all of them. Takes stack for none of the items, unlike 'gather'.
@@ -113,7 +105,6 @@ spend region wanted = steps $ \left -> case () of
     | left < 0 -> Failed left []
     | wanted > left -> Failed (-1) [Error (TooMuchWork region mostSteps) []]
     | otherwise -> Found (left - wanted) ()
-{-# INLINE spend #-}
 
 -- | The number of steps that a program may take.
 mostSteps :: Int

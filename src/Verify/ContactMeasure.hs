@@ -1,5 +1,3 @@
-{-# OPTIONS_GHC -O2 #-}
-
 -- | Arc length along a contour as a measure of the cutter's progress, and the uncertainty of that
 -- measure.
 --

@@ -1,5 +1,3 @@
-{-# OPTIONS_GHC -O2 #-}
-
 -- | Scan of the motions beside a contour, in the order of the tape. Each motion asks once for the
 -- elements within reach, and all comparisons of single motions are made with them: the gouge, the
 -- distance of a motion along the contour, its side. The scan also collects for each element a fast

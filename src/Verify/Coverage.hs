@@ -1,5 +1,3 @@
-{-# OPTIONS_GHC -O2 #-}
-
 -- | Directed Hausdorff distance from one segment to a set of others: of an element to the motions,
 -- or of a motion to the elements. The distance is exact over the whole segment, to
 -- 'Tolerance.resolution', and fast if the set has many short members.

@@ -1,5 +1,3 @@
-{-# OPTIONS_GHC -O2 #-}
-
 -- | Deviation of one pass along a contour: the three comparisons of the proof, gouge, excess and
 -- side, and the order of travel. The tape is compared with the part; the toolpath only says which
 -- pass is meant.

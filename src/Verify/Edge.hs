@@ -1,5 +1,4 @@
 {-# LANGUAGE BangPatterns #-}
-{-# OPTIONS_GHC -O2 #-}
 
 -- | Elements of the contours that a tape is compared with, in a bounding-box tree, together with
 -- the numbers that every comparison needs.
@@ -98,7 +97,6 @@ leastExcess allowanceOf limit near !x !y = go limit near
           FastDistance.mayLieWithin far (long e) (shape e) x y ->
           go (min d (FastDistance.distance (shape e) x y - a)) more
         | otherwise -> go d more
-{-# INLINE leastExcess #-}
 
 -- | Signed offset of a point from the contour at its nearest point: positive if the point is on the
 -- left of the direction of travel. At a corner, both elements there are added up.

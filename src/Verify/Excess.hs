@@ -1,5 +1,3 @@
-{-# OPTIONS_GHC -O2 #-}
-
 -- | Excess material: elements without a motion within reach on the right side, and motions along
 -- the contour that are further from it than they may be.
 module Verify.Excess

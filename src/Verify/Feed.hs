@@ -1,5 +1,3 @@
-{-# OPTIONS_GHC -O2 #-}
-
 -- | Feeds of a tape: equal to those of the program frame by frame, or, on a tape with other frames,
 -- equal to those that the statements demand; and never too high to slow down in time.
 module Verify.Feed

@@ -1,5 +1,4 @@
 {-# LANGUAGE BangPatterns #-}
-{-# OPTIONS_GHC -O2 #-}
 
 -- | Rules that the frames of a tape have to keep whatever the part is: the control accepts them,
 -- and their commands are those of the program.

@@ -1,5 +1,3 @@
-{-# OPTIONS_GHC -O2 #-}
-
 -- | Proof of a tape: its frames are run on the controller model, and the motions of the cutter are
 -- compared with the part.
 --

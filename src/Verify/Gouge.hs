@@ -1,5 +1,3 @@
-{-# OPTIONS_GHC -O2 #-}
-
 -- | Gouges: motions whose distance from an element is smaller than it has to be.
 module Verify.Gouge
   ( KeepOut (..),

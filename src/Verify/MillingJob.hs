@@ -1,5 +1,4 @@
 {-# LANGUAGE BangPatterns #-}
-{-# OPTIONS_GHC -O2 #-}
 
 -- | Pass along a contour as the part demands it, and the contact between the cutter and the
 -- elements of the contour.
@@ -92,7 +91,6 @@ mayTouch :: MillingJob -> CutterMotion -> Edge -> Bool
 mayTouch job m = \e -> FastDistance.mayComeWithin far (long e) (shape e) (segment m)
   where
     far = let Mm r = contactLimit job in r + FastDistance.uneven (segment m)
-{-# INLINE mayTouch #-}
 
 -- | Elements whose bounding boxes lie within reach of a motion: those that a cutter may touch, and
 -- some others.
@@ -126,4 +124,3 @@ foldContacts job near p with = go near
     -- The cutter touches an element with an allowance from further away.
     !least = Edge.leastExcess ownAllowance most near x y
     farthest e = let Mm l = ownAllowance e in min most (least + l + 2 * a)
-{-# INLINE foldContacts #-}

@@ -1,5 +1,3 @@
-{-# OPTIONS_GHC -O2 #-}
-
 -- | Path of the cutter's centre in one motion, or in one of its parts, as a few numbers. A tape has
 -- as many motions as frames, so everything else is computed from these numbers where it is needed.
 module Verify.Motion

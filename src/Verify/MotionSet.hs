@@ -1,5 +1,3 @@
-{-# OPTIONS_GHC -O2 #-}
-
 -- | Motions of a whole tape, as the comparisons of single passes ask for them.
 module Verify.MotionSet
   ( MotionSet (..),

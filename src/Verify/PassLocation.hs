@@ -1,5 +1,3 @@
-{-# OPTIONS_GHC -O2 #-}
-
 -- | Location of all passes along contours on a tape, one after the other. Each pass is searched for
 -- after the end of the one before.
 --

@@ -1,5 +1,4 @@
 {-# LANGUAGE BangPatterns #-}
-{-# OPTIONS_GHC -O2 #-}
 
 -- | Search for one cut of a contour on the tape: the motions that go along the contour from its
 -- start to its end, in the direction of travel.

@@ -1,5 +1,4 @@
 {-# LANGUAGE BangPatterns #-}
-{-# OPTIONS_GHC -O2 #-}
 
 -- | Summary of the frames of a tape, computed in one traversal because they are many.
 module Verify.TapeSummary

@@ -1,5 +1,3 @@
-{-# OPTIONS_GHC -O2 #-}
-
 -- | Motions along a contour on the wrong side of it.
 module Verify.WrongSide
   ( wrongSide,

@@ -1,5 +1,3 @@
-{-# OPTIONS_GHC -O2 #-}
-
 -- | Data for the rounding of arcs: the grid of a machine, the tolerances, and the arc between its
 -- rounded ends.
 module Frame.Arc.Context

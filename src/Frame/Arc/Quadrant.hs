@@ -1,5 +1,3 @@
-{-# OPTIONS_GHC -O2 #-}
-
 -- | Cuts of an arc at the axes through its centre, in whole pulses, for controls whose arcs have to
 -- stay within a quadrant.
 --
