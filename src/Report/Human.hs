@@ -28,69 +28,113 @@ data Colour = Coloured | Plain
 -- | Kind of a part of the rendering; it decides the colour.
 data Role = Severe Severity | Title | Frame | Secondary | Advice
 
+-- | What all parts of one rendering need.
+data Layout = Layout
+  { painted :: Role -> Text -> Text,
+    report :: Report,
+    source :: Source,
+    -- | count of characters of the largest line number
+    gutter :: Int
+  }
+
+-- | Excerpt with the text of its mark; true for the mark of the report's own place.
+type Marked = (Bool, Excerpt, Text)
+
 -- | Renders one report. The path names the file of a report that has no region in the program.
 render :: Colour -> Text -> Source -> Report -> Text
-render colour path source report = Text.unlines (heading : location <> body <> advice)
+render colour path source given =
+  Text.unlines
+    (heading layout : location layout path <> body <> advice layout (not (null excerpts)))
   where
-    r = cleaned report
-    painted = paint colour
-    ReportCode code = Report.code r
-    heading =
-      painted (Severe (severity r)) (Report.severityWord (severity r) <> "[" <> code <> "]")
-        <> painted Title (": " <> title r)
-    marks = case place r of
-      InSource region -> (True, Label region (label r)) : map (False,) (others r)
-      InTape _ -> map (False,) (others r)
-      InFile -> map (False,) (others r)
-    ordered = sortOn (\(_, Label region _) -> start region) marks
-    excerpts =
-      [ (isMain, e, text)
-        | ((isMain, Label _ text), e) <-
-            zip ordered (Excerpt.excerpts source [region | (_, Label region _) <- ordered])
-      ]
-    gutter = maximum (1 : [Text.length (number' e) | (_, e, _) <- excerpts])
-    bar = Text.replicate (gutter + 1) " " <> painted Frame "|"
-    location = [Text.replicate gutter " " <> painted Frame "--> " <> address | address /= ""]
-    address = case place r of
+    report = cleaned given
+    remedies = advice layout (not (null excerpts))
+    excerpts = markedExcerpts source report
+    gutter = maximum (1 : [Text.length (lineNumber e) | (_, e, _) <- excerpts])
+    layout = Layout {painted = paint colour, report, source, gutter}
+    body = concat (zipWith (excerptLines layout) (Nothing : map Just excerpts) excerpts)
+
+-- | Severity, code and title.
+heading :: Layout -> Text
+heading Layout {painted, report} =
+  painted (Severe (severity report)) (Report.severityWord (severity report) <> "[" <> code <> "]")
+    <> painted Title (": " <> title report)
+  where
+    ReportCode code = Report.code report
+
+-- | Line with the address of the report; none if the address is empty.
+location :: Layout -> Text -> [Text]
+location Layout {painted, report, source, gutter} path =
+  [Text.replicate gutter " " <> painted Frame "--> " <> address | address /= ""]
+  where
+    address = case place report of
       InSource region -> positionText (Region.position source (start region))
       InTape row -> path <> ", row " <> Decimal.whole row
       InFile -> path
-    positionText Position {file, line, column} =
-      file <> ":" <> Decimal.whole line <> ":" <> Decimal.whole column
-    body = concat (zipWith excerptLines (Nothing : map Just excerpts) excerpts)
-    -- Two marks on one line share it; another file gets a heading.
-    excerptLines before (isMain, e, text) =
-      [bar | not (isSame e)]
-        <> [ Text.replicate gutter " " <> painted Frame "::: " <> positionText (Excerpt.place e)
-             | fileOf e /= fileBefore
-           ]
-        <> [ painted Frame (Text.justifyRight gutter ' ' (number' e) <> " |") <> " " <> shown e
-             | not (isSame e)
-           ]
-        <> [bar <> " " <> Text.replicate (indent e) " " <> mark isMain e text]
-      where
-        fileBefore = maybe mainPlace (\(_, b, _) -> fileOf b) before
-    fileOf e = let Position {file} = Excerpt.place e in file
-    mainPlace = case place r of
+
+-- | Excerpts of all regions of a report, in the order of the source.
+markedExcerpts :: Source -> Report -> [Marked]
+markedExcerpts source report =
+  [ (isMain, e, text)
+    | ((isMain, Label _ text), e) <-
+        zip ordered (Excerpt.excerpts source [region | (_, Label region _) <- ordered])
+  ]
+  where
+    ordered = sortOn (\(_, Label region _) -> start region) marks
+    marks = case place report of
+      InSource region -> (True, Label region (label report)) : map (False,) (others report)
+      InTape _ -> map (False,) (others report)
+      InFile -> map (False,) (others report)
+
+-- | Lines of an excerpt after the one before. Two marks on one line share it; another file gets a
+-- heading.
+excerptLines :: Layout -> Maybe Marked -> Marked -> [Text]
+excerptLines layout@Layout {painted, report, source, gutter} before (isMain, e, text) =
+  [bar layout | not (isSame e)]
+    <> [ Text.replicate gutter " " <> painted Frame "::: " <> positionText (Excerpt.place e)
+         | fileOf e /= fileBefore
+       ]
+    <> [ painted Frame (Text.justifyRight gutter ' ' (lineNumber e) <> " |") <> " " <> shown e
+         | not (isSame e)
+       ]
+    <> [bar layout <> " " <> Text.replicate (indent e) " " <> painted role (sign <> words')]
+  where
+    fileBefore = maybe mainFile (\(_, b, _) -> fileOf b) before
+    fileOf excerpt = let Position {file} = Excerpt.place excerpt in file
+    mainFile = case place report of
       InSource region -> let Position {file} = Region.position source (start region) in file
-      _ -> Region.mainFile source
-    mark isMain e text =
-      let role = if isMain then Severe (severity r) else Secondary
-          sign = if isMain then "^" else "-"
-       in painted
-            role
-            (Text.replicate (width e) sign <> (if text == "" then "" else " " <> text))
-    advice =
-      [bar | not (null excerpts) && not (null (message r) && null (hints r))]
-        <> concatMap (adviceLines "") (message r)
-        <> concatMap (adviceLines "hint: ") (hints r)
+      InTape _ -> Region.mainFile source
+      InFile -> Region.mainFile source
+    role = if isMain then Severe (severity report) else Secondary
+    sign = Text.replicate (width e) (if isMain then "^" else "-")
+    words' = if text == "" then "" else " " <> text
+
+-- | Sentences and hints, broken at the width of a terminal. The flag tells whether excerpts
+-- precede.
+advice :: Layout -> Bool -> [Text]
+advice layout@Layout {painted, report, gutter} hasExcerpts =
+  [bar layout | hasExcerpts && not (null (message report) && null (hints report))]
+    <> concatMap (adviceLines "") (message report)
+    <> concatMap (adviceLines "hint: ") (hints report)
+  where
     adviceLines kind text = case wrap (76 - Text.length kind) text of
       [] -> []
       first : rest ->
         (lead <> painted Frame "= " <> painted Advice kind <> first) :
         map ((lead <> "  " <> Text.replicate (Text.length kind) " ") <>) rest
     lead = Text.replicate (gutter + 1) " "
-    number' e = Decimal.whole (line (Excerpt.place e))
+
+-- | Empty line of the gutter.
+bar :: Layout -> Text
+bar Layout {painted, gutter} = Text.replicate (gutter + 1) " " <> painted Frame "|"
+
+-- | Number of the line of an excerpt.
+lineNumber :: Excerpt -> Text
+lineNumber e = Decimal.whole (line (Excerpt.place e))
+
+-- | Position as @file:line:column@.
+positionText :: Position -> Text
+positionText Position {file, line, column} =
+  file <> ":" <> Decimal.whole line <> ":" <> Decimal.whole column
 
 -- | Replaces control characters in all words of a report. Excerpts do that for source lines.
 cleaned :: Report -> Report
