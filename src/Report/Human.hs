@@ -43,8 +43,7 @@ type Marked = (Bool, Excerpt, Text)
 -- | Renders one report. The path names the file of a report that has no region in the program.
 render :: Colour -> Text -> Source -> Report -> Text
 render colour path source given =
-  Text.unlines
-    (heading layout : location layout path <> body <> advice layout (not (null excerpts)))
+  Text.unlines (heading layout : location layout path <> body <> remedies)
   where
     report = cleaned given
     remedies = advice layout (not (null excerpts))
