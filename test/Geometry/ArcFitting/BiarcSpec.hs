@@ -44,7 +44,7 @@ spec = do
       "biarc: what bends to one side stays so (catches equal chords where the angles differ much)"
       $ property $
         forAll oneSided oneSidedLaw
-    it "is one line between ends in line, and one arc between ends of an arc" $ do
+    it "is one line between collinear ends, and one arc between the ends of an arc" $ do
       fmap length (Biarc.join (Vec.point 1 2, east) (Vec.point 5 2, east)) `shouldBe` Just 1
       fmap
         (fmap Segment.length)
@@ -52,12 +52,12 @@ spec = do
         `shouldSatisfy` \case
           Just (Mm l :| []) -> abs (l - 5 * pi) < 1e-9
           _ -> False
-    it "is two half circles between parallel ends square to the chord" $
+    it "is two half circles between parallel ends perpendicular to the chord" $
       fmap
         (fmap (roundTo . sweepOf))
         (Biarc.join (Vec.point 0 0, Vec.vec 0 1) (Vec.point 4 0, Vec.vec 0 1))
         `shouldBe` Just (roundTo (-pi) :| [roundTo pi])
-    it "is nothing between points that are one, and where it would turn too far" $ do
+    it "does not exist between coincident points, and where an arc would sweep too far" $ do
       Biarc.join (Vec.point 1 1, east) (Vec.point 1 1, east) `shouldBe` Nothing
       Biarc.join (Vec.point 0 0, Vec.vec (-1) 0) (Vec.point 4 0, Vec.vec (-1) 0) `shouldBe` Nothing
   describe "biarcs through points" $ do
@@ -71,12 +71,12 @@ spec = do
       \that is only nearly the circle's)"
       $ property $
         forAll ((,) <$> elements [Open, Closed] <*> onCircle) (uncurry circleLaw)
-    it "joins two points by a line, and closed by a circle" $ do
+    it "joins two points by a line, or by a circle if closed" $ do
       Biarc.through Open (Vec.point 0 0 :| [Vec.point 4 0])
         `shouldBe` (Straight (Vec.point 0 0) (Vec.point 4 0) :| [])
       fmap (roundTo . sweepOf) (Biarc.through Closed (Vec.point 0 0 :| [Vec.point 4 0]))
         `shouldBe` (roundTo pi :| [roundTo pi])
-    it "takes points at one place for one" $
+    it "counts coincident points once" $
       Biarc.through
         Closed
         (Vec.point 0 0 :| [Vec.point 0 0, Vec.point 4 0, Vec.point 4 3, Vec.point 0 0])
@@ -122,7 +122,7 @@ spec = do
             cover 5 (corners c > 0) "corners" $
               cover 4 (kinks c) "kinks" $
                 cover 20 (doublesBack c) "doubles back" True
-    it "comes to an end on curves that are no curves" $ do
+    it "terminates on degenerate curves" $ do
       count 0.01 (odd' (\_ -> Vec.point 1 1) (const east)) `shouldBe` 1
       count
         0.01

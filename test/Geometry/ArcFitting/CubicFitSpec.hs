@@ -37,10 +37,10 @@ spec =
     it "no kink but at corners (catches a direction at a joint that only one side has)" $
       property $
         forAll tracked smoothLaw
-    it "not many more than without the bound (catches a bound that is far too large)" $
+    it "needs few more biarcs than the general fit (catches a bound that is far too large)" $
       property $
         forAll tracked fewLaw
-    it "a table of points in a line is one line (catches spans that are not looked past)" $
+    it "collinear points give one line (catches a fit that stops at the end of a span)" $
       fmap
         length
         ( arcsOf 1e-5

@@ -24,7 +24,7 @@ import Test.QuickCheck
 
 spec :: Spec
 spec =
-  describe "biarcs along chains" $ do
+  describe "biarcs along polyarcs" $ do
     it
       "every point of the chain is near the arcs (catches an extremum within a piece that is left \
       \out)"
@@ -40,7 +40,7 @@ spec =
       \side has)"
       $ property $
         forAll tracked smoothLaw
-    it "not many more than in general (catches a bound that is far too large)" $
+    it "needs few more biarcs than the general fit (catches a bound that is far too large)" $
       property $
         forAll tracked fewLaw
     it
@@ -53,7 +53,7 @@ spec =
       \chain that is put anew)"
       $ property $
         forAll (tracked `suchThat` smoothAlready) keptLaw
-    it "the generator reaches corners, and arcs that stand for many or for a part of one" $
+    it "the generator reaches corners, and arcs that replace many arcs or a part of one" $
       checkCoverage $
         forAll tracked $ \t@(Tracked _ _ pieces) ->
           let n = length (arcsOf t)

@@ -17,7 +17,7 @@ import Test.QuickCheck
 
 spec :: Spec
 spec =
-  describe "cubics for curves" $ do
+  describe "cubic approximation of curves" $ do
     it
       "every point of a shifted curve is near them (catches a stretch whose middle alone is looked \
       \at)"
@@ -32,7 +32,7 @@ spec =
       \out)"
       $ property $
         forAll shifted joinedLaw
-    it "those of a spline are its own, exactly" $
+    it "the cubics of a spline are its own, exactly" $
       property $
         forAll Generate.smooth $ \c ->
           fmap (\(Mm d, _, _) -> d) (Curve.cubics (Mm 1e-7) c) === Just 0

@@ -28,7 +28,7 @@ import Test.QuickCheck
 
 spec :: Spec
 spec = do
-  describe "curves through a table" $ do
+  describe "sections through a table" $ do
     it
       "fit: every row is within the tolerance, and the pieces are joined (catches a deviation \
       \taken at some rows only)"
@@ -73,7 +73,7 @@ spec = do
                   cover 10 (ArcKind `elem` found) "arc" $
                     cover 20 (falling c) "falling" True
   describe "tables and sections" $ do
-    it "refuses a table whose x turns round or stands still, with the row" $ do
+    it "refuses a table whose x reverses or repeats, with the row" $ do
       Section.table (map (uncurry Vec.point) [(0, 0), (1, 0), (2, 5), (1.5, 0)])
         `shouldBe` Left (Section.OutOfOrder 4)
       Section.table (map (uncurry Vec.point) [(0, 0), (-1, 0), (-1, 5)])
@@ -116,7 +116,7 @@ spec = do
         (map (\d -> let Mm m = SectionFit.miss d in rounded 100 m) . SectionFit.deviations template)
         (SectionFit.sections template paper)
         `shouldBe` Right [0, 1, 0, 3, 0, 0, -2, 0, -2, 0, 1, 3, 0]
-    it "misses its second point by 0.006" $
+    it "deviates from its second point by 0.006" $
       fmap
         ( map (\d -> let Mm m = SectionFit.miss d in rounded 1000 m)
             . take 2
@@ -127,7 +127,7 @@ spec = do
     it "needs three lines and parabolas within 0.03" $
       summary (LineKind :| [ParabolaKind])
         `shouldBe` ([(1, 3, LineKind), (3, 8, ParabolaKind), (8, 13, ParabolaKind)], 286)
-    it "needs three pieces when there are arcs too, which miss by a little less" $
+    it "needs three sections with arcs too, with a slightly smaller deviation" $
       summary everyKind
         `shouldBe` ([(1, 4, ParabolaKind), (4, 8, ParabolaKind), (8, 13, ArcKind)], 271)
   where

@@ -141,7 +141,7 @@ spec = do
         forAll (Generate.layered 3 Generate.anyCurve) $ \c ->
           forAll (choose (0.05, 0.95)) $ \share -> forAll (elements (inner c)) $ \(a, b) ->
             derivativesLaw c (a + (b - a) * share) (0.01 * (b - a))
-    it "the curvature is that of a circle through three near places (catches a sign of the bend)" $
+    it "the curvature is that of a circle through three near points (catches a wrong sign)" $
       property $
         forAll (Generate.layered 2 Generate.gentle) $ \c ->
           forAll (choose (0.05, 0.95)) $ \share ->
@@ -152,7 +152,7 @@ spec = do
                   k = throughThree (Curve.at c (u - e)) (Curve.at c u) (Curve.at c (u + e))
                in near' (1e-4 * (1 + abs k)) (Curve.curvature c u) k
 
-  describe "shifts one behind the other" $ do
+  describe "shifts in sequence" $ do
     it
       "by a and by b are one by a + b, square to a surface too (catches a normal taken from below)"
       $ property $
@@ -174,8 +174,8 @@ spec = do
             forAll (elements (toList (Base.rows (Curve.base c)))) $ \row ->
               sequenceLaw c mu h (Base.at row)
 
-  describe "shifts that are alike" $ do
-    it "from h to h is h (catches a growth that begins with what it adds)" $
+  describe "equivalent shifts" $ do
+    it "a growth from h to h is the constant h (catches a growth that begins with what it adds)" $
       property $
         forAll Generate.anyCurve $ \c -> forAll (choose (-4, 4)) $ \h ->
           sameShift c (Growing Growth {from = Mm h, to = Mm h, between = Nothing}) (Constant (Mm h))
@@ -187,7 +187,7 @@ spec = do
             let shiftedBy d = Curve.at (Curve.shifted LeftOf d c) (Generate.parameterOf c t)
                 p = shiftedBy (Pointwise (constantly h c))
              in isNumber p ==> p === shiftedBy (Constant (Mm h))
-    it "no bevel and no allowance is no shift" $
+    it "zero bevel and zero allowance are no shift" $
       property $
         forAll Generate.anyCurve $ \c -> forAll (Generate.columnOf c 1 9) $ \h ->
           sameShift c (Bevelled (constantly 0 c) h (Mm 0)) (Constant (Mm 0))
@@ -266,7 +266,7 @@ spec = do
       Curve.joggled (joggle 2 14) c
         `shouldBe` Left (LongJoggle (times 2 (Curve.ramp (joggle 2 14))) (Mm 20))
 
-  describe "what does not fit" $ do
+  describe "shifts that do not fit" $ do
     it "the vertex of a parabola y = x²/2p takes p and no more (catches a fold between two rows)" $
       property $
         forAll ((,,) <$> choose (2, 30) <*> choose (-0.4, -0.05) <*> choose (0.05, 0.4)) $
@@ -310,12 +310,12 @@ spec = do
                       ==> counterexample
                         (show (most, Curve.fold above))
                         (isJust (Curve.fold above) == (k > 1))
-    it "is not there on the outer side" $
+    it "there is no cusp on the outer side" $
       property $
         forAll (choose (0.1, 90)) $ \h ->
           isNothing (Curve.fold (Curve.shifted RightOf (Constant (Mm h)) (circle 40)))
             && isJust (Curve.fold (Curve.shifted LeftOf (Constant (Mm (41 + h))) (circle 40)))
-    it "a curve that turns straight back takes no shift at its turn" $
+    it "a curve that reverses its direction allows no shift at the reversal" $
       Curve.fold
         ( Curve.shifted
             LeftOf
