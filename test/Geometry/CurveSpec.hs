@@ -165,7 +165,7 @@ spec = do
            in counterexample (show (u, back)) (abs (back - u) < 1e-7)
 
   describe "searches on a curve" $ do
-    it "nearest: no other point of the curve is nearer (catches a foot that is taken for the first one)" $
+    it "nearest: no point of the curve is nearer (catches a foot that is taken for the first one)" $
       property $
         forAll (Generate.layered 1 Generate.anyCurve) $ \c ->
           forAll ((,) <$> choose (-150, 150) <*> choose (-150, 150)) $ \(x, y) ->
