@@ -43,13 +43,13 @@ spec = do
       "a spline has the same derivatives by the chord on both sides of a row (catches a wrong \
       \right side of its system)"
       $ property $
-        forAll Generate.smooth joinsTwice
+        forAll Generate.smooth periodicLaw
     it "a natural spline has no curvature at its ends (catches an end that is clamped)" $
       property $
         forAll (tableWith (const Natural)) $ \c ->
           conjoin
             [ counterexample (show v) (Vec.norm v < 1e-9)
-              | (approach, u) <- outer c,
+              | (approach, u) <- endPositions c,
                 let v = secondBy (chord c u) (Curve.jet approach 2 c u)
             ]
     it
@@ -62,7 +62,7 @@ spec = do
            in forAll (tableWith (const (Clamped from to))) $ \c ->
                 conjoin
                   [ alike 1e-9 v w
-                    | ((approach, u), w) <- zip (outer c) [from, to],
+                    | ((approach, u), w) <- zip (endPositions c) [from, to],
                       let v = firstBy (chord c u) (Curve.jet approach 1 c u)
                   ]
     it
@@ -109,7 +109,7 @@ spec = do
       coefficients template
         `shouldSatisfy` and
           . zipWith
-            agrees
+            areClose
             [(-0.00722596, 1.1707467, -27.504988), (-0.00460579, 0.8200501, -16.220749)]
     it
       "a circle given by 60 points is one to 1e-4 mm, shifted by anything (catches a spline that \
@@ -316,10 +316,10 @@ spec = do
       checkCoverage $
         forAll Generate.anyCurve $ \c ->
           cover 5 (Curve.isClosed c) "closed" $
-            cover 5 (vertical c) "vertical tangent" $
+            cover 5 (isVertical c) "vertical tangent" $
               cover 5 (Curve.spans c >= 20) "many spans" $
                 cover 5 (Curve.spans c == 1) "one span" $
-                  cover 5 (doublesBack c) "doubles back" True
+                  cover 5 (reversesInX c) "doubles back" True
 
   describe "tables that give no curve" $ do
     it "too few points" $ do
@@ -373,8 +373,8 @@ tableWith f = do
   pure (splineOf (f ends) points)
 
 -- | Positions at both ends, approached from within the curve.
-outer :: Curve -> [(Approach, Double)]
-outer c = [(After, 0), (Before, Curve.domain c)]
+endPositions :: Curve -> [(Approach, Double)]
+endPositions c = [(After, 0), (Before, Curve.domain c)]
 
 -- | Chord of the span that starts at a parameter; at the end, of the last span.
 chord :: Curve -> Double -> Double
@@ -387,8 +387,8 @@ firstBy h (TaylorExpansion a b) =
 secondBy h (TaylorExpansion a b) =
   Vec.scale (2 / h / h) (Vec.vec (PowerSeries.coefficient 2 a) (PowerSeries.coefficient 2 b))
 
-joinsTwice :: Curve -> Property
-joinsTwice c =
+periodicLaw :: Curve -> Property
+periodicLaw c =
   conjoin
     [ alike 1e-8 (firstBy (chord c (u - 1)) arriving) (firstBy (chord c u) leaving)
         .&&. alike 1e-8 (secondBy (chord c (u - 1)) arriving) (secondBy (chord c u) leaving)
@@ -459,11 +459,11 @@ coefficients c =
           b = slope p q - a * (Vec.x p + Vec.x q)
        in (a, b, Vec.y p - Vec.x p * (b + a * Vec.x p))
 
-agrees :: (Double, Double, Double) -> (Double, Double, Double) -> Bool
-agrees (a, b, c) (a', b', c') = abs (a - a') < 1e-8 && abs (b - b') < 1e-6 && abs (c - c') < 1e-5
+areClose :: (Double, Double, Double) -> (Double, Double, Double) -> Bool
+areClose (a, b, c) (a', b', c') = abs (a - a') < 1e-8 && abs (b - b') < 1e-6 && abs (c - c') < 1e-5
 
-vertical :: Curve -> Bool
-vertical c =
+isVertical :: Curve -> Bool
+isVertical c =
   let dx u =
         Vec.dot (Curve.tangent c u) (Vec.vec 1 0)
    in or
@@ -472,8 +472,8 @@ vertical c =
             (u, v) <- zip us (drop 1 us)
         ]
 
-doublesBack :: Curve -> Bool
-doublesBack c =
+reversesInX :: Curve -> Bool
+reversesInX c =
   minimum
     [ Vec.dot (Curve.tangent c 0) (Curve.tangent c (Generate.parameterOf c (k / 60)))
       | k <- [0 .. 60]
