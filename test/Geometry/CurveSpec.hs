@@ -44,13 +44,13 @@ spec = do
       "a spline has the same derivatives by the chord on both sides of a row (catches a wrong \
       \right side of its system)"
       $ property $
-        forAll Generate.smooth joinsTwice
-    it "a natural spline does not bend at its ends (catches an end that is clamped)" $
+        forAll Generate.smooth periodicLaw
+    it "a natural spline has no curvature at its ends (catches an end that is clamped)" $
       property $
         forAll (tableWith (const Natural)) $ \c ->
           conjoin
             [ counterexample (show v) (Vec.norm v < 1e-9)
-              | (approach, u) <- outer c,
+              | (approach, u) <- endPositions c,
                 let v = secondBy (chord c u) (Curve.jet approach 2 c u)
             ]
     it
@@ -63,7 +63,7 @@ spec = do
            in forAll (tableWith (const (Clamped from to))) $ \c ->
                 conjoin
                   [ alike 1e-9 v w
-                    | ((approach, u), w) <- zip (outer c) [from, to],
+                    | ((approach, u), w) <- zip (endPositions c) [from, to],
                       let v = firstBy (chord c u) (Curve.jet approach 1 c u)
                   ]
     it
@@ -110,7 +110,7 @@ spec = do
       coefficients template
         `shouldSatisfy` and
           . zipWith
-            agrees
+            areClose
             [(-0.00722596, 1.1707467, -27.504988), (-0.00460579, 0.8200501, -16.220749)]
     it
       "a circle given by 60 points is one to 1e-4 mm, shifted by anything (catches a spline that \
@@ -125,7 +125,7 @@ spec = do
           Mm l = Curve.length c
       abs (l - 100 * pi) `shouldSatisfy` (< 1e-6)
 
-  describe "the way along a curve" $ do
+  describe "arc length" $ do
     it "is as long as many chords tell (catches a panel that is accepted too early)" $
       property $
         forAll (Generate.layered 2 Generate.anyCurve) $ \c -> forAll Generate.parameter $ \t ->
@@ -143,13 +143,13 @@ spec = do
               places = nub (sort (rows <> Curve.breaks c))
               byChords = sum (zipWith (chordsBetween c) places (drop 1 places))
            in counterexample (show (l, byChords)) (abs (l - byChords) < 1e-7)
-    it "has the length of what is known: lines and arcs" $
+    it "is exact for lines and arcs" $
       property $
         forAll Generate.chain $ \c ->
           let Mm l = Curve.length c
               known = sum [spanLength s | s <- toList (Base.spans (Curve.base c))]
            in counterexample (show (l, known)) (abs (l - known) < 1e-8)
-    it "has the length of a parabola by its closed formula" $
+    it "equals the closed formula for a parabola" $
       property $
         forAll ((,) <$> choose (1, 50) <*> choose (1, 80)) $ \(p, x) ->
           let c =
@@ -165,8 +165,8 @@ spec = do
               back = Curve.alongTo c (Curve.lengthTo c u)
            in counterexample (show (u, back)) (abs (back - u) < 1e-7)
 
-  describe "looking for places" $ do
-    it "nearest: no place of the curve is nearer (catches a foot that is taken for the first one)" $
+  describe "searches on a curve" $ do
+    it "nearest: no point of the curve is nearer (catches a foot that is taken for the first one)" $
       property $
         forAll (Generate.layered 1 Generate.anyCurve) $ \c ->
           forAll ((,) <$> choose (-150, 150) <*> choose (-150, 150)) $ \(x, y) ->
@@ -275,7 +275,7 @@ spec = do
                  in abs a > 1e-6
               inner = map fromIntegral [1 .. Curve.spans c - 1]
            in Curve.corners c === [0 | Curve.isClosed c, turned 0] <> filter turned inner
-    it "corners: a square walked round has four" $
+    it "corners: a closed square has four" $
       Curve.corners
         ( Generate.ok
             ( Curve.polyline
@@ -293,7 +293,7 @@ spec = do
         (Curve.tangentFrom Before c 1, Curve.tangentFrom After c 1) `shouldSatisfy` \(a, b) ->
           Vec.dot a (Vec.vec 1 0) > 0.999 && Vec.dot b (Vec.vec 1 0) < -0.999
 
-  describe "curves turned" $ do
+  describe "transformed and reversed curves" $ do
     it
       "a similarity moves every place of a curve, shifts and all (catches a distance that does not \
       \grow with the rest)"
@@ -317,38 +317,38 @@ spec = do
       checkCoverage $
         forAll Generate.anyCurve $ \c ->
           cover 5 (Curve.isClosed c) "closed" $
-            cover 5 (vertical c) "vertical tangent" $
+            cover 5 (isVertical c) "vertical tangent" $
               cover 5 (Curve.spans c >= 20) "many spans" $
                 cover 5 (Curve.spans c == 1) "one span" $
-                  cover 5 (doublesBack c) "doubles back" True
+                  cover 5 (reversesInX c) "doubles back" True
 
-  describe "tables that make no curve" $ do
+  describe "tables that give no curve" $ do
     it "too few points" $ do
       Curve.polyline (Exts.fromList [Vec.point 0 0]) `shouldBe` Left (TooFew 2)
       Curve.spline Natural (Exts.fromList []) `shouldBe` Left (TooFew 2)
       Curve.spline Periodic (Exts.fromList [Vec.point 0 0, Vec.point 1 0, Vec.point 0 0])
         `shouldBe` Left (TooFew 3)
       Curve.parabola (Exts.fromList [Vec.point 0 0]) `shouldBe` Left (TooFew 3)
-    it "a point twice: the first of the two rows is named" $
+    it "a repeated point: the fault names the first of the two rows" $
       Curve.spline
         Natural
         (Exts.fromList [Vec.point 0 0, Vec.point 1 0, Vec.point 1 0, Vec.point 2 0])
         `shouldBe` Left (Coincident 2)
-    it "parabolas of an even number of points" $
+    it "parabolas through an even count of points" $
       Curve.parabola (Exts.fromList [Vec.point k 0 | k <- [1 .. 4]]) `shouldBe` Left (EvenCount 4)
-    it "parabolas that turn back in x: the last row that goes on is named" $
+    it "parabolas that reverse in x: the fault names the last row in order" $
       Curve.parabola (Exts.fromList [Vec.point 0 0, Vec.point 2 1, Vec.point 1 2])
         `shouldBe` Left (NotMonotone 2)
-    it "pieces that do not meet, and one without a length" $ do
+    it "spans that do not join, and a span without length" $ do
       Curve.ofPieces
         (Line (Vec.point 0 0) (Vec.point 1 0) :| [Line (Vec.point 1 1) (Vec.point 2 0)])
         (Exts.fromList [])
         `shouldBe` Left (Disjoint 1)
       Curve.ofPieces (Quadratic 1 2 3 4 4 :| []) (Exts.fromList []) `shouldBe` Left (NoLength 1)
-    it "rows that do not come one behind the other" $
+    it "rows out of order" $
       Curve.ofPieces (Line (Vec.point 0 0) (Vec.point 1 0) :| []) (Exts.fromList [0, 0.5, 0.4])
         `shouldBe` Left (Disordered 2)
-    it "a direction without a length" $
+    it "an end direction that is a zero vector" $
       Curve.spline
         (Clamped (Vec.vec 0 0) (Vec.vec 1 0))
         (Exts.fromList [Vec.point 0 0, Vec.point 1 0])
@@ -374,8 +374,8 @@ tableWith f = do
   pure (splineOf (f ends) points)
 
 -- | Positions at both ends, approached from within the curve.
-outer :: Curve -> [(Approach, Double)]
-outer c = [(After, 0), (Before, Curve.domain c)]
+endPositions :: Curve -> [(Approach, Double)]
+endPositions c = [(After, 0), (Before, Curve.domain c)]
 
 -- | Chord of the span that starts at a parameter; at the end, of the last span.
 chord :: Curve -> Double -> Double
@@ -388,8 +388,8 @@ firstBy h (V2 a b) =
 secondBy h (V2 a b) =
   Vec.scale (2 / h / h) (Vec.vec (PowerSeries.coefficient 2 a) (PowerSeries.coefficient 2 b))
 
-joinsTwice :: Curve -> Property
-joinsTwice c =
+periodicLaw :: Curve -> Property
+periodicLaw c =
   conjoin
     [ alike 1e-8 (firstBy (chord c (u - 1)) arriving) (firstBy (chord c u) leaving)
         .&&. alike 1e-8 (secondBy (chord c (u - 1)) arriving) (secondBy (chord c u) leaving)
@@ -460,11 +460,11 @@ coefficients c =
           b = slope p q - a * (Vec.x p + Vec.x q)
        in (a, b, Vec.y p - Vec.x p * (b + a * Vec.x p))
 
-agrees :: (Double, Double, Double) -> (Double, Double, Double) -> Bool
-agrees (a, b, c) (a', b', c') = abs (a - a') < 1e-8 && abs (b - b') < 1e-6 && abs (c - c') < 1e-5
+areClose :: (Double, Double, Double) -> (Double, Double, Double) -> Bool
+areClose (a, b, c) (a', b', c') = abs (a - a') < 1e-8 && abs (b - b') < 1e-6 && abs (c - c') < 1e-5
 
-vertical :: Curve -> Bool
-vertical c =
+isVertical :: Curve -> Bool
+isVertical c =
   let dx u =
         Vec.dot (Curve.tangent c u) (Vec.vec 1 0)
    in or
@@ -473,8 +473,8 @@ vertical c =
             (u, v) <- zip us (drop 1 us)
         ]
 
-doublesBack :: Curve -> Bool
-doublesBack c =
+reversesInX :: Curve -> Bool
+reversesInX c =
   minimum
     [ Vec.dot (Curve.tangent c 0) (Curve.tangent c (Generate.parameterOf c (k / 60)))
       | k <- [0 .. 60]

@@ -124,7 +124,9 @@ through ends points = case distinctPoints ends points of
         next = case ends of
           Closed -> drop 1 poses <> take 1 poses
           Open -> drop 1 poses
-     in fromMaybe (Straight p p :| []) (NonEmpty.nonEmpty (concat (zipWith segmentsBetween poses next)))
+     in fromMaybe
+          (Straight p p :| [])
+          (NonEmpty.nonEmpty (concat (zipWith segmentsBetween poses next)))
   where
     segmentsBetween a b = maybe [Straight (fst a) (fst b)] NonEmpty.toList (join a b)
 
@@ -159,7 +161,8 @@ openDirections ps = case (ps, reverse ps) of
 -- chord equals the opposite angle of the triangle.
 tangentAt :: Point -> Point -> Point -> Vec
 tangentAt a b c
-  | not (Vec.near a c) && Vec.dot circleTangent ab >= 0 && Vec.dot circleTangent bc >= 0 = circleTangent
+  | not (Vec.near a c) && Vec.dot circleTangent ab >= 0 && Vec.dot circleTangent bc >= 0 =
+    circleTangent
   | Vec.norm bisector > Tolerance.parallel = Vec.unit bisector
   | otherwise = Vec.left ab
   where

@@ -31,7 +31,10 @@ push :: Vertices s -> Double -> Double -> Double -> ST s ()
 push (Vertices ref) x y bulge = do
   Buffer n array <- readSTRef ref
   capacity <- PrimArray.getSizeofMutablePrimArray array
-  array' <- if 3 * n < capacity then pure array else PrimArray.resizeMutablePrimArray array (2 * capacity)
+  array' <-
+    if 3 * n < capacity
+      then pure array
+      else PrimArray.resizeMutablePrimArray array (2 * capacity)
   PrimArray.writePrimArray array' (3 * n) x
   PrimArray.writePrimArray array' (3 * n + 1) y
   PrimArray.writePrimArray array' (3 * n + 2) bulge

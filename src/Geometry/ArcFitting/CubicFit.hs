@@ -270,11 +270,11 @@ parametricCurve xs ys from to =
           t = u - fromIntegral i
        in Vec.point (Spline.value (Spline.at xs i) t) (Spline.value (Spline.at ys i) t)
     direction side u = case side of
-      Arriving -> directionAt (-1) (clamped (ceiling u - 1)) u
-      Leaving -> directionAt 1 (clamped (truncate u)) u
+      Arriving -> tangentIn (-1) (clamped (ceiling u - 1)) u
+      Leaving -> tangentIn 1 (clamped (truncate u)) u
     clamped i = max from (min (to - 1) i)
     -- Where the speed vanishes, the second derivative gives the direction.
-    directionAt sign i u
+    tangentIn sign i u
       | Mm (Vec.norm first) > Tolerance.still = Vec.unit first
       | Vec.norm second > 0 = Vec.unit (Vec.scale sign second)
       | otherwise = Vec.vec 1 0

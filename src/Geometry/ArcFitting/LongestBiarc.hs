@@ -45,7 +45,16 @@ data Spans = Spans
     pose :: Int -> Double -> Pose,
     -- | distances of a biarc from the curve between two parameters, each given with its span and
     -- pose; a result above the first argument only says that this limit is exceeded
-    arcDistances :: Double -> Int -> Double -> Pose -> Int -> Double -> Pose -> FastBiarc -> ArcDistances,
+    arcDistances ::
+      Double ->
+      Int ->
+      Double ->
+      Pose ->
+      Int ->
+      Double ->
+      Pose ->
+      FastBiarc ->
+      ArcDistances,
     -- | biarc from a pose by the general fit, with a step to try; used where no step succeeds
     fallback :: Double -> (Point, Vec) -> Double -> FitStep,
     -- | True if no biarc between two parameters, each given with its span and pose, can stay
@@ -192,7 +201,8 @@ along
           then pure ()
           else Builder.push vertices (px (joint pair)) (py (joint pair)) (bulge2 pair)
         go j v to step rate
-      writeSegment s = let p = Segment.start s in Builder.push vertices (Vec.x p) (Vec.y p) (bulgeOf s)
+      writeSegment s =
+        let p = Segment.start s in Builder.push vertices (Vec.x p) (Vec.y p) (bulgeOf s)
       bulgeOf s = case s of
         Straight _ _ -> 0
         Arc {sweep = Rad a} -> tan (a / 4)

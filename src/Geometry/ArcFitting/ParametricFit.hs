@@ -172,7 +172,9 @@ longestBiarc w first = tryLonger (search (24 :: Int) Nothing Nothing first)
     search remaining success failure step
       | step <= least = fromMaybe fallbackLine success
       | distance found <= aim w =
-        if isLongEnough found then found else search (remaining - 1) (Just found) failure (longer found)
+        if isLongEnough found
+          then found
+          else search (remaining - 1) (Just found) failure (longer found)
       | otherwise = case success of
         Just best | remaining <= 0 || isNarrow best (reached found) -> best
         _ -> search (remaining - 1) success (Just (reached found)) (shorter found)
@@ -221,13 +223,19 @@ try w v
     end = (q, heading w v)
     usual = Biarc.ratio (pose w) end
     tried rs =
-      [(sampledDistance pieces, r, pieces) | r <- rs, Just pieces <- [Biarc.joinWith r (pose w) end]]
+      [ (sampledDistance pieces, r, pieces)
+        | r <- rs,
+          Just pieces <- [Biarc.joinWith r (pose w) end]
+      ]
     least some = minimumBy (comparing (\(d, _, _) -> d)) some
     -- Refines the ratio by shrinking steps, where that can reach the tolerance.
     refineRatio remaining factor best@(d, r, _)
       | remaining <= 0 || d <= aim w || d > 4 * aim w = best
       | otherwise =
-        refineRatio (remaining - 1) (sqrt factor) (least (best : tried [r / sqrt factor, r * sqrt factor]))
+        refineRatio
+          (remaining - 1)
+          (sqrt factor)
+          (least (best : tried [r / sqrt factor, r * sqrt factor]))
     -- Only for few spans: a curve with many is no chain of lines and arcs.
     breaking = case drop 1 parts of
       inner
@@ -256,7 +264,10 @@ try w v
               (aim w)
               pieces
               ( (u, p) :
-                concat [interleaved ms (samplePoints (place (curve w)) 0 part) | (part, ms) <- stations]
+                concat
+                  [ interleaved ms (samplePoints (place (curve w)) 0 part)
+                    | (part, ms) <- stations
+                  ]
               )
           )
     interleaved as bs = concat (zipWith (\a b -> [a, b]) as bs)

@@ -265,10 +265,23 @@ poseWithin chain from to i u
 
 -- | Bounds of the distances of a biarc's two arcs from the polyarc between two arc lengths, given
 -- their segments. A bound above the limit only says that the limit is exceeded.
-biarcDistances :: SegmentTable -> Double -> Int -> Double -> Pose -> Int -> Double -> Pose -> FastBiarc -> ArcDistances
+biarcDistances ::
+  SegmentTable ->
+  Double ->
+  Int ->
+  Double ->
+  Pose ->
+  Int ->
+  Double ->
+  Pose ->
+  FastBiarc ->
+  ArcDistances
 biarcDistances chain largest first u from final v to pair
   -- Rejects most biarcs that are too far off by testing a few vertices first.
-  | if final - first >= 4 then isVertexFar 1 || isVertexFar 2 || isVertexFar 3 else isAnyVertexFar (first + 1) = unknown
+  | if final - first >= 4
+      then isVertexFar 1 || isVertexFar 2 || isVertexFar 3
+      else isAnyVertexFar (first + 1) =
+    unknown
   | single pair =
     let one =
           fastArc from (bend1 pair) to
@@ -281,8 +294,9 @@ biarcDistances chain largest first u from final v to pair
   | one <- fastArc from (bend1 pair) (joint pair),
     two <- fastArc (joint pair) (bend2 pair) to,
     isForwards one && isForwards two = case advance chain largest v to False one start of
-    Reached i s p d1 | d1 <= largest -> case advance chain largest v to True two (Reached i s p 0) of
-      Reached _ _ _ d2 -> ArcDistances d1 d2
+    Reached i s p d1 | d1 <= largest ->
+      case advance chain largest v to True two (Reached i s p 0) of
+        Reached _ _ _ d2 -> ArcDistances d1 d2
     _ -> unknown
   | otherwise = unknown
   where
@@ -329,7 +343,8 @@ biarcDistances chain largest first u from final v to pair
 -- a distance from every biarc between them. All these biarcs lie between two circles through
 -- both positions: one with the start direction, one with the end direction.
 isTooFar :: SegmentTable -> Double -> Int -> Double -> Pose -> Int -> Double -> Pose -> Bool
-isTooFar chain largest first _ from final _ to = max (abs bendA) (abs bendB) * largest < slack / 2 && go 1
+isTooFar chain largest first _ from final _ to =
+  max (abs bendA) (abs bendB) * largest < slack / 2 && go 1
   where
     cx = px to - px from
     cy = py to - py from
@@ -372,7 +387,8 @@ advance !chain !largest !v !to !final !f (Reached i0 u0 begin d0) =
         Pose nx ny kx ky
           | not final && beyond f arriving >= 0 ->
             finishAtNormal i u end p arriving (larger d0 (distanceOfLevel f greatestLevel))
-          | not (runsForwards f p && runsForwards f arriving) -> Reached (i + 1) end arriving (1 / 0)
+          | not (runsForwards f p && runsForwards f arriving) ->
+            Reached (i + 1) end arriving (1 / 0)
           -- Tests for an inner extremum only if there can be one; there seldom is.
           | abs here + 1.5 * abs m * (end - u) > greater,
             e <- extreme here m (slope f arriving) (hx * ey - hy * ex) (end - u),
@@ -387,7 +403,8 @@ advance !chain !largest !v !to !final !f (Reached i0 u0 begin d0) =
             !m = slope f p
             !greater = if abs there > greatestLevel then abs there else greatestLevel
             continue !now
-              | now > greatestLevel && distanceOfLevel f now > largest = Reached (i + 1) end arriving (1 / 0)
+              | now > greatestLevel && distanceOfLevel f now > largest =
+                Reached (i + 1) end arriving (1 / 0)
               | otherwise = go (i + 1) end nx ny kx ky there now
       where
         !end = station chain (i + 1)

@@ -195,7 +195,8 @@ toSpanList parts = case traverse polynomial parts of
 polyline :: Vector Point -> Either CurveFault Base
 polyline points = do
   checkDistinct 2 points
-  Right (makeBase Polyline (isLoop points) (rowsAtEnds points) (Cubical (lineCubics Vec.x) (lineCubics Vec.y)))
+  let cubicSpans = Cubical (lineCubics Vec.x) (lineCubics Vec.y)
+  Right (makeBase Polyline (isLoop points) (rowsAtEnds points) cubicSpans)
   where
     lineCubics part =
       Spline.generate
@@ -323,7 +324,9 @@ ofSpans parts parameters = do
     base
       { rows =
           Vector.map
-            (\u -> Knot {at = u, place = TaylorExpansion.place (jet 0 base (spanPoint After u base))})
+            ( \u ->
+                Knot {at = u, place = TaylorExpansion.place (jet 0 base (spanPoint After u base))}
+            )
             parameters
       }
   where
@@ -480,7 +483,8 @@ backwards base values
 unrepeated :: Base -> Bool
 unrepeated base =
   case (rows base Vector.!? 0, rows base Vector.!? (Vector.length (rows base) - 1)) of
-    (Just first, Just lastPoint) -> closed base && at first == 0 && at lastPoint < fromIntegral (count base)
+    (Just first, Just lastPoint) ->
+      closed base && at first == 0 && at lastPoint < fromIntegral (count base)
     _ -> False
 
 -- | Image of a base under a similarity, span by span.

@@ -65,7 +65,11 @@ column base values
       Spline (Base.Clamped _ _) -> BySpan (Spline.interpolate Natural (Base.chords base) flat)
       Spline Base.Periodic ->
         BySpan
-          (Spline.interpolate (if isPeriodic then Periodic else Natural) (Base.chords base) periodicValues)
+          ( Spline.interpolate
+              (if isPeriodic then Periodic else Natural)
+              (Base.chords base)
+              periodicValues
+          )
       Parabola -> BySpan (Spline.parabolas (Base.fractions base) flat)
       Joined -> byLength base values
 

@@ -36,7 +36,8 @@ along (Mm tolerance) curve = case curve of
         part f = Spline.generate (Vector.length spans) (\i -> f (spans Vector.! i))
     Just (Mm tolerance, part inX, part inY)
   where
-    refineStretch (a, b) = refine maxHalvings (between (node (a, b)) a (node (a, b) a) b (node (a, b) b))
+    refineStretch stretch@(a, b) =
+      refine maxHalvings (between (node stretch) a (node stretch a) b (node stretch b))
     node stretch u = case ShiftedCurve.expansionAt 1 curve (PointSearch.within stretch curve u) of
       V2 x y ->
         Node
@@ -46,7 +47,8 @@ along (Mm tolerance) curve = case curve of
           (PowerSeries.coefficient 1 y)
     refine remaining interval@Interval {begin, end, first, middleNode, final, nodeAt}
       | not (speed first > still && speed final > still && speed middleNode > still) = Nothing
-      | areHalvesNear tolerance interval firstHalf secondHalf = Just [hermiteSpan firstHalf, hermiteSpan secondHalf]
+      | areHalvesNear tolerance interval firstHalf secondHalf =
+        Just [hermiteSpan firstHalf, hermiteSpan secondHalf]
       | remaining <= 0 = Nothing
       | otherwise = (<>) <$> refine (remaining - 1) firstHalf <*> refine (remaining - 1) secondHalf
       where
@@ -68,7 +70,11 @@ speed (Node _ _ vx vy) = sqrt (vx * vx + vy * vy)
 
 -- | Interval between two parameters with the nodes at its ends and at its middle, and the
 -- function that gives nodes.
-data Interval = Interval {begin, end :: Double, first, middleNode, final :: Node, nodeAt :: Double -> Node}
+data Interval = Interval
+  { begin, end :: Double,
+    first, middleNode, final :: Node,
+    nodeAt :: Double -> Node
+  }
 
 -- | Interval between two nodes, with a new node at its middle.
 between :: (Double -> Node) -> Double -> Node -> Double -> Node -> Interval
@@ -115,7 +121,9 @@ difference
       middleNode = Node mx my sx sy,
       final = Node qx qy wx wy
     } =
-    (pointDifference px mx qx vx wx + pointDifference py my qy vy wy, derivativeDifference px sx qx vx wx + derivativeDifference py sy qy vy wy)
+    ( pointDifference px mx qx vx wx + pointDifference py my qy vy wy,
+      derivativeDifference px sx qx vx wx + derivativeDifference py sy qy vy wy
+    )
     where
       h = end - begin
       pointDifference p m q v w = abs (0.5 * (p + q) + 0.125 * h * (v - w) - m)

@@ -66,7 +66,10 @@ cuspOfLayer top lower whole
         (ShiftedCurve.distanceAt 0 top lower expansion (PointSearch.within stretch whole parameter))
     -- Candidates for the maximum: the samples, maxima between them, and local minima of the speed,
     -- where the curve bends most.
-    candidates s = [(s, u, shareAt s u) | u <- PointSearch.samples s <> maxima s <> speedMinima s]
+    candidates s =
+      [ (s, u, shareAt s u)
+        | u <- PointSearch.samples s <> maxima s <> speedMinima lower whole s
+      ]
     shareAt s u = let (g, _) = productAt s 0 u in g
     productAt s n u =
       let (g, isMoving) =
@@ -77,17 +80,25 @@ cuspOfLayer top lower whole
       RootFinding.falling
         (\u -> slopes (snd (productAt s 2 u)))
         [(u, fst (slopes (snd (productAt s 1 u)))) | u <- PointSearch.samples s]
-    slopes g = (PowerSeries.coefficient 1 g, 2 * PowerSeries.coefficient 2 g)
-    speedMinima s =
-      RootFinding.rising (speedSlope s) [(u, fst (speedSlope s u)) | u <- PointSearch.samples s]
-    speedSlope s u =
-      let V2 a b = ShiftedCurve.expansionAt 3 lower (PointSearch.within s whole u)
-          w =
-            PowerSeries.add
-              (square (PowerSeries.derivative a))
-              (square (PowerSeries.derivative b))
-       in slopes w
+
+-- | Parameters of the local minima of a curve's speed within a stretch of its shift.
+speedMinima :: Curve -> Curve -> (Double, Double) -> [Double]
+speedMinima lower whole stretch =
+  RootFinding.rising slope [(u, fst (slope u)) | u <- PointSearch.samples stretch]
+  where
+    slope u =
+      let V2 a b =
+            ShiftedCurve.expansionAt 3 lower (PointSearch.within stretch whole u)
+       in slopes
+            ( PowerSeries.add
+                (square (PowerSeries.derivative a))
+                (square (PowerSeries.derivative b))
+            )
     square a = PowerSeries.multiply a a
+
+-- | First and second derivative of a power series.
+slopes :: PowerSeries -> (Double, Double)
+slopes g = (PowerSeries.coefficient 1 g, 2 * PowerSeries.coefficient 2 g)
 
 -- | Power series of @d·κ@ about a parameter, up to the given order, and True; or, where the curve
 -- that is shifted has no speed, the series of d alone, and False.

@@ -45,9 +45,11 @@ exactly :: Foot -> Foot -> Point -> Point
 exactly footA footB initial = newton (8 :: Int) initial
   where
     newton remaining p
-      | Vec.distance a b <= Tolerance.crossing = if Vec.distance initial a <= reach then a else initial
+      | Vec.distance a b <= Tolerance.crossing =
+        if Vec.distance initial a <= reach then a else initial
       | remaining <= 0 || abs sine < smallestSine = initial
-      | otherwise = newton (remaining - 1) (Vec.shift (Vec.scale (Vec.cross (Vec.to a b) v / sine) u) a)
+      | otherwise =
+        newton (remaining - 1) (Vec.shift (Vec.scale (Vec.cross (Vec.to a b) v / sine) u) a)
       where
         (a, u) = footA p
         (b, v) = footB p

@@ -40,7 +40,9 @@ stretches curve = let bs = ShiftedCurve.breaks curve in zip bs (drop 1 bs)
 -- | Equally spaced parameters over a stretch, both ends included.
 samples :: (Double, Double) -> [Double]
 samples (a, b) =
-  [if k == sampleSteps then b else a + (b - a) * fromIntegral k / fromIntegral sampleSteps | k <- [0 .. sampleSteps]]
+  [ if k == sampleSteps then b else a + (b - a) * fromIntegral k / fromIntegral sampleSteps
+    | k <- [0 .. sampleSteps]
+  ]
 
 -- | Count of steps in which a smooth stretch is sampled.
 sampleSteps :: Int
@@ -64,7 +66,9 @@ nearest p curve =
   where
     sampled =
       map
-        (\stretch -> (stretch, refineSamples (sample stretch) (map (sample stretch) (samples stretch))))
+        ( \stretch ->
+            (stretch, refineSamples (sample stretch) (map (sample stretch) (samples stretch)))
+        )
         (stretches curve)
     sample stretch u =
       let jet = ShiftedCurve.expansionAt 1 curve (within stretch curve u)
@@ -92,7 +96,10 @@ nearest p curve =
         acceleration = Vec.vec (2 * PowerSeries.coefficient 2 x) (2 * PowerSeries.coefficient 2 y)
 
 -- | Inserts samples by bisection where the direction changes much between neighbours.
-refineSamples :: (Double -> (Double, Point, Vec)) -> [(Double, Point, Vec)] -> [(Double, Point, Vec)]
+refineSamples ::
+  (Double -> (Double, Point, Vec)) ->
+  [(Double, Point, Vec)] ->
+  [(Double, Point, Vec)]
 refineSamples sample = go
   where
     go found = case found of
@@ -117,7 +124,10 @@ atX abscissa curve = distinct (concatMap found (stretches curve))
       let V2 a _ = ShiftedCurve.expansionAt order curve (within stretch curve u) in a
     found stretch =
       roots
-        (map (\u -> (u, deviation (PowerSeries.value (x 0 stretch u)))) (merge (samples stretch) extrema))
+        ( map
+            (\u -> (u, deviation (PowerSeries.value (x 0 stretch u))))
+            (merge (samples stretch) extrema)
+        )
       where
         slopes = map (\u -> (u, PowerSeries.coefficient 1 (x 1 stretch u))) (samples stretch)
         slope u =
@@ -173,7 +183,8 @@ closed :: Curve -> Bool
 closed curve = Vec.near (end After 0) (end Before (ShiftedCurve.domain curve))
   where
     end approach u =
-      TaylorExpansion.place (ShiftedCurve.expansionAt 0 curve (ShiftedCurve.spanPoint approach u curve))
+      TaylorExpansion.place
+        (ShiftedCurve.expansionAt 0 curve (ShiftedCurve.spanPoint approach u curve))
 
 -- | Unit tangent just before or just after a parameter. On a closed curve the start continues the
 -- end.

@@ -239,13 +239,25 @@ bestWithin limit initialPair t@(PointTable xs ys) k i j = case k of
     let q m = let x = across m in x * (x - w)
         deviation m = relative Line m
         (worst, s, rows') =
-          minimax limit initialPair (\p r -> -((deviation p + deviation r) / (q p + q r))) (\a m -> deviation m + a * q m) i j
+          minimax
+            limit
+            initialPair
+            (\p r -> -((deviation p + deviation r) / (q p + q r)))
+            (\a m -> deviation m + a * q m)
+            i
+            j
      in (worst, Parabola s, Just rows')
   ArcKind ->
     let steepest = pi / 2 - atan2 (abs h) (abs w)
         deviation a m = arcRise chord (tan a) (across m) - up m
         (worst, s, rows') =
-          minimax limit initialPair (\p r -> root steepest (\a -> deviation a p + deviation a r)) deviationOf i j
+          minimax
+            limit
+            initialPair
+            (\p r -> root steepest (\a -> deviation a p + deviation a r))
+            deviationOf
+            i
+            j
         deviationOf a = let tangent = tan a in \m -> arcRise chord tangent (across m) - up m
      in (worst, Arc (Rad s), Just rows')
   where

@@ -104,7 +104,11 @@ layers t kinds tolerance = go (IntMap.singleton 0 ()) (IntMap.singleton 0 ())
                 then candidates
                 else [(k, most) | (k, d, most) <- ms, d <= tolerance + within]
             good = [(k, d) | (k, d, _) <- ms, d <= within]
-         in maybe id (\g -> ((j, g) :)) (NonEmpty.nonEmpty good) (lengthen reached i (j + 1) survivors)
+         in maybe
+              id
+              (\g -> ((j, g) :))
+              (NonEmpty.nonEmpty good)
+              (lengthen reached i (j + 1) survivors)
     deviationsOf ks i j
       | j == i + 1 = [(LineKind, 0, Nothing)]
       | otherwise =
@@ -182,7 +186,8 @@ sections t chosen = case NonEmpty.nonEmpty chosen of
         [a, b] | a < b -> Right (chosenSection (a - 1) (b - 1) Line)
         [a, m, b]
           | a < m && m < b ->
-            Right (chosenSection (a - 1) (b - 1) (parabola (row t (a - 1)) (row t (m - 1)) (row t (b - 1))))
+            let through = parabola (row t (a - 1)) (row t (m - 1)) (row t (b - 1))
+             in Right (chosenSection (a - 1) (b - 1) through)
         _ | length ks `elem` [2, 3] -> Left (RowsDoNotRise number)
         _ -> Left (WrongCount number (length ks))
     chosenSection i j c =

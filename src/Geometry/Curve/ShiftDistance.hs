@@ -203,7 +203,9 @@ joggleSeries n below interval joggle@Joggle {depth = Mm depth, radius = Mm r} po
         )
     lowerArc t = arcRise t
     upperArc t =
-      PowerSeries.plusConstant d (PowerSeries.scale (-1) (arcRise (PowerSeries.plusConstant (-l) t)))
+      PowerSeries.plusConstant
+        d
+        (PowerSeries.scale (-1) (arcRise (PowerSeries.plusConstant (-l) t)))
 
 -- | Power series of the arc length up to the position.
 lengthSeries :: Int -> CurveBelow -> SpanPoint -> PowerSeries

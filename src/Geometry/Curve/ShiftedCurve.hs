@@ -69,7 +69,8 @@ layers curve = reverse (outermost curve)
 breaks :: Curve -> [Double]
 breaks curve = case curve of
   Plain b -> map fromIntegral [0 .. Base.count b]
-  Shifted layer lower _ -> merge (breaks lower) (filter isInside (ShiftDistance.marks (interval layer)))
+  Shifted layer lower _ ->
+    merge (breaks lower) (filter isInside (ShiftDistance.marks (interval layer)))
   where
     isInside u = u > 0 && u < domain curve
 

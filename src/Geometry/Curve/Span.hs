@@ -93,13 +93,15 @@ jet n s t = case s of
   Round (Arc {start, centre, sweep = Rad sweep}) ->
     -- Each derivative is the one before, rotated by a quarter turn and multiplied by the sweep.
     let rotated = Vec.rotate (Rad (sweep * t)) (Vec.to centre start)
-        terms = zipWith Vec.scale (scanl (\k j -> k * sweep / j) 1 [1 ..]) (iterate Vec.left rotated)
+        factors = scanl (\k j -> k * sweep / j) 1 [1 ..]
+        terms = zipWith Vec.scale factors (iterate Vec.left rotated)
      in fromCoefficients n centre terms
   Round (Straight p q) -> fromCoefficients n p [Vec.scale t (Vec.to p q), Vec.to p q]
 
 -- | Taylor expansion with a constant term and the given further coefficients.
 fromCoefficients :: Int -> Point -> [Vec] -> TaylorExpansion
-fromCoefficients n p terms = V2 (part (Vec.x p) (map fst parts)) (part (Vec.y p) (map snd parts))
+fromCoefficients n p terms =
+  V2 (part (Vec.x p) (map fst parts)) (part (Vec.y p) (map snd parts))
   where
     parts = map components (take (n + 1) terms)
     part :: Double -> [Double] -> PowerSeries

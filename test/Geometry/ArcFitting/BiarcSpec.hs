@@ -36,15 +36,15 @@ spec = do
       "biarc: there is one for all directions less than square to the chord (catches a formula \
       \that parallel directions break)"
       $ property $
-        forAll (mild 1.57) $ \(a, b) -> counterexample "none" (isJust (Biarc.join a b))
+        forAll (posesWithin 1.57) $ \(a, b) -> counterexample "none" (isJust (Biarc.join a b))
     it "biarc: backwards it is the same (catches a ratio that favours one end)" $
       property $
-        forAll (mild 1.5) backwardsLaw
+        forAll (posesWithin 1.5) backwardsLaw
     it
       "biarc: what bends to one side stays so (catches equal chords where the angles differ much)"
       $ property $
         forAll oneSided oneSidedLaw
-    it "is one line between ends in line, and one arc between ends of an arc" $ do
+    it "is one line between collinear ends, and one arc between the ends of an arc" $ do
       fmap length (Biarc.join (Vec.point 1 2, east) (Vec.point 5 2, east)) `shouldBe` Just 1
       fmap
         (fmap Segment.length)
@@ -52,12 +52,12 @@ spec = do
         `shouldSatisfy` \case
           Just (Mm l :| []) -> abs (l - 5 * pi) < 1e-9
           _ -> False
-    it "is two half circles between parallel ends square to the chord" $
+    it "is two half circles between parallel ends perpendicular to the chord" $
       fmap
         (fmap (roundTo . sweepOf))
         (Biarc.join (Vec.point 0 0, Vec.vec 0 1) (Vec.point 4 0, Vec.vec 0 1))
         `shouldBe` Just (roundTo (-pi) :| [roundTo pi])
-    it "is nothing between points that are one, and where it would turn too far" $ do
+    it "does not exist between coincident points, and where an arc would sweep too far" $ do
       Biarc.join (Vec.point 1 1, east) (Vec.point 1 1, east) `shouldBe` Nothing
       Biarc.join (Vec.point 0 0, Vec.vec (-1) 0) (Vec.point 4 0, Vec.vec (-1) 0) `shouldBe` Nothing
   describe "biarcs through points" $ do
@@ -71,12 +71,12 @@ spec = do
       \that is only nearly the circle's)"
       $ property $
         forAll ((,) <$> elements [Open, Closed] <*> onCircle) (uncurry circleLaw)
-    it "joins two points by a line, and closed by a circle" $ do
+    it "joins two points by a line, or by a circle if closed" $ do
       Biarc.through Open (Vec.point 0 0 :| [Vec.point 4 0])
         `shouldBe` (Straight (Vec.point 0 0) (Vec.point 4 0) :| [])
       fmap (roundTo . sweepOf) (Biarc.through Closed (Vec.point 0 0 :| [Vec.point 4 0]))
         `shouldBe` (roundTo pi :| [roundTo pi])
-    it "takes points at one place for one" $
+    it "counts coincident points once" $
       Biarc.through
         Closed
         (Vec.point 0 0 :| [Vec.point 0 0, Vec.point 4 0, Vec.point 4 3, Vec.point 0 0])
@@ -86,26 +86,26 @@ spec = do
       "approximate: every point of the curve is near the arcs (catches a deviation seen at too few \
       \points)"
       $ property $
-        forAll tracked curveLaw
+        forAll fitCase curveLaw
     it
       "approximate: every point of the arcs is near the curve (catches an arc the long way round)"
       $ property $
-        forAll tracked arcsLaw
+        forAll fitCase arcsLaw
     it
       "approximate: so it is where the curve turns back within a radius far below the tolerance \
       \(catches an arc that overshoots)"
       $ property $
-        forAll turning arcsLaw
+        forAll nearCusp arcsLaw
     it
       "approximate: no kink but at corners, and a group for each stretch between them (catches a \
       \small kink taken for a corner)"
       $ property $
-        forAll tracked kinkLaw
+        forAll fitCase kinkLaw
     it
       "approximate: hardly more than the best choice among 64 joints needs (catches a step that \
       \stops early)"
       $ property $
-        forAll tracked fewLaw
+        forAll fitCase fewLaw
     it
       "along cubics: hardly more than the best choice among 64 joints needs (catches a step that \
       \stops early)"
@@ -117,12 +117,12 @@ spec = do
           forAll large curveLaw
     it "approximate: the generator reaches closed curves, vertical tangents, corners and kinks" $
       checkCoverage $
-        forAll tracked $ \(Tracked c _) ->
-          cover 10 (closedCurve c) "closed" $
+        forAll fitCase $ \(FitCase c _) ->
+          cover 10 (isClosed c) "closed" $
             cover 5 (corners c > 0) "corners" $
-              cover 4 (kinks c) "kinks" $
-                cover 20 (doublesBack c) "doubles back" True
-    it "comes to an end on curves that are no curves" $ do
+              cover 4 (hasKinks c) "kinks" $
+                cover 20 (reversesInX c) "doubles back" True
+    it "terminates on degenerate curves" $ do
       count 0.01 (odd' (\_ -> Vec.point 1 1) (const east)) `shouldBe` 1
       count
         0.01
@@ -144,7 +144,7 @@ type End = (Point, Vec)
 -- | Two end poses, often in special positions.
 pair :: Gen (End, End)
 pair =
-  leaning
+  posesLeaning
     ( oneof
         [ choose (-pi, pi),
           elements [0, pi / 2, -(pi / 2), pi, 1e-9, -1e-9, 1e-5, pi / 4, -(pi / 4)]
@@ -153,11 +153,11 @@ pair =
 
 -- | End poses whose directions make less than a given angle with the chord, parallel and mirrored
 -- ones among them.
-mild :: Double -> Gen (End, End)
-mild limit = leaning (oneof [choose (-limit, limit), elements [0, limit, -limit, 1e-7, 0.3, -0.3]])
+posesWithin :: Double -> Gen (End, End)
+posesWithin limit = posesLeaning (oneof [choose (-limit, limit), elements [0, limit, -limit, 1e-7, 0.3, -0.3]])
 
-leaning :: Gen Double -> Gen (End, End)
-leaning angles = do
+posesLeaning :: Gen Double -> Gen (End, End)
+posesLeaning angles = do
   p <- Vec.point <$> choose (-300, 300) <*> choose (-300, 300)
   chord <-
     Vec.polar . Mm <$> oneof [choose (0.01, 1), choose (1, 1000)] <*> (Rad <$> choose (-pi, pi))
@@ -171,7 +171,7 @@ joinLaw (from@(p, s), to@(q, t)) = case Biarc.join from to of
   Nothing -> classify True "none" True
   Just ss ->
     let list = toList ss
-     in conjoin (map sound list)
+     in conjoin (map soundArc list)
           .&&. Segment.start (NonEmpty.head ss) === p
           .&&. Segment.end (NonEmpty.last ss) === q
           .&&. counterexample
@@ -183,8 +183,8 @@ joinLaw (from@(p, s), to@(q, t)) = case Biarc.join from to of
 
 -- | Both ends of an arc lie on its circle at the distance of its sweep, which is at most half a
 -- turn.
-sound :: Segment -> Property
-sound s = case s of
+soundArc :: Segment -> Property
+soundArc s = case s of
   Straight _ _ -> property True
   Arc {start, end, centre, sweep = Rad a} ->
     let r = away centre start
@@ -260,7 +260,7 @@ scattered = do
 
 throughLaw :: Ends -> NonEmpty Point -> Property
 throughLaw ends ps =
-  conjoin (map sound list)
+  conjoin (map soundArc list)
     .&&. smooth (list <> closing)
     .&&. counterexample
       (show list)
@@ -308,7 +308,7 @@ circleLaw ends (shape, ps) = case shape of
 
 -- Along a curve ---------------------------------------------------------------------------------
 
-data Tracked = Tracked Curve Double
+data FitCase = FitCase Curve Double
   deriving stock (Show)
 
 -- | Curves in mm, with the parameters at which spans meet.
@@ -331,18 +331,18 @@ data Curve
 
 type Node = (Point, Double, Double, Double, Double)
 
-tracked :: Gen Tracked
-tracked = Tracked <$> curve 1 <*> ((10 **) <$> choose (-3, 0))
+fitCase :: Gen FitCase
+fitCase = FitCase <$> curve 1 <*> ((10 **) <$> choose (-3, 0))
 
-large :: Gen Tracked
+large :: Gen FitCase
 large =
-  Tracked <$> (Sine <$> choose (100, 1000) <*> choose (300, 800) <*> breaking 12) <*> pure 1e-5
+  FitCase <$> (Sine <$> choose (100, 1000) <*> choose (300, 800) <*> spanEnds 12) <*> pure 1e-5
 
-turning :: Gen Tracked
-turning = Tracked <$> (Cusp <$> choose (0.05, 3) <*> breaking 3) <*> ((10 **) <$> choose (-2, 0))
+nearCusp :: Gen FitCase
+nearCusp = FitCase <$> (Cusp <$> choose (0.05, 3) <*> spanEnds 3) <*> ((10 **) <$> choose (-2, 0))
 
-smoothCubic :: Gen Tracked
-smoothCubic = Tracked <$> (short <$> cubic 1) <*> ((10 **) <$> choose (-3, -1.5))
+smoothCubic :: Gen FitCase
+smoothCubic = FitCase <$> (short <$> cubic 1) <*> ((10 **) <$> choose (-3, -1.5))
   where
     short c = case c of
       Cubic _ nodes -> Cubic False [(p, a, 0, v, w) | (p, a, _, v, w) <- take 3 nodes]
@@ -351,12 +351,12 @@ smoothCubic = Tracked <$> (short <$> cubic 1) <*> ((10 **) <$> choose (-3, -1.5)
 curve :: Double -> Gen Curve
 curve size =
   oneof
-    [ Sine <$> choose (size, 30 * size) <*> choose (5 * size, 40 * size) <*> breaking 9,
+    [ Sine <$> choose (size, 30 * size) <*> choose (5 * size, 40 * size) <*> spanEnds 9,
       Ellipse
-        <$> choose (10 * size, 80 * size) <*> choose (10 * size, 80 * size) <*> breaking (2 * pi),
+        <$> choose (10 * size, 80 * size) <*> choose (10 * size, 80 * size) <*> spanEnds (2 * pi),
       Lissajous
-        <$> choose (10 * size, 60 * size) <*> choose (10 * size, 60 * size) <*> breaking (2 * pi),
-      Quartic <$> choose (0.2 * size, 2 * size) <*> breaking 3,
+        <$> choose (10 * size, 60 * size) <*> choose (10 * size, 60 * size) <*> spanEnds (2 * pi),
+      Quartic <$> choose (0.2 * size, 2 * size) <*> spanEnds 3,
       Bends
         <$> resize
           6
@@ -371,8 +371,8 @@ curve size =
     ]
 
 -- | Ends of the spans: the last at a given parameter; some spans are far shorter than others.
-breaking :: Double -> Gen [Double]
-breaking end = do
+spanEnds :: Double -> Gen [Double]
+spanEnds end = do
   inner <- resize 5 (listOf (choose (0.01, 0.99)))
   tiny <- elements [[], [0.3, 0.30001, 0.3001]]
   pure (map (* end) (sort (inner <> tiny)) <> [end])
@@ -390,8 +390,8 @@ cubic size = do
     (,,,,) p a jump <$> choose (0.4, 1.2) <*> choose (0.4, 1.2)
   pure (Cubic closed nodes)
 
-closedCurve :: Curve -> Bool
-closedCurve c = case c of
+isClosed :: Curve -> Bool
+isClosed c = case c of
   Sine {} -> False
   Ellipse {} -> True
   Lissajous {} -> True
@@ -410,17 +410,17 @@ jumps c = case c of
 corners :: Curve -> Int
 corners c = length (filter ((> 0.01) . abs) (jumps c))
 
-kinks :: Curve -> Bool
-kinks c = any (\j -> j /= 0 && abs j < 0.01) (jumps c)
+hasKinks :: Curve -> Bool
+hasKinks c = any (\j -> j /= 0 && abs j < 0.01) (jumps c)
 
 -- | True if x both rises and falls.
-doublesBack :: Curve -> Bool
-doublesBack c = or (zipWith (<=) xs (drop 1 xs)) && or (zipWith (>) xs (drop 1 xs))
+reversesInX :: Curve -> Bool
+reversesInX c = or (zipWith (<=) xs (drop 1 xs)) && or (zipWith (>) xs (drop 1 xs))
   where
-    xs = map Vec.x (samples 50 (trackOf c))
+    xs = map Vec.x (samples 50 (parametricCurve c))
 
-trackOf :: Curve -> ParametricCurve
-trackOf c = case c of
+parametricCurve :: Curve -> ParametricCurve
+parametricCurve c = case c of
   Sine a w bs -> analytic bs (\u -> Vec.point (w * u) (a * sin u)) (\u -> Vec.vec w (a * cos u))
   Ellipse a b bs ->
     analytic bs (\u -> Vec.point (a * cos u) (b * sin u)) (\u -> Vec.vec (-(a * sin u)) (b * cos u))
@@ -500,12 +500,12 @@ parameters :: Int -> ParametricCurve -> [Double]
 parameters n t =
   [begin t + (NonEmpty.last (breaks t) - begin t) * fromIntegral k / fromIntegral n | k <- [0 .. n]]
 
-chain :: Tracked -> [Segment]
-chain (Tracked c tolerance) =
-  concatMap toList (toList (ParametricFit.approximate (Mm tolerance) (trackOf c)))
+chain :: FitCase -> [Segment]
+chain (FitCase c tolerance) =
+  concatMap toList (toList (ParametricFit.approximate (Mm tolerance) (parametricCurve c)))
 
-curveLaw :: Tracked -> Property
-curveLaw w@(Tracked c tolerance) = forAll (vectorOf 200 (choose (0, 1))) $ \fs ->
+curveLaw :: FitCase -> Property
+curveLaw w@(FitCase c tolerance) = forAll (vectorOf 200 (choose (0, 1))) $ \fs ->
   conjoin
     [ counterexample (show (u, d)) (d <= tolerance)
       | f <- fs,
@@ -513,11 +513,11 @@ curveLaw w@(Tracked c tolerance) = forAll (vectorOf 200 (choose (0, 1))) $ \fs -
         let d = minimum (map (`apart` place t u) ss)
     ]
   where
-    t = trackOf c
+    t = parametricCurve c
     ss = chain w
 
-arcsLaw :: Tracked -> Property
-arcsLaw w@(Tracked c tolerance) =
+arcsLaw :: FitCase -> Property
+arcsLaw w@(FitCase c tolerance) =
   forAll (vectorOf 40 ((,) <$> choose (0, length ss - 1) <*> choose (0, 1))) $ \picks ->
     conjoin
       [ counterexample (show (p, d)) (d <= tolerance + 1e-9)
@@ -526,7 +526,7 @@ arcsLaw w@(Tracked c tolerance) =
           let (d, _) = near p
       ]
   where
-    near = nearest (trackOf c)
+    near = nearest (parametricCurve c)
     ss = chain w
 
 -- | Distance from a point to a curve and the parameter of the foot. Adds samples near the closest
@@ -555,11 +555,11 @@ nearest t =
          in closer p (k - 1) (h / 2) v
     held = max (begin t) . min (NonEmpty.last (breaks t))
 
-kinkLaw :: Tracked -> Property
-kinkLaw (Tracked c tolerance) =
+kinkLaw :: FitCase -> Property
+kinkLaw (FitCase c tolerance) =
   length groups === corners c + 1
     .&&. conjoin (map (smooth . toList) (toList groups))
-    .&&. conjoin (map sound (concatMap toList (toList groups)))
+    .&&. conjoin (map soundArc (concatMap toList (toList groups)))
     .&&. conjoin
       ( zipWith
           (\a b -> Segment.end (NonEmpty.last a) === Segment.start (NonEmpty.head b))
@@ -567,21 +567,21 @@ kinkLaw (Tracked c tolerance) =
           (NonEmpty.tail groups)
       )
   where
-    groups = ParametricFit.approximate (Mm tolerance) (trackOf c)
+    groups = ParametricFit.approximate (Mm tolerance) (parametricCurve c)
 
 -- | Comparison with the fewest biarcs, of any of several chord ratios, between 65 points of the
 -- curve. A biarc counts only if it is within the tolerance, which many points decide. Biarcs
 -- are separated at joints that have the curve's position and direction. On lines and arcs, the
 -- end of a biarc may be its joint in the middle; there segments are counted, two for each
 -- biarc. In a biarc of nearly no length, the joint in the middle cannot be told from the ends.
-fewLaw :: Tracked -> Property
-fewLaw w@(Tracked c tolerance) =
+fewLaw :: FitCase -> Property
+fewLaw w@(FitCase c tolerance) =
   corners c == 0
-    && not (kinks c)
+    && not (hasKinks c)
     && length ss <= 40 ==> fewerLaw found (fewestOf size tolerance t) slack
   where
     ss = chain w
-    t = trackOf c
+    t = parametricCurve c
     near = nearest t
     (found, size, slack) = case c of
       Bends _ -> (length ss, length, 2)
@@ -595,10 +595,10 @@ fewLaw w@(Tracked c tolerance) =
 
 -- | Comparison as in 'fewLaw' for biarcs with other directions than the curve: segments are
 -- counted.
-fewOnCubicsLaw :: Tracked -> Property
-fewOnCubicsLaw (Tracked c tolerance) = case c of
+fewOnCubicsLaw :: FitCase -> Property
+fewOnCubicsLaw (FitCase c tolerance) = case c of
   Cubic closed nodes
-    | length ss <= 60 -> fewerLaw (length ss) (fewestOf length tolerance (trackOf c)) 2
+    | length ss <= 60 -> fewerLaw (length ss) (fewestOf length tolerance (parametricCurve c)) 2
     where
       pairs = zip nodes (drop 1 nodes <> [p | closed, p <- take 1 nodes])
       part f =

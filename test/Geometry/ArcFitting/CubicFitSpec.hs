@@ -28,19 +28,19 @@ spec =
       "every point of the curve is near the arcs (catches a maximum between the ends of a span \
       \that is left out)"
       $ property $
-        forAll tracked curveLaw
+        forAll fitCase curveLaw
     it
       "every point of the arcs is near the curve (catches an arc that overshoots where the curve \
       \turns back)"
       $ property $
-        forAll tracked arcsLaw
+        forAll fitCase arcsLaw
     it "no kink but at corners (catches a direction at a joint that only one side has)" $
       property $
-        forAll tracked smoothLaw
-    it "not many more than without the bound (catches a bound that is far too large)" $
+        forAll fitCase smoothLaw
+    it "needs few more biarcs than the general fit (catches a bound that is far too large)" $
       property $
-        forAll tracked fewLaw
-    it "a table of points in a line is one line (catches spans that are not looked past)" $
+        forAll fitCase fewLaw
+    it "collinear points give one line (catches a fit that stops at the end of a span)" $
       fmap
         length
         ( arcsOf 1e-5
@@ -54,20 +54,20 @@ spec =
       "the generator reaches corners, sharp turns, kinks and spans that many arcs or a part of one \
       \take"
       $ checkCoverage $
-        forAll tracked $ \(Tracked _ tolerance c) ->
+        forAll fitCase $ \(FitCase _ tolerance c) ->
           let n = length (arcsOf tolerance c)
            in cover 10 (cornersOf c > 0) "corners" $
                 cover 20 (n > 8 * Curve.spans c) "many arcs a span" $
                   cover 10 (n < Curve.spans c) "many spans an arc" True
 
 -- | Kind of the test curve, tolerance in mm, and curve.
-data Tracked = Tracked String Double Curve
+data FitCase = FitCase String Double Curve
 
-instance Show Tracked where
-  show (Tracked how tolerance _) = "within " <> show tolerance <> " " <> how
+instance Show FitCase where
+  show (FitCase how tolerance _) = "within " <> show tolerance <> " " <> how
 
-tracked :: Gen Tracked
-tracked = do
+fitCase :: Gen FitCase
+fitCase = do
   n <- choose (3, 9)
   scattered <- vectorOf n (Vec.point <$> choose (-40, 40) <*> choose (-40, 40))
   (turning, start) <- (,) <$> choose (-0.15, 0.15) <*> choose (-3, 3)
@@ -94,8 +94,8 @@ tracked = do
         ("dense polyline", dense, Curve.polyline)
       ]
   case made (Vector.fromList points) of
-    Right c -> pure (Tracked (name <> " " <> show points) tolerance c)
-    Left _ -> tracked
+    Right c -> pure (FitCase (name <> " " <> show points) tolerance c)
+    Left _ -> fitCase
 
 arcsOf :: Double -> Curve -> [Segment]
 arcsOf tolerance c = case Curve.cubics (Mm 1e-9) c of
@@ -107,11 +107,11 @@ arcsOf tolerance c = case Curve.cubics (Mm 1e-9) c of
   Nothing -> []
 
 cornersOf :: Curve -> Int
-cornersOf c = length (filter (> 1e-3) (turnsOf c))
+cornersOf c = length (filter (> 1e-3) (jumpsOf c))
 
 -- | Jumps of direction at the ends of the spans.
-turnsOf :: Curve -> [Double]
-turnsOf c =
+jumpsOf :: Curve -> [Double]
+jumpsOf c =
   [ abs (angle (Curve.tangentFrom Curve.Before c u) (Curve.tangentFrom Curve.After c u))
     | u <- drop 1 (init (Curve.breaks c))
   ]
@@ -122,12 +122,12 @@ turnsOf c =
 -- across it then has hardly any freedom, and whether the fit finds one within the bound is
 -- chance. A hook between points nearer than the tolerance has the same effect, because no arc
 -- runs forwards along it.
-tight :: Tracked -> Bool
-tight (Tracked _ tolerance c) =
+isTight :: FitCase -> Bool
+isTight (FitCase _ tolerance c) =
   or hooks
     || or
       [ k <= 1e-3 && tolerance >= 0.9 * bulge && tolerance <= 5 * bulge
-        | (a, b, k) <- zip3 chords (drop 1 chords) (turnsOf c),
+        | (a, b, k) <- zip3 chords (drop 1 chords) (jumpsOf c),
           let bulge = k * max a b / 8
       ]
   where
@@ -140,8 +140,8 @@ tight (Tracked _ tolerance c) =
           let turnsBack side u = Vec.dot (Curve.tangentFrom side c u) (Vec.to p q) < 0
       ]
 
-curveLaw :: Tracked -> Property
-curveLaw (Tracked _ tolerance c) = forAll (vectorOf 100 (choose (0, 1))) $ \fs ->
+curveLaw :: FitCase -> Property
+curveLaw (FitCase _ tolerance c) = forAll (vectorOf 100 (choose (0, 1))) $ \fs ->
   conjoin
     [ counterexample (show (u, d)) (d <= tolerance)
       | f <- fs,
@@ -151,8 +151,8 @@ curveLaw (Tracked _ tolerance c) = forAll (vectorOf 100 (choose (0, 1))) $ \fs -
   where
     ss = arcsOf tolerance c
 
-arcsLaw :: Tracked -> Property
-arcsLaw (Tracked _ tolerance c) =
+arcsLaw :: FitCase -> Property
+arcsLaw (FitCase _ tolerance c) =
   forAll (vectorOf 30 ((,) <$> choose (0, length ss - 1) <*> choose (0, 1))) $ \picks ->
     conjoin
       [ counterexample (show (p, d)) (d <= tolerance + 1e-8)
@@ -200,8 +200,8 @@ arcsLaw (Tracked _ tolerance c) =
         u = a + (b - a) / 3
         v = b - (b - a) / 3
 
-smoothLaw :: Tracked -> Property
-smoothLaw (Tracked _ tolerance c) =
+smoothLaw :: FitCase -> Property
+smoothLaw (FitCase _ tolerance c) =
   conjoin (zipWith joined ss (drop 1 ss)) .&&. length (filter (> 2.1e-8) turns) === cornersOf c
   where
     ss = arcsOf tolerance c
@@ -212,9 +212,9 @@ smoothLaw (Tracked _ tolerance c) =
         (drop 1 ss)
     joined a b = counterexample (show (a, b)) (Segment.end a === Segment.start b)
 
-fewLaw :: Tracked -> Property
-fewLaw t@(Tracked _ tolerance c) =
-  not (tight t)
+fewLaw :: FitCase -> Property
+fewLaw t@(FitCase _ tolerance c) =
+  not (isTight t)
     ==> counterexample
       (show (length ss, general))
       ( fromIntegral (length ss)

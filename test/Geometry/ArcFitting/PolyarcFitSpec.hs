@@ -24,52 +24,52 @@ import Test.QuickCheck
 
 spec :: Spec
 spec =
-  describe "biarcs along chains" $ do
+  describe "biarcs along polyarcs" $ do
     it
       "every point of the chain is near the arcs (catches an extremum within a piece that is left \
       \out)"
       $ property $
-        forAll tracked chainLaw
+        forAll fitCase chainLaw
     it
       "every point of the arcs is near the chain (catches an arc that overshoots where the chain \
       \turns back)"
       $ property $
-        forAll tracked arcsLaw
+        forAll fitCase arcsLaw
     it
       "from the beginning to the end, no kink but at corners (catches a direction that only one \
       \side has)"
       $ property $
-        forAll tracked smoothLaw
-    it "not many more than in general (catches a bound that is far too large)" $
+        forAll fitCase smoothLaw
+    it "needs few more biarcs than the general fit (catches a bound that is far too large)" $
       property $
-        forAll tracked fewLaw
+        forAll fitCase fewLaw
     it
       "smoothed, a chain is near itself and turns at its corners only (catches a kink that is \
       \left, an arc beyond a corner)"
       $ property $
-        forAll tracked smoothedLaw
+        forAll fitCase smoothedLaw
     it
       "smoothed, a chain without kinks keeps all of its ends that are not within an arc (catches a \
       \chain that is put anew)"
       $ property $
-        forAll (tracked `suchThat` smoothAlready) keptLaw
-    it "the generator reaches corners, and arcs that stand for many or for a part of one" $
+        forAll (fitCase `suchThat` hasCornersOnly) keptLaw
+    it "the generator reaches corners, and arcs that replace many arcs or a part of one" $
       checkCoverage $
-        forAll tracked $ \t@(Tracked _ _ pieces) ->
+        forAll fitCase $ \t@(FitCase _ _ pieces) ->
           let n = length (arcsOf t)
            in cover 10 (cornersOf (toList pieces) > 0) "corners" $
                 cover 20 (2 * n < length pieces) "many for one" $
                   cover 5 (n > length pieces) "one for many" True
 
 -- | Kind of the test polyarc, tolerance in mm, and polyarc.
-data Tracked = Tracked String Double (NonEmpty Segment)
+data FitCase = FitCase String Double (NonEmpty Segment)
 
-instance Show Tracked where
-  show (Tracked how tolerance pieces) =
+instance Show FitCase where
+  show (FitCase how tolerance pieces) =
     "within " <> show tolerance <> " " <> how <> " " <> show (toList pieces)
 
-tracked :: Gen Tracked
-tracked = oneof [splined, bent, through, polygon]
+fitCase :: Gen FitCase
+fitCase = oneof [splined, bent, through, polygon]
   where
     tolerance = (10 **) <$> choose (-4, -0.5)
     points =
@@ -81,7 +81,7 @@ tracked = oneof [splined, bent, through, polygon]
       case Curve.spline Curve.Natural (Vector.fromList ps) of
         Left _ -> splined
         Right c ->
-          (\t -> Tracked "splined" t (sconcat (ParametricFit.approximate (Mm fine) (Part.track c))))
+          (\t -> FitCase "splined" t (sconcat (ParametricFit.approximate (Mm fine) (Part.track c))))
             <$> tolerance
     -- Lines and arcs in tangent contact.
     bent = do
@@ -112,12 +112,12 @@ tracked = oneof [splined, bent, through, polygon]
                 }
       maybe
         bent
-        (\ss -> (\t -> Tracked "bent" t ss) <$> tolerance)
+        (\ss -> (\t -> FitCase "bent" t ss) <$> tolerance)
         (NonEmpty.nonEmpty (zipWith3 piece poses (drop 1 poses) bends))
     through = do
       ps <- points
       ( \t ->
-          Tracked
+          FitCase
             "through points"
             t
             ( maybe
@@ -147,31 +147,31 @@ tracked = oneof [splined, bent, through, polygon]
               [1 .. n :: Int]
       maybe
         polygon
-        (\ss -> (\t -> Tracked "polygon" t ss) <$> tolerance)
+        (\ss -> (\t -> FitCase "polygon" t ss) <$> tolerance)
         (NonEmpty.nonEmpty (zipWith Straight place (drop 1 place)))
 
-arcsOf :: Tracked -> [Segment]
-arcsOf (Tracked _ tolerance pieces) =
+arcsOf :: FitCase -> [Segment]
+arcsOf (FitCase _ tolerance pieces) =
   toList
     ( MeasuredPolyarc.segments
         (MeasuredPolyarc.fromOutline (PolyarcFit.approximate (Mm tolerance) pieces))
     )
 
 cornersOf :: [Segment] -> Int
-cornersOf ss = length (filter (> 1e-3) (turnsOf ss))
+cornersOf ss = length (filter (> 1e-3) (jumpsOf ss))
 
-turnsOf :: [Segment] -> [Double]
-turnsOf ss =
+jumpsOf :: [Segment] -> [Double]
+jumpsOf ss =
   zipWith
     (\a b -> let Rad t = Vec.turn (Segment.endDirection a) (Segment.startDirection b) in abs t)
     ss
     (drop 1 ss)
 
-chainLaw :: Tracked -> Property
-chainLaw t@(Tracked _ tolerance pieces) = near tolerance (toList pieces) (arcsOf t)
+chainLaw :: FitCase -> Property
+chainLaw t@(FitCase _ tolerance pieces) = near tolerance (toList pieces) (arcsOf t)
 
-arcsLaw :: Tracked -> Property
-arcsLaw t@(Tracked _ tolerance pieces) = near (tolerance + 1e-9) (arcsOf t) (toList pieces)
+arcsLaw :: FitCase -> Property
+arcsLaw t@(FitCase _ tolerance pieces) = near (tolerance + 1e-9) (arcsOf t) (toList pieces)
 
 -- | Points of some segments are within a distance of others.
 near :: Double -> [Segment] -> [Segment] -> Property
@@ -181,25 +181,25 @@ near tolerance ss others =
       [ counterexample (show (p, d)) (d <= tolerance)
         | (k, f) <- picks,
           let p = Segment.at f (ss !! k),
-          let d = minimum (map (away p) others)
+          let d = minimum (map (distanceTo p) others)
       ]
 
-smoothedLaw :: Tracked -> Property
-smoothedLaw t@(Tracked _ tolerance pieces) =
+smoothedLaw :: FitCase -> Property
+smoothedLaw t@(FitCase _ tolerance pieces) =
   conjoin
     [ near (tolerance + 1e-9) found (toList pieces),
       near (tolerance + 1e-9) (toList pieces) found,
       counterexample
         (show found)
         (property (and (zipWith (\a b -> Segment.end a == Segment.start b) found (drop 1 found)))),
-      counterexample (show (turnsOf found)) (all (\k -> k <= 1e-6 || k > 1e-3) (turnsOf found)),
+      counterexample (show (jumpsOf found)) (all (\k -> k <= 1e-6 || k > 1e-3) (jumpsOf found)),
       cornersOf found === cornersOf (toList pieces)
     ]
   where
     found = smoothedOf t
 
-keptLaw :: Tracked -> Property
-keptLaw t@(Tracked _ _ pieces) =
+keptLaw :: FitCase -> Property
+keptLaw t@(FitCase _ _ pieces) =
   conjoin
     [ counterexample
         (show s)
@@ -213,32 +213,32 @@ keptLaw t@(Tracked _ _ pieces) =
       Arc {centre} -> Just centre
       Straight _ _ -> Nothing
 
-smoothedOf :: Tracked -> [Segment]
-smoothedOf (Tracked _ tolerance pieces) = toList (PolyarcFit.smoothed (Mm tolerance) pieces)
+smoothedOf :: FitCase -> [Segment]
+smoothedOf (FitCase _ tolerance pieces) = toList (PolyarcFit.smoothed (Mm tolerance) pieces)
 
 -- | True if a polyarc has kinks at corners only.
-smoothAlready :: Tracked -> Bool
-smoothAlready (Tracked _ _ pieces) = all (\k -> k <= 1e-7 || k > 1e-3) (turnsOf (toList pieces))
+hasCornersOnly :: FitCase -> Bool
+hasCornersOnly (FitCase _ _ pieces) = all (\k -> k <= 1e-7 || k > 1e-3) (jumpsOf (toList pieces))
 
 -- | True if a kink that is no corner takes up between half and all of the tolerance. An arc
 -- across it then has hardly any freedom, and whether the fit finds one within the bound is
 -- chance.
-tight :: Tracked -> Bool
-tight (Tracked _ tolerance pieces) =
+isTight :: FitCase -> Bool
+isTight (FitCase _ tolerance pieces) =
   or
     [ k <= 1e-3 && tolerance >= 0.9 * bulge && tolerance <= 2 * bulge
-      | (s, s', k) <- zip3 ss (drop 1 ss) (turnsOf ss),
+      | (s, s', k) <- zip3 ss (drop 1 ss) (jumpsOf ss),
         let bulge = k * max (long s) (long s') / 8
     ]
   where
     ss = toList pieces
     long s = let Mm l = Segment.length s in l
 
-away :: Point -> Segment -> Double
-away p s = let Mm d = Distance.toPoint p s in d
+distanceTo :: Point -> Segment -> Double
+distanceTo p s = let Mm d = Distance.toPoint p s in d
 
-smoothLaw :: Tracked -> Property
-smoothLaw t@(Tracked _ _ pieces) =
+smoothLaw :: FitCase -> Property
+smoothLaw t@(FitCase _ _ pieces) =
   conjoin (zipWith (\a b -> Segment.end a === Segment.start b) ss (drop 1 ss))
     .&&. Segment.start (NonEmpty.head pieces)
       === Segment.start (foldr const (NonEmpty.head pieces) ss)
@@ -246,14 +246,14 @@ smoothLaw t@(Tracked _ _ pieces) =
       === Segment.end (foldl (const id) (NonEmpty.last pieces) ss)
     .&&. counterexample
       (show ss)
-      (length (filter (> 3e-8) (turnsOf ss)) === cornersOf (toList pieces))
+      (length (filter (> 3e-8) (jumpsOf ss)) === cornersOf (toList pieces))
   where
     ss = arcsOf t
 
-fewLaw :: Tracked -> Property
-fewLaw t@(Tracked _ tolerance pieces) =
+fewLaw :: FitCase -> Property
+fewLaw t@(FitCase _ tolerance pieces) =
   all ((< 1.5) . sweepOf) pieces
-    && not (tight t)
+    && not (isTight t)
       ==> counterexample
         (show (found, general))
         ( fromIntegral found

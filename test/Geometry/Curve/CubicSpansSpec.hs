@@ -17,7 +17,7 @@ import Test.QuickCheck
 
 spec :: Spec
 spec =
-  describe "cubics for curves" $ do
+  describe "cubic approximation of curves" $ do
     it
       "every point of a shifted curve is near them (catches a stretch whose middle alone is looked \
       \at)"
@@ -26,13 +26,13 @@ spec =
     it
       "every point of a long shallow bevel is near them (catches halves that are taken to be as \
       \near as half the way lets expect)"
-      $ once (nearWhere [k / 400 | k <- [0 .. 400]] shallow 2.05934e-4)
+      $ once (nearAt [k / 400 | k <- [0 .. 400]] shallow 2.05934e-4)
     it
       "they join, and run from the beginning of the curve to its end (catches a half that is left \
       \out)"
       $ property $
         forAll shifted joinedLaw
-    it "those of a spline are its own, exactly" $
+    it "the cubics of a spline are its own, exactly" $
       property $
         forAll Generate.smooth $ \c ->
           fmap (\(Mm d, _, _) -> d) (Curve.cubics (Mm 1e-7) c) === Just 0
@@ -57,10 +57,10 @@ shallow =
     column = Curve.column spline . Exts.fromList
 
 nearLaw :: Curve -> Double -> Property
-nearLaw c tolerance = forAll (vectorOf 30 (choose (0, 1))) $ \fs -> nearWhere fs c tolerance
+nearLaw c tolerance = forAll (vectorOf 30 (choose (0, 1))) $ \fs -> nearAt fs c tolerance
 
-nearWhere :: [Double] -> Curve -> Double -> Property
-nearWhere fs c tolerance = case placesOf tolerance c of
+nearAt :: [Double] -> Curve -> Double -> Property
+nearAt fs c tolerance = case pointsOf tolerance c of
   Nothing -> classify True "stands still" True
   Just (n, place) ->
     -- Compares span by span: where a shift has opened a corner, a point near one span may hide that
@@ -71,11 +71,11 @@ nearWhere fs c tolerance = case placesOf tolerance c of
           ]
         closer :: Point -> Int -> Int -> Double -> Double -> Double
         closer p i k h w
-          | k == 0 = away p (place i w)
+          | k == 0 = apart p (place i w)
           | otherwise =
             let (_, v) =
                   minimum
-                    [ (away p (place i x), x)
+                    [ (apart p (place i x), x)
                       | x <- map (held i) [w - h, w - h / 2, w, w + h / 2, w + h]
                     ]
              in closer p i (k - 1) (h / 2) v
@@ -92,7 +92,7 @@ nearWhere fs c tolerance = case placesOf tolerance c of
                     6
                     ( sort
                         ( concat
-                            [ [(d, w, i) | (d, w) <- valleys [(away p q, w) | (w, q) <- ws]]
+                            [ [(d, w, i) | (d, w) <- valleys [(apart p q, w) | (w, q) <- ws]]
                               | (i, ws) <- zip [0 ..] known
                             ]
                         )
@@ -106,7 +106,7 @@ nearWhere fs c tolerance = case placesOf tolerance c of
           ]
 
 joinedLaw :: Curve -> Property
-joinedLaw c = case placesOf 1e-6 c of
+joinedLaw c = case pointsOf 1e-6 c of
   Nothing -> property True
   -- A shift opens corners.
   _ | any torn (Curve.breaks c) -> classify True "torn" True
@@ -114,20 +114,20 @@ joinedLaw c = case placesOf 1e-6 c of
     conjoin
       [ counterexample
           (show k)
-          (away (place (k - 1) (fromIntegral k)) (place k (fromIntegral k)) < 1e-4)
+          (apart (place (k - 1) (fromIntegral k)) (place k (fromIntegral k)) < 1e-4)
         | k <- [1 .. n - 1]
       ]
       .&&. counterexample
         "ends"
-        ( away (place 0 0) (Curve.start c) < 1e-9
-            && away (place (n - 1) (fromIntegral n)) (Curve.end c) < 1e-9
+        ( apart (place 0 0) (Curve.start c) < 1e-9
+            && apart (place (n - 1) (fromIntegral n)) (Curve.end c) < 1e-9
         )
   where
-    torn u = away (Curve.placeFrom Curve.Before c u) (Curve.placeFrom Curve.After c u) > 1e-6
+    torn u = apart (Curve.placeFrom Curve.Before c u) (Curve.placeFrom Curve.After c u) > 1e-6
 
 -- | Count of spans, and the point on one of them by the cubics.
-placesOf :: Double -> Curve -> Maybe (Int, Int -> Double -> Point)
-placesOf tolerance c = case Curve.cubics (Mm tolerance) c of
+pointsOf :: Double -> Curve -> Maybe (Int, Int -> Double -> Point)
+pointsOf tolerance c = case Curve.cubics (Mm tolerance) c of
   Nothing -> Nothing
   Just (_, xs, ys) ->
     let n = Spline.count xs
@@ -137,5 +137,5 @@ placesOf tolerance c = case Curve.cubics (Mm tolerance) c of
            in Vec.point (Spline.value (Spline.at xs i) t) (Spline.value (Spline.at ys i) t)
      in Just (n, place)
 
-away :: Point -> Point -> Double
-away a b = let Mm d = Vec.distance a b in d
+apart :: Point -> Point -> Double
+apart a b = let Mm d = Vec.distance a b in d

@@ -28,27 +28,27 @@ import Test.QuickCheck
 
 spec :: Spec
 spec = do
-  describe "curves through a table" $ do
+  describe "sections through a table" $ do
     it
       "fit: every row is within the tolerance, and the pieces are joined (catches a deviation \
       \taken at some rows only)"
       $ property $
-        forAll ((,) <$> kinds <*> tabled 2 20) (uncurry withinLaw)
+        forAll ((,) <$> kinds <*> noisyTable 2 20) (uncurry withinLaw)
     it
       "fit: the fewest pieces, and of those the least deviation (catches a piece that is given up \
       \too early)"
       $ withMaxSuccess 3000 $
-        forAll ((,) <$> kinds <*> tabled 2 9) (uncurry bestLaw)
+        forAll ((,) <$> kinds <*> noisyTable 2 9) (uncurry bestLaw)
     it
       "fit: rows of one line, parabola or arc are one piece, which is it (catches a root of the \
       \circle on the other side)"
       $ property $
-        forAll drawn wholeLaw
+        forAll exactTable wholeLaw
     it
       "fit: the order of the kinds does not matter (catches the first kind that does taken for the \
       \simplest)"
       $ property $
-        forAll ((,) <$> kinds <*> tabled 2 12) $ \(ks, c) ->
+        forAll ((,) <$> kinds <*> noisyTable 2 12) $ \(ks, c) ->
           forAll (shuffle (toList ks <> take 1 (toList ks))) $ \again' ->
             fmap shape (fitted ks c)
               === maybe
@@ -57,23 +57,23 @@ spec = do
                 (NonEmpty.nonEmpty again')
     it "fit: of equal pieces the simplest (catches a parabola where a line does)" $
       property $
-        forAll ((,) <$> kinds <*> tabled 2 9) (uncurry simplestLaw)
+        forAll ((,) <$> kinds <*> noisyTable 2 9) (uncurry simplestLaw)
     it "fit: moved or walked backwards, a table needs as many (catches x that has to rise)" $
       property $
-        forAll ((,) <$> kinds <*> tabled 2 12) (uncurry movedLaw)
+        forAll ((,) <$> kinds <*> noisyTable 2 12) (uncurry movedLaw)
     it "fit: upside down, the pieces are upside down (catches an arc that only bends one way)" $
       property $
-        forAll ((,) <$> kinds <*> tabled 2 12) (uncurry mirroredLaw)
+        forAll ((,) <$> kinds <*> noisyTable 2 12) (uncurry mirroredLaw)
     it "reaches lines, parabolas and arcs, rising and falling x" $
       checkCoverage $
-        forAll (tabled 2 12) $ \c ->
+        forAll (noisyTable 2 12) $ \c ->
           let found = map (Section.kind . curve) (toList (fitted everyKind c))
            in cover 20 (LineKind `elem` found) "line" $
                 cover 10 (ParabolaKind `elem` found) "parabola" $
                   cover 10 (ArcKind `elem` found) "arc" $
-                    cover 20 (falling c) "falling" True
+                    cover 20 (isFalling c) "falling" True
   describe "tables and sections" $ do
-    it "refuses a table whose x turns round or stands still, with the row" $ do
+    it "refuses a table whose x reverses or repeats, with the row" $ do
       Section.table (map (uncurry Vec.point) [(0, 0), (1, 0), (2, 5), (1.5, 0)])
         `shouldBe` Left (Section.OutOfOrder 4)
       Section.table (map (uncurry Vec.point) [(0, 0), (-1, 0), (-1, 5)])
@@ -116,7 +116,7 @@ spec = do
         (map (\d -> let Mm m = SectionFit.miss d in rounded 100 m) . SectionFit.deviations template)
         (SectionFit.sections template paper)
         `shouldBe` Right [0, 1, 0, 3, 0, 0, -2, 0, -2, 0, 1, 3, 0]
-    it "misses its second point by 0.006" $
+    it "deviates from its second point by 0.006" $
       fmap
         ( map (\d -> let Mm m = SectionFit.miss d in rounded 1000 m)
             . take 2
@@ -127,7 +127,7 @@ spec = do
     it "needs three lines and parabolas within 0.03" $
       summary (LineKind :| [ParabolaKind])
         `shouldBe` ([(1, 3, LineKind), (3, 8, ParabolaKind), (8, 13, ParabolaKind)], 286)
-    it "needs three pieces when there are arcs too, which miss by a little less" $
+    it "needs three sections with arcs too, with a slightly smaller deviation" $
       summary everyKind
         `shouldBe` ([(1, 4, ParabolaKind), (4, 8, ParabolaKind), (8, 13, ArcKind)], 271)
   where
@@ -141,7 +141,7 @@ spec = do
     summary ks =
       let ps =
             toList (SectionFit.fit ks (Mm 0.03) template)
-       in (map shape ps, rounded 1e4 (maximum (map worst ps)))
+       in (map shape ps, rounded 1e4 (maximum (map largestDeviation ps)))
 
 everyKind :: NonEmpty SectionKind
 everyKind = LineKind :| [ParabolaKind, ArcKind]
@@ -149,8 +149,8 @@ everyKind = LineKind :| [ParabolaKind, ArcKind]
 shape :: Section -> (Int, Int, SectionKind)
 shape p = (first p, final p, Section.kind (curve p))
 
-worst :: Section -> Double
-worst p = let Mm d = largest p in d
+largestDeviation :: Section -> Double
+largestDeviation p = let Mm d = largest p in d
 
 template :: PointTable
 template =
@@ -188,8 +188,8 @@ kinds = do
 
 -- | Rows of a curve that nearly consists of a few sections; x rises or falls, and some sections
 -- are steep.
-tabled :: Int -> Int -> Gen Case
-tabled low high = do
+noisyTable :: Int -> Int -> Gen Case
+noisyTable low high = do
   n <- choose (low, high)
   steps <- vectorOf n (choose (0.2, 6))
   noise <- elements [0, 0.01, 0.1, 1]
@@ -212,8 +212,8 @@ tabled low high = do
       (\c s x -> s * sqrt (c * c - (x - 0.5) * (x - 0.5))) <$> choose (0.51, 2) <*> elements [1, -1]
     broken = (\k x -> abs (x - k)) <$> choose (0.2, 0.8)
 
-falling :: Case -> Bool
-falling (Case ps _) = case ps of
+isFalling :: Case -> Bool
+isFalling (Case ps _) = case ps of
   a : b : _ -> Vec.x b < Vec.x a
   _ -> False
 
@@ -250,7 +250,7 @@ withinLaw ks c@(Case ps tolerance) =
     rowsOf p = take (final p - first p + 1) (drop (first p - 1) ps)
     near p =
       let off = maximum [abs (equation p (Vec.x q) - Vec.y q) | q <- rowsOf p]
-       in counterexample (show (p, off)) (off <= tolerance + 1e-6 && abs (off - worst p) < 1e-6)
+       in counterexample (show (p, off)) (off <= tolerance + 1e-6 && abs (off - largestDeviation p) < 1e-6)
     -- Points on the segment of a line or an arc satisfy its equation.
     onSegment p = case Section.segment p of
       Nothing -> Section.kind (curve p) === ParabolaKind
@@ -295,7 +295,7 @@ bestLaw ks c@(Case ps tolerance) =
     )
   where
     pieces = fitted ks c
-    worst' = maximum (fmap worst pieces)
+    worst' = maximum (fmap largestDeviation pieces)
     splits = allSplits ks tolerance ps
     fewest = minimum (map length splits)
     least =
@@ -314,7 +314,7 @@ simplestLaw ks c@(Case ps tolerance) =
   where
     pieces = fitted ks c
     found = sum (map (fromEnum . Section.kind . curve) (toList pieces))
-    bound = maximum (fmap worst pieces)
+    bound = maximum (fmap largestDeviation pieces)
     splits =
       [ s
         | s <- allSplits ks tolerance ps,
@@ -327,7 +327,7 @@ simplestLaw ks c@(Case ps tolerance) =
     surely (i, j, ds)
       | (i, j) `elem` decisive = maximum [fromEnum k | (k, d) <- ds, d <= bound + 1e-5]
       | otherwise = simplest (max 1e-9 (bound - 1e-5)) ds
-    decisive = [(first p - 1, final p - 1) | p <- toList pieces, worst p == bound]
+    decisive = [(first p - 1, final p - 1) | p <- toList pieces, largestDeviation p == bound]
 
 allSplits :: NonEmpty SectionKind -> Double -> [Point] -> [[(Int, Int, [(SectionKind, Double)])]]
 allSplits ks tolerance ps = from' 0
@@ -347,14 +347,14 @@ allSplits ks tolerance ps = from' 0
     good rows
       | length rows == 2 = [(LineKind, 0)]
       | otherwise =
-        [(k, d) | k <- nub (sort (toList ks)), let d = narrowed k rows, d <= tolerance + 1e-9]
+        [(k, d) | k <- nub (sort (toList ks)), let d = leastDeviation k rows, d <= tolerance + 1e-9]
 
 -- | Least possible largest deviation of a kind of section through the end rows.
-narrowed :: SectionKind -> [Point] -> Double
-narrowed k rows = case k of
+leastDeviation :: SectionKind -> [Point] -> Double
+leastDeviation k rows = case k of
   LineKind -> largestOf (const 0)
-  ParabolaKind -> golden (-50) 50 (\a -> largestOf (\x -> a * (x - x1) * (x - x2)))
-  ArcKind -> golden (-limit) limit (\t -> largestOf (bulge t))
+  ParabolaKind -> goldenSection (-50) 50 (\a -> largestOf (\x -> a * (x - x1) * (x - x2)))
+  ArcKind -> goldenSection (-limit) limit (\t -> largestOf (bulge t))
   where
     (x1, y1) = (Vec.x (head' rows), Vec.y (head' rows))
     (x2, y2) = (Vec.x (last' rows), Vec.y (last' rows))
@@ -382,8 +382,8 @@ narrowed k rows = case k of
          in my + s * sqrt (max 0 (r * r - (x - mx) * (x - mx))) - lineAt x
 
 -- | Minimum of a unimodal function by golden-section search.
-golden :: Double -> Double -> (Double -> Double) -> Double
-golden low high f = go (120 :: Int) low high
+goldenSection :: Double -> Double -> (Double -> Double) -> Double
+goldenSection low high f = go (120 :: Int) low high
   where
     go k a b
       | k == 0 = f ((a + b) / 2)
@@ -394,8 +394,8 @@ golden low high f = go (120 :: Int) low high
         v = a + 0.618 * (b - a)
 
 -- | One curve, and rows on it.
-drawn :: Gen (SectionFormula, SectionKind, [Point])
-drawn = do
+exactTable :: Gen (SectionFormula, SectionKind, [Point])
+exactTable = do
   n <- choose (5, 30)
   steps <- vectorOf n (choose (0.2, 2))
   back <- arbitrary
@@ -456,7 +456,7 @@ movedLaw ks c@(Case ps tolerance) =
             ]
       ]
   where
-    outcome c' = let pieces = fitted ks c' in (length pieces, maximum (fmap worst pieces))
+    outcome c' = let pieces = fitted ks c' in (length pieces, maximum (fmap largestDeviation pieces))
     alike (n, d) (m, e) = n === m .&&. counterexample (show (d, e)) (abs (d - e) < 1e-7)
 
 mirroredLaw :: NonEmpty SectionKind -> Case -> Property

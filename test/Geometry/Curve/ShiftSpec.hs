@@ -45,7 +45,7 @@ spec = do
             \(h, mu, t) ->
               let u = Generate.parameterOf c t
                   out =
-                    along c u (Curve.shifted LeftOf (Square (constantly mu c) (Constant (Mm h))) c)
+                    displacement c u (Curve.shifted LeftOf (Square (constantColumn mu c) (Constant (Mm h))) c)
                in alike 1e-6 out (Vec.scale (h / cos mu) (Curve.normal c u))
     it "stays at its distance from the curve (catches a distance along the ordinate)" $
       property $
@@ -90,7 +90,7 @@ spec = do
                   share = chordSum c 0 u / chordSum c 0 (Curve.domain c)
                in alike
                     1e-5
-                    (along c u grown)
+                    (displacement c u grown)
                     (Vec.scale (h1 + (h2 - h1) * share) (Curve.normal c u))
     it
       "that grows between two places keeps its distances before and behind them (catches ends that \
@@ -139,30 +139,30 @@ spec = do
       \term of a product)"
       $ property $
         forAll (Generate.layered 3 Generate.anyCurve) $ \c ->
-          forAll (choose (0.05, 0.95)) $ \share -> forAll (elements (inner c)) $ \(a, b) ->
+          forAll (choose (0.05, 0.95)) $ \share -> forAll (elements (smoothStretches c)) $ \(a, b) ->
             derivativesLaw c (a + (b - a) * share) (0.01 * (b - a))
-    it "the curvature is that of a circle through three near places (catches a sign of the bend)" $
+    it "the curvature is that of a circle through three near points (catches a wrong sign)" $
       property $
         forAll (Generate.layered 2 Generate.gentle) $ \c ->
           forAll (choose (0.05, 0.95)) $ \share ->
-            forAll (elements (inner c) `suchThat` \(a, b) -> b - a > 0.01) $ \(a, b) ->
+            forAll (elements (smoothStretches c) `suchThat` \(a, b) -> b - a > 0.01) $ \(a, b) ->
               -- On shorter stretches, rounding dominates the circle through three points.
               let u = a + (b - a) * share
                   e = 1e-3 * (b - a)
-                  k = throughThree (Curve.at c (u - e)) (Curve.at c u) (Curve.at c (u + e))
+                  k = circleCurvature (Curve.at c (u - e)) (Curve.at c u) (Curve.at c (u + e))
                in near' (1e-4 * (1 + abs k)) (Curve.curvature c u) k
 
-  describe "shifts one behind the other" $ do
+  describe "shifts in sequence" $ do
     it
       "by a and by b are one by a + b, square to a surface too (catches a normal taken from below)"
       $ property $
         forAll Generate.smooth $ \c ->
-          forAll ((,,,) <$> share' <*> share' <*> choose (-0.8, 0.8) <*> Generate.parameter) $
+          forAll ((,,,) <$> radiusShare <*> radiusShare <*> choose (-0.8, 0.8) <*> Generate.parameter) $
             \(ka, kb, mu, t) ->
               let reach = cos mu / (1e-6 + Generate.tightest c)
                   a = ka * min 10 reach
                   b = kb * min 10 reach
-                  by h = Curve.shifted LeftOf (Square (constantly mu c) (Constant (Mm h)))
+                  by h = Curve.shifted LeftOf (Square (constantColumn mu c) (Constant (Mm h)))
                   u = Generate.parameterOf c t
                in close 1e-6 (Curve.at (by b (by a c)) u) (Curve.at (by (a + b) c) u)
     it
@@ -174,8 +174,8 @@ spec = do
             forAll (elements (toList (Base.rows (Curve.base c)))) $ \row ->
               sequenceLaw c mu h (Base.at row)
 
-  describe "shifts that are alike" $ do
-    it "from h to h is h (catches a growth that begins with what it adds)" $
+  describe "equivalent shifts" $ do
+    it "a growth from h to h is the constant h (catches a growth that begins with what it adds)" $
       property $
         forAll Generate.anyCurve $ \c -> forAll (choose (-4, 4)) $ \h ->
           sameShift c (Growing Growth {from = Mm h, to = Mm h, between = Nothing}) (Constant (Mm h))
@@ -185,19 +185,19 @@ spec = do
         forAll Generate.anyCurve $ \c ->
           forAll (choose (-4, 4)) $ \h -> forAll Generate.parameter $ \t ->
             let shiftedBy d = Curve.at (Curve.shifted LeftOf d c) (Generate.parameterOf c t)
-                p = shiftedBy (Pointwise (constantly h c))
+                p = shiftedBy (Pointwise (constantColumn h c))
              in isNumber p ==> p === shiftedBy (Constant (Mm h))
-    it "no bevel and no allowance is no shift" $
+    it "zero bevel and zero allowance are no shift" $
       property $
         forAll Generate.anyCurve $ \c -> forAll (Generate.columnOf c 1 9) $ \h ->
-          sameShift c (Bevelled (constantly 0 c) h (Mm 0)) (Constant (Mm 0))
+          sameShift c (Bevelled (constantColumn 0 c) h (Mm 0)) (Constant (Mm 0))
     it "to the right is to the left by the negative distance (catches a side that is forgotten)" $
       property $
         forAll Generate.anyCurve $ \c ->
           forAll ((,) <$> Generate.distance 3 c <*> Generate.parameter) $ \(d, t) ->
             let u = Generate.parameterOf c t
-                right = along c u (Curve.shifted RightOf d c)
-                left = along c u (Curve.shifted LeftOf d c)
+                right = displacement c u (Curve.shifted RightOf d c)
+                left = displacement c u (Curve.shifted LeftOf d c)
              in alike 1e-9 right (Vec.negate left)
 
   describe "a joggle" $ do
@@ -266,7 +266,7 @@ spec = do
       Curve.joggled (joggle 2 14) c
         `shouldBe` Left (LongJoggle (times 2 (Curve.ramp (joggle 2 14))) (Mm 20))
 
-  describe "what does not fit" $ do
+  describe "shifts that do not fit" $ do
     it "the vertex of a parabola y = x²/2p takes p and no more (catches a fold between two rows)" $
       property $
         forAll ((,,) <$> choose (2, 30) <*> choose (-0.4, -0.05) <*> choose (0.05, 0.4)) $
@@ -295,7 +295,7 @@ spec = do
             let most =
                   maximum
                     [ Curve.curvature c (a + (b - a) * t / 200)
-                      | (a, b) <- inner c,
+                      | (a, b) <- smoothStretches c,
                         t <- [0.001, 1 .. 200]
                     ]
                 asked' = k / most
@@ -310,12 +310,12 @@ spec = do
                       ==> counterexample
                         (show (most, Curve.fold above))
                         (isJust (Curve.fold above) == (k > 1))
-    it "is not there on the outer side" $
+    it "there is no cusp on the outer side" $
       property $
         forAll (choose (0.1, 90)) $ \h ->
           isNothing (Curve.fold (Curve.shifted RightOf (Constant (Mm h)) (circle 40)))
             && isJust (Curve.fold (Curve.shifted LeftOf (Constant (Mm (41 + h))) (circle 40)))
-    it "a curve that turns straight back takes no shift at its turn" $
+    it "a curve that reverses its direction allows no shift at the reversal" $
       Curve.fold
         ( Curve.shifted
             LeftOf
@@ -363,12 +363,12 @@ spec = do
 -- Helpers -----------------------------------------------------------------------------------
 
 -- | Displacement from a point of a curve to the point of its shift.
-along :: Curve -> Double -> Curve -> Vec
-along c u s = Vec.to (Curve.at c u) (Curve.at s u)
+displacement :: Curve -> Double -> Curve -> Vec
+displacement c u s = Vec.to (Curve.at c u) (Curve.at s u)
 
 -- | Column with one constant value.
-constantly :: Double -> Curve -> Curve.Column
-constantly v c = Curve.column c (Exts.fromList (map (const v) (toList (Base.rows (Curve.base c)))))
+constantColumn :: Double -> Curve -> Curve.Column
+constantColumn v c = Curve.column c (Exts.fromList (map (const v) (toList (Base.rows (Curve.base c)))))
 
 -- | Law that two distances give the same shifted curve.
 sameShift :: Curve -> Distance -> Distance -> Property
@@ -378,13 +378,13 @@ sameShift c d e = forAll (elements [LeftOf, RightOf]) $ \side -> forAll Generate
    in close 1e-9 (Curve.at (Curve.shifted side d c) u) (Curve.at (Curve.shifted side e c) u)
 
 -- | Shares of the radius of curvature that fit, also when added.
-share' :: Gen Double
-share' = choose (-0.4, 0.4)
+radiusShare :: Gen Double
+radiusShare = choose (-0.4, 0.4)
 
 -- | Stretches without a change of formula. On curves of lines and arcs, columns change theirs at
 -- the rows.
-inner :: Curve -> [(Double, Double)]
-inner c =
+smoothStretches :: Curve -> [(Double, Double)]
+smoothStretches c =
   let bs =
         nubOrd (sort (Curve.breaks c <> map Base.at (toList (Base.rows (Curve.base c)))))
    in filter (\(a, b) -> b - a > 1e-6) (zip bs (drop 1 bs))
@@ -413,8 +413,8 @@ derivativesLaw c u e =
     refined f = Vec.add (Vec.scale (4 / 3) (f (e / 2))) (Vec.scale (-1 / 3) (f e))
 
 -- | Curvature of the circle through three points, positive to the left.
-throughThree :: Point -> Point -> Point -> Double
-throughThree p q r = 2 * Vec.cross (Vec.to p q) (Vec.to q r) / (norm p q * norm q r * norm p r)
+circleCurvature :: Point -> Point -> Point -> Double
+circleCurvature p q r = 2 * Vec.cross (Vec.to p q) (Vec.to q r) / (norm p q * norm q r * norm p r)
   where
     norm s t = Vec.norm (Vec.to s t)
 
@@ -448,7 +448,7 @@ sequenceLaw c mu h u = close 1e-4 (Curve.at third u) byHand
 -- | Arc length between two parameters: Richardson extrapolation of two chord sums.
 chordSum :: Curve -> Double -> Double -> Double
 chordSum c from' to' =
-  sum [stretch (max a from') (min b to') | (a, b) <- inner c, a < to', b > from']
+  sum [stretch (max a from') (min b to') | (a, b) <- smoothStretches c, a < to', b > from']
   where
     stretch a b = let fine = chords a b 400 in fine + (fine - chords a b 200) / 3
     chords a b n =

@@ -133,12 +133,16 @@ withRatio times biarcs = case biarcs of
       -- An arc with a negligible sweep is output as a line. Its ratio is replaced by the one for
       -- which it is exactly a line, so that no kink results.
       r
-        | abs ((sa + defaultRatio * sb) * ca + (ca + defaultRatio * cb) * sa) <= negligible = near (-(sinA / halfSum))
-        | abs ((ca + defaultRatio * cb) * sb + (sa + defaultRatio * sb) * cb) <= negligible = near (-(halfSum / sinB))
+        | abs ((sa + defaultRatio * sb) * ca + (ca + defaultRatio * cb) * sa) <= negligible =
+          near (-(sinA / halfSum))
+        | abs ((ca + defaultRatio * cb) * sb + (sa + defaultRatio * sb) * cb) <= negligible =
+          near (-(halfSum / sinB))
         | otherwise = defaultRatio
       halfSum = sa * cb + ca * sb
       negligible = 0.5 * straight * (1 + defaultRatio)
-      near exact = if 0.5 * defaultRatio < exact && exact < 2 * defaultRatio then exact else defaultRatio
+      near exact
+        | 0.5 * defaultRatio < exact && exact < 2 * defaultRatio = exact
+        | otherwise = defaultRatio
       wr = ca + r * cb
       wi = sa + r * sb
       square = wr * wr + wi * wi
