@@ -154,7 +154,9 @@ pair =
 -- | End poses whose directions make less than a given angle with the chord, parallel and mirrored
 -- ones among them.
 posesWithin :: Double -> Gen (End, End)
-posesWithin limit = posesLeaning (oneof [choose (-limit, limit), elements [0, limit, -limit, 1e-7, 0.3, -0.3]])
+posesWithin limit = posesLeaning (oneof [choose (-limit, limit), elements special])
+  where
+    special = [0, limit, -limit, 1e-7, 0.3, -0.3]
 
 posesLeaning :: Gen Double -> Gen (End, End)
 posesLeaning angles = do

@@ -250,7 +250,8 @@ withinLaw ks c@(Case ps tolerance) =
     rowsOf p = take (final p - first p + 1) (drop (first p - 1) ps)
     near p =
       let off = maximum [abs (equation p (Vec.x q) - Vec.y q) | q <- rowsOf p]
-       in counterexample (show (p, off)) (off <= tolerance + 1e-6 && abs (off - largestDeviation p) < 1e-6)
+       in counterexample (show (p, off)) $
+            off <= tolerance + 1e-6 && abs (off - largestDeviation p) < 1e-6
     -- Points on the segment of a line or an arc satisfy its equation.
     onSegment p = case Section.segment p of
       Nothing -> Section.kind (curve p) === ParabolaKind
@@ -456,7 +457,8 @@ movedLaw ks c@(Case ps tolerance) =
             ]
       ]
   where
-    outcome c' = let pieces = fitted ks c' in (length pieces, maximum (fmap largestDeviation pieces))
+    outcome c' =
+      let pieces = fitted ks c' in (length pieces, maximum (fmap largestDeviation pieces))
     alike (n, d) (m, e) = n === m .&&. counterexample (show (d, e)) (abs (d - e) < 1e-7)
 
 mirroredLaw :: NonEmpty SectionKind -> Case -> Property

@@ -45,7 +45,10 @@ spec = do
             \(h, mu, t) ->
               let u = Generate.parameterOf c t
                   out =
-                    displacement c u (Curve.shifted LeftOf (Square (constantColumn mu c) (Constant (Mm h))) c)
+                    displacement
+                      c
+                      u
+                      (Curve.shifted LeftOf (Square (constantColumn mu c) (Constant (Mm h))) c)
                in alike 1e-6 out (Vec.scale (h / cos mu) (Curve.normal c u))
     it "stays at its distance from the curve (catches a distance along the ordinate)" $
       property $
@@ -139,8 +142,9 @@ spec = do
       \term of a product)"
       $ property $
         forAll (Generate.layered 3 Generate.anyCurve) $ \c ->
-          forAll (choose (0.05, 0.95)) $ \share -> forAll (elements (smoothStretches c)) $ \(a, b) ->
-            derivativesLaw c (a + (b - a) * share) (0.01 * (b - a))
+          forAll (choose (0.05, 0.95)) $ \share ->
+            forAll (elements (smoothStretches c)) $ \(a, b) ->
+              derivativesLaw c (a + (b - a) * share) (0.01 * (b - a))
     it "the curvature is that of a circle through three near points (catches a wrong sign)" $
       property $
         forAll (Generate.layered 2 Generate.gentle) $ \c ->
@@ -157,8 +161,9 @@ spec = do
       "by a and by b are one by a + b, square to a surface too (catches a normal taken from below)"
       $ property $
         forAll Generate.smooth $ \c ->
-          forAll ((,,,) <$> radiusShare <*> radiusShare <*> choose (-0.8, 0.8) <*> Generate.parameter) $
-            \(ka, kb, mu, t) ->
+          forAll
+            ((,,,) <$> radiusShare <*> radiusShare <*> choose (-0.8, 0.8) <*> Generate.parameter)
+            $ \(ka, kb, mu, t) ->
               let reach = cos mu / (1e-6 + Generate.tightest c)
                   a = ka * min 10 reach
                   b = kb * min 10 reach
@@ -368,7 +373,8 @@ displacement c u s = Vec.to (Curve.at c u) (Curve.at s u)
 
 -- | Column with one constant value.
 constantColumn :: Double -> Curve -> Curve.Column
-constantColumn v c = Curve.column c (Exts.fromList (map (const v) (toList (Base.rows (Curve.base c)))))
+constantColumn v c =
+  Curve.column c (Exts.fromList (map (const v) (toList (Base.rows (Curve.base c)))))
 
 -- | Law that two distances give the same shifted curve.
 sameShift :: Curve -> Distance -> Distance -> Property
