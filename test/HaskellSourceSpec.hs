@@ -62,7 +62,8 @@ spec = do
       listed "module A where\nf (x) = x" `shouldBe` False
   describe "exportedTypes" $ do
     it "names the declared types of the export list" $
-      exportedTypes (tokenise "module A (T (..), U, f, V) where\ndata T = U\ntype V = Int\ndata W = W\n")
+      exportedTypes
+        (tokenise "module A (T (..), U, f, V) where\ndata T = U\ntype V = Int\ndata W = W\n")
         `shouldBe` ["T", "V"]
 
   describe "definitions" $ do
@@ -73,7 +74,8 @@ spec = do
       sizes ["-- | Twice.", "f :: Int -> Int", "f n =", "", "  -- why", "  n + n"]
         `shouldBe` [("f", 2)]
     it "passes over types, instances and imports" $
-      sizes ["import A", "data T = T {a :: Int}", "instance Show T where", "  show _ = \"=\"", "x = 1"]
+      sizes
+        ["import A", "data T = T {a :: Int}", "instance Show T where", "  show _ = \"=\"", "x = 1"]
         `shouldBe` [("x", 1)]
     it "tells the parameters of a signature" $
       map parameters (definitions "f :: Ord a => a -> (b -> c) -> [d -> e] -> f\nf a b c = d\n")

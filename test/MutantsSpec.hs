@@ -59,5 +59,6 @@ spec = describe "test/mutants" $ do
         wanted = "\n" <> table mutants <> "\n"
     recording <- lookupEnv "PARTC_RECORD"
     case recording of
-      Just _ -> ByteString.writeFile "docs/laws.md" (Encoding.encodeUtf8 (before <> wanted <> after))
+      Just _ ->
+        ByteString.writeFile "docs/laws.md" (Encoding.encodeUtf8 (before <> wanted <> after))
       Nothing -> inside `shouldBe` wanted
