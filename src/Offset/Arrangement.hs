@@ -1,13 +1,14 @@
 {-# OPTIONS_GHC -O2 #-}
 
--- | A chain cut at every place where it meets itself, with the winding number on both sides of
--- every edge.
+-- | Planar arrangement of closed polyarcs: they are cut at all their self-intersections, and
+-- every edge gets the winding numbers of both its sides.
 --
--- This decides what general position leaves out: segments that run along one another, crossings at
--- vertices, touching circles. Points that fall together within a tolerance are one node, edges
--- between the same nodes with the same rise are one edge that is walked several times, and at every
--- node the edges are put in order round it. The winding numbers then follow from edge to edge;
--- whether they agree everywhere says whether the order was right.
+-- This module decides the cases outside general position: coinciding segments, intersections at
+-- vertices, touching circles. Points that agree within a tolerance become one node. Segments
+-- between the same two nodes with the same sagitta become one edge with a multiplicity. The
+-- half-edges at each node are sorted by angle, and the winding numbers are propagated from edge to
+-- edge (de Berg et al., "Computational Geometry", chapter 8). 'arrange' refuses an arrangement whose
+-- winding numbers contradict each other at a node: then the half-edges are in the wrong order.
 module Offset.Arrangement
   ( Arrangement,
     arrange,
@@ -41,26 +42,28 @@ import Offset.SegmentIntersection (Visitor (..))
 import Offset.SegmentIntersection qualified as SegmentIntersection
 import Offset.WindingNumber qualified as WindingNumber
 
--- | Between two nodes, walked so many times more in this direction than back.
+-- | A directed edge between two nodes. @times@ counts its segments in this direction minus those
+-- in the opposite direction. @segment@ is the number of the original segment.
 data Edge = Edge {from :: Int, to :: Int, times :: Int, bulge :: Double, segment :: Int}
 
 data Arrangement = Arrangement
   { chain :: ClosedPolyarcs,
     nodes :: Vector (Double, Double),
-    -- | The node of every vertex of the chain.
+    -- | The node of every vertex of the polyarcs.
     owned :: PrimArray Int,
     edges :: Vector Edge,
-    -- | The half-edges that leave a node, counter-clockwise: @2e@ leaves the beginning of the edge
-    -- @e@, @2e + 1@ its end.
+    -- | The half-edges that leave each node, counter-clockwise. Half-edge @2e@ leaves the
+    -- beginning of edge @e@, and @2e + 1@ its end.
     rings :: IntMap (Vector Int),
     -- | The winding number on the left of every edge.
     lefts :: IntMap Int,
-    -- | Segments that cross between their ends.
+    -- | Pairs of segments that cross between their ends.
     proper :: [(Int, Int)]
   }
 
--- | Cut a chain. Within the tolerance in mm points fall together; the boxes are wider by it.
--- Nothing when the winding numbers do not agree.
+-- | Builds the arrangement. Points within the tolerance (mm) become one node. The bounding boxes
+-- must be inflated by at least the tolerance. The result is Nothing when the winding numbers
+-- contradict each other.
 arrange :: Double -> ClosedPolyarcs -> SegmentTree -> Maybe Arrangement
 arrange tolerance c bs
   | agree arrangement = Just arrangement
@@ -89,8 +92,9 @@ arrange tolerance c bs
           proper = pairs
         }
 
--- | Where each segment has to be cut, and which segments cross properly. Arcs are also cut where
--- they are leftmost, so that the leftmost place of everything that hangs together is a node.
+-- | The points at which each segment is cut, and the pairs of segments that cross between their
+-- ends. Arcs are also cut at their leftmost points, so that the leftmost point of every
+-- connected component is a node.
 events :: Double -> ClosedPolyarcs -> SegmentTree -> ([(Int, Double, Double)], [(Int, Int)])
 events tolerance c bs = runST $ do
   cuts <- newMutVar []
@@ -127,7 +131,8 @@ events tolerance c bs = runST $ do
       where
         b = indexPrimArray (ClosedPolyarcs.bulges c) i
 
--- | The nodes: their places, the node of every vertex, and the nodes at which segments are cut.
+-- | The coordinates of the nodes, the node of every vertex, and for each segment the nodes at
+-- which it is cut.
 nodesOf ::
   Double ->
   ClosedPolyarcs ->
@@ -146,7 +151,7 @@ nodesOf tolerance c cuts =
       ]
         <> [(x, y, n + k) | (k, (_, x, y)) <- zip [0 ..] cuts]
     clusters = concatMap (together snd3 . sortOn snd3) (together fst3 (sortOn fst3 points))
-    -- Values one after the other that are no further apart than the tolerance.
+    -- Groups consecutive values whose difference is at most four tolerances.
     together f ps = case ps of
       [] -> []
       p : rest -> let (same, others) = grab f (f p) rest in (p : same) : together f others
@@ -160,7 +165,7 @@ nodesOf tolerance c cuts =
     fst3 (x, _, _) = x
     snd3 (_, y, _) = y
     number (_, _, i) = i
-    -- A vertex has its exact place.
+    -- A vertex keeps its exact coordinates.
     place ps = let (x, y, _) = foldr1 (\p q -> if number p < number q then p else q) ps in (x, y)
     ids =
       runPrimArray'
@@ -174,7 +179,7 @@ runPrimArray' n filled = runPrimArray $ do
   mapM_ (uncurry (writePrimArray a)) filled
   pure a
 
--- | The segments cut at their nodes: from, to, segment, bulge.
+-- | The segments cut at their nodes, each as first node, last node, segment number, bulge.
 slices ::
   ClosedPolyarcs ->
   Vector (Double, Double) ->
@@ -226,8 +231,8 @@ slices c places nodeOf cutNodes =
               + (y - indexPrimArray (ClosedPolyarcs.ys c) i) * dy ::
               Double
 
--- | Slices between the same nodes that rise equally are one edge; what is walked as often there as
--- back is none.
+-- | Merges slices between the same nodes with the same sagitta into one edge. Slices that cancel,
+-- as many forwards as backwards, give no edge.
 merged :: Double -> Vector (Double, Double) -> [(Int, Int, Int, Double)] -> [Edge]
 merged tolerance places cut =
   concatMap
@@ -257,15 +262,15 @@ merged tolerance places cut =
     edge a b m (forth, i, g) = if forth then Edge a b m g i else Edge b a m (-g) i
     bundle a b list = case compare net 0 of
       EQ -> []
-      -- Of several segments it is the first, along the whole stretch that they share.
+      -- The edge takes its bulge and number from the first of the coinciding segments.
       GT -> [edge a b net one | one : _ <- [sortOn second [s | s@(True, _, _) <- list]]]
       LT -> [edge a b (-net) one | one : _ <- [sortOn second [s | s@(False, _, _) <- list]]]
       where
         second (_, i, _) = i
         net = sum [if forth then 1 else -1 | (forth, _, _) <- list] :: Int
 
--- | The half-edges of a node in order round it, counter-clockwise, beginning behind the widest gap;
--- at the leftmost node of what hangs together, behind the one on the left.
+-- | The half-edges of a node, sorted counter-clockwise. The order begins after the widest angular
+-- gap; at the leftmost node of a component it begins after the gap on the left.
 ring :: Vector (Double, Double) -> Vector Edge -> [Int] -> [Int]
 ring places es halves = case halves of
   [_] -> halves
@@ -282,8 +287,8 @@ ring places es halves = case halves of
         (\a b -> (b - a, (a + b) / 2))
         angles
         (drop 1 angles <> map (+ 2 * pi) (take 1 angles))
-    -- Two that leave a leftmost place straight up and down have as wide a gap on their right; the
-    -- last gap is the left one.
+    -- Two half-edges that leave a leftmost point straight up and straight down have an equally wide
+    -- gap on their right. The last gap is the left one, so it gets preference.
     cut =
       snd
         ( maximumBy
@@ -297,15 +302,16 @@ ring places es halves = case halves of
     turnedBy :: Double -> Double -> Double
     turnedBy from' angle =
       let t = angle - from' in t - 2 * pi * fromIntegral (floor (t / (2 * pi)) :: Int)
-    -- Of two that set out in nearly the same direction, compare how far to the left they are a
-    -- little further on.
+    -- Half-edges with nearly equal directions are compared by how far to the left they lie a short
+    -- distance from the node.
     order (_, a, (dx, dy, l, k)) (_, b, (dx', dy', l', k'))
       | abs (a - b) > tie = compare a b
       | otherwise =
         let step = 0.25 * min l l'
             lean = asin (max (-1) (min 1 (dx * dy' - dy * dx')))
          in compare 0 (lean + (k' - k) * step / 2)
-    -- The direction in which a half-edge leaves, its chord, and its curvature.
+    -- The unit direction in which a half-edge leaves its node, the length of its chord, and its
+    -- curvature.
     direction :: Int -> (Double, Double, Double, Double)
     direction h =
       let e = es Vector.! (h `div` 2)
@@ -320,12 +326,12 @@ ring places es halves = case halves of
           si = 2 * g * q
        in (ux * co + uy * si, uy * co - ux * si, l, 4 * g * q / l)
 
--- | Directions that differ by less, in radians, may have changed their order by rounding.
+-- | Directions that differ by less than this angle (radians) may have been exchanged by rounding.
 tie :: Double
 tie = 1e-3
 
--- | The winding number on the left of every edge, from outside at the leftmost node of whatever
--- hangs together.
+-- | Propagates the winding numbers over each connected component, starting at its leftmost node,
+-- whose left side is outside the component.
 propagated :: Vector (Double, Double) -> Vector Edge -> IntMap (Vector Int) -> IntMap Int
 propagated places es ordered =
   foldl'
@@ -339,7 +345,7 @@ propagated places es ordered =
           IntMap.notMember (h `div` 2) known ->
           spread known [(h, outside k)]
       _ -> known
-    -- What all that does not hang together with a node says there.
+    -- The winding number that all other components give to this node.
     outside k =
       let (x, y) = places Vector.! k
           own = IntMap.lookup k islands
@@ -357,7 +363,8 @@ propagated places es ordered =
         ]
     around = SegmentTree.boxes 0 apart
     islands = islandsOf es ordered
-    -- Half-edges with what is on their right, seen as they leave.
+    -- The half-edges still to be visited, each with the winding number on its right as it leaves
+    -- its node.
     spread known todo = case todo of
       [] -> known
       (h, right) : rest
@@ -373,7 +380,8 @@ propagated places es ordered =
           e = h `div` 2
           edge = es Vector.! e
           left = if even h then right + times edge else right
-    -- The next half-edge round a node has on its right what this one has on its left, as it leaves.
+    -- The next half-edge of the node counter-clockwise has on its right the winding number that
+    -- this one has on its left.
     round' k h leftward = case ordered IntMap.!? k of
       Nothing -> []
       Just halves ->
@@ -387,7 +395,7 @@ propagated places es ordered =
     go right (h : more) = (h, right) : go (right + gain h) more
     gain h = let m = times (es Vector.! (h `div` 2)) in if even h then m else -m
 
--- | For every node one that stands for all that hang together with it.
+-- | The connected component of every node, named by one of its nodes.
 islandsOf :: Vector Edge -> IntMap (Vector Int) -> IntMap Int
 islandsOf es ordered =
   foldl'
@@ -406,7 +414,7 @@ islandsOf es ordered =
             (maybe [] (map other . Vector.toList) (IntMap.lookup k ordered) <> rest)
     other h = let e = es Vector.! (h `div` 2) in if even h then to e else from e
 
--- | Whether the numbers agree round every node.
+-- | True when the winding numbers agree in every sector of every node.
 agree :: Arrangement -> Bool
 agree a =
   all
@@ -420,14 +428,14 @@ agree a =
   where
     fits h h' = fst (sides a h) == snd (sides a h')
 
--- | What is on the left and on the right of a half-edge as it leaves its node.
+-- | The winding numbers on the left and on the right of a half-edge as it leaves its node.
 sides :: Arrangement -> Int -> (Int, Int)
 sides a h = if even h then (left, left - m) else (left - m, left)
   where
     left = IntMap.findWithDefault 0 (h `div` 2) (lefts a)
     m = times (edges a Vector.! (h `div` 2))
 
--- | The least and the largest winding number of all places.
+-- | The least and the largest winding number of all faces. The unbounded face has the number 0.
 numbers :: Arrangement -> (Int, Int)
 numbers a =
   foldl'
@@ -435,8 +443,8 @@ numbers a =
     (0, 0)
     (concat [[l, r] | e <- [0 .. Vector.length (edges a) - 1], let (l, r) = sides a (2 * e)])
 
--- | Two segments that cross: properly if there are such, or the first two that meet where the
--- winding number leaves the bounds.
+-- | Two segments that intersect. Prefers a pair that crosses between its ends; otherwise takes
+-- the first pair that meets where the winding number leaves the given bounds.
 crossed :: (Int, Int) -> Arrangement -> Maybe (Int, Int)
 crossed (low, high) a =
   listToMaybe
@@ -453,8 +461,9 @@ crossed (low, high) a =
            ]
     )
 
--- | The loops along which the wanted number is on the left and the free places on a side: there
--- they have the number itself, or one less on the right.
+-- | The loops that bound the reachable faces. With sense counter-clockwise the wanted number is
+-- on the left of an edge; with sense clockwise the wanted number less one is on its right. The
+-- result is Nothing when a loop does not close.
 loops :: Sense -> Int -> Arrangement -> Maybe OffsetLoops
 loops turn wanted a =
   gathered . map vertices
@@ -478,7 +487,7 @@ loops turn wanted a =
       Just (e, rest) -> do
         (loop, rest') <- follow e e rest
         (loop :) <$> walks rest'
-    -- A loop that does not come back to its beginning is none.
+    -- A loop that does not return to its first edge is invalid.
     follow first e rest = case next e of
       Just e'
         | e' == first -> Just ([e], rest)
@@ -486,8 +495,7 @@ loops turn wanted a =
           (more, rest') <- follow first e' (IntSet.delete e' rest)
           Just (e : more, rest')
       _ -> Nothing
-    -- The edge that bounds the same free places: the neighbour of this one round the node where it
-    -- ends.
+    -- The next edge of the same face: the neighbour of this edge at the node where it ends.
     next e = do
       halves <- IntMap.lookup (to (edges a Vector.! e)) (rings a)
       k <- Vector.elemIndex (2 * e + 1) halves
@@ -496,7 +504,7 @@ loops turn wanted a =
             CounterClockwise -> halves Vector.! ((k - 1) `mod` n)
             Clockwise -> halves Vector.! ((k + 1) `mod` n)
       if even h && kept (h `div` 2) then Just (h `div` 2) else Nothing
-    -- Edges one after the other on the same segment are one again.
+    -- Consecutive edges on the same segment become one segment again.
     vertices loop = map vertex (NonEmpty.groupBy goesOn (rotated loop))
     goesOn e e' = segment (edges a Vector.! e) == segment (edges a Vector.! e')
     rotated loop = case span (goesOn (last loop)) loop of
@@ -508,7 +516,7 @@ loops turn wanted a =
           (x, y) = nodes a Vector.! from e
           (x', y') = nodes a Vector.! to e'
           i = segment e
-          -- A whole segment has its own bulge again.
+          -- A complete segment gets its original bulge.
           entire = indexPrimArray (owned a) i == from e && indexPrimArray (owned a) (i + 1) == to e'
        in ( x,
             y,

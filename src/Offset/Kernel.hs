@@ -1,16 +1,18 @@
 {-# OPTIONS_GHC -O2 #-}
 
--- | The offset kernel: the boundary of all places where the centre of a cutter can stand beside
--- closed contours, or on one side of an open one.
+-- | The offset kernel: it computes the boundary of all positions that a cutter's centre can reach
+-- beside closed contours, or on one side of an open one.
 --
--- The free places, where the centre may be as far as the contours go, lie on the same side of every
--- contour: inside an outline and outside the islands in it, or outside everything. The raw
--- equidistant ("Offset.RawOffset") is the contours moved to that side, with all its self-crossings.
--- Since it grows out of them without a jump, its winding number is that of the free places wherever
--- the cutter fits, and on one side of that everywhere else. So the answer is decided by counting.
--- In general position ("Offset.Trimming") that is one walk along the curve. Where segments meet at
--- their ends or lie along one another, "Offset.Arrangement" cuts all of them first. Every answer is
--- looked at once more ("Offset.Certificate") before it is given out.
+-- The reachable region lies on the same side of every contour: inside an outer contour and outside
+-- its islands, or outside all contours. The raw offset ("Offset.RawOffset") moves the contours to
+-- that side and keeps all self-intersections. It deforms continuously with the distance, so its
+-- winding number is the wanted number exactly at the reachable positions, and always differs from
+-- it in the same direction elsewhere. The reachable region is therefore found by winding numbers
+-- (Chen and McMains, "Polygon offsetting by computing winding numbers", 2005).
+--
+-- In general position "Offset.Trimming" needs a single traversal of the raw offset. Where segments
+-- touch or coincide, "Offset.Arrangement" first cuts all of them. Every loop must pass the check of
+-- "Offset.Certificate" before it is returned. Otherwise the kernel refuses with 'Uncertain'.
 module Offset.Kernel
   ( Corners (..),
     OffsetRequest (..),
@@ -47,8 +49,8 @@ import Offset.Trimming qualified as Trimming
 import Offset.WindingNumber (Outward (..))
 import Offset.WindingNumber qualified as WindingNumber
 
--- | What is asked: the side, the corners, the distance of the centre (not negative), and by how
--- much more it stays from the segments, by their numbers through all outlines.
+-- | A request: the side, the style of corners, the distance of the centre (mm, not negative), and
+-- an additional distance for each segment. Segments are numbered through all contours.
 data OffsetRequest = OffsetRequest
   { side :: Side,
     corners :: Corners,
@@ -56,24 +58,25 @@ data OffsetRequest = OffsetRequest
     extra :: Maybe (Int -> Mm)
   }
 
--- | A distance on a side, with round corners.
+-- | A request for one distance and round corners.
 plain :: Side -> Mm -> OffsetRequest
 plain side distance = OffsetRequest {side, corners = Round, distance, extra = Nothing}
 
--- | The loops, walked in the direction of the source; and the raw equidistant that they are parts
--- of.
+-- | The loops, in the direction of travel of the source, and the raw offset of which they are
+-- parts.
 data ReachableRegion = ReachableRegion {loops :: OffsetLoops, raw :: ClosedPolyarcs}
 
 data OffsetFault
-  = -- | two segments of the source cross, by their numbers through all outlines
+  = -- | two segments of the source intersect; they are numbered through all contours
     Crossed Int Int
-  | -- | an outline does not lie inside or outside the others as its sense would have it
+  | -- | a contour is nested in the others against its sense
     Misplaced
-  | -- | the answer failed its certificate
+  | -- | no result passed its certificate
     Uncertain
   deriving stock (Eq, Show)
 
--- | What the cutter's centre can reach beside outlines that are all closed, or one that is open.
+-- | The region that the cutter's centre can reach. The contours are all closed, or there is a
+-- single open one.
 offset :: OffsetRequest -> [FlatPolyarc] -> Either OffsetFault ReachableRegion
 offset task outlines = do
   wanted <- first bothWays (wantedOf (rounding problem) (turn problem) open source sourceBoxes)
@@ -92,7 +95,7 @@ offset task outlines = do
     raws@(_, source) = rawOf problem chain
     sourceBoxes = SegmentTree.boxes (rounding problem) source
 
--- | The raw equidistant, before any of it is cut away. An outline may cross itself here.
+-- | The raw offset before trimming. Here a contour may intersect itself.
 rawOffset :: OffsetRequest -> [FlatPolyarc] -> ClosedPolyarcs
 rawOffset task outlines = fst (rawOf problem chain)
   where
@@ -101,7 +104,8 @@ rawOffset task outlines = fst (rawOf problem chain)
 isOpen :: [FlatPolyarc] -> Bool
 isOpen = any ((== Open) . FlatPolyarc.ends)
 
--- | The number of a segment on the way there: an open outline is walked there and back.
+-- | The original number of a segment. An open contour is traversed forwards and then backwards,
+-- so its segments have two numbers.
 numberThere :: [FlatPolyarc] -> Int -> Int
 numberThere outlines
   | isOpen outlines = \i -> if i >= count then 2 * count - 1 - i else i
@@ -109,7 +113,7 @@ numberThere outlines
   where
     count = sum (map FlatPolyarc.size outlines)
 
--- | What is asked of all walks, and the walks.
+-- | The parameters that all contours share, and the contours as flat arrays.
 problemOf :: OffsetRequest -> [FlatPolyarc] -> (Problem, ClosedPolyarcs)
 problemOf task outlines = (problem, chain)
   where
@@ -137,7 +141,7 @@ problemOf task outlines = (problem, chain)
           distances = \i -> d + more i,
           rawOf = if largest == 0 then still else raw
         }
-    -- At no distance there is nothing to join.
+    -- At the distance 0 no joints are needed.
     still c = let (_, marked) = raw c in (marked, marked)
     signed = case side task of
       LeftOf -> -1
@@ -161,7 +165,8 @@ problemOf task outlines = (problem, chain)
           (\i -> signed * within c i)
           (\i -> signed * wanting c i)
           c
-    -- More than its radius towards its centre fills an arc's sector and no more.
+    -- Towards its centre an arc moves by its radius at most; a larger additional distance would
+    -- leave its sector.
     within c i
       | asked > d && signed * indexPrimArray (ClosedPolyarcs.bulges c) i < 0 =
         min asked (max d (0.5 * ClosedPolyarcs.diameter c i))
@@ -175,9 +180,9 @@ turnOf s = case s of
   LeftOf -> CounterClockwise
   RightOf -> Clockwise
 
--- | What is asked of all walks: the way round the free places that an outline has, the tolerance of
--- rounding, the least and the largest distance and that of every segment (in mm), and how the raw
--- equidistant is made.
+-- | The parameters that all contours share: the sense in which the outer boundary of the
+-- reachable region is traversed, the tolerance for rounding, the least, the largest and each
+-- segment's distance (all in mm), and the function that makes the raw offset.
 data Problem = Problem
   { turn :: Sense,
     rounding :: Double,
@@ -193,7 +198,7 @@ reached problem wanted c =
         rawOf problem c
    in reachOf problem wanted raws (SegmentTree.boxes (rounding problem) source)
 
--- | The loops from the raw equidistant, its source, and the boxes of that.
+-- | The loops of a raw offset, given with its source and the source's bounding-box tree.
 reachOf ::
   Problem ->
   Int ->
@@ -226,8 +231,8 @@ reachOf Problem {turn, rounding, least, widest, distances} wanted (rough, source
           Certificate.distance = distances,
           Certificate.turn = turn
         }
-    -- Where a cutter covers the whole source, but for the tips of its corners, the numbers are
-    -- those of free places.
+    -- When one cutter position covers the whole source except the tips of its corners, the winding
+    -- numbers of unreachable positions equal those of reachable ones.
     certified answer
       | all sound loops' = Just found
       | ClosedPolyarcs.walks source == 1 && all (\k -> sound k || covering k) loops' =
@@ -238,22 +243,23 @@ reachOf Problem {turn, rounding, least, widest, distances} wanted (rough, source
         loops' = [0 .. Loop.count found - 1]
         sound = Certificate.clear measure source sourceBoxes found
         covering = Certificate.covers measure source found
-        -- A loop of few segments may be there by rounding alone.
+        -- A tiny loop of few segments may be an artefact of rounding.
         flat k =
           Loop.size answer k <= 4
             && abs (FlatPolyarc.area (Loop.outline answer k)) <= rounding * rounding
 
--- | Whether one of several walks goes round free places that are too small for the cutter. Where a
--- cutter covers such a one wholly, it would count as free; by itself it is recognised.
+-- | True when one of several contours bounds a region too small for the cutter. If a cutter
+-- covers such a region completely, the winding number would count it as reachable; computed
+-- separately, it gives no loop.
 hopeless :: Problem -> ClosedPolyarcs -> Int -> Bool
 hopeless problem c w = ClosedPolyarcs.walks c > 1 && outer && near && nothing
   where
     o = ClosedPolyarcs.closed c w
     area = FlatPolyarc.area o
-    -- Of a place from which every segment is no further than d, the segments see an area of no more
-    -- than d/2 times their length.
+    -- If every segment is at most d away from one point, the area seen from that point is at most
+    -- d/2 times the total length of the segments.
     near = let Mm l = FlatPolyarc.length o in abs area <= 0.5 * widest problem * l * (1 + 1e-9)
-    -- By itself it has this number on its left.
+    -- The winding number on the left of this contour if it were the only one.
     (outer, left) = case turn problem of
       CounterClockwise -> (area > 0, 1)
       Clockwise -> (area < 0, 0)
@@ -261,9 +267,9 @@ hopeless problem c w = ClosedPolyarcs.walks c > 1 && outer && near && nothing
       Right reach -> Loop.count (loops reach) == 0
       Left _ -> False
 
--- | The winding number on the left of the source that its free places have, or are next to: 1 when
--- the outermost walk is counter-clockwise, else 0. A source that crosses itself, or lies in itself
--- the wrong way, is at fault.
+-- | The winding number of the reachable region as seen from the left of the source: 1 when the
+-- outermost contour is counter-clockwise, else 0. Refuses a source that intersects itself or
+-- whose contours are nested against their sense.
 wantedOf :: Double -> Sense -> Bool -> ClosedPolyarcs -> SegmentTree -> Either OffsetFault Int
 wantedOf tolerance turn open source bs
   | ClosedPolyarcs.walks source == 0 = Right unbounded

@@ -1,9 +1,12 @@
 {-# LANGUAGE BangPatterns #-}
 {-# OPTIONS_GHC -O2 #-}
 
--- | What of a chain in general position bounds the places with the wanted winding number: walk
--- along it once from where the winding number is known, add what the crossings say, keep the slices
--- that have the wanted number on their left, and join them at the crossings.
+-- | Trims a raw offset in general position: the loops that bound the region with the wanted
+-- winding number.
+--
+-- Traverses the polyarcs once, from a point where the winding number is known, and updates the
+-- number at each self-intersection. Keeps the slices with the wanted number on their left, and
+-- joins them at the intersections.
 module Offset.Trimming
   ( clip,
   )
@@ -23,12 +26,13 @@ import Offset.SelfIntersection qualified as SelfIntersection
 import Offset.WindingNumber (Extreme (..), Outward (..))
 import Offset.WindingNumber qualified as WindingNumber
 
--- | The loops that have the wanted winding number on their left. Nothing when the chain turns out
--- not to be in general position: two crossings fall together within the tolerance (in mm), a walk
--- folds back where it is outermost, or the sums do not agree.
+-- | The loops that have the wanted winding number on their left. The result is Nothing when the
+-- polyarcs are not in general position: two intersections coincide within the tolerance (mm), a
+-- polyarc has a cusp at its outermost point, or the winding numbers contradict each other.
 clip :: Double -> Int -> ClosedPolyarcs -> SegmentTree -> SelfIntersections -> Maybe OffsetLoops
 clip !tolerance !wanted !c !bs !xs = do
-  -- On the left of each walk at its leftmost place, and at its rightmost.
+  -- For each polyarc: the winding number on its left at its leftmost point, and at its rightmost
+  -- point.
   known <- traverse outside [0 .. ClosedPolyarcs.walks c - 1]
   if total == 0
     then uncut wanted c known
@@ -57,8 +61,8 @@ clip !tolerance !wanted !c !bs !xs = do
       b <- leftMore rightmost
       pure (leftmost, base + a, if single then Just (rightmost, b) else Nothing)
 
--- | The walks of a chain that does not cross itself, as they are; one that is all there is, without
--- a copy.
+-- | The polyarcs without self-intersection that have the wanted number on their left. A single
+-- polyarc is returned without a copy.
 uncut :: Int -> ClosedPolyarcs -> [(Extreme, Int, Maybe (Extreme, Int))] -> Maybe OffsetLoops
 uncut wanted c known
   | any (\(_, left, rightmost) -> maybe False ((/= left) . snd) rightmost) known = Nothing
@@ -89,8 +93,9 @@ uncut wanted c known
       mconcat
         [generatePrimArray (size w) (\i -> fromIntegral (ClosedPolyarcs.first c w + i)) | w <- kept]
 
--- | Fill the occurrences of every segment, in the order of the walk; and where those of each
--- segment begin (there is room for two more).
+-- | Sorts the occurrences by segment and by position on the segment (counting sort, then
+-- insertion). Fills @begins@ with the index of each segment's first occurrence, and @order@
+-- with the occurrences. @begins@ needs two entries more than there are segments.
 sorted ::
   ClosedPolyarcs ->
   SelfIntersections ->
@@ -112,8 +117,8 @@ sorted c xs begins order = do
           writePrimArray begins i (a + v)
           add (i + 1) (a + v)
   add 2 0
-  -- Behind every segment stands where its next occurrence goes, and at last where those of the one
-  -- behind it begin.
+  -- Entry s + 1 holds the index for the next occurrence of segment s. In the end it is the index of
+  -- the first occurrence of segment s + 1.
   forM' total $ \o -> do
     let s = segmentOf o
         t = parameterOf xs o
@@ -134,11 +139,11 @@ sorted c xs begins order = do
       found <- traverse (readPrimArray order) [from .. to - 1]
       zipWithM_ (writePrimArray order) [from ..] (sortOn (parameterOf xs . fromIntegral) found)
   where
-    -- So many on each that to put them in their places one by one takes too long, as where all
-    -- segments meet in the middle of a circle.
+    -- True when insertion would take too long because the segments have many occurrences each, as
+    -- where all segments meet in the centre of a circle.
     isMany = 2 * SelfIntersection.count xs > 32 * sizeofPrimArray (ClosedPolyarcs.xs c)
 
--- | How far along its segment's chord an occurrence lies.
+-- | The parameter of an occurrence along its segment's chord, from 0 to 1.
 parameterOf :: SelfIntersections -> Int -> Double
 parameterOf xs o = indexPrimArray (SelfIntersection.reals xs) (2 * o + 2 - (if odd o then 1 else 0))
 {-# INLINE parameterOf #-}
@@ -151,13 +156,13 @@ forM' n f = go 0
       | otherwise = f i >> go (i + 1)
 {-# INLINE forM' #-}
 
--- | Whether no two crossings on a segment fall together.
+-- | True when no two intersections on a segment coincide.
 distinct :: Double -> SelfIntersections -> PrimArray Int32 -> PrimArray Int32 -> Int -> Bool
 distinct tolerance xs begins order n = go 0 1
   where
     total = 2 * SelfIntersection.count xs
     at o k = indexPrimArray (SelfIntersection.reals xs) (4 * (fromIntegral o `quot` 2) + k)
-    -- The segment of the occurrence q − 1, or one before it.
+    -- The argument i is at most the segment of the occurrence q − 1.
     go !i !q
       | q >= total = True
       | i < n && fromIntegral (indexPrimArray begins (i + 1)) <= q - 1 = go (i + 1) q
@@ -167,8 +172,8 @@ distinct tolerance xs begins order n = go 0 1
             b = indexPrimArray order q
          in (abs (at a 0 - at b 0) > tolerance || abs (at a 1 - at b 1) > tolerance) && go i (q + 1)
 
--- | The winding number on the left behind every occurrence of a walk; whether they come out right
--- at the rightmost place.
+-- | Computes the winding number on the left after every occurrence of a polyarc. The result is
+-- False when the number at the rightmost point contradicts the known one.
 sums ::
   ClosedPolyarcs ->
   SelfIntersections ->
@@ -206,8 +211,8 @@ sums c xs begins order lefts (w, (leftmost, left, rightmost)) = do
         writePrimArray lefts q (fromIntegral v')
         go (if q + 1 == z then a else q + 1) (k + 1 :: Int) v'
 
--- | The loops from the slices that are kept. A slice goes from one occurrence to the next on its
--- walk.
+-- | Joins the slices that are kept into loops. A slice runs from one occurrence to the next along
+-- its polyarc.
 gather ::
   Int ->
   ClosedPolyarcs ->
@@ -229,7 +234,7 @@ gather wanted c xs begins order lefts known = do
   position <- newPrimArray (max 1 total)
   forM' total $ \q ->
     writePrimArray position (fromIntegral (indexPrimArray order q)) (fromIntegral q :: Int32)
-  -- Of one walk all is on that.
+  -- A single polyarc needs no lookup.
   walkOf <- newPrimArray (if single then 0 else max 1 total)
   unless single $
     forM_ [0 .. ClosedPolyarcs.walks c - 1] $ \w ->
@@ -256,7 +261,8 @@ gather wanted c xs begins order lefts known = do
           l' <- copy (ClosedPolyarcs.first c w) l
           pure (l', made + 1)
         | otherwise = pure (l, made)
-      -- From occurrence q on along the walk, and over to the partner at the end.
+      -- Follows the polyarc from occurrence q to the next one, then continues at the partner of
+      -- that occurrence.
       follow !q0 !q !l = do
         writePrimArray lefts q passed
         w <- if single then pure 0 else fromIntegral <$> readPrimArray walkOf q
@@ -343,7 +349,7 @@ gather wanted c xs begins order lefts known = do
             )
   where
     single = ClosedPolyarcs.walks c == 1
-    -- What is on the left of a slice that was walked; no number of a free place.
+    -- The mark of a visited slice. It is no winding number.
     passed = minBound :: Int32
     rangeBegin w = fromIntegral (indexPrimArray begins (ClosedPolyarcs.first c w)) :: Int
     rangeEnd w = fromIntegral (indexPrimArray begins (ClosedPolyarcs.behind c w)) :: Int

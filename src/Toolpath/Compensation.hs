@@ -1,17 +1,19 @@
--- | What a control is sent that keeps the cutter beside the contour by itself (@G41@, @G42@).
+-- | Input for a control with cutter compensation (@G41@, @G42@).
 --
--- It gets the edge of the part and makes the equidistant of it: the same moves as those of the
--- path, if it is sent the right thing and nothing that it refuses. What controls do was measured on
--- LinuxCNC 2.9:
+-- The control receives the edge of the part and computes the offset itself. It then makes the same
+-- moves as the toolpath, provided that the edge is right and contains nothing that the control
+-- refuses. The behaviour of controls was measured on LinuxCNC 2.9:
 --
--- * The first move under compensation goes straight from where the centre stands to where the
---   offset of the programmed line and that
---   of the next element meet. So the programmed line has to be the tangent from there to the cutter
---   as it
---   stands at its first place on the path, and the next element begins where it meets that line.
--- * Round outer corners the control goes on arcs; the last corner of a closed contour it does only
---   when something follows.
--- * After the end it goes straight from the end of the offset to where it is sent.
+-- * The first move under compensation is a straight line from the current centre to the point where
+-- the offsets of the programmed line and of the next element intersect. So the programmed line must
+-- be the tangent from the current centre to the cutter at its first position on the toolpath. The
+-- next element begins where it intersects that line.
+--
+-- * At outer corners the control moves on arcs. It makes the arc at the last corner of a closed
+-- contour only when another move follows.
+--
+-- * After the end of the contour it moves straight from the end of the offset to the next
+-- programmed point.
 module Toolpath.Compensation
   ( Ways (..),
     sent,
@@ -38,8 +40,8 @@ import Toolpath.Error (Error (..), Unsent (..))
 import Toolpath.Toolpath (Manner (..), Move (..), Sent (Sent), unbraked)
 import Toolpath.Toolpath qualified as Toolpath
 
--- | The moves of the centre in one pass: the way to the beginning, the lead in, those along the
--- contour, the lead out, the way on.
+-- | The moves of the centre in one pass: approach, lead-in, moves along the contour, lead-out,
+-- retract.
 data Ways = Ways
   { before :: [Move],
     inwards :: [Move],
@@ -48,8 +50,9 @@ data Ways = Ways
     behind :: [Move]
   }
 
--- | What the control is sent for a pass, if it is to keep the cutter beside the contour; or why it
--- can not. The place is that of the statement's first word.
+-- | The frames' source for a control that does the cutter compensation, or the reason why that is
+-- impossible. The region is the statement's first word. The result is Nothing when the program
+-- does not ask for it.
 sent :: Region -> Milling -> Maybe Side -> Ways -> Either Error (Maybe Sent)
 sent keyword milling side ways = case Part.byControl milling of
   Nothing -> Right Nothing
@@ -72,7 +75,7 @@ sent keyword milling side ways = case Part.byControl milling of
             }
       )
 
--- | Nothing is asked that the edge of the part does not tell.
+-- | Refuses requests that the edge of the part cannot express.
 possible :: Region -> Milling -> Either Error ()
 possible asked milling
   | Just _ <- Part.gear milling = refused Swivelling
@@ -84,7 +87,7 @@ possible asked milling
   where
     refused = Left . NotForControl asked
 
--- | Every element and lead is one that a control can follow.
+-- | Refuses elements and leads that a control cannot follow.
 followable :: Region -> Region -> Milling -> Side -> Ways -> Either Error ()
 followable keyword asked milling side ways =
   mapM_ long elements
@@ -118,9 +121,9 @@ followable keyword asked milling side ways =
             >> when
               (isNone (pi - abs turned))
               (Left (BackForControl asked (element i) (element (i + 1)) (Rad turned)))
-    -- Behind a corner that turns away from the cutter, and that a control takes for none, the
-    -- centre sets out too early on an arc, and so it does where the end of what is before the arc
-    -- is rounded.
+    -- A control ignores a very slight corner. When such a corner turns away from the cutter, the
+    -- centre leaves too early on the following arc. Rounding of the end of the segment before the
+    -- arc has the same effect.
     rolled (i, a) (_, b) =
       let Rad turned = Vec.turn (Segment.endDirection a) (Segment.startDirection b)
           needed = neededBefore (Mm r) side (Rad (max 0 (-(turned * leftward side)))) b
@@ -141,8 +144,9 @@ followable keyword asked milling side ways =
     element :: Int -> Element
     element i = Part.elements (Part.contour milling) NonEmpty.!! (i `mod` length elements)
 
--- | How long a line has to be, or how large the radius of an arc, before an arc that turns away
--- from it by an angle, so that the centre goes no further round that than LinuxCNC puts up with.
+-- | The least length of a line, or the least radius of an arc, before an arc that turns away from
+-- it by an angle. It keeps the centre's additional sweep around the arc within the limit of
+-- LinuxCNC. It is infinite when no length suffices.
 neededBefore :: Mm -> Side -> Rad -> Segment -> Mm
 neededBefore (Mm r) side (Rad away) s = case s of
   Straight _ _ -> Mm 0
@@ -156,14 +160,14 @@ neededBefore (Mm r) side (Rad away) s = case s of
       Mm rounding = Tolerance.controlRounding
       Rad most = Tolerance.controlTurn
 
--- | What tells how well the direction at the end of a segment is kept when its points are rounded:
--- the length of a line, the radius of an arc.
+-- | The quantity that decides how much rounding changes the direction at a segment's end: the
+-- length of a line, the radius of an arc.
 lasting :: Segment -> Mm
 lasting s = case s of
   Straight a b -> Vec.distance a b
   Arc {start, centre} -> Segment.radius centre start
 
--- | The radius of an arc about whose inside the cutter has no room to roll.
+-- | The radius of a concave arc in which the cutter has no room to roll; Nothing when it has.
 tooTight :: Mm -> Side -> Segment -> Maybe Mm
 tooTight radius side s = case s of
   Straight _ _ -> Nothing
@@ -182,7 +186,8 @@ leftward side = case side of
 
 -- The edge
 
--- | The edge of the part in the order of the walk, with the leads beside which the cutter goes.
+-- | The edge of the part in the direction of travel, with the curves that the cutter touches
+-- during the leads.
 programmed :: Milling -> Side -> Ways -> NonEmpty Move
 programmed milling side Ways {inwards, cut, outwards} = case map lead inwards of
   [] -> elements `followedBy` map lead outwards
@@ -204,7 +209,7 @@ programmed milling side Ways {inwards, cut, outwards} = case map lead inwards of
         }
     followedBy (e :| es) more = e :| es <> more
 
--- | What a cutter touches whose centre moves along a segment.
+-- | The curve that a cutter touches when its centre moves along a segment.
 uncovered :: Mm -> Side -> Segment -> Segment
 uncovered (Mm r) side s = case s of
   Straight a b ->
@@ -217,7 +222,7 @@ uncovered (Mm r) side s = case s of
         moved p = Vec.shift (Vec.scale (new / old) (Vec.to centre p)) centre
      in Arc {start = moved start, end = moved end, centre, sweep}
 
--- | Whether a control keeps the cutter beside a contour that ends at an outer corner.
+-- | True when a control does the compensation and the closed toolpath ends at an outer corner.
 endsAround :: Milling -> NonEmpty Equidistant.OffsetSegment -> Bool
 endsAround milling pieces = case Part.byControl milling of
   Nothing -> False
@@ -225,8 +230,8 @@ endsAround milling pieces = case Part.byControl milling of
     Equidistant.Around _ -> True
     Equidistant.Along _ -> False
 
--- | Behind such a contour, a little further along its first element: a control goes round a corner
--- only when something follows.
+-- | A short move along the first element after such a contour. A control makes the arc round the
+-- last corner only when another move follows.
 onward :: Region -> Milling -> Segment -> [Move]
 onward keyword milling first =
   [ Move
@@ -242,9 +247,9 @@ onward keyword milling first =
 
 -- The ways in and out
 
--- | The moves up to where compensation is switched on, the straight on which that happens, and the
--- edge from where that arrives. A long way in is divided: near the contour its direction is surely
--- another than that of the edge.
+-- | The moves before compensation begins, the straight move on which it begins, and the edge from
+-- the end of that move. A long approach is divided, because near the contour its direction
+-- certainly differs from that of the edge.
 entering ::
   Region ->
   Region ->
@@ -266,8 +271,8 @@ entering keyword asked milling side ways edge = case reverse ways of
   where
     radius@(Mm r) = Part.radius milling
     first = NonEmpty.head edge
-    -- Where the tangent from a point to the cutter at its first place meets the line of the first
-    -- element.
+    -- The point where the tangent from @on@ to the cutter at its first position intersects the line
+    -- of the first element.
     meeting m on to' = do
       let Mm d = Vec.distance on to'
           ahead = Segment.startDirection (segment first)
@@ -286,7 +291,7 @@ entering keyword asked milling side ways edge = case reverse ways of
         (l <= plus radius Tolerance.byControl)
         (Left (ShortForControl (origin m) asked True l radius))
       Right begin
-    -- Before an arc the line is an element of its own, which must not be too short for a control.
+    -- Before an arc the line is an additional element, which must not be too short for a control.
     leastOntoArc = case segment first of
       Straight _ _ -> 0
       arc@Arc {} ->
@@ -298,12 +303,12 @@ entering keyword asked milling side ways edge = case reverse ways of
       Arc {start} ->
         (unbraked first) {segment = Straight begin start, continues = False} :| NonEmpty.toList edge
 
--- | A way in turns by no more onto the first element: 175°. There that is lengthened backwards by
--- 23 radii.
+-- | The largest change of direction from the approach to the first element: 175°. At this angle
+-- the first element is extended backwards by 23 radii.
 furthestTurn :: Double
 furthestTurn = 35 / 36 * pi
 
--- | The straight on which compensation is switched off, and the moves behind it.
+-- | The straight move on which compensation ends, and the moves after it.
 leaving :: Region -> Region -> Milling -> Move -> [Move] -> Either Error (Move, [Move])
 leaving keyword asked milling final ways = case ways of
   m@Move {segment = Straight _ to', manner = Manner {between = (z, z')}} : later | z == z' -> do

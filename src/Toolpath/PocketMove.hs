@@ -1,4 +1,4 @@
--- | The passes of a pocket as moves: down where there is room, loop by loop outwards, up again.
+-- | The passes of a pocket as moves: plunge, loops from the inside outwards, retract.
 module Toolpath.PocketMove
   ( blocks,
   )
@@ -43,8 +43,9 @@ import Toolpath.Pocket qualified as Pocket
 import Toolpath.Toolpath (Block (..), Manner (Manner), Move (Move), Pass (..))
 import Toolpath.Toolpath qualified as Toolpath
 
--- | The passes of a pocket, by the number of its statement, from where the cutter stands: all
--- depths for the first allowance, then for the next.
+-- | The passes of a pocket statement: all depths for the first allowance, then all depths for the
+-- next. The first argument is the statement's number; the position is that of the cutter before
+-- the pocket.
 blocks :: Int -> SpacePoint -> Located Pocketing -> Either Error [Block]
 blocks number at (Located region given) = do
   for_
@@ -64,7 +65,7 @@ blocks number at (Located region given) = do
     depth = case (Part.levels milling, Part.clearance milling) of
       (first : more, Just clear) -> Just (clear, first :| more)
       _ -> Nothing
-    -- With depth all passes of an allowance are the same at every depth.
+    -- With depth, all passes of one allowance have the same sections at every depth.
     passes =
       [ (a, case depth of Just _ -> const down; Nothing -> legs, z)
         | (a, legs) <- NonEmpty.toList (NonEmpty.zip allowances (laid pocket)),
@@ -94,13 +95,13 @@ blocks number at (Located region given) = do
               }
       Right (LinkingMove.arriving spot (Toolpath.moves b), b : done)
 
--- | Where the cutter is when it goes down, if that is said.
+-- | The plunge position of the cutter, if the program gives it.
 lastApproach :: Milling -> Maybe Point
 lastApproach milling = value . Part.place <$> listToMaybe (reverse (Part.approach milling))
 
--- | The moves of a pass, before, in and behind it: at which height nothing is in the way, if the
--- cutter may be lifted; what it leaves at the walls and its own height; the legs from where the
--- cutter goes down.
+-- | The moves before, in and after a pass. @clear@ is the clearance height, if the cutter may be
+-- lifted; the pair is the allowance at the walls and the height of the pass. @legsFrom@ gives
+-- the sections for a plunge position.
 passOf ::
   Visit ->
   Maybe Mm ->
@@ -110,7 +111,8 @@ passOf ::
 passOf visit clear (left, z) legsFrom = do
   legs <- fitting (NonEmpty.nonEmpty (legsFrom from))
   (visit', legs') <- case (legs, clear) of
-    -- Something is in the way from where the cutter would go down: it goes on above.
+    -- A wall lies between the plunge position and the first loop, so the cutter moves over it at
+    -- the clearance height.
     (Over _ q :| next : more, Just c) ->
       Right
         ( visit
@@ -148,7 +150,7 @@ passOf visit clear (left, z) legsFrom = do
       (Nothing, Just p) | LinkingMove.isFirst visit -> Just p
       (Nothing, _) -> Just standsAt
 
--- | The moves of a leg at a height; over what is in the way, at another one.
+-- | The moves of a section at a height; a section over a wall is at the clearance height.
 moves :: Region -> Milling -> Mm -> Maybe Mm -> PocketMove -> [Move]
 moves word milling z clear leg = case leg of
   Over p q
@@ -164,7 +166,7 @@ moves word milling z clear leg = case leg of
            ]
   _ -> [Move s (Manner (z, z) (Part.At (feed milling)) False) word False | s <- Pocket.segments leg]
 
--- | For each allowance the legs from where the cutter goes down.
+-- | For each allowance, the sections as a function of the plunge position.
 laid :: Pocketing -> NonEmpty (Maybe Point -> [PocketMove])
 laid pocket =
   (\from -> Pocket.clear (room first) step from)
@@ -175,7 +177,7 @@ laid pocket =
     contours =
       Inset.oriented (Part.outline (contour (wall pocket))) (map Part.outline (islands pocket))
     inset = Inset.inset contours
-    -- Along the walls it goes down slots of just its width, too.
+    -- The passes along the walls also go down slots of exactly the cutter's width.
     insetFrom nearest d = if d == nearest then Inset.fitting inset d else inset d
     room leaves =
       PocketRoom
@@ -187,14 +189,14 @@ laid pocket =
           turned = isTurned pocket
         }
 
--- | Whether the free space lies on the right of the walk: a spindle that turns clockwise climbs
--- with the material there.
+-- | True when the free space lies on the right of the direction of travel. A clockwise spindle
+-- mills climb with the material on its right and the free space on its left.
 isTurned :: Pocketing -> Bool
 isTurned pocket = climbs /= (Part.spin (wall pocket) == Part.Clockwise)
   where
     climbs = maybe True ((== Part.Climb) . value) (Part.sense (wall pocket))
 
--- | Outline and islands walked as the cutter walks along them.
+-- | The outer contour and the islands, oriented in the cutter's direction of travel.
 oriented :: Pocketing -> Pocketing
 oriented pocket =
   pocket
@@ -206,16 +208,16 @@ oriented pocket =
     walked counterClockwise c =
       if (Polyarc.signedArea (Part.outline c) > 0) == counterClockwise then c else Part.backwards c
 
--- | The elements of the outline, and of the islands in order.
+-- | The elements of the outer contour, then those of the islands in order.
 elementsOf :: Pocketing -> Vector Element
 elementsOf pocket =
   Vector.fromList
     (concatMap (NonEmpty.toList . Part.elements) (contour (wall pocket) : islands pocket))
 
--- What stays
+-- Rest material
 
--- | What stays at the walls when all is done, by elements of the outline and the islands in order,
--- if that is allowed.
+-- | The parts of the walls that remain unreached after the last pass, by the elements of the
+-- outer contour and the islands in order. Refuses them unless the program allows rest material.
 resting :: Region -> Pocketing -> Either Error [Equidistant.UnreachedPart]
 resting word pocket = case (Part.rest milling, found) of
   (Part.Refused, o : _) -> Left (OffsetRefusal.refusal word tool (elementsOf pocket) o)
@@ -259,7 +261,8 @@ resting word pocket = case (Part.rest milling, found) of
         ]
     gaps = gapsBetween r (map Part.outline contours)
 
--- | Contours between which a circle does not pass: of each two the narrowest place.
+-- | The narrowest point between each two contours between which a circle of this radius does not
+-- pass.
 gapsBetween :: Mm -> [Polyarc.Polyarc] -> [Equidistant.Obstacle]
 gapsBetween r contours =
   [ Equidistant.Obstacle

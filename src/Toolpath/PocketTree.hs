@@ -1,5 +1,6 @@
--- | The passes in a pocket as a tree: each connected part of what the cutter's centre can reach at
--- one distance from the walls, and in it those at the next distance.
+-- | The passes of a pocket as a tree. A node is a connected region that the cutter's centre can
+-- reach at one distance from the walls; its children are the regions inside it at the next
+-- distance.
 module Toolpath.PocketTree
   ( Loop,
     PocketTree (..),
@@ -29,23 +30,24 @@ import Geometry.Vec (Point)
 import Geometry.Vec qualified as Vec
 import Toolpath.StepoverResidue qualified as StepoverResidue
 
--- | Segments in a closed chain, with the free space on their left.
+-- | A closed chain of segments with the free space on their left.
 type Loop = NonEmpty Segment
 
--- | What bounds one connected part at its distance, the outer loop and those round islands; the
--- parts in it at the next distance.
+-- | One connected region at its distance: the rings that bound it, the outer one and those round
+-- islands, and the regions inside it at the next distance.
 data PocketTree = PocketTree {rings :: NonEmpty Ring, inner :: [PocketTree]}
 
--- | A loop at a distance from the walls.
+-- | A loop, and its distance from the walls.
 data Ring = Ring {away :: Mm, stretches :: NonEmpty RingSegment}
 
--- | A segment of a loop, and trips aside from its end and back to it.
+-- | A segment of a loop, and detours that begin and end at its end.
 data RingSegment = RingSegment {segment :: Segment, aside :: [NonEmpty Segment]}
 
--- | The passes at rising distances from the walls, up to the first at which there is nothing; by
--- the loops that bound what can be reached at a distance, and those of loops so much further in, if
--- they are known. Where they lie further apart than the radius of the cutter, what they leave
--- between them is cleared aside. The last of finitely many distances looks no further inwards.
+-- | The passes at increasing distances from the walls, up to the first distance without loops.
+-- The first function gives the loops at a distance from the walls; the second one the inner
+-- offset of loops, if it is known. Where the distances differ by more than the cutter's radius,
+-- residue between the passes is cleared by detours. Residue inside the last of finitely many
+-- distances is not examined.
 nests :: (Mm -> [Loop]) -> ([Loop] -> Mm -> Maybe [Loop]) -> Mm -> [Mm] -> [PocketTree]
 nests offsetBy further radius distances = case distances of
   [] -> []
@@ -82,7 +84,8 @@ ring away trips (n, loop) =
           loop
     }
 
--- | The loops of one distance by the parts that they bound, and in each part what lies in it.
+-- | Groups the loops of one distance by the regions that they bound, and assigns the inner
+-- regions to them.
 grouped :: Mm -> [Loop] -> Map (Int, Int) [NonEmpty Segment] -> [PocketTree] -> [PocketTree]
 grouped c loops trips inside = mapMaybe part (Map.toList members)
   where
@@ -92,9 +95,9 @@ grouped c loops trips inside = mapMaybe part (Map.toList members)
         (BoundingBox.ofSegment . snd)
         [(n, s) | (n, loop) <- numbered, s <- NonEmpty.toList loop]
     (outers, holes) = partition (isOuter . snd) numbered
-    -- The outer loop of the part that each loop bounds. To the right of the rightmost point of a
-    -- loop round an island lies the part that it bounds, and then another loop that bounds it,
-    -- which ends no further left.
+    -- The outer loop of the region that each loop bounds. A horizontal ray from the rightmost point
+    -- of a loop round an island crosses that region, and then meets another loop that bounds it.
+    -- That loop extends at least as far to the right, so loops are processed from right to left.
     outer =
       foldl
         around
@@ -133,7 +136,7 @@ rightmost loop =
             furthest = Vec.shift (Vec.vec r 0) centre
          in a : [furthest | Segment.spans s furthest]
 
--- | Of the loops, but for one of them, the first that the way from a point to the right meets.
+-- | The first loop that a horizontal ray from a point to the right meets, except the loop @own@.
 firstHit :: Index (Int, Segment) -> Maybe Int -> Point -> Maybe Int
 firstHit index own p = snd <$> foldl nearer Nothing hits
   where
@@ -145,7 +148,8 @@ firstHit index own p = snd <$> foldl nearer Nothing hits
       right box >= Vec.x p && bottom box <= Vec.y p + slack && top box >= Vec.y p - slack
     Mm slack = Tolerance.coincident
 
--- | Where the way from a point to the right meets a segment, its ends included.
+-- | The x coordinates where a horizontal ray from a point to the right meets a segment, its ends
+-- included.
 crossings :: Point -> Segment -> [Double]
 crossings p s = filter (>= Vec.x p) $ case s of
   Straight a b

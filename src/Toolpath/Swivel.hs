@@ -1,11 +1,10 @@
 -- | The height of a swivelling blade's axis along a contour.
 --
--- The blade is turned to the bevel of the surface by the axis, which moves through a wheel of the
--- diameter D2:
--- @z = ∓π·μ°·D2/360@, minus on the right of the walk, plus on the left (Kolsanova, section 3). It
---  is not the tool that
--- moves in height. An element that does not say how far it leans takes the blade from the bevel of
--- the element before it to that of the one behind it, evenly along its length.
+-- The axis turns the blade to the bevel of the surface through a wheel of the diameter D2: @z =
+-- ∓π·μ°·D2/360@, minus on the right of the direction of travel, plus on the left (Kolsanova,
+-- section 3). The tool itself does not move in height. On an element without a bevel, the bevel
+-- changes linearly with the arc length, from that of the element before it to that of the element
+-- after it.
 module Toolpath.Swivel
   ( axis,
     highest,
@@ -28,8 +27,8 @@ import Part.Part (Contour, Element, Ends (..), Milling)
 import Part.Part qualified as Part
 import Toolpath.Error (Error (..))
 
--- | For every piece of an equidistant by how much the axis stands above its middle position, at the
--- beginning and at the end of the piece; in mm. Nothing for a tool that does not swivel.
+-- | The heights of the axis above its middle position, in mm, at the beginning and at the end of
+-- every segment of an offset. Nothing for a tool that does not swivel.
 axis ::
   Region ->
   Milling ->
@@ -50,7 +49,7 @@ axis region milling side pieces = case Part.gear milling of
       RightOf -> -1
     height sign (Mm gear) angle = Mm (sign * angle * gear / 2)
 
--- | By how much the axis may stand above its middle position along a contour at most.
+-- | The largest distance of the axis from its middle position along a contour, in mm.
 highest :: Milling -> Mm
 highest milling =
   Mm
@@ -65,13 +64,13 @@ highest milling =
         )
     )
 
--- | The bevels of all elements at their beginnings and ends, in radians; none when no element has
--- one.
+-- | The bevels of all elements at their beginnings and ends, in radians. Nothing when no element
+-- has one.
 bevels :: Contour -> Maybe (Vector (Double, Double))
 bevels contour = case span (isNothing . Part.bevel) list of
   (_, []) -> Nothing
   (open, known)
-    -- A closed contour goes on over its beginning.
+    -- A closed contour is interpolated across its beginning.
     | Part.ends contour == Closed ->
       let (after, before) =
             splitAt (length known) (filled Nothing (known <> open <> take 1 known))
@@ -94,13 +93,14 @@ bevels contour = case span (isNothing . Part.bevel) list of
       (Nothing, Nothing) -> map (const (0, 0)) open
     lengthOf s = let Mm l = Segment.length s in l
 
--- | Where each of some lengths begins and ends on the whole, from 0 to 1.
+-- | The beginning and the end of each length within their sum, as fractions from 0 to 1.
 shares :: [Double] -> [(Double, Double)]
 shares ls = zip marks (drop 1 marks)
   where
     marks = scanl (\s l -> s + l / sum ls) 0 ls
 
--- | The bevels along the pieces; round a corner the blade turns from one to the other.
+-- | The bevels along the segments of an offset. On the arc round a corner the bevel changes from
+-- that of one element to that of the next.
 angles :: Vector (Double, Double) -> NonEmpty OffsetSegment -> NonEmpty (Double, Double)
 angles leans pieces =
   NonEmpty.fromList
@@ -122,7 +122,7 @@ angles leans pieces =
                   shares [l | q <- NonEmpty.toList ps, let Mm l = Segment.length (segment q)]
             ]
 
--- | Where two elements go over into one another without a corner, their bevels have to agree.
+-- | Refuses a smooth joint of two elements whose bevels differ.
 smooth ::
   Region ->
   Vector Element ->
@@ -145,6 +145,6 @@ smooth region elements leans pieces =
             )
       _ -> Right ()
 
--- | Bevels that differ by no more, in radians, are one.
+-- | Bevels that differ by at most this, in radians, are equal.
 sameBevel :: Double
 sameBevel = 1e-6
