@@ -50,7 +50,7 @@ data Arrangement = Arrangement
   { chain :: ClosedPolyarcs,
     nodes :: Vector (Double, Double),
     -- | The node of every vertex of the polyarcs.
-    owned :: PrimArray Int,
+    vertexNodes :: PrimArray Int,
     edges :: Vector Edge,
     -- | The half-edges that leave each node, counter-clockwise. Half-edge @2e@ leaves the
     -- beginning of edge @e@, and @2e + 1@ its end.
@@ -65,13 +65,13 @@ data Arrangement = Arrangement
 -- must be inflated by at least the tolerance. The result is Nothing when the winding numbers
 -- contradict each other.
 arrange :: Double -> ClosedPolyarcs -> SegmentTree -> Maybe Arrangement
-arrange tolerance c bs
-  | agree arrangement = Just arrangement
+arrange tolerance c boxes
+  | isConsistent arrangement = Just arrangement
   | otherwise = Nothing
   where
-    (cuts, pairs) = events tolerance c bs
-    (places, nodeOf, cutNodes) = nodesOf tolerance c cuts
-    found = Vector.fromList (merged tolerance places (slices c places nodeOf cutNodes))
+    (cuts, pairs) = intersections tolerance c boxes
+    (coordinates, nodeOf, cutNodes) = nodesOf tolerance c cuts
+    found = Vector.fromList (merged tolerance coordinates (slices c coordinates nodeOf cutNodes))
     outgoing =
       IntMap.fromListWith
         (<>)
@@ -80,23 +80,23 @@ arrange tolerance c bs
               | (i, e) <- Vector.toList (Vector.indexed found)
             ]
         )
-    ordered = fmap (Vector.fromList . ring places found) outgoing
+    ordered = fmap (Vector.fromList . ring coordinates found) outgoing
     arrangement =
       Arrangement
         { chain = c,
-          nodes = places,
-          owned = nodeOf,
+          nodes = coordinates,
+          vertexNodes = nodeOf,
           edges = found,
           rings = ordered,
-          lefts = propagated places found ordered,
+          lefts = propagated coordinates found ordered,
           proper = pairs
         }
 
 -- | The points at which each segment is cut, and the pairs of segments that cross between their
 -- ends. Arcs are also cut at their leftmost points, so that the leftmost point of every
 -- connected component is a node.
-events :: Double -> ClosedPolyarcs -> SegmentTree -> ([(Int, Double, Double)], [(Int, Int)])
-events tolerance c bs = runST $ do
+intersections :: Double -> ClosedPolyarcs -> SegmentTree -> ([(Int, Double, Double)], [(Int, Int)])
+intersections tolerance c boxes = runST $ do
   cuts <- newMutVar []
   pairs <- newMutVar []
   let cut s x y = modifyMutVar' cuts ((s, x, y) :)
@@ -107,7 +107,7 @@ events tolerance c bs = runST $ do
             resting = \s k -> at k (cut s),
             touching = \i j x y -> cut i x y >> cut j x y
           }
-  SegmentTree.pairs bs (pure True :: ST s Bool) (SegmentIntersection.meet tolerance c visitor)
+  SegmentTree.pairs boxes (pure True :: ST s Bool) (SegmentIntersection.meet tolerance c visitor)
   found <- readMutVar cuts
   crossings <- readMutVar pairs
   pure
@@ -139,7 +139,7 @@ nodesOf ::
   [(Int, Double, Double)] ->
   (Vector (Double, Double), PrimArray Int, IntMap [Int])
 nodesOf tolerance c cuts =
-  ( Vector.fromList (map place clusters),
+  ( Vector.fromList (map position clusters),
     own,
     IntMap.fromListWith (<>) [(s, [indexPrimArray ids (n + k)]) | (k, (s, _, _)) <- zip [0 ..] cuts]
   )
@@ -150,11 +150,11 @@ nodesOf tolerance c cuts =
         | i <- [0 .. n - 1]
       ]
         <> [(x, y, n + k) | (k, (_, x, y)) <- zip [0 ..] cuts]
-    clusters = concatMap (together snd3 . sortOn snd3) (together fst3 (sortOn fst3 points))
+    clusters = concatMap (clustered snd3 . sortOn snd3) (clustered fst3 (sortOn fst3 points))
     -- Groups consecutive values whose difference is at most four tolerances.
-    together f ps = case ps of
+    clustered f ps = case ps of
       [] -> []
-      p : rest -> let (same, others) = grab f (f p) rest in (p : same) : together f others
+      p : rest -> let (same, others) = grab f (f p) rest in (p : same) : clustered f others
     grab f v ps = case ps of
       q : rest
         | f q - v <= 4 * tolerance ->
@@ -166,7 +166,7 @@ nodesOf tolerance c cuts =
     snd3 (_, y, _) = y
     number (_, _, i) = i
     -- A vertex keeps its exact coordinates.
-    place ps = let (x, y, _) = foldr1 (\p q -> if number p < number q then p else q) ps in (x, y)
+    position ps = let (x, y, _) = foldr1 (\p q -> if number p < number q then p else q) ps in (x, y)
     ids =
       runPrimArray'
         (n + length cuts)
@@ -186,7 +186,7 @@ slices ::
   PrimArray Int ->
   IntMap [Int] ->
   [(Int, Int, Int, Double)]
-slices c places nodeOf cutNodes =
+slices c coordinates nodeOf cutNodes =
   concatMap
     one
     [ i
@@ -221,12 +221,12 @@ slices c places nodeOf cutNodes =
           ]
     bulgeOf i p q =
       let ((x, y), (x', y')) =
-            (places Vector.! p, places Vector.! q)
+            (coordinates Vector.! p, coordinates Vector.! q)
        in ClosedPolyarcs.part c i x y x' y'
     along i k =
       ClosedPolyarcs.chord c i $ \dx dy ->
         let (x, y) =
-              places Vector.! k
+              coordinates Vector.! k
          in (x - indexPrimArray (ClosedPolyarcs.xs c) i) * dx
               + (y - indexPrimArray (ClosedPolyarcs.ys c) i) * dy ::
               Double
@@ -234,7 +234,7 @@ slices c places nodeOf cutNodes =
 -- | Merges slices between the same nodes with the same sagitta into one edge. Slices that cancel,
 -- as many forwards as backwards, give no edge.
 merged :: Double -> Vector (Double, Double) -> [(Int, Int, Int, Double)] -> [Edge]
-merged tolerance places cut =
+merged tolerance coordinates cut =
   concatMap
     edgesOf
     ( Map.toList
@@ -246,18 +246,18 @@ merged tolerance places cut =
   where
     edgesOf ((a, b), list) = case list of
       [one] -> [edge a b 1 one]
-      _ -> concatMap (bundle a b) (alike (sortOn rise list))
+      _ -> concatMap (bundle a b) (bySagitta (sortOn rise list))
       where
         rise (_, _, g) = g * chordOf a b / 2
-        alike ps = case ps of
+        bySagitta ps = case ps of
           [] -> []
           p : rest ->
             let (same, others) =
                   span (\q -> rise q - rise p <= 4 * tolerance) rest
-             in (p : same) : alike others
+             in (p : same) : bySagitta others
     chordOf a b =
       let ((x, y), (x', y')) =
-            (places Vector.! a, places Vector.! b)
+            (coordinates Vector.! a, coordinates Vector.! b)
        in sqrt ((x' - x) * (x' - x) + (y' - y) * (y' - y))
     edge a b m (forth, i, g) = if forth then Edge a b m g i else Edge b a m (-g) i
     bundle a b list = case compare net 0 of
@@ -272,9 +272,9 @@ merged tolerance places cut =
 -- | The half-edges of a node, sorted counter-clockwise. The order begins after the widest angular
 -- gap; at the leftmost node of a component it begins after the gap on the left.
 ring :: Vector (Double, Double) -> Vector Edge -> [Int] -> [Int]
-ring places es halves = case halves of
+ring coordinates es halves = case halves of
   [_] -> halves
-  _ -> map fst3 (sortBy order [(h, turnedBy cut angle, leaving) | (h, angle, leaving) <- aimed])
+  _ -> map fst3 (sortBy order [(h, angleFrom cut angle, leaving) | (h, angle, leaving) <- aimed])
   where
     fst3 (h, _, _) = h
     aimed =
@@ -299,8 +299,8 @@ ring places es halves = case halves of
                 gaps
             )
         )
-    turnedBy :: Double -> Double -> Double
-    turnedBy from' angle =
+    angleFrom :: Double -> Double -> Double
+    angleFrom from' angle =
       let t = angle - from' in t - 2 * pi * fromIntegral (floor (t / (2 * pi)) :: Int)
     -- Half-edges with nearly equal directions are compared by how far to the left they lie a short
     -- distance from the node.
@@ -316,8 +316,8 @@ ring places es halves = case halves of
     direction h =
       let e = es Vector.! (h `div` 2)
           (a, b, g) = if even h then (from e, to e, bulge e) else (to e, from e, -(bulge e))
-          (x, y) = places Vector.! a
-          (x', y') = places Vector.! b
+          (x, y) = coordinates Vector.! a
+          (x', y') = coordinates Vector.! b
           l = sqrt ((x' - x) * (x' - x) + (y' - y) * (y' - y))
           ux = (x' - x) / l
           uy = (y' - y) / l
@@ -333,47 +333,47 @@ tie = 1e-3
 -- | Propagates the winding numbers over each connected component, starting at its leftmost node,
 -- whose left side is outside the component.
 propagated :: Vector (Double, Double) -> Vector Edge -> IntMap (Vector Int) -> IntMap Int
-propagated places es ordered =
+propagated coordinates es ordered =
   foldl'
     component
     IntMap.empty
-    (map snd (sortOn fst [(places Vector.! k, k) | k <- IntMap.keys ordered]))
+    (map snd (sortOn fst [(coordinates Vector.! k, k) | k <- IntMap.keys ordered]))
   where
     component known k = case ordered IntMap.!? k of
       Just halves
         | h <- Vector.head halves,
           IntMap.notMember (h `div` 2) known ->
-          spread known [(h, outside k)]
+          propagate known [(h, outside k)]
       _ -> known
     -- The winding number that all other components give to this node.
     outside k =
-      let (x, y) = places Vector.! k
-          own = IntMap.lookup k islands
+      let (x, y) = coordinates Vector.! k
+          own = IntMap.lookup k components
           add total i
-            | IntMap.lookup (from edge) islands == own = total
-            | otherwise = total + times edge * WindingNumber.passed apart x y i
+            | IntMap.lookup (from edge) components == own = total
+            | otherwise = total + times edge * WindingNumber.passed edgePolyarcs x y i
             where
               edge = es Vector.! (i `div` 2)
-       in SegmentTree.around around (-1e300) y x y (0 :: Int) add
-    apart =
+       in SegmentTree.around tree (-1e300) y x y (0 :: Int) add
+    edgePolyarcs =
       ClosedPolyarcs.apart
         [ (x, y, x', y', bulge e)
           | e <- Vector.toList es,
-            let ((x, y), (x', y')) = (places Vector.! from e, places Vector.! to e)
+            let ((x, y), (x', y')) = (coordinates Vector.! from e, coordinates Vector.! to e)
         ]
-    around = SegmentTree.boxes 0 apart
-    islands = islandsOf es ordered
+    tree = SegmentTree.boxes 0 edgePolyarcs
+    components = componentsOf es ordered
     -- The half-edges still to be visited, each with the winding number on its right as it leaves
     -- its node.
-    spread known todo = case todo of
+    propagate known todo = case todo of
       [] -> known
       (h, right) : rest
-        | IntMap.member e known -> spread known rest
+        | IntMap.member e known -> propagate known rest
         | otherwise ->
-          spread
+          propagate
             (IntMap.insert e left known)
-            ( round' (from edge) (2 * e) left
-                <> round' (to edge) (2 * e + 1) (left - times edge)
+            ( othersAround (from edge) (2 * e) left
+                <> othersAround (to edge) (2 * e + 1) (left - times edge)
                 <> rest
             )
         where
@@ -382,7 +382,7 @@ propagated places es ordered =
           left = if even h then right + times edge else right
     -- The next half-edge of the node counter-clockwise has on its right the winding number that
     -- this one has on its left.
-    round' k h leftward = case ordered IntMap.!? k of
+    othersAround k h leftward = case ordered IntMap.!? k of
       Nothing -> []
       Just halves ->
         go
@@ -396,8 +396,8 @@ propagated places es ordered =
     gain h = let m = times (es Vector.! (h `div` 2)) in if even h then m else -m
 
 -- | The connected component of every node, named by one of its nodes.
-islandsOf :: Vector Edge -> IntMap (Vector Int) -> IntMap Int
-islandsOf es ordered =
+componentsOf :: Vector Edge -> IntMap (Vector Int) -> IntMap Int
+componentsOf es ordered =
   foldl'
     (\known k -> if IntMap.member k known then known else reach k known [k])
     IntMap.empty
@@ -415,8 +415,8 @@ islandsOf es ordered =
     other h = let e = es Vector.! (h `div` 2) in if even h then to e else from e
 
 -- | True when the winding numbers agree in every sector of every node.
-agree :: Arrangement -> Bool
-agree a =
+isConsistent :: Arrangement -> Bool
+isConsistent a =
   all
     ( \halves ->
         and
@@ -465,9 +465,9 @@ crossed (low, high) a =
 -- on the left of an edge; with sense clockwise the wanted number less one is on its right. The
 -- result is Nothing when a loop does not close.
 loops :: Sense -> Int -> Arrangement -> Maybe OffsetLoops
-loops turn wanted a =
+loops sense wanted a =
   gathered . map vertices
-    <$> walks (IntSet.fromList [e | e <- [0 .. Vector.length (edges a) - 1], kept e])
+    <$> closedLoops (IntSet.fromList [e | e <- [0 .. Vector.length (edges a) - 1], isKept e])
   where
     gathered made =
       let listed f = primArrayFromList (map f (concat made))
@@ -477,16 +477,16 @@ loops turn wanted a =
             (listed (\(_, y, _, _) -> y))
             (listed (\(_, _, b, _) -> b))
             (primArrayFromList [fromIntegral i :: Int32 | (_, _, _, i) <- concat made])
-    kept e =
+    isKept e =
       let (l, r) = sides a (2 * e)
-       in case turn of
+       in case sense of
             CounterClockwise -> l == wanted
             Clockwise -> r == wanted - 1
-    walks left = case IntSet.minView left of
+    closedLoops left = case IntSet.minView left of
       Nothing -> Just []
       Just (e, rest) -> do
         (loop, rest') <- follow e e rest
-        (loop :) <$> walks rest'
+        (loop :) <$> closedLoops rest'
     -- A loop that does not return to its first edge is invalid.
     follow first e rest = case next e of
       Just e'
@@ -500,14 +500,14 @@ loops turn wanted a =
       halves <- IntMap.lookup (to (edges a Vector.! e)) (rings a)
       k <- Vector.elemIndex (2 * e + 1) halves
       let n = Vector.length halves
-          h = case turn of
+          h = case sense of
             CounterClockwise -> halves Vector.! ((k - 1) `mod` n)
             Clockwise -> halves Vector.! ((k + 1) `mod` n)
-      if even h && kept (h `div` 2) then Just (h `div` 2) else Nothing
+      if even h && isKept (h `div` 2) then Just (h `div` 2) else Nothing
     -- Consecutive edges on the same segment become one segment again.
-    vertices loop = map vertex (NonEmpty.groupBy goesOn (rotated loop))
-    goesOn e e' = segment (edges a Vector.! e) == segment (edges a Vector.! e')
-    rotated loop = case span (goesOn (last loop)) loop of
+    vertices loop = map vertex (NonEmpty.groupBy onSameSegment (rotated loop))
+    onSameSegment e e' = segment (edges a Vector.! e) == segment (edges a Vector.! e')
+    rotated loop = case span (onSameSegment (last loop)) loop of
       (front, rest) | not (null rest) -> rest <> front
       _ -> loop
     vertex run =
@@ -517,7 +517,7 @@ loops turn wanted a =
           (x', y') = nodes a Vector.! to e'
           i = segment e
           -- A complete segment gets its original bulge.
-          entire = indexPrimArray (owned a) i == from e && indexPrimArray (owned a) (i + 1) == to e'
+          entire = indexPrimArray (vertexNodes a) i == from e && indexPrimArray (vertexNodes a) (i + 1) == to e'
        in ( x,
             y,
             if NonEmpty.length run == 1

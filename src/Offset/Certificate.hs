@@ -36,14 +36,14 @@ data Clearance = Clearance
 -- | True when the midpoint of a loop's first segment keeps the required distance from every
 -- segment of the source.
 clear :: Clearance -> ClosedPolyarcs -> SegmentTree -> OffsetLoops -> Int -> Bool
-clear measure source bs l k = uncurry (farFrom measure source bs) (witness l k)
+clear measure source boxes l k = uncurry (isFarFrom measure source boxes) (witness l k)
 
 -- | True when a cutter whose centre is at the midpoint of the loop's first segment reaches every
 -- segment of the source.
 covers :: Clearance -> ClosedPolyarcs -> OffsetLoops -> Int -> Bool
 covers measure source l k =
   and
-    [ fromPoint source i x y (\d _ -> d <= asked measure source i + slack measure)
+    [ fromPoint source i x y (\d _ -> d <= required measure source i + slack measure)
       | i <- [0 .. sizeofPrimArray (ClosedPolyarcs.xs source) - 1],
         not
           ( ClosedPolyarcs.marked
@@ -55,8 +55,8 @@ covers measure source l k =
     (x, y) = witness l k
 
 -- | The distance required from a segment, in mm.
-asked :: Clearance -> ClosedPolyarcs -> Int -> Double
-asked measure source i =
+required :: Clearance -> ClosedPolyarcs -> Int -> Double
+required measure source i =
   distance measure (fromIntegral (indexPrimArray (ClosedPolyarcs.sources source) i))
 
 -- | The midpoint of a loop's first segment.
@@ -70,32 +70,32 @@ witness l k = (x0 + 0.5 * (dx + b * dy), y0 + 0.5 * (dy - b * dx))
     b = indexPrimArray (Loop.bulges l) i
 
 -- | True when a point keeps the required distance from every segment.
-farFrom :: Clearance -> ClosedPolyarcs -> SegmentTree -> Double -> Double -> Bool
-farFrom measure source bs x y =
-  SegmentTree.around bs (x - widest) (y - widest) (x + widest) (y + widest) True $ \good i ->
-    good
+isFarFrom :: Clearance -> ClosedPolyarcs -> SegmentTree -> Double -> Double -> Bool
+isFarFrom measure source boxes x y =
+  SegmentTree.around boxes (x - widest) (y - widest) (x + widest) (y + widest) True $ \isClearSoFar i ->
+    isClearSoFar
       && fromPoint
         source
         i
         x
         y
-        ( \d beside ->
+        ( \d footDepth ->
             d
-              >= ( if beside > slack measure && facing i
-                     then asked measure source i
+              >= ( if footDepth > slack measure && isFacing i
+                     then required measure source i
                      else least measure
                  )
                 - slack measure
         )
   where
     widest = largest measure
-    facing i = case turn measure of
-      CounterClockwise -> leftOf source i x y
-      Clockwise -> not (leftOf source i x y)
+    isFacing i = case turn measure of
+      CounterClockwise -> isLeftOf source i x y
+      Clockwise -> not (isLeftOf source i x y)
 
 -- | True when a point lies on the left of a line, or on the left of an arc's circle.
-leftOf :: ClosedPolyarcs -> Int -> Double -> Double -> Bool
-leftOf c i x y
+isLeftOf :: ClosedPolyarcs -> Int -> Double -> Double -> Bool
+isLeftOf c i x y
   | b == 0 =
     ClosedPolyarcs.chord c i $ \ux uy ->
       ux * (y - indexPrimArray (ClosedPolyarcs.ys c) i)

@@ -46,18 +46,18 @@ none =
 ofRaw :: ClosedPolyarcs -> OffsetLoops
 ofRaw c =
   OffsetLoops
-    { starts = primArrayFromList (scanl (+) 0 (map length walks)),
+    { starts = primArrayFromList (scanl (+) 0 (map length ranges)),
       xs = gathered (ClosedPolyarcs.xs c),
       ys = gathered (ClosedPolyarcs.ys c),
       bulges = gathered (ClosedPolyarcs.bulges c),
-      raws = primArrayFromList (map fromIntegral (concat walks))
+      raws = primArrayFromList (map fromIntegral (concat ranges))
     }
   where
-    walks =
+    ranges =
       [ [ClosedPolyarcs.first c w .. ClosedPolyarcs.behind c w - 1]
         | w <- [0 .. ClosedPolyarcs.walks c - 1]
       ]
-    gathered a = primArrayFromList (map (indexPrimArray a) (concat walks))
+    gathered a = primArrayFromList (map (indexPrimArray a) (concat ranges))
 
 count :: OffsetLoops -> Int
 count l = sizeofPrimArray (starts l) - 1

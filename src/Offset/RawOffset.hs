@@ -60,20 +60,20 @@ raw !tolerance !smoothness corners uneven distance corner !c = runST $ do
   let n = sizeofPrimArray (ClosedPolyarcs.xs c)
       -- Each segment needs room for itself and its joint: an arc or a line, or two lines for a
       -- sharp corner. Uneven distances need two lines more.
-      room = n * (if uneven then 5 else if corners == Sharp then 3 else 2) + 8
-  rx <- newPrimArray room
-  ry <- newPrimArray room
-  rb <- newPrimArray room
-  rm <- newPrimArray room
-  rs <- newPrimArray room
+      capacity = n * (if uneven then 5 else if corners == Sharp then 3 else 2) + 8
+  rx <- newPrimArray capacity
+  ry <- newPrimArray capacity
+  rb <- newPrimArray capacity
+  rm <- newPrimArray capacity
+  rs <- newPrimArray capacity
   rh <- newPrimArray (ClosedPolyarcs.walks c + 1)
   marks <- thawPrimArray (ClosedPolyarcs.marks c) 0 n
   let filling = Filling rx ry rb rm rs
-      each !w !k !kept
+      offsetAll !w !k !kept
         | w >= ClosedPolyarcs.walks c = writePrimArray rh kept k >> pure (k, kept)
         | otherwise = do
           k' <-
-            walk
+            offsetPolyarc
               tolerance
               smoothness
               corners
@@ -87,12 +87,12 @@ raw !tolerance !smoothness corners uneven distance corner !c = runST $ do
               (ClosedPolyarcs.behind c w)
               k
           if k' - k < 2
-            then each (w + 1) k kept
+            then offsetAll (w + 1) k kept
             else do
               closeUp filling k k'
               writePrimArray rh kept k
-              each (w + 1) (k' + 1) (kept + 1)
-  (used, kept) <- each 0 0 0
+              offsetAll (w + 1) (k' + 1) (kept + 1)
+  (used, kept) <- offsetAll 0 0 0
   shrinkMutablePrimArray rx used
   shrinkMutablePrimArray ry used
   shrinkMutablePrimArray rb used
@@ -125,7 +125,7 @@ closeUp (Filling rx ry rb rm rs) k k' = do
   writePrimArray rm (k' - 1) (m' + ClosedPolyarcs.closing)
 
 -- | Offsets one polyarc. Writes from the given index on, and returns the next free index.
-walk ::
+offsetPolyarc ::
   Double ->
   Double ->
   Corners ->
@@ -139,7 +139,7 @@ walk ::
   Int ->
   Int ->
   ST s Int
-walk
+offsetPolyarc
   !tolerance
   !smoothness
   corners
@@ -212,7 +212,7 @@ walk
             (signum d)
             0
         | cr * d > 0 = k Outer (cr / (1 + dt + sqrt ((1 + dt) * (1 + dt) + cr * cr))) 0
-        | bulge i == 0 && bulge j == 0 && di == dj && taken <= restI && taken <= restJ =
+        | bulge i == 0 && bulge j == 0 && di == dj && needed <= restI && needed <= restJ =
           k Trimmed 0 cut
         | otherwise = k Over 0 0
         where
@@ -224,7 +224,7 @@ walk
           cut = abs (d * cr / (1 + dt))
           -- Both lines need this length, so that what is cut off lies beside them. With one common
           -- distance, everything beyond is blocked anyway.
-          taken
+          needed
             | uneven = max cut (if dt > 0 then abs (d * cr) else abs d)
             | otherwise = cut
       {-# INLINE joint #-}
@@ -237,10 +237,10 @@ walk
       -- Segment i with its directions, the length of its chord, the length cut off at its
       -- beginning, and the mark of a smooth beginning. The joint at the end of the polyarc was
       -- computed at the start.
-      go !i !k !sx !sy !ex !ey !l !cut !begins closing
+      go !i !k !sx !sy !ex !ey !l !cut !beginMark closing
         | i == e - 1 = case closing () of
           (kind, bend, back) ->
-            segment i a k sx sy ex ey l cut back begins kind bend $ \k' _ -> pure k'
+            segment i a k sx sy ex ey l cut back beginMark kind bend $ \k' _ -> pure k'
         | otherwise =
           tangents (i + 1) $ \sx' sy' ex' ey' l' -> do
             let kept = if i + 1 == e - 1 then case closing () of (_, _, back) -> l' - back else l'
@@ -248,10 +248,10 @@ walk
               \kind bend cut' ->
                 do
                   markSmooth (i + 1) kind
-                  segment i (i + 1) k sx sy ex ey l cut cut' begins kind bend $ \k' begins' ->
-                    go (i + 1) k' sx' sy' ex' ey' l' cut' begins' closing
+                  segment i (i + 1) k sx sy ex ey l cut cut' beginMark kind bend $ \k' beginMark' ->
+                    go (i + 1) k' sx' sy' ex' ey' l' cut' beginMark' closing
       -- Writes a segment and its joint to the next.
-      segment !i !j !k !sx !sy !ex !ey !l !cut !cut' !begins kind !bend next = do
+      segment !i !j !k !sx !sy !ex !ey !l !cut !cut' !beginMark kind !bend next = do
         let d = dist i
             b = bulge i
             x = indexPrimArray (ClosedPolyarcs.xs c) i + d * sy + cut * sx
@@ -262,15 +262,15 @@ walk
             fy = vy - d * ex
             -- The radius of an arc with its centre on the left grows when the arc moves to the
             -- right.
-            remains =
+            isLongEnough =
               if b == 0
                 then l - cut - cut' > tolerance
                 else abs (l + 4 * d * b / (1 + b * b)) > tolerance
-            k1 = if remains then k + 1 else k
-            ends = if remains then ClosedPolyarcs.smooth else 0
-        if remains then put k x y b begins i else pure ()
+            k1 = if isLongEnough then k + 1 else k
+            endMark = if isLongEnough then ClosedPolyarcs.smooth else 0
+        if isLongEnough then put k x y b beginMark i else pure ()
         case kind of
-          Smooth -> next k1 ends
+          Smooth -> next k1 endMark
           Step -> put k1 fx fy 0 ClosedPolyarcs.around i >> next (k1 + 1) 0
           Trimmed -> next k1 0
           -- With uneven distances the connection passes through the vertex, because positions
@@ -283,24 +283,24 @@ walk
             | otherwise -> put k1 fx fy 0 ClosedPolyarcs.connecting i >> next (k1 + 1) 0
           Outer -> do
             let dj = dist j
-                wide = if abs (corner j) > abs (corner i) then corner j else corner i
+                radius = if abs (corner j) > abs (corner i) then corner j else corner i
             k2 <-
-              if wide == d
+              if radius == d
                 then pure k1
                 else put k1 fx fy 0 ClosedPolyarcs.around i >> pure (k1 + 1)
-            let gx = vx + wide * ey
-                gy = vy - wide * ex
-                ends' = (if wide == d then ends else 0) + ClosedPolyarcs.around
+            let gx = vx + radius * ey
+                gy = vy - radius * ex
+                endMark' = (if radius == d then endMark else 0) + ClosedPolyarcs.around
             -- bend is tan(θ/4). Up to 120° the tangents intersect at wide·tan(θ/2) from both ends.
             k3 <-
               if corners == Sharp && abs bend <= tan (pi / 6) + 1e-9 && d == dj
                 then do
-                  let out = abs (wide * 2 * bend / (1 - bend * bend))
-                  put k2 gx gy 0 ends' i
+                  let out = abs (radius * 2 * bend / (1 - bend * bend))
+                  put k2 gx gy 0 endMark' i
                   put (k2 + 1) (gx + out * ex) (gy + out * ey) 0 ClosedPolyarcs.around i
                   pure (k2 + 2)
-                else put k2 gx gy bend ends' i >> pure (k2 + 1)
-            if wide == dj
+                else put k2 gx gy bend endMark' i >> pure (k2 + 1)
+            if radius == dj
               then next k3 (if corners == Sharp && d == dj then 0 else ClosedPolyarcs.smooth)
               else do
                 -- The direction after the corner is the direction before it, rotated by θ.
@@ -310,7 +310,8 @@ walk
                     si = 2 * p * q
                     ex' = ex * co - ey * si
                     ey' = ey * co + ex * si
-                put k3 (vx + wide * ey') (vy - wide * ex') 0 ClosedPolyarcs.around i
+                put k3 (vx + radius * ey') (vy - radius * ex') 0 ClosedPolyarcs.around i
                 next (k3 + 1) 0
       {-# INLINE segment #-}
-{-# INLINE walk #-}
+
+{-# INLINE offsetPolyarc #-}

@@ -38,27 +38,28 @@ meet :: Double -> ClosedPolyarcs -> Visitor s -> Int -> Int -> ST s ()
 meet !tolerance !c visitor = pair
   where
     pair !i !j
-      | j == i + 1 = unless (goesOn tolerance c i j) (joined tolerance c visitor i j)
+      | j == i + 1 = unless (meetsOnlyAtJoint tolerance c i j) (adjacent tolerance c visitor i j)
       | mark ClosedPolyarcs.opening i && mark ClosedPolyarcs.closing j =
-        joined tolerance c visitor i j
+        adjacent tolerance c visitor i j
       | otherwise = others i j
-    others = apart' tolerance c visitor
+    others = unconnected tolerance c visitor
     mark m k = ClosedPolyarcs.marked m (indexPrimArray (ClosedPolyarcs.marks c) k)
 {-# INLINE meet #-}
 
 -- | True for neighbours that meet at their common vertex only: their joint is smooth, or both are
 -- lines that do not fold back. Always False in a polyarc of two segments.
-goesOn :: Double -> ClosedPolyarcs -> Int -> Int -> Bool
-goesOn tolerance c i j
+meetsOnlyAtJoint :: Double -> ClosedPolyarcs -> Int -> Int -> Bool
+meetsOnlyAtJoint tolerance c i j
   | ClosedPolyarcs.marked ClosedPolyarcs.opening (indexPrimArray (ClosedPolyarcs.marks c) i) = False
-  | curved c i || curved c j =
+  | isArc c i || isArc c j =
     ClosedPolyarcs.marked ClosedPolyarcs.smooth (indexPrimArray (ClosedPolyarcs.marks c) j)
   | otherwise =
     ClosedPolyarcs.chord
       c
       i
       (\ux uy -> ClosedPolyarcs.chord c j (\vx vy -> not (foldsBack tolerance ux uy vx vy)))
-{-# INLINE goesOn #-}
+
+{-# INLINE meetsOnlyAtJoint #-}
 
 -- | True when the second of two vectors leads back along the first, so that the end of one lies
 -- on the other.
@@ -71,18 +72,19 @@ foldsBack tolerance ux uy vx vy =
     vv = vx * vx + vy * vy
 {-# INLINE foldsBack #-}
 
-curved :: ClosedPolyarcs -> Int -> Bool
-curved c k = indexPrimArray (ClosedPolyarcs.bulges c) k /= 0
-{-# INLINE curved #-}
+isArc :: ClosedPolyarcs -> Int -> Bool
+isArc c k = indexPrimArray (ClosedPolyarcs.bulges c) k /= 0
+
+{-# INLINE isArc #-}
 
 -- | Meetings of two neighbours, or of the first and the last segment of possibly different
 -- polyarcs.
-joined :: Double -> ClosedPolyarcs -> Visitor s -> Int -> Int -> ST s ()
-joined !tolerance !c visitor !i !j
-  | after && before = when (curved c i || curved c j) (alike tolerance c visitor i j)
+adjacent :: Double -> ClosedPolyarcs -> Visitor s -> Int -> Int -> ST s ()
+adjacent !tolerance !c visitor !i !j
+  | after && before = when (isArc c i || isArc c j) (sharingEnds tolerance c visitor i j)
   | after = neighbours tolerance c visitor i j (i + 1)
   | before = neighbours tolerance c visitor j i i
-  | otherwise = apart' tolerance c visitor i j
+  | otherwise = unconnected tolerance c visitor i j
   where
     -- True when the second segment begins at the end of the first.
     after = j == i + 1
@@ -94,24 +96,26 @@ joined !tolerance !c visitor !i !j
         && at (ClosedPolyarcs.xs c)
         && at (ClosedPolyarcs.ys c)
     at a = indexPrimArray a (j + 1) == indexPrimArray a i
-{-# NOINLINE joined #-}
+
+{-# NOINLINE adjacent #-}
 
 -- | Meetings of two segments that are not neighbours. It is inlined where the visitor is known.
-apart' :: Double -> ClosedPolyarcs -> Visitor s -> Int -> Int -> ST s ()
-apart' !tolerance !c visitor = pair
+unconnected :: Double -> ClosedPolyarcs -> Visitor s -> Int -> Int -> ST s ()
+unconnected !tolerance !c visitor = pair
   where
     pair !i !j
-      | curved c i = if curved c j then arcsBySize i j else lineAndArc j i
-      | curved c j = lineAndArc i j
+      | isArc c i = if isArc c j then arcsBySize i j else lineAndArc j i
+      | isArc c j = lineAndArc i j
       | otherwise = lines' tolerance c visitor i j
     lineAndArc !i !j =
       unless
-        (beside tolerance c i j)
+        (isDisjoint tolerance c i j)
         (lineArc tolerance c visitor (crossingAlong c visitor i j) i j)
     arcsBySize !i !j =
       if ClosedPolyarcs.diameter c i <= ClosedPolyarcs.diameter c j then bySize i j else bySize j i
     bySize !i !j = arcs tolerance c visitor (crossingAt c visitor i j) i j
-{-# INLINE apart' #-}
+
+{-# INLINE unconnected #-}
 
 -- | Meetings of two lines that are not neighbours.
 lines' :: Double -> ClosedPolyarcs -> Visitor s -> Int -> Int -> ST s ()
@@ -130,14 +134,14 @@ lines' !tolerance !c visitor !i !j =
         -- Slightly more than the tolerance, so that doubtful cases are examined more closely.
         !nearU = tolerance * (abs ux + abs uy)
         !nearV = tolerance * (abs vx + abs vy)
-        apart a b near = if a > 0 then a > near && b > near else a < -near && b < -near
+        areApart a b near = if a > 0 then a > near && b > near else a < -near && b < -near
         crosses = do
           let !s = startI / den
               !t = -(startJ / den)
               !px = x i + s * ux
               !py = y i + s * uy
           crossing visitor i s j t px py den
-    unless (apart startJ endJ nearU || apart startI endI nearV) $
+    unless (areApart startJ endJ nearU || areApart startI endI nearV) $
       if abs startJ > nearU && abs endJ > nearU && abs startI > nearV && abs endI > nearV
         || not (eitherRests tolerance c i j) && startJ * endJ < 0 && startI * endI < 0
         then crosses
@@ -187,8 +191,8 @@ liesOn !tolerance !c !i !k =
 -- | True when a line and an arc are certainly disjoint: the parallelogram over the arc's chord
 -- through its apex lies on one side of the line, or the line lies on one side of the
 -- parallelogram.
-beside :: Double -> ClosedPolyarcs -> Int -> Int -> Bool
-beside !tolerance !c !i !j =
+isDisjoint :: Double -> ClosedPolyarcs -> Int -> Int -> Bool
+isDisjoint !tolerance !c !i !j =
   above nearLine arcStart arcEnd rise
     || above nearLine (-arcStart) (-arcEnd) (-rise)
     || (lineStart < -nearChord && lineEnd < -nearChord)
@@ -219,7 +223,8 @@ beside !tolerance !c !i !j =
     !nearChord = 2 * tolerance * (abs dx + abs dy)
     above !limit !p !q !r = p > limit && q > limit && p + r > limit && q + r > limit
     {-# INLINE above #-}
-{-# INLINE beside #-}
+
+{-# INLINE isDisjoint #-}
 
 -- | Meetings of a line and an arc that are not neighbours. The power of a point on the line is
 -- @aa·s² + 2·half·s + c0@, where s is measured from a point near the arc.
@@ -227,7 +232,7 @@ beside !tolerance !c !i !j =
 -- At a crossing angle α the error of the point is the tolerance divided by sin α. A crossing nearer
 -- than that to an end is examined by @closely@.
 lineArc :: Double -> ClosedPolyarcs -> Visitor s -> (Double -> ST s ()) -> Int -> Int -> ST s ()
-lineArc !tolerance !c visitor tell !i !j
+lineArc !tolerance !c visitor report !i !j
   | disc < -verge = pure ()
   | disc <= verge = closely
   | otherwise = do
@@ -239,7 +244,7 @@ lineArc !tolerance !c visitor tell !i !j
         !s2 = s0 + (if half == 0 then -(q / aa) else c0 / q)
         !sure1 = verdict blurred margin s1
         !sure2 = verdict blurred margin s2
-    decided closely sure1 (tell s1) sure2 (tell s2)
+    reportCertain closely sure1 (report s1) sure2 (report s2)
   where
     !lx = indexPrimArray (ClosedPolyarcs.xs c) i
     !ly = indexPrimArray (ClosedPolyarcs.ys c) i
@@ -262,7 +267,7 @@ lineArc !tolerance !c visitor tell !i !j
     verdict blurred margin s
       | s < -margin || s > 1 + margin = Passes
       | nearEnds c j blurred px py = Doubtful
-      | not (onArc c j px py) = Passes
+      | not (isOnArc c j px py) = Passes
       | s > margin && s < 1 - margin = Crosses
       | otherwise = Doubtful
       where
@@ -271,7 +276,7 @@ lineArc !tolerance !c visitor tell !i !j
     {-# INLINE verdict #-}
     -- The segments touch, or an end lies on the other segment.
     closely = do
-      let rest = eitherRests tolerance c i j
+      let endTouches = eitherRests tolerance c i j
           foot = s0 - half / aa
           footX = lx + foot * ux
           footY = ly + foot * uy
@@ -281,16 +286,16 @@ lineArc !tolerance !c visitor tell !i !j
             let px = lx + (s0 + step) * ux
                 py = ly + (s0 + step) * uy
             when
-              ( onArc c j px py
+              ( isOnArc c j px py
                   && not
-                    (rest && (nearEnds c i (blur root) px py || nearEnds c j (blur root) px py))
+                    (endTouches && (nearEnds c i (blur root) px py || nearEnds c j (blur root) px py))
               )
-              (tell (s0 + step))
-      when rest (rests tolerance c visitor i j)
+              (report (s0 + step))
+      when endTouches (rests tolerance c visitor i j)
       if abs disc <= verge
         then
           when
-            (not rest && foot > 0 && foot < 1 && onArc c j footX footY)
+            (not endTouches && foot > 0 && foot < 1 && isOnArc c j footX footY)
             (touching visitor i j footX footY)
         else try (q / aa) >> try (if half == 0 then -(q / aa) else c0 / q)
 {-# INLINE lineArc #-}
@@ -301,8 +306,8 @@ crossingAlong c visitor !i !j !s = ClosedPolyarcs.chord c i $ \ux uy -> do
   let !px = indexPrimArray (ClosedPolyarcs.xs c) i + s * ux
       !py = indexPrimArray (ClosedPolyarcs.ys c) i + s * uy
       !t = parameter c j px py
-      !turn = ClosedPolyarcs.gradient c j px py (\gx gy -> turned c j (ux * gx + uy * gy))
-  crossing visitor i s j t px py turn
+      !cross = ClosedPolyarcs.gradient c j px py (\gx gy -> signed c j (ux * gx + uy * gy))
+  crossing visitor i s j t px py cross
 {-# INLINE crossingAlong #-}
 
 -- | Reports a crossing of two arcs at a point.
@@ -310,7 +315,7 @@ crossingAt :: ClosedPolyarcs -> Visitor s -> Int -> Int -> Double -> Double -> S
 crossingAt c visitor !i !j !px !py = do
   let !s = parameter c i px py
       !t = parameter c j px py
-      !turn =
+      !cross =
         ClosedPolyarcs.gradient
           c
           i
@@ -322,9 +327,9 @@ crossingAt c visitor !i !j !px !py = do
                 j
                 px
                 py
-                (\bx by -> turned c i (turned c j (ax * by - ay * bx)))
+                (\bx by -> signed c i (signed c j (ax * by - ay * bx)))
           )
-  crossing visitor i s j t px py turn
+  crossing visitor i s j t px py cross
 {-# INLINE crossingAt #-}
 
 -- | The verdict on an intersection of two carriers: on both segments, not on both, or undecidable
@@ -334,11 +339,12 @@ data Verdict = Crosses | Passes | Doubtful
 
 -- | Reports the certain crossings of two candidates. If one of them is doubtful, runs the close
 -- examination instead.
-decided :: ST s () -> Verdict -> ST s () -> Verdict -> ST s () -> ST s ()
-decided closely first tellFirst second tellSecond
+reportCertain :: ST s () -> Verdict -> ST s () -> Verdict -> ST s () -> ST s ()
+reportCertain closely first reportFirst second reportSecond
   | first == Doubtful || second == Doubtful = closely
-  | otherwise = when (first == Crosses) tellFirst >> when (second == Crosses) tellSecond
-{-# INLINE decided #-}
+  | otherwise = when (first == Crosses) reportFirst >> when (second == Crosses) reportSecond
+
+{-# INLINE reportCertain #-}
 
 -- | True when a point lies within a distance of an end of a segment.
 nearEnds :: ClosedPolyarcs -> Int -> Double -> Double -> Double -> Bool
@@ -359,7 +365,7 @@ arcs ::
   Int ->
   Int ->
   ST s ()
-arcs !tolerance !c visitor tell !i !j
+arcs !tolerance !c visitor report !i !j
   | dist <= 4 * tolerance = rests tolerance c visitor i j
   | disc < -verge = pure ()
   | disc <= verge = closely
@@ -371,7 +377,7 @@ arcs !tolerance !c visitor tell !i !j
         !s2 = if half == 0 then -(q / gg) else c0 / q
         !sure1 = verdict blurred s1
         !sure2 = verdict blurred s2
-    decided closely sure1 (tellAt s1) sure2 (tellAt s2)
+    reportCertain closely sure1 (reportAt s1) sure2 (reportAt s2)
   where
     !x0 = indexPrimArray (ClosedPolyarcs.xs c) i
     !y0 = indexPrimArray (ClosedPolyarcs.ys c) i
@@ -408,17 +414,17 @@ arcs !tolerance !c visitor tell !i !j
     blur root = 4 * tolerance * (1 + opening * 2 * dist / root)
     verdict blurred s
       | nearEnds c i blurred px py || nearEnds c j blurred px py = Doubtful
-      | onArc c i px py && onArc c j px py = Crosses
+      | isOnArc c i px py && isOnArc c j px py = Crosses
       | otherwise = Passes
       where
         !px = lx - s * gy
         !py = ly + s * gx
     {-# INLINE verdict #-}
-    tellAt s = tell (lx - s * gy) (ly + s * gx)
-    {-# INLINE tellAt #-}
+    reportAt s = report (lx - s * gy) (ly + s * gx)
+    {-# INLINE reportAt #-}
     -- The segments touch, or an end lies on the other segment.
     closely = do
-      let rest = eitherRests tolerance c i j
+      let endTouches = eitherRests tolerance c i j
           footX = lx + half / gg * gy
           footY = ly - half / gg * gx
           root = sqrt disc
@@ -427,17 +433,17 @@ arcs !tolerance !c visitor tell !i !j
             let px = lx - s * gy
                 py = ly + s * gx
             when
-              ( onArc c i px py
-                  && onArc c j px py
+              ( isOnArc c i px py
+                  && isOnArc c j px py
                   && not
-                    (rest && (nearEnds c i (blur root) px py || nearEnds c j (blur root) px py))
+                    (endTouches && (nearEnds c i (blur root) px py || nearEnds c j (blur root) px py))
               )
-              (tell px py)
-      when rest (rests tolerance c visitor i j)
+              (report px py)
+      when endTouches (rests tolerance c visitor i j)
       if abs disc <= verge
         then
           when
-            (not rest && onArc c i footX footY && onArc c j footX footY)
+            (not endTouches && isOnArc c i footX footY && isOnArc c j footX footY)
             (touching visitor i j footX footY)
         else try (q / gg) >> try (if half == 0 then -(q / gg) else c0 / q)
 {-# INLINE arcs #-}
@@ -462,7 +468,7 @@ neighbours !tolerance !c visitor !i !j !vertex
       when (liesOn tolerance c i (j + 1)) (resting visitor i (j + 1))
     -- True when the region between two segments that meet twice is no wider than the rounding. It
     -- is estimated from the squared distance of the two points, and half the relative curvature.
-    thin hh bend = hh <= tolerance * tolerance || hh * bend <= 16 * tolerance
+    isThin hh bend = hh <= tolerance * tolerance || hh * bend <= 16 * tolerance
     vx0 = indexPrimArray (ClosedPolyarcs.xs c) vertex
     vy0 = indexPrimArray (ClosedPolyarcs.ys c) vertex
     -- The second point in which a line through the vertex intersects the circle of an arc.
@@ -472,9 +478,9 @@ neighbours !tolerance !c visitor !i !j !vertex
             s = if lineIsSecond then step else 1 + step
             px = vx0 + step * ux
             !py = vy0 + step * uy
-        when (s > 0 && s < 1 && onArc c arc px py) $
+        when (s > 0 && s < 1 && isOnArc c arc px py) $
           unless
-            ( thin
+            ( isThin
                 ((px - vx0) * (px - vx0) + (py - vy0) * (py - vy0))
                 (1 / ClosedPolyarcs.diameter c arc)
             )
@@ -486,7 +492,7 @@ neighbours !tolerance !c visitor !i !j !vertex
               (parameter c arc px py)
               px
               py
-              (ClosedPolyarcs.gradient c arc px py (\hx hy -> turned c arc (ux * hx + uy * hy)))
+              (ClosedPolyarcs.gradient c arc px py (\hx hy -> signed c arc (ux * hx + uy * hy)))
     otherOfArcs =
       ClosedPolyarcs.gradient c i vx0 vy0 $ \ax ay ->
         ClosedPolyarcs.gradient c j vx0 vy0 $ \bx by -> do
@@ -508,9 +514,9 @@ neighbours !tolerance !c visitor !i !j !vertex
                   )
           when
             ( gg > 16 * tolerance * tolerance
-                && onArc c i px py
-                && onArc c j px py
-                && not (thin (hx * hx + hy * hy) bend)
+                && isOnArc c i px py
+                && isOnArc c j px py
+                && not (isThin (hx * hx + hy * hy) bend)
             )
             $ crossing
               visitor
@@ -531,15 +537,15 @@ neighbours !tolerance !c visitor !i !j !vertex
                         j
                         px
                         py
-                        (\fx fy -> turned c i (turned c j (ex * fy - ey * fx)))
+                        (\fx fy -> signed c i (signed c j (ex * fy - ey * fx)))
                   )
               )
 {-# NOINLINE neighbours #-}
 
 -- | Meetings of two segments that share both ends and are not both lines: they coincide, or meet
 -- nowhere else.
-alike :: Double -> ClosedPolyarcs -> Visitor s -> Int -> Int -> ST s ()
-alike !tolerance !c visitor !i !j =
+sharingEnds :: Double -> ClosedPolyarcs -> Visitor s -> Int -> Int -> ST s ()
+sharingEnds !tolerance !c visitor !i !j =
   -- The bulge of an arc changes its sign when the arc is reversed.
   ClosedPolyarcs.chord c i $ \ux uy ->
     when
@@ -556,8 +562,8 @@ alike !tolerance !c visitor !i !j =
 -- | True when a point of the circle belongs to the arc, that is, it lies on the arc's side of the
 -- chord. Near the ends of a flat arc rounding would decide that. So a point of a flat arc is
 -- compared with the chord's ends instead; the rest of the circle is far away.
-onArc :: ClosedPolyarcs -> Int -> Double -> Double -> Bool
-onArc c i px py = ClosedPolyarcs.chord c i $ \ux uy ->
+isOnArc :: ClosedPolyarcs -> Int -> Double -> Double -> Bool
+isOnArc c i px py = ClosedPolyarcs.chord c i $ \ux uy ->
   let ax = px - indexPrimArray (ClosedPolyarcs.xs c) i
       ay = py - indexPrimArray (ClosedPolyarcs.ys c) i
       b = indexPrimArray (ClosedPolyarcs.bulges c) i
@@ -565,7 +571,8 @@ onArc c i px py = ClosedPolyarcs.chord c i $ \ux uy ->
       along = ux * ax + uy * ay
       square = ux * ux + uy * uy
    in if abs b > 0.1 then aside * b < 0 else along > 0 && along < square && abs aside < square
-{-# INLINE onArc #-}
+
+{-# INLINE isOnArc #-}
 
 -- | The parameter of a point of a segment along its chord, from 0 to 1.
 parameter :: ClosedPolyarcs -> Int -> Double -> Double -> Double
@@ -577,6 +584,7 @@ parameter c i px py = ClosedPolyarcs.chord c i $ \ux uy ->
 {-# INLINE parameter #-}
 
 -- | Changes a number's sign on a clockwise arc.
-turned :: ClosedPolyarcs -> Int -> Double -> Double
-turned c i a = if indexPrimArray (ClosedPolyarcs.bulges c) i < 0 then -a else a
-{-# INLINE turned #-}
+signed :: ClosedPolyarcs -> Int -> Double -> Double
+signed c i a = if indexPrimArray (ClosedPolyarcs.bulges c) i < 0 then -a else a
+
+{-# INLINE signed #-}

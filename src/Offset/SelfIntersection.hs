@@ -42,14 +42,14 @@ data SearchResult
 -- | Finds all self-intersections. The tolerance (mm) covers rounding; the bounding boxes are
 -- inflated by it.
 find :: Double -> ClosedPolyarcs -> SegmentTree -> SearchResult
-find !tolerance !c !bs = runST $ do
+find !tolerance !c !boxes = runST $ do
   state <- newPrimArray 2
   writePrimArray state 0 (0 :: Int)
   writePrimArray state 1 0
   rs <- newPrimArray 0 >>= newMutVar
   ss <- newPrimArray 0 >>= newMutVar
-  let unclear = writePrimArray state 1 1
-      record !i !s !j !t !x !y !turn = do
+  let markUnclear = writePrimArray state 1 1
+      record !i !s !j !t !x !y !cross = do
         k <- readPrimArray state 0
         grow (sizeofPrimArray (ClosedPolyarcs.xs c) `quot` 2) rs ss k
         r <- readMutVar rs
@@ -60,19 +60,19 @@ find !tolerance !c !bs = runST $ do
         g <- readMutVar ss
         -- The second segment crosses to the left of the first: the winding number on the left of
         -- the first decreases by one.
-        writePrimArray g (2 * k) (fromIntegral (2 * i + (if turn > 0 then 1 else 0)))
-        writePrimArray g (2 * k + 1) (fromIntegral (2 * j + (if turn > 0 then 0 else 1)))
+        writePrimArray g (2 * k) (fromIntegral (2 * i + (if cross > 0 then 1 else 0)))
+        writePrimArray g (2 * k + 1) (fromIntegral (2 * j + (if cross > 0 then 0 else 1)))
         writePrimArray state 0 (k + 1)
-        when (turn == 0) unclear
+        when (cross == 0) markUnclear
       visitor =
-        Visitor {crossing = record, resting = \_ _ -> unclear, touching = \_ _ _ _ -> unclear}
+        Visitor {crossing = record, resting = \_ _ -> markUnclear, touching = \_ _ _ _ -> markUnclear}
   SegmentTree.pairs
-    bs
+    boxes
     ((== 0) <$> readPrimArray state 1)
     (SegmentIntersection.meet tolerance c visitor)
   k <- readPrimArray state 0
-  bad <- readPrimArray state 1
-  if bad /= 0
+  unclearFlag <- readPrimArray state 1
+  if unclearFlag /= 0
     then pure Unclear
     else do
       r <- readMutVar rs >>= unsafeFreezePrimArray
@@ -82,7 +82,7 @@ find !tolerance !c !bs = runST $ do
 -- | A pair of segments that cross, if there is one. A segment that only ends on another one or
 -- touches it does not count.
 proper :: Double -> ClosedPolyarcs -> SegmentTree -> Maybe (Int, Int)
-proper tolerance c bs = runST $ do
+proper tolerance c boxes = runST $ do
   found <- newMutVar Nothing
   let visitor =
         Visitor
@@ -91,12 +91,12 @@ proper tolerance c bs = runST $ do
             touching = \_ _ _ _ -> pure ()
           }
   SegmentTree.pairs
-    bs
+    boxes
     ((== Nothing) <$> readMutVar found)
     (SegmentIntersection.meet tolerance c visitor)
   readMutVar found
 
--- | Makes room for one more intersection. The first allocation has room for @some@; later ones
+-- | Makes room for one more intersection. The first allocation has room for @capacity@; later ones
 -- double it. Unused room costs no memory, but copying costs time.
 grow ::
   Int ->
@@ -104,12 +104,12 @@ grow ::
   MutVar s (MutablePrimArray s Int32) ->
   Int ->
   ST s ()
-grow some rs ss k = do
+grow capacity rs ss k = do
   g <- readMutVar ss
   room <- getSizeofMutablePrimArray g
   when (2 * k + 2 > room) $ do
     r <- readMutVar rs
-    let more = if room == 0 then max 16 some else 2 * room
+    let more = if room == 0 then max 16 capacity else 2 * room
     resizeMutablePrimArray r (4 * more) >>= writeMutVar rs
     resizeMutablePrimArray g (2 * more) >>= writeMutVar ss
 

@@ -30,33 +30,33 @@ import Offset.WindingNumber qualified as WindingNumber
 -- polyarcs are not in general position: two intersections coincide within the tolerance (mm), a
 -- polyarc has a cusp at its outermost point, or the winding numbers contradict each other.
 clip :: Double -> Int -> ClosedPolyarcs -> SegmentTree -> SelfIntersections -> Maybe OffsetLoops
-clip !tolerance !wanted !c !bs !xs = do
+clip !tolerance !wanted !c !boxes !xs = do
   -- For each polyarc: the winding number on its left at its leftmost point, and at its rightmost
   -- point.
-  known <- traverse outside [0 .. ClosedPolyarcs.walks c - 1]
+  outermost <- traverse outside [0 .. ClosedPolyarcs.walks c - 1]
   if total == 0
-    then uncut wanted c known
+    then uncut wanted c outermost
     else runST $ do
       let n = sizeofPrimArray (ClosedPolyarcs.xs c)
       begins <- newPrimArray (n + 2)
       order <- newPrimArray (max 1 total)
-      sorted c xs begins order
+      sortOccurrences c xs begins order
       starts <- unsafeFreezePrimArray begins
       inOrder <- unsafeFreezePrimArray order
-      if not (distinct tolerance xs starts inOrder n)
+      if not (areDistinct tolerance xs starts inOrder n)
         then pure Nothing
         else do
           lefts <- newPrimArray (max 1 total)
-          sound <- and <$> traverse (sums c xs starts inOrder lefts) (zip [0 ..] known)
-          if not sound then pure Nothing else gather wanted c xs starts inOrder lefts known
+          isSound <- and <$> traverse (propagate c xs starts inOrder lefts) (zip [0 ..] outermost)
+          if not isSound then pure Nothing else joinSlices wanted c xs starts inOrder lefts outermost
   where
     total = 2 * SelfIntersection.count xs
     outside w = do
-      let leftmost = WindingNumber.extreme Leftmost c bs w
-          rightmost = WindingNumber.extreme Rightmost c bs w
+      let leftmost = WindingNumber.extreme Leftmost c boxes w
+          rightmost = WindingNumber.extreme Rightmost c boxes w
           single = ClosedPolyarcs.walks c == 1
           base =
-            if single then 0 else WindingNumber.at c bs (x leftmost - 4 * tolerance) (y leftmost)
+            if single then 0 else WindingNumber.at c boxes (x leftmost - 4 * tolerance) (y leftmost)
       a <- leftMore leftmost
       b <- leftMore rightmost
       pure (leftmost, base + a, if single then Just (rightmost, b) else Nothing)
@@ -64,8 +64,8 @@ clip !tolerance !wanted !c !bs !xs = do
 -- | The polyarcs without self-intersection that have the wanted number on their left. A single
 -- polyarc is returned without a copy.
 uncut :: Int -> ClosedPolyarcs -> [(Extreme, Int, Maybe (Extreme, Int))] -> Maybe OffsetLoops
-uncut wanted c known
-  | any (\(_, left, rightmost) -> maybe False ((/= left) . snd) rightmost) known = Nothing
+uncut wanted c outermost
+  | any (\(_, left, rightmost) -> maybe False ((/= left) . snd) rightmost) outermost = Nothing
   | kept == [0] && ClosedPolyarcs.walks c == 1 =
     Just
       ( OffsetLoops
@@ -85,7 +85,7 @@ uncut wanted c known
           raws
       )
   where
-    kept = [w | (w, (_, left, _)) <- zip [0 ..] known, left == wanted]
+    kept = [w | (w, (_, left, _)) <- zip [0 ..] outermost, left == wanted]
     size w = ClosedPolyarcs.behind c w - ClosedPolyarcs.first c w
     starts = primArrayFromList (scanl (+) 0 (map size kept))
     gathered a = mconcat [clonePrimArray a (ClosedPolyarcs.first c w) (size w) | w <- kept]
@@ -96,13 +96,13 @@ uncut wanted c known
 -- | Sorts the occurrences by segment and by position on the segment (counting sort, then
 -- insertion). Fills @begins@ with the index of each segment's first occurrence, and @order@
 -- with the occurrences. @begins@ needs two entries more than there are segments.
-sorted ::
+sortOccurrences ::
   ClosedPolyarcs ->
   SelfIntersections ->
   MutablePrimArray s Int32 ->
   MutablePrimArray s Int32 ->
   ST s ()
-sorted c xs begins order = do
+sortOccurrences c xs begins order = do
   let n = sizeofPrimArray (ClosedPolyarcs.xs c)
       total = 2 * SelfIntersection.count xs
       segmentOf o = fromIntegral (indexPrimArray (SelfIntersection.segments xs) o) `quot` 2 :: Int
@@ -110,13 +110,13 @@ sorted c xs begins order = do
   setPrimArray order 0 total (-1)
   forM' total $ \o ->
     readPrimArray begins (segmentOf o + 2) >>= writePrimArray begins (segmentOf o + 2) . (+ 1)
-  let add !i !a
+  let accumulate !i !a
         | i > n + 1 = pure ()
         | otherwise = do
           v <- readPrimArray begins i
           writePrimArray begins i (a + v)
-          add (i + 1) (a + v)
-  add 2 0
+          accumulate (i + 1) (a + v)
+  accumulate 2 0
   -- Entry s + 1 holds the index for the next occurrence of segment s. In the end it is the index of
   -- the first occurrence of segment s + 1.
   forM' total $ \o -> do
@@ -157,8 +157,8 @@ forM' n f = go 0
 {-# INLINE forM' #-}
 
 -- | True when no two intersections on a segment coincide.
-distinct :: Double -> SelfIntersections -> PrimArray Int32 -> PrimArray Int32 -> Int -> Bool
-distinct tolerance xs begins order n = go 0 1
+areDistinct :: Double -> SelfIntersections -> PrimArray Int32 -> PrimArray Int32 -> Int -> Bool
+areDistinct tolerance xs begins order n = go 0 1
   where
     total = 2 * SelfIntersection.count xs
     at o k = indexPrimArray (SelfIntersection.reals xs) (4 * (fromIntegral o `quot` 2) + k)
@@ -174,7 +174,7 @@ distinct tolerance xs begins order n = go 0 1
 
 -- | Computes the winding number on the left after every occurrence of a polyarc. The result is
 -- False when the number at the rightmost point contradicts the known one.
-sums ::
+propagate ::
   ClosedPolyarcs ->
   SelfIntersections ->
   PrimArray Int32 ->
@@ -182,11 +182,11 @@ sums ::
   MutablePrimArray s Int32 ->
   (Int, (Extreme, Int, Maybe (Extreme, Int))) ->
   ST s Bool
-sums c xs begins order lefts (w, (leftmost, left, rightmost)) = do
+propagate c xs begins order lefts (w, (leftmost, left, rightmost)) = do
   go q0 0 left
   case rightmost of
     Just (e, expected) | z > a -> do
-      let q = behindPlace e
+      let q = firstAfter e
           before = if q == a then z - 1 else q - 1
       v <- readPrimArray lefts before
       pure (fromIntegral v == expected)
@@ -195,13 +195,13 @@ sums c xs begins order lefts (w, (leftmost, left, rightmost)) = do
   where
     a = fromIntegral (indexPrimArray begins (ClosedPolyarcs.first c w)) :: Int
     z = fromIntegral (indexPrimArray begins (ClosedPolyarcs.behind c w)) :: Int
-    q0 = let q = behindPlace leftmost in if q == z then a else q
-    behindPlace e = search (fromIntegral (indexPrimArray begins (segment e)))
+    q0 = let q = firstAfter leftmost in if q == z then a else q
+    firstAfter e = advance (fromIntegral (indexPrimArray begins (segment e)))
       where
         end = fromIntegral (indexPrimArray begins (segment e + 1))
-        search !q
+        advance !q
           | q >= end = q
-          | parameterOf xs (fromIntegral (indexPrimArray order q)) < place e = search (q + 1)
+          | parameterOf xs (fromIntegral (indexPrimArray order q)) < place e = advance (q + 1)
           | otherwise = q
     go !q !k !v
       | k >= z - a = pure ()
@@ -213,7 +213,7 @@ sums c xs begins order lefts (w, (leftmost, left, rightmost)) = do
 
 -- | Joins the slices that are kept into loops. A slice runs from one occurrence to the next along
 -- its polyarc.
-gather ::
+joinSlices ::
   Int ->
   ClosedPolyarcs ->
   SelfIntersections ->
@@ -222,30 +222,30 @@ gather ::
   MutablePrimArray s Int32 ->
   [(Extreme, Int, Maybe (Extreme, Int))] ->
   ST s (Maybe OffsetLoops)
-gather wanted c xs begins order lefts known = do
+joinSlices wanted c xs begins order lefts outermost = do
   let n = sizeofPrimArray (ClosedPolyarcs.xs c)
       total = 2 * SelfIntersection.count xs
-      room = n + total + 1
-  ox <- newPrimArray room
-  oy <- newPrimArray room
-  ob <- newPrimArray room
-  os <- newPrimArray room
+      capacity = n + total + 1
+  ox <- newPrimArray capacity
+  oy <- newPrimArray capacity
+  ob <- newPrimArray capacity
+  os <- newPrimArray capacity
   starts <- newPrimArray (total + ClosedPolyarcs.walks c + 1)
   position <- newPrimArray (max 1 total)
   forM' total $ \q ->
     writePrimArray position (fromIntegral (indexPrimArray order q)) (fromIntegral q :: Int32)
   -- A single polyarc needs no lookup.
-  walkOf <- newPrimArray (if single then 0 else max 1 total)
+  polyarcOf <- newPrimArray (if single then 0 else max 1 total)
   unless single $
     forM_ [0 .. ClosedPolyarcs.walks c - 1] $ \w ->
       forM' (rangeEnd w - rangeBegin w) $ \q ->
-        writePrimArray walkOf (rangeBegin w + q) (fromIntegral w :: Int32)
+        writePrimArray polyarcOf (rangeBegin w + q) (fromIntegral w :: Int32)
   let emit !k !x !y !b !s = do
         writePrimArray ox k x
         writePrimArray oy k y
         writePrimArray ob k b
         writePrimArray os k (fromIntegral (s :: Int) :: Int32)
-      whole w k (l, made)
+      copyUncut w k (l, made)
         | rangeBegin w == rangeEnd w && k == wanted = do
           writePrimArray starts made l
           let copy !i !o
@@ -264,8 +264,8 @@ gather wanted c xs begins order lefts known = do
       -- Follows the polyarc from occurrence q to the next one, then continues at the partner of
       -- that occurrence.
       follow !q0 !q !l = do
-        writePrimArray lefts q passed
-        w <- if single then pure 0 else fromIntegral <$> readPrimArray walkOf q
+        writePrimArray lefts q visited
+        w <- if single then pure 0 else fromIntegral <$> readPrimArray polyarcOf q
         let next = if q + 1 == rangeEnd w then rangeBegin w else q + 1
             o = fromIntegral (indexPrimArray order q) :: Int
             o' = fromIntegral (indexPrimArray order next) :: Int
@@ -289,7 +289,7 @@ gather wanted c xs begins order lefts known = do
                     (indexPrimArray (ClosedPolyarcs.ys c) (s + 1))
                 )
                 s
-              let middle !i !k
+              let copyBetween !i !k
                     | i == s' = pure k
                     | otherwise =
                       emit
@@ -298,8 +298,8 @@ gather wanted c xs begins order lefts known = do
                         (indexPrimArray (ClosedPolyarcs.ys c) i)
                         (indexPrimArray (ClosedPolyarcs.bulges c) i)
                         i
-                        >> middle (after w i) (k + 1)
-              k <- middle (after w s) (l + 1)
+                        >> copyBetween (nextOf w i) (k + 1)
+              k <- copyBetween (nextOf w s) (l + 1)
               emit
                 k
                 (indexPrimArray (ClosedPolyarcs.xs c) s')
@@ -329,7 +329,7 @@ gather wanted c xs begins order lefts known = do
               follow q q l >>= \case
                 Nothing -> pure Nothing
                 Just l' -> loops (q + 1) l' (made + 1)
-  (l0, made0) <- foldM (\acc (w, (_, v, _)) -> whole w v acc) (0, 0) (zip [0 ..] known)
+  (l0, made0) <- foldM (\acc (w, (_, v, _)) -> copyUncut w v acc) (0, 0) (zip [0 ..] outermost)
   loops 0 l0 made0 >>= \case
     Nothing -> pure Nothing
     Just (l, made) -> do
@@ -350,10 +350,10 @@ gather wanted c xs begins order lefts known = do
   where
     single = ClosedPolyarcs.walks c == 1
     -- The mark of a visited slice. It is no winding number.
-    passed = minBound :: Int32
+    visited = minBound :: Int32
     rangeBegin w = fromIntegral (indexPrimArray begins (ClosedPolyarcs.first c w)) :: Int
     rangeEnd w = fromIntegral (indexPrimArray begins (ClosedPolyarcs.behind c w)) :: Int
     segmentOf o = fromIntegral (indexPrimArray (SelfIntersection.segments xs) o) `quot` 2 :: Int
     pointOf o k = indexPrimArray (SelfIntersection.reals xs) (4 * (o `quot` 2) + k)
-    after w i = if i + 1 == ClosedPolyarcs.behind c w then ClosedPolyarcs.first c w else i + 1
+    nextOf w i = if i + 1 == ClosedPolyarcs.behind c w then ClosedPolyarcs.first c w else i + 1
     part s = ClosedPolyarcs.part c s

@@ -23,7 +23,7 @@ import Geometry.Tolerance qualified as Tolerance
 -- | The counter-clockwise winding number of the polyarcs around a point that does not lie on
 -- them.
 at :: ClosedPolyarcs -> SegmentTree -> Double -> Double -> Int
-at c bs px py = SegmentTree.around bs (-1e300) py px py 0 (\total i -> total + passed c px py i)
+at c boxes px py = SegmentTree.around boxes (-1e300) py px py 0 (\total i -> total + passed c px py i)
 
 -- | The contribution of one segment: the crossing of its chord with a ray from the point to the
 -- left, and ±1 when the point lies between an arc and its chord.
@@ -71,7 +71,7 @@ data Outward = Leftmost | Rightmost
 -- | The leftmost or rightmost point of a polyarc. Runs of segments whose bounding box lies
 -- further in are skipped.
 extreme :: Outward -> ClosedPolyarcs -> SegmentTree -> Int -> Extreme
-extreme outward c bs w = go start start 0 (1e300 :: Double)
+extreme outward c boxes w = go start start 0 (1e300 :: Double)
   where
     start = ClosedPolyarcs.first c w
     end = ClosedPolyarcs.behind c w
@@ -79,9 +79,9 @@ extreme outward c bs w = go start start 0 (1e300 :: Double)
       Leftmost -> 1
       Rightmost -> -1
     go !i !best !t !least
-      | i >= end = found best t least
-      | SegmentTree.run bs i outermost > bound = go (SegmentTree.behind i) best t least
-      | edge >= least = go (i + 1) best t least
+      | i >= end = extremeOf best t least
+      | SegmentTree.run boxes i outermost > bound = go (SegmentTree.behind i) best t least
+      | boxSide >= least = go (i + 1) best t least
       | otherwise =
         let x0 = sign * indexPrimArray (ClosedPolyarcs.xs c) i
             best1 = if x0 < least then i else best
@@ -106,13 +106,13 @@ extreme outward c bs w = go start start 0 (1e300 :: Double)
                           + dy * (cy - indexPrimArray (ClosedPolyarcs.ys c) i)
                       )
                         / (l * l)
-                 in if out < 0 && into > 0 && ex < least1 && t' > hair && t' < 1 - hair
+                 in if out < 0 && into > 0 && ex < least1 && t' > endMargin && t' < 1 - endMargin
                       then go (i + 1) i t' ex
                       else go (i + 1) best1 t1 least1
       where
-        edge = SegmentTree.leaf bs i outermost
+        boxSide = SegmentTree.leaf boxes i outermost
     -- Nearer to an end than this fraction of the chord, the vertex itself is the outermost point.
-    hair = Tolerance.hair
+    endMargin = Tolerance.hair
     -- The outermost vertex of the run of segments with the outermost bounding box. It is a bound:
     -- runs that do not reach it are skipped.
     bound =
@@ -126,16 +126,16 @@ extreme outward c bs w = go start start 0 (1e300 :: Double)
     furthest !i !best !least
       | i >= end = best
       | otherwise =
-        let edge =
-              SegmentTree.run bs i outermost
-         in if edge < least
-              then furthest (SegmentTree.behind i) i edge
+        let boxSide =
+              SegmentTree.run boxes i outermost
+         in if boxSide < least
+              then furthest (SegmentTree.behind i) i boxSide
               else furthest (SegmentTree.behind i) best least
     -- The outermost side of a bounding box.
     outermost lx _ hx _ = case outward of
       Leftmost -> lx
       Rightmost -> -hx
-    found i t least
+    extremeOf i t least
       | t > 0 =
         Extreme
           i
@@ -155,9 +155,9 @@ extreme outward c bs w = go start start 0 (1e300 :: Double)
         (\dx _ -> let b = indexPrimArray (ClosedPolyarcs.bulges c) i in (1 - b * b) / (4 * b) * dx)
     -- When the polyarc turns left at its outermost vertex, its inside is on its left.
     atVertex i
-      | abs turning > 1e-9 * size = Just (if turning > 0 then 1 else 0)
+      | abs cross > 1e-9 * size = Just (if cross > 0 then 1 else 0)
       | ix * ox + iy * oy < 0 =
-        if abs bent > alike * (abs (bend previous) + abs (bend i))
+        if abs bent > curvatureTolerance * (abs (bend previous) + abs (bend i))
           then Just (if bent < 0 then 1 else 0)
           else Nothing
       | otherwise = Just (if sign * oy < 0 then 1 else 0)
@@ -169,11 +169,11 @@ extreme outward c bs w = go start start 0 (1e300 :: Double)
         iy = ClosedPolyarcs.chord c previous (\dx dy -> dy * (1 - bp * bp) + dx * 2 * bp)
         ox = ClosedPolyarcs.chord c i (\dx dy -> dx * (1 - b * b) + dy * 2 * b)
         oy = ClosedPolyarcs.chord c i (\dx dy -> dy * (1 - b * b) - dx * 2 * b)
-        turning = ix * oy - iy * ox
+        cross = ix * oy - iy * ox
         -- At a cusp the outgoing segment lies to the left of the incoming one when it curves more
         -- to the left.
         bent = bend previous + bend i
         -- Two segments whose curvatures differ by less than this fraction may be one segment
         -- traversed in both directions.
-        alike = 1e-3
+        curvatureTolerance = 1e-3
         size = sqrt ((ix * ix + iy * iy) * (ox * ox + oy * oy))

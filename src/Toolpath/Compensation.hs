@@ -50,19 +50,19 @@ data Ways = Ways
     behind :: [Move]
   }
 
--- | The frames' source for a control that does the cutter compensation, or the reason why that is
+-- | The input for a control that does the cutter compensation, or the reason why that is
 -- impossible. The region is the statement's first word. The result is Nothing when the program
 -- does not ask for it.
 sent :: Region -> Milling -> Maybe Side -> Ways -> Either Error (Maybe Sent)
-sent keyword milling side ways = case Part.byControl milling of
+sent keyword milling side passMoves = case Part.byControl milling of
   Nothing -> Right Nothing
-  Just asked -> do
-    possible asked milling
-    s <- maybe (Left (NotForControl asked OnContour)) Right side
-    followable keyword asked milling s ways
-    let edge = programmed milling s ways
-    (before', entry, edge') <- entering keyword asked milling s (before ways) edge
-    (exit, behind') <- leaving keyword asked milling (NonEmpty.last edge') (behind ways)
+  Just requested -> do
+    checkRequest requested milling
+    s <- maybe (Left (NotForControl requested OnContour)) Right side
+    checkElements keyword requested milling s passMoves
+    let edge = programmed milling s passMoves
+    (before', entry, edge') <- entering keyword requested milling s (before passMoves) edge
+    (exit, behind') <- leaving keyword requested milling (NonEmpty.last edge') (behind passMoves)
     Right
       ( Just
           Sent
@@ -76,8 +76,8 @@ sent keyword milling side ways = case Part.byControl milling of
       )
 
 -- | Refuses requests that the edge of the part cannot express.
-possible :: Region -> Milling -> Either Error ()
-possible asked milling
+checkRequest :: Region -> Milling -> Either Error ()
+checkRequest requested milling
   | Just _ <- Part.gear milling = refused Swivelling
   | Part.corners milling == Part.Sharp = refused SharpCorners
   | any (> Mm 0) (Part.allowances milling)
@@ -85,62 +85,62 @@ possible asked milling
     refused LeavingMaterial
   | otherwise = Right ()
   where
-    refused = Left . NotForControl asked
+    refused = Left . NotForControl requested
 
 -- | Refuses elements and leads that a control cannot follow.
-followable :: Region -> Region -> Milling -> Side -> Ways -> Either Error ()
-followable keyword asked milling side ways =
-  mapM_ long elements
-    >> mapM_ wide edge
-    >> mapM_ bent (Polyarc.joints (Part.outline (Part.contour milling)))
-    >> zipWithM_ rolled edge (drop 1 edge)
+checkElements :: Region -> Region -> Milling -> Side -> Ways -> Either Error ()
+checkElements keyword requested milling side passMoves =
+  mapM_ checkLength elements
+    >> mapM_ checkRadius edge
+    >> mapM_ checkCorner (Polyarc.joints (Part.outline (Part.contour milling)))
+    >> zipWithM_ checkArcStart edge (drop 1 edge)
   where
     elements = NonEmpty.toList (Part.elements (Part.contour milling))
     radius@(Mm r) = Part.radius milling
     edge =
-      map lead (inwards ways)
+      map lead (inwards passMoves)
         <> [(Just i, Part.segment e) | (i, e) <- zip [0 ..] elements]
-        <> map lead (outwards ways)
-    lead m = (Nothing, uncovered radius side (segment m))
-    long e =
+        <> map lead (outwards passMoves)
+    lead m = (Nothing, touchedCurve radius side (segment m))
+    checkLength e =
       let l =
             Segment.length (Part.segment e)
        in when
             (l < Tolerance.controlLength)
-            (Left (TinyForControl keyword asked (Just e) l Tolerance.controlLength))
-    wide (i, s) =
+            (Left (TinyForControl keyword requested (Just e) l Tolerance.controlLength))
+    checkRadius (i, s) =
       mapM_
-        (\old -> Left (TightForControl keyword asked (fmap element i) old radius))
+        (\old -> Left (TightForControl keyword requested (fmap element i) old radius))
         (tooTight radius side s)
-    bent (i, a, b) =
-      let Rad turned = Vec.turn (Segment.endDirection a) (Segment.startDirection b)
-          deep = Mm (r * (1 - cos turned))
+    checkCorner (i, a, b) =
+      let Rad deflection = Vec.turn (Segment.endDirection a) (Segment.startDirection b)
+          gouge = Mm (r * (1 - cos deflection))
        in when
-            (isNone turned && deep > Tolerance.controlCut)
-            (Left (SlightForControl asked (element i) (element (i + 1)) (Rad turned) deep))
+            (isIgnored deflection && gouge > Tolerance.controlCut)
+            (Left (SlightForControl requested (element i) (element (i + 1)) (Rad deflection) gouge))
             >> when
-              (isNone (pi - abs turned))
-              (Left (BackForControl asked (element i) (element (i + 1)) (Rad turned)))
+              (isIgnored (pi - abs deflection))
+              (Left (BackForControl requested (element i) (element (i + 1)) (Rad deflection)))
     -- A control ignores a very slight corner. When such a corner turns away from the cutter, the
     -- centre leaves too early on the following arc. Rounding of the end of the segment before the
     -- arc has the same effect.
-    rolled (i, a) (_, b) =
-      let Rad turned = Vec.turn (Segment.endDirection a) (Segment.startDirection b)
-          needed = neededBefore (Mm r) side (Rad (max 0 (-(turned * leftward side)))) b
-       in if not (isNone turned) || needed <= lasting a
+    checkArcStart (i, a) (_, b) =
+      let Rad deflection = Vec.turn (Segment.endDirection a) (Segment.startDirection b)
+          needed = neededBefore (Mm r) side (Rad (max 0 (-(deflection * sideSign side)))) b
+       in if not (isIgnored deflection) || needed <= referenceLength a
             then Right ()
             else Left $ case i of
               Just n
-                | abs turned > smooth ->
+                | abs deflection > smooth ->
                   SlightForControl
-                    asked
+                    requested
                     (element n)
                     (element (n + 1))
-                    (Rad turned)
-                    (Mm (r * (1 - cos turned)))
-              _ -> TinyForControl keyword asked (fmap element i) (lasting a) needed
+                    (Rad deflection)
+                    (Mm (r * (1 - cos deflection)))
+              _ -> TinyForControl keyword requested (fmap element i) (referenceLength a) needed
     Rad smooth = Tolerance.smoothAngle
-    isNone turned = let Rad least = Tolerance.controlBend in abs turned < least
+    isIgnored deflection = let Rad least = Tolerance.controlBend in abs deflection < least
     element :: Int -> Element
     element i = Part.elements (Part.contour milling) NonEmpty.!! (i `mod` length elements)
 
@@ -154,7 +154,7 @@ neededBefore (Mm r) side (Rad away) s = case s of
     | left > 0 -> Mm (r * rounding / left)
     | otherwise -> Mm (1 / 0)
     where
-      left = most * (old - signum angle * leftward side * r - least) - r * away
+      left = most * (old - signum angle * sideSign side * r - least) - r * away
       Mm old = Segment.radius centre start
       Mm least = Tolerance.controlArc
       Mm rounding = Tolerance.controlRounding
@@ -162,8 +162,8 @@ neededBefore (Mm r) side (Rad away) s = case s of
 
 -- | The quantity that decides how much rounding changes the direction at a segment's end: the
 -- length of a line, the radius of an arc.
-lasting :: Segment -> Mm
-lasting s = case s of
+referenceLength :: Segment -> Mm
+referenceLength s = case s of
   Straight a b -> Vec.distance a b
   Arc {start, centre} -> Segment.radius centre start
 
@@ -172,15 +172,15 @@ tooTight :: Mm -> Side -> Segment -> Maybe Mm
 tooTight radius side s = case s of
   Straight _ _ -> Nothing
   Arc {start, centre, sweep = Rad angle}
-    | signum angle == leftward side,
+    | signum angle == sideSign side,
       old <- Segment.radius centre start,
       old < plus radius Tolerance.controlArc ->
       Just old
     | otherwise -> Nothing
 
 -- | +1 when the cutter is on the left.
-leftward :: Side -> Double
-leftward side = case side of
+sideSign :: Side -> Double
+sideSign side = case side of
   LeftOf -> 1
   RightOf -> -1
 
@@ -193,7 +193,7 @@ programmed milling side Ways {inwards, cut, outwards} = case map lead inwards of
   [] -> elements `followedBy` map lead outwards
   l : more -> l :| more <> NonEmpty.toList elements <> map lead outwards
   where
-    lead m = m {segment = uncovered (Part.radius milling) side (segment m)}
+    lead m = m {segment = touchedCurve (Part.radius milling) side (segment m)}
     elements =
       NonEmpty.zipWith element (False :| repeat True) (Part.elements (Part.contour milling))
     element isLater e =
@@ -210,23 +210,23 @@ programmed milling side Ways {inwards, cut, outwards} = case map lead inwards of
     followedBy (e :| es) more = e :| es <> more
 
 -- | The curve that a cutter touches when its centre moves along a segment.
-uncovered :: Mm -> Side -> Segment -> Segment
-uncovered (Mm r) side s = case s of
+touchedCurve :: Mm -> Side -> Segment -> Segment
+touchedCurve (Mm r) side s = case s of
   Straight a b ->
     let n =
-          Vec.scale (-leftward side * r) (Vec.left (Vec.unit (Vec.to a b)))
+          Vec.scale (-sideSign side * r) (Vec.left (Vec.unit (Vec.to a b)))
      in Straight (Vec.shift n a) (Vec.shift n b)
   Arc {start, end, centre, sweep = sweep@(Rad angle)} ->
     let Mm old = Segment.radius centre start
-        new = if signum angle == leftward side then old + r else old - r
+        new = if signum angle == sideSign side then old + r else old - r
         moved p = Vec.shift (Vec.scale (new / old) (Vec.to centre p)) centre
      in Arc {start = moved start, end = moved end, centre, sweep}
 
 -- | True when a control does the compensation and the closed toolpath ends at an outer corner.
 endsAround :: Milling -> NonEmpty Equidistant.OffsetSegment -> Bool
-endsAround milling pieces = case Part.byControl milling of
+endsAround milling offsetSegments = case Part.byControl milling of
   Nothing -> False
-  Just _ -> case Equidistant.origin (NonEmpty.last pieces) of
+  Just _ -> case Equidistant.origin (NonEmpty.last offsetSegments) of
     Equidistant.Around _ -> True
     Equidistant.Along _ -> False
 
@@ -245,7 +245,7 @@ onward keyword milling first =
     Mm l = Segment.length first
     share = min 1 (l / 2) / l
 
--- The ways in and out
+-- Approach and retract
 
 -- | The moves before compensation begins, the straight move on which it begins, and the edge from
 -- the end of that move. A long approach is divided, because near the contour its direction
@@ -258,38 +258,38 @@ entering ::
   [Move] ->
   NonEmpty Move ->
   Either Error ([Move], Move, NonEmpty Move)
-entering keyword asked milling side ways edge = case reverse ways of
+entering keyword requested milling side passMoves edge = case reverse passMoves of
   m@Move {segment = Straight from to', manner = Manner {between = (z, z')}} : earlier
     | z == z',
       Vec.distance from to' > Tolerance.coincident -> do
       let whole@(Mm long) = Vec.distance from to'
           on = if whole > times 3 radius then Vec.between (1 - 2 * r / long) from to' else from
-      begin <- meeting m on to'
-      let way = [(unbraked m) {segment = Straight from on} | on /= from]
-      Right (reverse earlier <> way, m {segment = Straight on begin}, beginningAt begin)
-  _ -> Left (ShortForControl keyword asked True (Mm 0) radius)
+      begin <- entryPoint m on to'
+      let straight = [(unbraked m) {segment = Straight from on} | on /= from]
+      Right (reverse earlier <> straight, m {segment = Straight on begin}, beginningAt begin)
+  _ -> Left (ShortForControl keyword requested True (Mm 0) radius)
   where
     radius@(Mm r) = Part.radius milling
     first = NonEmpty.head edge
     -- The point where the tangent from @on@ to the cutter at its first position intersects the line
     -- of the first element.
-    meeting m on to' = do
+    entryPoint m on to' = do
       let Mm d = Vec.distance on to'
           ahead = Segment.startDirection (segment first)
           tangent =
-            Vec.rotate (Rad (-leftward side * asin (min 1 (r / d)))) (Vec.unit (Vec.to on to'))
-          Rad turned = Vec.turn tangent ahead
-          bend = leftward side * turned
+            Vec.rotate (Rad (-sideSign side * asin (min 1 (r / d)))) (Vec.unit (Vec.to on to'))
+          Rad deflection = Vec.turn tangent ahead
+          bend = sideSign side * deflection
           begin = Vec.shift (Vec.scale (-r * tan (bend / 2)) ahead) (Segment.start (segment first))
           Rad least = Tolerance.controlBend
-      when (d <= r) (Left (ShortForControl (origin m) asked True (Mm d) radius))
+      when (d <= r) (Left (ShortForControl (origin m) requested True (Mm d) radius))
       when
         (bend < max (2 * least) leastOntoArc || bend > furthestTurn)
-        (Left (WrongWayForControl (origin m) asked to'))
+        (Left (WrongWayForControl (origin m) requested to'))
       let l = Vec.distance on begin
       when
         (l <= plus radius Tolerance.byControl)
-        (Left (ShortForControl (origin m) asked True l radius))
+        (Left (ShortForControl (origin m) requested True l radius))
       Right begin
     -- Before an arc the line is an additional element, which must not be too short for a control.
     leastOntoArc = case segment first of
@@ -310,14 +310,14 @@ furthestTurn = 35 / 36 * pi
 
 -- | The straight move on which compensation ends, and the moves after it.
 leaving :: Region -> Region -> Milling -> Move -> [Move] -> Either Error (Move, [Move])
-leaving keyword asked milling final ways = case ways of
+leaving keyword requested milling final passMoves = case passMoves of
   m@Move {segment = Straight _ to', manner = Manner {between = (z, z')}} : later | z == z' -> do
     let l = Vec.distance from to'
     when
       (l <= plus radius Tolerance.byControl)
-      (Left (ShortForControl (origin m) asked False l radius))
+      (Left (ShortForControl (origin m) requested False l radius))
     Right (m {segment = Straight from to'}, later)
-  _ -> Left (ShortForControl keyword asked False (Mm 0) radius)
+  _ -> Left (ShortForControl keyword requested False (Mm 0) radius)
   where
     radius = Part.radius milling
     from = Segment.end (segment final)

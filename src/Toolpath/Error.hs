@@ -147,7 +147,7 @@ toReport err = case err of
     )
       { label = shape first,
         others =
-          second' first second <> [Label region (worked tool <> " here with " <> cutter tool)],
+          secondLabel first second <> [Label region (worked tool <> " here with " <> cutter tool)],
         message = ["The corner is at " <> Vec.written 3 p <> "."],
         hints =
           ( "Round the corner with a fillet of at least "
@@ -164,7 +164,7 @@ toReport err = case err of
     )
       { label = shape first,
         others =
-          second' first second <> [Label region (worked tool <> " here") | region /= origin first],
+          secondLabel first second <> [Label region (worked tool <> " here") | region /= origin first],
         message =
           [ "With its centre at "
               <> Vec.written 3 p
@@ -176,18 +176,18 @@ toReport err = case err of
           ],
         hints = [fits tool largest]
       }
-  CutsPart region way element depth intrusion p ->
+  CutsPart region move element depth intrusion p ->
     (at region "E0405" ("this move " <> intruding intrusion depth))
       { label = "the way to here",
         others = [Label (origin element) (shape element) | origin element /= region],
         message =
-          [ if Vec.near (Segment.start way) (Segment.end way)
+          [ if Vec.near (Segment.start move) (Segment.end move)
               then "It goes up or down at " <> Vec.written 3 p <> "."
               else
                 "It goes from "
-                  <> Vec.written 3 (Segment.start way)
+                  <> Vec.written 3 (Segment.start move)
                   <> " to "
-                  <> Vec.written 3 (Segment.end way)
+                  <> Vec.written 3 (Segment.end move)
                   <> "; the trouble is worst with the cutter's centre at "
                   <> Vec.written 3 p
                   <> "."
@@ -285,7 +285,7 @@ toReport err = case err of
         ("the bevel jumps from " <> inDegrees a <> " to " <> inDegrees b <> " behind this element")
     )
       { label = shape first,
-        others = second' first second <> [Label region "milled here with a blade"],
+        others = secondLabel first second <> [Label region "milled here with a blade"],
         message = ["A blade swivels while it moves; it cannot jump."],
         hints = ["Put an element without a bevel between them: along it the blade turns evenly."]
       }
@@ -401,7 +401,7 @@ toReport err = case err of
         ("a control would cut " <> Decimal.mm deep <> " off the slight corner behind this element")
     )
       { label = shape first,
-        others = second' first second <> [Label asked "asked here"],
+        others = secondLabel first second <> [Label asked "asked here"],
         message =
           [ "It turns by "
               <> inDegrees (abs turned)
@@ -417,7 +417,7 @@ toReport err = case err of
   BackForControl asked first second (Rad turned) ->
     (at (origin first) "E0419" "a control cannot follow the corner behind this element")
       { label = shape first,
-        others = second' first second <> [Label asked "asked here"],
+        others = secondLabel first second <> [Label asked "asked here"],
         message =
           [ "It turns by "
               <> inDegrees (abs turned)
@@ -495,8 +495,8 @@ noRoom region title called side contour left =
   where
     Located there (Name name) = contourName contour
 
-second' :: Element -> Element -> [Label]
-second' first second = [Label (origin second) (shape second) | origin second /= origin first]
+secondLabel :: Element -> Element -> [Label]
+secondLabel first second = [Label (origin second) (shape second) | origin second /= origin first]
 
 sideWord :: Side -> Text
 sideWord side = case side of

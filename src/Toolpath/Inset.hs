@@ -28,24 +28,24 @@ import Toolpath.PocketTree (Loop)
 
 -- | An outer contour and islands, each oriented with the free space on its left.
 oriented :: Polyarc -> [Polyarc] -> NonEmpty Polyarc
-oriented outline islands = turned (> 0) outline :| map (turned (< 0)) islands
+oriented outer islands = orient (> 0) outer :| map (orient (< 0)) islands
   where
-    turned wanted c = if wanted (Polyarc.signedArea c) then c else Polyarc.reverse c
+    orient wanted c = if wanted (Polyarc.signedArea c) then c else Polyarc.reverse c
 
 -- | The loops at a distance to the left of an outer contour and islands. The contours must be
 -- oriented, simple and disjoint. They are converted once for all distances. There are no loops
 -- when the contours intersect.
 inset :: NonEmpty Polyarc -> Mm -> [Loop]
-inset contours@(outline :| _) = within
+inset contours@(outer :| _) = loopsAt
   where
     walls = map (fst . FlatPolyarc.fromContour) (NonEmpty.toList contours)
-    BoundingBox l b r t = about (Polyarc.segments outline)
-    within distance@(Mm d)
+    BoundingBox l b r t = boundingBox (Polyarc.segments outer)
+    loopsAt distance@(Mm d)
       -- No larger circle fits into the outer contour. Without this test the kernel would have to
       -- distinguish a cutter that covers the whole contour from one that fits.
       | 2 * d >= min (r - l) (t - b) = []
       | otherwise = case Kernel.offset (Kernel.plain Carrier.LeftOf distance) walls of
-        Right reach -> loopsOf reach
+        Right region -> loopsOf region
         Left Kernel.Uncertain -> Crash.bug "the passes of a pocket failed their certificate"
         Left (Kernel.Crossed _ _) -> []
         Left Kernel.Misplaced -> []
@@ -54,13 +54,13 @@ inset contours@(outline :| _) = within
 -- slot the centre has only a line and no area. The loop at a distance smaller by
 -- 'Tolerance.clearance' replaces it.
 fitting :: (Mm -> [Loop]) -> Mm -> [Loop]
-fitting within distance
-  | minus (longAll smaller) (longAll own) > Tolerance.slot = smaller
+fitting loopsAt distance
+  | minus (totalLength smaller) (totalLength own) > Tolerance.slot = smaller
   | otherwise = own
   where
-    own = within distance
-    smaller = within (minus distance Tolerance.clearance)
-    longAll loops = total [Segment.length s | loop <- loops, s <- NonEmpty.toList loop]
+    own = loopsAt distance
+    smaller = loopsAt (minus distance Tolerance.clearance)
+    totalLength loops = total [Segment.length s | loop <- loops, s <- NonEmpty.toList loop]
 
 -- | The inner offset of loops by a distance. From loop to loop the kernel has less work than from
 -- the walls to each loop. The result is Nothing when the kernel cannot decide, as when loops
@@ -72,18 +72,18 @@ further loops distance@(Mm d)
     case Kernel.offset
       (Kernel.plain Carrier.LeftOf distance)
       (map (fst . FlatPolyarc.fromContour . Polyarc Closed) loops) of
-      Right reach -> Just (loopsOf reach)
+      Right region -> Just (loopsOf region)
       Left _ -> Nothing
   where
     -- No larger circle fits into any of the loops.
     BoundingBox l b r t =
-      maybe (BoundingBox 0 0 0 0) (foldr1 BoundingBox.union) (NonEmpty.nonEmpty (map about loops))
+      maybe (BoundingBox 0 0 0 0) (foldr1 BoundingBox.union) (NonEmpty.nonEmpty (map boundingBox loops))
 
 -- | The bounding box of segments.
-about :: NonEmpty Segment -> BoundingBox
-about (s :| more) =
+boundingBox :: NonEmpty Segment -> BoundingBox
+boundingBox (s :| more) =
   foldl (\box s' -> BoundingBox.union box (BoundingBox.ofSegment s')) (BoundingBox.ofSegment s) more
 
 loopsOf :: Kernel.ReachableRegion -> [Loop]
-loopsOf reach =
-  mapMaybe (NonEmpty.nonEmpty . FlatPolyarc.segments) (Loop.outlines (Kernel.loops reach))
+loopsOf region =
+  mapMaybe (NonEmpty.nonEmpty . FlatPolyarc.segments) (Loop.outlines (Kernel.loops region))

@@ -37,15 +37,15 @@ data Visit = Visit
 flat :: Visit -> Mm -> (Mm, Mm) -> Point -> Point -> ([Move], [Move])
 flat Visit {word, milling, isFirst, isLast, from} z (inZ, outZ) begin finish =
   ( before <> ways (arriving from before) [Part.Stop (Located word begin) (Just inZ) pace],
-    behind
-      <> if null behind
+    after
+      <> if null after
         then [Move (Straight finish finish) (Manner (outZ, z) pace False) word False | outZ /= z]
         else []
   )
   where
     pace = Part.At (feed milling)
     before = if isFirst || isOpen then ways from (Part.approach milling) else []
-    behind =
+    after =
       if isLast || isOpen
         then ways (SpacePoint finish outZ) (upright (Part.retract milling))
         else []
@@ -93,10 +93,10 @@ deep Visit {word, milling, isFirst, isLast, from} clear (inZ, outZ) begin finish
           False
         | height above /= inZ
       ]
-    (beside, further) = case Part.retract milling of
+    (firstRetract, otherRetracts) = case Part.retract milling of
       s : more | Nothing <- Part.level s -> ([s {Part.level = Just outZ}], more)
       stops' -> ([], stops')
-    leave = ways (SpacePoint finish outZ) beside
+    leave = ways (SpacePoint finish outZ) firstRetract
     out = arriving (SpacePoint finish outZ) leave
     lift = rise out clear word
     rest =
@@ -104,7 +104,7 @@ deep Visit {word, milling, isFirst, isLast, from} clear (inZ, outZ) begin finish
         then
           ways
             (arriving out lift)
-            [s {Part.level = Just (fromMaybe clear (Part.level s))} | s <- further]
+            [s {Part.level = Just (fromMaybe clear (Part.level s))} | s <- otherRetracts]
         else []
     lastOf xs = take 1 (reverse xs)
 

@@ -32,9 +32,9 @@ refusal region tool elements (Obstacle cause largest) = case cause of
 
 -- | The rest material, one entry for each unreached part of the contour.
 stays :: Functor f => Tool -> Vector Element -> f Equidistant.UnreachedPart -> f Stay
-stays tool elements = fmap stay
+stays tool elements = fmap restPosition
   where
-    stay rest = case cause (Equidistant.stop rest) of
+    restPosition rest = case cause (Equidistant.stop rest) of
       InnerCorner i j p -> InCorner (elements ! i) (elements ! j) p
       Concave i old -> InHollow (elements ! i) old (largest' rest)
       Collision i j _ -> case onlyCorner i j of
@@ -46,22 +46,22 @@ stays tool elements = fmap stay
     -- The numbers of elements that do not continue a curve, and the count of these before each
     -- element and before the end.
     corners = Vector.findIndices (not . Part.continues) elements
-    before = Vector.scanl' (\n e -> if Part.continues e then n else n + 1) 0 elements
+    cornersBefore = Vector.scanl' (\n e -> if Part.continues e then n else n + 1) 0 elements
     -- The two elements at the corner between elements i and j, if there is exactly one corner
     -- between them. The path may cross the contour's end.
     onlyCorner i j =
-      let from = before ! (i + 1)
+      let from = cornersBefore ! (i + 1)
           around = if j < i then Vector.length corners else 0
           l = corners ! (from `mod` Vector.length corners)
-       in if before ! (j + 1) - from + around == 1
+       in if cornersBefore ! (j + 1) - from + around == 1
             then Just (elements ! ((l - 1) `mod` Vector.length elements), elements ! l)
             else Nothing
     -- True for a corner that turns towards the cutter.
     isCorner rest a b =
       let along = Segment.endDirection (Part.segment a)
-          Rad turned = Vec.turn along (Segment.startDirection (Part.segment b))
+          Rad deflection = Vec.turn along (Segment.startDirection (Part.segment b))
           Rad smooth = Tolerance.smoothAngle
-       in turned
+       in deflection
             * signum
               (Vec.cross along (Vec.to (Segment.end (Part.segment a)) (Equidistant.middle rest)))
               > smooth

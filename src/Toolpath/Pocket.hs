@@ -135,42 +135,42 @@ linked room = link
 
 -- | The current position of the cutter, if it is known, and the sections so far, the last one
 -- first.
-data Walk = Walk {at :: Maybe Point, legs :: [PocketMove]}
+data Progress = Progress {current :: Maybe Point, sections :: [PocketMove]}
 
 -- | The sections of all loops with the linking moves between them.
 along :: PocketRoom -> Maybe Point -> [PocketTree] -> [PocketMove]
-along room from nests = reverse (legs (visitAll Walk {at = from, legs = []} nests))
+along room from nests = reverse (sections (visitAll Progress {current = from, sections = []} nests))
   where
     link = linked room
-    visitAll walk ns = inTurn visit (entrance . innermost) walk ns
-    visit walk n = case (at inside, rings n) of
+    visitAll progress ns = inTurn visit (entrance . innermost) progress ns
+    visit progress n = case (current inside, rings n) of
       -- No wall separates a region from its nearest enclosing loop.
       (Just p, rs) ->
         let (r, others) =
-              takeOut (apart p) rs
+              takeOut (distanceFrom p) rs
          in inTurn enter entrance (enter inside r) others
       (Nothing, rs) -> inTurn enter entrance inside (NonEmpty.toList rs)
       where
-        inside = visitAll walk (inner n)
-    enter walk r =
-      let r' = maybe r (enteredNear r) (at walk)
-          way = maybe [] (`link` entrance r') (at walk)
-       in Walk
-            { at = Just (entrance r'),
-              legs = reverse (way <> roundOf (turned room) r') <> legs walk
+        inside = visitAll progress (inner n)
+    enter progress r =
+      let r' = maybe r (enteredNear r) (current progress)
+          linking = maybe [] (`link` entrance r') (current progress)
+       in Progress
+            { current = Just (entrance r'),
+              sections = reverse (linking <> roundOf (turned room) r') <> sections progress
             }
 
 -- | Visits items one after the other, always the one nearest to the cutter. With more than @many@
 -- items it keeps their order, which is the order of the walls.
-inTurn :: (Walk -> a -> Walk) -> (a -> Point) -> Walk -> [a] -> Walk
-inTurn visit place walk things = case (things, at walk) of
-  ([], _) -> walk
+inTurn :: (Progress -> a -> Progress) -> (a -> Point) -> Progress -> [a] -> Progress
+inTurn visit position progress things = case (things, current progress) of
+  ([], _) -> progress
   (first : others, Just p)
     | null (drop many things) ->
       let (next, rest) =
-            takeOut (Vec.distance p . place) (first :| others)
-       in inTurn visit place (visit walk next) rest
-  (first : others, _) -> inTurn visit place (visit walk first) others
+            takeOut (Vec.distance p . position) (first :| others)
+       in inTurn visit position (visit progress next) rest
+  (first : others, _) -> inTurn visit position (visit progress first) others
   where
     many = 100
 
@@ -197,8 +197,8 @@ entrance :: Ring -> Point
 entrance r = Segment.start (segment (NonEmpty.head (stretches r)))
 
 -- | The distance of a loop from a point.
-apart :: Point -> Ring -> Mm
-apart p r = minimum (fmap (Distance.toPoint p . segment) (stretches r))
+distanceFrom :: Point -> Ring -> Mm
+distanceFrom p r = minimum (fmap (Distance.toPoint p . segment) (stretches r))
 
 -- | Rotates a loop so that it begins at its point nearest to a given one.
 enteredNear :: Ring -> Point -> Ring
@@ -212,13 +212,13 @@ enteredNear r p = case NonEmpty.nonEmpty begun of
         (comparing snd)
         (NonEmpty.zip (0 :| [1 ..]) (fmap (Distance.toPoint p . segment) (stretches r)))
     begun = case splitAt number list of
-      (before, s : behind)
-        | Vec.near foot (Segment.end (segment s)) -> behind <> before <> [s]
-        | Vec.near foot (Segment.start (segment s)) -> s : behind <> before
+      (before, s : after)
+        | Vec.near foot (Segment.end (segment s)) -> after <> before <> [s]
+        | Vec.near foot (Segment.start (segment s)) -> s : after <> before
         | otherwise ->
           let (a, b) =
                 Segment.cutAt (Segment.fraction (segment s) foot) (segment s)
-           in s {segment = b} : behind <> before <> [RingSegment {segment = a, aside = []}]
+           in s {segment = b} : after <> before <> [RingSegment {segment = a, aside = []}]
         where
           foot = snd (Distance.nearest p (segment s))
       (_, []) -> list
@@ -226,7 +226,7 @@ enteredNear r p = case NonEmpty.nonEmpty begun of
 -- | A loop with its detours.
 roundOf :: Bool -> Ring -> [PocketMove]
 roundOf isTurned r
-  | isTurned = map turnedRound (reverse parts)
+  | isTurned = map reverseSection (reverse parts)
   | otherwise = parts
   where
     parts = go [] (NonEmpty.toList (stretches r))
@@ -236,7 +236,7 @@ roundOf isTurned r
       RingSegment {segment = s, aside = trips} : more ->
         whole (s : before) <> map Aside trips <> go [] more
     whole before = maybe [] (\some -> [Round (away r) some]) (NonEmpty.nonEmpty (reverse before))
-    turnedRound leg = case leg of
+    reverseSection section = case section of
       Round c ss -> Round c (NonEmpty.reverse (fmap Segment.reverse ss))
       Aside ss -> Aside (NonEmpty.reverse (fmap Segment.reverse ss))
       Across s -> Across (Segment.reverse s)
@@ -246,7 +246,7 @@ roundOf isTurned r
 
 -- | The first point of a section.
 begins :: PocketMove -> Point
-begins leg = case leg of
+begins section = case section of
   Over p _ -> p
   Round _ (s :| _) -> Segment.start s
   Aside (s :| _) -> Segment.start s
@@ -254,7 +254,7 @@ begins leg = case leg of
 
 -- | The last point of a section.
 finishes :: PocketMove -> Point
-finishes leg = case leg of
+finishes section = case section of
   Over _ q -> q
   Round _ ss -> Segment.end (NonEmpty.last ss)
   Aside ss -> Segment.end (NonEmpty.last ss)
@@ -262,7 +262,7 @@ finishes leg = case leg of
 
 -- | The segments along which a section cuts.
 segments :: PocketMove -> [Segment]
-segments leg = case leg of
+segments section = case section of
   Over _ _ -> []
   Round _ ss -> NonEmpty.toList ss
   Aside ss -> NonEmpty.toList ss

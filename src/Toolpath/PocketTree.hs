@@ -58,16 +58,16 @@ nests offsetBy further radius distances = case distances of
       (_, []) -> grouped c loops trips []
       (_, next : others) ->
         let loops' = inwards c loops (minus next c)
-            nooks = left c loops next loops'
+            residue = residueOf c loops next loops'
          in grouped
               c
               loops
               trips
-              ( from next loops' (StepoverResidue.trips nooks) others
-                  <> map (leaf (plus c radius)) (StepoverResidue.lone nooks)
+              ( from next loops' (StepoverResidue.trips residue) others
+                  <> map (leaf (plus c radius)) (StepoverResidue.lone residue)
               )
     inwards c loops d = fromMaybe (offsetBy (plus c d)) (further loops d)
-    left c loops next loops'
+    residueOf c loops next loops'
       | minus next c <= plus radius Tolerance.coincident = StepoverResidue.none
       | otherwise =
         StepoverResidue.between radius (minus (minus next c) radius) (inwards c loops radius) loops'
@@ -109,13 +109,13 @@ grouped c loops trips inside = mapMaybe part (Map.toList members)
     outerOf n = among n outer
     isOuter loop = Polyarc.signedArea (Polyarc Closed loop) > 0
     members = Map.fromListWith (flip (<>)) [(outerOf n, [(n, loop)]) | (n, loop) <- numbered]
-    held =
+    innerOf =
       Map.fromListWith
         (flip (<>))
         [(maybe 0 outerOf (firstHit index Nothing (beginning nest)), [nest]) | nest <- inside]
     part (n, found) =
       ( \some ->
-          PocketTree {rings = fmap (ring c trips) some, inner = Map.findWithDefault [] n held}
+          PocketTree {rings = fmap (ring c trips) some, inner = Map.findWithDefault [] n innerOf}
       )
         <$> NonEmpty.nonEmpty found
 
@@ -143,8 +143,8 @@ firstHit index own p = snd <$> foldl nearer Nothing hits
     nearer best (x, n) = case best of
       Just (x', _) | x' <= x -> best
       _ -> Just (x, n)
-    hits = [(x, n) | (n, s) <- BoundingBox.select onTheWay index, Just n /= own, x <- crossings p s]
-    onTheWay box =
+    hits = [(x, n) | (n, s) <- BoundingBox.select isOnRay index, Just n /= own, x <- crossings p s]
+    isOnRay box =
       right box >= Vec.x p && bottom box <= Vec.y p + slack && top box >= Vec.y p - slack
     Mm slack = Tolerance.coincident
 

@@ -40,17 +40,17 @@ ofPath path = Map.elems (Map.fromList (mapMaybe ofBlock (Toolpath.blocks path)))
 ofBlock :: Block -> Maybe (Int, Remaining)
 ofBlock block = case block of
   Cutting {job = Located region m, pass, rests} ->
-    stayed (LinkingMove.keyword 4 region) m [] pass <$> NonEmpty.nonEmpty rests
+    remaining (LinkingMove.keyword 4 region) m [] pass <$> NonEmpty.nonEmpty rests
   Clearing {pocket = Located region p, pass, rests} ->
-    stayed (LinkingMove.keyword 6 region) (Part.wall p) (Part.islands p) pass
+    remaining (LinkingMove.keyword 6 region) (Part.wall p) (Part.islands p) pass
       <$> NonEmpty.nonEmpty rests
   Travelling _ _ -> Nothing
   Holing _ _ -> Nothing
   Commanding _ -> Nothing
 
 -- | The rest material of a pass along a contour, or in a pocket with islands.
-stayed :: Region -> Milling -> [Contour] -> Pass -> NonEmpty UnreachedPart -> (Int, Remaining)
-stayed word milling islands pass rests =
+remaining :: Region -> Milling -> [Contour] -> Pass -> NonEmpty UnreachedPart -> (Int, Remaining)
+remaining word milling islands pass rests =
   ( number pass,
     Remaining
       { word,

@@ -45,7 +45,7 @@ between radius apart edges passes = foldr (gather . gapsOf) none edges
       Nothing -> Nooks ts ls
       Just (Left loop) -> Nooks ts (loop : ls)
       Just (Right gaps) -> Nooks (foldr add ts gaps) ls
-    add gap ts = maybe ts (\(at, way) -> Map.insertWith (<>) at [way] ts) (trip radius ends gap)
+    add gap ts = maybe ts (\(at, detour) -> Map.insertWith (<>) at [detour] ts) (detourAlong radius ends gap)
     ends =
       Map.fromList
         [ (n, Ends (length loop) (Map.fromList (zip [0 ..] (map end (NonEmpty.toList loop)))))
@@ -59,23 +59,23 @@ between radius apart edges passes = foldr (gather . gapsOf) none edges
             (i, s) <- zip [0 ..] (NonEmpty.toList loop),
             Just s' <- [outwards apart s]
         ]
-    gapsOf edge = gapsIn edge (concatMap (marked index) (NonEmpty.toList edge))
+    gapsOf edge = gapsIn edge (concatMap (divided index) (NonEmpty.toList edge))
 
 -- | The count of a loop's segments, and the end of each segment by its number.
 data Ends = Ends Int (Map Int Point)
 
 -- | A part of the edge: one that runs beside a segment of an inner pass, or a free one.
-data Mark = Beside (Int, Int) | Free Segment
+data EdgePart = Beside (Int, Int) | Free Segment
 
 -- | Consecutive free parts, with the segments of the inner passes before and after them.
 data Gap = Gap (Int, Int) (NonEmpty Segment) (Int, Int)
 
 -- | The gaps of a loop of the edge. Nothing when there are none; the whole loop when no inner
 -- pass runs beside it.
-gapsIn :: NonEmpty Segment -> [Mark] -> Maybe (Either (NonEmpty Segment) [Gap])
+gapsIn :: NonEmpty Segment -> [EdgePart] -> Maybe (Either (NonEmpty Segment) [Gap])
 gapsIn edge marks = case break isBeside marks of
   (_, []) -> Just (Left edge)
-  (before, Beside first : rest) -> case walk first (rest <> before <> [Beside first]) of
+  (before, Beside first : rest) -> case gapsAfter first (rest <> before <> [Beside first]) of
     [] -> Nothing
     gaps -> Just (Right gaps)
   (_, Free _ : _) -> Nothing
@@ -83,19 +83,19 @@ gapsIn edge marks = case break isBeside marks of
     isBeside m = case m of
       Beside _ -> True
       Free _ -> False
-    walk owner ms = case break isBeside ms of
+    gapsAfter owner ms = case break isBeside ms of
       (free, Beside next : more) ->
-        [Gap owner gap next | Just gap <- [worth [s | Free s <- free]]] <> walk next more
+        [Gap owner gap next | Just gap <- [worthwhile [s | Free s <- free]]] <> gapsAfter next more
       (_, _) -> []
-    worth ss
+    worthwhile ss
       | total (map Segment.length ss) <= Tolerance.clearance = Nothing
       | otherwise = NonEmpty.nonEmpty (filter ((> Tolerance.coincident) . Segment.length) ss)
 
 -- | The detour along a gap, from the end of a segment of an inner pass and back to it. A gap that
 -- begins and ends at the same corner of the inner pass needs no detour when it lies entirely
 -- within the cutter's radius of that corner.
-trip :: Mm -> Map Int Ends -> Gap -> Maybe ((Int, Int), NonEmpty Segment)
-trip radius ends (Gap owner@(loop, i) free next) = do
+detourAlong :: Mm -> Map Int Ends -> Gap -> Maybe ((Int, Int), NonEmpty Segment)
+detourAlong radius ends (Gap owner@(loop, i) free next) = do
   Ends count corners <- Map.lookup loop ends
   corner <- Map.lookup i corners
   let isCorner = next == (loop, (i + 1) `mod` count)
@@ -141,9 +141,9 @@ outwards (Mm d) s = case s of
           else Nothing
 
 -- | Divides a segment of the edge into parts.
-marked :: BoundingBox.Index ((Int, Int), Segment) -> Segment -> [Mark]
-marked index s =
-  stretches
+divided :: BoundingBox.Index ((Int, Int), Segment) -> Segment -> [EdgePart]
+divided index s =
+  partsFrom
     0
     ( sortOn
         (fst . fst)
@@ -153,11 +153,11 @@ marked index s =
         ]
     )
   where
-    stretches from ranges = case ranges of
+    partsFrom from ranges = case ranges of
       [] -> [Free (part from 1) | from < 1]
       ((a, b), owner) : rest
-        | b <= from -> stretches from rest
-        | otherwise -> [Free (part from a) | a > from] <> [Beside owner] <> stretches b rest
+        | b <= from -> partsFrom from rest
+        | otherwise -> [Free (part from a) | a > from] <> [Beside owner] <> partsFrom b rest
     part a b
       | a <= 0 && b >= 1 = s
       | b >= 1 = snd (Segment.cutAt a s)
@@ -169,17 +169,17 @@ marked index s =
 -- | The parts of a segment, as fractions of its length, on which another segment of the same
 -- direction coincides with it.
 covered :: Segment -> Segment -> [(Double, Double)]
-covered s other = filter upon (filter (uncurry (<)) (map clip ranges))
+covered s other = filter coincides (filter (uncurry (<)) (map clip ranges))
   where
     clip (a, b) = (max 0 a, min 1 b)
-    upon (a, b) =
+    coincides (a, b) =
       all (\t -> Distance.toPoint (Segment.at t s) other <= Tolerance.clearance) [a, (a + b) / 2, b]
     ranges = case (s, other) of
       (Straight a b, Straight c d) | a /= b -> [(Segment.fraction s c, Segment.fraction s d)]
       (Arc {start = a, centre, sweep = Rad w}, Arc {start = c, sweep = Rad v})
         | w * v > 0 ->
-          let Rad turned = Vec.turn (Vec.to centre a) (Vec.to centre c)
-              ahead = signum w * turned
+          let Rad angle = Vec.turn (Vec.to centre a) (Vec.to centre c)
+              ahead = signum w * angle
            in [ ((ahead + k * 2 * pi) / abs w, (ahead + k * 2 * pi + abs v) / abs w)
                 | k <- [-1, 0, 1]
               ]

@@ -35,13 +35,13 @@ axis ::
   Maybe Side ->
   NonEmpty OffsetSegment ->
   Either Error (Maybe (NonEmpty (Mm, Mm)))
-axis region milling side pieces = case Part.gear milling of
+axis region milling side offsetSegments = case Part.gear milling of
   Nothing -> Right Nothing
   Just gear -> do
-    leans <- maybe (Left (NoBevel region)) Right (bevels (Part.contour milling))
+    elementBevels <- maybe (Left (NoBevel region)) Right (bevels (Part.contour milling))
     sign <- maybe (Left (BladeOnContour region)) (Right . signOf) side
-    smooth region elements leans pieces
-    Right (Just (fmap (\(a, b) -> (height sign gear a, height sign gear b)) (angles leans pieces)))
+    checkJoints region elements elementBevels offsetSegments
+    Right (Just (fmap (\(a, b) -> (height sign gear a, height sign gear b)) (angles elementBevels offsetSegments)))
   where
     elements = Vector.fromList (NonEmpty.toList (Part.elements (Part.contour milling)))
     signOf s = case s of
@@ -57,8 +57,8 @@ highest milling =
         ( 0 :
             [ abs angle * gear / 2
               | Just (Mm gear) <- [Part.gear milling],
-                Just leans <- [bevels (Part.contour milling)],
-                (a, b) <- Vector.toList leans,
+                Just elementBevels <- [bevels (Part.contour milling)],
+                (a, b) <- Vector.toList elementBevels,
                 angle <- [a, b]
             ]
         )
@@ -102,49 +102,49 @@ shares ls = zip marks (drop 1 marks)
 -- | The bevels along the segments of an offset. On the arc round a corner the bevel changes from
 -- that of one element to that of the next.
 angles :: Vector (Double, Double) -> NonEmpty OffsetSegment -> NonEmpty (Double, Double)
-angles leans pieces =
+angles elementBevels offsetSegments =
   NonEmpty.fromList
     ( concatMap
         group
-        (NonEmpty.groupBy (\p q -> isJust (cornerOf p) && cornerOf p == cornerOf q) pieces)
+        (NonEmpty.groupBy (\p q -> isJust (cornerOf p) && cornerOf p == cornerOf q) offsetSegments)
     )
   where
     cornerOf p = case origin p of
       Equidistant.Along _ -> Nothing
       Equidistant.Around i -> Just i
     group ps@(p :| _) = case origin p of
-      Equidistant.Along i -> [leans Vector.! i]
+      Equidistant.Along i -> [elementBevels Vector.! i]
       Equidistant.Around i ->
-        let a = snd (leans Vector.! i)
-            b = fst (leans Vector.! ((i + 1) `mod` Vector.length leans))
+        let a = snd (elementBevels Vector.! i)
+            b = fst (elementBevels Vector.! ((i + 1) `mod` Vector.length elementBevels))
          in [ (a + (b - a) * s, a + (b - a) * t)
               | (s, t) <-
                   shares [l | q <- NonEmpty.toList ps, let Mm l = Segment.length (segment q)]
             ]
 
 -- | Refuses a smooth joint of two elements whose bevels differ.
-smooth ::
+checkJoints ::
   Region ->
   Vector Element ->
   Vector (Double, Double) ->
   NonEmpty OffsetSegment ->
   Either Error ()
-smooth region elements leans pieces =
-  mapM_ joint (zip (NonEmpty.toList pieces) (NonEmpty.tail pieces))
+checkJoints region elements elementBevels offsetSegments =
+  mapM_ joint (zip (NonEmpty.toList offsetSegments) (NonEmpty.tail offsetSegments))
   where
     joint (p, q) = case (origin p, origin q) of
       (Equidistant.Along i, Equidistant.Along j)
-        | abs (snd (leans Vector.! i) - fst (leans Vector.! j)) > sameBevel ->
+        | abs (snd (elementBevels Vector.! i) - fst (elementBevels Vector.! j)) > bevelTolerance ->
           Left
             ( BevelJumps
                 region
                 (elements Vector.! i)
                 (elements Vector.! j)
-                (snd (leans Vector.! i))
-                (fst (leans Vector.! j))
+                (snd (elementBevels Vector.! i))
+                (fst (elementBevels Vector.! j))
             )
       _ -> Right ()
 
 -- | Bevels that differ by at most this, in radians, are equal.
-sameBevel :: Double
-sameBevel = 1e-6
+bevelTolerance :: Double
+bevelTolerance = 1e-6

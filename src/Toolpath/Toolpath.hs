@@ -203,9 +203,9 @@ end path =
 -- then needs little memory where the moves between are not needed. The height of such a cut is
 -- constant; the cuts of a blade are kept whole, because theirs varies.
 withoutCuts :: Toolpath -> Toolpath
-withoutCuts path = foldr seq () brief `seq` path {blocks = brief}
+withoutCuts path = foldr seq () abridged `seq` path {blocks = abridged}
   where
-    brief = map shortened (blocks path)
+    abridged = map shortened (blocks path)
     shortened block = case block of
       Cutting {job = Located _ milling, cut}
         | isNothing (Part.gear milling) ->
@@ -217,6 +217,6 @@ withoutCuts path = foldr seq () brief `seq` path {blocks = brief}
       Travelling _ _ -> block
       Holing _ _ -> block
       Commanding _ -> block
-    endsOf way = case way of
-      _ :| [] -> way
-      first :| _ -> let !final = NonEmpty.last way in first :| [final]
+    endsOf cutMoves = case cutMoves of
+      _ :| [] -> cutMoves
+      first :| _ -> let !final = NonEmpty.last cutMoves in first :| [final]

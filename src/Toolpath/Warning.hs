@@ -26,7 +26,7 @@ import Toolpath.Toolpath (Block (..), Toolpath)
 import Toolpath.Toolpath qualified as Toolpath
 
 warnings :: Toolpath -> [Warning]
-warnings path = throughPart path <> standing path
+warnings path = throughPart path <> stoppedSpindles path
 
 -- | A closed contour; @isMaterial@ says that the program puts material inside it.
 data Body = Body {named :: Part.Contour, outline :: Polyarc.Polyarc, isMaterial :: Bool}
@@ -43,7 +43,7 @@ throughPart path =
           ( Map.fromListWith
               (\_ first -> first)
               [ (Toolpath.origin m, m)
-                | m <- concatMap ways (Toolpath.blocks path),
+                | m <- concatMap linkingMoves (Toolpath.blocks path),
                   Toolpath.pace m == Rapid,
                   Segment.length (Toolpath.segment m) > Tolerance.coincident,
                   isLow m
@@ -56,7 +56,7 @@ throughPart path =
     isLow m = uncurry min (Toolpath.heights m) < Mm 0 || isFlat
     isFlat = Toolpath.isFlat path
     -- Moves along a contour are never rapid.
-    ways b = case b of
+    linkingMoves b = case b of
       Cutting {approach, retract} -> approach <> retract
       _ -> Toolpath.moves b
     index = BoundingBox.index boxOf (concatMap NonEmpty.toList (mapMaybe bodiesOf firsts))
@@ -82,12 +82,12 @@ bodiesOf :: Block -> Maybe (NonEmpty.NonEmpty Body)
 bodiesOf b = case b of
   Cutting {job = Located _ milling} -> NonEmpty.nonEmpty (bodyOf milling)
   Clearing {pocket = Located _ p} ->
-    let room =
+    let outer =
           Part.contour (Part.wall p)
      in Just
           ( Body
-              room
-              (Part.outline room)
+              outer
+              (Part.outline outer)
               False
               NonEmpty.:| [Body island (Part.outline island) True | island <- Part.islands p]
           )
@@ -129,8 +129,8 @@ bodyOf milling = case (Part.ends contour, value (Part.side milling)) of
 
 -- | Tool changes after which the cutter cuts although the program has not started the spindle
 -- again. On a lathe the part keeps turning.
-standing :: Toolpath -> [Warning]
-standing path = if Toolpath.isTurned path then [] else go Resting (Toolpath.blocks path)
+stoppedSpindles :: Toolpath -> [Warning]
+stoppedSpindles path = if Toolpath.isTurned path then [] else go Resting (Toolpath.blocks path)
   where
     go spindle blocks = case (spindle, blocks) of
       (_, []) -> []

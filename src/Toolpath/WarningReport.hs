@@ -63,23 +63,23 @@ warningReport warning = case warning of
         Report.Warning
         "W0401"
         (InSource region)
-        (cutter tool <> " leaves material at " <> places (length stays))
+        (cutter tool <> " leaves material at " <> positions (length stays))
     )
       { others = take 6 (distinct (concatMap labels stays)),
         message =
           map (stayWords tool) (take shown stays)
-            <> ["And at " <> places (length stays - shown) <> " more." | length stays > shown],
+            <> ["And at " <> positions (length stays - shown) <> " more." | length stays > shown],
         hints =
           ["Take a smaller cutter afterwards, or leave rest allowed out to have this refused."]
       }
-  Through region way (Located named contour) ->
+  Through region move (Located named contour) ->
     (report Report.Warning "W0402" (InSource region) "this rapid move goes through the part")
       { others = [Label named "inside this contour"],
         message =
           [ "It goes from "
-              <> Vec.written 3 (Segment.start way)
+              <> Vec.written 3 (Segment.start move)
               <> " to "
-              <> Vec.written 3 (Segment.end way)
+              <> Vec.written 3 (Segment.end move)
               <> " inside "
               <> text contour
               <> ", not above the top of the part. That it was cleared there is not known."
@@ -101,7 +101,7 @@ warningReport warning = case warning of
       }
   where
     shown = 8
-    places n = if n == 1 then "one place" else Decimal.whole n <> " places"
+    positions n = if n == 1 then "one place" else Decimal.whole n <> " places"
     distinct ls = case ls of
       [] -> []
       l : more -> l : distinct (filter (/= l) more)
