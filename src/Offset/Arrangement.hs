@@ -7,8 +7,9 @@
 -- vertices, touching circles. Points that agree within a tolerance become one node. Segments
 -- between the same two nodes with the same sagitta become one edge with a multiplicity. The
 -- half-edges at each node are sorted by angle, and the winding numbers are propagated from edge to
--- edge (de Berg et al., "Computational Geometry", chapter 8). 'arrange' refuses an arrangement whose
--- winding numbers contradict each other at a node: then the half-edges are in the wrong order.
+-- edge (de Berg et al., "Computational Geometry", chapter 8). 'arrange' refuses an arrangement
+-- whose winding numbers contradict each other at a node: then the half-edges are in the wrong
+-- order.
 module Offset.Arrangement
   ( Arrangement,
     arrange,
@@ -173,6 +174,7 @@ nodesOf tolerance c cuts =
         (concat [map (\p -> (number p, k)) ps | (k, ps) <- zip [0 ..] clusters])
     own = clonePrimArray ids 0 n
 
+-- | An array of the given size, filled at the given indices.
 runPrimArray' :: Int -> [(Int, Int)] -> PrimArray Int
 runPrimArray' n filled = runPrimArray $ do
   a <- newPrimArray n
@@ -517,7 +519,9 @@ loops sense wanted a =
           (x', y') = nodes a Vector.! to e'
           i = segment e
           -- A complete segment gets its original bulge.
-          entire = indexPrimArray (vertexNodes a) i == from e && indexPrimArray (vertexNodes a) (i + 1) == to e'
+          entire =
+            indexPrimArray (vertexNodes a) i == from e
+              && indexPrimArray (vertexNodes a) (i + 1) == to e'
        in ( x,
             y,
             if NonEmpty.length run == 1

@@ -72,8 +72,8 @@ witness l k = (x0 + 0.5 * (dx + b * dy), y0 + 0.5 * (dy - b * dx))
 -- | True when a point keeps the required distance from every segment.
 isFarFrom :: Clearance -> ClosedPolyarcs -> SegmentTree -> Double -> Double -> Bool
 isFarFrom measure source boxes x y =
-  SegmentTree.around boxes (x - widest) (y - widest) (x + widest) (y + widest) True $ \isClearSoFar i ->
-    isClearSoFar
+  SegmentTree.around boxes (x - widest) (y - widest) (x + widest) (y + widest) True $ \isFar i ->
+    isFar
       && fromPoint
         source
         i

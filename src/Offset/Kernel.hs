@@ -79,7 +79,10 @@ data OffsetFault
 -- single open one.
 offset :: OffsetRequest -> [FlatPolyarc] -> Either OffsetFault ReachableRegion
 offset request contours = do
-  wanted <- first withOriginalNumbers (wantedNumber (rounding problem) (sense problem) open source sourceBoxes)
+  wanted <-
+    first
+      withOriginalNumbers
+      (wantedNumber (rounding problem) (sense problem) open source sourceBoxes)
   let remaining = filter (not . isUnreachable problem chain) [0 .. ClosedPolyarcs.walks chain - 1]
   if length remaining == ClosedPolyarcs.walks chain
     then regionOf problem wanted raws sourceBoxes
@@ -101,6 +104,7 @@ rawOffset request contours = fst (rawOf problem chain)
   where
     (problem, chain) = problemOf request contours
 
+-- | True when one of the contours is open.
 isOpen :: [FlatPolyarc] -> Bool
 isOpen = any ((== Open) . FlatPolyarc.ends)
 
@@ -175,6 +179,7 @@ problemOf request contours = (problem, chain)
         requestedDistance = requested c i
     requested c i = d + more (fromIntegral (indexPrimArray (ClosedPolyarcs.sources c) i))
 
+-- | The sense of an outer contour whose reachable side is its left or right one.
 senseOf :: Side -> Sense
 senseOf s = case s of
   LeftOf -> CounterClockwise
@@ -192,6 +197,7 @@ data Problem = Problem
     rawOf :: ClosedPolyarcs -> (ClosedPolyarcs, ClosedPolyarcs)
   }
 
+-- | The reachable region of contours. Computes their raw offset first.
 regionOfContours :: Problem -> Int -> ClosedPolyarcs -> Either OffsetFault ReachableRegion
 regionOfContours problem wanted c =
   let raws@(_, source) =
@@ -205,11 +211,12 @@ regionOf ::
   (ClosedPolyarcs, ClosedPolyarcs) ->
   SegmentTree ->
   Either OffsetFault ReachableRegion
-regionOf Problem {sense, rounding, least, widest, distances} wanted (untrimmed, source) sourceBoxes =
+regionOf problem wanted (untrimmed, source) sourceBoxes =
   case maybe id (:) byTrimming byArrangements of
     found : _ -> Right ReachableRegion {loops = found, raw = untrimmed}
     [] -> Left Uncertain
   where
+    Problem {sense, rounding, least, widest, distances} = problem
     byTrimming = case generalPosition of
       Nothing -> Nothing
       Just (boxes, xs) -> Trimming.clip rounding wanted untrimmed boxes xs >>= certified
@@ -274,7 +281,10 @@ wantedNumber :: Double -> Sense -> Bool -> ClosedPolyarcs -> SegmentTree -> Eith
 wantedNumber tolerance sense open source boxes
   | ClosedPolyarcs.walks source == 0 = Right unbounded
   | open =
-    maybe (Right unbounded) (Left . uncurry crossed) (SelfIntersection.proper tolerance source boxes)
+    maybe
+      (Right unbounded)
+      (Left . uncurry crossed)
+      (SelfIntersection.proper tolerance source boxes)
   | otherwise = case SelfIntersection.find tolerance source boxes of
     SearchResult xs
       | SelfIntersection.count xs > 0 -> Left (uncurry crossed (SelfIntersection.firstOf xs 0))

@@ -33,6 +33,7 @@ data OffsetLoops = OffsetLoops
     raws :: PrimArray Int32
   }
 
+-- | No loops.
 none :: OffsetLoops
 none =
   OffsetLoops
@@ -59,6 +60,7 @@ ofRaw c =
       ]
     gathered a = primArrayFromList (map (indexPrimArray a) (concat ranges))
 
+-- | The count of loops.
 count :: OffsetLoops -> Int
 count l = sizeofPrimArray (starts l) - 1
 

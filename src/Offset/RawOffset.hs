@@ -313,5 +313,4 @@ offsetPolyarc
                 put k3 (vx + radius * ey') (vy - radius * ex') 0 ClosedPolyarcs.around i
                 next (k3 + 1) 0
       {-# INLINE segment #-}
-
 {-# INLINE offsetPolyarc #-}

@@ -58,7 +58,6 @@ meetsOnlyAtJoint tolerance c i j
       c
       i
       (\ux uy -> ClosedPolyarcs.chord c j (\vx vy -> not (foldsBack tolerance ux uy vx vy)))
-
 {-# INLINE meetsOnlyAtJoint #-}
 
 -- | True when the second of two vectors leads back along the first, so that the end of one lies
@@ -74,7 +73,6 @@ foldsBack tolerance ux uy vx vy =
 
 isArc :: ClosedPolyarcs -> Int -> Bool
 isArc c k = indexPrimArray (ClosedPolyarcs.bulges c) k /= 0
-
 {-# INLINE isArc #-}
 
 -- | Meetings of two neighbours, or of the first and the last segment of possibly different
@@ -96,7 +94,6 @@ adjacent !tolerance !c visitor !i !j
         && at (ClosedPolyarcs.xs c)
         && at (ClosedPolyarcs.ys c)
     at a = indexPrimArray a (j + 1) == indexPrimArray a i
-
 {-# NOINLINE adjacent #-}
 
 -- | Meetings of two segments that are not neighbours. It is inlined where the visitor is known.
@@ -114,7 +111,6 @@ unconnected !tolerance !c visitor = pair
     arcsBySize !i !j =
       if ClosedPolyarcs.diameter c i <= ClosedPolyarcs.diameter c j then bySize i j else bySize j i
     bySize !i !j = arcs tolerance c visitor (crossingAt c visitor i j) i j
-
 {-# INLINE unconnected #-}
 
 -- | Meetings of two lines that are not neighbours.
@@ -223,7 +219,6 @@ isDisjoint !tolerance !c !i !j =
     !nearChord = 2 * tolerance * (abs dx + abs dy)
     above !limit !p !q !r = p > limit && q > limit && p + r > limit && q + r > limit
     {-# INLINE above #-}
-
 {-# INLINE isDisjoint #-}
 
 -- | Meetings of a line and an arc that are not neighbours. The power of a point on the line is
@@ -288,7 +283,9 @@ lineArc !tolerance !c visitor report !i !j
             when
               ( isOnArc c j px py
                   && not
-                    (endTouches && (nearEnds c i (blur root) px py || nearEnds c j (blur root) px py))
+                    ( endTouches
+                        && (nearEnds c i (blur root) px py || nearEnds c j (blur root) px py)
+                    )
               )
               (report (s0 + step))
       when endTouches (rests tolerance c visitor i j)
@@ -343,7 +340,6 @@ reportCertain :: ST s () -> Verdict -> ST s () -> Verdict -> ST s () -> ST s ()
 reportCertain closely first reportFirst second reportSecond
   | first == Doubtful || second == Doubtful = closely
   | otherwise = when (first == Crosses) reportFirst >> when (second == Crosses) reportSecond
-
 {-# INLINE reportCertain #-}
 
 -- | True when a point lies within a distance of an end of a segment.
@@ -436,7 +432,9 @@ arcs !tolerance !c visitor report !i !j
               ( isOnArc c i px py
                   && isOnArc c j px py
                   && not
-                    (endTouches && (nearEnds c i (blur root) px py || nearEnds c j (blur root) px py))
+                    ( endTouches
+                        && (nearEnds c i (blur root) px py || nearEnds c j (blur root) px py)
+                    )
               )
               (report px py)
       when endTouches (rests tolerance c visitor i j)
@@ -571,7 +569,6 @@ isOnArc c i px py = ClosedPolyarcs.chord c i $ \ux uy ->
       along = ux * ax + uy * ay
       square = ux * ux + uy * uy
    in if abs b > 0.1 then aside * b < 0 else along > 0 && along < square && abs aside < square
-
 {-# INLINE isOnArc #-}
 
 -- | The parameter of a point of a segment along its chord, from 0 to 1.
@@ -586,5 +583,4 @@ parameter c i px py = ClosedPolyarcs.chord c i $ \ux uy ->
 -- | Changes a number's sign on a clockwise arc.
 signed :: ClosedPolyarcs -> Int -> Double -> Double
 signed c i a = if indexPrimArray (ClosedPolyarcs.bulges c) i < 0 then -a else a
-
 {-# INLINE signed #-}

@@ -65,7 +65,11 @@ find !tolerance !c !boxes = runST $ do
         writePrimArray state 0 (k + 1)
         when (cross == 0) markUnclear
       visitor =
-        Visitor {crossing = record, resting = \_ _ -> markUnclear, touching = \_ _ _ _ -> markUnclear}
+        Visitor
+          { crossing = record,
+            resting = \_ _ -> markUnclear,
+            touching = \_ _ _ _ -> markUnclear
+          }
   SegmentTree.pairs
     boxes
     ((== 0) <$> readPrimArray state 1)

@@ -48,7 +48,9 @@ clip !tolerance !wanted !c !boxes !xs = do
         else do
           lefts <- newPrimArray (max 1 total)
           isSound <- and <$> traverse (propagate c xs starts inOrder lefts) (zip [0 ..] outermost)
-          if not isSound then pure Nothing else joinSlices wanted c xs starts inOrder lefts outermost
+          if not isSound
+            then pure Nothing
+            else joinSlices wanted c xs starts inOrder lefts outermost
   where
     total = 2 * SelfIntersection.count xs
     outside w = do
@@ -148,6 +150,7 @@ parameterOf :: SelfIntersections -> Int -> Double
 parameterOf xs o = indexPrimArray (SelfIntersection.reals xs) (2 * o + 2 - (if odd o then 1 else 0))
 {-# INLINE parameterOf #-}
 
+-- | Runs an action for every index from 0 to n − 1. Unlike 'forM_' it allocates no list.
 forM' :: Int -> (Int -> ST s ()) -> ST s ()
 forM' n f = go 0
   where

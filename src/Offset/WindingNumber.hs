@@ -23,7 +23,8 @@ import Geometry.Tolerance qualified as Tolerance
 -- | The counter-clockwise winding number of the polyarcs around a point that does not lie on
 -- them.
 at :: ClosedPolyarcs -> SegmentTree -> Double -> Double -> Int
-at c boxes px py = SegmentTree.around boxes (-1e300) py px py 0 (\total i -> total + passed c px py i)
+at c boxes px py =
+  SegmentTree.around boxes (-1e300) py px py 0 (\total i -> total + passed c px py i)
 
 -- | The contribution of one segment: the crossing of its chord with a ray from the point to the
 -- left, and ±1 when the point lies between an arc and its chord.

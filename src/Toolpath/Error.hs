@@ -164,7 +164,8 @@ toReport err = case err of
     )
       { label = shape first,
         others =
-          secondLabel first second <> [Label region (worked tool <> " here") | region /= origin first],
+          secondLabel first second
+            <> [Label region (worked tool <> " here") | region /= origin first],
         message =
           [ "With its centre at "
               <> Vec.written 3 p
@@ -458,6 +459,7 @@ toReport err = case err of
           ["Leave so much at all walls, by allowance in the pocket. Then mill the contour inside."]
       }
 
+-- | The reason why a control's input cannot express a request.
 unsent :: Unsent -> Text
 unsent what = case what of
   OnContour -> "The cutter runs on the contour itself and has no side."
@@ -468,6 +470,7 @@ unsent what = case what of
     "The control goes along all of the edge, also where the cutter does not reach it: there it \
     \would cut into the part."
 
+-- | The hint for such a request.
 unsentHint :: Unsent -> Text
 unsentHint what = case what of
   OnContour -> "Take a side, or leave out compensation controller."
@@ -495,9 +498,11 @@ noRoom region title called side contour left =
   where
     Located there (Name name) = contourName contour
 
+-- | The label of the second element, unless both come from the same region.
 secondLabel :: Element -> Element -> [Label]
 secondLabel first second = [Label (origin second) (shape second) | origin second /= origin first]
 
+-- | The text for a side.
 sideWord :: Side -> Text
 sideWord side = case side of
   Outside -> "outside"

@@ -77,13 +77,17 @@ further loops distance@(Mm d)
   where
     -- No larger circle fits into any of the loops.
     BoundingBox l b r t =
-      maybe (BoundingBox 0 0 0 0) (foldr1 BoundingBox.union) (NonEmpty.nonEmpty (map boundingBox loops))
+      maybe
+        (BoundingBox 0 0 0 0)
+        (foldr1 BoundingBox.union)
+        (NonEmpty.nonEmpty (map boundingBox loops))
 
 -- | The bounding box of segments.
 boundingBox :: NonEmpty Segment -> BoundingBox
 boundingBox (s :| more) =
   foldl (\box s' -> BoundingBox.union box (BoundingBox.ofSegment s')) (BoundingBox.ofSegment s) more
 
+-- | The loops of a reachable region as segments.
 loopsOf :: Kernel.ReachableRegion -> [Loop]
 loopsOf region =
   mapMaybe (NonEmpty.nonEmpty . FlatPolyarc.segments) (Loop.outlines (Kernel.loops region))

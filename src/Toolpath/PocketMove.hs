@@ -164,7 +164,10 @@ moves word milling z clear section = case section of
                False
              | c /= z
            ]
-  _ -> [Move s (Manner (z, z) (Part.At (feed milling)) False) word False | s <- Pocket.segments section]
+  _ ->
+    [ Move s (Manner (z, z) (Part.At (feed milling)) False) word False
+      | s <- Pocket.segments section
+    ]
 
 -- | For each allowance, the sections as a function of the plunge position.
 sectionsFor :: Pocketing -> NonEmpty (Maybe Point -> [PocketMove])

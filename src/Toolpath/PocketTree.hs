@@ -73,6 +73,7 @@ nests offsetBy further radius distances = case distances of
         StepoverResidue.between radius (minus (minus next c) radius) (inwards c loops radius) loops'
     leaf c loop = PocketTree {rings = ring c Map.empty (0, loop) :| [], inner = []}
 
+-- | A ring of the loop with number @n@, with the detours that begin at its segments.
 ring :: Mm -> Map (Int, Int) [NonEmpty Segment] -> (Int, Loop) -> Ring
 ring away trips (n, loop) =
   Ring
@@ -119,9 +120,11 @@ grouped c loops trips inside = mapMaybe part (Map.toList members)
       )
         <$> NonEmpty.nonEmpty found
 
+-- | The first point of a region's first ring.
 beginning :: PocketTree -> Point
 beginning nest = Segment.start (segment (NonEmpty.head (stretches (NonEmpty.head (rings nest)))))
 
+-- | The rightmost point of a loop.
 rightmost :: Loop -> Point
 rightmost loop =
   foldl

@@ -37,6 +37,7 @@ data Remaining = Remaining
 ofPath :: Toolpath -> [Remaining]
 ofPath path = Map.elems (Map.fromList (mapMaybe ofBlock (Toolpath.blocks path)))
 
+-- | The rest material of a block, with the number of its statement.
 ofBlock :: Block -> Maybe (Int, Remaining)
 ofBlock block = case block of
   Cutting {job = Located region m, pass, rests} ->

@@ -45,7 +45,11 @@ between radius apart edges passes = foldr (gather . gapsOf) none edges
       Nothing -> Nooks ts ls
       Just (Left loop) -> Nooks ts (loop : ls)
       Just (Right gaps) -> Nooks (foldr add ts gaps) ls
-    add gap ts = maybe ts (\(at, detour) -> Map.insertWith (<>) at [detour] ts) (detourAlong radius ends gap)
+    add gap ts =
+      maybe
+        ts
+        (\(at, detour) -> Map.insertWith (<>) at [detour] ts)
+        (detourAlong radius ends gap)
     ends =
       Map.fromList
         [ (n, Ends (length loop) (Map.fromList (zip [0 ..] (map end (NonEmpty.toList loop)))))

@@ -41,7 +41,8 @@ axis region milling side offsetSegments = case Part.gear milling of
     elementBevels <- maybe (Left (NoBevel region)) Right (bevels (Part.contour milling))
     sign <- maybe (Left (BladeOnContour region)) (Right . signOf) side
     checkJoints region elements elementBevels offsetSegments
-    Right (Just (fmap (\(a, b) -> (height sign gear a, height sign gear b)) (angles elementBevels offsetSegments)))
+    let heightsOf (a, b) = (height sign gear a, height sign gear b)
+    Right (Just (fmap heightsOf (angles elementBevels offsetSegments)))
   where
     elements = Vector.fromList (NonEmpty.toList (Part.elements (Part.contour milling)))
     signOf s = case s of

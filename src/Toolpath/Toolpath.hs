@@ -129,6 +129,7 @@ data Manner = Manner
 heights :: Move -> (Mm, Mm)
 heights = between . manner
 
+-- | The feed of a move, or rapid.
 pace :: Move -> Pace
 pace = at . manner
 

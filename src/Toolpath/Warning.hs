@@ -25,6 +25,8 @@ import Toolpath.Error (Warning (..))
 import Toolpath.Toolpath (Block (..), Toolpath)
 import Toolpath.Toolpath qualified as Toolpath
 
+-- | All warnings about a toolpath: rapid moves through the part, then tool changes without a
+-- spindle start.
 warnings :: Toolpath -> [Warning]
 warnings path = throughPart path <> stoppedSpindles path
 
@@ -93,6 +95,8 @@ bodiesOf b = case b of
           )
   _ -> Nothing
 
+-- | The contour of a milling statement with the side of its material. Nothing is known of open
+-- contours, except turned ones.
 bodyOf :: Milling -> [Body]
 bodyOf milling = case (Part.ends contour, value (Part.side milling)) of
   (Part.Closed, Outside) -> [whole True]

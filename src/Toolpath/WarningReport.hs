@@ -144,11 +144,13 @@ cutter Tool {work, radius, leaves} =
       Milled -> "a cutter of diameter " <> Decimal.mm (times 2 radius)
       Turned -> "a nose of radius " <> Decimal.mm radius
 
+-- | The verb for the kind of work.
 worked :: Tool -> Text
 worked tool = case work tool of
   Milled -> "milled"
   Turned -> "turned"
 
+-- | The text for an element: its kind, its size, its points.
 shape :: Element -> Text
 shape element = case segment element of
   Straight _ _ | ofCurve element -> "the curve"
@@ -164,9 +166,11 @@ shape element = case segment element of
       <> " about "
       <> Vec.written 3 centre
 
+-- | An error report with a code and a title, at a region of the program.
 at :: Region -> ReportCode -> Text -> Report
 at region code = report Report.Error code (InSource region)
 
+-- | The text for an angle given in radians.
 inDegrees :: Double -> Text
 inDegrees a = Decimal.short 3 (degrees (Rad a)) <> " deg"
 
