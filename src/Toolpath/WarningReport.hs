@@ -67,7 +67,7 @@ warningReport warning = case warning of
     )
       { others = take 6 (distinct (concatMap labels stays)),
         message =
-          map (stayWords tool) (take shown stays)
+          map (restPositionText tool) (take shown stays)
             <> ["And at " <> positions (length stays - shown) <> " more." | length stays > shown],
         hints =
           ["Take a smaller cutter afterwards, or leave rest allowed out to have this refused."]
@@ -111,8 +111,8 @@ warningReport warning = case warning of
       Between a b _ _ -> [Label (origin a) "beside this", Label (origin b) "beside this"]
 
 -- | The text for one position of rest material.
-stayWords :: Tool -> Stay -> Text
-stayWords tool s = case s of
+restPositionText :: Tool -> Stay -> Text
+restPositionText tool s = case s of
   InCorner _ _ p -> "In the inner corner at " <> Vec.written 3 p <> "."
   InHollow a old largest ->
     "In the concave radius of " <> Decimal.mm old <> " of " <> shape a <> ". " <> fits tool largest
