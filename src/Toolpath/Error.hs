@@ -250,12 +250,12 @@ toReport err = case err of
     (at region "E0409" "the cutter does not cut like this on this side of the walk")
       { others = [Label side "the side is given here"],
         message =
-          [ "With the spindle clockwise the cutter climbs on the left of the walk; with the spindle \
-            \counter-clockwise, on the right."
+          [ "With the spindle clockwise the cutter climbs on the left of the walk; with the \
+            \spindle counter-clockwise, on the right."
           ],
         hints =
-          [ "Leave the word out, take the other side, or mill reversed(…). In a mirrored block left \
-            \becomes right; outside and inside stay what they are."
+          [ "Leave the word out, take the other side, or mill reversed(…). In a mirrored block \
+            \left becomes right; outside and inside stay what they are."
           ]
       }
   BelowAxis region element ->
@@ -411,8 +411,8 @@ toReport err = case err of
               <> " for none; an arc behind it may then be refused."
           ],
         hints =
-          [ "Join the elements smoothly, for instance with a fillet, or begin elsewhere: start near \
-            \…"
+          [ "Join the elements smoothly, for instance with a fillet, or begin elsewhere: start \
+            \near …"
           ]
       }
   BackForControl asked first second (Rad turned) ->

@@ -189,13 +189,13 @@ sectionsFor pocket =
           further = Inset.further,
           radius = Part.radius (wall pocket),
           leaves,
-          turned = isReversed pocket
+          turned = hasSpaceOnRight pocket
         }
 
 -- | True when the free space lies on the right of the direction of travel. A clockwise spindle
 -- mills climb with the material on its right and the free space on its left.
-isReversed :: Pocketing -> Bool
-isReversed pocket = climbs /= (Part.spin (wall pocket) == Part.Clockwise)
+hasSpaceOnRight :: Pocketing -> Bool
+hasSpaceOnRight pocket = climbs /= (Part.spin (wall pocket) == Part.Clockwise)
   where
     climbs = maybe True ((== Part.Climb) . value) (Part.sense (wall pocket))
 
@@ -207,7 +207,7 @@ oriented pocket =
       islands = map (orient turned) (islands pocket)
     }
   where
-    turned = isReversed pocket
+    turned = hasSpaceOnRight pocket
     orient counterClockwise c =
       if (Polyarc.signedArea (Part.outline c) > 0) == counterClockwise then c else Part.backwards c
 
@@ -248,7 +248,7 @@ restAtWalls word pocket = case (Part.rest milling, found) of
         }
     contours = contour milling : islands pocket
     starts = scanl (+) 0 (map (length . Part.elements) contours)
-    side = if isReversed pocket then Carrier.RightOf else Carrier.LeftOf
+    side = if hasSpaceOnRight pocket then Carrier.RightOf else Carrier.LeftOf
     style = Equidistant.CornerStyle {Equidistant.sharp = False, Equidistant.extra = const (Mm 0)}
     found =
       [ OffsetRefusal.shifted n o

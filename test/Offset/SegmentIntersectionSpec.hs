@@ -1,4 +1,4 @@
--- | How two segments meet, one pair at a time.
+-- | Meetings of two segments, one pair at a time.
 module Offset.SegmentIntersectionSpec (spec) where
 
 import Control.Monad.ST (runST)
@@ -11,7 +11,7 @@ import Offset.SegmentIntersection qualified as SegmentIntersection
 import Test.Hspec
 import Test.QuickCheck
 
--- | What is told of a meeting.
+-- | A report to the visitor.
 data Told = Crosses Double Double Double | Rests Int | Touches Double Double
   deriving stock (Eq, Ord, Show)
 
@@ -73,7 +73,7 @@ spec = describe "two segments" $ do
 
 type Ends = (Double, Double, Double, Double, Double)
 
--- | Two segments apart: the first has the number 0, the second 2.
+-- | Two disjoint segments, numbered 0 and 2.
 pair :: Ends -> Ends -> ClosedPolyarcs
 pair a b = ClosedPolyarcs.apart [a, b]
 

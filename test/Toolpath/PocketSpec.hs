@@ -1,4 +1,4 @@
--- | The way of the cutter in a pocket.
+-- | Toolpaths of pockets.
 module Toolpath.PocketSpec (spec) where
 
 import Base.Quantity (Mm (..), Rad (..), plus)
@@ -109,7 +109,7 @@ spec = modifyMaxSuccess (const 60) $ do
        in NonEmpty.fromList (zipWith Segment.Straight ps (drop 1 ps <> take 1 ps))
     sorted = foldr insert []
     insert x xs = let (a, b) = span (< x) xs in a <> [x] <> b
-    -- What the passes go round, counter-clockwise.
+    -- The signed area that the passes enclose, counter-clockwise positive.
     area way = sum [part s | leg <- way, isPass leg, s <- Pocket.segments leg]
     part s = Vec.cross (Vec.to origin (Segment.start s)) (Vec.to origin (Segment.end s)) / 2 + bow s
     bow s = case s of
@@ -120,7 +120,7 @@ spec = modifyMaxSuccess (const 60) $ do
          in r * r * (w - sin w) / 2
     origin = Vec.point 0 0
 
--- | Whether it is a loop, a part of one, or a trip aside.
+-- | True for a loop, a part of one, or a detour.
 isPass :: PocketMove -> Bool
 isPass leg = case leg of
   Round _ _ -> True
@@ -134,7 +134,7 @@ isAside leg = isPass leg && null [() | Round _ _ <- [leg]]
 isLong :: Pocket -> PocketMove -> Bool
 isLong p leg = or [Segment.length s > plus (step p) (Mm 1e-6) | Across s <- [leg]]
 
--- | As 'cleared', with walls that are walked any way, and the loops of the kernel.
+-- | Like 'cleared', with walls of any sense and loops made by the kernel.
 byKernel :: Pocket -> [PocketMove]
 byKernel p =
   Pocket.clear
@@ -161,7 +161,7 @@ joined :: PocketMove -> PocketMove -> Property
 joined a b =
   counterexample (show (a, b)) (Vec.distance (Pocket.finishes a) (Pocket.begins b) <= Mm 1e-5)
 
--- | The cutter's centre keeps its distance.
+-- | The cutter's centre keeps its distance from the walls.
 deepEnough :: Pocket -> Segment -> Property
 deepEnough p s =
   conjoin
@@ -172,7 +172,8 @@ deepEnough p s =
   where
     nearest = plus (cutter p) (left p)
 
--- | Places all over the pocket, and some beside the ends of segments, where passes turn.
+-- | Points all over the pocket, and some near the ends of segments, where passes change
+-- direction.
 places :: Pocket -> [PocketMove] -> Gen [Point]
 places p way =
   (<>) <$> vectorOf 150 anywhere <*> (if null ends then pure [] else vectorOf 300 beside)
@@ -186,7 +187,7 @@ places p way =
       (\q d a -> Vec.shift (Vec.polar (Mm d) (Rad a)) q)
         <$> elements ends <*> choose (0, far) <*> choose (0, 2 * pi)
 
--- | Whether a place is out of reach or swept.
+-- | True when a point is unreachable or swept.
 swept :: Pocket -> [PocketMove] -> Point -> Property
 swept p way q =
   counterexample
