@@ -90,9 +90,9 @@ checkRequest requested milling
 -- | Refuses elements and leads that a control cannot follow.
 checkElements :: Region -> Region -> Milling -> Side -> Ways -> Either Error ()
 checkElements keyword requested milling side passMoves =
-  mapM_ checkLength elements
+  mapM_ (checkLength keyword requested) elements
     >> mapM_ checkRadius edge
-    >> mapM_ checkCorner (Polyarc.joints (Part.outline (Part.contour milling)))
+    >> mapM_ (checkCorner requested milling) (Polyarc.joints (Part.outline (Part.contour milling)))
     >> zipWithM_ checkArcStart edge (drop 1 edge)
   where
     elements = NonEmpty.toList (Part.elements (Part.contour milling))
@@ -102,25 +102,10 @@ checkElements keyword requested milling side passMoves =
         <> [(Just i, Part.segment e) | (i, e) <- zip [0 ..] elements]
         <> map lead (outwards passMoves)
     lead m = (Nothing, touchedCurve radius side (segment m))
-    checkLength e =
-      let l =
-            Segment.length (Part.segment e)
-       in when
-            (l < Tolerance.controlLength)
-            (Left (TinyForControl keyword requested (Just e) l Tolerance.controlLength))
     checkRadius (i, s) =
       mapM_
         (\old -> Left (TightForControl keyword requested (fmap element i) old radius))
         (tooTight radius side s)
-    checkCorner (i, a, b) =
-      let Rad deflection = Vec.turn (Segment.endDirection a) (Segment.startDirection b)
-          gouge = Mm (r * (1 - cos deflection))
-       in when
-            (isIgnored deflection && gouge > Tolerance.controlCut)
-            (Left (SlightForControl requested (element i) (element (i + 1)) (Rad deflection) gouge))
-            >> when
-              (isIgnored (pi - abs deflection))
-              (Left (BackForControl requested (element i) (element (i + 1)) (Rad deflection)))
     -- A control ignores a very slight corner. When such a corner turns away from the cutter, the
     -- centre leaves too early on the following arc. Rounding of the end of the segment before the
     -- arc has the same effect.
@@ -140,9 +125,45 @@ checkElements keyword requested milling side passMoves =
                     (Mm (r * (1 - cos deflection)))
               _ -> TinyForControl keyword requested (fmap element i) (referenceLength a) needed
     Rad smooth = Tolerance.smoothAngle
-    isIgnored deflection = let Rad least = Tolerance.controlBend in abs deflection < least
-    element :: Int -> Element
-    element i = Part.elements (Part.contour milling) NonEmpty.!! (i `mod` length elements)
+    element = elementAt milling
+
+-- | Refuses an element shorter than a control accepts.
+checkLength :: Region -> Region -> Element -> Either Error ()
+checkLength keyword requested e =
+  when
+    (l < Tolerance.controlLength)
+    (Left (TinyForControl keyword requested (Just e) l Tolerance.controlLength))
+  where
+    l = Segment.length (Part.segment e)
+
+-- | Refuses a corner that a control ignores although its cut would be too deep, and a corner at
+-- which the contour almost reverses. The corner follows element @i@.
+checkCorner :: Region -> Milling -> (Int, Segment, Segment) -> Either Error ()
+checkCorner requested milling (i, a, b) =
+  when
+    (isIgnored deflection && gouge > Tolerance.controlCut)
+    (Left (SlightForControl requested element following (Rad deflection) gouge))
+    >> when
+      (isIgnored (pi - abs deflection))
+      (Left (BackForControl requested element following (Rad deflection)))
+  where
+    Rad deflection = Vec.turn (Segment.endDirection a) (Segment.startDirection b)
+    Mm r = Part.radius milling
+    gouge = Mm (r * (1 - cos deflection))
+    element = elementAt milling i
+    following = elementAt milling (i + 1)
+
+-- | True for a change of direction, in radians, that a control ignores.
+isIgnored :: Double -> Bool
+isIgnored deflection = abs deflection < least
+  where
+    Rad least = Tolerance.controlBend
+
+-- | The element with a number; the number after the last element is the first one's.
+elementAt :: Milling -> Int -> Element
+elementAt milling i = elements NonEmpty.!! (i `mod` length elements)
+  where
+    elements = Part.elements (Part.contour milling)
 
 -- | The least length of a line, or the least radius of an arc, before an arc that turns away from
 -- it by an angle. It keeps the centre's additional sweep around the arc within the limit of

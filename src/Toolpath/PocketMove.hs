@@ -32,14 +32,14 @@ import Part.Part
     SpacePoint (..),
   )
 import Part.Part qualified as Part
-import Toolpath.Error (Error (..), Tool (Tool))
-import Toolpath.Error qualified
+import Toolpath.Error (Error (..))
 import Toolpath.Inset qualified as Inset
 import Toolpath.LinkingMove (Visit (Visit))
 import Toolpath.LinkingMove qualified as LinkingMove
 import Toolpath.OffsetRefusal qualified as OffsetRefusal
 import Toolpath.Pocket (PocketMove (..), PocketRoom (..))
 import Toolpath.Pocket qualified as Pocket
+import Toolpath.RestMaterial qualified as RestMaterial
 import Toolpath.Toolpath (Block (..), Manner (Manner), Move (Move), Pass (..))
 import Toolpath.Toolpath qualified as Toolpath
 
@@ -240,12 +240,7 @@ restAtWalls word pocket = case (Part.rest milling, found) of
     milling = wall pocket
     left = NonEmpty.last (Part.allowances milling)
     r = plus (Part.radius milling) left
-    tool =
-      Tool
-        { Toolpath.Error.work = Part.work milling,
-          Toolpath.Error.radius = Part.radius milling,
-          Toolpath.Error.leaves = left
-        }
+    tool = RestMaterial.toolOf milling left
     contours = contour milling : islands pocket
     starts = scanl (+) 0 (map (length . Part.elements) contours)
     side = if hasSpaceOnRight pocket then Carrier.RightOf else Carrier.LeftOf
