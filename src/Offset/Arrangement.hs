@@ -468,17 +468,9 @@ crossed (low, high) a =
 -- result is Nothing when a loop does not close.
 loops :: Sense -> Int -> Arrangement -> Maybe OffsetLoops
 loops sense wanted a =
-  gathered . map vertices
+  toLoops . map vertices
     <$> closedLoops (IntSet.fromList [e | e <- [0 .. Vector.length (edges a) - 1], isKept e])
   where
-    gathered made =
-      let listed f = primArrayFromList (map f (concat made))
-       in OffsetLoops
-            (primArrayFromList (scanl (+) 0 (map length made)))
-            (listed (\(x, _, _, _) -> x))
-            (listed (\(_, y, _, _) -> y))
-            (listed (\(_, _, b, _) -> b))
-            (primArrayFromList [fromIntegral i :: Int32 | (_, _, _, i) <- concat made])
     isKept e =
       let (l, r) = sides a (2 * e)
        in case sense of
@@ -507,28 +499,38 @@ loops sense wanted a =
             Clockwise -> halves Vector.! ((k + 1) `mod` n)
       if even h && isKept (h `div` 2) then Just (h `div` 2) else Nothing
     -- Consecutive edges on the same segment become one segment again.
-    vertices loop = map vertex (NonEmpty.groupBy onSameSegment (rotated loop))
+    vertices loop = map (loopVertex a) (NonEmpty.groupBy onSameSegment (rotated loop))
     onSameSegment e e' = segment (edges a Vector.! e) == segment (edges a Vector.! e')
     rotated loop = case span (onSameSegment (last loop)) loop of
       (front, rest) | not (null rest) -> rest <> front
       _ -> loop
-    vertex run =
-      let e = edges a Vector.! NonEmpty.head run
-          e' = edges a Vector.! NonEmpty.last run
-          (x, y) = nodes a Vector.! from e
-          (x', y') = nodes a Vector.! to e'
-          i = segment e
-          -- A complete segment gets its original bulge.
-          entire =
-            indexPrimArray (vertexNodes a) i == from e
-              && indexPrimArray (vertexNodes a) (i + 1) == to e'
-       in ( x,
-            y,
-            if NonEmpty.length run == 1
-              then bulge e
-              else
-                if entire
-                  then indexPrimArray (ClosedPolyarcs.bulges (chain a)) i
-                  else ClosedPolyarcs.part (chain a) i x y x' y',
-            i
-          )
+
+-- | Loops as flat arrays, from their vertices: x, y, bulge, number of the segment.
+toLoops :: [[(Double, Double, Double, Int)]] -> OffsetLoops
+toLoops made =
+  OffsetLoops
+    (primArrayFromList (scanl (+) 0 (map length made)))
+    (listed (\(x, _, _, _) -> x))
+    (listed (\(_, y, _, _) -> y))
+    (listed (\(_, _, b, _) -> b))
+    (primArrayFromList [fromIntegral i :: Int32 | (_, _, _, i) <- concat made])
+  where
+    listed f = primArrayFromList (map f (concat made))
+
+-- | The vertex at which consecutive edges of one segment begin: x, y, bulge, number of the segment.
+loopVertex :: Arrangement -> NonEmpty.NonEmpty Int -> (Double, Double, Double, Int)
+loopVertex a run = (x, y, joined, i)
+  where
+    e = edges a Vector.! NonEmpty.head run
+    e' = edges a Vector.! NonEmpty.last run
+    (x, y) = nodes a Vector.! from e
+    (x', y') = nodes a Vector.! to e'
+    i = segment e
+    -- A complete segment gets its original bulge.
+    isEntire =
+      indexPrimArray (vertexNodes a) i == from e
+        && indexPrimArray (vertexNodes a) (i + 1) == to e'
+    joined
+      | NonEmpty.length run == 1 = bulge e
+      | isEntire = indexPrimArray (ClosedPolyarcs.bulges (chain a)) i
+      | otherwise = ClosedPolyarcs.part (chain a) i x y x' y'

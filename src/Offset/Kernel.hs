@@ -293,7 +293,7 @@ wantedNumber tolerance sense open source boxes
         if all (== wanted) others && (wanted == 0 || wanted == 1)
           then Right wanted
           else Left Misplaced
-    _ -> fromArrangement (take 5 (iterate (* 10) (100 * tolerance)))
+    _ -> numberByArrangement crossed unbounded tolerance source
   where
     crossed i j = let (a, b) = (number i, number j) in Crossed (min a b) (max a b)
     number i = fromIntegral (indexPrimArray (ClosedPolyarcs.sources source) i)
@@ -314,19 +314,28 @@ wantedNumber tolerance sense open source boxes
               )
           )
             <$> WindingNumber.leftMore e
-    fromArrangement tolerances =
-      case mapMaybe
-        (\t -> Arrangement.arrange t source (SegmentTree.boxes t source))
-        tolerances of
-        [] -> Left Uncertain
-        a : _ -> case Arrangement.numbers a of
-          (0, 0) -> Right unbounded
-          (0, 1) -> Right 1
-          (-1, 0) -> Right 0
-          (_, high) ->
-            Left
-              ( maybe
-                  Misplaced
-                  (uncurry crossed)
-                  (Arrangement.crossed (if high > 0 then (0, 1) else (-1, 0)) a)
-              )
+
+-- | The same number from an arrangement, for a source in special position. The first argument makes
+-- the fault of two segments that intersect; the second one is the number of an unbounded region.
+numberByArrangement ::
+  (Int -> Int -> OffsetFault) ->
+  Int ->
+  Double ->
+  ClosedPolyarcs ->
+  Either OffsetFault Int
+numberByArrangement crossed unbounded tolerance source =
+  case mapMaybe
+    (\t -> Arrangement.arrange t source (SegmentTree.boxes t source))
+    (take 5 (iterate (* 10) (100 * tolerance))) of
+    [] -> Left Uncertain
+    a : _ -> case Arrangement.numbers a of
+      (0, 0) -> Right unbounded
+      (0, 1) -> Right 1
+      (-1, 0) -> Right 0
+      (_, high) ->
+        Left
+          ( maybe
+              Misplaced
+              (uncurry crossed)
+              (Arrangement.crossed (if high > 0 then (0, 1) else (-1, 0)) a)
+          )
