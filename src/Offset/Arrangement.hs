@@ -205,7 +205,7 @@ slices c coordinates nodeOf cutNodes =
               []
               ( map snd
                   . sortOn fst
-                  . map (\k -> (along i k, k))
+                  . map (\k -> (alongChord c coordinates i k, k))
                   . IntSet.toList
                   . IntSet.delete a
                   . IntSet.delete b
@@ -225,13 +225,15 @@ slices c coordinates nodeOf cutNodes =
       let ((x, y), (x', y')) =
             (coordinates Vector.! p, coordinates Vector.! q)
        in ClosedPolyarcs.part c i x y x' y'
-    along i k =
-      ClosedPolyarcs.chord c i $ \dx dy ->
-        let (x, y) =
-              coordinates Vector.! k
-         in (x - indexPrimArray (ClosedPolyarcs.xs c) i) * dx
-              + (y - indexPrimArray (ClosedPolyarcs.ys c) i) * dy ::
-              Double
+
+-- | The position of a node along the chord of segment @i@, multiplied by the
+-- chord's length (mm²).
+alongChord :: ClosedPolyarcs -> Vector (Double, Double) -> Int -> Int -> Double
+alongChord c coordinates i node =
+  ClosedPolyarcs.chord c i $ \dx dy ->
+    let (x, y) = coordinates Vector.! node
+     in (x - indexPrimArray (ClosedPolyarcs.xs c) i) * dx
+          + (y - indexPrimArray (ClosedPolyarcs.ys c) i) * dy
 
 -- | Merges slices between the same nodes with the same sagitta into one edge. Slices that cancel,
 -- as many forwards as backwards, give no edge.

@@ -246,14 +246,16 @@ regionOf problem wanted (untrimmed, source) sourceBoxes =
         Just (Loop.only isSound found)
       | otherwise = Nothing
       where
-        found = Loop.only (not . isFlat) answer
+        found = Loop.only (not . isArtefact rounding answer) answer
         loops' = [0 .. Loop.count found - 1]
         isSound = Certificate.clear measure source sourceBoxes found
         isCovering = Certificate.covers measure source found
-        -- A tiny loop of few segments may be an artefact of rounding.
-        isFlat k =
-          Loop.size answer k <= 4
-            && abs (FlatPolyarc.area (Loop.outline answer k)) <= rounding * rounding
+
+-- | True for a tiny loop of few segments, which may be an artefact of rounding (tolerance in mm).
+isArtefact :: Double -> OffsetLoops -> Int -> Bool
+isArtefact tolerance answer k =
+  Loop.size answer k <= 4
+    && abs (FlatPolyarc.area (Loop.outline answer k)) <= tolerance * tolerance
 
 -- | True when one of several contours bounds a region too small for the cutter. If a cutter
 -- covers such a region completely, the winding number would count it as reachable; computed

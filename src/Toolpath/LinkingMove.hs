@@ -81,18 +81,7 @@ deep Visit {word, milling, isFirst, isLast, from} clear (inZ, outZ) begin finish
         (arriving from up)
         (if null stops then [Part.Stop (Located word begin) (Just clear) Part.Rapid] else stops)
     above = arriving (arriving from up) over
-    down =
-      [ Move
-          (Straight (plane above) (plane above))
-          ( Manner
-              (height above, inZ)
-              (Part.At (fromMaybe (feed milling) (Part.plunge milling)))
-              False
-          )
-          word
-          False
-        | height above /= inZ
-      ]
+    down = plunge word milling above inZ
     (firstRetract, otherRetracts) = case Part.retract milling of
       s : more | Nothing <- Part.level s -> ([s {Part.level = Just outZ}], more)
       stops' -> ([], stops')
@@ -107,6 +96,13 @@ deep Visit {word, milling, isFirst, isLast, from} clear (inZ, outZ) begin finish
             [s {Part.level = Just (fromMaybe clear (Part.level s))} | s <- otherRetracts]
         else []
     lastOf xs = take 1 (reverse xs)
+
+-- | A move straight down to a height at the plunge feed; none at that height already.
+plunge :: Region -> Milling -> SpacePoint -> Mm -> [Move]
+plunge word milling (SpacePoint p z) target =
+  [Move (Straight p p) (Manner (z, target) (Part.At feedDown) False) word False | z /= target]
+  where
+    feedDown = fromMaybe (feed milling) (Part.plunge milling)
 
 -- | A rapid move straight up to a height, if the cutter is below it.
 rise :: SpacePoint -> Mm -> Region -> [Move]

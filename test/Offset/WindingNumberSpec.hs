@@ -17,7 +17,7 @@ spec :: Spec
 spec = do
   describe "winding numbers" $ do
     it "are those of the naive count (catches an arc whose inside is forgotten)" $
-      property . forAll Generate.problem $ \c -> forAll places $ \ps ->
+      property . forAll Generate.problem $ \c -> forAll samplePoints $ \ps ->
         let os = Generate.outlines c
             chain = ClosedPolyarcs.fromOutlines 1e-14 os
             bs = SegmentTree.boxes 1e-14 chain
@@ -106,7 +106,7 @@ spec = do
         ]
         `shouldBe` Just (0, 2)
   where
-    places = vectorOf 20 ((,) <$> choose (0, 1) <*> choose (0, 1)) :: Gen [(Double, Double)]
+    samplePoints = vectorOf 20 ((,) <$> choose (0, 1) <*> choose (0, 1)) :: Gen [(Double, Double)]
 
 -- | A closed polyarc between two arcs that touch at the origin and a line. It begins at any
 -- vertex, has any direction, and is traversed in either sense.
