@@ -1,13 +1,15 @@
 {-# OPTIONS_GHC -O2 #-}
 
--- | A chain cut at every place where it meets itself, with the winding number on both sides of
--- every edge.
+-- | Planar arrangement of closed polyarcs: they are cut at all their self-intersections, and
+-- every edge gets the winding numbers of both its sides.
 --
--- This decides what general position leaves out: segments that run along one another, crossings at
--- vertices, touching circles. Points that fall together within a tolerance are one node, edges
--- between the same nodes with the same rise are one edge that is walked several times, and at every
--- node the edges are put in order round it. The winding numbers then follow from edge to edge;
--- whether they agree everywhere says whether the order was right.
+-- This module decides the cases outside general position: coinciding segments, intersections at
+-- vertices, touching circles. Points that agree within a tolerance become one node. Segments
+-- between the same two nodes with the same sagitta become one edge with a multiplicity. The
+-- half-edges at each node are sorted by angle, and the winding numbers are propagated from edge to
+-- edge (de Berg et al., "Computational Geometry", chapter 8). 'arrange' refuses an arrangement
+-- whose winding numbers contradict each other at a node: then the half-edges are in the wrong
+-- order.
 module Offset.Arrangement
   ( Arrangement,
     arrange,
@@ -41,34 +43,36 @@ import Offset.SegmentIntersection (Visitor (..))
 import Offset.SegmentIntersection qualified as SegmentIntersection
 import Offset.WindingNumber qualified as WindingNumber
 
--- | Between two nodes, walked so many times more in this direction than back.
+-- | A directed edge between two nodes. @times@ counts its segments in this direction minus those
+-- in the opposite direction. @segment@ is the number of the original segment.
 data Edge = Edge {from :: Int, to :: Int, times :: Int, bulge :: Double, segment :: Int}
 
 data Arrangement = Arrangement
   { chain :: ClosedPolyarcs,
     nodes :: Vector (Double, Double),
-    -- | The node of every vertex of the chain.
-    owned :: PrimArray Int,
+    -- | The node of every vertex of the polyarcs.
+    vertexNodes :: PrimArray Int,
     edges :: Vector Edge,
-    -- | The half-edges that leave a node, counter-clockwise: @2e@ leaves the beginning of the edge
-    -- @e@, @2e + 1@ its end.
+    -- | The half-edges that leave each node, counter-clockwise. Half-edge @2e@ leaves the
+    -- beginning of edge @e@, and @2e + 1@ its end.
     rings :: IntMap (Vector Int),
     -- | The winding number on the left of every edge.
     lefts :: IntMap Int,
-    -- | Segments that cross between their ends.
+    -- | Pairs of segments that cross between their ends.
     proper :: [(Int, Int)]
   }
 
--- | Cut a chain. Within the tolerance in mm points fall together; the boxes are wider by it.
--- Nothing when the winding numbers do not agree.
+-- | Builds the arrangement. Points within the tolerance (mm) become one node. The bounding boxes
+-- must be inflated by at least the tolerance. The result is Nothing when the winding numbers
+-- contradict each other.
 arrange :: Double -> ClosedPolyarcs -> SegmentTree -> Maybe Arrangement
-arrange tolerance c bs
-  | agree arrangement = Just arrangement
+arrange tolerance c boxes
+  | isConsistent arrangement = Just arrangement
   | otherwise = Nothing
   where
-    (cuts, pairs) = events tolerance c bs
-    (places, nodeOf, cutNodes) = nodesOf tolerance c cuts
-    found = Vector.fromList (merged tolerance places (slices c places nodeOf cutNodes))
+    (cuts, pairs) = intersections tolerance c boxes
+    (coordinates, nodeOf, cutNodes) = nodesOf tolerance c cuts
+    found = Vector.fromList (merged tolerance coordinates (slices c coordinates nodeOf cutNodes))
     outgoing =
       IntMap.fromListWith
         (<>)
@@ -77,22 +81,23 @@ arrange tolerance c bs
               | (i, e) <- Vector.toList (Vector.indexed found)
             ]
         )
-    ordered = fmap (Vector.fromList . ring places found) outgoing
+    ordered = fmap (Vector.fromList . ring coordinates found) outgoing
     arrangement =
       Arrangement
         { chain = c,
-          nodes = places,
-          owned = nodeOf,
+          nodes = coordinates,
+          vertexNodes = nodeOf,
           edges = found,
           rings = ordered,
-          lefts = propagated places found ordered,
+          lefts = propagated coordinates found ordered,
           proper = pairs
         }
 
--- | Where each segment has to be cut, and which segments cross properly. Arcs are also cut where
--- they are leftmost, so that the leftmost place of everything that hangs together is a node.
-events :: Double -> ClosedPolyarcs -> SegmentTree -> ([(Int, Double, Double)], [(Int, Int)])
-events tolerance c bs = runST $ do
+-- | The points at which each segment is cut, and the pairs of segments that cross between their
+-- ends. Arcs are also cut at their leftmost points, so that the leftmost point of every
+-- connected component is a node.
+intersections :: Double -> ClosedPolyarcs -> SegmentTree -> ([(Int, Double, Double)], [(Int, Int)])
+intersections tolerance c boxes = runST $ do
   cuts <- newMutVar []
   pairs <- newMutVar []
   let cut s x y = modifyMutVar' cuts ((s, x, y) :)
@@ -103,7 +108,7 @@ events tolerance c bs = runST $ do
             resting = \s k -> at k (cut s),
             touching = \i j x y -> cut i x y >> cut j x y
           }
-  SegmentTree.pairs bs (pure True :: ST s Bool) (SegmentIntersection.meet tolerance c visitor)
+  SegmentTree.pairs boxes (pure True :: ST s Bool) (SegmentIntersection.meet tolerance c visitor)
   found <- readMutVar cuts
   crossings <- readMutVar pairs
   pure
@@ -127,14 +132,15 @@ events tolerance c bs = runST $ do
       where
         b = indexPrimArray (ClosedPolyarcs.bulges c) i
 
--- | The nodes: their places, the node of every vertex, and the nodes at which segments are cut.
+-- | The coordinates of the nodes, the node of every vertex, and for each segment the nodes at
+-- which it is cut.
 nodesOf ::
   Double ->
   ClosedPolyarcs ->
   [(Int, Double, Double)] ->
   (Vector (Double, Double), PrimArray Int, IntMap [Int])
 nodesOf tolerance c cuts =
-  ( Vector.fromList (map place clusters),
+  ( Vector.fromList (map position clusters),
     own,
     IntMap.fromListWith (<>) [(s, [indexPrimArray ids (n + k)]) | (k, (s, _, _)) <- zip [0 ..] cuts]
   )
@@ -145,11 +151,11 @@ nodesOf tolerance c cuts =
         | i <- [0 .. n - 1]
       ]
         <> [(x, y, n + k) | (k, (_, x, y)) <- zip [0 ..] cuts]
-    clusters = concatMap (together snd3 . sortOn snd3) (together fst3 (sortOn fst3 points))
-    -- Values one after the other that are no further apart than the tolerance.
-    together f ps = case ps of
+    clusters = concatMap (clustered snd3 . sortOn snd3) (clustered fst3 (sortOn fst3 points))
+    -- Groups consecutive values whose difference is at most four tolerances.
+    clustered f ps = case ps of
       [] -> []
-      p : rest -> let (same, others) = grab f (f p) rest in (p : same) : together f others
+      p : rest -> let (same, others) = grab f (f p) rest in (p : same) : clustered f others
     grab f v ps = case ps of
       q : rest
         | f q - v <= 4 * tolerance ->
@@ -160,28 +166,29 @@ nodesOf tolerance c cuts =
     fst3 (x, _, _) = x
     snd3 (_, y, _) = y
     number (_, _, i) = i
-    -- A vertex has its exact place.
-    place ps = let (x, y, _) = foldr1 (\p q -> if number p < number q then p else q) ps in (x, y)
+    -- A vertex keeps its exact coordinates.
+    position ps = let (x, y, _) = foldr1 (\p q -> if number p < number q then p else q) ps in (x, y)
     ids =
       runPrimArray'
         (n + length cuts)
         (concat [map (\p -> (number p, k)) ps | (k, ps) <- zip [0 ..] clusters])
     own = clonePrimArray ids 0 n
 
+-- | An array of the given size, filled at the given indices.
 runPrimArray' :: Int -> [(Int, Int)] -> PrimArray Int
 runPrimArray' n filled = runPrimArray $ do
   a <- newPrimArray n
   mapM_ (uncurry (writePrimArray a)) filled
   pure a
 
--- | The segments cut at their nodes: from, to, segment, bulge.
+-- | The segments cut at their nodes, each as first node, last node, segment number, bulge.
 slices ::
   ClosedPolyarcs ->
   Vector (Double, Double) ->
   PrimArray Int ->
   IntMap [Int] ->
   [(Int, Int, Int, Double)]
-slices c places nodeOf cutNodes =
+slices c coordinates nodeOf cutNodes =
   concatMap
     one
     [ i
@@ -198,7 +205,7 @@ slices c places nodeOf cutNodes =
               []
               ( map snd
                   . sortOn fst
-                  . map (\k -> (along i k, k))
+                  . map (\k -> (alongChord c coordinates i k, k))
                   . IntSet.toList
                   . IntSet.delete a
                   . IntSet.delete b
@@ -216,20 +223,22 @@ slices c places nodeOf cutNodes =
           ]
     bulgeOf i p q =
       let ((x, y), (x', y')) =
-            (places Vector.! p, places Vector.! q)
+            (coordinates Vector.! p, coordinates Vector.! q)
        in ClosedPolyarcs.part c i x y x' y'
-    along i k =
-      ClosedPolyarcs.chord c i $ \dx dy ->
-        let (x, y) =
-              places Vector.! k
-         in (x - indexPrimArray (ClosedPolyarcs.xs c) i) * dx
-              + (y - indexPrimArray (ClosedPolyarcs.ys c) i) * dy ::
-              Double
 
--- | Slices between the same nodes that rise equally are one edge; what is walked as often there as
--- back is none.
+-- | The position of a node along the chord of segment @i@, multiplied by the
+-- chord's length (mm²).
+alongChord :: ClosedPolyarcs -> Vector (Double, Double) -> Int -> Int -> Double
+alongChord c coordinates i node =
+  ClosedPolyarcs.chord c i $ \dx dy ->
+    let (x, y) = coordinates Vector.! node
+     in (x - indexPrimArray (ClosedPolyarcs.xs c) i) * dx
+          + (y - indexPrimArray (ClosedPolyarcs.ys c) i) * dy
+
+-- | Merges slices between the same nodes with the same sagitta into one edge. Slices that cancel,
+-- as many forwards as backwards, give no edge.
 merged :: Double -> Vector (Double, Double) -> [(Int, Int, Int, Double)] -> [Edge]
-merged tolerance places cut =
+merged tolerance coordinates cut =
   concatMap
     edgesOf
     ( Map.toList
@@ -241,35 +250,35 @@ merged tolerance places cut =
   where
     edgesOf ((a, b), list) = case list of
       [one] -> [edge a b 1 one]
-      _ -> concatMap (bundle a b) (alike (sortOn rise list))
+      _ -> concatMap (bundle a b) (bySagitta (sortOn rise list))
       where
         rise (_, _, g) = g * chordOf a b / 2
-        alike ps = case ps of
+        bySagitta ps = case ps of
           [] -> []
           p : rest ->
             let (same, others) =
                   span (\q -> rise q - rise p <= 4 * tolerance) rest
-             in (p : same) : alike others
+             in (p : same) : bySagitta others
     chordOf a b =
       let ((x, y), (x', y')) =
-            (places Vector.! a, places Vector.! b)
+            (coordinates Vector.! a, coordinates Vector.! b)
        in sqrt ((x' - x) * (x' - x) + (y' - y) * (y' - y))
     edge a b m (forth, i, g) = if forth then Edge a b m g i else Edge b a m (-g) i
     bundle a b list = case compare net 0 of
       EQ -> []
-      -- Of several segments it is the first, along the whole stretch that they share.
+      -- The edge takes its bulge and number from the first of the coinciding segments.
       GT -> [edge a b net one | one : _ <- [sortOn second [s | s@(True, _, _) <- list]]]
       LT -> [edge a b (-net) one | one : _ <- [sortOn second [s | s@(False, _, _) <- list]]]
       where
         second (_, i, _) = i
         net = sum [if forth then 1 else -1 | (forth, _, _) <- list] :: Int
 
--- | The half-edges of a node in order round it, counter-clockwise, beginning behind the widest gap;
--- at the leftmost node of what hangs together, behind the one on the left.
+-- | The half-edges of a node, sorted counter-clockwise. The order begins after the widest angular
+-- gap; at the leftmost node of a component it begins after the gap on the left.
 ring :: Vector (Double, Double) -> Vector Edge -> [Int] -> [Int]
-ring places es halves = case halves of
+ring coordinates es halves = case halves of
   [_] -> halves
-  _ -> map fst3 (sortBy order [(h, turnedBy cut angle, leaving) | (h, angle, leaving) <- aimed])
+  _ -> map fst3 (sortBy order [(h, angleFrom cut angle, leaving) | (h, angle, leaving) <- aimed])
   where
     fst3 (h, _, _) = h
     aimed =
@@ -282,8 +291,8 @@ ring places es halves = case halves of
         (\a b -> (b - a, (a + b) / 2))
         angles
         (drop 1 angles <> map (+ 2 * pi) (take 1 angles))
-    -- Two that leave a leftmost place straight up and down have as wide a gap on their right; the
-    -- last gap is the left one.
+    -- Two half-edges that leave a leftmost point straight up and straight down have an equally wide
+    -- gap on their right. The last gap is the left one, so it gets preference.
     cut =
       snd
         ( maximumBy
@@ -294,24 +303,25 @@ ring places es halves = case halves of
                 gaps
             )
         )
-    turnedBy :: Double -> Double -> Double
-    turnedBy from' angle =
+    angleFrom :: Double -> Double -> Double
+    angleFrom from' angle =
       let t = angle - from' in t - 2 * pi * fromIntegral (floor (t / (2 * pi)) :: Int)
-    -- Of two that set out in nearly the same direction, compare how far to the left they are a
-    -- little further on.
+    -- Half-edges with nearly equal directions are compared by how far to the left they lie a short
+    -- distance from the node.
     order (_, a, (dx, dy, l, k)) (_, b, (dx', dy', l', k'))
       | abs (a - b) > tie = compare a b
       | otherwise =
         let step = 0.25 * min l l'
             lean = asin (max (-1) (min 1 (dx * dy' - dy * dx')))
          in compare 0 (lean + (k' - k) * step / 2)
-    -- The direction in which a half-edge leaves, its chord, and its curvature.
+    -- The unit direction in which a half-edge leaves its node, the length of its chord, and its
+    -- curvature.
     direction :: Int -> (Double, Double, Double, Double)
     direction h =
       let e = es Vector.! (h `div` 2)
           (a, b, g) = if even h then (from e, to e, bulge e) else (to e, from e, -(bulge e))
-          (x, y) = places Vector.! a
-          (x', y') = places Vector.! b
+          (x, y) = coordinates Vector.! a
+          (x', y') = coordinates Vector.! b
           l = sqrt ((x' - x) * (x' - x) + (y' - y) * (y' - y))
           ux = (x' - x) / l
           uy = (y' - y) / l
@@ -320,61 +330,63 @@ ring places es halves = case halves of
           si = 2 * g * q
        in (ux * co + uy * si, uy * co - ux * si, l, 4 * g * q / l)
 
--- | Directions that differ by less, in radians, may have changed their order by rounding.
+-- | Directions that differ by less than this angle (radians) may have been exchanged by rounding.
 tie :: Double
 tie = 1e-3
 
--- | The winding number on the left of every edge, from outside at the leftmost node of whatever
--- hangs together.
+-- | Propagates the winding numbers over each connected component, starting at its leftmost node,
+-- whose left side is outside the component.
 propagated :: Vector (Double, Double) -> Vector Edge -> IntMap (Vector Int) -> IntMap Int
-propagated places es ordered =
+propagated coordinates es ordered =
   foldl'
     component
     IntMap.empty
-    (map snd (sortOn fst [(places Vector.! k, k) | k <- IntMap.keys ordered]))
+    (map snd (sortOn fst [(coordinates Vector.! k, k) | k <- IntMap.keys ordered]))
   where
     component known k = case ordered IntMap.!? k of
       Just halves
         | h <- Vector.head halves,
           IntMap.notMember (h `div` 2) known ->
-          spread known [(h, outside k)]
+          propagate known [(h, outside k)]
       _ -> known
-    -- What all that does not hang together with a node says there.
+    -- The winding number that all other components give to this node.
     outside k =
-      let (x, y) = places Vector.! k
-          own = IntMap.lookup k islands
+      let (x, y) = coordinates Vector.! k
+          own = IntMap.lookup k components
           add total i
-            | IntMap.lookup (from edge) islands == own = total
-            | otherwise = total + times edge * WindingNumber.passed apart x y i
+            | IntMap.lookup (from edge) components == own = total
+            | otherwise = total + times edge * WindingNumber.passed edgePolyarcs x y i
             where
               edge = es Vector.! (i `div` 2)
-       in SegmentTree.around around (-1e300) y x y (0 :: Int) add
-    apart =
+       in SegmentTree.around tree (-1e300) y x y (0 :: Int) add
+    edgePolyarcs =
       ClosedPolyarcs.apart
         [ (x, y, x', y', bulge e)
           | e <- Vector.toList es,
-            let ((x, y), (x', y')) = (places Vector.! from e, places Vector.! to e)
+            let ((x, y), (x', y')) = (coordinates Vector.! from e, coordinates Vector.! to e)
         ]
-    around = SegmentTree.boxes 0 apart
-    islands = islandsOf es ordered
-    -- Half-edges with what is on their right, seen as they leave.
-    spread known todo = case todo of
+    tree = SegmentTree.boxes 0 edgePolyarcs
+    components = componentsOf es ordered
+    -- The half-edges still to be visited, each with the winding number on its right as it leaves
+    -- its node.
+    propagate known todo = case todo of
       [] -> known
       (h, right) : rest
-        | IntMap.member e known -> spread known rest
+        | IntMap.member e known -> propagate known rest
         | otherwise ->
-          spread
+          propagate
             (IntMap.insert e left known)
-            ( round' (from edge) (2 * e) left
-                <> round' (to edge) (2 * e + 1) (left - times edge)
+            ( othersAround (from edge) (2 * e) left
+                <> othersAround (to edge) (2 * e + 1) (left - times edge)
                 <> rest
             )
         where
           e = h `div` 2
           edge = es Vector.! e
           left = if even h then right + times edge else right
-    -- The next half-edge round a node has on its right what this one has on its left, as it leaves.
-    round' k h leftward = case ordered IntMap.!? k of
+    -- The next half-edge of the node counter-clockwise has on its right the winding number that
+    -- this one has on its left.
+    othersAround k h leftward = case ordered IntMap.!? k of
       Nothing -> []
       Just halves ->
         go
@@ -387,9 +399,9 @@ propagated places es ordered =
     go right (h : more) = (h, right) : go (right + gain h) more
     gain h = let m = times (es Vector.! (h `div` 2)) in if even h then m else -m
 
--- | For every node one that stands for all that hang together with it.
-islandsOf :: Vector Edge -> IntMap (Vector Int) -> IntMap Int
-islandsOf es ordered =
+-- | The connected component of every node, named by one of its nodes.
+componentsOf :: Vector Edge -> IntMap (Vector Int) -> IntMap Int
+componentsOf es ordered =
   foldl'
     (\known k -> if IntMap.member k known then known else reach k known [k])
     IntMap.empty
@@ -406,9 +418,9 @@ islandsOf es ordered =
             (maybe [] (map other . Vector.toList) (IntMap.lookup k ordered) <> rest)
     other h = let e = es Vector.! (h `div` 2) in if even h then to e else from e
 
--- | Whether the numbers agree round every node.
-agree :: Arrangement -> Bool
-agree a =
+-- | True when the winding numbers agree in every sector of every node.
+isConsistent :: Arrangement -> Bool
+isConsistent a =
   all
     ( \halves ->
         and
@@ -420,14 +432,14 @@ agree a =
   where
     fits h h' = fst (sides a h) == snd (sides a h')
 
--- | What is on the left and on the right of a half-edge as it leaves its node.
+-- | The winding numbers on the left and on the right of a half-edge as it leaves its node.
 sides :: Arrangement -> Int -> (Int, Int)
 sides a h = if even h then (left, left - m) else (left - m, left)
   where
     left = IntMap.findWithDefault 0 (h `div` 2) (lefts a)
     m = times (edges a Vector.! (h `div` 2))
 
--- | The least and the largest winding number of all places.
+-- | The least and the largest winding number of all faces. The unbounded face has the number 0.
 numbers :: Arrangement -> (Int, Int)
 numbers a =
   foldl'
@@ -435,8 +447,8 @@ numbers a =
     (0, 0)
     (concat [[l, r] | e <- [0 .. Vector.length (edges a) - 1], let (l, r) = sides a (2 * e)])
 
--- | Two segments that cross: properly if there are such, or the first two that meet where the
--- winding number leaves the bounds.
+-- | Two segments that intersect. Prefers a pair that crosses between its ends; otherwise takes
+-- the first pair that meets where the winding number leaves the given bounds.
 crossed :: (Int, Int) -> Arrangement -> Maybe (Int, Int)
 crossed (low, high) a =
   listToMaybe
@@ -453,32 +465,25 @@ crossed (low, high) a =
            ]
     )
 
--- | The loops along which the wanted number is on the left and the free places on a side: there
--- they have the number itself, or one less on the right.
+-- | The loops that bound the reachable faces. With sense counter-clockwise the wanted number is
+-- on the left of an edge; with sense clockwise the wanted number less one is on its right. The
+-- result is Nothing when a loop does not close.
 loops :: Sense -> Int -> Arrangement -> Maybe OffsetLoops
-loops turn wanted a =
-  gathered . map vertices
-    <$> walks (IntSet.fromList [e | e <- [0 .. Vector.length (edges a) - 1], kept e])
+loops sense wanted a =
+  toLoops . map vertices
+    <$> closedLoops (IntSet.fromList [e | e <- [0 .. Vector.length (edges a) - 1], isKept e])
   where
-    gathered made =
-      let listed f = primArrayFromList (map f (concat made))
-       in OffsetLoops
-            (primArrayFromList (scanl (+) 0 (map length made)))
-            (listed (\(x, _, _, _) -> x))
-            (listed (\(_, y, _, _) -> y))
-            (listed (\(_, _, b, _) -> b))
-            (primArrayFromList [fromIntegral i :: Int32 | (_, _, _, i) <- concat made])
-    kept e =
+    isKept e =
       let (l, r) = sides a (2 * e)
-       in case turn of
+       in case sense of
             CounterClockwise -> l == wanted
             Clockwise -> r == wanted - 1
-    walks left = case IntSet.minView left of
+    closedLoops left = case IntSet.minView left of
       Nothing -> Just []
       Just (e, rest) -> do
         (loop, rest') <- follow e e rest
-        (loop :) <$> walks rest'
-    -- A loop that does not come back to its beginning is none.
+        (loop :) <$> closedLoops rest'
+    -- A loop that does not return to its first edge is invalid.
     follow first e rest = case next e of
       Just e'
         | e' == first -> Just ([e], rest)
@@ -486,37 +491,48 @@ loops turn wanted a =
           (more, rest') <- follow first e' (IntSet.delete e' rest)
           Just (e : more, rest')
       _ -> Nothing
-    -- The edge that bounds the same free places: the neighbour of this one round the node where it
-    -- ends.
+    -- The next edge of the same face: the neighbour of this edge at the node where it ends.
     next e = do
       halves <- IntMap.lookup (to (edges a Vector.! e)) (rings a)
       k <- Vector.elemIndex (2 * e + 1) halves
       let n = Vector.length halves
-          h = case turn of
+          h = case sense of
             CounterClockwise -> halves Vector.! ((k - 1) `mod` n)
             Clockwise -> halves Vector.! ((k + 1) `mod` n)
-      if even h && kept (h `div` 2) then Just (h `div` 2) else Nothing
-    -- Edges one after the other on the same segment are one again.
-    vertices loop = map vertex (NonEmpty.groupBy goesOn (rotated loop))
-    goesOn e e' = segment (edges a Vector.! e) == segment (edges a Vector.! e')
-    rotated loop = case span (goesOn (last loop)) loop of
+      if even h && isKept (h `div` 2) then Just (h `div` 2) else Nothing
+    -- Consecutive edges on the same segment become one segment again.
+    vertices loop = map (loopVertex a) (NonEmpty.groupBy onSameSegment (rotated loop))
+    onSameSegment e e' = segment (edges a Vector.! e) == segment (edges a Vector.! e')
+    rotated loop = case span (onSameSegment (last loop)) loop of
       (front, rest) | not (null rest) -> rest <> front
       _ -> loop
-    vertex run =
-      let e = edges a Vector.! NonEmpty.head run
-          e' = edges a Vector.! NonEmpty.last run
-          (x, y) = nodes a Vector.! from e
-          (x', y') = nodes a Vector.! to e'
-          i = segment e
-          -- A whole segment has its own bulge again.
-          entire = indexPrimArray (owned a) i == from e && indexPrimArray (owned a) (i + 1) == to e'
-       in ( x,
-            y,
-            if NonEmpty.length run == 1
-              then bulge e
-              else
-                if entire
-                  then indexPrimArray (ClosedPolyarcs.bulges (chain a)) i
-                  else ClosedPolyarcs.part (chain a) i x y x' y',
-            i
-          )
+
+-- | Loops as flat arrays, from their vertices: x, y, bulge, number of the segment.
+toLoops :: [[(Double, Double, Double, Int)]] -> OffsetLoops
+toLoops made =
+  OffsetLoops
+    (primArrayFromList (scanl (+) 0 (map length made)))
+    (listed (\(x, _, _, _) -> x))
+    (listed (\(_, y, _, _) -> y))
+    (listed (\(_, _, b, _) -> b))
+    (primArrayFromList [fromIntegral i :: Int32 | (_, _, _, i) <- concat made])
+  where
+    listed f = primArrayFromList (map f (concat made))
+
+-- | The vertex at which consecutive edges of one segment begin: x, y, bulge, number of the segment.
+loopVertex :: Arrangement -> NonEmpty.NonEmpty Int -> (Double, Double, Double, Int)
+loopVertex a run = (x, y, joined, i)
+  where
+    e = edges a Vector.! NonEmpty.head run
+    e' = edges a Vector.! NonEmpty.last run
+    (x, y) = nodes a Vector.! from e
+    (x', y') = nodes a Vector.! to e'
+    i = segment e
+    -- A complete segment gets its original bulge.
+    isEntire =
+      indexPrimArray (vertexNodes a) i == from e
+        && indexPrimArray (vertexNodes a) (i + 1) == to e'
+    joined
+      | NonEmpty.length run == 1 = bulge e
+      | isEntire = indexPrimArray (ClosedPolyarcs.bulges (chain a)) i
+      | otherwise = ClosedPolyarcs.part (chain a) i x y x' y'

@@ -1,7 +1,10 @@
 {-# OPTIONS_GHC -O2 #-}
 
--- | Whether the kernel's answer is true, looked at without what led to it: a place on every loop is
--- as far from the source as was asked.
+-- | Independent check of the offset kernel: one point of every loop keeps the requested distance
+-- from the source.
+--
+-- The check uses the source contours and the finished loops only. It does not depend on the
+-- algorithm that made the loops (McConnell et al., "Certifying algorithms").
 module Offset.Certificate
   ( Clearance (..),
     clear,
@@ -18,9 +21,10 @@ import Geometry.Index.SegmentTree qualified as SegmentTree
 import Offset.Loop (OffsetLoops)
 import Offset.Loop qualified as Loop
 
--- | What a place is measured by, in mm: the error allowed; the distance that is kept from all
--- segments, the largest one, and that of each segment, which holds on the cutter's side and between
--- the segment's ends.
+-- | The distances by which a point is judged, in mm. @slack@ is the permitted error. @least@ is
+-- the distance required from every segment, and @largest@ the largest distance of all segments.
+-- @distance@ gives each segment's own distance, which holds on the cutter's side between the
+-- segment's ends.
 data Clearance = Clearance
   { slack :: Double,
     least :: Double,
@@ -29,16 +33,17 @@ data Clearance = Clearance
     turn :: Sense
   }
 
--- | Whether the middle of a loop's first segment is no nearer to any segment of the source than is
--- asked.
+-- | True when the midpoint of a loop's first segment keeps the required distance from every
+-- segment of the source.
 clear :: Clearance -> ClosedPolyarcs -> SegmentTree -> OffsetLoops -> Int -> Bool
-clear measure source bs l k = uncurry (farFrom measure source bs) (witness l k)
+clear measure source boxes l k = uncurry (isFarFrom measure source boxes) (witness l k)
 
--- | Whether a cutter that stands where that place is reaches every segment of the source.
+-- | True when a cutter whose centre is at the midpoint of the loop's first segment reaches every
+-- segment of the source.
 covers :: Clearance -> ClosedPolyarcs -> OffsetLoops -> Int -> Bool
 covers measure source l k =
   and
-    [ fromPoint source i x y (\d _ -> d <= asked measure source i + slack measure)
+    [ fromPoint source i x y (\d _ -> d <= required measure source i + slack measure)
       | i <- [0 .. sizeofPrimArray (ClosedPolyarcs.xs source) - 1],
         not
           ( ClosedPolyarcs.marked
@@ -49,12 +54,12 @@ covers measure source l k =
   where
     (x, y) = witness l k
 
--- | What is asked of a segment.
-asked :: Clearance -> ClosedPolyarcs -> Int -> Double
-asked measure source i =
+-- | The distance required from a segment, in mm.
+required :: Clearance -> ClosedPolyarcs -> Int -> Double
+required measure source i =
   distance measure (fromIntegral (indexPrimArray (ClosedPolyarcs.sources source) i))
 
--- | The middle of a loop's first segment.
+-- | The midpoint of a loop's first segment.
 witness :: OffsetLoops -> Int -> (Double, Double)
 witness l k = (x0 + 0.5 * (dx + b * dy), y0 + 0.5 * (dy - b * dx))
   where
@@ -64,33 +69,33 @@ witness l k = (x0 + 0.5 * (dx + b * dy), y0 + 0.5 * (dy - b * dx))
     (dx, dy) = (indexPrimArray (Loop.xs l) j - x0, indexPrimArray (Loop.ys l) j - y0)
     b = indexPrimArray (Loop.bulges l) i
 
--- | Whether a point is far enough from every segment.
-farFrom :: Clearance -> ClosedPolyarcs -> SegmentTree -> Double -> Double -> Bool
-farFrom measure source bs x y =
-  SegmentTree.around bs (x - widest) (y - widest) (x + widest) (y + widest) True $ \good i ->
-    good
+-- | True when a point keeps the required distance from every segment.
+isFarFrom :: Clearance -> ClosedPolyarcs -> SegmentTree -> Double -> Double -> Bool
+isFarFrom measure source boxes x y =
+  SegmentTree.around boxes (x - widest) (y - widest) (x + widest) (y + widest) True $ \isFar i ->
+    isFar
       && fromPoint
         source
         i
         x
         y
-        ( \d beside ->
+        ( \d footDepth ->
             d
-              >= ( if beside > slack measure && facing i
-                     then asked measure source i
+              >= ( if footDepth > slack measure && isFacing i
+                     then required measure source i
                      else least measure
                  )
                 - slack measure
         )
   where
     widest = largest measure
-    facing i = case turn measure of
-      CounterClockwise -> leftOf source i x y
-      Clockwise -> not (leftOf source i x y)
+    isFacing i = case turn measure of
+      CounterClockwise -> isLeftOf source i x y
+      Clockwise -> not (isLeftOf source i x y)
 
--- | Whether a point lies on the left of a segment or its circle.
-leftOf :: ClosedPolyarcs -> Int -> Double -> Double -> Bool
-leftOf c i x y
+-- | True when a point lies on the left of a line, or on the left of an arc's circle.
+isLeftOf :: ClosedPolyarcs -> Int -> Double -> Double -> Bool
+isLeftOf c i x y
   | b == 0 =
     ClosedPolyarcs.chord c i $ \ux uy ->
       ux * (y - indexPrimArray (ClosedPolyarcs.ys c) i)
@@ -100,8 +105,9 @@ leftOf c i x y
   where
     b = indexPrimArray (ClosedPolyarcs.bulges c) i
 
--- | The distance of a point from a segment, and how far between the segment's ends the foot lies:
--- not more than 0 if the nearest place is an end.
+-- | Passes on the distance of a point from a segment, and the distance (mm) between the foot of
+-- the perpendicular and the nearer end of the segment. The second number is zero or negative
+-- when the nearest point is an end.
 fromPoint :: ClosedPolyarcs -> Int -> Double -> Double -> (Double -> Double -> r) -> r
 fromPoint c i x y k
   | b == 0 = ClosedPolyarcs.chord c i $ \ux uy ->
@@ -127,7 +133,7 @@ fromPoint c i x y k
     (gx, gy) = ClosedPolyarcs.gradient c i x y (,)
     (px, py) = ClosedPolyarcs.gradient c i x0 y0 (,)
     (qx, qy) = ClosedPolyarcs.gradient c i x1 y1 (,)
-    -- The foot's distances from the rays to both ends.
+    -- The signed distances of the foot from the radii to both ends.
     inSector =
       0.5
         * min (signum b * (px * gy - py * gx)) (signum b * (gx * qy - gy * qx))

@@ -1,16 +1,18 @@
 {-# OPTIONS_GHC -O2 #-}
 
--- | The offset kernel: the boundary of all places where the centre of a cutter can stand beside
--- closed contours, or on one side of an open one.
+-- | The offset kernel: it computes the boundary of all positions that a cutter's centre can reach
+-- beside closed contours, or on one side of an open one.
 --
--- The free places, where the centre may be as far as the contours go, lie on the same side of every
--- contour: inside an outline and outside the islands in it, or outside everything. The raw
--- equidistant ("Offset.RawOffset") is the contours moved to that side, with all its self-crossings.
--- Since it grows out of them without a jump, its winding number is that of the free places wherever
--- the cutter fits, and on one side of that everywhere else. So the answer is decided by counting.
--- In general position ("Offset.Trimming") that is one walk along the curve. Where segments meet at
--- their ends or lie along one another, "Offset.Arrangement" cuts all of them first. Every answer is
--- looked at once more ("Offset.Certificate") before it is given out.
+-- The reachable region lies on the same side of every contour: inside an outer contour and outside
+-- its islands, or outside all contours. The raw offset ("Offset.RawOffset") moves the contours to
+-- that side and keeps all self-intersections. It deforms continuously with the distance, so its
+-- winding number is the wanted number exactly at the reachable positions, and always differs from
+-- it in the same direction elsewhere. The reachable region is therefore found by winding numbers
+-- (Chen and McMains, "Polygon offsetting by computing winding numbers", 2005).
+--
+-- In general position "Offset.Trimming" needs a single traversal of the raw offset. Where segments
+-- touch or coincide, "Offset.Arrangement" first cuts all of them. Every loop must pass the check of
+-- "Offset.Certificate" before it is returned. Otherwise the kernel refuses with 'Uncertain'.
 module Offset.Kernel
   ( Corners (..),
     OffsetRequest (..),
@@ -47,8 +49,8 @@ import Offset.Trimming qualified as Trimming
 import Offset.WindingNumber (Outward (..))
 import Offset.WindingNumber qualified as WindingNumber
 
--- | What is asked: the side, the corners, the distance of the centre (not negative), and by how
--- much more it stays from the segments, by their numbers through all outlines.
+-- | A request: the side, the style of corners, the distance of the centre (mm, not negative), and
+-- an additional distance for each segment. Segments are numbered through all contours.
 data OffsetRequest = OffsetRequest
   { side :: Side,
     corners :: Corners,
@@ -56,98 +58,104 @@ data OffsetRequest = OffsetRequest
     extra :: Maybe (Int -> Mm)
   }
 
--- | A distance on a side, with round corners.
+-- | A request for one distance and round corners.
 plain :: Side -> Mm -> OffsetRequest
 plain side distance = OffsetRequest {side, corners = Round, distance, extra = Nothing}
 
--- | The loops, walked in the direction of the source; and the raw equidistant that they are parts
--- of.
+-- | The loops, in the direction of travel of the source, and the raw offset of which they are
+-- parts.
 data ReachableRegion = ReachableRegion {loops :: OffsetLoops, raw :: ClosedPolyarcs}
 
 data OffsetFault
-  = -- | two segments of the source cross, by their numbers through all outlines
+  = -- | two segments of the source intersect; they are numbered through all contours
     Crossed Int Int
-  | -- | an outline does not lie inside or outside the others as its sense would have it
+  | -- | a contour is nested in the others against its sense
     Misplaced
-  | -- | the answer failed its certificate
+  | -- | no result passed its certificate
     Uncertain
   deriving stock (Eq, Show)
 
--- | What the cutter's centre can reach beside outlines that are all closed, or one that is open.
+-- | The region that the cutter's centre can reach. The contours are all closed, or there is a
+-- single open one.
 offset :: OffsetRequest -> [FlatPolyarc] -> Either OffsetFault ReachableRegion
-offset task outlines = do
-  wanted <- first bothWays (wantedOf (rounding problem) (turn problem) open source sourceBoxes)
-  let hopeful = filter (not . hopeless problem chain) [0 .. ClosedPolyarcs.walks chain - 1]
-  if length hopeful == ClosedPolyarcs.walks chain
-    then reachOf problem wanted raws sourceBoxes
-    else reached problem wanted (ClosedPolyarcs.only hopeful chain)
+offset request contours = do
+  wanted <-
+    first
+      withOriginalNumbers
+      (wantedNumber (rounding problem) (sense problem) open source sourceBoxes)
+  let remaining = filter (not . isUnreachable problem chain) [0 .. ClosedPolyarcs.walks chain - 1]
+  if length remaining == ClosedPolyarcs.walks chain
+    then regionOf problem wanted raws sourceBoxes
+    else regionOfContours problem wanted (ClosedPolyarcs.only remaining chain)
   where
-    open = isOpen outlines
-    number = numberThere outlines
-    bothWays fault = case fault of
+    open = isOpen contours
+    number = originalNumber contours
+    withOriginalNumbers fault = case fault of
       Crossed i j -> let (a, b) = (number i, number j) in Crossed (min a b) (max a b)
       Misplaced -> Misplaced
       Uncertain -> Uncertain
-    (problem, chain) = problemOf task outlines
+    (problem, chain) = problemOf request contours
     raws@(_, source) = rawOf problem chain
     sourceBoxes = SegmentTree.boxes (rounding problem) source
 
--- | The raw equidistant, before any of it is cut away. An outline may cross itself here.
+-- | The raw offset before trimming. Here a contour may intersect itself.
 rawOffset :: OffsetRequest -> [FlatPolyarc] -> ClosedPolyarcs
-rawOffset task outlines = fst (rawOf problem chain)
+rawOffset request contours = fst (rawOf problem chain)
   where
-    (problem, chain) = problemOf task outlines
+    (problem, chain) = problemOf request contours
 
+-- | True when one of the contours is open.
 isOpen :: [FlatPolyarc] -> Bool
 isOpen = any ((== Open) . FlatPolyarc.ends)
 
--- | The number of a segment on the way there: an open outline is walked there and back.
-numberThere :: [FlatPolyarc] -> Int -> Int
-numberThere outlines
-  | isOpen outlines = \i -> if i >= count then 2 * count - 1 - i else i
+-- | The original number of a segment. An open contour is traversed forwards and then backwards,
+-- so its segments have two numbers.
+originalNumber :: [FlatPolyarc] -> Int -> Int
+originalNumber contours
+  | isOpen contours = \i -> if i >= count then 2 * count - 1 - i else i
   | otherwise = id
   where
-    count = sum (map FlatPolyarc.size outlines)
+    count = sum (map FlatPolyarc.size contours)
 
--- | What is asked of all walks, and the walks.
+-- | The parameters that all contours share, and the contours as flat arrays.
 problemOf :: OffsetRequest -> [FlatPolyarc] -> (Problem, ClosedPolyarcs)
-problemOf task outlines = (problem, chain)
+problemOf request contours = (problem, chain)
   where
-    turn = turnOf (side task)
-    Mm d = distance task
-    segmentCount = sum (map FlatPolyarc.size outlines)
-    more i = case extra task of
+    sense = senseOf (side request)
+    Mm d = distance request
+    segmentCount = sum (map FlatPolyarc.size contours)
+    more i = case extra request of
       Nothing -> 0
-      Just f -> let Mm e = f (there i) in e
-    there = numberThere outlines
-    largest = case extra task of
+      Just f -> let Mm e = f (original i) in e
+    original = originalNumber contours
+    largest = case extra request of
       Nothing -> d
       Just _ -> d + maximum (0 : map more [0 .. segmentCount - 1])
-    tolerance = Tolerance.rounding * (ClosedPolyarcs.extent outlines + largest)
+    tolerance = Tolerance.rounding * (ClosedPolyarcs.extent contours + largest)
     chain =
       ClosedPolyarcs.fromOutlines
         tolerance
-        (if isOpen outlines then map ClosedPolyarcs.twoSided outlines else outlines)
+        (if isOpen contours then map ClosedPolyarcs.twoSided contours else contours)
     problem =
       Problem
-        { turn,
+        { sense,
           rounding = tolerance,
           least = d,
           widest = largest,
           distances = \i -> d + more i,
-          rawOf = if largest == 0 then still else raw
+          rawOf = if largest == 0 then unmoved else raw
         }
-    -- At no distance there is nothing to join.
-    still c = let (_, marked) = raw c in (marked, marked)
-    signed = case side task of
+    -- At the distance 0 no joints are needed.
+    unmoved c = let (_, marked) = raw c in (marked, marked)
+    signed = case side request of
       LeftOf -> -1
       RightOf -> 1
-    raw c = case extra task of
+    raw c = case extra request of
       Nothing ->
         RawOffset.raw
           tolerance
           Tolerance.tangential
-          (corners task)
+          (corners request)
           False
           (const (signed * d))
           (const (signed * d))
@@ -156,30 +164,32 @@ problemOf task outlines = (problem, chain)
         RawOffset.raw
           tolerance
           Tolerance.tangential
-          (corners task)
+          (corners request)
           True
-          (\i -> signed * within c i)
-          (\i -> signed * wanting c i)
+          (\i -> signed * limited c i)
+          (\i -> signed * requested c i)
           c
-    -- More than its radius towards its centre fills an arc's sector and no more.
-    within c i
-      | asked > d && signed * indexPrimArray (ClosedPolyarcs.bulges c) i < 0 =
-        min asked (max d (0.5 * ClosedPolyarcs.diameter c i))
-      | otherwise = asked
+    -- Towards its centre an arc moves by its radius at most; a larger additional distance would
+    -- leave its sector.
+    limited c i
+      | requestedDistance > d && signed * indexPrimArray (ClosedPolyarcs.bulges c) i < 0 =
+        min requestedDistance (max d (0.5 * ClosedPolyarcs.diameter c i))
+      | otherwise = requestedDistance
       where
-        asked = wanting c i
-    wanting c i = d + more (fromIntegral (indexPrimArray (ClosedPolyarcs.sources c) i))
+        requestedDistance = requested c i
+    requested c i = d + more (fromIntegral (indexPrimArray (ClosedPolyarcs.sources c) i))
 
-turnOf :: Side -> Sense
-turnOf s = case s of
+-- | The sense of an outer contour whose reachable side is its left or right one.
+senseOf :: Side -> Sense
+senseOf s = case s of
   LeftOf -> CounterClockwise
   RightOf -> Clockwise
 
--- | What is asked of all walks: the way round the free places that an outline has, the tolerance of
--- rounding, the least and the largest distance and that of every segment (in mm), and how the raw
--- equidistant is made.
+-- | The parameters that all contours share: the sense in which the outer boundary of the
+-- reachable region is traversed, the tolerance for rounding, the least, the largest and each
+-- segment's distance (all in mm), and the function that makes the raw offset.
 data Problem = Problem
-  { turn :: Sense,
+  { sense :: Sense,
     rounding :: Double,
     least :: Double,
     widest :: Double,
@@ -187,89 +197,97 @@ data Problem = Problem
     rawOf :: ClosedPolyarcs -> (ClosedPolyarcs, ClosedPolyarcs)
   }
 
-reached :: Problem -> Int -> ClosedPolyarcs -> Either OffsetFault ReachableRegion
-reached problem wanted c =
+-- | The reachable region of contours. Computes their raw offset first.
+regionOfContours :: Problem -> Int -> ClosedPolyarcs -> Either OffsetFault ReachableRegion
+regionOfContours problem wanted c =
   let raws@(_, source) =
         rawOf problem c
-   in reachOf problem wanted raws (SegmentTree.boxes (rounding problem) source)
+   in regionOf problem wanted raws (SegmentTree.boxes (rounding problem) source)
 
--- | The loops from the raw equidistant, its source, and the boxes of that.
-reachOf ::
+-- | The loops of a raw offset, given with its source and the source's bounding-box tree.
+regionOf ::
   Problem ->
   Int ->
   (ClosedPolyarcs, ClosedPolyarcs) ->
   SegmentTree ->
   Either OffsetFault ReachableRegion
-reachOf Problem {turn, rounding, least, widest, distances} wanted (rough, source) sourceBoxes =
-  case maybe id (:) inGeneral decided of
-    found : _ -> Right ReachableRegion {loops = found, raw = rough}
+regionOf problem wanted (untrimmed, source) sourceBoxes =
+  case maybe id (:) byTrimming byArrangements of
+    found : _ -> Right ReachableRegion {loops = found, raw = untrimmed}
     [] -> Left Uncertain
   where
-    inGeneral = case generalPosition of
+    Problem {sense, rounding, least, widest, distances} = problem
+    byTrimming = case generalPosition of
       Nothing -> Nothing
-      Just (bs, xs) -> Trimming.clip rounding wanted rough bs xs >>= certified
+      Just (boxes, xs) -> Trimming.clip rounding wanted untrimmed boxes xs >>= certified
     generalPosition :: Maybe (SegmentTree, SelfIntersections)
     generalPosition =
-      let bs = SegmentTree.boxes rounding rough
-       in case SelfIntersection.find rounding rough bs of
+      let boxes = SegmentTree.boxes rounding untrimmed
+       in case SelfIntersection.find rounding untrimmed boxes of
             Unclear -> Nothing
-            SearchResult xs -> Just (bs, xs)
-    decided = mapMaybe byArrangement (take 5 (iterate (* 10) (100 * rounding)))
-    byArrangement within = do
-      a <- Arrangement.arrange within rough (SegmentTree.boxes within rough)
-      Arrangement.loops turn wanted a >>= certified
+            SearchResult xs -> Just (boxes, xs)
+    byArrangements = mapMaybe byArrangement (take 5 (iterate (* 10) (100 * rounding)))
+    byArrangement tolerance = do
+      a <- Arrangement.arrange tolerance untrimmed (SegmentTree.boxes tolerance untrimmed)
+      Arrangement.loops sense wanted a >>= certified
     measure =
       Certificate.Clearance
         { Certificate.slack = 1e5 * rounding,
           Certificate.least = least,
           Certificate.largest = widest,
           Certificate.distance = distances,
-          Certificate.turn = turn
+          Certificate.turn = sense
         }
-    -- Where a cutter covers the whole source, but for the tips of its corners, the numbers are
-    -- those of free places.
+    -- When one cutter position covers the whole source except the tips of its corners, the winding
+    -- numbers of unreachable positions equal those of reachable ones.
     certified answer
-      | all sound loops' = Just found
-      | ClosedPolyarcs.walks source == 1 && all (\k -> sound k || covering k) loops' =
-        Just (Loop.only sound found)
+      | all isSound loops' = Just found
+      | ClosedPolyarcs.walks source == 1 && all (\k -> isSound k || isCovering k) loops' =
+        Just (Loop.only isSound found)
       | otherwise = Nothing
       where
-        found = Loop.only (not . flat) answer
+        found = Loop.only (not . isArtefact rounding answer) answer
         loops' = [0 .. Loop.count found - 1]
-        sound = Certificate.clear measure source sourceBoxes found
-        covering = Certificate.covers measure source found
-        -- A loop of few segments may be there by rounding alone.
-        flat k =
-          Loop.size answer k <= 4
-            && abs (FlatPolyarc.area (Loop.outline answer k)) <= rounding * rounding
+        isSound = Certificate.clear measure source sourceBoxes found
+        isCovering = Certificate.covers measure source found
 
--- | Whether one of several walks goes round free places that are too small for the cutter. Where a
--- cutter covers such a one wholly, it would count as free; by itself it is recognised.
-hopeless :: Problem -> ClosedPolyarcs -> Int -> Bool
-hopeless problem c w = ClosedPolyarcs.walks c > 1 && outer && near && nothing
+-- | True for a tiny loop of few segments, which may be an artefact of rounding (tolerance in mm).
+isArtefact :: Double -> OffsetLoops -> Int -> Bool
+isArtefact tolerance answer k =
+  Loop.size answer k <= 4
+    && abs (FlatPolyarc.area (Loop.outline answer k)) <= tolerance * tolerance
+
+-- | True when one of several contours bounds a region too small for the cutter. If a cutter
+-- covers such a region completely, the winding number would count it as reachable; computed
+-- separately, it gives no loop.
+isUnreachable :: Problem -> ClosedPolyarcs -> Int -> Bool
+isUnreachable problem c w = ClosedPolyarcs.walks c > 1 && isOuter && isSmall && hasNoLoops
   where
     o = ClosedPolyarcs.closed c w
     area = FlatPolyarc.area o
-    -- Of a place from which every segment is no further than d, the segments see an area of no more
-    -- than d/2 times their length.
-    near = let Mm l = FlatPolyarc.length o in abs area <= 0.5 * widest problem * l * (1 + 1e-9)
-    -- By itself it has this number on its left.
-    (outer, left) = case turn problem of
+    -- If every segment is at most d away from one point, the area seen from that point is at most
+    -- d/2 times the total length of the segments.
+    isSmall = let Mm l = FlatPolyarc.length o in abs area <= 0.5 * widest problem * l * (1 + 1e-9)
+    -- The winding number on the left of this contour if it were the only one.
+    (isOuter, left) = case sense problem of
       CounterClockwise -> (area > 0, 1)
       Clockwise -> (area < 0, 0)
-    nothing = case reached problem left (ClosedPolyarcs.only [w] c) of
-      Right reach -> Loop.count (loops reach) == 0
+    hasNoLoops = case regionOfContours problem left (ClosedPolyarcs.only [w] c) of
+      Right region -> Loop.count (loops region) == 0
       Left _ -> False
 
--- | The winding number on the left of the source that its free places have, or are next to: 1 when
--- the outermost walk is counter-clockwise, else 0. A source that crosses itself, or lies in itself
--- the wrong way, is at fault.
-wantedOf :: Double -> Sense -> Bool -> ClosedPolyarcs -> SegmentTree -> Either OffsetFault Int
-wantedOf tolerance turn open source bs
+-- | The winding number of the reachable region as seen from the left of the source: 1 when the
+-- outermost contour is counter-clockwise, else 0. Refuses a source that intersects itself or
+-- whose contours are nested against their sense.
+wantedNumber :: Double -> Sense -> Bool -> ClosedPolyarcs -> SegmentTree -> Either OffsetFault Int
+wantedNumber tolerance sense open source boxes
   | ClosedPolyarcs.walks source == 0 = Right unbounded
   | open =
-    maybe (Right unbounded) (Left . uncurry crossed) (SelfIntersection.proper tolerance source bs)
-  | otherwise = case SelfIntersection.find tolerance source bs of
+    maybe
+      (Right unbounded)
+      (Left . uncurry crossed)
+      (SelfIntersection.proper tolerance source boxes)
+  | otherwise = case SelfIntersection.find tolerance source boxes of
     SearchResult xs
       | SelfIntersection.count xs > 0 -> Left (uncurry crossed (SelfIntersection.firstOf xs 0))
       | Just lefts <- traverse outside [0 .. ClosedPolyarcs.walks source - 1],
@@ -277,40 +295,49 @@ wantedOf tolerance turn open source bs
         if all (== wanted) others && (wanted == 0 || wanted == 1)
           then Right wanted
           else Left Misplaced
-    _ -> fromArrangement (take 5 (iterate (* 10) (100 * tolerance)))
+    _ -> numberByArrangement crossed unbounded tolerance source
   where
     crossed i j = let (a, b) = (number i, number j) in Crossed (min a b) (max a b)
     number i = fromIntegral (indexPrimArray (ClosedPolyarcs.sources source) i)
-    unbounded = case turn of
+    unbounded = case sense of
       CounterClockwise -> 0
       Clockwise -> 1
     outside w =
-      let e = WindingNumber.extreme Leftmost source bs w
+      let e = WindingNumber.extreme Leftmost source boxes w
        in ( +
               ( if ClosedPolyarcs.walks source == 1
                   then 0
                   else
                     WindingNumber.at
                       source
-                      bs
+                      boxes
                       (WindingNumber.x e - 4 * tolerance)
                       (WindingNumber.y e)
               )
           )
             <$> WindingNumber.leftMore e
-    fromArrangement withins =
-      case mapMaybe
-        (\within -> Arrangement.arrange within source (SegmentTree.boxes within source))
-        withins of
-        [] -> Left Uncertain
-        a : _ -> case Arrangement.numbers a of
-          (0, 0) -> Right unbounded
-          (0, 1) -> Right 1
-          (-1, 0) -> Right 0
-          (_, high) ->
-            Left
-              ( maybe
-                  Misplaced
-                  (uncurry crossed)
-                  (Arrangement.crossed (if high > 0 then (0, 1) else (-1, 0)) a)
-              )
+
+-- | The same number from an arrangement, for a source in special position. The first argument makes
+-- the fault of two segments that intersect; the second one is the number of an unbounded region.
+numberByArrangement ::
+  (Int -> Int -> OffsetFault) ->
+  Int ->
+  Double ->
+  ClosedPolyarcs ->
+  Either OffsetFault Int
+numberByArrangement crossed unbounded tolerance source =
+  case mapMaybe
+    (\t -> Arrangement.arrange t source (SegmentTree.boxes t source))
+    (take 5 (iterate (* 10) (100 * tolerance))) of
+    [] -> Left Uncertain
+    a : _ -> case Arrangement.numbers a of
+      (0, 0) -> Right unbounded
+      (0, 1) -> Right 1
+      (-1, 0) -> Right 0
+      (_, high) ->
+        Left
+          ( maybe
+              Misplaced
+              (uncurry crossed)
+              (Arrangement.crossed (if high > 0 then (0, 1) else (-1, 0)) a)
+          )

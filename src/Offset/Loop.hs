@@ -1,6 +1,6 @@
 {-# OPTIONS_GHC -O2 #-}
 
--- | The closed loops that bound what the cutter's centre can reach, in flat arrays.
+-- | Closed loops that bound the region the cutter's centre can reach, in flat arrays.
 module Offset.Loop
   ( OffsetLoops (..),
     none,
@@ -22,10 +22,10 @@ import Geometry.FlatPolyarc (FlatPolyarc (FlatPolyarc))
 import Geometry.FlatPolyarc qualified as FlatPolyarc
 import Geometry.Polyarc (Ends (..))
 
--- | One loop after the other, each segment with the number of the segment of the raw equidistant
--- that it is a part of.
+-- | Consecutive loops. @raws@ gives each segment the number of the segment of the raw offset of
+-- which it is a part.
 data OffsetLoops = OffsetLoops
-  { -- | where the loops begin, and where one more would
+  { -- | the index of each loop's first vertex, followed by the total count of vertices
     starts :: PrimArray Int,
     xs :: PrimArray Double,
     ys :: PrimArray Double,
@@ -33,6 +33,7 @@ data OffsetLoops = OffsetLoops
     raws :: PrimArray Int32
   }
 
+-- | No loops.
 none :: OffsetLoops
 none =
   OffsetLoops
@@ -42,46 +43,47 @@ none =
     (primArrayFromList [])
     (primArrayFromList [])
 
--- | The closed polyarcs of a raw offset themselves, without anything cut away.
+-- | All closed polyarcs of a raw offset, untrimmed.
 ofRaw :: ClosedPolyarcs -> OffsetLoops
 ofRaw c =
   OffsetLoops
-    { starts = primArrayFromList (scanl (+) 0 (map length walks)),
+    { starts = primArrayFromList (scanl (+) 0 (map length ranges)),
       xs = gathered (ClosedPolyarcs.xs c),
       ys = gathered (ClosedPolyarcs.ys c),
       bulges = gathered (ClosedPolyarcs.bulges c),
-      raws = primArrayFromList (map fromIntegral (concat walks))
+      raws = primArrayFromList (map fromIntegral (concat ranges))
     }
   where
-    walks =
+    ranges =
       [ [ClosedPolyarcs.first c w .. ClosedPolyarcs.behind c w - 1]
         | w <- [0 .. ClosedPolyarcs.walks c - 1]
       ]
-    gathered a = primArrayFromList (map (indexPrimArray a) (concat walks))
+    gathered a = primArrayFromList (map (indexPrimArray a) (concat ranges))
 
+-- | The count of loops.
 count :: OffsetLoops -> Int
 count l = sizeofPrimArray (starts l) - 1
 
--- | How many segments a loop has.
+-- | The count of segments of a loop.
 size :: OffsetLoops -> Int -> Int
 size l k = indexPrimArray (starts l) (k + 1) - indexPrimArray (starts l) k
 
--- | One loop by itself.
+-- | One loop as a polyarc.
 outline :: OffsetLoops -> Int -> FlatPolyarc
 outline l k = FlatPolyarc Closed (cut (xs l)) (cut (ys l)) (cut (bulges l))
   where
     cut :: PrimArray Double -> PrimArray Double
     cut s = clonePrimArray s (indexPrimArray (starts l) k) (size l k)
 
--- | Each loop by itself.
+-- | All loops as polyarcs.
 outlines :: OffsetLoops -> [FlatPolyarc]
 outlines l = map (outline l) [0 .. count l - 1]
 
--- | The area inside of all, in mm²; loops that are walked clockwise count as holes.
+-- | The enclosed area in mm². Clockwise loops count as holes.
 area :: OffsetLoops -> Double
 area = sum . map FlatPolyarc.area . outlines
 
--- | The loops for which something holds.
+-- | The loops whose numbers satisfy a predicate.
 only :: (Int -> Bool) -> OffsetLoops -> OffsetLoops
 only keep l
   | length kept == count l = l

@@ -1,13 +1,14 @@
 {-# LANGUAGE BangPatterns #-}
 {-# OPTIONS_GHC -O2 #-}
 
--- | The raw equidistant: every segment moved to its side, and joined to the next.
+-- | The raw offset: every segment is moved to its side and joined to the next.
 --
--- Outer corners get an arc about the corner (or two lines to where the ways meet), smooth joints
--- nothing; at an inner corner two lines that keep a rest are cut where they meet, others are joined
--- straight on. Arcs keep their bulge when the distance is larger than their radius: they then run
--- backwards. The raw equidistant grows out of the source without a jump when the distance grows
--- from 0, so that its winding number tells what the cutter's centre can reach.
+-- An outer corner gets an arc about the vertex, or two lines up to the intersection of the
+-- tangents. A smooth joint gets nothing. At an inner corner two sufficiently long lines are cut at
+-- their intersection; other segments are connected by a straight line. When the distance exceeds
+-- the radius of an arc, the arc keeps its bulge and then runs backwards. The raw offset deforms
+-- continuously as the distance grows from 0. Its winding numbers therefore show what the cutter's
+-- centre can reach (Chen and McMains, "Polygon offsetting by computing winding numbers", 2005).
 module Offset.RawOffset
   ( Corners (..),
     raw,
@@ -21,11 +22,12 @@ import Data.Word (Word8)
 import Geometry.ClosedPolyarcs (ClosedPolyarcs (ClosedPolyarcs))
 import Geometry.ClosedPolyarcs qualified as ClosedPolyarcs
 
--- | How outer corners are gone round; 'Sharp' only up to a turn of 120°.
+-- | The form of outer corners. 'Sharp' applies to changes of direction up to 120°; larger ones
+-- are round.
 data Corners = Round | Sharp
   deriving stock (Eq, Show)
 
--- | Arrays that are filled from the front.
+-- | Arrays that are filled from index 0: x, y, bulge, marks, number of the source segment.
 data Filling s
   = Filling
       (MutablePrimArray s Double)
@@ -34,14 +36,17 @@ data Filling s
       (MutablePrimArray s Word8)
       (MutablePrimArray s Int32)
 
--- | What lies between two segments.
+-- | The kind of joint between two segments: no corner; a change of distance without a corner; an
+-- outer corner; an inner corner cut at the intersection; an inner corner connected over the
+-- vertex.
 data Joint = Smooth | Step | Outer | Trimmed | Over
   deriving stock (Eq)
 
--- | The raw equidistant of a chain at a distance in mm that is given by the chain's segment, and
--- another one about its ends (uneven if they are not all the same), positive to the right of the
--- walk; and the chain with its smooth joints marked. What is shorter than the tolerance (mm) is
--- left out; directions whose sine is no larger than the smoothness are one.
+-- | The raw offset of closed polyarcs, and the polyarcs with their smooth joints marked. The
+-- first function gives each segment's distance (mm), the second one the radius of the arc about
+-- its ends; both are positive to the right of the direction of travel. @uneven@ says that the
+-- distances differ. Segments shorter than the tolerance (mm) are omitted. Two directions are
+-- equal when the sine of their angle is at most the smoothness.
 raw ::
   Double ->
   Double ->
@@ -53,22 +58,22 @@ raw ::
   (ClosedPolyarcs, ClosedPolyarcs)
 raw !tolerance !smoothness corners uneven distance corner !c = runST $ do
   let n = sizeofPrimArray (ClosedPolyarcs.xs c)
-      -- A segment and what lies behind it: an arc or a line, two lines for a sharp corner; two
-      -- steps more between distances.
-      room = n * (if uneven then 5 else if corners == Sharp then 3 else 2) + 8
-  rx <- newPrimArray room
-  ry <- newPrimArray room
-  rb <- newPrimArray room
-  rm <- newPrimArray room
-  rs <- newPrimArray room
+      -- Each segment needs room for itself and its joint: an arc or a line, or two lines for a
+      -- sharp corner. Uneven distances need two lines more.
+      capacity = n * (if uneven then 5 else if corners == Sharp then 3 else 2) + 8
+  rx <- newPrimArray capacity
+  ry <- newPrimArray capacity
+  rb <- newPrimArray capacity
+  rm <- newPrimArray capacity
+  rs <- newPrimArray capacity
   rh <- newPrimArray (ClosedPolyarcs.walks c + 1)
   marks <- thawPrimArray (ClosedPolyarcs.marks c) 0 n
   let filling = Filling rx ry rb rm rs
-      each !w !k !kept
+      offsetAll !w !k !kept
         | w >= ClosedPolyarcs.walks c = writePrimArray rh kept k >> pure (k, kept)
         | otherwise = do
           k' <-
-            walk
+            offsetPolyarc
               tolerance
               smoothness
               corners
@@ -82,12 +87,12 @@ raw !tolerance !smoothness corners uneven distance corner !c = runST $ do
               (ClosedPolyarcs.behind c w)
               k
           if k' - k < 2
-            then each (w + 1) k kept
+            then offsetAll (w + 1) k kept
             else do
               closeUp filling k k'
               writePrimArray rh kept k
-              each (w + 1) (k' + 1) (kept + 1)
-  (used, kept) <- each 0 0 0
+              offsetAll (w + 1) (k' + 1) (kept + 1)
+  (used, kept) <- offsetAll 0 0 0
   shrinkMutablePrimArray rx used
   shrinkMutablePrimArray ry used
   shrinkMutablePrimArray rb used
@@ -106,7 +111,7 @@ raw !tolerance !smoothness corners uneven distance corner !c = runST $ do
   pure (result, c {ClosedPolyarcs.marks = marks'})
 {-# INLINE raw #-}
 
--- | The copy of a walk's first vertex behind its last segment, and the marks of both.
+-- | Copies a polyarc's first vertex after its last segment, and marks its first and last segment.
 closeUp :: Filling s -> Int -> Int -> ST s ()
 closeUp (Filling rx ry rb rm rs) k k' = do
   readPrimArray rx k >>= writePrimArray rx k'
@@ -119,8 +124,8 @@ closeUp (Filling rx ry rb rm rs) k k' = do
   m' <- readPrimArray rm (k' - 1)
   writePrimArray rm (k' - 1) (m' + ClosedPolyarcs.closing)
 
--- | One walk, from the place in the arrays where it begins; gives the place behind it.
-walk ::
+-- | Offsets one polyarc. Writes from the given index on, and returns the next free index.
+offsetPolyarc ::
   Double ->
   Double ->
   Corners ->
@@ -134,7 +139,7 @@ walk ::
   Int ->
   Int ->
   ST s Int
-walk
+offsetPolyarc
   !tolerance
   !smoothness
   corners
@@ -155,8 +160,8 @@ walk
             const (closing, bend, cut)
     where
       bulge i = indexPrimArray (ClosedPolyarcs.bulges c) i
-      -- The directions at both ends, and the length of the chord: half the sweep is turned off the
-      -- chord.
+      -- The unit directions at both ends, and the length of the chord. The tangents deviate from
+      -- the chord by half the sweep.
       tangents i k =
         let x0 = indexPrimArray (ClosedPolyarcs.xs c) i
             y0 = indexPrimArray (ClosedPolyarcs.ys c) i
@@ -183,10 +188,11 @@ walk
       markSmooth i j = case j of
         Smooth -> readPrimArray marks i >>= \m -> writePrimArray marks i (m + ClosedPolyarcs.smooth)
         _ -> pure ()
-      -- From the end of segment i into segment j: the kind of joint, tan(θ/4) of an outer one, and
-      -- by how much lines are cut that are so long at least. The direction of a chord is known to
-      -- the rounding of its ends; no corner is made of that where the ways beside it are not moved
-      -- sideways, by the turn or with an arc, by more than rounding either.
+      -- The joint between the end of segment i and segment j: its kind, tan(θ/4) of an outer
+      -- corner, and the length by which lines are cut. restI and restJ are the lengths that both
+      -- lines still have. The direction of a chord is only known to the rounding of its ends. So a
+      -- corner counts as smooth when it moves no adjacent offset sideways by more than the
+      -- rounding.
       joint i j ax ay bx by shorter restI restJ k
         | dt > 0
             && ( abs cr <= smoothness
@@ -194,8 +200,8 @@ walk
                      && abs (cr * d) * (abs cr + abs (bulge i) + abs (bulge j)) <= tolerance
                ) =
           k (if di == dj then Smooth else Step) 0 0
-        -- Into a cusp that opens to this side nothing reaches; at one distance, what goes round it
-        -- is blocked all the same.
+        -- The cutter cannot enter a cusp that opens to its side. With one common distance, the path
+        -- round such a cusp is blocked anyway.
         | dt < 0 && abs (cr * d) <= tolerance =
           k
             ( if uneven
@@ -206,7 +212,7 @@ walk
             (signum d)
             0
         | cr * d > 0 = k Outer (cr / (1 + dt + sqrt ((1 + dt) * (1 + dt) + cr * cr))) 0
-        | bulge i == 0 && bulge j == 0 && di == dj && taken <= restI && taken <= restJ =
+        | bulge i == 0 && bulge j == 0 && di == dj && needed <= restI && needed <= restJ =
           k Trimmed 0 cut
         | otherwise = k Over 0 0
         where
@@ -216,9 +222,9 @@ walk
           cr = ax * by - ay * bx
           dt = ax * bx + ay * by
           cut = abs (d * cr / (1 + dt))
-          -- What is cut off lies beside that much of both lines. At one distance, what lies beyond
-          -- is blocked all the same.
-          taken
+          -- Both lines need this length, so that what is cut off lies beside them. With one common
+          -- distance, everything beyond is blocked anyway.
+          needed
             | uneven = max cut (if dt > 0 then abs (d * cr) else abs d)
             | otherwise = cut
       {-# INLINE joint #-}
@@ -228,12 +234,13 @@ walk
         writePrimArray rb k b
         writePrimArray rm k (m :: Word8)
         writePrimArray rs k (indexPrimArray (ClosedPolyarcs.sources c) s)
-      -- Segment i with its directions, the length of its chord, what is cut off at its beginning,
-      -- and whether it begins smoothly; the joint at the end of the walk is known.
-      go !i !k !sx !sy !ex !ey !l !cut !begins closing
+      -- Segment i with its directions, the length of its chord, the length cut off at its
+      -- beginning, and the mark of a smooth beginning. The joint at the end of the polyarc was
+      -- computed at the start.
+      go !i !k !sx !sy !ex !ey !l !cut !beginMark closing
         | i == e - 1 = case closing () of
           (kind, bend, back) ->
-            segment i a k sx sy ex ey l cut back begins kind bend $ \k' _ -> pure k'
+            segment i a k sx sy ex ey l cut back beginMark kind bend $ \k' _ -> pure k'
         | otherwise =
           tangents (i + 1) $ \sx' sy' ex' ey' l' -> do
             let kept = if i + 1 == e - 1 then case closing () of (_, _, back) -> l' - back else l'
@@ -241,10 +248,10 @@ walk
               \kind bend cut' ->
                 do
                   markSmooth (i + 1) kind
-                  segment i (i + 1) k sx sy ex ey l cut cut' begins kind bend $ \k' begins' ->
-                    go (i + 1) k' sx' sy' ex' ey' l' cut' begins' closing
-      -- Write a segment and the joint behind it.
-      segment !i !j !k !sx !sy !ex !ey !l !cut !cut' !begins kind !bend next = do
+                  segment i (i + 1) k sx sy ex ey l cut cut' beginMark kind bend $ \k' beginMark' ->
+                    go (i + 1) k' sx' sy' ex' ey' l' cut' beginMark' closing
+      -- Writes a segment and its joint to the next.
+      segment !i !j !k !sx !sy !ex !ey !l !cut !cut' !beginMark kind !bend next = do
         let d = dist i
             b = bulge i
             x = indexPrimArray (ClosedPolyarcs.xs c) i + d * sy + cut * sx
@@ -253,19 +260,21 @@ walk
             vy = indexPrimArray (ClosedPolyarcs.ys c) (i + 1)
             fx = vx + d * ey
             fy = vy - d * ex
-            -- An arc about a centre on its left has its radius grow to the right.
-            remains =
+            -- The radius of an arc with its centre on the left grows when the arc moves to the
+            -- right.
+            isLongEnough =
               if b == 0
                 then l - cut - cut' > tolerance
                 else abs (l + 4 * d * b / (1 + b * b)) > tolerance
-            k1 = if remains then k + 1 else k
-            ends = if remains then ClosedPolyarcs.smooth else 0
-        if remains then put k x y b begins i else pure ()
+            k1 = if isLongEnough then k + 1 else k
+            endMark = if isLongEnough then ClosedPolyarcs.smooth else 0
+        if isLongEnough then put k x y b beginMark i else pure ()
         case kind of
-          Smooth -> next k1 ends
+          Smooth -> next k1 endMark
           Step -> put k1 fx fy 0 ClosedPolyarcs.around i >> next (k1 + 1) 0
           Trimmed -> next k1 0
-          -- Where distances differ, over the corner: what lies further out may be free.
+          -- With uneven distances the connection passes through the vertex, because positions
+          -- further out may be reachable.
           Over
             | uneven ->
               put k1 fx fy 0 ClosedPolyarcs.connecting i
@@ -274,34 +283,34 @@ walk
             | otherwise -> put k1 fx fy 0 ClosedPolyarcs.connecting i >> next (k1 + 1) 0
           Outer -> do
             let dj = dist j
-                wide = if abs (corner j) > abs (corner i) then corner j else corner i
+                radius = if abs (corner j) > abs (corner i) then corner j else corner i
             k2 <-
-              if wide == d
+              if radius == d
                 then pure k1
                 else put k1 fx fy 0 ClosedPolyarcs.around i >> pure (k1 + 1)
-            let gx = vx + wide * ey
-                gy = vy - wide * ex
-                ends' = (if wide == d then ends else 0) + ClosedPolyarcs.around
-            -- bend is tan(θ/4); up to 120°, the ways meet at wide·tan(θ/2) from either end.
+            let gx = vx + radius * ey
+                gy = vy - radius * ex
+                endMark' = (if radius == d then endMark else 0) + ClosedPolyarcs.around
+            -- bend is tan(θ/4). Up to 120° the tangents intersect at wide·tan(θ/2) from both ends.
             k3 <-
               if corners == Sharp && abs bend <= tan (pi / 6) + 1e-9 && d == dj
                 then do
-                  let out = abs (wide * 2 * bend / (1 - bend * bend))
-                  put k2 gx gy 0 ends' i
+                  let out = abs (radius * 2 * bend / (1 - bend * bend))
+                  put k2 gx gy 0 endMark' i
                   put (k2 + 1) (gx + out * ex) (gy + out * ey) 0 ClosedPolyarcs.around i
                   pure (k2 + 2)
-                else put k2 gx gy bend ends' i >> pure (k2 + 1)
-            if wide == dj
+                else put k2 gx gy bend endMark' i >> pure (k2 + 1)
+            if radius == dj
               then next k3 (if corners == Sharp && d == dj then 0 else ClosedPolyarcs.smooth)
               else do
-                -- The direction behind the corner: before it, turned by θ.
+                -- The direction after the corner is the direction before it, rotated by θ.
                 let p = (1 - bend * bend) / (1 + bend * bend)
                     q = 2 * bend / (1 + bend * bend)
                     co = p * p - q * q
                     si = 2 * p * q
                     ex' = ex * co - ey * si
                     ey' = ey * co + ex * si
-                put k3 (vx + wide * ey') (vy - wide * ex') 0 ClosedPolyarcs.around i
+                put k3 (vx + radius * ey') (vy - radius * ex') 0 ClosedPolyarcs.around i
                 next (k3 + 1) 0
       {-# INLINE segment #-}
-{-# INLINE walk #-}
+{-# INLINE offsetPolyarc #-}

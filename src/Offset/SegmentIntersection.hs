@@ -1,8 +1,12 @@
 {-# LANGUAGE BangPatterns #-}
 {-# OPTIONS_GHC -O2 -fno-full-laziness #-}
 
--- | How two segments of a chain meet: where they cross, and where, to within rounding, an end of
--- one lies on the other or they touch. Whoever asks decides what to do with the latter.
+-- | Intersections of two segments (lines and arcs): proper crossings, and, to within rounding,
+-- ends that lie on the other segment and points of contact. The caller's 'Visitor' decides how
+-- to handle the latter two.
+--
+-- Arcs are handled through the power of a point with respect to their circle; the circle's centre
+-- is not needed.
 module Offset.SegmentIntersection
   ( Visitor (..),
     meet,
@@ -15,50 +19,49 @@ import Data.Primitive.PrimArray
 import Geometry.ClosedPolyarcs (ClosedPolyarcs)
 import Geometry.ClosedPolyarcs qualified as ClosedPolyarcs
 
--- | What is told of a meeting.
+-- | The actions for each kind of meeting.
 data Visitor s = Visitor
-  { -- of the two directions, whose sign says to which side the second one crosses
-
-    -- | the first segment and how far along its chord (0 to 1), the second one likewise, the point,
-    -- and the cross product
+  { -- | the first segment and the parameter along its chord (0 to 1), the second segment
+    -- likewise, the point, and the cross product of the two directions. Its sign says to which
+    -- side the second segment crosses
     crossing :: Int -> Double -> Int -> Double -> Double -> Double -> Double -> ST s (),
     -- | a segment, and a vertex that lies on it
     resting :: Int -> Int -> ST s (),
-    -- | two segments that touch between their ends, and where
+    -- | two segments that touch between their ends, and the point of contact
     touching :: Int -> Int -> Double -> Double -> ST s ()
   }
 
--- | Visit the meetings of two different segments, the first before the second in the chain, but for
--- the vertices that they share as neighbours. The tolerance (in mm) is that of rounding; boxes of
--- segments that meet within it overlap.
+-- | Reports all meetings of two different segments to the visitor, except the vertex that
+-- neighbours share. The first segment comes before the second. The tolerance (mm) covers
+-- rounding; the bounding boxes of segments that meet within it must overlap.
 meet :: Double -> ClosedPolyarcs -> Visitor s -> Int -> Int -> ST s ()
 meet !tolerance !c visitor = pair
   where
     pair !i !j
-      | j == i + 1 = unless (goesOn tolerance c i j) (joined tolerance c visitor i j)
+      | j == i + 1 = unless (meetsOnlyAtJoint tolerance c i j) (adjacent tolerance c visitor i j)
       | mark ClosedPolyarcs.opening i && mark ClosedPolyarcs.closing j =
-        joined tolerance c visitor i j
+        adjacent tolerance c visitor i j
       | otherwise = others i j
-    others = apart' tolerance c visitor
+    others = unconnected tolerance c visitor
     mark m k = ClosedPolyarcs.marked m (indexPrimArray (ClosedPolyarcs.marks c) k)
 {-# INLINE meet #-}
 
--- | Neighbours that meet nowhere else: they go on smoothly, or are lines and do not turn back onto
--- themselves. Not for a walk of two segments.
-goesOn :: Double -> ClosedPolyarcs -> Int -> Int -> Bool
-goesOn tolerance c i j
+-- | True for neighbours that meet at their common vertex only: their joint is smooth, or both are
+-- lines that do not fold back. Always False in a polyarc of two segments.
+meetsOnlyAtJoint :: Double -> ClosedPolyarcs -> Int -> Int -> Bool
+meetsOnlyAtJoint tolerance c i j
   | ClosedPolyarcs.marked ClosedPolyarcs.opening (indexPrimArray (ClosedPolyarcs.marks c) i) = False
-  | curved c i || curved c j =
+  | isArc c i || isArc c j =
     ClosedPolyarcs.marked ClosedPolyarcs.smooth (indexPrimArray (ClosedPolyarcs.marks c) j)
   | otherwise =
     ClosedPolyarcs.chord
       c
       i
       (\ux uy -> ClosedPolyarcs.chord c j (\vx vy -> not (foldsBack tolerance ux uy vx vy)))
-{-# INLINE goesOn #-}
+{-# INLINE meetsOnlyAtJoint #-}
 
--- | Whether the second of two vectors leads back along the first, so that the end of one lies on
--- the other.
+-- | True when the second of two vectors leads back along the first, so that the end of one lies
+-- on the other.
 foldsBack :: Double -> Double -> Double -> Double -> Double -> Bool
 foldsBack tolerance ux uy vx vy =
   ux * vx + uy * vy < 0 && cross * cross <= tolerance * tolerance * (if uu > vv then uu else vv)
@@ -68,20 +71,20 @@ foldsBack tolerance ux uy vx vy =
     vv = vx * vx + vy * vy
 {-# INLINE foldsBack #-}
 
-curved :: ClosedPolyarcs -> Int -> Bool
-curved c k = indexPrimArray (ClosedPolyarcs.bulges c) k /= 0
-{-# INLINE curved #-}
+isArc :: ClosedPolyarcs -> Int -> Bool
+isArc c k = indexPrimArray (ClosedPolyarcs.bulges c) k /= 0
+{-# INLINE isArc #-}
 
--- | Two segments that are neighbours, or the first and the last of walks that may be different
--- ones.
-joined :: Double -> ClosedPolyarcs -> Visitor s -> Int -> Int -> ST s ()
-joined !tolerance !c visitor !i !j
-  | after && before = when (curved c i || curved c j) (alike tolerance c visitor i j)
+-- | Meetings of two neighbours, or of the first and the last segment of possibly different
+-- polyarcs.
+adjacent :: Double -> ClosedPolyarcs -> Visitor s -> Int -> Int -> ST s ()
+adjacent !tolerance !c visitor !i !j
+  | after && before = when (isArc c i || isArc c j) (sharingEnds tolerance c visitor i j)
   | after = neighbours tolerance c visitor i j (i + 1)
   | before = neighbours tolerance c visitor j i i
-  | otherwise = apart' tolerance c visitor i j
+  | otherwise = unconnected tolerance c visitor i j
   where
-    -- Where the one ends the other begins.
+    -- True when the second segment begins at the end of the first.
     after = j == i + 1
     mark m k = ClosedPolyarcs.marked m (indexPrimArray (ClosedPolyarcs.marks c) k)
     before =
@@ -91,26 +94,26 @@ joined !tolerance !c visitor !i !j
         && at (ClosedPolyarcs.xs c)
         && at (ClosedPolyarcs.ys c)
     at a = indexPrimArray a (j + 1) == indexPrimArray a i
-{-# NOINLINE joined #-}
+{-# NOINLINE adjacent #-}
 
--- | Two segments that are no neighbours. Compiled where the visitor is known.
-apart' :: Double -> ClosedPolyarcs -> Visitor s -> Int -> Int -> ST s ()
-apart' !tolerance !c visitor = pair
+-- | Meetings of two segments that are not neighbours. It is inlined where the visitor is known.
+unconnected :: Double -> ClosedPolyarcs -> Visitor s -> Int -> Int -> ST s ()
+unconnected !tolerance !c visitor = pair
   where
     pair !i !j
-      | curved c i = if curved c j then arcsBySize i j else lineAndArc j i
-      | curved c j = lineAndArc i j
+      | isArc c i = if isArc c j then arcsBySize i j else lineAndArc j i
+      | isArc c j = lineAndArc i j
       | otherwise = lines' tolerance c visitor i j
     lineAndArc !i !j =
       unless
-        (beside tolerance c i j)
+        (isDisjoint tolerance c i j)
         (lineArc tolerance c visitor (crossingAlong c visitor i j) i j)
     arcsBySize !i !j =
       if ClosedPolyarcs.diameter c i <= ClosedPolyarcs.diameter c j then bySize i j else bySize j i
     bySize !i !j = arcs tolerance c visitor (crossingAt c visitor i j) i j
-{-# INLINE apart' #-}
+{-# INLINE unconnected #-}
 
--- | Two lines that are no neighbours.
+-- | Meetings of two lines that are not neighbours.
 lines' :: Double -> ClosedPolyarcs -> Visitor s -> Int -> Int -> ST s ()
 lines' !tolerance !c visitor !i !j =
   ClosedPolyarcs.chord c i $ \ux uy -> ClosedPolyarcs.chord c j $ \vx vy -> do
@@ -118,30 +121,30 @@ lines' !tolerance !c visitor !i !j =
         y i' = indexPrimArray (ClosedPolyarcs.ys c) i'
         !wx = x j - x i
         !wy = y j - y i
-        -- Twice the areas between a line and the other one's ends.
+        -- Twice the areas of the triangles between a line and the ends of the other.
         !startJ = ux * wy - uy * wx
         !den = ux * vy - uy * vx
         !endJ = startJ + den
         !startI = wx * vy - wy * vx
         !endI = startI - den
-        -- A little more than the tolerance calls for a closer look.
+        -- Slightly more than the tolerance, so that doubtful cases are examined more closely.
         !nearU = tolerance * (abs ux + abs uy)
         !nearV = tolerance * (abs vx + abs vy)
-        apart a b near = if a > 0 then a > near && b > near else a < -near && b < -near
+        areApart a b near = if a > 0 then a > near && b > near else a < -near && b < -near
         crosses = do
           let !s = startI / den
               !t = -(startJ / den)
               !px = x i + s * ux
               !py = y i + s * uy
           crossing visitor i s j t px py den
-    unless (apart startJ endJ nearU || apart startI endI nearV) $
+    unless (areApart startJ endJ nearU || areApart startI endI nearV) $
       if abs startJ > nearU && abs endJ > nearU && abs startI > nearV && abs endI > nearV
         || not (eitherRests tolerance c i j) && startJ * endJ < 0 && startI * endI < 0
         then crosses
         else rests tolerance c visitor i j
 {-# INLINE lines' #-}
 
--- | The ends of two segments that lie on the other one.
+-- | Reports the ends of both segments that lie on the other segment.
 rests :: Double -> ClosedPolyarcs -> Visitor s -> Int -> Int -> ST s ()
 rests !tolerance !c visitor !i !j = do
   when (liesOn tolerance c j i) (resting visitor j i)
@@ -149,7 +152,7 @@ rests !tolerance !c visitor !i !j = do
   when (liesOn tolerance c i j) (resting visitor i j)
   when (liesOn tolerance c i (j + 1)) (resting visitor i (j + 1))
 
--- | Whether an end of one of two segments lies on the other.
+-- | True when an end of one segment lies on the other.
 eitherRests :: Double -> ClosedPolyarcs -> Int -> Int -> Bool
 eitherRests tolerance c i j =
   liesOn tolerance c i j
@@ -157,7 +160,7 @@ eitherRests tolerance c i j =
     || liesOn tolerance c j i
     || liesOn tolerance c j (i + 1)
 
--- | Whether a vertex lies on a segment.
+-- | True when a vertex lies on a segment.
 liesOn :: Double -> ClosedPolyarcs -> Int -> Int -> Bool
 liesOn !tolerance !c !i !k =
   ClosedPolyarcs.chord c i $ \ux uy ->
@@ -181,10 +184,11 @@ liesOn !tolerance !c !i !k =
                 && abs (ClosedPolyarcs.power c i px py)
                   <= tolerance * (ClosedPolyarcs.diameter c i + tolerance)
 
--- | Whether a line and an arc are certainly apart: the parallelogram over the arc's chord that its
--- highest point touches lies on one side of the line, or the line on one side of the parallelogram.
-beside :: Double -> ClosedPolyarcs -> Int -> Int -> Bool
-beside !tolerance !c !i !j =
+-- | True when a line and an arc are certainly disjoint: the parallelogram over the arc's chord
+-- through its apex lies on one side of the line, or the line lies on one side of the
+-- parallelogram.
+isDisjoint :: Double -> ClosedPolyarcs -> Int -> Int -> Bool
+isDisjoint !tolerance !c !i !j =
   above nearLine arcStart arcEnd rise
     || above nearLine (-arcStart) (-arcEnd) (-rise)
     || (lineStart < -nearChord && lineEnd < -nearChord)
@@ -200,13 +204,13 @@ beside !tolerance !c !i !j =
     !wx = x j - x i
     !wy = y j - y i
     !turning = ux * dy - uy * dx
-    -- Twice the areas between the line and the arc's ends, and by how much more its highest point
-    -- may lie beside it.
+    -- Twice the areas of the triangles between the line and the arc's ends, and the largest
+    -- addition for the arc's apex.
     !arcStart = ux * wy - uy * wx
     !arcEnd = arcStart + turning
     !rise = -0.5 * b * (ux * dx + uy * dy)
-    -- Those between the chord and the line's ends, on the arc's side, and how far the arc reaches
-    -- there.
+    -- Twice the areas of the triangles between the chord and the line's ends, positive on the arc's
+    -- side, and the corresponding value of the arc's apex.
     !sign = if b > 0 then 1 else -1
     !lineStart = sign * (dx * wy - dy * wx)
     !lineEnd = lineStart + sign * turning
@@ -215,15 +219,15 @@ beside !tolerance !c !i !j =
     !nearChord = 2 * tolerance * (abs dx + abs dy)
     above !limit !p !q !r = p > limit && q > limit && p + r > limit && q + r > limit
     {-# INLINE above #-}
-{-# INLINE beside #-}
+{-# INLINE isDisjoint #-}
 
--- | A line and an arc that are no neighbours. Along the line the power is @aa·s² + 2·half·s + c0@,
--- from a place near the arc.
+-- | Meetings of a line and an arc that are not neighbours. The power of a point on the line is
+-- @aa·s² + 2·half·s + c0@, where s is measured from a point near the arc.
 --
--- Where both cross at an angle, a point of one may be off by the tolerance over its sine. Nearer to
--- an end than that nothing is decided here.
+-- At a crossing angle α the error of the point is the tolerance divided by sin α. A crossing nearer
+-- than that to an end is examined by @closely@.
 lineArc :: Double -> ClosedPolyarcs -> Visitor s -> (Double -> ST s ()) -> Int -> Int -> ST s ()
-lineArc !tolerance !c visitor tell !i !j
+lineArc !tolerance !c visitor report !i !j
   | disc < -verge = pure ()
   | disc <= verge = closely
   | otherwise = do
@@ -235,7 +239,7 @@ lineArc !tolerance !c visitor tell !i !j
         !s2 = s0 + (if half == 0 then -(q / aa) else c0 / q)
         !sure1 = verdict blurred margin s1
         !sure2 = verdict blurred margin s2
-    decided closely sure1 (tell s1) sure2 (tell s2)
+    reportCertain closely sure1 (report s1) sure2 (report s2)
   where
     !lx = indexPrimArray (ClosedPolyarcs.xs c) i
     !ly = indexPrimArray (ClosedPolyarcs.ys c) i
@@ -258,16 +262,16 @@ lineArc !tolerance !c visitor tell !i !j
     verdict blurred margin s
       | s < -margin || s > 1 + margin = Passes
       | nearEnds c j blurred px py = Doubtful
-      | not (onArc c j px py) = Passes
+      | not (isOnArc c j px py) = Passes
       | s > margin && s < 1 - margin = Crosses
       | otherwise = Doubtful
       where
         !px = lx + s * ux
         !py = ly + s * uy
     {-# INLINE verdict #-}
-    -- Touching, or at an end.
+    -- The segments touch, or an end lies on the other segment.
     closely = do
-      let rest = eitherRests tolerance c i j
+      let endTouches = eitherRests tolerance c i j
           foot = s0 - half / aa
           footX = lx + foot * ux
           footY = ly + foot * uy
@@ -277,36 +281,38 @@ lineArc !tolerance !c visitor tell !i !j
             let px = lx + (s0 + step) * ux
                 py = ly + (s0 + step) * uy
             when
-              ( onArc c j px py
+              ( isOnArc c j px py
                   && not
-                    (rest && (nearEnds c i (blur root) px py || nearEnds c j (blur root) px py))
+                    ( endTouches
+                        && (nearEnds c i (blur root) px py || nearEnds c j (blur root) px py)
+                    )
               )
-              (tell (s0 + step))
-      when rest (rests tolerance c visitor i j)
+              (report (s0 + step))
+      when endTouches (rests tolerance c visitor i j)
       if abs disc <= verge
         then
           when
-            (not rest && foot > 0 && foot < 1 && onArc c j footX footY)
+            (not endTouches && foot > 0 && foot < 1 && isOnArc c j footX footY)
             (touching visitor i j footX footY)
         else try (q / aa) >> try (if half == 0 then -(q / aa) else c0 / q)
 {-# INLINE lineArc #-}
 
--- | Tell that a line crosses an arc, so far along it.
+-- | Reports a crossing of a line and an arc, given its parameter along the line.
 crossingAlong :: ClosedPolyarcs -> Visitor s -> Int -> Int -> Double -> ST s ()
 crossingAlong c visitor !i !j !s = ClosedPolyarcs.chord c i $ \ux uy -> do
   let !px = indexPrimArray (ClosedPolyarcs.xs c) i + s * ux
       !py = indexPrimArray (ClosedPolyarcs.ys c) i + s * uy
       !t = parameter c j px py
-      !turn = ClosedPolyarcs.gradient c j px py (\gx gy -> turned c j (ux * gx + uy * gy))
-  crossing visitor i s j t px py turn
+      !cross = ClosedPolyarcs.gradient c j px py (\gx gy -> signed c j (ux * gx + uy * gy))
+  crossing visitor i s j t px py cross
 {-# INLINE crossingAlong #-}
 
--- | Tell that two arcs cross at a place.
+-- | Reports a crossing of two arcs at a point.
 crossingAt :: ClosedPolyarcs -> Visitor s -> Int -> Int -> Double -> Double -> ST s ()
 crossingAt c visitor !i !j !px !py = do
   let !s = parameter c i px py
       !t = parameter c j px py
-      !turn =
+      !cross =
         ClosedPolyarcs.gradient
           c
           i
@@ -318,24 +324,25 @@ crossingAt c visitor !i !j !px !py = do
                 j
                 px
                 py
-                (\bx by -> turned c i (turned c j (ax * by - ay * bx)))
+                (\bx by -> signed c i (signed c j (ax * by - ay * bx)))
           )
-  crossing visitor i s j t px py turn
+  crossing visitor i s j t px py cross
 {-# INLINE crossingAt #-}
 
--- | What is known of a point in which two carriers meet.
+-- | The verdict on an intersection of two carriers: on both segments, not on both, or undecidable
+-- within the tolerance.
 data Verdict = Crosses | Passes | Doubtful
   deriving stock (Eq)
 
--- | Tell of the points of two that are known to be crossings, unless a doubtful one calls for a
--- closer look.
-decided :: ST s () -> Verdict -> ST s () -> Verdict -> ST s () -> ST s ()
-decided closely first tellFirst second tellSecond
+-- | Reports the certain crossings of two candidates. If one of them is doubtful, runs the close
+-- examination instead.
+reportCertain :: ST s () -> Verdict -> ST s () -> Verdict -> ST s () -> ST s ()
+reportCertain closely first reportFirst second reportSecond
   | first == Doubtful || second == Doubtful = closely
-  | otherwise = when (first == Crosses) tellFirst >> when (second == Crosses) tellSecond
-{-# INLINE decided #-}
+  | otherwise = when (first == Crosses) reportFirst >> when (second == Crosses) reportSecond
+{-# INLINE reportCertain #-}
 
--- | Whether a point is so near to an end of a segment.
+-- | True when a point lies within a distance of an end of a segment.
 nearEnds :: ClosedPolyarcs -> Int -> Double -> Double -> Double -> Bool
 nearEnds c i within px py = near i || near (i + 1)
   where
@@ -345,7 +352,7 @@ nearEnds c i within px py = near i || near (i + 1)
        in dx * dx + dy * dy <= within * within
 {-# INLINE nearEnds #-}
 
--- | Two arcs that are no neighbours, the one with the smaller circle first.
+-- | Meetings of two arcs that are not neighbours, the one with the smaller circle first.
 arcs ::
   Double ->
   ClosedPolyarcs ->
@@ -354,7 +361,7 @@ arcs ::
   Int ->
   Int ->
   ST s ()
-arcs !tolerance !c visitor tell !i !j
+arcs !tolerance !c visitor report !i !j
   | dist <= 4 * tolerance = rests tolerance c visitor i j
   | disc < -verge = pure ()
   | disc <= verge = closely
@@ -366,11 +373,12 @@ arcs !tolerance !c visitor tell !i !j
         !s2 = if half == 0 then -(q / gg) else c0 / q
         !sure1 = verdict blurred s1
         !sure2 = verdict blurred s2
-    decided closely sure1 (tellAt s1) sure2 (tellAt s2)
+    reportCertain closely sure1 (reportAt s1) sure2 (reportAt s2)
   where
     !x0 = indexPrimArray (ClosedPolyarcs.xs c) i
     !y0 = indexPrimArray (ClosedPolyarcs.ys c) i
-    -- The powers differ by a linear function, which is 0 where the circles meet.
+    -- The difference of both powers is a linear function. Its zero set is the radical axis, on
+    -- which the circles intersect.
     !gx =
       ClosedPolyarcs.gradient
         c
@@ -387,11 +395,12 @@ arcs !tolerance !c visitor tell !i !j
         (\_ ay -> ClosedPolyarcs.gradient c j x0 y0 (\_ by -> ay - by))
     !gg = gx * gx + gy * gy
     !dist = 0.5 * sqrt gg
-    -- The square of half the chord in which two circles meet grows by twice this for each mm that
-    -- they overlap.
+    -- Twice the increase of the squared half-length of the common chord, for each mm of overlap of
+    -- the circles.
     !opening = 0.5 * ClosedPolyarcs.diameter c i * ClosedPolyarcs.diameter c j / (2 * dist)
     !g0 = -(ClosedPolyarcs.power c j x0 y0)
-    -- A point of that line, and how the first circle's power goes along it: gg·s² + 2·half·s + c0.
+    -- A point of the radical axis. Along the axis the first circle's power is gg·s² + 2·half·s +
+    -- c0.
     !lx = x0 - g0 * gx / gg
     !ly = y0 - g0 * gy / gg
     !half = ClosedPolyarcs.gradient c i lx ly (\ax ay -> 0.5 * (ay * gx - ax * gy))
@@ -401,17 +410,17 @@ arcs !tolerance !c visitor tell !i !j
     blur root = 4 * tolerance * (1 + opening * 2 * dist / root)
     verdict blurred s
       | nearEnds c i blurred px py || nearEnds c j blurred px py = Doubtful
-      | onArc c i px py && onArc c j px py = Crosses
+      | isOnArc c i px py && isOnArc c j px py = Crosses
       | otherwise = Passes
       where
         !px = lx - s * gy
         !py = ly + s * gx
     {-# INLINE verdict #-}
-    tellAt s = tell (lx - s * gy) (ly + s * gx)
-    {-# INLINE tellAt #-}
-    -- Touching, or at an end.
+    reportAt s = report (lx - s * gy) (ly + s * gx)
+    {-# INLINE reportAt #-}
+    -- The segments touch, or an end lies on the other segment.
     closely = do
-      let rest = eitherRests tolerance c i j
+      let endTouches = eitherRests tolerance c i j
           footX = lx + half / gg * gy
           footY = ly - half / gg * gx
           root = sqrt disc
@@ -420,22 +429,24 @@ arcs !tolerance !c visitor tell !i !j
             let px = lx - s * gy
                 py = ly + s * gx
             when
-              ( onArc c i px py
-                  && onArc c j px py
+              ( isOnArc c i px py
+                  && isOnArc c j px py
                   && not
-                    (rest && (nearEnds c i (blur root) px py || nearEnds c j (blur root) px py))
+                    ( endTouches
+                        && (nearEnds c i (blur root) px py || nearEnds c j (blur root) px py)
+                    )
               )
-              (tell px py)
-      when rest (rests tolerance c visitor i j)
+              (report px py)
+      when endTouches (rests tolerance c visitor i j)
       if abs disc <= verge
         then
           when
-            (not rest && onArc c i footX footY && onArc c j footX footY)
+            (not endTouches && isOnArc c i footX footY && isOnArc c j footX footY)
             (touching visitor i j footX footY)
         else try (q / gg) >> try (if half == 0 then -(q / gg) else c0 / q)
 {-# INLINE arcs #-}
 
--- | Two segments of which the second begins where the first ends, at a vertex.
+-- | Meetings of two segments where the second begins at the end of the first, at a vertex.
 neighbours :: Double -> ClosedPolyarcs -> Visitor s -> Int -> Int -> Int -> ST s ()
 neighbours !tolerance !c visitor !i !j !vertex
   | bi == 0 && bj == 0 =
@@ -453,22 +464,21 @@ neighbours !tolerance !c visitor !i !j !vertex
     farEnds = do
       when (liesOn tolerance c j i) (resting visitor j i)
       when (liesOn tolerance c i (j + 1)) (resting visitor i (j + 1))
-    -- Whether what two segments enclose between two places where they meet is no wider than
-    -- rounding: from the square of the distance of both, and half the curvature of the one towards
-    -- the other.
-    thin hh bend = hh <= tolerance * tolerance || hh * bend <= 16 * tolerance
+    -- True when the region between two segments that meet twice is no wider than the rounding. It
+    -- is estimated from the squared distance of the two points, and half the relative curvature.
+    isThin hh bend = hh <= tolerance * tolerance || hh * bend <= 16 * tolerance
     vx0 = indexPrimArray (ClosedPolyarcs.xs c) vertex
     vy0 = indexPrimArray (ClosedPolyarcs.ys c) vertex
-    -- The other point in which a line l through the vertex meets the circle of an arc.
+    -- The second point in which a line through the vertex intersects the circle of an arc.
     other l arc lineIsSecond =
       ClosedPolyarcs.chord c l $ \ux uy -> ClosedPolyarcs.gradient c arc vx0 vy0 $ \gx gy -> do
         let step = -(gx * ux + gy * uy) / (ux * ux + uy * uy)
             s = if lineIsSecond then step else 1 + step
             px = vx0 + step * ux
             !py = vy0 + step * uy
-        when (s > 0 && s < 1 && onArc c arc px py) $
+        when (s > 0 && s < 1 && isOnArc c arc px py) $
           unless
-            ( thin
+            ( isThin
                 ((px - vx0) * (px - vx0) + (py - vy0) * (py - vy0))
                 (1 / ClosedPolyarcs.diameter c arc)
             )
@@ -480,18 +490,18 @@ neighbours !tolerance !c visitor !i !j !vertex
               (parameter c arc px py)
               px
               py
-              (ClosedPolyarcs.gradient c arc px py (\hx hy -> turned c arc (ux * hx + uy * hy)))
+              (ClosedPolyarcs.gradient c arc px py (\hx hy -> signed c arc (ux * hx + uy * hy)))
     otherOfArcs =
       ClosedPolyarcs.gradient c i vx0 vy0 $ \ax ay ->
         ClosedPolyarcs.gradient c j vx0 vy0 $ \bx by -> do
           let gx = ax - bx
               gy = ay - by
               gg = gx * gx + gy * gy
-              -- Back along the line in which both powers agree.
+              -- The vertex, mirrored along the radical axis.
               k = (ay * gx - ax * gy) / gg
               px = vx0 + k * gy
               py = vy0 - k * gx
-              -- Arcs about centres on opposite sides of the chord bend apart.
+              -- Arcs with centres on opposite sides of the chord curve away from each other.
               hx = px - vx0
               hy = py - vy0
               bend =
@@ -502,9 +512,9 @@ neighbours !tolerance !c visitor !i !j !vertex
                   )
           when
             ( gg > 16 * tolerance * tolerance
-                && onArc c i px py
-                && onArc c j px py
-                && not (thin (hx * hx + hy * hy) bend)
+                && isOnArc c i px py
+                && isOnArc c j px py
+                && not (isThin (hx * hx + hy * hy) bend)
             )
             $ crossing
               visitor
@@ -525,16 +535,16 @@ neighbours !tolerance !c visitor !i !j !vertex
                         j
                         px
                         py
-                        (\fx fy -> turned c i (turned c j (ex * fy - ey * fx)))
+                        (\fx fy -> signed c i (signed c j (ex * fy - ey * fx)))
                   )
               )
 {-# NOINLINE neighbours #-}
 
--- | Two segments that share both ends, not both of them lines: they are the same one, or meet
+-- | Meetings of two segments that share both ends and are not both lines: they coincide, or meet
 -- nowhere else.
-alike :: Double -> ClosedPolyarcs -> Visitor s -> Int -> Int -> ST s ()
-alike !tolerance !c visitor !i !j =
-  -- Walked back, an arc has its bulge with the sign turned.
+sharingEnds :: Double -> ClosedPolyarcs -> Visitor s -> Int -> Int -> ST s ()
+sharingEnds !tolerance !c visitor !i !j =
+  -- The bulge of an arc changes its sign when the arc is reversed.
   ClosedPolyarcs.chord c i $ \ux uy ->
     when
       ( 0.5
@@ -547,11 +557,11 @@ alike !tolerance !c visitor !i !j =
       )
       $ resting visitor i j
 
--- | Whether a point of the circle belongs to the arc: it lies on the arc's side of the chord. Near
--- the ends of a flat arc rounding would decide that; such an arc is what lies beside its chord, and
--- the rest of the circle is far away.
-onArc :: ClosedPolyarcs -> Int -> Double -> Double -> Bool
-onArc c i px py = ClosedPolyarcs.chord c i $ \ux uy ->
+-- | True when a point of the circle belongs to the arc, that is, it lies on the arc's side of the
+-- chord. Near the ends of a flat arc rounding would decide that. So a point of a flat arc is
+-- compared with the chord's ends instead; the rest of the circle is far away.
+isOnArc :: ClosedPolyarcs -> Int -> Double -> Double -> Bool
+isOnArc c i px py = ClosedPolyarcs.chord c i $ \ux uy ->
   let ax = px - indexPrimArray (ClosedPolyarcs.xs c) i
       ay = py - indexPrimArray (ClosedPolyarcs.ys c) i
       b = indexPrimArray (ClosedPolyarcs.bulges c) i
@@ -559,9 +569,9 @@ onArc c i px py = ClosedPolyarcs.chord c i $ \ux uy ->
       along = ux * ax + uy * ay
       square = ux * ux + uy * uy
    in if abs b > 0.1 then aside * b < 0 else along > 0 && along < square && abs aside < square
-{-# INLINE onArc #-}
+{-# INLINE isOnArc #-}
 
--- | How far along the chord a point of a segment lies.
+-- | The parameter of a point of a segment along its chord, from 0 to 1.
 parameter :: ClosedPolyarcs -> Int -> Double -> Double -> Double
 parameter c i px py = ClosedPolyarcs.chord c i $ \ux uy ->
   ( ux * (px - indexPrimArray (ClosedPolyarcs.xs c) i)
@@ -570,8 +580,7 @@ parameter c i px py = ClosedPolyarcs.chord c i $ \ux uy ->
     / (ux * ux + uy * uy)
 {-# INLINE parameter #-}
 
--- | The sign of the walk on an arc: what holds counter-clockwise is turned when it is walked
--- clockwise.
-turned :: ClosedPolyarcs -> Int -> Double -> Double
-turned c i a = if indexPrimArray (ClosedPolyarcs.bulges c) i < 0 then -a else a
-{-# INLINE turned #-}
+-- | Changes a number's sign on a clockwise arc.
+signed :: ClosedPolyarcs -> Int -> Double -> Double
+signed c i a = if indexPrimArray (ClosedPolyarcs.bulges c) i < 0 then -a else a
+{-# INLINE signed #-}

@@ -1,8 +1,8 @@
 {-# LANGUAGE BangPatterns #-}
 {-# OPTIONS_GHC -O2 -fno-full-laziness #-}
 
--- | The places where a chain crosses itself, when it does so in general position: not at an end of
--- a segment, and not along one.
+-- | Self-intersections of closed polyarcs in general position, that is, between the ends of
+-- segments and not along a common stretch.
 module Offset.SelfIntersection
   ( SelfIntersections (..),
     SearchResult (..),
@@ -25,8 +25,9 @@ import Geometry.Index.SegmentTree qualified as SegmentTree
 import Offset.SegmentIntersection (Visitor (..))
 import Offset.SegmentIntersection qualified as SegmentIntersection
 
--- | Of each crossing: x, y, and how far along the chords of both segments; and the segments. Each
--- has two occurrences, one on either segment: @2h@ and @2h + 1@ of the crossing @h@.
+-- | For each intersection four reals: x, y, and its parameters along the chords of both segments.
+-- Each intersection h has two occurrences, @2h@ and @2h + 1@, one on either segment. @segments@
+-- holds twice the segment number, plus 1 where the occurrence decreases the winding number.
 data SelfIntersections = SelfIntersections
   { count :: Int,
     reals :: PrimArray Double,
@@ -35,19 +36,20 @@ data SelfIntersections = SelfIntersections
 
 data SearchResult
   = SearchResult SelfIntersections
-  | -- | somewhere a segment ends on another one, or touches it, to within rounding
+  | -- | somewhere, to within rounding, a segment ends on another one or touches it
     Unclear
 
--- | All crossings of a chain. The tolerance in mm is that of rounding, and the margin of the boxes.
+-- | Finds all self-intersections. The tolerance (mm) covers rounding; the bounding boxes are
+-- inflated by it.
 find :: Double -> ClosedPolyarcs -> SegmentTree -> SearchResult
-find !tolerance !c !bs = runST $ do
+find !tolerance !c !boxes = runST $ do
   state <- newPrimArray 2
   writePrimArray state 0 (0 :: Int)
   writePrimArray state 1 0
   rs <- newPrimArray 0 >>= newMutVar
   ss <- newPrimArray 0 >>= newMutVar
-  let unclear = writePrimArray state 1 1
-      record !i !s !j !t !x !y !turn = do
+  let markUnclear = writePrimArray state 1 1
+      record !i !s !j !t !x !y !cross = do
         k <- readPrimArray state 0
         grow (sizeofPrimArray (ClosedPolyarcs.xs c) `quot` 2) rs ss k
         r <- readMutVar rs
@@ -56,30 +58,35 @@ find !tolerance !c !bs = runST $ do
         writePrimArray r (4 * k + 2) s
         writePrimArray r (4 * k + 3) t
         g <- readMutVar ss
-        -- The second one crosses to the left of the first: what is left of the first loses one.
-        writePrimArray g (2 * k) (fromIntegral (2 * i + (if turn > 0 then 1 else 0)))
-        writePrimArray g (2 * k + 1) (fromIntegral (2 * j + (if turn > 0 then 0 else 1)))
+        -- The second segment crosses to the left of the first: the winding number on the left of
+        -- the first decreases by one.
+        writePrimArray g (2 * k) (fromIntegral (2 * i + (if cross > 0 then 1 else 0)))
+        writePrimArray g (2 * k + 1) (fromIntegral (2 * j + (if cross > 0 then 0 else 1)))
         writePrimArray state 0 (k + 1)
-        when (turn == 0) unclear
+        when (cross == 0) markUnclear
       visitor =
-        Visitor {crossing = record, resting = \_ _ -> unclear, touching = \_ _ _ _ -> unclear}
+        Visitor
+          { crossing = record,
+            resting = \_ _ -> markUnclear,
+            touching = \_ _ _ _ -> markUnclear
+          }
   SegmentTree.pairs
-    bs
+    boxes
     ((== 0) <$> readPrimArray state 1)
     (SegmentIntersection.meet tolerance c visitor)
   k <- readPrimArray state 0
-  bad <- readPrimArray state 1
-  if bad /= 0
+  unclearFlag <- readPrimArray state 1
+  if unclearFlag /= 0
     then pure Unclear
     else do
       r <- readMutVar rs >>= unsafeFreezePrimArray
       g <- readMutVar ss >>= unsafeFreezePrimArray
       pure (SearchResult (SelfIntersections k r g))
 
--- | Two segments that cross, if there are such; what ends on another one or touches it does not
--- cross it.
+-- | A pair of segments that cross, if there is one. A segment that only ends on another one or
+-- touches it does not count.
 proper :: Double -> ClosedPolyarcs -> SegmentTree -> Maybe (Int, Int)
-proper tolerance c bs = runST $ do
+proper tolerance c boxes = runST $ do
   found <- newMutVar Nothing
   let visitor =
         Visitor
@@ -88,35 +95,35 @@ proper tolerance c bs = runST $ do
             touching = \_ _ _ _ -> pure ()
           }
   SegmentTree.pairs
-    bs
+    boxes
     ((== Nothing) <$> readMutVar found)
     (SegmentIntersection.meet tolerance c visitor)
   readMutVar found
 
--- | Room for one more: none at first, then for so many, and then always twice as much. Room that is
--- not used costs no memory, but what was copied does.
+-- | Makes room for one more intersection. The first allocation has room for @capacity@; later ones
+-- double it. Unused room costs no memory, but copying costs time.
 grow ::
   Int ->
   MutVar s (MutablePrimArray s Double) ->
   MutVar s (MutablePrimArray s Int32) ->
   Int ->
   ST s ()
-grow some rs ss k = do
+grow capacity rs ss k = do
   g <- readMutVar ss
   room <- getSizeofMutablePrimArray g
   when (2 * k + 2 > room) $ do
     r <- readMutVar rs
-    let more = if room == 0 then max 16 some else 2 * room
+    let more = if room == 0 then max 16 capacity else 2 * room
     resizeMutablePrimArray r (4 * more) >>= writeMutVar rs
     resizeMutablePrimArray g (2 * more) >>= writeMutVar ss
 
--- | The two segments of a crossing.
+-- | The two segments of an intersection.
 firstOf :: SelfIntersections -> Int -> (Int, Int)
 firstOf c h = (half (2 * h), half (2 * h + 1))
   where
     half k = fromIntegral (indexPrimArray (segments c) k) `quot` 2
 
--- | Whether an occurrence takes one from what is on the left of its segment.
+-- | True when the winding number on the left of the segment decreases by one at this occurrence.
 decreases :: SelfIntersections -> Int -> Bool
 decreases c o = odd (indexPrimArray (segments c) o)
 {-# INLINE decreases #-}

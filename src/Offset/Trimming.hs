@@ -1,9 +1,12 @@
 {-# LANGUAGE BangPatterns #-}
 {-# OPTIONS_GHC -O2 #-}
 
--- | What of a chain in general position bounds the places with the wanted winding number: walk
--- along it once from where the winding number is known, add what the crossings say, keep the slices
--- that have the wanted number on their left, and join them at the crossings.
+-- | Trims a raw offset in general position: the loops that bound the region with the wanted
+-- winding number.
+--
+-- Traverses the polyarcs once, from a point where the winding number is known, and updates the
+-- number at each self-intersection. Keeps the slices with the wanted number on their left, and
+-- joins them at the intersections.
 module Offset.Trimming
   ( clip,
   )
@@ -23,45 +26,48 @@ import Offset.SelfIntersection qualified as SelfIntersection
 import Offset.WindingNumber (Extreme (..), Outward (..))
 import Offset.WindingNumber qualified as WindingNumber
 
--- | The loops that have the wanted winding number on their left. Nothing when the chain turns out
--- not to be in general position: two crossings fall together within the tolerance (in mm), a walk
--- folds back where it is outermost, or the sums do not agree.
+-- | The loops that have the wanted winding number on their left. The result is Nothing when the
+-- polyarcs are not in general position: two intersections coincide within the tolerance (mm), a
+-- polyarc has a cusp at its outermost point, or the winding numbers contradict each other.
 clip :: Double -> Int -> ClosedPolyarcs -> SegmentTree -> SelfIntersections -> Maybe OffsetLoops
-clip !tolerance !wanted !c !bs !xs = do
-  -- On the left of each walk at its leftmost place, and at its rightmost.
-  known <- traverse outside [0 .. ClosedPolyarcs.walks c - 1]
+clip !tolerance !wanted !c !boxes !xs = do
+  -- For each polyarc: the winding number on its left at its leftmost point, and at its rightmost
+  -- point.
+  outermost <- traverse outside [0 .. ClosedPolyarcs.walks c - 1]
   if total == 0
-    then uncut wanted c known
+    then uncut wanted c outermost
     else runST $ do
       let n = sizeofPrimArray (ClosedPolyarcs.xs c)
       begins <- newPrimArray (n + 2)
       order <- newPrimArray (max 1 total)
-      sorted c xs begins order
+      sortOccurrences c xs begins order
       starts <- unsafeFreezePrimArray begins
       inOrder <- unsafeFreezePrimArray order
-      if not (distinct tolerance xs starts inOrder n)
+      if not (areDistinct tolerance xs starts inOrder n)
         then pure Nothing
         else do
           lefts <- newPrimArray (max 1 total)
-          sound <- and <$> traverse (sums c xs starts inOrder lefts) (zip [0 ..] known)
-          if not sound then pure Nothing else gather wanted c xs starts inOrder lefts known
+          isSound <- and <$> traverse (propagate c xs starts inOrder lefts) (zip [0 ..] outermost)
+          if not isSound
+            then pure Nothing
+            else joinSlices wanted c xs starts inOrder lefts outermost
   where
     total = 2 * SelfIntersection.count xs
     outside w = do
-      let leftmost = WindingNumber.extreme Leftmost c bs w
-          rightmost = WindingNumber.extreme Rightmost c bs w
+      let leftmost = WindingNumber.extreme Leftmost c boxes w
+          rightmost = WindingNumber.extreme Rightmost c boxes w
           single = ClosedPolyarcs.walks c == 1
           base =
-            if single then 0 else WindingNumber.at c bs (x leftmost - 4 * tolerance) (y leftmost)
+            if single then 0 else WindingNumber.at c boxes (x leftmost - 4 * tolerance) (y leftmost)
       a <- leftMore leftmost
       b <- leftMore rightmost
       pure (leftmost, base + a, if single then Just (rightmost, b) else Nothing)
 
--- | The walks of a chain that does not cross itself, as they are; one that is all there is, without
--- a copy.
+-- | The polyarcs without self-intersection that have the wanted number on their left. A single
+-- polyarc is returned without a copy.
 uncut :: Int -> ClosedPolyarcs -> [(Extreme, Int, Maybe (Extreme, Int))] -> Maybe OffsetLoops
-uncut wanted c known
-  | any (\(_, left, rightmost) -> maybe False ((/= left) . snd) rightmost) known = Nothing
+uncut wanted c outermost
+  | any (\(_, left, rightmost) -> maybe False ((/= left) . snd) rightmost) outermost = Nothing
   | kept == [0] && ClosedPolyarcs.walks c == 1 =
     Just
       ( OffsetLoops
@@ -81,7 +87,7 @@ uncut wanted c known
           raws
       )
   where
-    kept = [w | (w, (_, left, _)) <- zip [0 ..] known, left == wanted]
+    kept = [w | (w, (_, left, _)) <- zip [0 ..] outermost, left == wanted]
     size w = ClosedPolyarcs.behind c w - ClosedPolyarcs.first c w
     starts = primArrayFromList (scanl (+) 0 (map size kept))
     gathered a = mconcat [clonePrimArray a (ClosedPolyarcs.first c w) (size w) | w <- kept]
@@ -89,15 +95,16 @@ uncut wanted c known
       mconcat
         [generatePrimArray (size w) (\i -> fromIntegral (ClosedPolyarcs.first c w + i)) | w <- kept]
 
--- | Fill the occurrences of every segment, in the order of the walk; and where those of each
--- segment begin (there is room for two more).
-sorted ::
+-- | Sorts the occurrences by segment and by position on the segment (counting sort, then
+-- insertion). Fills @begins@ with the index of each segment's first occurrence, and @order@
+-- with the occurrences. @begins@ needs two entries more than there are segments.
+sortOccurrences ::
   ClosedPolyarcs ->
   SelfIntersections ->
   MutablePrimArray s Int32 ->
   MutablePrimArray s Int32 ->
   ST s ()
-sorted c xs begins order = do
+sortOccurrences c xs begins order = do
   let n = sizeofPrimArray (ClosedPolyarcs.xs c)
       total = 2 * SelfIntersection.count xs
       segmentOf o = fromIntegral (indexPrimArray (SelfIntersection.segments xs) o) `quot` 2 :: Int
@@ -105,15 +112,15 @@ sorted c xs begins order = do
   setPrimArray order 0 total (-1)
   forM' total $ \o ->
     readPrimArray begins (segmentOf o + 2) >>= writePrimArray begins (segmentOf o + 2) . (+ 1)
-  let add !i !a
+  let accumulate !i !a
         | i > n + 1 = pure ()
         | otherwise = do
           v <- readPrimArray begins i
           writePrimArray begins i (a + v)
-          add (i + 1) (a + v)
-  add 2 0
-  -- Behind every segment stands where its next occurrence goes, and at last where those of the one
-  -- behind it begin.
+          accumulate (i + 1) (a + v)
+  accumulate 2 0
+  -- Entry s + 1 holds the index for the next occurrence of segment s. In the end it is the index of
+  -- the first occurrence of segment s + 1.
   forM' total $ \o -> do
     let s = segmentOf o
         t = parameterOf xs o
@@ -134,15 +141,16 @@ sorted c xs begins order = do
       found <- traverse (readPrimArray order) [from .. to - 1]
       zipWithM_ (writePrimArray order) [from ..] (sortOn (parameterOf xs . fromIntegral) found)
   where
-    -- So many on each that to put them in their places one by one takes too long, as where all
-    -- segments meet in the middle of a circle.
+    -- True when insertion would take too long because the segments have many occurrences each, as
+    -- where all segments meet in the centre of a circle.
     isMany = 2 * SelfIntersection.count xs > 32 * sizeofPrimArray (ClosedPolyarcs.xs c)
 
--- | How far along its segment's chord an occurrence lies.
+-- | The parameter of an occurrence along its segment's chord, from 0 to 1.
 parameterOf :: SelfIntersections -> Int -> Double
 parameterOf xs o = indexPrimArray (SelfIntersection.reals xs) (2 * o + 2 - (if odd o then 1 else 0))
 {-# INLINE parameterOf #-}
 
+-- | Runs an action for every index from 0 to n − 1. Unlike 'forM_' it allocates no list.
 forM' :: Int -> (Int -> ST s ()) -> ST s ()
 forM' n f = go 0
   where
@@ -151,13 +159,13 @@ forM' n f = go 0
       | otherwise = f i >> go (i + 1)
 {-# INLINE forM' #-}
 
--- | Whether no two crossings on a segment fall together.
-distinct :: Double -> SelfIntersections -> PrimArray Int32 -> PrimArray Int32 -> Int -> Bool
-distinct tolerance xs begins order n = go 0 1
+-- | True when no two intersections on a segment coincide.
+areDistinct :: Double -> SelfIntersections -> PrimArray Int32 -> PrimArray Int32 -> Int -> Bool
+areDistinct tolerance xs begins order n = go 0 1
   where
     total = 2 * SelfIntersection.count xs
     at o k = indexPrimArray (SelfIntersection.reals xs) (4 * (fromIntegral o `quot` 2) + k)
-    -- The segment of the occurrence q − 1, or one before it.
+    -- The argument i is at most the segment of the occurrence q − 1.
     go !i !q
       | q >= total = True
       | i < n && fromIntegral (indexPrimArray begins (i + 1)) <= q - 1 = go (i + 1) q
@@ -167,9 +175,9 @@ distinct tolerance xs begins order n = go 0 1
             b = indexPrimArray order q
          in (abs (at a 0 - at b 0) > tolerance || abs (at a 1 - at b 1) > tolerance) && go i (q + 1)
 
--- | The winding number on the left behind every occurrence of a walk; whether they come out right
--- at the rightmost place.
-sums ::
+-- | Computes the winding number on the left after every occurrence of a polyarc. The result is
+-- False when the number at the rightmost point contradicts the known one.
+propagate ::
   ClosedPolyarcs ->
   SelfIntersections ->
   PrimArray Int32 ->
@@ -177,11 +185,11 @@ sums ::
   MutablePrimArray s Int32 ->
   (Int, (Extreme, Int, Maybe (Extreme, Int))) ->
   ST s Bool
-sums c xs begins order lefts (w, (leftmost, left, rightmost)) = do
+propagate c xs begins order lefts (w, (leftmost, left, rightmost)) = do
   go q0 0 left
   case rightmost of
     Just (e, expected) | z > a -> do
-      let q = behindPlace e
+      let q = firstAfter e
           before = if q == a then z - 1 else q - 1
       v <- readPrimArray lefts before
       pure (fromIntegral v == expected)
@@ -190,13 +198,13 @@ sums c xs begins order lefts (w, (leftmost, left, rightmost)) = do
   where
     a = fromIntegral (indexPrimArray begins (ClosedPolyarcs.first c w)) :: Int
     z = fromIntegral (indexPrimArray begins (ClosedPolyarcs.behind c w)) :: Int
-    q0 = let q = behindPlace leftmost in if q == z then a else q
-    behindPlace e = search (fromIntegral (indexPrimArray begins (segment e)))
+    q0 = let q = firstAfter leftmost in if q == z then a else q
+    firstAfter e = advance (fromIntegral (indexPrimArray begins (segment e)))
       where
         end = fromIntegral (indexPrimArray begins (segment e + 1))
-        search !q
+        advance !q
           | q >= end = q
-          | parameterOf xs (fromIntegral (indexPrimArray order q)) < place e = search (q + 1)
+          | parameterOf xs (fromIntegral (indexPrimArray order q)) < place e = advance (q + 1)
           | otherwise = q
     go !q !k !v
       | k >= z - a = pure ()
@@ -206,9 +214,9 @@ sums c xs begins order lefts (w, (leftmost, left, rightmost)) = do
         writePrimArray lefts q (fromIntegral v')
         go (if q + 1 == z then a else q + 1) (k + 1 :: Int) v'
 
--- | The loops from the slices that are kept. A slice goes from one occurrence to the next on its
--- walk.
-gather ::
+-- | Joins the slices that are kept into loops. A slice runs from one occurrence to the next along
+-- its polyarc.
+joinSlices ::
   Int ->
   ClosedPolyarcs ->
   SelfIntersections ->
@@ -217,30 +225,30 @@ gather ::
   MutablePrimArray s Int32 ->
   [(Extreme, Int, Maybe (Extreme, Int))] ->
   ST s (Maybe OffsetLoops)
-gather wanted c xs begins order lefts known = do
+joinSlices wanted c xs begins order lefts outermost = do
   let n = sizeofPrimArray (ClosedPolyarcs.xs c)
       total = 2 * SelfIntersection.count xs
-      room = n + total + 1
-  ox <- newPrimArray room
-  oy <- newPrimArray room
-  ob <- newPrimArray room
-  os <- newPrimArray room
+      capacity = n + total + 1
+  ox <- newPrimArray capacity
+  oy <- newPrimArray capacity
+  ob <- newPrimArray capacity
+  os <- newPrimArray capacity
   starts <- newPrimArray (total + ClosedPolyarcs.walks c + 1)
   position <- newPrimArray (max 1 total)
   forM' total $ \q ->
     writePrimArray position (fromIntegral (indexPrimArray order q)) (fromIntegral q :: Int32)
-  -- Of one walk all is on that.
-  walkOf <- newPrimArray (if single then 0 else max 1 total)
+  -- A single polyarc needs no lookup.
+  polyarcOf <- newPrimArray (if single then 0 else max 1 total)
   unless single $
     forM_ [0 .. ClosedPolyarcs.walks c - 1] $ \w ->
       forM' (rangeEnd w - rangeBegin w) $ \q ->
-        writePrimArray walkOf (rangeBegin w + q) (fromIntegral w :: Int32)
+        writePrimArray polyarcOf (rangeBegin w + q) (fromIntegral w :: Int32)
   let emit !k !x !y !b !s = do
         writePrimArray ox k x
         writePrimArray oy k y
         writePrimArray ob k b
         writePrimArray os k (fromIntegral (s :: Int) :: Int32)
-      whole w k (l, made)
+      copyUncut w k (l, made)
         | rangeBegin w == rangeEnd w && k == wanted = do
           writePrimArray starts made l
           let copy !i !o
@@ -256,10 +264,11 @@ gather wanted c xs begins order lefts known = do
           l' <- copy (ClosedPolyarcs.first c w) l
           pure (l', made + 1)
         | otherwise = pure (l, made)
-      -- From occurrence q on along the walk, and over to the partner at the end.
+      -- Follows the polyarc from occurrence q to the next one, then continues at the partner of
+      -- that occurrence.
       follow !q0 !q !l = do
-        writePrimArray lefts q passed
-        w <- if single then pure 0 else fromIntegral <$> readPrimArray walkOf q
+        writePrimArray lefts q visited
+        w <- if single then pure 0 else fromIntegral <$> readPrimArray polyarcOf q
         let next = if q + 1 == rangeEnd w then rangeBegin w else q + 1
             o = fromIntegral (indexPrimArray order q) :: Int
             o' = fromIntegral (indexPrimArray order next) :: Int
@@ -283,7 +292,7 @@ gather wanted c xs begins order lefts known = do
                     (indexPrimArray (ClosedPolyarcs.ys c) (s + 1))
                 )
                 s
-              let middle !i !k
+              let copyBetween !i !k
                     | i == s' = pure k
                     | otherwise =
                       emit
@@ -292,8 +301,8 @@ gather wanted c xs begins order lefts known = do
                         (indexPrimArray (ClosedPolyarcs.ys c) i)
                         (indexPrimArray (ClosedPolyarcs.bulges c) i)
                         i
-                        >> middle (after w i) (k + 1)
-              k <- middle (after w s) (l + 1)
+                        >> copyBetween (nextOf w i) (k + 1)
+              k <- copyBetween (nextOf w s) (l + 1)
               emit
                 k
                 (indexPrimArray (ClosedPolyarcs.xs c) s')
@@ -323,7 +332,7 @@ gather wanted c xs begins order lefts known = do
               follow q q l >>= \case
                 Nothing -> pure Nothing
                 Just l' -> loops (q + 1) l' (made + 1)
-  (l0, made0) <- foldM (\acc (w, (_, v, _)) -> whole w v acc) (0, 0) (zip [0 ..] known)
+  (l0, made0) <- foldM (\acc (w, (_, v, _)) -> copyUncut w v acc) (0, 0) (zip [0 ..] outermost)
   loops 0 l0 made0 >>= \case
     Nothing -> pure Nothing
     Just (l, made) -> do
@@ -343,11 +352,11 @@ gather wanted c xs begins order lefts known = do
             )
   where
     single = ClosedPolyarcs.walks c == 1
-    -- What is on the left of a slice that was walked; no number of a free place.
-    passed = minBound :: Int32
+    -- The mark of a visited slice. It is no winding number.
+    visited = minBound :: Int32
     rangeBegin w = fromIntegral (indexPrimArray begins (ClosedPolyarcs.first c w)) :: Int
     rangeEnd w = fromIntegral (indexPrimArray begins (ClosedPolyarcs.behind c w)) :: Int
     segmentOf o = fromIntegral (indexPrimArray (SelfIntersection.segments xs) o) `quot` 2 :: Int
     pointOf o k = indexPrimArray (SelfIntersection.reals xs) (4 * (o `quot` 2) + k)
-    after w i = if i + 1 == ClosedPolyarcs.behind c w then ClosedPolyarcs.first c w else i + 1
+    nextOf w i = if i + 1 == ClosedPolyarcs.behind c w then ClosedPolyarcs.first c w else i + 1
     part s = ClosedPolyarcs.part c s

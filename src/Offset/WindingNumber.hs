@@ -1,7 +1,8 @@
 {-# LANGUAGE BangPatterns #-}
 {-# OPTIONS_GHC -O2 #-}
 
--- | Winding numbers of a chain: at a point, and on the left of a walk at its outermost places.
+-- | Winding numbers of closed polyarcs: at a point, and on the left of a polyarc at its outermost
+-- points.
 module Offset.WindingNumber
   ( at,
     passed,
@@ -19,12 +20,14 @@ import Geometry.Index.SegmentTree (SegmentTree)
 import Geometry.Index.SegmentTree qualified as SegmentTree
 import Geometry.Tolerance qualified as Tolerance
 
--- | How often the chain goes round a point that is not on it, counter-clockwise.
+-- | The counter-clockwise winding number of the polyarcs around a point that does not lie on
+-- them.
 at :: ClosedPolyarcs -> SegmentTree -> Double -> Double -> Int
-at c bs px py = SegmentTree.around bs (-1e300) py px py 0 (\total i -> total + passed c px py i)
+at c boxes px py =
+  SegmentTree.around boxes (-1e300) py px py 0 (\total i -> total + passed c px py i)
 
--- | What a segment adds to that: whether a ray to the left meets its chord, and whether the point
--- is between it and its chord.
+-- | The contribution of one segment: the crossing of its chord with a ray from the point to the
+-- left, and ±1 when the point lies between an arc and its chord.
 passed :: ClosedPolyarcs -> Double -> Double -> Int -> Int
 passed c px py i = crossed + between
   where
@@ -42,18 +45,19 @@ passed c px py i = crossed + between
       if b /= 0 && aside * b < 0 && ClosedPolyarcs.power c i px py < 0
         then (if b > 0 then 1 else -1)
         else 0
-    -- A point on the chord itself counts as one a little to its left, as above, or over a level
-    -- one.
+    -- A point on the chord counts as a point with a slightly smaller x, as above; a point on a
+    -- horizontal chord counts as slightly above it.
     aside
       | side /= 0 = side
       | y1 /= y0 = y1 - y0
       | otherwise = x1 - x0
 {-# INLINE passed #-}
 
--- | A place on a walk: a segment and how far along its chord, its coordinates, and what there is on
--- the left of the walk beside what there is outside: 1 or 0; nothing if it runs back along itself
--- there. A walk may turn back at a cusp: where the way beside an arc that is too narrow, which is
--- walked backwards, goes over into the next one.
+-- | A point of a polyarc: its segment, the parameter along the chord, and its coordinates.
+-- @leftMore@ is the winding number on the left of the polyarc minus the number outside, 1 or 0.
+-- It is Nothing where the polyarc runs back along itself. A polyarc may have cusps: an arc
+-- whose radius is smaller than the distance runs backwards, and the offset folds back at its
+-- end.
 data Extreme = Extreme
   { segment :: Int,
     place :: Double,
@@ -65,9 +69,10 @@ data Extreme = Extreme
 data Outward = Leftmost | Rightmost
   deriving stock (Eq)
 
--- | The leftmost or rightmost place of a walk.
+-- | The leftmost or rightmost point of a polyarc. Runs of segments whose bounding box lies
+-- further in are skipped.
 extreme :: Outward -> ClosedPolyarcs -> SegmentTree -> Int -> Extreme
-extreme outward c bs w = go start start 0 (1e300 :: Double)
+extreme outward c boxes w = go start start 0 (1e300 :: Double)
   where
     start = ClosedPolyarcs.first c w
     end = ClosedPolyarcs.behind c w
@@ -75,9 +80,9 @@ extreme outward c bs w = go start start 0 (1e300 :: Double)
       Leftmost -> 1
       Rightmost -> -1
     go !i !best !t !least
-      | i >= end = found best t least
-      | SegmentTree.run bs i outermost > bound = go (SegmentTree.behind i) best t least
-      | edge >= least = go (i + 1) best t least
+      | i >= end = extremeOf best t least
+      | SegmentTree.run boxes i outermost > bound = go (SegmentTree.behind i) best t least
+      | boxSide >= least = go (i + 1) best t least
       | otherwise =
         let x0 = sign * indexPrimArray (ClosedPolyarcs.xs c) i
             best1 = if x0 < least then i else best
@@ -89,7 +94,7 @@ extreme outward c bs w = go start start 0 (1e300 :: Double)
               else ClosedPolyarcs.chord c i $ \dx dy ->
                 let co = 1 - b * b
                     si = 2 * b
-                    -- x of the directions at both ends
+                    -- x components of the directions at both ends
                     out = sign * (dx * co + dy * si)
                     into = sign * (dx * co - dy * si)
                     l = sqrt (dx * dx + dy * dy)
@@ -102,15 +107,15 @@ extreme outward c bs w = go start start 0 (1e300 :: Double)
                           + dy * (cy - indexPrimArray (ClosedPolyarcs.ys c) i)
                       )
                         / (l * l)
-                 in if out < 0 && into > 0 && ex < least1 && t' > hair && t' < 1 - hair
+                 in if out < 0 && into > 0 && ex < least1 && t' > endMargin && t' < 1 - endMargin
                       then go (i + 1) i t' ex
                       else go (i + 1) best1 t1 least1
       where
-        edge = SegmentTree.leaf bs i outermost
-    -- Nearer to an end an arc is outermost at that end: its vertex knows what goes on there.
-    hair = Tolerance.hair
-    -- The outermost vertex of the run that reaches furthest out: what does not reach as far is left
-    -- out.
+        boxSide = SegmentTree.leaf boxes i outermost
+    -- Nearer to an end than this fraction of the chord, the vertex itself is the outermost point.
+    endMargin = Tolerance.hair
+    -- The outermost vertex of the run of segments with the outermost bounding box. It is a bound:
+    -- runs that do not reach it are skipped.
     bound =
       let i = furthest start start 1e300
        in foldl'
@@ -122,16 +127,16 @@ extreme outward c bs w = go start start 0 (1e300 :: Double)
     furthest !i !best !least
       | i >= end = best
       | otherwise =
-        let edge =
-              SegmentTree.run bs i outermost
-         in if edge < least
-              then furthest (SegmentTree.behind i) i edge
+        let boxSide =
+              SegmentTree.run boxes i outermost
+         in if boxSide < least
+              then furthest (SegmentTree.behind i) i boxSide
               else furthest (SegmentTree.behind i) best least
-    -- The side of a box that lies furthest out.
+    -- The outermost side of a bounding box.
     outermost lx _ hx _ = case outward of
       Leftmost -> lx
       Rightmost -> -hx
-    found i t least
+    extremeOf i t least
       | t > 0 =
         Extreme
           i
@@ -149,11 +154,11 @@ extreme outward c bs w = go start start 0 (1e300 :: Double)
         c
         i
         (\dx _ -> let b = indexPrimArray (ClosedPolyarcs.bulges c) i in (1 - b * b) / (4 * b) * dx)
-    -- The walk turns left at its outermost vertex: its inside is on its left.
+    -- When the polyarc turns left at its outermost vertex, its inside is on its left.
     atVertex i
-      | abs turning > 1e-9 * size = Just (if turning > 0 then 1 else 0)
+      | abs cross > 1e-9 * size = Just (if cross > 0 then 1 else 0)
       | ix * ox + iy * oy < 0 =
-        if abs bent > alike * (abs (bend previous) + abs (bend i))
+        if abs bent > curvatureTolerance * (abs (bend previous) + abs (bend i))
           then Just (if bent < 0 then 1 else 0)
           else Nothing
       | otherwise = Just (if sign * oy < 0 then 1 else 0)
@@ -165,10 +170,11 @@ extreme outward c bs w = go start start 0 (1e300 :: Double)
         iy = ClosedPolyarcs.chord c previous (\dx dy -> dy * (1 - bp * bp) + dx * 2 * bp)
         ox = ClosedPolyarcs.chord c i (\dx dy -> dx * (1 - b * b) + dy * 2 * b)
         oy = ClosedPolyarcs.chord c i (\dx dy -> dy * (1 - b * b) - dx * 2 * b)
-        turning = ix * oy - iy * ox
-        -- Seen from a cusp, what leads away from it lies to the left of what leads to it when it
-        -- bends more to the left.
+        cross = ix * oy - iy * ox
+        -- At a cusp the outgoing segment lies to the left of the incoming one when it curves more
+        -- to the left.
         bent = bend previous + bend i
-        -- Two that bend alike to this part of both may be one that is walked there and back.
-        alike = 1e-3
+        -- Two segments whose curvatures differ by less than this fraction may be one segment
+        -- traversed in both directions.
+        curvatureTolerance = 1e-3
         size = sqrt ((ix * ix + iy * iy) * (ox * ox + oy * oy))

@@ -1,17 +1,19 @@
--- | What a control is sent that keeps the cutter beside the contour by itself (@G41@, @G42@).
+-- | Input for a control with cutter compensation (@G41@, @G42@).
 --
--- It gets the edge of the part and makes the equidistant of it: the same moves as those of the
--- path, if it is sent the right thing and nothing that it refuses. What controls do was measured on
--- LinuxCNC 2.9:
+-- The control receives the edge of the part and computes the offset itself. It then makes the same
+-- moves as the toolpath, provided that the edge is right and contains nothing that the control
+-- refuses. The behaviour of controls was measured on LinuxCNC 2.9:
 --
--- * The first move under compensation goes straight from where the centre stands to where the
---   offset of the programmed line and that
---   of the next element meet. So the programmed line has to be the tangent from there to the cutter
---   as it
---   stands at its first place on the path, and the next element begins where it meets that line.
--- * Round outer corners the control goes on arcs; the last corner of a closed contour it does only
---   when something follows.
--- * After the end it goes straight from the end of the offset to where it is sent.
+-- * The first move under compensation is a straight line from the current centre to the point where
+-- the offsets of the programmed line and of the next element intersect. So the programmed line must
+-- be the tangent from the current centre to the cutter at its first position on the toolpath. The
+-- next element begins where it intersects that line.
+--
+-- * At outer corners the control moves on arcs. It makes the arc at the last corner of a closed
+-- contour only when another move follows.
+--
+-- * After the end of the contour it moves straight from the end of the offset to the next
+-- programmed point.
 module Toolpath.Compensation
   ( Ways (..),
     sent,
@@ -39,8 +41,8 @@ import Toolpath.Tolerance qualified as Tolerance
 import Toolpath.Toolpath (Manner (..), Move (..), Sent (Sent), unbraked)
 import Toolpath.Toolpath qualified as Toolpath
 
--- | The moves of the centre in one pass: the way to the beginning, the lead in, those along the
--- contour, the lead out, the way on.
+-- | The moves of the centre in one pass: approach, lead-in, moves along the contour, lead-out,
+-- retract.
 data Ways = Ways
   { before :: [Move],
     inwards :: [Move],
@@ -49,18 +51,19 @@ data Ways = Ways
     behind :: [Move]
   }
 
--- | What the control is sent for a pass, if it is to keep the cutter beside the contour; or why it
--- can not. The place is that of the statement's first word.
+-- | The input for a control that does the cutter compensation, or the reason why that is
+-- impossible. The region is the statement's first word. The result is Nothing when the program
+-- does not ask for it.
 sent :: Region -> Milling -> Maybe Side -> Ways -> Either Error (Maybe Sent)
-sent keyword milling side ways = case Part.byControl milling of
+sent keyword milling side passMoves = case Part.byControl milling of
   Nothing -> Right Nothing
-  Just asked -> do
-    possible asked milling
-    s <- maybe (Left (NotForControl asked OnContour)) Right side
-    followable keyword asked milling s ways
-    let edge = programmed milling s ways
-    (before', entry, edge') <- entering keyword asked milling s (before ways) edge
-    (exit, behind') <- leaving keyword asked milling (NonEmpty.last edge') (behind ways)
+  Just requested -> do
+    checkRequest requested milling
+    s <- maybe (Left (NotForControl requested OnContour)) Right side
+    checkElements keyword requested milling s passMoves
+    let edge = programmed milling s passMoves
+    (before', entry, edge') <- entering keyword requested milling s (before passMoves) edge
+    (exit, behind') <- leaving keyword requested milling (NonEmpty.last edge') (behind passMoves)
     Right
       ( Just
           Sent
@@ -73,9 +76,9 @@ sent keyword milling side ways = case Part.byControl milling of
             }
       )
 
--- | Nothing is asked that the edge of the part does not tell.
-possible :: Region -> Milling -> Either Error ()
-possible asked milling
+-- | Refuses requests that the edge of the part cannot express.
+checkRequest :: Region -> Milling -> Either Error ()
+checkRequest requested milling
   | Just _ <- Part.gear milling = refused Swivelling
   | Part.corners milling == Part.Sharp = refused SharpCorners
   | any (> Mm 0) (Part.allowances milling)
@@ -83,67 +86,89 @@ possible asked milling
     refused LeavingMaterial
   | otherwise = Right ()
   where
-    refused = Left . NotForControl asked
+    refused = Left . NotForControl requested
 
--- | Every element and lead is one that a control can follow.
-followable :: Region -> Region -> Milling -> Side -> Ways -> Either Error ()
-followable keyword asked milling side ways =
-  mapM_ long elements
-    >> mapM_ wide edge
-    >> mapM_ bent (Polyarc.joints (Part.outline (Part.contour milling)))
-    >> zipWithM_ rolled edge (drop 1 edge)
+-- | Refuses elements and leads that a control cannot follow.
+checkElements :: Region -> Region -> Milling -> Side -> Ways -> Either Error ()
+checkElements keyword requested milling side passMoves =
+  mapM_ (checkLength keyword requested) elements
+    >> mapM_ checkRadius edge
+    >> mapM_ (checkCorner requested milling) (Polyarc.joints (Part.outline (Part.contour milling)))
+    >> zipWithM_ checkArcStart edge (drop 1 edge)
   where
     elements = NonEmpty.toList (Part.elements (Part.contour milling))
     radius@(Mm r) = Part.radius milling
     edge =
-      map lead (inwards ways)
+      map lead (inwards passMoves)
         <> [(Just i, Part.segment e) | (i, e) <- zip [0 ..] elements]
-        <> map lead (outwards ways)
-    lead m = (Nothing, uncovered radius side (segment m))
-    long e =
-      let l =
-            Segment.length (Part.segment e)
-       in when
-            (l < Tolerance.controlLength)
-            (Left (TinyForControl keyword asked (Just e) l Tolerance.controlLength))
-    wide (i, s) =
+        <> map lead (outwards passMoves)
+    lead m = (Nothing, touchedCurve radius side (segment m))
+    checkRadius (i, s) =
       mapM_
-        (\old -> Left (TightForControl keyword asked (fmap element i) old radius))
+        (\old -> Left (TightForControl keyword requested (fmap element i) old radius))
         (tooTight radius side s)
-    bent (i, a, b) =
-      let Rad turned = Vec.turn (Segment.endDirection a) (Segment.startDirection b)
-          deep = Mm (r * (1 - cos turned))
-       in when
-            (isNone turned && deep > Tolerance.controlCut)
-            (Left (SlightForControl asked (element i) (element (i + 1)) (Rad turned) deep))
-            >> when
-              (isNone (pi - abs turned))
-              (Left (BackForControl asked (element i) (element (i + 1)) (Rad turned)))
-    -- Behind a corner that turns away from the cutter, and that a control takes for none, the
-    -- centre sets out too early on an arc, and so it does where the end of what is before the arc
-    -- is rounded.
-    rolled (i, a) (_, b) =
-      let Rad turned = Vec.turn (Segment.endDirection a) (Segment.startDirection b)
-          needed = neededBefore (Mm r) side (Rad (max 0 (-(turned * leftward side)))) b
-       in if not (isNone turned) || needed <= lasting a
+    -- A control ignores a very slight corner. When such a corner turns away from the cutter, the
+    -- centre leaves too early on the following arc. Rounding of the end of the segment before the
+    -- arc has the same effect.
+    checkArcStart (i, a) (_, b) =
+      let Rad deflection = Vec.turn (Segment.endDirection a) (Segment.startDirection b)
+          needed = neededBefore (Mm r) side (Rad (max 0 (-(deflection * sideSign side)))) b
+       in if not (isIgnored deflection) || needed <= referenceLength a
             then Right ()
             else Left $ case i of
               Just n
-                | abs turned > smooth ->
+                | abs deflection > smooth ->
                   SlightForControl
-                    asked
+                    requested
                     (element n)
                     (element (n + 1))
-                    (Rad turned)
-                    (Mm (r * (1 - cos turned)))
-              _ -> TinyForControl keyword asked (fmap element i) (lasting a) needed
+                    (Rad deflection)
+                    (Mm (r * (1 - cos deflection)))
+              _ -> TinyForControl keyword requested (fmap element i) (referenceLength a) needed
     Rad smooth = Tolerance.smoothAngle
-    isNone turned = let Rad least = Tolerance.controlBend in abs turned < least
-    element :: Int -> Element
-    element i = Part.elements (Part.contour milling) NonEmpty.!! (i `mod` length elements)
+    element = elementAt milling
 
--- | How long a line has to be, or how large the radius of an arc, before an arc that turns away
--- from it by an angle, so that the centre goes no further round that than LinuxCNC puts up with.
+-- | Refuses an element shorter than a control accepts.
+checkLength :: Region -> Region -> Element -> Either Error ()
+checkLength keyword requested e =
+  when
+    (l < Tolerance.controlLength)
+    (Left (TinyForControl keyword requested (Just e) l Tolerance.controlLength))
+  where
+    l = Segment.length (Part.segment e)
+
+-- | Refuses a corner that a control ignores although its cut would be too deep, and a corner at
+-- which the contour almost reverses. The corner follows element @i@.
+checkCorner :: Region -> Milling -> (Int, Segment, Segment) -> Either Error ()
+checkCorner requested milling (i, a, b) =
+  when
+    (isIgnored deflection && gouge > Tolerance.controlCut)
+    (Left (SlightForControl requested element following (Rad deflection) gouge))
+    >> when
+      (isIgnored (pi - abs deflection))
+      (Left (BackForControl requested element following (Rad deflection)))
+  where
+    Rad deflection = Vec.turn (Segment.endDirection a) (Segment.startDirection b)
+    Mm r = Part.radius milling
+    gouge = Mm (r * (1 - cos deflection))
+    element = elementAt milling i
+    following = elementAt milling (i + 1)
+
+-- | True for a change of direction, in radians, that a control ignores.
+isIgnored :: Double -> Bool
+isIgnored deflection = abs deflection < least
+  where
+    Rad least = Tolerance.controlBend
+
+-- | The element with a number; the number after the last element is the first one's.
+elementAt :: Milling -> Int -> Element
+elementAt milling i = elements NonEmpty.!! (i `mod` length elements)
+  where
+    elements = Part.elements (Part.contour milling)
+
+-- | The least length of a line, or the least radius of an arc, before an arc that turns away from
+-- it by an angle. It keeps the centre's additional sweep around the arc within the limit of
+-- LinuxCNC. It is infinite when no length suffices.
 neededBefore :: Mm -> Side -> Rad -> Segment -> Mm
 neededBefore (Mm r) side (Rad away) s = case s of
   Straight _ _ -> Mm 0
@@ -151,45 +176,46 @@ neededBefore (Mm r) side (Rad away) s = case s of
     | left > 0 -> Mm (r * rounding / left)
     | otherwise -> Mm (1 / 0)
     where
-      left = most * (old - signum angle * leftward side * r - least) - r * away
+      left = most * (old - signum angle * sideSign side * r - least) - r * away
       Mm old = Segment.radius centre start
       Mm least = Tolerance.controlArc
       Mm rounding = Tolerance.controlRounding
       Rad most = Tolerance.controlTurn
 
--- | What tells how well the direction at the end of a segment is kept when its points are rounded:
--- the length of a line, the radius of an arc.
-lasting :: Segment -> Mm
-lasting s = case s of
+-- | The quantity that decides how much rounding changes the direction at a segment's end: the
+-- length of a line, the radius of an arc.
+referenceLength :: Segment -> Mm
+referenceLength s = case s of
   Straight a b -> Vec.distance a b
   Arc {start, centre} -> Segment.radius centre start
 
--- | The radius of an arc about whose inside the cutter has no room to roll.
+-- | The radius of a concave arc in which the cutter has no room to roll; Nothing when it has.
 tooTight :: Mm -> Side -> Segment -> Maybe Mm
 tooTight radius side s = case s of
   Straight _ _ -> Nothing
   Arc {start, centre, sweep = Rad angle}
-    | signum angle == leftward side,
+    | signum angle == sideSign side,
       old <- Segment.radius centre start,
       old < plus radius Tolerance.controlArc ->
       Just old
     | otherwise -> Nothing
 
 -- | +1 when the cutter is on the left.
-leftward :: Side -> Double
-leftward side = case side of
+sideSign :: Side -> Double
+sideSign side = case side of
   LeftOf -> 1
   RightOf -> -1
 
 -- The edge
 
--- | The edge of the part in the order of the walk, with the leads beside which the cutter goes.
+-- | The edge of the part in the direction of travel, with the curves that the cutter touches
+-- during the leads.
 programmed :: Milling -> Side -> Ways -> NonEmpty Move
 programmed milling side Ways {inwards, cut, outwards} = case map lead inwards of
   [] -> elements `followedBy` map lead outwards
   l : more -> l :| more <> NonEmpty.toList elements <> map lead outwards
   where
-    lead m = m {segment = uncovered (Part.radius milling) side (segment m)}
+    lead m = m {segment = touchedCurve (Part.radius milling) side (segment m)}
     elements =
       NonEmpty.zipWith element (False :| repeat True) (Part.elements (Part.contour milling))
     element isLater e =
@@ -205,29 +231,29 @@ programmed milling side Ways {inwards, cut, outwards} = case map lead inwards of
         }
     followedBy (e :| es) more = e :| es <> more
 
--- | What a cutter touches whose centre moves along a segment.
-uncovered :: Mm -> Side -> Segment -> Segment
-uncovered (Mm r) side s = case s of
+-- | The curve that a cutter touches when its centre moves along a segment.
+touchedCurve :: Mm -> Side -> Segment -> Segment
+touchedCurve (Mm r) side s = case s of
   Straight a b ->
     let n =
-          Vec.scale (-leftward side * r) (Vec.left (Vec.unit (Vec.to a b)))
+          Vec.scale (-sideSign side * r) (Vec.left (Vec.unit (Vec.to a b)))
      in Straight (Vec.shift n a) (Vec.shift n b)
   Arc {start, end, centre, sweep = sweep@(Rad angle)} ->
     let Mm old = Segment.radius centre start
-        new = if signum angle == leftward side then old + r else old - r
+        new = if signum angle == sideSign side then old + r else old - r
         moved p = Vec.shift (Vec.scale (new / old) (Vec.to centre p)) centre
      in Arc {start = moved start, end = moved end, centre, sweep}
 
--- | Whether a control keeps the cutter beside a contour that ends at an outer corner.
+-- | True when a control does the compensation and the closed toolpath ends at an outer corner.
 endsAround :: Milling -> NonEmpty Equidistant.OffsetSegment -> Bool
-endsAround milling pieces = case Part.byControl milling of
+endsAround milling offsetSegments = case Part.byControl milling of
   Nothing -> False
-  Just _ -> case Equidistant.origin (NonEmpty.last pieces) of
+  Just _ -> case Equidistant.origin (NonEmpty.last offsetSegments) of
     Equidistant.Around _ -> True
     Equidistant.Along _ -> False
 
--- | Behind such a contour, a little further along its first element: a control goes round a corner
--- only when something follows.
+-- | A short move along the first element after such a contour. A control makes the arc round the
+-- last corner only when another move follows.
 onward :: Region -> Milling -> Segment -> [Move]
 onward keyword milling first =
   [ Move
@@ -241,11 +267,11 @@ onward keyword milling first =
     Mm l = Segment.length first
     share = min 1 (l / 2) / l
 
--- The ways in and out
+-- Approach and retract
 
--- | The moves up to where compensation is switched on, the straight on which that happens, and the
--- edge from where that arrives. A long way in is divided: near the contour its direction is surely
--- another than that of the edge.
+-- | The moves before compensation begins, the straight move on which it begins, and the edge from
+-- the end of that move. A long approach is divided, because near the contour its direction
+-- certainly differs from that of the edge.
 entering ::
   Region ->
   Region ->
@@ -254,40 +280,40 @@ entering ::
   [Move] ->
   NonEmpty Move ->
   Either Error ([Move], Move, NonEmpty Move)
-entering keyword asked milling side ways edge = case reverse ways of
+entering keyword requested milling side passMoves edge = case reverse passMoves of
   m@Move {segment = Straight from to', manner = Manner {between = (z, z')}} : earlier
     | z == z',
       Vec.distance from to' > Tolerance.coincident -> do
       let whole@(Mm long) = Vec.distance from to'
           on = if whole > times 3 radius then Vec.between (1 - 2 * r / long) from to' else from
-      begin <- meeting m on to'
-      let way = [(unbraked m) {segment = Straight from on} | on /= from]
-      Right (reverse earlier <> way, m {segment = Straight on begin}, beginningAt begin)
-  _ -> Left (ShortForControl keyword asked True (Mm 0) radius)
+      begin <- entryPoint m on to'
+      let straight = [(unbraked m) {segment = Straight from on} | on /= from]
+      Right (reverse earlier <> straight, m {segment = Straight on begin}, beginningAt begin)
+  _ -> Left (ShortForControl keyword requested True (Mm 0) radius)
   where
     radius@(Mm r) = Part.radius milling
     first = NonEmpty.head edge
-    -- Where the tangent from a point to the cutter at its first place meets the line of the first
-    -- element.
-    meeting m on to' = do
+    -- The point where the tangent from @on@ to the cutter at its first position intersects the line
+    -- of the first element.
+    entryPoint m on to' = do
       let Mm d = Vec.distance on to'
           ahead = Segment.startDirection (segment first)
           tangent =
-            Vec.rotate (Rad (-leftward side * asin (min 1 (r / d)))) (Vec.unit (Vec.to on to'))
-          Rad turned = Vec.turn tangent ahead
-          bend = leftward side * turned
+            Vec.rotate (Rad (-sideSign side * asin (min 1 (r / d)))) (Vec.unit (Vec.to on to'))
+          Rad deflection = Vec.turn tangent ahead
+          bend = sideSign side * deflection
           begin = Vec.shift (Vec.scale (-r * tan (bend / 2)) ahead) (Segment.start (segment first))
           Rad least = Tolerance.controlBend
-      when (d <= r) (Left (ShortForControl (origin m) asked True (Mm d) radius))
+      when (d <= r) (Left (ShortForControl (origin m) requested True (Mm d) radius))
       when
         (bend < max (2 * least) leastOntoArc || bend > furthestTurn)
-        (Left (WrongWayForControl (origin m) asked to'))
+        (Left (WrongWayForControl (origin m) requested to'))
       let l = Vec.distance on begin
       when
         (l <= plus radius Tolerance.byControl)
-        (Left (ShortForControl (origin m) asked True l radius))
+        (Left (ShortForControl (origin m) requested True l radius))
       Right begin
-    -- Before an arc the line is an element of its own, which must not be too short for a control.
+    -- Before an arc the line is an additional element, which must not be too short for a control.
     leastOntoArc = case segment first of
       Straight _ _ -> 0
       arc@Arc {} ->
@@ -299,21 +325,21 @@ entering keyword asked milling side ways edge = case reverse ways of
       Arc {start} ->
         (unbraked first) {segment = Straight begin start, continues = False} :| NonEmpty.toList edge
 
--- | A way in turns by no more onto the first element: 175°. There that is lengthened backwards by
--- 23 radii.
+-- | The largest change of direction from the approach to the first element: 175°. At this angle
+-- the first element is extended backwards by 23 radii.
 furthestTurn :: Double
 furthestTurn = 35 / 36 * pi
 
--- | The straight on which compensation is switched off, and the moves behind it.
+-- | The straight move on which compensation ends, and the moves after it.
 leaving :: Region -> Region -> Milling -> Move -> [Move] -> Either Error (Move, [Move])
-leaving keyword asked milling final ways = case ways of
+leaving keyword requested milling final passMoves = case passMoves of
   m@Move {segment = Straight _ to', manner = Manner {between = (z, z')}} : later | z == z' -> do
     let l = Vec.distance from to'
     when
       (l <= plus radius Tolerance.byControl)
-      (Left (ShortForControl (origin m) asked False l radius))
+      (Left (ShortForControl (origin m) requested False l radius))
     Right (m {segment = Straight from to'}, later)
-  _ -> Left (ShortForControl keyword asked False (Mm 0) radius)
+  _ -> Left (ShortForControl keyword requested False (Mm 0) radius)
   where
     radius = Part.radius milling
     from = Segment.end (segment final)

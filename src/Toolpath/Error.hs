@@ -1,6 +1,6 @@
 {-# OPTIONS_GHC -O0 #-}
 
--- | What can be wrong with the way of a cutter around a part.
+-- | Errors of toolpaths, with the texts of their reports.
 module Toolpath.Error
   ( Error (..),
     Intrusion (..),
@@ -30,89 +30,90 @@ import Toolpath.Tolerance qualified as Tolerance
 import Toolpath.WarningReport
 
 data Error
-  = -- | @outside@ or @inside@ of an open contour
+  = -- | @outside@ or @inside@ at an open contour
     SideOfOpen Region Side Name Region
-  | -- | the statement, the cutter, the arc and its radius, the largest radius that fits
+  | -- | a concave radius smaller than the cutter's: the statement, the cutter, the arc and its
+    -- radius, the largest radius that fits
     ConcaveRadius Region Tool Element Mm (Maybe Mm)
-  | -- | a corner towards the cutter, and where it is
+  | -- | an inner corner: the statement, the cutter, both elements, the corner, the largest radius
+    -- that fits
     InnerCorner Region Tool Element Element Point (Maybe Mm)
-  | -- | on its way along the first element the cutter cuts the second
+  | -- | on its pass along the first element the cutter cuts the second one
     Collision Region Tool Element Element Point (Maybe Mm)
-  | -- | a move that cuts into an element, how deep, and in what way
+  | -- | a move that cuts into an element: the statement, the move, the element, the depth of the
+    -- cut, its kind, the position of the centre
     CutsPart Region Segment Element Mm Intrusion Point
-  | -- | a hole that cuts into a contour: where it is, the element, how deep
+  | -- | a hole that cuts into a contour: the statement, the centre of the hole, the element, the
+    -- depth of the cut
     HoleCuts Region Point Element Mm
-  | -- | milling one contour cuts into another: the statement, the element being milled, the element
-    -- cut, how deep
+  | -- | milling one contour cuts into another: the statement, the element being milled, the
+    -- element cut, the depth of the cut, the position of the centre
     MillsAnother Region Region Element Mm Point
-  | -- | milling without a depth while the cutter stands so high above the part
+  | -- | milling without a depth while the cutter is at this height above the part
     CutsAir Region Mm
-  | -- | a closed contour to be turned: the statement, its name, the contour
+  | -- | a closed contour to be turned: the statement, the contour's name, the contour
     TurnsClosed Region Name Region
-  | -- | climb or conventional where the cutter has no side
+  | -- | climb or conventional milling where the cutter has no side
     SenseOnContour Region Region
-  | -- | climb or conventional that the side does not allow
+  | -- | climb or conventional milling that contradicts the side
     SenseAgainstSide Region Region
   | -- | a turned profile that goes below the axis of the spindle: the statement, the element
     BelowAxis Region Element
-  | -- | an allowance where the cutter has no side: the statement, the contour's element if it asks
-    -- it
+  | -- | an allowance where the cutter has no side: the statement, or the contour's element that
+    -- has the allowance
     AllowanceOnContour Region
-  | -- | a blade along a contour of which no element says how far it leans
+  | -- | a blade along a contour without a bevel on any element
     NoBevel Region
-  | -- | a blade that runs on the contour itself
+  | -- | a blade on the contour itself
     BladeOnContour Region
-  | -- | two elements without a corner between them that lean differently: the angles in radians
+  | -- | two elements with a smooth joint and different bevels, in radians
     BevelJumps Region Element Element Double Double
-  | -- | the control is to keep the cutter beside the contour, but what it is sent cannot say
-    -- something that is asked
+  | -- | cutter compensation by the control, with a request that its input cannot express
     NotForControl Region Unsent
-  | -- whether it is the way in, its length, the cutter's radius
-
-    -- | the way onto a contour or away from it is too short for a control: the move, the place that
-    -- asks for the control,
+  | -- | an approach or retract too short for a control: the move, the region that asks for cutter
+    -- compensation, True for an approach, its length, the cutter's radius
     ShortForControl Region Region Bool Mm Mm
-  | -- it ends
-
-    -- | the way onto a contour comes from where a control cannot take it: the move, the place that
-    -- asks for the control, where
+  | -- | an approach from a direction that a control does not accept: the move, the region that asks
+    -- for cutter compensation, the end of the approach
     WrongWayForControl Region Region Point
-  | -- | a control cannot follow a concave arc of this radius; a lead has no element
+  | -- | a concave arc of this radius that a control cannot follow; a lead has no element
     TightForControl Region Region (Maybe Element) Mm Mm
-  | -- | a line of this length, or an arc of this radius, too short for a control, and how much it
-    -- has to be; a lead has no element
+  | -- | a line of this length, or an arc of this radius, that is too short for a control, and the
+    -- least length or radius; a lead has no element
     TinyForControl Region Region (Maybe Element) Mm Mm
-  | -- | a slight corner that a control takes for none: how far it turns, how deep the control cuts
+  | -- | a slight corner that a control ignores: the change of direction, the depth of the
+    -- control's cut
     SlightForControl Region Element Element Rad Mm
-  | -- | a corner at which the contour almost turns back, which a control refuses: how far it turns
+  | -- | a corner at which the contour almost reverses, which a control refuses: the change of
+    -- direction
     BackForControl Region Element Element Rad
-  | -- | there is no path that clears a pocket: the statement's first word, the outline, what the
-    -- pass leaves at the walls
+  | -- | no toolpath clears the pocket: the statement's first word, the outer contour, the
+    -- allowance of the pass
     NoPathInPocket Region Contour Mm
-  | -- | nor one along a contour of which not all has to be reached
+  | -- | no toolpath along a contour with rest material allowed
     NoPathAlong Region Contour Mm
-  | -- | a pocket in which the cutter has to be lifted, without a depth: the statement's first word,
-    -- from where, to where
+  | -- | a pocket without a depth in which the cutter must be lifted: the statement's first word,
+    -- the beginning and the end of that move
     HasToRise Region Point Point
-  | -- | more is to be left on an element of a pocket's walls than the pocket leaves: the
-    -- statement's first word
+  | -- | an element of a pocket's walls with a larger allowance than the pocket: the statement's
+    -- first word
     KeepsMore Region Element
   deriving stock (Eq, Show)
 
--- | What a way does that it should not.
+-- | The kinds of intrusion of a move.
 data Intrusion
   = CuttingIn
-  | -- | it goes through the contour itself
+  | -- | the move crosses the contour itself
     Crossing
-  | -- | it takes what the statement leaves on the contour
+  | -- | the move cuts into the allowance on the contour
     Taking
   deriving stock (Eq, Show)
 
--- | What a control that is sent the edge of the part does not do.
+-- | Requests that the input of a control with cutter compensation cannot express.
 data Unsent = OnContour | Swivelling | SharpCorners | LeavingMaterial | Unreached
   deriving stock (Eq, Show)
 
--- | The words for it.
+-- | The report of an error.
 toReport :: Error -> Report
 toReport err = case err of
   SideOfOpen region side (Name name) contour ->
@@ -146,7 +147,7 @@ toReport err = case err of
     )
       { label = shape first,
         others =
-          second' first second <> [Label region (worked tool <> " here with " <> cutter tool)],
+          secondLabel first second <> [Label region (worked tool <> " here with " <> cutter tool)],
         message = ["The corner is at " <> Vec.written 3 p <> "."],
         hints =
           ( "Round the corner with a fillet of at least "
@@ -163,7 +164,8 @@ toReport err = case err of
     )
       { label = shape first,
         others =
-          second' first second <> [Label region (worked tool <> " here") | region /= origin first],
+          secondLabel first second
+            <> [Label region (worked tool <> " here") | region /= origin first],
         message =
           [ "With its centre at "
               <> Vec.written 3 p
@@ -175,18 +177,18 @@ toReport err = case err of
           ],
         hints = [fits tool largest]
       }
-  CutsPart region way element depth intrusion p ->
+  CutsPart region move element depth intrusion p ->
     (at region "E0405" ("this move " <> intruding intrusion depth))
       { label = "the way to here",
         others = [Label (origin element) (shape element) | origin element /= region],
         message =
-          [ if Vec.near (Segment.start way) (Segment.end way)
+          [ if Vec.near (Segment.start move) (Segment.end move)
               then "It goes up or down at " <> Vec.written 3 p <> "."
               else
                 "It goes from "
-                  <> Vec.written 3 (Segment.start way)
+                  <> Vec.written 3 (Segment.start move)
                   <> " to "
-                  <> Vec.written 3 (Segment.end way)
+                  <> Vec.written 3 (Segment.end move)
                   <> "; the trouble is worst with the cutter's centre at "
                   <> Vec.written 3 p
                   <> "."
@@ -248,12 +250,12 @@ toReport err = case err of
     (at region "E0409" "the cutter does not cut like this on this side of the walk")
       { others = [Label side "the side is given here"],
         message =
-          [ "With the spindle clockwise the cutter climbs on the left of the walk; with the spindle \
-            \counter-clockwise, on the right."
+          [ "With the spindle clockwise the cutter climbs on the left of the walk; with the \
+            \spindle counter-clockwise, on the right."
           ],
         hints =
-          [ "Leave the word out, take the other side, or mill reversed(…). In a mirrored block left \
-            \becomes right; outside and inside stay what they are."
+          [ "Leave the word out, take the other side, or mill reversed(…). In a mirrored block \
+            \left becomes right; outside and inside stay what they are."
           ]
       }
   BelowAxis region element ->
@@ -284,7 +286,7 @@ toReport err = case err of
         ("the bevel jumps from " <> inDegrees a <> " to " <> inDegrees b <> " behind this element")
     )
       { label = shape first,
-        others = second' first second <> [Label region "milled here with a blade"],
+        others = secondLabel first second <> [Label region "milled here with a blade"],
         message = ["A blade swivels while it moves; it cannot jump."],
         hints = ["Put an element without a bevel between them: along it the blade turns evenly."]
       }
@@ -400,7 +402,7 @@ toReport err = case err of
         ("a control would cut " <> Decimal.mm deep <> " off the slight corner behind this element")
     )
       { label = shape first,
-        others = second' first second <> [Label asked "asked here"],
+        others = secondLabel first second <> [Label asked "asked here"],
         message =
           [ "It turns by "
               <> inDegrees (abs turned)
@@ -409,14 +411,14 @@ toReport err = case err of
               <> " for none; an arc behind it may then be refused."
           ],
         hints =
-          [ "Join the elements smoothly, for instance with a fillet, or begin elsewhere: start near \
-            \…"
+          [ "Join the elements smoothly, for instance with a fillet, or begin elsewhere: start \
+            \near …"
           ]
       }
   BackForControl asked first second (Rad turned) ->
     (at (origin first) "E0419" "a control cannot follow the corner behind this element")
       { label = shape first,
-        others = second' first second <> [Label asked "asked here"],
+        others = secondLabel first second <> [Label asked "asked here"],
         message =
           [ "It turns by "
               <> inDegrees (abs turned)
@@ -457,6 +459,7 @@ toReport err = case err of
           ["Leave so much at all walls, by allowance in the pocket. Then mill the contour inside."]
       }
 
+-- | The reason why a control's input cannot express a request.
 unsent :: Unsent -> Text
 unsent what = case what of
   OnContour -> "The cutter runs on the contour itself and has no side."
@@ -467,6 +470,7 @@ unsent what = case what of
     "The control goes along all of the edge, also where the cutter does not reach it: there it \
     \would cut into the part."
 
+-- | The hint for such a request.
 unsentHint :: Unsent -> Text
 unsentHint what = case what of
   OnContour -> "Take a side, or leave out compensation controller."
@@ -477,7 +481,7 @@ unsentHint what = case what of
     \controller."
   Unreached -> "Leave out compensation controller, or take a smaller cutter."
 
--- | The cutter has no room in a pocket, or beside a contour, for a pass that leaves so much.
+-- | No room in a pocket, or beside a contour, for a pass with this allowance.
 noRoom :: Region -> Text -> Text -> Text -> Contour -> Mm -> Report
 noRoom region title called side contour left =
   (at region "E0420" title)
@@ -494,9 +498,11 @@ noRoom region title called side contour left =
   where
     Located there (Name name) = contourName contour
 
-second' :: Element -> Element -> [Label]
-second' first second = [Label (origin second) (shape second) | origin second /= origin first]
+-- | The label of the second element, unless both come from the same region.
+secondLabel :: Element -> Element -> [Label]
+secondLabel first second = [Label (origin second) (shape second) | origin second /= origin first]
 
+-- | The text for a side.
 sideWord :: Side -> Text
 sideWord side = case side of
   Outside -> "outside"
@@ -505,7 +511,7 @@ sideWord side = case side of
   RightSide -> "right"
   On -> "centre line"
 
--- | So deep.
+-- | The text for an intrusion of this depth.
 intruding :: Intrusion -> Mm -> Text
 intruding intrusion depth = case intrusion of
   CuttingIn -> "cuts into the part by " <> Decimal.mm depth

@@ -1,4 +1,5 @@
--- | The loops that bound what the cutter's centre can reach in a pocket, by the offset kernel.
+-- | The loops that bound the region of a pocket that the cutter's centre can reach, computed by
+-- the offset kernel.
 module Toolpath.Inset
   ( oriented,
     inset,
@@ -25,44 +26,45 @@ import Offset.Loop qualified as Loop
 import Offset.Tolerance qualified as Tolerance
 import Toolpath.PocketTree (Loop)
 
--- | An outline and islands, each walked with the free space on its left.
+-- | An outer contour and islands, each oriented with the free space on its left.
 oriented :: Polyarc -> [Polyarc] -> NonEmpty Polyarc
-oriented outline islands = turned (> 0) outline :| map (turned (< 0)) islands
+oriented outer islands = orient (> 0) outer :| map (orient (< 0)) islands
   where
-    turned wanted c = if wanted (Polyarc.signedArea c) then c else Polyarc.reverse c
+    orient wanted c = if wanted (Polyarc.signedArea c) then c else Polyarc.reverse c
 
--- | The loops at a distance to the left of an outline and islands, which are oriented, simple and
--- apart. They are made ready once for all distances. None where contours meet that have to be
--- apart.
+-- | The loops at a distance to the left of an outer contour and islands. The contours must be
+-- oriented, simple and disjoint. They are converted once for all distances. There are no loops
+-- when the contours intersect.
 inset :: NonEmpty Polyarc -> Mm -> [Loop]
-inset contours@(outline :| _) = within
+inset contours@(outer :| _) = loopsAt
   where
     walls = map (fst . FlatPolyarc.fromContour) (NonEmpty.toList contours)
-    BoundingBox l b r t = about (Polyarc.segments outline)
-    within distance@(Mm d)
-      -- No circle in the outline is larger; the kernel would have to tell a cutter that covers all
-      -- of it from one that fits.
+    BoundingBox l b r t = boundingBox (Polyarc.segments outer)
+    loopsAt distance@(Mm d)
+      -- No larger circle fits into the outer contour. Without this test the kernel would have to
+      -- distinguish a cutter that covers the whole contour from one that fits.
       | 2 * d >= min (r - l) (t - b) = []
       | otherwise = case Kernel.offset (Kernel.plain Carrier.LeftOf distance) walls of
-        Right reach -> loopsOf reach
+        Right region -> loopsOf region
         Left Kernel.Uncertain -> Crash.bug "the passes of a pocket failed their certificate"
         Left (Kernel.Crossed _ _) -> []
         Left Kernel.Misplaced -> []
 
--- | The loops at a distance, and down slots of just twice that width: no area is there in which the
--- centre could stand, but a line, which is the loop at a distance that is less by
--- 'Tolerance.clearance'.
+-- | The loops at a distance, including passes down slots of exactly twice that width. In such a
+-- slot the centre has only a line and no area. The loop at a distance smaller by
+-- 'Tolerance.clearance' replaces it.
 fitting :: (Mm -> [Loop]) -> Mm -> [Loop]
-fitting within distance
-  | minus (longAll smaller) (longAll own) > Tolerance.slot = smaller
+fitting loopsAt distance
+  | minus (totalLength smaller) (totalLength own) > Tolerance.slot = smaller
   | otherwise = own
   where
-    own = within distance
-    smaller = within (minus distance Tolerance.clearance)
-    longAll loops = total [Segment.length s | loop <- loops, s <- NonEmpty.toList loop]
+    own = loopsAt distance
+    smaller = loopsAt (minus distance Tolerance.clearance)
+    totalLength loops = total [Segment.length s | loop <- loops, s <- NonEmpty.toList loop]
 
--- | The loops further in by a distance, of loops. From loop to loop the kernel has less to do than
--- from the walls to each. Nothing where it cannot tell, as when loops touch.
+-- | The inner offset of loops by a distance. From loop to loop the kernel has less work than from
+-- the walls to each loop. The result is Nothing when the kernel cannot decide, as when loops
+-- touch.
 further :: [Loop] -> Mm -> Maybe [Loop]
 further loops distance@(Mm d)
   | 2 * d >= min (r - l) (t - b) = Just []
@@ -70,18 +72,22 @@ further loops distance@(Mm d)
     case Kernel.offset
       (Kernel.plain Carrier.LeftOf distance)
       (map (fst . FlatPolyarc.fromContour . Polyarc Closed) loops) of
-      Right reach -> Just (loopsOf reach)
+      Right region -> Just (loopsOf region)
       Left _ -> Nothing
   where
-    -- No circle in any of them is larger.
+    -- No larger circle fits into any of the loops.
     BoundingBox l b r t =
-      maybe (BoundingBox 0 0 0 0) (foldr1 BoundingBox.union) (NonEmpty.nonEmpty (map about loops))
+      maybe
+        (BoundingBox 0 0 0 0)
+        (foldr1 BoundingBox.union)
+        (NonEmpty.nonEmpty (map boundingBox loops))
 
--- | The box about segments.
-about :: NonEmpty Segment -> BoundingBox
-about (s :| more) =
+-- | The bounding box of segments.
+boundingBox :: NonEmpty Segment -> BoundingBox
+boundingBox (s :| more) =
   foldl (\box s' -> BoundingBox.union box (BoundingBox.ofSegment s')) (BoundingBox.ofSegment s) more
 
+-- | The loops of a reachable region as segments.
 loopsOf :: Kernel.ReachableRegion -> [Loop]
-loopsOf reach =
-  mapMaybe (NonEmpty.nonEmpty . FlatPolyarc.segments) (Loop.outlines (Kernel.loops reach))
+loopsOf region =
+  mapMaybe (NonEmpty.nonEmpty . FlatPolyarc.segments) (Loop.outlines (Kernel.loops region))

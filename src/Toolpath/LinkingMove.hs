@@ -1,4 +1,4 @@
--- | The ways between cuts: to where a pass begins and away from where it ends.
+-- | Linking moves: from the current position to the beginning of a pass, and from its end.
 module Toolpath.LinkingMove
   ( Visit (..),
     deep,
@@ -22,8 +22,8 @@ import Part.Part qualified as Part
 import Toolpath.Toolpath (Manner (Manner), Move (Move))
 import Toolpath.Toolpath qualified as Toolpath
 
--- | One pass of a statement: the statement's first word, what it asks, whether the pass is the
--- first one and the last one, where the cutter stands before it.
+-- | One pass of a statement: the statement's first word, the milling parameters, flags for the
+-- first and the last pass, and the position of the cutter before the pass.
 data Visit = Visit
   { word :: Region,
     milling :: Milling,
@@ -32,25 +32,25 @@ data Visit = Visit
     from :: SpacePoint
   }
 
--- | The ways before and behind a pass without depth, which keep the height at which the cutter
--- stands: where the pass begins, where it ends, the heights at both and that of the pass.
+-- | The linking moves before and after a pass without depth, at the cutter's current height @z@.
+-- The heights in the pair are those at the beginning and at the end of the pass.
 flat :: Visit -> Mm -> (Mm, Mm) -> Point -> Point -> ([Move], [Move])
 flat Visit {word, milling, isFirst, isLast, from} z (inZ, outZ) begin finish =
   ( before <> ways (arriving from before) [Part.Stop (Located word begin) (Just inZ) pace],
-    behind
-      <> if null behind
+    after
+      <> if null after
         then [Move (Straight finish finish) (Manner (outZ, z) pace False) word False | outZ /= z]
         else []
   )
   where
     pace = Part.At (feed milling)
     before = if isFirst || isOpen then ways from (Part.approach milling) else []
-    behind =
+    after =
       if isLast || isOpen
         then ways (SpacePoint finish outZ) (upright (Part.retract milling))
         else []
     isOpen = Part.ends (Part.contour milling) == Part.Open
-    -- A blade is turned upright on the way away.
+    -- A blade is turned upright on the retract.
     upright stops = case stops of
       s : more
         | Nothing <- Part.level s,
@@ -58,9 +58,9 @@ flat Visit {word, milling, isFirst, isLast, from} z (inZ, outZ) begin finish =
           s {Part.level = Just z} : more
       _ -> stops
 
--- | The same with depth. The cutter goes over to the last approach point (or to the beginning) at
--- the clearance height, down there, and up again from the first retract point, unless that has a
--- height of its own.
+-- | The linking moves before and after a pass with depth. At the clearance height the cutter
+-- moves to the last approach point, or to the beginning of the pass, and plunges there. It
+-- rises again at the first retract point, unless that point has its own height.
 deep :: Visit -> Mm -> (Mm, Mm) -> Point -> Point -> ([Move], [Move])
 deep Visit {word, milling, isFirst, isLast, from} clear (inZ, outZ) begin finish =
   ( up
@@ -81,22 +81,11 @@ deep Visit {word, milling, isFirst, isLast, from} clear (inZ, outZ) begin finish
         (arriving from up)
         (if null stops then [Part.Stop (Located word begin) (Just clear) Part.Rapid] else stops)
     above = arriving (arriving from up) over
-    down =
-      [ Move
-          (Straight (plane above) (plane above))
-          ( Manner
-              (height above, inZ)
-              (Part.At (fromMaybe (feed milling) (Part.plunge milling)))
-              False
-          )
-          word
-          False
-        | height above /= inZ
-      ]
-    (beside, further) = case Part.retract milling of
+    down = plunge word milling above inZ
+    (firstRetract, otherRetracts) = case Part.retract milling of
       s : more | Nothing <- Part.level s -> ([s {Part.level = Just outZ}], more)
       stops' -> ([], stops')
-    leave = ways (SpacePoint finish outZ) beside
+    leave = ways (SpacePoint finish outZ) firstRetract
     out = arriving (SpacePoint finish outZ) leave
     lift = rise out clear word
     rest =
@@ -104,16 +93,23 @@ deep Visit {word, milling, isFirst, isLast, from} clear (inZ, outZ) begin finish
         then
           ways
             (arriving out lift)
-            [s {Part.level = Just (fromMaybe clear (Part.level s))} | s <- further]
+            [s {Part.level = Just (fromMaybe clear (Part.level s))} | s <- otherRetracts]
         else []
     lastOf xs = take 1 (reverse xs)
 
--- | Straight up to a height, if the cutter stands below it.
+-- | A move straight down to a height at the plunge feed; none at that height already.
+plunge :: Region -> Milling -> SpacePoint -> Mm -> [Move]
+plunge word milling (SpacePoint p z) target =
+  [Move (Straight p p) (Manner (z, target) (Part.At feedDown) False) word False | z /= target]
+  where
+    feedDown = fromMaybe (feed milling) (Part.plunge milling)
+
+-- | A rapid move straight up to a height, if the cutter is below it.
 rise :: SpacePoint -> Mm -> Region -> [Move]
 rise (SpacePoint p z) clear word =
   [Move (Straight p p) (Manner (z, clear) Part.Rapid False) word False | z < clear]
 
--- | Straight moves from stop to stop; a stop where the cutter already stands needs none.
+-- | Straight moves from stop to stop. A stop at the current position needs no move.
 ways :: SpacePoint -> [Stop] -> [Move]
 ways at stops = case stops of
   [] -> []
@@ -125,13 +121,13 @@ ways at stops = case stops of
     where
       z = fromMaybe (height at) level
 
--- | Where moves from a place end.
+-- | The position after moves that begin at a position.
 arriving :: SpacePoint -> [Move] -> SpacePoint
 arriving from ms = case ms of
   [] -> from
   [m] -> SpacePoint (Segment.end (Toolpath.segment m)) (snd (Toolpath.heights m))
   _ : more -> arriving from more
 
--- | The first word of a statement, of so many letters.
+-- | The region of a statement's first word, which has @letters@ letters.
 keyword :: Int -> Region -> Region
 keyword letters r = r {end = start r + letters}

@@ -1,15 +1,15 @@
--- | The way of the cutter's centre in a pocket: loops at rising distances from the walls, cut from
--- the innermost outwards, and what leads from each to the next.
+-- | The toolpath of a pocket: loops at increasing distances from the walls, cut from the
+-- innermost outwards, and the linking moves between them.
 --
--- Every place of the floor that the cutter can reach is swept. A place at a distance between two
--- loops comes to the outer one straight towards its nearest wall, on a way no longer than the step;
--- so a step of no more than the radius leaves nothing, the middle included, where the last loop
--- shrinks to nothing. What a wider step leaves is cleared aside ("Toolpath.StepoverResidue"). A
--- place nearer to the wall than any centre comes to an admissible centre within the radius, across
--- the outermost loop.
+-- The cutter sweeps every point of the floor that it can reach. A point between two loops has a
+-- distance of at most the stepover from the outer loop, along the shortest line to its nearest
+-- wall. A stepover of at most the radius therefore leaves nothing, not even in the middle, where
+-- the last loop shrinks to nothing. Residue of a wider stepover is cleared by detours
+-- ("Toolpath.StepoverResidue"). A point nearer to a wall than the outermost loop is within one
+-- radius of a position of the centre on that loop.
 --
--- Inside out, because the cutter then goes down where there is room about it, and what is still to
--- be cut lies on one side of every later pass, with the walls last.
+-- The order is from the inside outwards, because the cutter then plunges where it has room. The
+-- material still to be cut lies on one side of every later pass, and the walls are cut last.
 module Toolpath.Pocket
   ( PocketRoom (..),
     Loop,
@@ -42,38 +42,37 @@ import Offset.Tolerance qualified as Tolerance
 import Toolpath.PocketTree (Loop, PocketTree (..), Ring (..), RingSegment (..))
 import Toolpath.PocketTree qualified as PocketTree
 
--- | What is to be cleared.
+-- | A pocket to be cleared.
 data PocketRoom = PocketRoom
-  { -- | the outline and the islands
+  { -- | the outer contour and the islands
     walls :: NonEmpty Segment,
-    -- | the loops that bound what lies inside the outline, outside the islands, and no nearer to
-    -- both than a distance; the free space is on their left
+    -- | the loops that bound the region inside the outer contour and outside the islands, at the
+    -- given distance from both; the free space is on their left
     offsetBy :: Mm -> [Loop],
-    -- | the same of such loops, so much further in, if it is easier
+    -- | the inner offset of such loops by a distance, where that is simpler
     further :: [Loop] -> Mm -> Maybe [Loop],
     -- | of the cutter
     radius :: Mm,
-    -- | what is left at the walls
+    -- | the allowance at the walls
     leaves :: Mm,
-    -- | walk every loop with the free space on its right
+    -- | traverse every loop with the free space on its right
     turned :: Bool
   }
 
--- | A part of the way. Each begins where the one before it ends.
+-- | A section of the toolpath. Each begins where the one before it ends.
 data PocketMove
-  = -- | along a loop, or a part of one, at its distance from the walls
+  = -- | along a loop or a part of one, with its distance from the walls
     Round Mm (NonEmpty Segment)
-  | -- | where the loops leave something; no nearer to the walls than the loops
+  | -- | a detour to stepover residue, no nearer to the walls than the loops
     Aside (NonEmpty Segment)
-  | -- | straight on to the next loop, with no wall in the way
+  | -- | straight to the next loop, with no wall between
     Across Segment
-  | -- | up, over and down again: something is in the way
+  | -- | up, over and down again, because a wall lies between
     Over Point Point
   deriving stock (Eq, Show)
 
--- | Clear a pocket with a step from pass to pass, from the place where the cutter goes down, if
--- that is known; nowhere when the cutter fits nowhere. The step is above zero and at most the
--- diameter.
+-- | Clears a pocket with a stepover, greater than 0 and at most the diameter. The point is the
+-- cutter's plunge position, if it is known. The result is empty when the cutter fits nowhere.
 clear :: PocketRoom -> Mm -> Maybe Point -> [PocketMove]
 clear room step from =
   along
@@ -89,13 +88,13 @@ clear room step from =
         )
     )
   where
-    -- No place of the pocket lies further from the walls.
+    -- No point of the pocket is further from the walls.
     deepest =
       plus step (halfOf (foldr1 BoundingBox.union (fmap BoundingBox.ofSegment (walls room))))
     halfOf (BoundingBox l b r t) = Mm (min (r - l) (t - b) / 2)
 
--- | Go along the walls once more, in a pocket that was cleared but for more at the walls: so much
--- was left then. Passes lie no more than the step and the radius apart.
+-- | Finishes the walls of a pocket that was cleared with the larger allowance @before@. The
+-- distance between passes is at most the stepover and at most the radius.
 skim :: PocketRoom -> Mm -> Mm -> Maybe Point -> [PocketMove]
 skim room step before from =
   along
@@ -117,9 +116,9 @@ skim room step before from =
 nearest' :: PocketRoom -> Mm
 nearest' room = plus (radius room) (leaves room)
 
--- Links
+-- Linking moves
 
--- | What leads from a place to another: nothing, straight on, or over what is in the way.
+-- | The linking move between two points: none, a straight move, or a move over a wall.
 linked :: PocketRoom -> Point -> Point -> [PocketMove]
 linked room = link
   where
@@ -134,50 +133,50 @@ linked room = link
         (BoxTree.within (BoundingBox.inflate (nearest' room) (BoundingBox.ofSegment s)) index)
     distanceTo s w = let ClosestPoint d _ = Distance.segments s w in d
 
--- The walk
+-- Order of the loops
 
--- | Where the cutter stands, and the legs up to there, the last one first.
-data Walk = Walk {at :: Maybe Point, legs :: [PocketMove]}
+-- | The current position of the cutter, if it is known, and the sections so far, the last one
+-- first.
+data Progress = Progress {current :: Maybe Point, sections :: [PocketMove]}
 
--- | All loops of nests and what leads from each to the next. The cutter stands at a place, or
--- anywhere.
+-- | The sections of all loops with the linking moves between them.
 along :: PocketRoom -> Maybe Point -> [PocketTree] -> [PocketMove]
-along room from nests = reverse (legs (visitAll Walk {at = from, legs = []} nests))
+along room from nests = reverse (sections (visitAll Progress {current = from, sections = []} nests))
   where
     link = linked room
-    visitAll walk ns = inTurn visit (entrance . innermost) walk ns
-    visit walk n = case (at inside, rings n) of
-      -- From a part within this one its nearest loop is the one that no wall can hide.
+    visitAll progress ns = inTurn visit (entrance . innermost) progress ns
+    visit progress n = case (current inside, rings n) of
+      -- No wall separates a region from its nearest enclosing loop.
       (Just p, rs) ->
         let (r, others) =
-              takeOut (apart p) rs
+              takeOut (distanceFrom p) rs
          in inTurn enter entrance (enter inside r) others
       (Nothing, rs) -> inTurn enter entrance inside (NonEmpty.toList rs)
       where
-        inside = visitAll walk (inner n)
-    enter walk r =
-      let r' = maybe r (enteredNear r) (at walk)
-          way = maybe [] (`link` entrance r') (at walk)
-       in Walk
-            { at = Just (entrance r'),
-              legs = reverse (way <> roundOf (turned room) r') <> legs walk
+        inside = visitAll progress (inner n)
+    enter progress r =
+      let r' = maybe r (enteredNear r) (current progress)
+          linking = maybe [] (`link` entrance r') (current progress)
+       in Progress
+            { current = Just (entrance r'),
+              sections = reverse (linking <> roundOf (turned room) r') <> sections progress
             }
 
--- | One after the other, next the one whose place is nearest to where the cutter stands. Of very
--- many the next one in order, which is that of the walls.
-inTurn :: (Walk -> a -> Walk) -> (a -> Point) -> Walk -> [a] -> Walk
-inTurn visit place walk things = case (things, at walk) of
-  ([], _) -> walk
+-- | Visits items one after the other, always the one nearest to the cutter. With more than @many@
+-- items it keeps their order, which is the order of the walls.
+inTurn :: (Progress -> a -> Progress) -> (a -> Point) -> Progress -> [a] -> Progress
+inTurn visit position progress things = case (things, current progress) of
+  ([], _) -> progress
   (first : others, Just p)
     | null (drop many things) ->
       let (next, rest) =
-            takeOut (Vec.distance p . place) (first :| others)
-       in inTurn visit place (visit walk next) rest
-  (first : others, _) -> inTurn visit place (visit walk first) others
+            takeOut (Vec.distance p . position) (first :| others)
+       in inTurn visit position (visit progress next) rest
+  (first : others, _) -> inTurn visit position (visit progress first) others
   where
     many = 100
 
--- | The first of those that are least by a measure, and the others.
+-- | The first item with the least measure, and the others.
 takeOut :: (a -> Mm) -> NonEmpty a -> (a, [a])
 takeOut measure things = (chosen, [a | (i, a) <- numbered, i /= number])
   where
@@ -189,21 +188,21 @@ takeOut measure things = (chosen, [a | (i, a) <- numbered, i /= number])
 
 -- Loops
 
--- | The loop that is cut first in a part.
+-- | The loop of a region that is cut first.
 innermost :: PocketTree -> Ring
 innermost n = case inner n of
   [] -> NonEmpty.head (rings n)
   first : _ -> innermost first
 
--- | Where a loop is entered.
+-- | The point at which a loop is entered.
 entrance :: Ring -> Point
 entrance r = Segment.start (segment (NonEmpty.head (stretches r)))
 
 -- | The distance of a loop from a point.
-apart :: Point -> Ring -> Mm
-apart p r = minimum (fmap (Distance.toPoint p . segment) (stretches r))
+distanceFrom :: Point -> Ring -> Mm
+distanceFrom p r = minimum (fmap (Distance.toPoint p . segment) (stretches r))
 
--- | A loop that begins where it comes nearest to a point.
+-- | Rotates a loop so that it begins at its point nearest to a given one.
 enteredNear :: Ring -> Point -> Ring
 enteredNear r p = case NonEmpty.nonEmpty begun of
   Just ss -> r {stretches = ss}
@@ -215,21 +214,21 @@ enteredNear r p = case NonEmpty.nonEmpty begun of
         (comparing snd)
         (NonEmpty.zip (0 :| [1 ..]) (fmap (Distance.toPoint p . segment) (stretches r)))
     begun = case splitAt number list of
-      (before, s : behind)
-        | Vec.near foot (Segment.end (segment s)) -> behind <> before <> [s]
-        | Vec.near foot (Segment.start (segment s)) -> s : behind <> before
+      (before, s : after)
+        | Vec.near foot (Segment.end (segment s)) -> after <> before <> [s]
+        | Vec.near foot (Segment.start (segment s)) -> s : after <> before
         | otherwise ->
           let (a, b) =
                 Segment.cutAt (Segment.fraction (segment s) foot) (segment s)
-           in s {segment = b} : behind <> before <> [RingSegment {segment = a, aside = []}]
+           in s {segment = b} : after <> before <> [RingSegment {segment = a, aside = []}]
         where
           foot = snd (Distance.nearest p (segment s))
       (_, []) -> list
 
--- | A loop with its trips aside.
+-- | A loop with its detours.
 roundOf :: Bool -> Ring -> [PocketMove]
 roundOf isTurned r
-  | isTurned = map turnedRound (reverse parts)
+  | isTurned = map reverseSection (reverse parts)
   | otherwise = parts
   where
     parts = go [] (NonEmpty.toList (stretches r))
@@ -239,33 +238,33 @@ roundOf isTurned r
       RingSegment {segment = s, aside = trips} : more ->
         whole (s : before) <> map Aside trips <> go [] more
     whole before = maybe [] (\some -> [Round (away r) some]) (NonEmpty.nonEmpty (reverse before))
-    turnedRound leg = case leg of
+    reverseSection section = case section of
       Round c ss -> Round c (NonEmpty.reverse (fmap Segment.reverse ss))
       Aside ss -> Aside (NonEmpty.reverse (fmap Segment.reverse ss))
       Across s -> Across (Segment.reverse s)
       Over p q -> Over q p
 
--- Legs
+-- Sections
 
--- | Where a leg begins.
+-- | The first point of a section.
 begins :: PocketMove -> Point
-begins leg = case leg of
+begins section = case section of
   Over p _ -> p
   Round _ (s :| _) -> Segment.start s
   Aside (s :| _) -> Segment.start s
   Across s -> Segment.start s
 
--- | Where a leg ends.
+-- | The last point of a section.
 finishes :: PocketMove -> Point
-finishes leg = case leg of
+finishes section = case section of
   Over _ q -> q
   Round _ ss -> Segment.end (NonEmpty.last ss)
   Aside ss -> Segment.end (NonEmpty.last ss)
   Across s -> Segment.end s
 
--- | The segments along which a leg cuts.
+-- | The segments along which a section cuts.
 segments :: PocketMove -> [Segment]
-segments leg = case leg of
+segments section = case section of
   Over _ _ -> []
   Round _ ss -> NonEmpty.toList ss
   Aside ss -> NonEmpty.toList ss

@@ -1,4 +1,4 @@
--- | The passes of a pocket as moves: down where there is room, loop by loop outwards, up again.
+-- | The passes of a pocket as moves: plunge, loops from the inside outwards, retract.
 module Toolpath.PocketMove
   ( blocks,
   )
@@ -33,26 +33,27 @@ import Part.Part
     SpacePoint (..),
   )
 import Part.Part qualified as Part
-import Toolpath.Error (Error (..), Tool (Tool))
-import Toolpath.Error qualified
+import Toolpath.Error (Error (..))
 import Toolpath.Inset qualified as Inset
 import Toolpath.LinkingMove (Visit (Visit))
 import Toolpath.LinkingMove qualified as LinkingMove
 import Toolpath.OffsetRefusal qualified as OffsetRefusal
 import Toolpath.Pocket (PocketMove (..), PocketRoom (..))
 import Toolpath.Pocket qualified as Pocket
+import Toolpath.RestMaterial qualified as RestMaterial
 import Toolpath.Toolpath (Block (..), Manner (Manner), Move (Move), Pass (..))
 import Toolpath.Toolpath qualified as Toolpath
 
--- | The passes of a pocket, by the number of its statement, from where the cutter stands: all
--- depths for the first allowance, then for the next.
+-- | The passes of a pocket statement: all depths for the first allowance, then all depths for the
+-- next. The first argument is the statement's number; the position is that of the cutter before
+-- the pocket.
 blocks :: Int -> SpacePoint -> Located Pocketing -> Either Error [Block]
 blocks number at (Located region given) = do
   for_
     (find ((> NonEmpty.last allowances) . Part.allowance . Part.finish) elements)
     (Left . KeepsMore word)
-  when (isNothing depth && standing > Mm 0) (Left (CutsAir word standing))
-  rests <- resting word pocket
+  when (isNothing depth && currentHeight > Mm 0) (Left (CutsAir word currentHeight))
+  rests <- restAtWalls word pocket
   reverse . snd <$> foldl (pass rests) (Right (at, [])) (zip [1 ..] passes)
   where
     word = LinkingMove.keyword 6 region
@@ -60,30 +61,30 @@ blocks number at (Located region given) = do
     milling = wall pocket
     elements = elementsOf pocket
     allowances = Part.allowances milling
-    standing =
+    currentHeight =
       fromMaybe (height at) (listToMaybe (mapMaybe Part.level (reverse (Part.approach milling))))
     depth = case (Part.levels milling, Part.clearance milling) of
       (first : more, Just clear) -> Just (clear, first :| more)
       _ -> Nothing
-    -- With depth all passes of an allowance are the same at every depth.
+    -- With depth, all passes of one allowance have the same sections at every depth.
     passes =
-      [ (a, case depth of Just _ -> const down; Nothing -> legs, z)
-        | (a, legs) <- NonEmpty.toList (NonEmpty.zip allowances (laid pocket)),
-          let down = legs (lastApproach milling),
-          z <- maybe [standing] (NonEmpty.toList . snd) depth
+      [ (a, case depth of Just _ -> const down; Nothing -> sections, z)
+        | (a, sections) <- NonEmpty.toList (NonEmpty.zip allowances (sectionsFor pocket)),
+          let down = sections (lastApproach milling),
+          z <- maybe [currentHeight] (NonEmpty.toList . snd) depth
       ]
-    pass rests before (k, (left, legs, z)) = do
-      (spot, done) <- before
+    pass rests before (k, (left, sections, z)) = do
+      (position, done) <- before
       let visit =
             Visit
               { LinkingMove.word,
                 LinkingMove.milling,
                 LinkingMove.isFirst = k == 1,
                 LinkingMove.isLast = k == length passes,
-                LinkingMove.from = spot
+                LinkingMove.from = position
               }
           numbered = Pass {number, reach = plus (Part.radius milling) left, left, atHeight = z}
-      (approach, cleared, retract) <- passOf visit (fst <$> depth) (left, z) legs
+      (approach, cleared, retract) <- passOf visit (fst <$> depth) (left, z) sections
       let b =
             Clearing
               { pocket = Located region pocket,
@@ -93,25 +94,26 @@ blocks number at (Located region given) = do
                 retract,
                 rests = if left == NonEmpty.last allowances then rests else []
               }
-      Right (LinkingMove.arriving spot (Toolpath.moves b), b : done)
+      Right (LinkingMove.arriving position (Toolpath.moves b), b : done)
 
--- | Where the cutter is when it goes down, if that is said.
+-- | The plunge position of the cutter, if the program gives it.
 lastApproach :: Milling -> Maybe Point
 lastApproach milling = value . Part.place <$> listToMaybe (reverse (Part.approach milling))
 
--- | The moves of a pass, before, in and behind it: at which height nothing is in the way, if the
--- cutter may be lifted; what it leaves at the walls and its own height; the legs from where the
--- cutter goes down.
+-- | The moves before, in and after a pass. @clear@ is the clearance height, if the cutter may be
+-- lifted; the pair is the allowance at the walls and the height of the pass. @sectionsFrom@ gives
+-- the sections for a plunge position.
 passOf ::
   Visit ->
   Maybe Mm ->
   (Mm, Mm) ->
   (Maybe Point -> [PocketMove]) ->
   Either Error ([Move], NonEmpty Move, [Move])
-passOf visit clear (left, z) legsFrom = do
-  legs <- fitting (NonEmpty.nonEmpty (legsFrom from))
-  (visit', legs') <- case (legs, clear) of
-    -- Something is in the way from where the cutter would go down: it goes on above.
+passOf visit clear (left, z) sectionsFrom = do
+  sections <- fitting (NonEmpty.nonEmpty (sectionsFrom from))
+  (visit', sections') <- case (sections, clear) of
+    -- A wall lies between the plunge position and the first loop, so the cutter moves over it at
+    -- the clearance height.
     (Over _ q :| next : more, Just c) ->
       Right
         ( visit
@@ -124,34 +126,34 @@ passOf visit clear (left, z) legsFrom = do
             },
           next :| more
         )
-    (_, Just _) -> Right (visit, legs)
+    (_, Just _) -> Right (visit, sections)
     (_, Nothing) ->
       maybe
-        (Right (visit, legs))
+        (Right (visit, sections))
         (\(p, q) -> Left (HasToRise word p q))
-        (listToMaybe [(p, q) | Over p q <- toList legs])
-  let (before, behind) =
+        (listToMaybe [(p, q) | Over p q <- toList sections])
+  let (before, after) =
         maybe
           (LinkingMove.flat visit' z)
           (LinkingMove.deep visit')
           clear
           (z, z)
-          (Pocket.begins (NonEmpty.head legs'))
-          (Pocket.finishes (NonEmpty.last legs'))
-  cleared <- fitting (NonEmpty.nonEmpty (concatMap (moves word milling z clear) legs'))
-  Right (before, cleared, behind)
+          (Pocket.begins (NonEmpty.head sections'))
+          (Pocket.finishes (NonEmpty.last sections'))
+  cleared <- fitting (NonEmpty.nonEmpty (concatMap (moves word milling z clear) sections'))
+  Right (before, cleared, after)
   where
     Visit {LinkingMove.word, LinkingMove.milling} = visit
     fitting = maybe (Left (NoPathInPocket word (contour milling) left)) Right
-    standsAt = plane (LinkingMove.from visit)
+    currentPoint = plane (LinkingMove.from visit)
     from = case (clear, lastApproach milling) of
       (Just _, p) -> p
       (Nothing, Just p) | LinkingMove.isFirst visit -> Just p
-      (Nothing, _) -> Just standsAt
+      (Nothing, _) -> Just currentPoint
 
--- | The moves of a leg at a height; over what is in the way, at another one.
+-- | The moves of a section at a height; a section over a wall is at the clearance height.
 moves :: Region -> Milling -> Mm -> Maybe Mm -> PocketMove -> [Move]
-moves word milling z clear leg = case leg of
+moves word milling z clear section = case section of
   Over p q
     | Just c <- clear ->
       [Move (Straight p p) (Manner (z, c) Part.Rapid False) word False | c /= z]
@@ -163,11 +165,14 @@ moves word milling z clear leg = case leg of
                False
              | c /= z
            ]
-  _ -> [Move s (Manner (z, z) (Part.At (feed milling)) False) word False | s <- Pocket.segments leg]
+  _ ->
+    [ Move s (Manner (z, z) (Part.At (feed milling)) False) word False
+      | s <- Pocket.segments section
+    ]
 
--- | For each allowance the legs from where the cutter goes down.
-laid :: Pocketing -> NonEmpty (Maybe Point -> [PocketMove])
-laid pocket =
+-- | For each allowance, the sections as a function of the plunge position.
+sectionsFor :: Pocketing -> NonEmpty (Maybe Point -> [PocketMove])
+sectionsFor pocket =
   (\from -> Pocket.clear (room first) step from)
     :| zipWith (\before a -> Pocket.skim (room a) step before) (first : more) more
   where
@@ -176,7 +181,7 @@ laid pocket =
     contours =
       Inset.oriented (Part.outline (contour (wall pocket))) (map Part.outline (islands pocket))
     inset = Inset.inset contours
-    -- Along the walls it goes down slots of just its width, too.
+    -- The passes along the walls also go down slots of exactly the cutter's width.
     insetFrom nearest d = if d == nearest then Inset.fitting inset d else inset d
     room leaves =
       PocketRoom
@@ -185,40 +190,40 @@ laid pocket =
           further = Inset.further,
           radius = Part.radius (wall pocket),
           leaves,
-          turned = isTurned pocket
+          turned = hasSpaceOnRight pocket
         }
 
--- | Whether the free space lies on the right of the walk: a spindle that turns clockwise climbs
--- with the material there.
-isTurned :: Pocketing -> Bool
-isTurned pocket = climbs /= (Part.spin (wall pocket) == Part.Clockwise)
+-- | True when the free space lies on the right of the direction of travel. A clockwise spindle
+-- mills climb with the material on its right and the free space on its left.
+hasSpaceOnRight :: Pocketing -> Bool
+hasSpaceOnRight pocket = climbs /= (Part.spin (wall pocket) == Part.Clockwise)
   where
     climbs = maybe True ((== Part.Climb) . value) (Part.sense (wall pocket))
 
--- | Outline and islands walked as the cutter walks along them.
+-- | The outer contour and the islands, oriented in the cutter's direction of travel.
 oriented :: Pocketing -> Pocketing
 oriented pocket =
   pocket
-    { wall = (wall pocket) {contour = walked (not turned) (contour (wall pocket))},
-      islands = map (walked turned) (islands pocket)
+    { wall = (wall pocket) {contour = orient (not turned) (contour (wall pocket))},
+      islands = map (orient turned) (islands pocket)
     }
   where
-    turned = isTurned pocket
-    walked counterClockwise c =
+    turned = hasSpaceOnRight pocket
+    orient counterClockwise c =
       if (Polyarc.signedArea (Part.outline c) > 0) == counterClockwise then c else Part.backwards c
 
--- | The elements of the outline, and of the islands in order.
+-- | The elements of the outer contour, then those of the islands in order.
 elementsOf :: Pocketing -> Vector Element
 elementsOf pocket =
   Vector.fromList
     (concatMap (NonEmpty.toList . Part.elements) (contour (wall pocket) : islands pocket))
 
--- What stays
+-- Rest material
 
--- | What stays at the walls when all is done, by elements of the outline and the islands in order,
--- if that is allowed.
-resting :: Region -> Pocketing -> Either Error [Equidistant.UnreachedPart]
-resting word pocket = case (Part.rest milling, found) of
+-- | The parts of the walls that remain unreached after the last pass, by the elements of the
+-- outer contour and the islands in order. Refuses them unless the program allows rest material.
+restAtWalls :: Region -> Pocketing -> Either Error [Equidistant.UnreachedPart]
+restAtWalls word pocket = case (Part.rest milling, found) of
   (Part.Refused, o : _) -> Left (OffsetRefusal.refusal word tool (elementsOf pocket) o)
   (Part.Refused, []) -> Right []
   (Part.Allowed, _) ->
@@ -236,15 +241,10 @@ resting word pocket = case (Part.rest milling, found) of
     milling = wall pocket
     left = NonEmpty.last (Part.allowances milling)
     r = plus (Part.radius milling) left
-    tool =
-      Tool
-        { Toolpath.Error.work = Part.work milling,
-          Toolpath.Error.radius = Part.radius milling,
-          Toolpath.Error.leaves = left
-        }
+    tool = RestMaterial.toolOf milling left
     contours = contour milling : islands pocket
     starts = scanl (+) 0 (map (length . Part.elements) contours)
-    side = if isTurned pocket then Carrier.RightOf else Carrier.LeftOf
+    side = if hasSpaceOnRight pocket then Carrier.RightOf else Carrier.LeftOf
     style = Equidistant.CornerStyle {Equidistant.sharp = False, Equidistant.extra = const (Mm 0)}
     found =
       [ OffsetRefusal.shifted n o
@@ -260,7 +260,8 @@ resting word pocket = case (Part.rest milling, found) of
         ]
     gaps = gapsBetween r (map Part.outline contours)
 
--- | Contours between which a circle does not pass: of each two the narrowest place.
+-- | The narrowest point between each two contours between which a circle of this radius does not
+-- pass.
 gapsBetween :: Mm -> [Polyarc.Polyarc] -> [Equidistant.Obstacle]
 gapsBetween r contours =
   [ Equidistant.Obstacle

@@ -1,5 +1,6 @@
--- | The passes in a pocket as a tree: each connected part of what the cutter's centre can reach at
--- one distance from the walls, and in it those at the next distance.
+-- | The passes of a pocket as a tree. A node is a connected region that the cutter's centre can
+-- reach at one distance from the walls; its children are the regions inside it at the next
+-- distance.
 module Toolpath.PocketTree
   ( Loop,
     PocketTree (..),
@@ -31,23 +32,24 @@ import Geometry.Vec (Point)
 import Geometry.Vec qualified as Vec
 import Toolpath.StepoverResidue qualified as StepoverResidue
 
--- | Segments in a closed chain, with the free space on their left.
+-- | A closed chain of segments with the free space on their left.
 type Loop = NonEmpty Segment
 
--- | What bounds one connected part at its distance, the outer loop and those round islands; the
--- parts in it at the next distance.
+-- | One connected region at its distance: the rings that bound it, the outer one and those round
+-- islands, and the regions inside it at the next distance.
 data PocketTree = PocketTree {rings :: NonEmpty Ring, inner :: [PocketTree]}
 
--- | A loop at a distance from the walls.
+-- | A loop, and its distance from the walls.
 data Ring = Ring {away :: Mm, stretches :: NonEmpty RingSegment}
 
--- | A segment of a loop, and trips aside from its end and back to it.
+-- | A segment of a loop, and detours that begin and end at its end.
 data RingSegment = RingSegment {segment :: Segment, aside :: [NonEmpty Segment]}
 
--- | The passes at rising distances from the walls, up to the first at which there is nothing; by
--- the loops that bound what can be reached at a distance, and those of loops so much further in, if
--- they are known. Where they lie further apart than the radius of the cutter, what they leave
--- between them is cleared aside. The last of finitely many distances looks no further inwards.
+-- | The passes at increasing distances from the walls, up to the first distance without loops.
+-- The first function gives the loops at a distance from the walls; the second one the inner
+-- offset of loops, if it is known. Where the distances differ by more than the cutter's radius,
+-- residue between the passes is cleared by detours. Residue inside the last of finitely many
+-- distances is not examined.
 nests :: (Mm -> [Loop]) -> ([Loop] -> Mm -> Maybe [Loop]) -> Mm -> [Mm] -> [PocketTree]
 nests offsetBy further radius distances = case distances of
   [] -> []
@@ -58,21 +60,22 @@ nests offsetBy further radius distances = case distances of
       (_, []) -> grouped c loops trips []
       (_, next : others) ->
         let loops' = inwards c loops (minus next c)
-            nooks = left c loops next loops'
+            residue = residueOf c loops next loops'
          in grouped
               c
               loops
               trips
-              ( from next loops' (StepoverResidue.trips nooks) others
-                  <> map (leaf (plus c radius)) (StepoverResidue.lone nooks)
+              ( from next loops' (StepoverResidue.trips residue) others
+                  <> map (leaf (plus c radius)) (StepoverResidue.lone residue)
               )
     inwards c loops d = fromMaybe (offsetBy (plus c d)) (further loops d)
-    left c loops next loops'
+    residueOf c loops next loops'
       | minus next c <= plus radius Tolerance.coincident = StepoverResidue.none
       | otherwise =
         StepoverResidue.between radius (minus (minus next c) radius) (inwards c loops radius) loops'
     leaf c loop = PocketTree {rings = ring c Map.empty (0, loop) :| [], inner = []}
 
+-- | A ring of the loop with number @n@, with the detours that begin at its segments.
 ring :: Mm -> Map (Int, Int) [NonEmpty Segment] -> (Int, Loop) -> Ring
 ring away trips (n, loop) =
   Ring
@@ -84,7 +87,8 @@ ring away trips (n, loop) =
           loop
     }
 
--- | The loops of one distance by the parts that they bound, and in each part what lies in it.
+-- | Groups the loops of one distance by the regions that they bound, and assigns the inner
+-- regions to them.
 grouped :: Mm -> [Loop] -> Map (Int, Int) [NonEmpty Segment] -> [PocketTree] -> [PocketTree]
 grouped c loops trips inside = mapMaybe part (Map.toList members)
   where
@@ -94,9 +98,9 @@ grouped c loops trips inside = mapMaybe part (Map.toList members)
         (BoundingBox.ofSegment . snd)
         [(n, s) | (n, loop) <- numbered, s <- NonEmpty.toList loop]
     (outers, holes) = partition (isOuter . snd) numbered
-    -- The outer loop of the part that each loop bounds. To the right of the rightmost point of a
-    -- loop round an island lies the part that it bounds, and then another loop that bounds it,
-    -- which ends no further left.
+    -- The outer loop of the region that each loop bounds. A horizontal ray from the rightmost point
+    -- of a loop round an island crosses that region, and then meets another loop that bounds it.
+    -- That loop extends at least as far to the right, so loops are processed from right to left.
     outer =
       foldl
         around
@@ -108,19 +112,21 @@ grouped c loops trips inside = mapMaybe part (Map.toList members)
     outerOf n = among n outer
     isOuter loop = Polyarc.signedArea (Polyarc Closed loop) > 0
     members = Map.fromListWith (flip (<>)) [(outerOf n, [(n, loop)]) | (n, loop) <- numbered]
-    held =
+    innerOf =
       Map.fromListWith
         (flip (<>))
         [(maybe 0 outerOf (firstHit index Nothing (beginning nest)), [nest]) | nest <- inside]
     part (n, found) =
       ( \some ->
-          PocketTree {rings = fmap (ring c trips) some, inner = Map.findWithDefault [] n held}
+          PocketTree {rings = fmap (ring c trips) some, inner = Map.findWithDefault [] n innerOf}
       )
         <$> NonEmpty.nonEmpty found
 
+-- | The first point of a region's first ring.
 beginning :: PocketTree -> Point
 beginning nest = Segment.start (segment (NonEmpty.head (stretches (NonEmpty.head (rings nest)))))
 
+-- | The rightmost point of a loop.
 rightmost :: Loop -> Point
 rightmost loop =
   foldl
@@ -135,19 +141,20 @@ rightmost loop =
             furthest = Vec.shift (Vec.vec r 0) centre
          in a : [furthest | Segment.spans s furthest]
 
--- | Of the loops, but for one of them, the first that the way from a point to the right meets.
+-- | The first loop that a horizontal ray from a point to the right meets, except the loop @own@.
 firstHit :: BoxTree (Int, Segment) -> Maybe Int -> Point -> Maybe Int
 firstHit index own p = snd <$> foldl nearer Nothing hits
   where
     nearer best (x, n) = case best of
       Just (x', _) | x' <= x -> best
       _ -> Just (x, n)
-    hits = [(x, n) | (n, s) <- BoxTree.select onTheWay index, Just n /= own, x <- crossings p s]
-    onTheWay box =
+    hits = [(x, n) | (n, s) <- BoxTree.select isOnRay index, Just n /= own, x <- crossings p s]
+    isOnRay box =
       right box >= Vec.x p && bottom box <= Vec.y p + slack && top box >= Vec.y p - slack
     Mm slack = Tolerance.coincident
 
--- | Where the way from a point to the right meets a segment, its ends included.
+-- | The x coordinates where a horizontal ray from a point to the right meets a segment, its ends
+-- included.
 crossings :: Point -> Segment -> [Double]
 crossings p s = filter (>= Vec.x p) $ case s of
   Straight a b

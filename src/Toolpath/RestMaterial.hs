@@ -1,4 +1,4 @@
--- | What stays of the part because the cutter does not reach it.
+-- | Rest material: the parts of a contour that the cutter does not reach.
 module Toolpath.RestMaterial
   ( Remaining (..),
     ofPath,
@@ -22,8 +22,9 @@ import Toolpath.OffsetRefusal qualified as OffsetRefusal
 import Toolpath.Toolpath (Block (..), Pass (..), Toolpath)
 import Toolpath.Toolpath qualified as Toolpath
 
--- | Beside the contours of one statement after its last pass: the first word, the cutter, the
--- contours in order, the places, and how far from the contour the cutter's centre goes.
+-- | Rest material at the contours of one statement after its last pass: the statement's first
+-- word, the cutter, the contours in order, the unreached parts, and the distance of the
+-- cutter's centre from the contour.
 data Remaining = Remaining
   { word :: Region,
     tool :: Tool,
@@ -32,24 +33,25 @@ data Remaining = Remaining
     beside :: Mm
   }
 
--- | Once for each statement that leaves something, in their order.
+-- | One entry, in program order, for each statement that leaves rest material.
 ofPath :: Toolpath -> [Remaining]
 ofPath path = Map.elems (Map.fromList (mapMaybe ofBlock (Toolpath.blocks path)))
 
+-- | The rest material of a block, with the number of its statement.
 ofBlock :: Block -> Maybe (Int, Remaining)
 ofBlock block = case block of
   Cutting {job = Located region m, pass, rests} ->
-    stayed (LinkingMove.keyword 4 region) m [] pass <$> NonEmpty.nonEmpty rests
+    remaining (LinkingMove.keyword 4 region) m [] pass <$> NonEmpty.nonEmpty rests
   Clearing {pocket = Located region p, pass, rests} ->
-    stayed (LinkingMove.keyword 6 region) (Part.wall p) (Part.islands p) pass
+    remaining (LinkingMove.keyword 6 region) (Part.wall p) (Part.islands p) pass
       <$> NonEmpty.nonEmpty rests
   Travelling _ _ -> Nothing
   Holing _ _ -> Nothing
   Commanding _ -> Nothing
 
--- | What a pass leaves beside a contour and islands in it.
-stayed :: Region -> Milling -> [Contour] -> Pass -> NonEmpty UnreachedPart -> (Int, Remaining)
-stayed word milling islands pass rests =
+-- | The rest material of a pass along a contour, or in a pocket with islands.
+remaining :: Region -> Milling -> [Contour] -> Pass -> NonEmpty UnreachedPart -> (Int, Remaining)
+remaining word milling islands pass rests =
   ( number pass,
     Remaining
       { word,
@@ -64,7 +66,7 @@ stayed word milling islands pass rests =
     walls = Part.contour milling :| islands
     elements = Vector.fromList (concatMap (NonEmpty.toList . Part.elements) walls)
 
--- | The cutter that leaves so much.
+-- | The cutter, with the allowance that it leaves.
 toolOf :: Milling -> Mm -> Tool
 toolOf milling allowance =
   Tool {work = Part.work milling, radius = Part.radius milling, leaves = allowance}

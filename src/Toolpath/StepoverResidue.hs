@@ -1,11 +1,11 @@
--- | What passes that lie further apart than the cutter's radius leave between them, and the trips
--- aside that clear it.
+-- | Residue between passes whose distance exceeds the cutter's radius, and the detours that clear
+-- it.
 --
--- Let passes run at the distances @c@ and @c + s@ from the walls, with @r < s ≤ 2·r@. Halfway, at
--- @c + r@, runs the edge of what the outer pass has swept. A place further in lies at most @s − r ≤
--- r@ from its foot on that edge. Where the inner pass runs beside the edge, @s − r@ away from it,
--- it sweeps all places between the two. Where it does not, because the edge has a corner or a nook
--- into which the inner pass does not come, the cutter follows the edge itself.
+-- Let passes run at the distances @c@ and @c + s@ from the walls, with @r < s ≤ 2·r@. The edge of
+-- the area swept by the outer pass runs between them, at @c + r@. A point further in has a distance
+-- of at most @s − r ≤ r@ from the edge. Where the inner pass is parallel to the edge at the
+-- distance @s − r@, it sweeps all points between the two. Elsewhere the edge has a corner or a nook
+-- that the inner pass does not enter. There the cutter follows the edge itself.
 module Toolpath.StepoverResidue
   ( Nooks (..),
     none,
@@ -30,17 +30,17 @@ import Geometry.Vec (Point)
 import Geometry.Vec qualified as Vec
 import Offset.Tolerance qualified as Tolerance
 
--- | Trips by the loop of the inner pass and the number of the segment, both from 0, from whose end
--- they go and where they come back; loops of the edge into which no inner pass leads.
+-- | Detours, and loops of the edge that no inner pass reaches. The key of a detour is the number
+-- of the inner loop and the number of the segment at whose end it begins and ends, both from 0.
 data Nooks = Nooks {trips :: Map (Int, Int) [NonEmpty Segment], lone :: [NonEmpty Segment]}
 
--- | Nothing is left.
+-- | No residue.
 none :: Nooks
 none = Nooks Map.empty []
 
--- | The nooks between the edge of what is swept and the inner pass, so far from it. All loops have
--- the free space on their left. The first length is the radius of the cutter, and the second is no
--- larger.
+-- | The residue between the edge of the swept area and the inner pass at the distance @apart@
+-- from it. All loops have the free space on their left. @radius@ is the cutter's, and @apart@
+-- is at most the radius.
 between :: Mm -> Mm -> [NonEmpty Segment] -> [NonEmpty Segment] -> Nooks
 between radius apart edges passes = foldr (gather . gapsOf) none edges
   where
@@ -48,7 +48,11 @@ between radius apart edges passes = foldr (gather . gapsOf) none edges
       Nothing -> Nooks ts ls
       Just (Left loop) -> Nooks ts (loop : ls)
       Just (Right gaps) -> Nooks (foldr add ts gaps) ls
-    add gap ts = maybe ts (\(at, way) -> Map.insertWith (<>) at [way] ts) (trip radius ends gap)
+    add gap ts =
+      maybe
+        ts
+        (\(at, detour) -> Map.insertWith (<>) at [detour] ts)
+        (detourAlong radius ends gap)
     ends =
       Map.fromList
         [ (n, Ends (length loop) (Map.fromList (zip [0 ..] (map end (NonEmpty.toList loop)))))
@@ -62,24 +66,23 @@ between radius apart edges passes = foldr (gather . gapsOf) none edges
             (i, s) <- zip [0 ..] (NonEmpty.toList loop),
             Just s' <- [outwards apart s]
         ]
-    gapsOf edge = gapsIn edge (concatMap (marked index) (NonEmpty.toList edge))
+    gapsOf edge = gapsIn edge (concatMap (divided index) (NonEmpty.toList edge))
 
--- | How many segments a loop has, and the ends of these by their numbers.
+-- | The count of a loop's segments, and the end of each segment by its number.
 data Ends = Ends Int (Map Int Point)
 
--- | A stretch of the edge: one beside which a segment of an inner pass runs, or a free one.
-data Mark = Beside (Int, Int) | Free Segment
+-- | A part of the edge: one that runs beside a segment of an inner pass, or a free one.
+data EdgePart = Beside (Int, Int) | Free Segment
 
--- | Free stretches in a row, the segment of an inner pass behind which they begin, and that before
--- which they end.
+-- | Consecutive free parts, with the segments of the inner passes before and after them.
 data Gap = Gap (Int, Int) (NonEmpty Segment) (Int, Int)
 
--- | The gaps of a loop of the edge; nothing when there are none; the whole loop when no inner pass
--- runs beside it.
-gapsIn :: NonEmpty Segment -> [Mark] -> Maybe (Either (NonEmpty Segment) [Gap])
+-- | The gaps of a loop of the edge. Nothing when there are none; the whole loop when no inner
+-- pass runs beside it.
+gapsIn :: NonEmpty Segment -> [EdgePart] -> Maybe (Either (NonEmpty Segment) [Gap])
 gapsIn edge marks = case break isBeside marks of
   (_, []) -> Just (Left edge)
-  (before, Beside first : rest) -> case walk first (rest <> before <> [Beside first]) of
+  (before, Beside first : rest) -> case gapsAfter first (rest <> before <> [Beside first]) of
     [] -> Nothing
     gaps -> Just (Right gaps)
   (_, Free _ : _) -> Nothing
@@ -87,19 +90,19 @@ gapsIn edge marks = case break isBeside marks of
     isBeside m = case m of
       Beside _ -> True
       Free _ -> False
-    walk owner ms = case break isBeside ms of
+    gapsAfter owner ms = case break isBeside ms of
       (free, Beside next : more) ->
-        [Gap owner gap next | Just gap <- [worth [s | Free s <- free]]] <> walk next more
+        [Gap owner gap next | Just gap <- [worthwhile [s | Free s <- free]]] <> gapsAfter next more
       (_, _) -> []
-    worth ss
+    worthwhile ss
       | total (map Segment.length ss) <= Tolerance.clearance = Nothing
       | otherwise = NonEmpty.nonEmpty (filter ((> Tolerance.coincident) . Segment.length) ss)
 
--- | The trip along a gap, from the end of a segment of an inner pass and back to there. A gap that
--- both begins and ends at one corner of the inner pass is swept from that corner if it lies within
--- the cutter's radius all along.
-trip :: Mm -> Map Int Ends -> Gap -> Maybe ((Int, Int), NonEmpty Segment)
-trip radius ends (Gap owner@(loop, i) free next) = do
+-- | The detour along a gap, from the end of a segment of an inner pass and back to it. A gap that
+-- begins and ends at the same corner of the inner pass needs no detour when it lies entirely
+-- within the cutter's radius of that corner.
+detourAlong :: Mm -> Map Int Ends -> Gap -> Maybe ((Int, Int), NonEmpty Segment)
+detourAlong radius ends (Gap owner@(loop, i) free next) = do
   Ends count corners <- Map.lookup loop ends
   corner <- Map.lookup i corners
   let isCorner = next == (loop, (i + 1) `mod` count)
@@ -127,7 +130,7 @@ furthest p s = case s of
     where
       opposite = Vec.shift (Vec.to p centre) centre
 
--- | A segment moved to its right.
+-- | A segment moved to its right. Nothing when an arc's radius would vanish.
 outwards :: Mm -> Segment -> Maybe Segment
 outwards (Mm d) s = case s of
   Straight a b
@@ -144,10 +147,10 @@ outwards (Mm d) s = case s of
           then Just Arc {start = moved a, end = moved b, centre, sweep}
           else Nothing
 
--- | A segment of the edge in stretches.
-marked :: BoxTree ((Int, Int), Segment) -> Segment -> [Mark]
-marked index s =
-  stretches
+-- | Divides a segment of the edge into parts.
+divided :: BoxTree ((Int, Int), Segment) -> Segment -> [EdgePart]
+divided index s =
+  partsFrom
     0
     ( sortOn
         (fst . fst)
@@ -157,11 +160,11 @@ marked index s =
         ]
     )
   where
-    stretches from ranges = case ranges of
+    partsFrom from ranges = case ranges of
       [] -> [Free (part from 1) | from < 1]
       ((a, b), owner) : rest
-        | b <= from -> stretches from rest
-        | otherwise -> [Free (part from a) | a > from] <> [Beside owner] <> stretches b rest
+        | b <= from -> partsFrom from rest
+        | otherwise -> [Free (part from a) | a > from] <> [Beside owner] <> partsFrom b rest
     part a b
       | a <= 0 && b >= 1 = s
       | b >= 1 = snd (Segment.cutAt a s)
@@ -170,20 +173,20 @@ marked index s =
               fst (Segment.cutAt b s)
          in if a <= 0 then front else snd (Segment.cutAt (a / b) front)
 
--- | The stretches of a segment, as fractions of its length, on which another one that runs in its
--- direction lies on it.
+-- | The parts of a segment, as fractions of its length, on which another segment of the same
+-- direction coincides with it.
 covered :: Segment -> Segment -> [(Double, Double)]
-covered s other = filter upon (filter (uncurry (<)) (map clip ranges))
+covered s other = filter coincides (filter (uncurry (<)) (map clip ranges))
   where
     clip (a, b) = (max 0 a, min 1 b)
-    upon (a, b) =
+    coincides (a, b) =
       all (\t -> Distance.toPoint (Segment.at t s) other <= Tolerance.clearance) [a, (a + b) / 2, b]
     ranges = case (s, other) of
       (Straight a b, Straight c d) | a /= b -> [(Segment.fraction s c, Segment.fraction s d)]
       (Arc {start = a, centre, sweep = Rad w}, Arc {start = c, sweep = Rad v})
         | w * v > 0 ->
-          let Rad turned = Vec.turn (Vec.to centre a) (Vec.to centre c)
-              ahead = signum w * turned
+          let Rad angle = Vec.turn (Vec.to centre a) (Vec.to centre c)
+              ahead = signum w * angle
            in [ ((ahead + k * 2 * pi) / abs w, (ahead + k * 2 * pi + abs v) / abs w)
                 | k <- [-1, 0, 1]
               ]

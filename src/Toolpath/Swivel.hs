@@ -1,11 +1,10 @@
 -- | The height of a swivelling blade's axis along a contour.
 --
--- The blade is turned to the bevel of the surface by the axis, which moves through a wheel of the
--- diameter D2:
--- @z = ∓π·μ°·D2/360@, minus on the right of the walk, plus on the left (Kolsanova, section 3). It
---  is not the tool that
--- moves in height. An element that does not say how far it leans takes the blade from the bevel of
--- the element before it to that of the one behind it, evenly along its length.
+-- The axis turns the blade to the bevel of the surface through a wheel of the diameter D2: @z =
+-- ∓π·μ°·D2/360@, minus on the right of the direction of travel, plus on the left (Kolsanova,
+-- section 3). The tool itself does not move in height. On an element without a bevel, the bevel
+-- changes linearly with the arc length, from that of the element before it to that of the element
+-- after it.
 module Toolpath.Swivel
   ( axis,
     highest,
@@ -28,21 +27,22 @@ import Part.Part (Contour, Element, Ends (..), Milling)
 import Part.Part qualified as Part
 import Toolpath.Error (Error (..))
 
--- | For every piece of an equidistant by how much the axis stands above its middle position, at the
--- beginning and at the end of the piece; in mm. Nothing for a tool that does not swivel.
+-- | The heights of the axis above its middle position, in mm, at the beginning and at the end of
+-- every segment of an offset. Nothing for a tool that does not swivel.
 axis ::
   Region ->
   Milling ->
   Maybe Side ->
   NonEmpty OffsetSegment ->
   Either Error (Maybe (NonEmpty (Mm, Mm)))
-axis region milling side pieces = case Part.gear milling of
+axis region milling side offsetSegments = case Part.gear milling of
   Nothing -> Right Nothing
   Just gear -> do
-    leans <- maybe (Left (NoBevel region)) Right (bevels (Part.contour milling))
+    elementBevels <- maybe (Left (NoBevel region)) Right (bevels (Part.contour milling))
     sign <- maybe (Left (BladeOnContour region)) (Right . signOf) side
-    smooth region elements leans pieces
-    Right (Just (fmap (\(a, b) -> (height sign gear a, height sign gear b)) (angles leans pieces)))
+    checkJoints region elements elementBevels offsetSegments
+    let heightsOf (a, b) = (height sign gear a, height sign gear b)
+    Right (Just (fmap heightsOf (angles elementBevels offsetSegments)))
   where
     elements = Vector.fromList (NonEmpty.toList (Part.elements (Part.contour milling)))
     signOf s = case s of
@@ -50,7 +50,7 @@ axis region milling side pieces = case Part.gear milling of
       RightOf -> -1
     height sign (Mm gear) angle = Mm (sign * angle * gear / 2)
 
--- | By how much the axis may stand above its middle position along a contour at most.
+-- | The largest distance of the axis from its middle position along a contour, in mm.
 highest :: Milling -> Mm
 highest milling =
   Mm
@@ -58,20 +58,20 @@ highest milling =
         ( 0 :
             [ abs angle * gear / 2
               | Just (Mm gear) <- [Part.gear milling],
-                Just leans <- [bevels (Part.contour milling)],
-                (a, b) <- Vector.toList leans,
+                Just elementBevels <- [bevels (Part.contour milling)],
+                (a, b) <- Vector.toList elementBevels,
                 angle <- [a, b]
             ]
         )
     )
 
--- | The bevels of all elements at their beginnings and ends, in radians; none when no element has
--- one.
+-- | The bevels of all elements at their beginnings and ends, in radians. Nothing when no element
+-- has one.
 bevels :: Contour -> Maybe (Vector (Double, Double))
 bevels contour = case span (isNothing . Part.bevel) list of
   (_, []) -> Nothing
   (open, known)
-    -- A closed contour goes on over its beginning.
+    -- A closed contour is interpolated across its beginning.
     | Part.ends contour == Closed ->
       let (after, before) =
             splitAt (length known) (filled Nothing (known <> open <> take 1 known))
@@ -94,57 +94,58 @@ bevels contour = case span (isNothing . Part.bevel) list of
       (Nothing, Nothing) -> map (const (0, 0)) open
     lengthOf s = let Mm l = Segment.length s in l
 
--- | Where each of some lengths begins and ends on the whole, from 0 to 1.
+-- | The beginning and the end of each length within their sum, as fractions from 0 to 1.
 shares :: [Double] -> [(Double, Double)]
 shares ls = zip marks (drop 1 marks)
   where
     marks = scanl (\s l -> s + l / sum ls) 0 ls
 
--- | The bevels along the pieces; round a corner the blade turns from one to the other.
+-- | The bevels along the segments of an offset. On the arc round a corner the bevel changes from
+-- that of one element to that of the next.
 angles :: Vector (Double, Double) -> NonEmpty OffsetSegment -> NonEmpty (Double, Double)
-angles leans pieces =
+angles elementBevels offsetSegments =
   NonEmpty.fromList
     ( concatMap
         group
-        (NonEmpty.groupBy (\p q -> isJust (cornerOf p) && cornerOf p == cornerOf q) pieces)
+        (NonEmpty.groupBy (\p q -> isJust (cornerOf p) && cornerOf p == cornerOf q) offsetSegments)
     )
   where
     cornerOf p = case origin p of
       Equidistant.Along _ -> Nothing
       Equidistant.Around i -> Just i
     group ps@(p :| _) = case origin p of
-      Equidistant.Along i -> [leans Vector.! i]
+      Equidistant.Along i -> [elementBevels Vector.! i]
       Equidistant.Around i ->
-        let a = snd (leans Vector.! i)
-            b = fst (leans Vector.! ((i + 1) `mod` Vector.length leans))
+        let a = snd (elementBevels Vector.! i)
+            b = fst (elementBevels Vector.! ((i + 1) `mod` Vector.length elementBevels))
          in [ (a + (b - a) * s, a + (b - a) * t)
               | (s, t) <-
                   shares [l | q <- NonEmpty.toList ps, let Mm l = Segment.length (segment q)]
             ]
 
--- | Where two elements go over into one another without a corner, their bevels have to agree.
-smooth ::
+-- | Refuses a smooth joint of two elements whose bevels differ.
+checkJoints ::
   Region ->
   Vector Element ->
   Vector (Double, Double) ->
   NonEmpty OffsetSegment ->
   Either Error ()
-smooth region elements leans pieces =
-  mapM_ joint (zip (NonEmpty.toList pieces) (NonEmpty.tail pieces))
+checkJoints region elements elementBevels offsetSegments =
+  mapM_ joint (zip (NonEmpty.toList offsetSegments) (NonEmpty.tail offsetSegments))
   where
     joint (p, q) = case (origin p, origin q) of
       (Equidistant.Along i, Equidistant.Along j)
-        | abs (snd (leans Vector.! i) - fst (leans Vector.! j)) > sameBevel ->
+        | abs (snd (elementBevels Vector.! i) - fst (elementBevels Vector.! j)) > bevelTolerance ->
           Left
             ( BevelJumps
                 region
                 (elements Vector.! i)
                 (elements Vector.! j)
-                (snd (leans Vector.! i))
-                (fst (leans Vector.! j))
+                (snd (elementBevels Vector.! i))
+                (fst (elementBevels Vector.! j))
             )
       _ -> Right ()
 
--- | Bevels that differ by no more, in radians, are one.
-sameBevel :: Double
-sameBevel = 1e-6
+-- | Bevels that differ by at most this, in radians, are equal.
+bevelTolerance :: Double
+bevelTolerance = 1e-6

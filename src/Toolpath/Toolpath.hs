@@ -1,6 +1,7 @@
 {-# LANGUAGE BangPatterns #-}
 
--- | The path of the cutter's centre in mm, exact, with the feed asked on every move.
+-- | The toolpath: the path of the cutter's centre, exact, in mm, with the requested feed of every
+-- move.
 module Toolpath.Toolpath
   ( Toolpath (..),
     Block (..),
@@ -35,16 +36,16 @@ import Offset.Equidistant qualified as Equidistant
 import Part.Part (Command, Drilling, Milling, Pace, Pocketing, SpacePoint (..))
 import Part.Part qualified as Part
 
--- | Where the cutter starts, and what it does then.
+-- | The start of the cutter, and the blocks in order.
 data Toolpath = Toolpath
   { start :: Located SpacePoint,
     blocks :: [Block],
-    -- | the part is turned on a lathe
+    -- | the part turns in a lathe
     isTurned :: Bool
   }
   deriving stock (Eq, Show)
 
--- | What one statement, or one pass of it, asks of the machine.
+-- | The moves of one statement, or of one pass of it.
 data Block
   = -- | with a cutter of this radius
     Travelling Mm [Move]
@@ -55,12 +56,14 @@ data Block
         -- | along the contour
         cut :: NonEmpty Move,
         retract :: [Move],
-        -- | what stays on the contour where the cutter does not reach, in the first cut of the pass
+        -- | parts of the contour that the cutter does not reach; only in the first cut of the
+        -- pass
         rests :: [Equidistant.UnreachedPart],
-        -- | if the control keeps the cutter beside the contour
+        -- | the input for a control that does the cutter compensation
         sent :: Maybe Sent
       }
-  | -- | one pass of a pocket; its outline and islands are walked as the cutter walks along them
+  | -- | one pass of a pocket; its outer contour and islands are oriented in the cutter's
+    -- direction of travel
     Clearing
       { pocket :: Located Pocketing,
         pass :: Pass,
@@ -68,53 +71,53 @@ data Block
         -- | along loops, and from each to the next
         cleared :: NonEmpty Move,
         retract :: [Move],
-        -- | what stays at the walls in the end, by the elements of the outline and of the islands
-        -- in order
+        -- | parts of the walls that remain unreached, by the elements of the outer contour and
+        -- the islands in order
         rests :: [Equidistant.UnreachedPart]
       }
   | Holing (Located Drilling) [Move]
   | Commanding (Located Command)
   deriving stock (Eq, Show)
 
--- | One pass along a contour, or in a pocket: the number of the milling statement as it is carried
--- out, from 0; the distance of the cutter's centre from the contour; what of it is left to be cut;
--- the height.
+-- | One pass along a contour or in a pocket: the number of the milling statement in order of
+-- execution, from 0; the distance of the cutter's centre from the contour; the allowance that
+-- the pass leaves; the height.
 data Pass = Pass {number :: Int, reach :: Mm, left :: Mm, atHeight :: Mm}
   deriving stock (Eq, Show)
 
--- | What a control is sent instead of the moves of a pass when it keeps the cutter beside the
--- contour by itself: the edge of the part. What it makes of that are the moves of the pass, with
--- the same ends but for where compensation begins.
+-- | The input for a control that does the cutter compensation: the edge of the part. From it the
+-- control computes the moves of the pass. Their ends agree with the toolpath except where
+-- compensation begins.
 data Sent = Sent
-  { -- | moves of the cutter's centre up to where compensation is switched on
+  { -- | moves of the cutter's centre until compensation begins
     before :: [Move],
     side :: Side,
-    -- | straight, from where the centre stands to where the edge begins
+    -- | straight, from the current centre to the beginning of the edge
     entry :: Move,
-    -- | in the order of the walk: the lead in, the elements of the contour, the lead out. The
-    -- control goes round outer corners on arcs
+    -- | in the direction of travel: the lead-in, the elements of the contour, the lead-out. At
+    -- outer corners the control moves on arcs
     edge :: NonEmpty Move,
-    -- | straight, from the end of the edge to where the centre arrives when compensation is off
+    -- | straight, from the end of the edge to the centre's position after compensation ends
     exit :: Move,
-    -- | moves of the centre behind that
+    -- | moves of the centre after that
     behind :: [Move]
   }
   deriving stock (Eq, Show)
 
--- | One move, in the plane and in height, and the place in the program that asks for it. A move
--- straight up or down has a segment without length.
+-- | One move, in the plane and in height, and the region of the program that asks for it. A
+-- vertical move has a segment of length 0.
 data Move = Move
   { segment :: Segment,
     manner :: Manner,
     origin :: Region,
-    -- | it goes on, without a corner, with the curve of the move before
+    -- | it continues the curve of the move before, without a corner
     continues :: Bool
   }
   deriving stock (Eq, Show)
 
--- | How a move goes. Most moves along a contour go alike, and share it.
+-- | Heights, pace and braking of a move. Most moves along a contour share one value.
 data Manner = Manner
-  { -- | at the beginning and at the end of the move
+  { -- | the heights at the beginning and at the end of the move
     between :: (Mm, Mm),
     at :: Pace,
     -- | slow down at the end
@@ -126,18 +129,19 @@ data Manner = Manner
 heights :: Move -> (Mm, Mm)
 heights = between . manner
 
+-- | The feed of a move, or rapid.
 pace :: Move -> Pace
 pace = at . manner
 
--- | Whether a move slows down at its end.
+-- | True when a move slows down at its end.
 braked :: Move -> Bool
 braked = slowing . manner
 
--- | The same move between other heights.
+-- | Changes the heights of a move.
 atHeights :: (Mm, Mm) -> Move -> Move
 atHeights zs m = m {manner = (manner m) {between = zs}}
 
--- | The same move without slowing down.
+-- | Removes the braking of a move.
 unbraked :: Move -> Move
 unbraked m = m {manner = (manner m) {slowing = False}}
 
@@ -150,11 +154,11 @@ moves block = case block of
   Holing _ ms -> ms
   Commanding _ -> []
 
--- | How many passes along contours and in pockets stand before each block.
+-- | The count of passes, along contours and in pockets, before each block, and at last the total.
 passNumbers :: [Block] -> [Int]
 passNumbers = go 0
   where
-    -- A block is not held until the one behind it is asked for.
+    -- Lazy in the list: a block is not held in memory until the next one is demanded.
     go :: Int -> [Block] -> [Int]
     go n bs = case bs of
       [] -> [n]
@@ -166,29 +170,29 @@ passNumbers = go 0
       Holing _ _ -> False
       Commanding _ -> False
 
--- | Moves in order, those together that go along one curve: each but the first continues the one
+-- | Groups moves that follow one curve: every move of a group except the first continues the one
 -- before.
 runs :: [Move] -> [NonEmpty Move]
 runs ms = case ms of
   [] -> []
-  -- Most moves are alone.
+  -- Most moves are a group of their own.
   m : rest@(following : _) | not (continues following) -> (m :| []) : runs rest
   m : rest -> let (along, others) = span continues rest in (m :| along) : runs others
 
--- | Whether a run goes along a curve that is replaced by arcs, rather than along one line or arc.
+-- | True when a group follows a curve that is approximated by arcs, and not a single line or arc.
 isCurve :: NonEmpty Move -> Bool
 isCurve run = case run of
   m :| [] -> continues m
   _ -> True
 
--- | Whether the cutter stays at the height at which it starts.
+-- | True when the cutter keeps the height at which it starts.
 isFlat :: Toolpath -> Bool
 isFlat path = all (\m -> heights m == (z, z)) (concatMap moves (blocks path))
   where
     z = height' (start path)
     height' (Located _ (SpacePoint _ h)) = h
 
--- | Where the cutter stands at the end.
+-- | The final position of the cutter.
 end :: Toolpath -> SpacePoint
 end path =
   foldl
@@ -196,13 +200,13 @@ end path =
     (value (start path))
     (concatMap moves (blocks path))
 
--- | With no more of each way along a contour or in a pocket than its first and its last move: the
--- rest of a large path need not be held by those who do not ask for it. Such a cut keeps its
--- height; that of a blade stays whole.
+-- | Reduces each cut along a contour or in a pocket to its first and last move. A large toolpath
+-- then needs little memory where the moves between are not needed. The height of such a cut is
+-- constant; the cuts of a blade are kept whole, because theirs varies.
 withoutCuts :: Toolpath -> Toolpath
-withoutCuts path = foldr seq () brief `seq` path {blocks = brief}
+withoutCuts path = foldr seq () abridged `seq` path {blocks = abridged}
   where
-    brief = map shortened (blocks path)
+    abridged = map shortened (blocks path)
     shortened block = case block of
       Cutting {job = Located _ milling, cut}
         | isNothing (Part.gear milling) ->
@@ -214,6 +218,6 @@ withoutCuts path = foldr seq () brief `seq` path {blocks = brief}
       Travelling _ _ -> block
       Holing _ _ -> block
       Commanding _ -> block
-    endsOf way = case way of
-      _ :| [] -> way
-      first :| _ -> let !final = NonEmpty.last way in first :| [final]
+    endsOf cutMoves = case cutMoves of
+      _ :| [] -> cutMoves
+      first :| _ -> let !final = NonEmpty.last cutMoves in first :| [final]

@@ -1,5 +1,5 @@
--- | What a path asks of the machine that hardly can be meant: a rapid move through the part, a tool
--- that cuts and does not turn.
+-- | Warnings about toolpaths that are probably mistakes: a rapid move through the part, or
+-- cutting with a spindle at rest.
 module Toolpath.Warning
   ( warnings,
   )
@@ -26,15 +26,18 @@ import Toolpath.Error (Warning (..))
 import Toolpath.Toolpath (Block (..), Toolpath)
 import Toolpath.Toolpath qualified as Toolpath
 
+-- | All warnings about a toolpath: rapid moves through the part, then tool changes without a
+-- spindle start.
 warnings :: Toolpath -> [Warning]
-warnings path = throughPart path <> standing path
+warnings path = throughPart path <> stoppedSpindles path
 
--- | A closed line, and whether there is material inside it, as far as the program says.
+-- | A closed contour; @isMaterial@ says that the program puts material inside it.
 data Body = Body {named :: Part.Contour, outline :: Polyarc.Polyarc, isMaterial :: Bool}
 
--- | Rapid moves below the top of the part, sideways, through what the innermost contour about them
--- says to be the part; one for each stop. Where all is at one height, that is below the top. A move
--- that meets no contour is on one side of each all along; others are errors.
+-- | Rapid horizontal moves below the top of the part, inside a contour that contains material; at
+-- most one for each stop. The innermost contour around the move decides. When the whole
+-- toolpath has one height, that height counts as below the top. A move that crosses a contour
+-- is an error and is reported elsewhere, so its midpoint represents the whole move.
 throughPart :: Toolpath -> [Warning]
 throughPart path =
   [ Through region (Toolpath.segment m) (Part.contourName (named body))
@@ -43,7 +46,7 @@ throughPart path =
           ( Map.fromListWith
               (\_ first -> first)
               [ (Toolpath.origin m, m)
-                | m <- concatMap ways (Toolpath.blocks path),
+                | m <- concatMap linkingMoves (Toolpath.blocks path),
                   Toolpath.pace m == Rapid,
                   Segment.length (Toolpath.segment m) > Tolerance.coincident,
                   isLow m
@@ -55,14 +58,14 @@ throughPart path =
   where
     isLow m = uncurry min (Toolpath.heights m) < Mm 0 || isFlat
     isFlat = Toolpath.isFlat path
-    -- No move along a contour is rapid.
-    ways b = case b of
+    -- Moves along a contour are never rapid.
+    linkingMoves b = case b of
       Cutting {approach, retract} -> approach <> retract
       _ -> Toolpath.moves b
     index = BoxTree.index boxOf (concatMap NonEmpty.toList (mapMaybe bodiesOf firsts))
     boxOf body =
       foldr1 BoundingBox.union (fmap BoundingBox.ofSegment (Polyarc.segments (outline body)))
-    -- Passes of one statement tell the same.
+    -- All passes of one statement have the same contours.
     firsts =
       Map.elems
         (Map.fromListWith (\_ first -> first) [(n, b) | b <- Toolpath.blocks path, n <- numberOf b])
@@ -77,29 +80,31 @@ throughPart path =
       Clearing {pass} -> [Toolpath.number pass]
       _ -> []
 
--- | What the contours of a pass say.
+-- | The contours of a pass with the side of their material.
 bodiesOf :: Block -> Maybe (NonEmpty.NonEmpty Body)
 bodiesOf b = case b of
   Cutting {job = Located _ milling} -> NonEmpty.nonEmpty (bodyOf milling)
   Clearing {pocket = Located _ p} ->
-    let room =
+    let outer =
           Part.contour (Part.wall p)
      in Just
           ( Body
-              room
-              (Part.outline room)
+              outer
+              (Part.outline outer)
               False
               NonEmpty.:| [Body island (Part.outline island) True | island <- Part.islands p]
           )
   _ -> Nothing
 
+-- | The contour of a milling statement with the side of its material. Nothing is known of open
+-- contours, except turned ones.
 bodyOf :: Milling -> [Body]
 bodyOf milling = case (Part.ends contour, value (Part.side milling)) of
   (Part.Closed, Outside) -> [whole True]
   (Part.Closed, Inside) -> [whole False]
   (Part.Closed, LeftSide) -> [whole (not isCounterClockwise)]
   (Part.Closed, RightSide) -> [whole isCounterClockwise]
-  -- A turned part reaches to the axis of the spindle.
+  -- A turned part extends to the axis of the spindle.
   (Part.Open, Outside)
     | Part.work milling == Turned ->
       [ Body
@@ -127,10 +132,10 @@ bodyOf milling = case (Part.ends contour, value (Part.side milling)) of
     onAxis = Vec.point (Vec.x end) 0
     before = Vec.point (Vec.x begin) 0
 
--- | Tool changes behind which something is machined while nobody has let the spindle turn again. On
--- a lathe the part turns, and goes on.
-standing :: Toolpath -> [Warning]
-standing path = if Toolpath.isTurned path then [] else go Resting (Toolpath.blocks path)
+-- | Tool changes after which the cutter cuts although the program has not started the spindle
+-- again. On a lathe the part keeps turning.
+stoppedSpindles :: Toolpath -> [Warning]
+stoppedSpindles path = if Toolpath.isTurned path then [] else go Resting (Toolpath.blocks path)
   where
     go spindle blocks = case (spindle, blocks) of
       (_, []) -> []
@@ -145,8 +150,8 @@ standing path = if Toolpath.isTurned path then [] else go Resting (Toolpath.bloc
       _ -> spindle
 
 data Spindle
-  = -- | or nothing is known of it
+  = -- | or unknown
     Resting
   | Turning
-  | -- | to change the tool
+  | -- | for a tool change
     Stopped Region

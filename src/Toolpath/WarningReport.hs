@@ -1,7 +1,7 @@
 {-# OPTIONS_GHC -O0 #-}
 
--- | Warnings about a toolpath, with their words, and the words for tools and shapes that reports of
--- this folder share.
+-- | Warnings about toolpaths with the texts of their reports, and texts for tools and shapes that
+-- all reports of this folder share.
 module Toolpath.WarningReport
   ( Warning (..),
     Stay (..),
@@ -30,33 +30,32 @@ import Part.Part (Element (..), Work (..))
 import Report.Report (Label (..), Report (..), ReportCode, ReportPlace (..), report)
 import Report.Report qualified as Report
 
--- | A cutter at work: its radius, and what it leaves.
+-- | A cutter at work: the kind of work, its radius, and its allowance.
 data Tool = Tool {work :: Work, radius :: Mm, leaves :: Mm}
   deriving stock (Eq, Show)
 
--- | What is to be known of a path, though nothing is wrong with it.
+-- | Warnings about a toolpath that has no errors.
 data Warning
-  = -- | the statement, the cutter, the places where it leaves material on the contour
+  = -- | rest material on a contour: the statement, the cutter, the unreached parts
     Leaves Region Tool [Stay]
-  | -- | a rapid move through the part, below its top: the stop, the way, the contour that encloses
-    -- it
+  | -- | a rapid move through the part, below its top: the stop, the move, the contour around it
     Through Region Segment (Located Name)
-  | -- | a change of the tool behind which the spindle is not said to turn
+  | -- | a tool change after which the program does not start the spindle
     Standing Region
   deriving stock (Eq, Show)
 
--- | A place where material stays because the cutter does not get there; and the largest cutter that
--- would, which is looked for when it is told.
+-- | Rest material at a position the cutter does not reach. The radius of the largest cutter that
+-- would reach it is lazy, because it is needed for reports only.
 data Stay
   = -- | in a corner between two elements
     InCorner Element Element Point
   | -- | in a concave arc of this radius
     InHollow Element Mm ~(Maybe Mm)
-  | -- | behind where the cutter, with its centre there, touches two elements
+  | -- | beyond the position of the centre at which the cutter touches two elements
     Between Element Element Point ~(Maybe Mm)
   deriving stock (Eq, Show)
 
--- | The words for a warning.
+-- | The text of a warning.
 warningReport :: Warning -> Report
 warningReport warning = case warning of
   Leaves region tool stays ->
@@ -64,23 +63,23 @@ warningReport warning = case warning of
         Report.Warning
         "W0401"
         (InSource region)
-        (cutter tool <> " leaves material at " <> places (length stays))
+        (cutter tool <> " leaves material at " <> positions (length stays))
     )
       { others = take 6 (distinct (concatMap labels stays)),
         message =
-          map (stayWords tool) (take shown stays)
-            <> ["And at " <> places (length stays - shown) <> " more." | length stays > shown],
+          map (restPositionText tool) (take shown stays)
+            <> ["And at " <> positions (length stays - shown) <> " more." | length stays > shown],
         hints =
           ["Take a smaller cutter afterwards, or leave rest allowed out to have this refused."]
       }
-  Through region way (Located named contour) ->
+  Through region move (Located named contour) ->
     (report Report.Warning "W0402" (InSource region) "this rapid move goes through the part")
       { others = [Label named "inside this contour"],
         message =
           [ "It goes from "
-              <> Vec.written 3 (Segment.start way)
+              <> Vec.written 3 (Segment.start move)
               <> " to "
-              <> Vec.written 3 (Segment.end way)
+              <> Vec.written 3 (Segment.end move)
               <> " inside "
               <> text contour
               <> ", not above the top of the part. That it was cleared there is not known."
@@ -102,7 +101,7 @@ warningReport warning = case warning of
       }
   where
     shown = 8
-    places n = if n == 1 then "one place" else Decimal.whole n <> " places"
+    positions n = if n == 1 then "one place" else Decimal.whole n <> " places"
     distinct ls = case ls of
       [] -> []
       l : more -> l : distinct (filter (/= l) more)
@@ -111,9 +110,9 @@ warningReport warning = case warning of
       InHollow a _ _ -> [Label (origin a) "in this hollow"]
       Between a b _ _ -> [Label (origin a) "beside this", Label (origin b) "beside this"]
 
--- | Where material stays, in words.
-stayWords :: Tool -> Stay -> Text
-stayWords tool s = case s of
+-- | The text for one position of rest material.
+restPositionText :: Tool -> Stay -> Text
+restPositionText tool s = case s of
   InCorner _ _ p -> "In the inner corner at " <> Vec.written 3 p <> "."
   InHollow a old largest ->
     "In the concave radius of " <> Decimal.mm old <> " of " <> shape a <> ". " <> fits tool largest
@@ -127,8 +126,8 @@ stayWords tool s = case s of
       <> ". "
       <> fits tool largest
 
--- | The diameter of a cutter, or the radius of a nose, that fits with this radius: down to a
--- thousandth of a millimetre.
+-- | The diameter of a cutter, or the radius of a nose, for a radius that fits, rounded down to
+-- 0.001 mm.
 fitting :: Tool -> Mm -> Text
 fitting tool r = case work tool of
   Milled -> down (times 2 r)
@@ -136,7 +135,7 @@ fitting tool r = case work tool of
   where
     down (Mm x) = Decimal.mm (Mm (fromInteger (floor (x * 1000)) / 1000))
 
--- | A cutter in words.
+-- | The text for a cutter.
 cutter :: Tool -> Text
 cutter Tool {work, radius, leaves} =
   size <> (if leaves > Mm 0 then " that leaves " <> Decimal.mm leaves else "")
@@ -145,11 +144,13 @@ cutter Tool {work, radius, leaves} =
       Milled -> "a cutter of diameter " <> Decimal.mm (times 2 radius)
       Turned -> "a nose of radius " <> Decimal.mm radius
 
+-- | The verb for the kind of work.
 worked :: Tool -> Text
 worked tool = case work tool of
   Milled -> "milled"
   Turned -> "turned"
 
+-- | The text for an element: its kind, its size, its points.
 shape :: Element -> Text
 shape element = case segment element of
   Straight _ _ | ofCurve element -> "the curve"
@@ -165,13 +166,15 @@ shape element = case segment element of
       <> " about "
       <> Vec.written 3 centre
 
+-- | An error report with a code and a title, at a region of the program.
 at :: Region -> ReportCode -> Text -> Report
 at region code = report Report.Error code (InSource region)
 
+-- | The text for an angle given in radians.
 inDegrees :: Double -> Text
 inDegrees a = Decimal.short 3 (degrees (Rad a)) <> " deg"
 
--- | The largest that fits.
+-- | The text for the largest cutter that fits.
 fits :: Tool -> Maybe Mm -> Text
 fits tool largest = case (work tool, largest) of
   (_, Nothing) -> "No cutter fits here, however small."

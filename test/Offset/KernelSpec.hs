@@ -187,7 +187,7 @@ spec = do
       areaOf RightOf 1 [FlatPolyarc.outline Open [(0, 0, 0), (5, 0, 0), (5, 5, 0)]]
         `nearly` Right (20 + pi - 1 + pi / 4)
 
--- | So many circles of radius 4 around a large one, joined by tangents.
+-- | @n@ circles of radius 4 around a large one, joined by tangents.
 lobes :: Int -> FlatPolyarc
 lobes n =
   FlatPolyarc.outline
@@ -204,7 +204,7 @@ lobes n =
     k = tan (half / 2)
     r = 6 / sin half
 
--- | A law of so many random problems; the seed of one that breaks it is told.
+-- | A law for @count@ random problems. A failure reports the seeds of the problems that break it.
 each :: Int -> String -> Gen Case -> (Case -> Verdict) -> Spec
 each count title gen law = it title (filter wrong verdicts `shouldBe` [])
   where
@@ -214,7 +214,7 @@ each count title gen law = it title (filter wrong verdicts `shouldBe` [])
       Right' _ -> False
       Refused -> False
 
--- | What the cases have to hold some of.
+-- | Kinds of degenerate cases that the generator must produce.
 degenerate :: [(String, Case -> Bool)]
 degenerate =
   [ ("repeated vertices", anyVertex (\_ (x, y, _) (x', y', _) -> (x, y) == (x', y'))),
@@ -303,7 +303,7 @@ square x y a = Generate.loop [(x, y, 0), (x + a, y, 0), (x + a, y + a, 0), (x, y
 circle :: Double -> FlatPolyarc
 circle r = Generate.loop [(-r, 0, 1), (r, 0, 1)]
 
--- | Two right corners, joined by lines and round ends.
+-- | Two right-angled corners, joined by lines and round ends.
 lens :: FlatPolyarc
 lens =
   turned
@@ -334,8 +334,8 @@ steiner o r = case loopsOf RightOf r [o] of
           )
   other -> counterexample (show other) False
 
--- | A simple polygon with two neighbouring vertices exchanged so that their sides cross: the
--- polygon, and the two sides.
+-- | A simple polygon in which two neighbouring vertices are exchanged so that their sides cross:
+-- the polygon, and the two sides.
 bowTie :: Gen (FlatPolyarc, Int, Int)
 bowTie = do
   o <- Generate.simple
@@ -356,7 +356,7 @@ crossing a b c d = side' a b c * side' a b d < 0 && side' c d a * side' c d b < 
 side' :: (Double, Double) -> (Double, Double) -> (Double, Double) -> Double
 side' (ax, ay) (bx, by) (cx, cy) = (bx - ax) * (cy - ay) - (by - ay) * (cx - ax)
 
--- | The sides that are named do cross; others may as well.
+-- | The reported sides cross. Other sides may cross as well.
 crossedLaw :: (FlatPolyarc, Int, Int) -> Property
 crossedLaw (o, _, _) = case loopsOf LeftOf 0.1 [o] of
   Left (Crossed i j) ->

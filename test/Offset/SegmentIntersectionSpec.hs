@@ -1,4 +1,4 @@
--- | How two segments meet, one pair at a time.
+-- | Meetings of two segments, one pair at a time.
 module Offset.SegmentIntersectionSpec (spec) where
 
 import Control.Monad.ST (runST)
@@ -11,15 +11,15 @@ import Offset.SegmentIntersection qualified as SegmentIntersection
 import Test.Hspec
 import Test.QuickCheck
 
--- | What is told of a meeting.
-data Told = Crosses Double Double Double | Rests Int | Touches Double Double
+-- | A report to the visitor.
+data Meeting = Crosses Double Double Double | Rests Int | Touches Double Double
   deriving stock (Eq, Ord, Show)
 
 spec :: Spec
 spec = describe "two segments" $ do
   it "that cross, do so at one place, with the sign of the side" $
     met (0, 0, 4, 0, 0) (1, -1, 1, 1, 0) `shouldBe` [Crosses 1 0 1]
-  it "that cross the other way" $
+  it "that cross in the other direction" $
     met (0, 0, 4, 0, 0) (1, 1, 1, -1, 0) `shouldBe` [Crosses 1 0 (-1)]
   it "that are apart, do not meet" $
     met (0, 0, 4, 0, 0) (5, -1, 5, 1, 0) `shouldBe` []
@@ -34,7 +34,7 @@ spec = describe "two segments" $ do
       `shouldBe` sort [Crosses 1.5 (-0.866) (-1), Crosses 1.5 0.866 1]
   it "a line that touches half a circle" $
     met (2, -3, 2, 3, 0) (1, -1, 1, 1, 1) `shouldBe` [Touches 2 0]
-  it "two circles in two places" $
+  it "two circles in two points" $
     map rough (met (0, -1, 0, 1, 1) (1, 1, 1, -1, 1))
       `shouldBe` sort [Crosses 0.5 (-0.866) (-1), Crosses 0.5 0.866 1]
   it "two circles that touch" $
@@ -73,23 +73,23 @@ spec = describe "two segments" $ do
 
 type Ends = (Double, Double, Double, Double, Double)
 
--- | Two segments apart: the first has the number 0, the second 2.
+-- | Two disjoint segments, numbered 0 and 2.
 pair :: Ends -> Ends -> ClosedPolyarcs
 pair a b = ClosedPolyarcs.apart [a, b]
 
-met :: Ends -> Ends -> [Told]
+met :: Ends -> Ends -> [Meeting]
 met a b = sort $
   runST $ do
-    told <- newMutVar []
-    let tell t = modifyMutVar' told (t :)
+    meetings <- newMutVar []
+    let record t = modifyMutVar' meetings (t :)
     SegmentIntersection.meet
       1e-13
       (pair a b)
       Visitor
-        { crossing = \_ _ _ _ x y turn -> tell (Crosses x y (signum turn)),
-          resting = \_ k -> tell (Rests k),
-          touching = \_ _ x y -> tell (Touches x y)
+        { crossing = \_ _ _ _ x y turn -> record (Crosses x y (signum turn)),
+          resting = \_ k -> record (Rests k),
+          touching = \_ _ x y -> record (Touches x y)
         }
       0
       2
-    readMutVar told
+    readMutVar meetings

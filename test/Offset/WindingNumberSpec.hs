@@ -1,4 +1,4 @@
--- | Winding numbers, boxes and arrangements against what is counted naively.
+-- | Winding numbers, bounding-box trees and arrangements, compared with naive counts.
 module Offset.WindingNumberSpec (spec) where
 
 import Generate.Outline qualified as Generate
@@ -17,7 +17,7 @@ spec :: Spec
 spec = do
   describe "winding numbers" $ do
     it "are those of the naive count (catches an arc whose inside is forgotten)" $
-      property . forAll Generate.problem $ \c -> forAll places $ \ps ->
+      property . forAll Generate.problem $ \c -> forAll samplePoints $ \ps ->
         let os = Generate.outlines c
             chain = ClosedPolyarcs.fromOutlines 1e-14 os
             bs = SegmentTree.boxes 1e-14 chain
@@ -106,10 +106,10 @@ spec = do
         ]
         `shouldBe` Just (0, 2)
   where
-    places = vectorOf 20 ((,) <$> choose (0, 1) <*> choose (0, 1)) :: Gen [(Double, Double)]
+    samplePoints = vectorOf 20 ((,) <$> choose (0, 1) <*> choose (0, 1)) :: Gen [(Double, Double)]
 
--- | Between two arcs that touch one another at the origin, and a line: from any vertex, in any
--- direction, walked either way.
+-- | A closed polyarc between two arcs that touch at the origin and a line. It begins at any
+-- vertex, has any direction, and is traversed in either sense.
 horn :: Gen FlatPolyarc
 horn = do
   low <- oneof [pure 0, choose (-0.8, 0.7)]

@@ -1,8 +1,7 @@
--- | The law of the edge that a control is sent: what the control makes of it is the path that is
--- proven.
+-- | The law of cutter compensation by the control: from its input the control makes the verified
+-- toolpath.
 --
--- The control is modelled on what LinuxCNC does, move by move as it reads them, and shares nothing
--- with the equidistant.
+-- The model of the control follows LinuxCNC move by move and shares no code with the offset.
 module Toolpath.CompensationSpec (spec) where
 
 import Base.Quantity (Mm (..), Rad (..))
@@ -69,7 +68,7 @@ same a b =
 
 -- The control
 
--- | What a control makes of an edge: the moves of the cutter's centre, one after the other.
+-- | The moves of the cutter's centre that a control makes of an edge, in order.
 control :: Double -> Sent -> [Segment]
 control r sent = onto : go entered (NonEmpty.toList edges)
   where
@@ -105,8 +104,9 @@ control r sent = onto : go entered (NonEmpty.toList edges)
                       go out rest
               _ -> go finish rest
 
--- | Whether somewhere the contour turns slightly towards the cutter. A control goes straight on
--- there, the path to where the ways meet: less than 'Offset.Tolerance.slightRest' apart.
+-- | True when the contour has a slight corner towards the cutter. There a control moves straight
+-- on, while the toolpath goes to the intersection of the offsets. The two differ by less than
+-- 'Offset.Tolerance.slightRest'.
 turnsIn :: Case -> Bool
 turnsIn c =
   or
@@ -117,11 +117,11 @@ turnsIn c =
   where
     left = if side c == LeftOf then 1 else -1
 
--- | Where two lines meet, each by a point and its direction.
+-- | The intersection of two lines, each given by a point and a direction.
 meeting :: Point -> Vec.Vec -> Point -> Vec.Vec -> Point
 meeting p u q v = Vec.shift (Vec.scale (Vec.cross (Vec.to p q) v / Vec.cross u v) u) p
 
--- | Without moves that have no length, and straight ways in one, however they are divided.
+-- | Removes moves of length 0 and merges consecutive collinear lines.
 unbroken :: [Segment] -> [Segment]
 unbroken = foldr join [] . filter long
   where
@@ -133,9 +133,9 @@ unbroken = foldr join [] . filter long
           Straight a c : more
       _ -> s : rest
 
--- Millings
+-- Milling statements
 
--- | The way in at a share of its length in radii.
+-- | A milling statement whose approach begins at a distance of @share@ radii from the contour.
 nearer :: Double -> Milling -> Milling
 nearer share job =
   case ( firstAndLast job {Part.byControl = Nothing, Part.approach = [], Part.retract = []},
@@ -157,8 +157,8 @@ nearer share job =
             }
     _ -> job
 
--- | The radius, what is sent, and the moves that are proven; nothing where the control would refuse
--- it.
+-- | The radius, the control's input, and the verified moves. Nothing where the control would
+-- refuse the input.
 sentOf :: Milling -> Maybe (Double, Sent, [Toolpath.Move])
 sentOf job =
   case laid (maybe (beginning job) (value . Part.place) (listToMaybe (Part.approach job))) job of

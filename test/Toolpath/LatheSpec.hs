@@ -1,4 +1,4 @@
--- | Programs for a lathe, on machines whose axes point another way there.
+-- | Programs for a lathe, on machines whose axes have other directions there.
 module Toolpath.LatheSpec (spec) where
 
 import Base.PulseVector (Pulses3 (..))
@@ -24,7 +24,7 @@ spec =
       profile <- readText "test/programs/turn/good/outside.part"
       concat <$> traverse depthOf [moves, profile] `shouldReturn` [1000, 2400]
   where
-    -- The first increment in y of the tape, as the control sees it.
+    -- The first increment in y on the tape, as the control reads it.
     depthOf text = do
       punched <- punchedFrom text
       pure

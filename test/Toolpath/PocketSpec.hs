@@ -1,4 +1,4 @@
--- | The way of the cutter in a pocket.
+-- | Toolpaths of pockets.
 module Toolpath.PocketSpec (spec) where
 
 import Base.Quantity (Mm (..), Rad (..), plus)
@@ -32,26 +32,26 @@ spec = modifyMaxSuccess (const 60) $ do
       "sweep every place that the cutter can reach (catches corners, nooks and middles left \
       \between passes)"
       $ forAll Generate.pocket $ \p ->
-        let way =
+        let sections =
               cleared p
-         in forAllBlind (places p way) $ \ps -> conjoin (map (swept p way) ps)
+         in forAllBlind (floorPoints p sections) $ \ps -> conjoin (map (swept p sections) ps)
     prop "cut into no wall (catches a link straight through an island)" $
       forAll Generate.pocket $ \p ->
         conjoin [deepEnough p s | s <- concatMap Pocket.segments (cleared p)]
     prop "begin where the one before ends (catches a loop entered elsewhere than it is begun)" $
       forAll Generate.pocket $ \p ->
-        let way =
+        let sections =
               cleared p
-         in conjoin (zipWith joined way (drop 1 way))
+         in conjoin (zipWith joined sections (drop 1 sections))
     prop
       "go with the free space on the left, or all the other way (catches a trip that is not turned)"
       $ forAll Generate.pocket $ \p ->
-        let way = cleared p
+        let sections = cleared p
             back = Pocket.clear (Generate.roomOf p) {turned = True} (step p) Nothing
          in counterexample "joined" (conjoin (zipWith joined back (drop 1 back)))
               .&&. counterexample
-                (show (area way, area back))
-                (abs (area way + area back) <= 1e-6 * abs (area way))
+                (show (area sections, area back))
+                (abs (area sections + area back) <= 1e-6 * abs (area sections))
     prop "of a rectangle come nearer and nearer to the wall (catches passes from the outside in)" $
       forAll Generate.rectangle $ \p ->
         let ds =
@@ -60,7 +60,7 @@ spec = modifyMaxSuccess (const 60) $ do
     prop
       "of a rectangle are linked by ways no longer than the step (catches a loop entered anywhere)"
       $ forAll Generate.rectangle $ \p ->
-        [leg | leg <- cleared p, isOver leg || isLong p leg] === []
+        [section | section <- cleared p, isOver section || isLong p section] === []
     prop "come behind those that lie in them (catches the first part of two left for the end)" $
       forAll (Generate.pocket `suchThat` (null . NonEmpty.tail . loops)) $ \p ->
         let rounds = [(d, ss) | Round d ss <- cleared p]
@@ -88,9 +88,9 @@ spec = modifyMaxSuccess (const 60) $ do
       "sweep every place that the cutter can reach (catches a loop that the kernel and the passes \
       \see differently)"
       $ forAll Generate.pocket $ \p ->
-        let way =
+        let sections =
               byKernel p
-         in forAllBlind (places p way) $ \ps -> conjoin (map (swept p way) ps)
+         in forAllBlind (floorPoints p sections) $ \ps -> conjoin (map (swept p sections) ps)
     prop "cut into no wall (catches walls with the free space on the wrong side)" $
       forAll Generate.pocket $ \p ->
         conjoin [deepEnough p s | s <- concatMap Pocket.segments (byKernel p)]
@@ -99,8 +99,8 @@ spec = modifyMaxSuccess (const 60) $ do
       forAll Generate.pocket $ \p -> forAll (choose (0, 6)) $ \more ->
         let room = Generate.roomOf p
             rough = Pocket.clear room {leaves = plus (left p) (Mm more)} (step p) Nothing
-            way = rough <> Pocket.skim room (step p) (plus (left p) (Mm more)) Nothing
-         in forAllBlind (places p way) $ \ps -> conjoin (map (swept p way) ps)
+            sections = rough <> Pocket.skim room (step p) (plus (left p) (Mm more)) Nothing
+         in forAllBlind (floorPoints p sections) $ \ps -> conjoin (map (swept p sections) ps)
   where
     plain = Pocket {loops = rectangle 60 40 :| [], cutter = Mm 5, left = Mm 0, step = Mm 5}
     rectangle w h =
@@ -109,8 +109,8 @@ spec = modifyMaxSuccess (const 60) $ do
        in NonEmpty.fromList (zipWith Segment.Straight ps (drop 1 ps <> take 1 ps))
     sorted = foldr insert []
     insert x xs = let (a, b) = span (< x) xs in a <> [x] <> b
-    -- What the passes go round, counter-clockwise.
-    area way = sum [part s | leg <- way, isPass leg, s <- Pocket.segments leg]
+    -- The signed area that the passes enclose, counter-clockwise positive.
+    area sections = sum [part s | section <- sections, isPass section, s <- Pocket.segments section]
     part s = Vec.cross (Vec.to origin (Segment.start s)) (Vec.to origin (Segment.end s)) / 2 + bow s
     bow s = case s of
       Segment.Straight _ _ -> 0
@@ -120,21 +120,21 @@ spec = modifyMaxSuccess (const 60) $ do
          in r * r * (w - sin w) / 2
     origin = Vec.point 0 0
 
--- | Whether it is a loop, a part of one, or a trip aside.
+-- | True for a loop, a part of one, or a detour.
 isPass :: PocketMove -> Bool
-isPass leg = case leg of
+isPass section = case section of
   Round _ _ -> True
   Aside _ -> True
   Across _ -> False
   Over _ _ -> False
 
 isAside :: PocketMove -> Bool
-isAside leg = isPass leg && null [() | Round _ _ <- [leg]]
+isAside section = isPass section && null [() | Round _ _ <- [section]]
 
 isLong :: Pocket -> PocketMove -> Bool
-isLong p leg = or [Segment.length s > plus (step p) (Mm 1e-6) | Across s <- [leg]]
+isLong p section = or [Segment.length s > plus (step p) (Mm 1e-6) | Across s <- [section]]
 
--- | As 'cleared', with walls that are walked any way, and the loops of the kernel.
+-- | Like 'cleared', with walls of any sense and loops made by the kernel.
 byKernel :: Pocket -> [PocketMove]
 byKernel p =
   Pocket.clear
@@ -151,7 +151,7 @@ cleared :: Pocket -> [PocketMove]
 cleared p = Pocket.clear (Generate.roomOf p) (step p) Nothing
 
 isOver :: PocketMove -> Bool
-isOver leg = case leg of
+isOver section = case section of
   Over _ _ -> True
   Round _ _ -> False
   Aside _ -> False
@@ -161,7 +161,7 @@ joined :: PocketMove -> PocketMove -> Property
 joined a b =
   counterexample (show (a, b)) (Vec.distance (Pocket.finishes a) (Pocket.begins b) <= Mm 1e-5)
 
--- | The cutter's centre keeps its distance.
+-- | The cutter's centre keeps its distance from the walls.
 deepEnough :: Pocket -> Segment -> Property
 deepEnough p s =
   conjoin
@@ -172,32 +172,39 @@ deepEnough p s =
   where
     nearest = plus (cutter p) (left p)
 
--- | Places all over the pocket, and some beside the ends of segments, where passes turn.
-places :: Pocket -> [PocketMove] -> Gen [Point]
-places p way =
+-- | Points all over the pocket, and some near the ends of segments, where passes change
+-- direction.
+floorPoints :: Pocket -> [PocketMove] -> Gen [Point]
+floorPoints p sections =
   (<>) <$> vectorOf 150 anywhere <*> (if null ends then pure [] else vectorOf 300 beside)
   where
     BoundingBox l b r t =
       foldr1 BoundingBox.union (fmap BoundingBox.ofSegment (walls (Generate.roomOf p)))
     anywhere = Vec.point <$> choose (l, r) <*> choose (b, t)
-    ends = [Segment.end s | leg <- way, s <- Pocket.segments leg]
+    ends = [Segment.end s | section <- sections, s <- Pocket.segments section]
     Mm far = step p
     beside =
       (\q d a -> Vec.shift (Vec.polar (Mm d) (Rad a)) q)
         <$> elements ends <*> choose (0, far) <*> choose (0, 2 * pi)
 
--- | Whether a place is out of reach or swept.
+-- | True when a point is unreachable or swept.
 swept :: Pocket -> [PocketMove] -> Point -> Property
-swept p way q =
+swept p sections q =
   counterexample
-    (show (q, distanceToWay))
-    (not reachable || distanceToWay <= plus (cutter p) (Mm 1e-4))
+    (show (q, distanceToPath))
+    (not reachable || distanceToPath <= plus (cutter p) (Mm 1e-4))
   where
     room = Generate.roomOf p
     borders = concatMap NonEmpty.toList (offsetBy room (plus (cutter p) (left p)))
     reachable =
       WindingNumber.about q borders > 0
         || any (\s -> Distance.toPoint q s <= plus (cutter p) (Mm (-1e-4))) borders
-    distanceToWay =
+    distanceToPath =
       minimum
-        (Mm (1 / 0) : [Distance.toPoint q s | leg <- way, isPass leg, s <- Pocket.segments leg])
+        ( Mm (1 / 0) :
+            [ Distance.toPoint q s
+              | section <- sections,
+                isPass section,
+                s <- Pocket.segments section
+            ]
+        )
