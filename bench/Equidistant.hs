@@ -17,10 +17,10 @@ import Offset.Loop qualified as Loop
 -- one.
 offset :: Double -> FlatPolyarc -> Either String ReachableRegion
 offset distance source =
-  either (Left . show) Right (Kernel.offset (Kernel.plain side (Mm (abs distance))) [source])
+  either (Left . show) Right (Kernel.offset (Kernel.roundOffset side (Mm (abs distance))) [source])
   where
     side = if distance > 0 then RightOf else LeftOf
 
 -- | The loops of an offset.
 outlines :: ReachableRegion -> [FlatPolyarc]
-outlines = Loop.outlines . Kernel.loops
+outlines = Loop.polyarcs . Kernel.loops

@@ -18,7 +18,7 @@ type Vertex = (Double, Double, Double)
 
 -- | A counter-clockwise contour, and its offset in mm, positive outwards.
 contour :: Word64 -> Int -> (FlatPolyarc, Double)
-contour seed index = (FlatPolyarc.outline Closed vertices, distance)
+contour seed index = (FlatPolyarc.fromVertices Closed vertices, distance)
   where
     stream = Noise.bits seed (fromIntegral index)
     u place = Noise.uniform stream (1000000 + place)

@@ -85,11 +85,11 @@ stages machine Written {text, files} = do
       "part"
       (sum . map (round . contourLength) . Part.contours)
       (pure (plain (Part.evaluate checked)))
-  path <- stage "path" (round . pathLength) (pure (plain (Toolpath.lay part)))
+  path <- stage "path" (round . pathLength) (pure (plain (Toolpath.toToolpath part)))
   program <-
     stage
       "frames"
-      (sum . map (distance . increment . Frame.frame) . Frame.planned)
+      (sum . map (distance . increment . Frame.frame) . Frame.plannedFrames)
       (pure (plain (Frame.quantise machine path)))
   tape <-
     stage
@@ -97,7 +97,11 @@ stages machine Written {text, files} = do
       Tape.rowCount
       ( pure
           ( Right
-              (Tape.write machine (Frame.start program) (map Frame.frame (Frame.planned program)))
+              ( Tape.write
+                  machine
+                  (Frame.start program)
+                  (map Frame.frame (Frame.plannedFrames program))
+              )
           )
       )
   _ <- stage "verify" (length . show . Proof.findings) (pure (proof path program tape))
@@ -119,7 +123,12 @@ readBack :: Machine -> Frame.FrameProgram -> Tape -> Either Text [Frame.Frame]
 readBack machine program tape =
   first
     (Report.title . Tape.toReport)
-    (Tape.readBack machine (Frame.start program) (map Frame.frame (Frame.planned program)) tape)
+    ( Tape.readExpected
+        machine
+        (Frame.start program)
+        (map Frame.frame (Frame.plannedFrames program))
+        tape
+    )
 
 -- | Measures a stage, whose output the number needs completely.
 stage :: String -> (a -> Int) -> IO (Either Text a) -> IO a

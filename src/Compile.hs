@@ -80,7 +80,7 @@ analyse values loaded = do
   (checked, part) <- evaluate values loaded
   -- Evaluated now: the checked program need not be kept while the toolpath is computed.
   mentions <- pure $! Checked.mentions checked
-  path <- mapErrors Toolpath.warningReport Toolpath.toReport (Toolpath.lay part)
+  path <- mapErrors Toolpath.warningReport Toolpath.toReport (Toolpath.toToolpath part)
   pure Analysis {mentions, part, path}
 
 -- | Reports the errors and warnings of a program up to the limits of its machines. Makes no tape.
@@ -111,8 +111,8 @@ makeTape verification path machine =
   -- Evaluated now: the moves along the contours are freed while their frames are made.
   toolpath `seq` do
     punched@Punched {program, tape} <- punch machine path
-    let punchedFrames = map Frame.frame (Frame.planned program)
-        readBack = Tape.readOwn machine (Frame.start program) punchedFrames tape
+    let punchedFrames = map Frame.frame (Frame.plannedFrames program)
+        readBack = Tape.readPunched machine (Frame.start program) punchedFrames tape
     when (null punchedFrames) (failed (Project.toReport Project.NothingToPunch))
     proof <- case verification of
       Unverified -> pure Nothing
@@ -131,7 +131,7 @@ punch :: Machine -> Toolpath -> Result Report Report Punched
 punch machine path = do
   program <-
     mapErrors (Frame.warningReport machine) (Frame.toReport machine) (Frame.quantise machine path)
-  let frames = map Frame.frame (Frame.planned program)
+  let frames = map Frame.frame (Frame.plannedFrames program)
   pure Punched {program, tape = Tape.write machine (Frame.start program) frames}
 
 -- | Frame → Control → Verify: runs the frames of a tape on the virtual controller and compares them

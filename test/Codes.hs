@@ -9,13 +9,13 @@ import Data.Set (Set)
 import Data.Set qualified as Set
 import Data.Text (Text)
 import Data.Text qualified as Text
-import Files (readText, walk)
+import Files (filesBelow, readText)
 import System.FilePath (takeExtension)
 
 -- | Every code between quotation marks in a module of the program.
 inSources :: IO (Set Text)
 inSources = do
-  sources <- filter ((== ".hs") . takeExtension) <$> walk "src"
+  sources <- filter ((== ".hs") . takeExtension) <$> filesBelow "src"
   texts <- traverse readText sources
   pure (Set.fromList (filter isCode (concatMap (Text.splitOn "\"") texts)))
 

@@ -47,7 +47,7 @@ spec = describe "examples are proven and give their frames" $ do
         outcome = Compile.compile (Machines.jobForOwnOr Machines.lkp01f values loaded) loaded
         rendered reports = Text.concat [render r <> "\n" | r <- Report.sorted reports]
         render = Human.render Human.Plain (Text.pack file) source :: Report -> Text
-    case Result.settled outcome of
+    case Result.ifSound outcome of
       Just [Compiled {machine, punched, proof}] -> do
         fmap Proof.findings proof `shouldBe` Just []
         expected

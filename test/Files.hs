@@ -1,7 +1,7 @@
 -- | Files of the repository, for tests.
 module Files
   ( readText,
-    walk,
+    filesBelow,
     expected,
   )
 where
@@ -20,11 +20,11 @@ readText :: FilePath -> IO Text
 readText file = Encoding.decodeUtf8 <$> ByteString.readFile file
 
 -- | All files below a folder.
-walk :: FilePath -> IO [FilePath]
-walk folder = do
+filesBelow :: FilePath -> IO [FilePath]
+filesBelow folder = do
   entries <- map (folder </>) <$> listDirectory folder
   folders <- filterM doesDirectoryExist entries
-  (filter (`notElem` folders) entries <>) . concat <$> traverse walk folders
+  (filter (`notElem` folders) entries <>) . concat <$> traverse filesBelow folders
 
 -- | Compares a text with a file. With PARTC_RECORD set, writes the file instead.
 expected :: FilePath -> Text -> Expectation

@@ -55,11 +55,11 @@ proof :: Maybe Proof
 proof = Compile.proof compiled
 
 frames :: [Frame]
-frames = map Frame.frame (Frame.planned program)
+frames = map Frame.frame (Frame.plannedFrames program)
 
 -- | The output of a result that must have no errors.
 expect :: Show e => Result.Result w e a -> a
-expect r = case Result.settled r of
+expect r = case Result.ifSound r of
   Just a -> a
   Nothing -> error ("the flange has errors: " <> show (Result.errors r))
 

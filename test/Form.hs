@@ -72,8 +72,8 @@ longestFunction = 40
 mostParameters :: Int
 mostParameters = 6
 
--- | Modules that may be tuned: the faster twins, the offset kernel and what it works on, arc fitting
--- and the reading and writing of tapes, all of which work per segment or per row.
+-- | Modules that may be tuned: the faster twins, the offset kernel and what it works on, arc
+-- fitting and the reading and writing of tapes, all of which work per segment or per row.
 isTuned :: Text -> Bool
 isTuned name =
   ".Fast" `Text.isSuffixOf` name || any (`Text.isPrefixOf` name) kernels

@@ -104,14 +104,14 @@ polygon sharp = do
           ]
   pure (Polyarc Closed (NonEmpty.fromList (chained (filter ((> Mm 1e-3) . Segment.length) sides))))
   where
-    chained ss = NonEmpty.toList (Polyarc.chained id const Closed (NonEmpty.fromList ss))
+    chained ss = NonEmpty.toList (Polyarc.closeGaps id const Closed (NonEmpty.fromList ss))
     fst' (a, _, _) = a
     snd' (_, b, _) = b
     middle' (_, _, m) = m
     rounding (a, b, c) = do
       let u = Vec.unit (Vec.to a b)
           v = Vec.unit (Vec.to b c)
-          Rad turned = Vec.turn u v
+          Rad turned = Vec.signedAngle u v
           isOuter = turned > 0
           Mm before = Vec.distance a b
           Mm after = Vec.distance b c
@@ -145,7 +145,8 @@ arcPolygon = do
       half <- choose (0.02, 0.87)
       let Mm chord = Vec.distance a b
           deep = chord / 2 / tan half
-          c = Vec.shift (Vec.scale deep (Vec.left (Vec.unit (Vec.to a b)))) (Vec.between 0.5 a b)
+          c =
+            Vec.shift (Vec.scale deep (Vec.left (Vec.unit (Vec.to a b)))) (Vec.interpolate 0.5 a b)
       pure (Segment.arc CounterClockwise c a b)
 
 vertices :: Gen [Point]
@@ -165,7 +166,7 @@ vertices = do
 milled :: Mm -> Case -> Maybe Toolpath
 milled tolerance c =
   Result.output
-    ( FromPart.lay
+    ( FromPart.toToolpath
         ( partOf
             (begin c)
             (Mill (Located (Region 0 0) (job c) {Part.tolerance = Part.OnPath tolerance}))
@@ -209,8 +210,8 @@ job c =
       Part.allowances = Mm 0 :| [],
       Part.corners = Part.Round,
       Part.sense = Nothing,
-      Part.spin = Part.Clockwise,
-      Part.byControl = Nothing,
+      Part.spindleSense = Part.Clockwise,
+      Part.controlCompensation = Nothing,
       Part.rest = Part.Refused
     }
   where
@@ -305,14 +306,18 @@ frames machine = listOf (oneof (moving : [commanding | not (null commands)]))
       code <- elements codes
       os <- frequency ((3, pure []) : [(1, given) | not (null commands)])
       pure
-        (Frame.still os) {Frame.motion = Frame.Straightway, Frame.increment = d, Frame.speed = code}
-    commanding = Frame.still <$> given
+        (Frame.commandFrame os)
+          { Frame.motion = Frame.Linear,
+            Frame.increment = d,
+            Frame.feedCode = code
+          }
+    commanding = Frame.commandFrame <$> given
     given = sequenceA [(o,) <$> choose (1, most) | (o, most) <- take 1 commands]
     commands =
       [ (o, most)
-        | Machine.CommandWord {Machine.order = o, Machine.value = Machine.Argument} <-
-            Machine.auxiliary (Machine.orders machine),
-          Just most <- [Machine.orderCapacity machine o]
+        | Machine.CommandWord {Machine.commandName = o, Machine.value = Machine.Argument} <-
+            Machine.auxiliary (Machine.commandWords machine),
+          Just most <- [Machine.commandCapacity machine o]
       ]
     codes = case Machine.codes (Machine.feeds machine) of
       Machine.Listed table -> Map.keys table

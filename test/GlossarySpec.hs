@@ -14,7 +14,7 @@ import Data.Set (Set)
 import Data.Set qualified as Set
 import Data.Text (Text)
 import Data.Text qualified as Text
-import Files (readText, walk)
+import Files (filesBelow, readText)
 import System.FilePath (dropExtension, splitDirectories, takeExtension)
 import Test.Hspec
 
@@ -150,7 +150,7 @@ render problem = Text.unpack $ case problem of
 -- | The modules below @src@, by their names.
 readModules :: IO (Map Text Text)
 readModules = do
-  files <- filter ((== ".hs") . takeExtension) . sort <$> walk "src"
+  files <- filter ((== ".hs") . takeExtension) . sort <$> filesBelow "src"
   Map.fromList <$> traverse (\file -> (moduleName file,) <$> readText file) files
   where
     moduleName = Text.intercalate "." . map Text.pack . drop 1 . splitDirectories . dropExtension

@@ -7,14 +7,14 @@ module LinuxCnc
 
     -- * The output of the interpreter
     Canonical (..),
-    Place (..),
+    Position (..),
     canonical,
     parse,
 
     -- * The moves of the cutter
-    Way (..),
-    Asked (..),
-    ways,
+    Move (..),
+    Speed (..),
+    movesFrom,
 
     -- * The comparison with the expected moves
     Leg (..),
@@ -55,15 +55,15 @@ installed :: IO Bool
 installed = (/= Nothing) <$> findExecutable "rs274"
 
 -- | A position in mm.
-data Place = Place Double Double Double
+data Position = Position Double Double Double
   deriving stock (Eq, Show)
 
 -- | A call that moves the cutter, in mm and mm/min.
 data Canonical
-  = Traverse Place
-  | Feeding Double Place
+  = Traverse Position
+  | Feeding Double Position
   | -- | an arc in the plane of x and y: feed, sense, centre, end
-    Rounding Double Sense Point Place
+    Rounding Double Sense Point Position
   deriving stock (Eq, Show)
 
 -- | Runs a file. The answer is a reason if the interpreter complains, or if it prints an unknown
@@ -127,7 +127,7 @@ call state line = case name of
     rate = feed state * scale state
     moved make = (\m -> (state, Just m)) <$> (traverse number arguments >>= make)
     place ns = case map (* scale state) ns of
-      [x, y, z, 0, 0, 0] -> Right (Place x y z)
+      [x, y, z, 0, 0, 0] -> Right (Position x y z)
       _ -> Left "other axes move"
     arc ns = case ns of
       [x, y, i, j, turns, z, 0, 0, 0]
@@ -168,20 +168,20 @@ number t = case Read.signed Read.double t of
 -- Moves -------------------------------------------------------------------------------------------
 
 -- | One move in the plane and in height, in mm.
-data Way = Way {segment :: Segment, heights :: (Double, Double), speed :: Asked}
+data Move = Move {segment :: Segment, heights :: (Double, Double), speed :: Speed}
   deriving stock (Eq, Show)
 
 -- | The speed of a move.
-data Asked
+data Speed
   = InRapid
   | -- | mm/min
     AtFeed Double
   deriving stock (Eq, Show)
 
 -- | The moves from a known position.
-ways :: Place -> [Canonical] -> [Way]
-ways _ [] = []
-ways from@(Place _ _ height) (c : rest) = case c of
+movesFrom :: Position -> [Canonical] -> [Move]
+movesFrom _ [] = []
+movesFrom from@(Position _ _ height) (c : rest) = case c of
   Traverse to -> straight to InRapid
   Feeding f to -> straight to (AtFeed f)
   Rounding f sense centre to ->
@@ -196,13 +196,13 @@ ways from@(Place _ _ height) (c : rest) = case c of
      in continue to (if a == b then whole else Segment.arc sense centre a b) (AtFeed f)
   where
     straight to = continue to (Straight (flat from) (flat to))
-    continue to@(Place _ _ z) moved speed = Way moved (height, z) speed : ways to rest
+    continue to@(Position _ _ z) moved speed = Move moved (height, z) speed : movesFrom to rest
 
-flat :: Place -> Point
-flat (Place x y _) = Vec.point x y
+flat :: Position -> Point
+flat (Position x y _) = Vec.point x y
 
 -- | Expected moves that belong together, the allowed distance of the cutter from them, its speed.
-data Leg = Leg {chain :: NonEmpty (Segment, (Double, Double)), within :: Mm, wanted :: Asked}
+data Leg = Leg {chain :: NonEmpty (Segment, (Double, Double)), within :: Mm, wanted :: Speed}
   deriving stock (Eq, Show)
 
 -- | The allowed distance from a move that the control can make exactly: half of the last decimal of
@@ -216,7 +216,7 @@ roundedFeed = 0.5 + 1e-6
 
 -- | The differences between moves and expected legs. The moves must have the order of the legs:
 -- each leg takes the moves that lie on it, until it is covered and its end is reached.
-differences :: [Leg] -> [Way] -> [Text]
+differences :: [Leg] -> [Move] -> [Text]
 differences expected = go (zip [1 :: Int ..] expected)
   where
     go remaining made = case remaining of
@@ -256,7 +256,7 @@ said :: Show a => a -> Text
 said = Text.pack . show
 
 -- | Do the moves cover the whole leg and end exactly at its end?
-isCoveredBy :: Leg -> [Way] -> Bool
+isCoveredBy :: Leg -> [Move] -> Bool
 isCoveredBy leg made = case reverse made of
   [] -> False
   final : _ ->
@@ -267,7 +267,7 @@ isCoveredBy leg made = case reverse made of
     (goal, (_, top)) = NonEmpty.last (chain leg)
 
 -- | Does a move lie on the leg, in the plane and in height?
-liesOn :: Leg -> Way -> Bool
+liesOn :: Leg -> Move -> Bool
 liesOn leg move =
   null (Distance.uncovered (within leg) (map fst (NonEmpty.toList (chain leg))) (segment move))
     && and [any (contains p h) (chain leg) | (p, h) <- ends]
@@ -292,8 +292,8 @@ mm :: Mm -> Double
 mm (Mm d) = d
 
 -- | The arcs with different radii at their ends. A control with a narrower check would refuse them.
-radii :: [Way] -> [Text]
-radii made = mapMaybe uneven [s | Way {segment = s@Arc {}} <- made]
+radii :: [Move] -> [Text]
+radii made = mapMaybe uneven [s | Move {segment = s@Arc {}} <- made]
   where
     uneven s =
       let (Mm a, Mm b) =
@@ -306,16 +306,16 @@ radii made = mapMaybe uneven [s | Way {segment = s@Arc {}} <- made]
 
 -- | The legs of a toolpath on a machine with arcs: lines and arcs exactly, curves within the
 -- tolerance.
-legs :: Toolpath -> (Place, [Leg])
+legs :: Toolpath -> (Position, [Leg])
 legs path =
   ( beginning,
     concatMap
-      (\block -> map (leg (allowed block)) (Toolpath.runs (Toolpath.moves block)))
+      (\block -> map (leg (allowed block)) (Toolpath.curveRuns (Toolpath.moves block)))
       (Toolpath.blocks path)
   )
   where
     beginning =
-      let Located _ (SpacePoint p (Mm h)) = Toolpath.start path in Place (Vec.x p) (Vec.y p) h
+      let Located _ (SpacePoint p (Mm h)) = Toolpath.start path in Position (Vec.x p) (Vec.y p) h
     leg slack moves =
       Leg
         { chain = fmap whole moves,
@@ -326,7 +326,7 @@ legs path =
     allowed block = case block of
       Toolpath.Cutting {Toolpath.job = Located _ job} ->
         let (Mm a, Mm b) =
-              Part.deepest (Part.tolerance job)
+              Part.deviationLimits (Part.tolerance job)
          in Mm (max a b + mm exactly)
       _ -> exactly
     asked pace = case pace of

@@ -23,7 +23,7 @@ import Geometry.Segment (Segment (..))
 import Geometry.Segment qualified as Segment
 import Geometry.Vec (Point)
 import Geometry.Vec qualified as Vec
-import LinuxCnc (Asked (..), Canonical (..), Leg (..), Place (..))
+import LinuxCnc (Canonical (..), Leg (..), Position (..), Speed (..))
 import LinuxCnc qualified
 import Project.LoadedProgram qualified as LoadedProgram
 import Report.Report qualified as Report
@@ -45,7 +45,8 @@ spec = do
               \0.0000)"
             ]
         )
-        `shouldBe` Right [Rounding 254 CounterClockwise (Vec.point 25.4 25.4) (Place 25.4 50.8 0)]
+        `shouldBe` Right
+          [Rounding 254 CounterClockwise (Vec.point 25.4 25.4) (Position 25.4 50.8 0)]
     it "that are unknown are refused (a probe or a moved zero would look like no move)" $
       map
         LinuxCnc.parse
@@ -57,13 +58,13 @@ spec = do
         `shouldSatisfy` all isLeft
 
   describe "the comparison" $ do
-    let onward = Feeding 60 (Place 10 5 0)
-        back = Rounding 60 Clockwise (p (15, 5)) (Place 20 5 0)
-        made = LinuxCnc.ways (Place 0 0 0) [Traverse (Place 10 0 0), onward, back]
+    let onward = Feeding 60 (Position 10 5 0)
+        back = Rounding 60 Clockwise (p (15, 5)) (Position 20 5 0)
+        made = LinuxCnc.movesFrom (Position 0 0 0) [Traverse (Position 10 0 0), onward, back]
         instead moves =
           LinuxCnc.differences
             wanted
-            (LinuxCnc.ways (Place 0 0 0) (Traverse (Place 10 0 0) : moves))
+            (LinuxCnc.movesFrom (Position 0 0 0) (Traverse (Position 10 0 0) : moves))
         wanted =
           [ rapid (0, 0) (10, 0),
             feed60 (Straight (p (10, 0)) (p (10, 5))),
@@ -74,29 +75,31 @@ spec = do
       LinuxCnc.differences wanted (take 2 made) `shouldSatisfy` some
     it "notices a move too many" $ LinuxCnc.differences (take 2 wanted) made `shouldSatisfy` some
     it "notices an arc in the other sense, which has the same ends" $
-      instead [onward, Rounding 60 CounterClockwise (p (15, 5)) (Place 20 5 0)] `shouldSatisfy` some
+      instead [onward, Rounding 60 CounterClockwise (p (15, 5)) (Position 20 5 0)]
+        `shouldSatisfy` some
     it "notices an end that deviates by 0.003 mm" $
-      instead [Feeding 60 (Place 10 5.003 0), back] `shouldSatisfy` some
+      instead [Feeding 60 (Position 10 5.003 0), back] `shouldSatisfy` some
     it "notices a move in the wrong order" $
       LinuxCnc.differences wanted (reverse made) `shouldSatisfy` some
     it "notices rapid through the material, and a wrong feed" $ do
-      instead [Traverse (Place 10 5 0), back] `shouldSatisfy` some
-      instead [Feeding 62 (Place 10 5 0), back] `shouldSatisfy` some
+      instead [Traverse (Position 10 5 0), back] `shouldSatisfy` some
+      instead [Feeding 62 (Position 10 5 0), back] `shouldSatisfy` some
     it "notices a wrong height" $
-      instead [Feeding 60 (Place 10 5 (-1)), Rounding 60 Clockwise (p (15, 5)) (Place 20 5 (-1))]
+      instead
+        [Feeding 60 (Position 10 5 (-1)), Rounding 60 Clockwise (p (15, 5)) (Position 20 5 (-1))]
         `shouldSatisfy` some
     let round60 =
           [ rapid (0, 0) (10, 0),
             feed60 (Segment.fullCircle CounterClockwise (Circle (p (0, 0)) (Mm 10)) (p (10, 0)))
           ]
-        half sense to = Rounding 60 sense (p (0, 0)) (Place to 0 0)
+        half sense to = Rounding 60 sense (p (0, 0)) (Position to 0 0)
     it "accepts several moves on one leg, and a full circle in two" $
       LinuxCnc.differences
         round60
-        ( LinuxCnc.ways
-            (Place 0 0 0)
-            [ Traverse (Place 4 0 0),
-              Traverse (Place 10 0 0),
+        ( LinuxCnc.movesFrom
+            (Position 0 0 0)
+            [ Traverse (Position 4 0 0),
+              Traverse (Position 10 0 0),
               half CounterClockwise (-10),
               half CounterClockwise 10
             ]
@@ -105,17 +108,17 @@ spec = do
     it "does not take a half circle, forth and back, for the full one" $
       LinuxCnc.differences
         round60
-        ( LinuxCnc.ways
-            (Place 0 0 0)
-            [Traverse (Place 10 0 0), half CounterClockwise (-10), half Clockwise 10]
+        ( LinuxCnc.movesFrom
+            (Position 0 0 0)
+            [Traverse (Position 10 0 0), half CounterClockwise (-10), half Clockwise 10]
         )
         `shouldSatisfy` some
     it "notices radii that differ by 0.003 mm, which LinuxCNC itself accepts" $
       [ null
           ( LinuxCnc.radii
-              ( LinuxCnc.ways
-                  (Place 0 (-10) 0)
-                  [Rounding 60 CounterClockwise (p (0, 0)) (Place 0 (10 + d) 0)]
+              ( LinuxCnc.movesFrom
+                  (Position 0 (-10) 0)
+                  [Rounding 60 CounterClockwise (p (0, 0)) (Position 0 (10 + d) 0)]
               )
           )
         | d <- [0, 0.001, 0.003]
@@ -155,11 +158,11 @@ interpreter = do
         "G0 Z5"
       ]
       >>= \result ->
-        fmap (LinuxCnc.differences everything . LinuxCnc.ways (Place 0 0 0)) result
+        fmap (LinuxCnc.differences everything . LinuxCnc.movesFrom (Position 0 0 0)) result
           `shouldBe` Right []
   it "gives the radius of an arc at both ends as it was written" $
     run ["G0 X0 Y-10", "G3 X0 Y10.001 I0 J10 F60", "G3 X0 Y-10 I0 J-10.0005"] >>= \result ->
-      fmap (LinuxCnc.radii . LinuxCnc.ways (Place 0 0 0)) result `shouldBe` Right []
+      fmap (LinuxCnc.radii . LinuxCnc.movesFrom (Position 0 0 0)) result `shouldBe` Right []
   it "refuses an arc whose radii differ by 0.03 mm (bad centres would go to the machine)" $
     run ["G0 X0 Y-10", "G3 X0 Y10.03 I0 J10 F60"] >>= refused "Radius to end of arc differs"
   it "refuses to cut without a feed" $ run ["G1 X10"] >>= refused "zero feed rate"
@@ -182,7 +185,7 @@ interpreter = do
               ( \result ->
                   fmap
                     ( LinuxCnc.differences (rapid (0, 0) (0, -40) : map feed60 legs')
-                        . LinuxCnc.ways (Place 0 0 0)
+                        . LinuxCnc.movesFrom (Position 0 0 0)
                     )
                     result
               )
@@ -299,14 +302,14 @@ retraced file = inFolder $ \folder -> do
   (status, err) `shouldBe` (ExitSuccess, "")
   loaded <- LoadedProgram.load (Import.byName reader) file =<< readText file
   let outcome = Compile.analyse [] loaded
-  case Result.settled outcome of
+  case Result.ifSound outcome of
     Nothing -> expectationFailure (show (map Report.title (Result.errors outcome)))
     Just analysis -> do
       let (from, wanted) = LinuxCnc.legs (path analysis)
       result <- LinuxCnc.canonical text
       fmap
         ( \calls ->
-            let made = LinuxCnc.ways from calls
+            let made = LinuxCnc.movesFrom from calls
              in LinuxCnc.differences wanted made <> LinuxCnc.radii made
         )
         result

@@ -58,6 +58,6 @@ jobForOwnOr :: Machine -> [(Text, Text)] -> LoadedProgram -> Job
 jobForOwnOr other values loaded = (jobFor other values) {machinesFor}
   where
     machinesFor part path =
-      case Result.settled (Target.targets (descriptions loaded) [] part path) of
+      case Result.ifSound (Target.targets (descriptions loaded) [] part path) of
         Just machines -> pure machines
         Nothing -> pure [Target.setUpFor path other]

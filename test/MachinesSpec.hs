@@ -38,7 +38,7 @@ spec = do
   everywhere
   it "the shaft of the course begins as the course prints it" $ do
     loaded <- LoadedProgram.fromText "shaft.part" <$> readText "examples/shaft.part"
-    case Result.settled (Compile.compile (Machines.jobForOwnOr Machines.lkp01f [] loaded) loaded) of
+    case Result.ifSound (Compile.compile (Machines.jobForOwnOr Machines.lkp01f [] loaded) loaded) of
       Just [Compiled {machine, punched = Punched {program}}] ->
         map (symbolsOf (Tape.rows machine (Frame.start program) (framesOf program))) [1, 2]
           `shouldBe` ["9Д56000П27Ш08Н", "7Е64200П32Н"]
@@ -72,7 +72,7 @@ everywhere = describe "every example on every machine" $ do
 outcomeOn :: LoadedProgram -> Machine -> IO Text
 outcomeOn loaded target = do
   let outcome = Compile.compile (Machines.jobFor target []) loaded
-  case Result.settled outcome of
+  case Result.ifSound outcome of
     Just [Compiled {machine, punched = Punched {program, tape}, proof}] -> do
       -- Unlike the compiler, this reads the tape without knowing its frames.
       Tape.read machine (Frame.start program) tape `shouldBe` Right (framesOf program)
@@ -86,7 +86,7 @@ outcomeOn loaded target = do
       pure ("refused: " <> Text.intercalate ", " (nub (map codeWord (errors outcome))))
 
 framesOf :: FrameProgram -> [Frame]
-framesOf = map Frame.frame . Frame.planned
+framesOf = map Frame.frame . Frame.plannedFrames
 
 -- | The numbers of frames, of arcs among them, and of rows.
 counts :: [Frame] -> Tape -> Text
@@ -94,7 +94,7 @@ counts frames tape =
   Text.intercalate
     ", "
     [ Decimal.whole (length frames) <> " frames",
-      Decimal.whole (length [() | Round _ <- map motion frames]) <> " arcs",
+      Decimal.whole (length [() | Circular _ <- map motion frames]) <> " arcs",
       Decimal.whole (Tape.rowCount tape) <> " rows"
     ]
 

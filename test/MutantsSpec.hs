@@ -11,7 +11,7 @@ import Data.Map.Strict qualified as Map
 import Data.Text (Text)
 import Data.Text qualified as Text
 import Data.Text.Encoding qualified as Encoding
-import Files (readText, walk)
+import Files (filesBelow, readText)
 import System.Environment (lookupEnv)
 import System.FilePath (takeBaseName, takeExtension)
 import Test.Hspec hiding (after, before)
@@ -43,7 +43,7 @@ between begin end page = (before <> begin, inside, after)
 
 spec :: Spec
 spec = describe "test/mutants" $ do
-  files <- runIO (filter ((== ".mutant") . takeExtension) <$> walk "test/mutants")
+  files <- runIO (filter ((== ".mutant") . takeExtension) <$> filesBelow "test/mutants")
   texts <- runIO (mapM readText (sort files))
   let mutants = zip (map (Text.pack . takeBaseName) (sort files)) (map fields texts)
   it "say which law notices which bug, and where the bug is" $

@@ -14,7 +14,7 @@ import Control.Monad (forM_, void)
 import Data.List (isInfixOf, nub, sort)
 import Data.Text (Text)
 import Data.Text qualified as Text
-import Files (expected, readText, walk)
+import Files (expected, filesBelow, readText)
 import Machines qualified
 import Project.Job (Job)
 import Project.LoadedProgram (LoadedProgram)
@@ -31,14 +31,15 @@ import Verify.Proof qualified as Proof
 spec :: Spec
 spec = do
   programs <-
-    runIO (sort . filter ((`elem` [".part", ".sheet"]) . takeExtension) <$> walk "test/programs")
+    runIO
+      (sort . filter ((`elem` [".part", ".sheet"]) . takeExtension) <$> filesBelow "test/programs")
   let kind k = filter (("/" <> k <> "/") `isInfixOf`) programs
   describe "good programs are proven and give their frames" $
     forM_ (kind "good") $ \file -> it file $ do
       (values, loaded) <- loadedFrom file
       let source = LoadedProgram.source loaded
           outcome = Compile.compile (job values loaded) loaded
-      case Result.settled outcome of
+      case Result.ifSound outcome of
         Just [Compiled {machine, punched, proof}] -> do
           fmap Proof.findings proof `shouldBe` Just []
           expected
@@ -52,20 +53,20 @@ spec = do
       (values, loaded) <- loadedFrom file
       let outcome = Compile.check (job values loaded) loaded
       errors outcome `shouldNotBe` []
-      void (Result.settled outcome) `shouldBe` Nothing
+      void (Result.ifSound outcome) `shouldBe` Nothing
       expected
         (file -<.> "report")
         (rendered (LoadedProgram.source loaded) (errors outcome <> warnings outcome))
   describe "report codes" $
     it "each code of the language has a bad program, each warning a good one" $ do
-      sources <- filter ("Error.hs" `isInfixOf`) <$> walk "src"
+      sources <- filter ("Error.hs" `isInfixOf`) <$> filesBelow "src"
       codes <-
         nub . sort . concatMap codesIn
           <$> traverse readText (filter (not . ofCommandLine) sources)
       expectations <-
         Text.concat
           <$> ( traverse readText . filter ((`elem` [".report", ".frames"]) . takeExtension)
-                  =<< walk "test/programs"
+                  =<< filesBelow "test/programs"
               )
       -- Surface.LimitsSpec tests the length of a text, and test/machines the machine descriptions.
       let isTested c =

@@ -71,7 +71,7 @@ spec = do
     loaded = LoadedProgram.fromText (Text.pack file) :: Text -> LoadedProgram
     compiled = do
       text <- readText file
-      maybe (fail "the rib has errors") pure . Result.settled $
+      maybe (fail "the rib has errors") pure . Result.ifSound $
         Compile.analyse [] (loaded text) `Result.thenSound` \a ->
           Compile.punch lkp01f (path a) `Result.thenSound` \p -> pure (a, p)
     showText = Text.pack . show :: Int -> Text

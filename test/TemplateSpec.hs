@@ -31,9 +31,9 @@ spec :: Spec
 spec = do
   analysis <- runIO analysed
   let fitted name = [f | (Located _ n, f) <- Part.fittings (part analysis), n == Name name]
-      paper = concatMap (NonEmpty.toList . pieces) (fitted "paper")
-      missed = concatMap misses (fitted "paper")
-      points = concatMap (Vector.toList . Curve.through) (fitted "paper")
+      paper = concatMap (NonEmpty.toList . sections) (fitted "paper")
+      missed = concatMap deviations (fitted "paper")
+      points = concatMap (Vector.toList . Curve.fittedPoints) (fitted "paper")
   it "the formulas of the three sections are the paper's, corrected" $
     map formula paper
       `shouldBe` [ "0.6336634 -17.545050",
@@ -41,39 +41,39 @@ spec = do
                    "-0.00460579 0.8200501 -16.220749"
                  ]
   it "the deviations are those of Tables 2 to 4 to 0.01 mm" $
-    [ (SectionFit.ofRow d, Decimal.fixed 2 x)
+    [ (SectionFit.rowNumber d, Decimal.fixed 2 x)
       | d <- missed,
-        let Mm x = SectionFit.miss d,
+        let Mm x = SectionFit.signedDeviation d,
         abs x >= 0.005
     ]
       `shouldBe` [(2, "0.01"), (4, "0.03"), (7, "-0.02"), (9, "-0.02"), (11, "0.01"), (12, "0.03")]
   it "three pieces are needed within 0.03 mm, and three are found" $ do
-    map (length . pieces) (fitted "fitted") `shouldBe` [3]
+    map (length . sections) (fitted "fitted") `shouldBe` [3]
     [k | k <- [2 .. 12], isSingle (take k points), isSingle (drop (k - 1) points)] `shouldBe` []
-    let isOutside d = let Mm x = SectionFit.miss d in abs x > 0.03
-    filter isOutside (concatMap misses (fitted "fitted")) `shouldBe` []
+    let isOutside d = let Mm x = SectionFit.signedDeviation d in abs x > 0.03
+    filter isOutside (concatMap deviations (fitted "fitted")) `shouldBe` []
   it "its page shows the points of the program, and what is computed" $ do
     page <- rows <$> readText "docs/template.md"
     [(x, y) | [n, _, _, x, y, _] <- page, isNumber n]
       `shouldBe` [(Decimal.fixed 2 (Vec.x p), Decimal.fixed 2 (Vec.y p)) | p <- points]
     [(n, y, d) | [n, _, _, _, _, y, d] <- page, isNumber n]
-      `shouldBe` [ ( Decimal.whole (SectionFit.ofRow d),
+      `shouldBe` [ ( Decimal.whole (SectionFit.rowNumber d),
                      Decimal.fixed 4 (Vec.y p + x),
                      Decimal.fixed 4 x
                    )
                    | (d, p) <- zip missed points,
-                     let Mm x = SectionFit.miss d
+                     let Mm x = SectionFit.signedDeviation d
                  ]
   it "its page shows the program of examples/, and counts its frames" $ do
     page <- readText "docs/template.md"
     program' <- readText file
     page `shouldSatisfy` Text.isInfixOf (snd (Text.breakOn "part template" program'))
     let loaded = LoadedProgram.fromText (Text.pack file) program'
-    case Result.settled (Compile.compile (Machines.jobFor lkp01f []) loaded) of
+    case Result.ifSound (Compile.compile (Machines.jobFor lkp01f []) loaded) of
       Just [Compiled {punched = Punched {program}}] ->
         page
           `shouldSatisfy` Text.isInfixOf
-            (Decimal.whole (length (Frame.planned program)) <> " frames")
+            (Decimal.whole (length (Frame.plannedFrames program)) <> " frames")
       _ -> expectationFailure "no tape"
   where
     file = "examples/template.part"
@@ -82,7 +82,7 @@ spec = do
       maybe
         (fail "the template has errors")
         pure
-        (Result.settled (Compile.analyse [] (LoadedProgram.fromText (Text.pack file) text)))
+        (Result.ifSound (Compile.analyse [] (LoadedProgram.fromText (Text.pack file) text)))
     -- The cells of the tables, without the marks of bold text.
     rows page =
       [ map (Text.strip . Text.replace "*" "") (drop 1 (init (Text.splitOn "|" line)))

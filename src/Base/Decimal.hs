@@ -3,13 +3,13 @@ module Base.Decimal
   ( fixed,
     short,
     exact,
-    amount,
+    parse,
     Leading (..),
     leading,
     whole,
     mm,
-    some,
-    unlike,
+    nonZeroMm,
+    distinctMm,
   )
 where
 
@@ -41,7 +41,7 @@ short decimals x
   where
     written = fixed decimals x
 
--- | The shortest text that 'amount' reads as the same number. A number that needs more than
+-- | The shortest text that 'parse' reads as the same number. A number that needs more than
 -- 'mostDigits' is rounded: it is far smaller than any length of a part.
 exact :: Double -> Text
 exact x
@@ -53,25 +53,25 @@ exact x
     plain = fromMaybe written (Text.stripSuffix ".0" written)
 
 -- | Parses digits, and optionally a point and more digits, into the nearest double.
-amount :: Text -> Maybe Double
-amount text = case leading text of
-  Leading {size, worth, behind} | size > 0 && Text.null behind -> worth
+parse :: Text -> Maybe Double
+parse text = case leading text of
+  Leading {consumed, parsed, remainder} | consumed > 0 && Text.null remainder -> parsed
   _ -> Nothing
 
 -- | The number at the start of a text.
 data Leading = Leading
   { -- | the count of its characters; 0 without a number
-    size :: Int,
+    consumed :: Int,
     -- | the nearest double; nothing with more than 'mostDigits' digits
-    worth :: Maybe Double,
+    parsed :: Maybe Double,
     -- | the text after it
-    behind :: {-# UNPACK #-} Text
+    remainder :: {-# UNPACK #-} Text
   }
 
 -- | Parses the number at the start of a text.
 leading :: Text -> Leading
 leading text = case digits 0 text of
-  Digits front count behind -> case Text.uncons behind of
+  Digits front count remainder -> case Text.uncons remainder of
     Just ('.', more)
       | count > 0,
         Digits n places further <- digits front more,
@@ -81,7 +81,7 @@ leading text = case digits 0 text of
       Leading
         count
         (if count <= fewDigits then Just (fromIntegral front) else longer (Text.take count text) "")
-        behind
+        remainder
   where
     fraction n places width
       | width <= fewDigits && n < 2 ^ (53 :: Int) =
@@ -136,8 +136,8 @@ mm (Mm x) = short 4 x <> " mm"
 
 -- | A length for a report with enough decimals, up to nine, to differ from another length: the
 -- first argument. Four decimals when nine are not enough.
-unlike :: Mm -> Mm -> Text
-unlike (Mm other) (Mm x) =
+distinctMm :: Mm -> Mm -> Text
+distinctMm (Mm other) (Mm x) =
   case [ written
          | decimals <- [4 .. 9],
            let written = short decimals x,
@@ -147,7 +147,7 @@ unlike (Mm other) (Mm x) =
     [] -> mm (Mm x)
 
 -- | A length that is not 0 for a report: with nine decimals when four are not enough to show it.
-some :: Mm -> Text
-some (Mm x)
+nonZeroMm :: Mm -> Text
+nonZeroMm (Mm x)
   | abs x >= 0.0001 = mm (Mm x)
   | otherwise = short 9 x <> " mm"

@@ -4,7 +4,7 @@
 -- An accumulator that is reversed at the end would need a second copy of them.
 module Base.LazyList
   ( LazyList (..),
-    behind,
+    prependReversed,
     toList,
     end,
   )
@@ -14,10 +14,10 @@ where
 data LazyList e a = Next a ~(LazyList e a) | End e
 
 -- | A list with items before it, the last of which is given first.
-behind :: [a] -> LazyList e a -> LazyList e a
-behind latest list = case latest of
+prependReversed :: [a] -> LazyList e a -> LazyList e a
+prependReversed latest list = case latest of
   [] -> list
-  a : earlier -> behind earlier (Next a list)
+  a : earlier -> prependReversed earlier (Next a list)
 
 -- | The items in order.
 toList :: LazyList e a -> [a]

@@ -4,11 +4,11 @@ module Base.NumberTable
   ( NumberTable (..),
     fromList,
     count,
-    place,
+    regionOf,
     cell,
     cells,
-    joined,
-    arranged,
+    concatenated,
+    selectColumns,
     selectRows,
   )
 where
@@ -49,8 +49,8 @@ count :: NumberTable -> Int
 count rows = PrimArray.sizeofPrimArray (places rows) `quot` 2
 
 -- | The region of a row, by its index.
-place :: NumberTable -> Int -> Region
-place rows k =
+regionOf :: NumberTable -> Int -> Region
+regionOf rows k =
   Region
     (PrimArray.indexPrimArray (places rows) (2 * k))
     (PrimArray.indexPrimArray (places rows) (2 * k + 1))
@@ -65,15 +65,15 @@ cells :: NumberTable -> Int -> [Double]
 cells rows k = map (cell rows k) [0 .. width rows - 1]
 
 -- | Concatenates tables of a width.
-joined :: Int -> [NumberTable] -> NumberTable
-joined width parts = case parts of
+concatenated :: Int -> [NumberTable] -> NumberTable
+concatenated width parts = case parts of
   [one] -> one
   _ ->
     NumberTable {width, places = mconcat (map places parts), numbers = mconcat (map numbers parts)}
 
 -- | A table of columns by their indices, each multiplied by a factor.
-arranged :: [(Int, Double)] -> NumberTable -> NumberTable
-arranged columns rows =
+selectColumns :: [(Int, Double)] -> NumberTable -> NumberTable
+selectColumns columns rows =
   rows {width = wide, numbers = PrimArray.generatePrimArray (wide * count rows) number}
   where
     wide = length columns
@@ -87,4 +87,4 @@ arranged columns rows =
 selectRows :: [Int] -> NumberTable -> NumberTable
 selectRows ks rows = selected {width = width rows}
   where
-    selected = fromList [(place rows k, PrimArray.primArrayFromList (cells rows k)) | k <- ks]
+    selected = fromList [(regionOf rows k, PrimArray.primArrayFromList (cells rows k)) | k <- ks]

@@ -4,7 +4,7 @@
 module Base.PulseVector
   ( Pulses2 (..),
     Pulses3 (..),
-    flat,
+    xy,
   )
 where
 
@@ -37,5 +37,5 @@ instance Num Pulses3 where
   fromInteger n = let a = fromInteger n in Pulses3 a a a
 
 -- | The x and y of a vector in space.
-flat :: Pulses3 -> Pulses2
-flat (Pulses3 x y _) = Pulses2 x y
+xy :: Pulses3 -> Pulses2
+xy (Pulses3 x y _) = Pulses2 x y

@@ -14,14 +14,14 @@ module Base.Region
     span,
     merge,
     fromText,
-    add,
-    next,
+    addFile,
+    nextOffset,
     text,
     mainFile,
     position,
     offset,
     lineText,
-    pieces,
+    linesIn,
   )
 where
 
@@ -103,13 +103,13 @@ fromText :: Text -> Text -> Source
 fromText path content = Source {own = indexed path 0 content, imported = Boxed.empty}
 
 -- | Appends an imported file by its name and its text.
-add :: Text -> Text -> Source -> Source
-add path content source =
-  source {imported = Boxed.snoc (imported source) (indexed path (next source) content)}
+addFile :: Text -> Text -> Source -> Source
+addFile path content source =
+  source {imported = Boxed.snoc (imported source) (indexed path (nextOffset source) content)}
 
 -- | The offset at which the next appended file begins.
-next :: Source -> Int
-next source = let final = fileAt source maxBound in base final + length final + 1
+nextOffset :: Source -> Int
+nextOffset source = let final = fileAt source maxBound in base final + length final + 1
 
 -- | The text of the program itself.
 text :: Source -> Text
@@ -171,7 +171,7 @@ offset Source {own} line column
 
 -- | The index of the line with an offset, counted from the start of the file.
 lineIndex :: File -> Int -> Int
-lineIndex File {starts} at = BinarySearch.lastBelow (Vector.length starts) at starts
+lineIndex File {starts} at = BinarySearch.lastAtMost (Vector.length starts) at starts
 
 -- | The text of the line with an offset, without its line end.
 lineText :: Source -> Int -> Text
@@ -181,8 +181,8 @@ lineText source at = contents found Boxed.! lineIndex found within
     within = max 0 (min (at - base found) (length found))
 
 -- | The parts of a region's lines that lie in the region, without their line ends.
-pieces :: Source -> Region -> [Text]
-pieces source (Region from to) =
+linesIn :: Source -> Region -> [Text]
+linesIn source (Region from to) =
   [ part (starts found Vector.! i) (contents found Boxed.! i)
     | i <- [lineIndex found a .. lineIndex found b]
   ]

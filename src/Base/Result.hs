@@ -10,7 +10,7 @@ module Base.Result
     warned,
     fromEither,
     mapErrors,
-    settled,
+    ifSound,
     thenSound,
   )
 where
@@ -53,11 +53,11 @@ mapErrors :: (w -> w') -> (e -> e') -> Result w e a -> Result w' e' a
 mapErrors f g (Result ws es a) = Result (map f ws) (map g es) a
 
 -- | The output if there is no error.
-settled :: Result w e a -> Maybe a
-settled (Result _ es a) = if null es then a else Nothing
+ifSound :: Result w e a -> Maybe a
+ifSound (Result _ es a) = if null es then a else Nothing
 
 -- | Runs a pass on an output only if there is no error.
 thenSound :: Result w e a -> (a -> Result w e b) -> Result w e b
-thenSound r f = case settled r of
+thenSound r f = case ifSound r of
   Just _ -> r >>= f
   Nothing -> r {output = Nothing}

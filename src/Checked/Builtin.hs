@@ -273,7 +273,7 @@ forms Fresh {dimension = d, anything} builtin = case builtin of
     circle = given "circle" Circle
     curve = given "curve" (Curve anything)
     table' = given "table" (Table anything)
-    tolerance = Parameter (Word UpTo) "tolerance" Type.len
+    tolerance = Parameter (Word WithinTolerance) "tolerance" Type.len
     -- A curve through the rows of a table, or through points without further columns.
     curveThrough more =
       [ Form (table' : more) (Curve anything),
@@ -286,12 +286,12 @@ forms Fresh {dimension = d, anything} builtin = case builtin of
     chosen =
       [Parameter (Word Near) "point" Type.aPoint]
         <> sided "line" Line
-        <> [Parameter (Word side) "circle" Circle | side <- [Within', Beyond]]
+        <> [Parameter (Word side) "circle" Circle | side <- [ToInside, ToOutside]]
     -- Elements that a circle of a given radius can touch or pass through.
     touched =
       [point, line, circle]
         <> sided "line" Line
-        <> [Parameter (Word side) "circle" Circle | side <- [Within', Beyond]]
+        <> [Parameter (Word side) "circle" Circle | side <- [ToInside, ToOutside]]
     -- A transformed value; without a value, the transformation itself.
     transforming extra =
       concat
@@ -386,9 +386,9 @@ formText builtin form = callText (name builtin) (map parameter (parameters form)
       Near -> "near"
       ToLeft -> "left"
       ToRight -> "right"
-      Within' -> "inside"
-      Beyond -> "outside"
-      UpTo -> "within"
+      ToInside -> "inside"
+      ToOutside -> "outside"
+      WithinTolerance -> "within"
 
 -- | Describes a function by its first forms, for editors.
 description :: Builtin -> Text

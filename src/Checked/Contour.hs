@@ -65,7 +65,7 @@ elementModifiers env t modifiers
 isBevel :: Surface.Modifier -> Bool
 isBevel (Located _ m) = case m of
   Surface.Bevel _ -> True
-  Surface.AtElementFeed _ -> False
+  Surface.ElementFeed _ -> False
   Surface.Slow -> False
   Surface.ElementAllowance _ -> False
 
@@ -73,7 +73,7 @@ isBevel (Located _ m) = case m of
 modifier ::
   Environment -> [(Text, Type)] -> Surface.Modifier -> Infer (Deferred Checked.Modifier)
 modifier env columns (Located at m) = fmap (Located at .) $ case m of
-  Surface.AtElementFeed e -> (Checked.AtElementFeed .) <$> expect env Type.feed e
+  Surface.ElementFeed e -> (Checked.ElementFeed .) <$> expect env Type.feed e
   Surface.Slow -> pure (const Checked.Slow)
   Surface.ElementAllowance e -> (Checked.ElementAllowance .) <$> expect env Type.len e
   Surface.Bevel e ->

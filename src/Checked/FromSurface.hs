@@ -264,7 +264,7 @@ tableDefinition env name written = do
   where
     tableLines = case written of
       Surface.WrittenLines ls -> ls
-      Surface.LinesOf _ -> []
+      Surface.LinesFromFile _ -> []
 
 -- | The definition of a piece.
 pieceDefinition ::
@@ -381,7 +381,7 @@ tolerance env accuracy = case accuracy of
 
 spindle :: Environment -> Surface.Spin -> Infer (Deferred Checked.Spin)
 spindle env spin = case spin of
-  Surface.Still -> pure (const Checked.Still)
+  Surface.SpindleStop -> pure (const Checked.SpindleStop)
   Surface.Spinning sense speed -> do
     speed' <- traverse (expect env Type.spindleSpeed) speed
     pure (\sol -> Checked.Spinning sense (($ sol) <$> speed'))

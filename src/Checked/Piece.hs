@@ -169,7 +169,9 @@ row env columns number (Located at line) = case line of
     | NumberTable.width numbers /= length columns ->
       Nothing
         <$ mapM_
-          (\k -> wrongLength (NumberTable.place numbers k) (number + k) (NumberTable.width numbers))
+          ( \k ->
+              wrongLength (NumberTable.regionOf numbers k) (number + k) (NumberTable.width numbers)
+          )
           [0 .. NumberTable.count numbers - 1]
     | otherwise -> pure (Just (Numbers numbers))
   Surface.Entries cells
@@ -218,7 +220,7 @@ cellsOf order sizes rows sol = case rows of
     let es = zipWith expression sizes cells
      in foldr seq (Checked.Written at [es !! i | i <- order]) es
   where
-    inOrder = Checked.Numbers . NumberTable.arranged [(i, sizes !! i) | i <- order]
+    inOrder = Checked.Numbers . NumberTable.selectColumns [(i, sizes !! i) | i <- order]
     expression s c = case c of
       Literal at x -> Located at (Checked.Number (x * s))
       Written e -> e sol

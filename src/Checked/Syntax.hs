@@ -174,7 +174,7 @@ data Accuracy = Within Expr | Between Expr Expr
   deriving stock (Eq, Show)
 
 -- | The command to a spindle: a sense with an optional speed in rpm, or a stop.
-data Spin = Spinning Sense (Maybe Expr) | Still
+data Spin = Spinning Sense (Maybe Expr) | SpindleStop
   deriving stock (Eq, Show)
 
 -- | A condition that must be true.
@@ -317,7 +317,7 @@ data Item_
 type Modifier = Located Modifier_
 
 -- | A property of one element of a contour.
-data Modifier_ = AtElementFeed Expr | Slow | ElementAllowance Expr | Bevel Expr
+data Modifier_ = ElementFeed Expr | Slow | ElementAllowance Expr | Bevel Expr
   deriving stock (Eq, Show)
 
 -- | A link with its region.

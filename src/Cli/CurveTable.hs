@@ -28,42 +28,42 @@ fittings :: Part -> [Text]
 fittings = map (uncurry fitting . \(Located _ name, f) -> (name, f)) . Part.fittings
 
 fitting :: Name -> Fitting -> Text
-fitting (Name name) Fitting {pieces, misses, through} =
+fitting (Name name) Fitting {sections, deviations, fittedPoints} =
   "Curve "
     <> name
     <> ": "
-    <> counted (length pieces) "section"
+    <> counted (length sections) "section"
     <> " through "
-    <> counted (Vector.length through) "row"
+    <> counted (Vector.length fittedPoints) "row"
     <> "\n\n"
     <> Table.columns
       [ToRight, ToRight, ToLeft, ToLeft, ToRight]
       ( ["section", "rows", "kind", "equation", "largest deviation"] :
-        zipWith section [1 ..] (NonEmpty.toList pieces)
+        zipWith section [1 ..] (NonEmpty.toList sections)
       )
     <> "\n"
     <> Table.columns
       [ToRight, ToRight, ToRight, ToRight, ToRight]
-      (["row", "x", "y", "section", "deviation"] : map row misses)
+      (["row", "x", "y", "section", "deviation"] : map row deviations)
   where
     section index p =
       [ Decimal.whole index,
         Decimal.whole (Section.first p) <> "–" <> Decimal.whole (Section.final p),
         kindWord p,
         equation p,
-        fixed 4 (Section.largest p)
+        fixed 4 (Section.largestDeviation p)
       ]
     kindWord p = case Section.kind (Section.curve p) of
       Section.LineKind -> "line"
       Section.ParabolaKind -> "parabola"
       Section.ArcKind -> "arc"
     row d =
-      let p = fromMaybe (Vec.point 0 0) (through Vector.!? (SectionFit.ofRow d - 1))
-       in [ Decimal.whole (SectionFit.ofRow d),
+      let p = fromMaybe (Vec.point 0 0) (fittedPoints Vector.!? (SectionFit.rowNumber d - 1))
+       in [ Decimal.whole (SectionFit.rowNumber d),
             Decimal.short 6 (Vec.x p),
             Decimal.short 6 (Vec.y p),
-            Decimal.whole (SectionFit.onPiece d),
-            fixed 4 (SectionFit.miss d)
+            Decimal.whole (SectionFit.sectionNumber d),
+            fixed 4 (SectionFit.signedDeviation d)
           ]
     fixed n (Mm x) = Decimal.fixed n x
 
@@ -73,7 +73,7 @@ equation p = case Section.formula p of
   Section.Polynomial 0 b c -> "y = " <> Decimal.fixed 7 b <> " x " <> signed 6 c
   Section.Polynomial a b c ->
     "y = " <> Decimal.fixed 8 a <> " x² " <> signed 7 b <> " x " <> signed 6 c
-  Section.Circle centre r -> "centre " <> Vec.written 4 centre <> ", radius " <> Decimal.mm r
+  Section.Circle centre r -> "centre " <> Vec.toText 4 centre <> ", radius " <> Decimal.mm r
   where
     signed n x = (if x < 0 then "− " else "+ ") <> Decimal.fixed n (abs x)
 

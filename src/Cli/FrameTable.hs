@@ -23,7 +23,7 @@ import Data.Text (Text)
 import Data.Text qualified as Text
 import Data.Text.Encoding qualified as Encoding
 import Frame.FeedCode qualified as FeedCode
-import Frame.Frame (Frame (..), FrameMotion (..), FrameProgram, Planned (..), Role (..))
+import Frame.Frame (Frame (..), FrameMotion (..), FrameProgram, PlannedFrame (..), Role (..))
 import Frame.Frame qualified as Frame
 import Geometry.Carrier (Sense (..))
 import Geometry.Vec qualified as Vec
@@ -33,7 +33,7 @@ import Machine.Machine (CommandName (..), FeedCode (..), Machine)
 data Column a = Column {align :: Align, title :: Text, cell :: a -> Text}
 
 -- | A frame with its number, from 1, and the position at its end.
-data Numbered = Numbered {number :: Int, planned :: Planned, to :: Pulses3}
+data Numbered = Numbered {number :: Int, planned :: PlannedFrame, to :: Pulses3}
 
 -- | A table of frames, each with the line of the program that it comes from. Columns that would be
 -- empty are left out.
@@ -63,7 +63,11 @@ frames machine source program = table columns rows
       maybe
         ""
         feedWord
-        (FeedCode.given machine (frame (planned n)) (FeedCode.wayOf machine (frame (planned n))))
+        ( FeedCode.feedOf
+            machine
+            (frame (planned n))
+            (FeedCode.frameLength machine (frame (planned n)))
+        )
     coordinate = Decimal.fixed 3
 
 -- | Frames as JSON lines: increments in pulses, positions in mm.
@@ -74,7 +78,7 @@ framesJson machine source program = Text.concat (map row (numbered program))
       let f = frame (planned n)
           Pulses3 (Pulses dx) (Pulses dy) (Pulses dz) = increment f
           Pulses2 (Pulses i) (Pulses j) = centre f
-          FeedCode s = speed f
+          FeedCode s = feedCode f
           p = Frame.position machine (to n)
        in jsonLine
             ( [ "frame" .= number n,
@@ -86,10 +90,10 @@ framesJson machine source program = Text.concat (map row (numbered program))
                 <> [ "speed" .= s,
                      "feed"
                        .= ( (\(Feed v) -> v)
-                              <$> FeedCode.given machine f (FeedCode.wayOf machine f)
+                              <$> FeedCode.feedOf machine f (FeedCode.frameLength machine f)
                           ),
                      "braking" .= braking f,
-                     "commands" .= object [Key.fromText o .= v | (CommandName o, v) <- orders f],
+                     "commands" .= object [Key.fromText o .= v | (CommandName o, v) <- commands f],
                      "to" .= [Vec.x p, Vec.y p, let Mm z = Frame.height machine (to n) in z],
                      "file"
                        .= ( let Position {file} =
@@ -115,7 +119,9 @@ decoded machine fs = table columns (zip [1 :: Int ..] fs)
              Column
                ToRight
                "mm/min"
-               (\(_, f) -> maybe "" feedWord (FeedCode.given machine f (FeedCode.wayOf machine f)))
+               ( \(_, f) ->
+                   maybe "" feedWord (FeedCode.feedOf machine f (FeedCode.frameLength machine f))
+               )
            ]
         <> map (via snd) (brakeColumn fs <> commandColumns fs)
 
@@ -131,7 +137,7 @@ via get c = c {cell = cell c . get}
 motionColumns :: [Frame] -> [Column Frame]
 motionColumns fs =
   [ Column ToLeft "motion" (motionWord . motion)
-    | any ((`notElem` [Still, Straightway]) . motion) fs
+    | any ((`notElem` [NoMotion, Linear]) . motion) fs
   ]
     <> [ Column ToRight "dx" (\f -> let Pulses3 x _ _ = increment f in pulses x),
          Column ToRight "dy" (\f -> let Pulses3 _ y _ = increment f in pulses y),
@@ -154,24 +160,24 @@ brakeColumn fs = [Column ToLeft "" (\f -> if braking f then "brakes" else "") | 
 -- | A column for every word of commands that some frame has.
 commandColumns :: [Frame] -> [Column Frame]
 commandColumns fs =
-  [ Column ToRight name (maybe "" Decimal.whole . lookup o . orders)
-    | o@(CommandName name) <- nubOrd (concatMap (map fst . orders) fs)
+  [ Column ToRight name (maybe "" Decimal.whole . lookup o . commands)
+    | o@(CommandName name) <- nubOrd (concatMap (map fst . commands) fs)
   ]
 
 isArc :: Frame -> Bool
 isArc f = case motion f of
-  Round _ -> True
-  Still -> False
+  Circular _ -> True
+  NoMotion -> False
   Rapid -> False
-  Straightway -> False
+  Linear -> False
 
 motionWord :: FrameMotion -> Text
 motionWord m = case m of
-  Still -> ""
+  NoMotion -> ""
   Rapid -> "rapid"
-  Straightway -> "line"
-  Round Clockwise -> "arc cw"
-  Round CounterClockwise -> "arc ccw"
+  Linear -> "line"
+  Circular Clockwise -> "arc cw"
+  Circular CounterClockwise -> "arc ccw"
 
 -- | The frames with their numbers and end positions.
 numbered :: FrameProgram -> [Numbered]
@@ -182,16 +188,16 @@ numbered program =
     ps
     (drop 1 (scanl (+) (Frame.start program) (map (increment . frame) ps)))
   where
-    ps = Frame.planned program
+    ps = Frame.plannedFrames program
 
 -- | The line of the program, with the file if it is an imported one.
-lineWord :: Source -> Planned -> Text
+lineWord :: Source -> PlannedFrame -> Text
 lineWord source p =
   (if file == Region.mainFile source then "" else file <> ":") <> Decimal.whole (lineOf source p)
   where
     Position {file} = Region.position source (start (origin p))
 
-lineOf :: Source -> Planned -> Int
+lineOf :: Source -> PlannedFrame -> Int
 lineOf source p = line (Region.position source (start (origin p)))
 
 roleWord :: Role -> Text
@@ -199,12 +205,12 @@ roleWord r = case r of
   Approaching _ -> "approach"
   Cutting _ -> "cut"
   Retracting _ -> "retract"
-  Travelling -> "travel"
+  Linking -> "travel"
   Drilling -> "drill"
   Commanding -> "command"
 
 speedWord :: Frame -> Text
-speedWord f = let FeedCode s = speed f in Decimal.whole s
+speedWord f = let FeedCode s = feedCode f in Decimal.whole s
 
 feedWord :: Feed -> Text
 feedWord (Feed f) = Decimal.short 2 f

@@ -55,7 +55,7 @@ machineSheet m =
         ("The commands", [ToLeft, ToLeft], commandRows m),
         ( "How it is known",
           [ToLeft, ToLeft],
-          [[markWord mark, fact] | DescribedValue mark fact <- facts m]
+          [[markWord mark, fact] | DescribedValue mark fact <- describedValues m]
         )
       ]
 
@@ -134,8 +134,8 @@ hasCheck m = or [True | CheckDigit _ <- NonEmpty.toList (items (layout m))]
 axisRows :: Machine -> [[Text]]
 axisRows m =
   ["axis", "pulse", "largest number", ""] :
-  [ [ contentWord (Along (axis a)),
-      Decimal.mm (step a),
+  [ [ contentName (Along (axis a)),
+      Decimal.mm (resolution a),
       let Pulses k = capacity m (axis a) in Decimal.whole k,
       remarks a
     ]
@@ -148,7 +148,7 @@ axisRows m =
         "; "
         ( ["points against that of the part" | reversed a]
             <> ["on a lathe the other way" | reversedOnLathe a]
-            <> ["not known to be moved" | not (moves a)]
+            <> ["not known to be moved" | not (isDriven a)]
         )
     arcText = case arcs m of
       NoArcs -> "none"
@@ -183,7 +183,7 @@ gridRows m =
       Literal t -> [[quoted (Text.singleton c), ""] | c <- Text.unpack t]
       CheckDigit k -> [["check: the sum is a multiple of " <> Decimal.whole k, ""]]
       AWord w ->
-        [ [contentWord (content w), s]
+        [ [contentName (content w), s]
           | s <-
               map serviceWord (service (form w))
                 <> replicate (digits (form w) - length (service (form w))) ""
@@ -204,7 +204,7 @@ wordRows m =
       CheckDigit k -> ["", "check: the sum is a multiple of " <> Decimal.whole k, "1", "", "always"]
       AWord w ->
         [ if address w == "" then "" else quoted (address w),
-          contentWord (content w),
+          contentName (content w),
           digitText (form w),
           signText (sign (form w)) <> servicesText (service (form w)),
           presenceText (presence w)
@@ -261,7 +261,7 @@ presenceText p = case p of
 serviceWord :: Service -> Text
 serviceWord s = case s of
   MinusHole -> "minus"
-  OrderBit (CommandName n) k -> "command " <> n <> ", bit " <> Decimal.whole k
+  CommandBit (CommandName n) k -> "command " <> n <> ", bit " <> Decimal.whole k
   Marker -> "frame marker, always a hole"
   BrakingHole -> "the frame slows down"
   NoHole -> "no hole"
@@ -326,9 +326,9 @@ commandRows m =
           ("auxiliary", auxiliary o)
         ]
           <> concat
-            [ [ ("cutter left", [keepLeft c]),
-                ("cutter right", [keepRight c]),
-                ("cutter on the contour", [release c])
+            [ [ ("cutter left", [compensateLeft c]),
+                ("cutter right", [compensateRight c]),
+                ("cutter on the contour", [cancelCompensation c])
               ]
               | Just c <- [compensation o]
             ]
@@ -336,7 +336,7 @@ commandRows m =
       not (null os)
   ]
   where
-    o = orders m
+    o = commandWords m
 
 commandText :: CommandWord -> Text
 commandText (CommandWord (CommandName n) v) = n <> " " <> valueText v

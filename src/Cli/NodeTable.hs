@@ -89,7 +89,7 @@ contourTable machine job pass cut =
           "length",
           "time s"
         ] :
-        sectionRows machine (Part.ends (Part.contour (value job))) (Toolpath.runs cut)
+        sectionRows machine (Part.ends (Part.contour (value job))) (Toolpath.curveRuns cut)
       )
     <> lengthAndTime machine cut
 
@@ -215,7 +215,7 @@ summary punched path =
 
 tapeRows :: Machine -> Punched -> [[Text]]
 tapeRows machine Punched {program, tape} =
-  [ ["frames", Decimal.whole (length (Frame.planned program)), ""],
+  [ ["frames", Decimal.whole (length (Frame.plannedFrames program)), ""],
     [ maybe "characters" (const "rows of tape") (Tape.metres machine tape),
       Decimal.whole (Tape.rowCount tape),
       ""
@@ -233,9 +233,9 @@ moveTime machine move = maybe (Seconds 0) (travelTime (moveLength move)) (feedOf
   where
     feedOf p = case (p, machine) of
       (Rapid, Nothing) -> Nothing
-      (Rapid, Just m) -> if Machine.hasRapidMotion m then Nothing else Just (FeedCode.rapid m)
+      (Rapid, Just m) -> if Machine.hasRapidMotion m then Nothing else Just (FeedCode.rapidFeed m)
       (At (Located _ feed), Nothing) -> Just feed
-      (At (Located _ feed), Just m) -> Just (FeedCode.about m feed)
+      (At (Located _ feed), Just m) -> Just (FeedCode.expectedFeed m feed)
 
 -- | The length of a move in space: the hypotenuse of its length in the plane and its height.
 moveLength :: Move -> Mm

@@ -24,7 +24,7 @@ proof :: Machine -> Proof -> Text
 proof machine p =
   Table.columns
     [ToLeft, ToRight, ToLeft, ToRight, ToRight]
-    (header : concatMap contourRows (Proof.passages p))
+    (header : concatMap contourRows (Proof.contourProofs p))
     <> "\n"
     <> Table.columns [ToLeft, ToLeft] closing
   where
@@ -47,7 +47,7 @@ proof machine p =
         [ "largest increments",
           axes
             [ Decimal.whole d <> " of " <> capacityWord a
-              | (Pulses d, a) <- zip (inOrder (Proof.largest p)) [X, Y, Z]
+              | (Pulses d, a) <- zip (inOrder (Proof.largestIncrement p)) [X, Y, Z]
             ]
         ],
         ["misses its end by", axes [Decimal.whole d | Pulses d <- inOrder (Proof.closure p)]],

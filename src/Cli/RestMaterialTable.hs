@@ -17,7 +17,7 @@ import Geometry.Polyarc qualified as Polyarc
 import Geometry.Vec qualified as Vec
 import Offset.Equidistant (RestMaterial (..), UnreachedPart (..))
 import Part.Part qualified as Part
-import Toolpath.Error (Stay (..), Tool)
+import Toolpath.Error (RestPosition (..), Tool)
 import Toolpath.Error qualified as Error
 import Toolpath.RestMaterial (Remaining (Remaining, tool, walls))
 import Toolpath.RestMaterial qualified as RestMaterial
@@ -29,7 +29,7 @@ tables :: Toolpath -> [Text]
 tables path = map table (RestMaterial.ofPath path)
 
 table :: Remaining -> Text
-table Remaining {tool, walls, RestMaterial.places = regions} =
+table Remaining {tool, walls, RestMaterial.positions = regions} =
   "Left along "
     <> Text.intercalate
       ", "
@@ -41,18 +41,18 @@ table Remaining {tool, walls, RestMaterial.places = regions} =
       [ToRight, ToRight, ToRight, ToRight, ToLeft]
       (["x", "y", "area mm²", "largest", "place"] : map (row tool) (NonEmpty.toList regions))
 
-row :: Tool -> (Stay, UnreachedPart) -> [Text]
+row :: Tool -> (RestPosition, UnreachedPart) -> [Text]
 row tool (stay, rest) = case stay of
   InCorner _ _ p -> at p "" "inner corner"
-  InHollow _ radius largest ->
-    at (middle rest) (fitting largest) ("concave radius of " <> Decimal.mm radius)
+  InConcaveArc _ radius largest ->
+    at (cutterCentre rest) (fitting largest) ("concave radius of " <> Decimal.mm radius)
   Between _ _ p largest -> at p (fitting largest) "narrow place, with the cutter's centre here"
   where
-    at p largest why = case standing rest of
+    at p largest why = case restMaterial rest of
       Within outline ->
         from p (Decimal.fixed 3 (abs (Polyarc.signedArea (Polyarc Closed outline)))) largest why
-      SameAs q -> from p "" largest (why <> ", part of what stays at " <> Vec.written 3 q)
+      SameAs q -> from p "" largest (why <> ", part of what stays at " <> Vec.toText 3 q)
       Unbounded -> from p "" largest why
     from p area largest why =
       [Decimal.fixed 3 (Vec.x p), Decimal.fixed 3 (Vec.y p), area, largest, why]
-    fitting = maybe "none" (Error.fitting tool)
+    fitting = maybe "none" (Error.fittingSize tool)

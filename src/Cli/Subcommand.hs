@@ -136,7 +136,7 @@ verify reporter file target tapeFile =
 -- tape.
 verifyTape :: Reporter -> Input -> Text -> Compiled -> Tape -> IO Exit
 verifyTape reporter given tapeName compiled rows =
-  case Tape.readBack machine (Frame.start (program punched)) (framesOf punched) rows of
+  case Tape.readExpected machine (Frame.start (program punched)) (framesOf punched) rows of
     Left damage ->
       Failed <$ Output.showReports reporter tapeName (source given) [Tape.toReport damage]
     Right read' -> do
@@ -202,7 +202,7 @@ onFirstMachine target given = do
     job = jobFor (maybeToList target) given
 
 framesOf :: Punched -> [Frame]
-framesOf = map Frame.frame . Frame.planned . program
+framesOf = map Frame.frame . Frame.plannedFrames . program
 
 -- Input sheets ------------------------------------------------------------------------------------
 

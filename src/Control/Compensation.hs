@@ -97,7 +97,7 @@ runWith ::
   [Frame] ->
   ([a], [CompensationError])
 runWith onto machine toolAt begin frames =
-  case Machine.compensation (Machine.orders machine) of
+  case Machine.compensation (Machine.commandWords machine) of
     Just commands
       | any (switchesOn commands) frames ->
         let (final, tagged) = withRoles machine commands toolAt begin frames
@@ -109,7 +109,9 @@ runWith onto machine toolAt begin frames =
     _ -> (Motion.runWith (onto . uncompensated machine) begin frames, [])
   where
     switchesOn c f =
-      any (\o -> isJust (lookup (order o) (Frame.orders f))) [keepLeft c, keepRight c]
+      any
+        (\o -> isJust (lookup (commandName o) (Frame.commands f)))
+        [compensateLeft c, compensateRight c]
 
 -- | Role of each motion and errors of each frame, and the mode at the end of the tape.
 withRoles ::
@@ -157,13 +159,13 @@ switched machine commands toolAt mode n f =
       <> [ToolChanged n | isOn mode, not (null change), all isGiven change]
   )
   where
-    change = Machine.toolChange (Machine.orders machine)
+    change = Machine.toolChange (Machine.commandWords machine)
     on =
       [ Offset side (radiusFor o)
-        | (side, o) <- [(1, keepLeft commands), (-1, keepRight commands)],
+        | (side, o) <- [(1, compensateLeft commands), (-1, compensateRight commands)],
           isGiven o
       ]
-    isReleased = isGiven (release commands)
+    isReleased = isGiven (cancelCompensation commands)
     (mode', isTwice) = case (mode, on) of
       (_, _ : _ : _) -> (mode, True)
       (Off, k : _) -> (Entering (facing k), isReleased)
@@ -172,11 +174,12 @@ switched machine commands toolAt mode n f =
       (Entering _, []) | isReleased -> (Off, False)
       (_, []) -> (mode, False)
     facing k = if Machine.isMirrored machine then k {leftward = negate (leftward k)} else k
-    isGiven o = case (value o, lookup (order o) (Frame.orders f)) of
+    isGiven o = case (value o, lookup (commandName o) (Frame.commands f)) of
       (Fixed v, Just w) -> v == w
       (_, found) -> isJust found
-    radiusFor o = case (value o, lookup (order o) (Frame.orders f)) of
-      (Diameter, Just w) -> fromIntegral w / 10 ^ Machine.orderDecimals machine (order o) / 2
+    radiusFor o = case (value o, lookup (commandName o) (Frame.commands f)) of
+      (Diameter, Just w) ->
+        fromIntegral w / 10 ^ Machine.commandDecimals machine (commandName o) / 2
       _ -> let Mm r = toolAt n in r
 
 -- Paths of the centre -----------------------------------------------------------------------------
@@ -288,7 +291,7 @@ along :: Point -> Point -> Segment -> Segment
 along a b edge = case edge of
   Straight _ _ -> Straight a b
   Arc {centre, sweep = whole@(Rad angle)}
-    | Vec.near (Segment.start edge) (Segment.end edge) ->
+    | Vec.isNear (Segment.start edge) (Segment.end edge) ->
       Arc {start = a, end = b, centre, sweep = whole}
     | otherwise -> Segment.arc (if angle > 0 then CounterClockwise else Clockwise) centre a b
 
@@ -336,7 +339,7 @@ jointOf k a b
     [] -> NoMeeting
     ps -> Intersection (minimumBy (comparing (Vec.distance corner)) ps)
   where
-    Rad turned = Vec.turn (Segment.endDirection a) (Segment.startDirection b)
+    Rad turned = Vec.signedAngle (Segment.endDirection a) (Segment.startDirection b)
     Rad least = Tolerance.controlBend
     corner = Segment.end a
 

@@ -13,7 +13,7 @@ module Control.Motion
     isRound,
     endsInStartDirection,
     segment,
-    between,
+    boundingPaths,
     connectors,
     radii,
     height,
@@ -59,10 +59,10 @@ runWith onto = go 1
 -- | Test that a frame goes about a centre. An arc about its own start or end point is none.
 isRound :: Frame -> Bool
 isRound f = case motion f of
-  Round _ -> Frame.centre f /= 0 && Frame.centre f /= Pulses2 x y
-  Still -> False
+  Circular _ -> Frame.centre f /= 0 && Frame.centre f /= Pulses2 x y
+  NoMotion -> False
   Rapid -> False
-  Straightway -> False
+  Linear -> False
   where
     Pulses3 x y _ = increment f
 
@@ -79,15 +79,15 @@ endsInStartDirection f = a * d == b * c && a * c + b * d > 0
 -- whose ends lie in one direction from the centre is a full turn, because controls compare angles.
 segment :: Machine -> Motion -> Segment
 segment machine m = case (Frame.segment machine (from m) (frame m), motion (frame m)) of
-  (a@Arc {}, Round sense)
+  (a@Arc {}, Circular sense)
     | not (isRound (frame m)) -> Straight (Segment.start a) (Segment.end a)
-    | endsInStartDirection (frame m) -> a {sweep = Rad (Carrier.sense sense * 2 * pi)}
+    | endsInStartDirection (frame m) -> a {sweep = Rad (Carrier.senseSign sense * 2 * pi)}
   (other, _) -> other
 
 -- | Bounding paths of a motion. A line, or an arc whose radii agree to 'Tolerance.coincident', has
 -- one. Another arc has two: one on its start radius, one on its end radius.
-between :: Segment -> NonEmpty Segment
-between s = case s of
+boundingPaths :: Segment -> NonEmpty Segment
+boundingPaths s = case s of
   Straight a b -> Straight a b :| []
   Arc {start, end, centre = c, sweep}
     | abs (endRadius - startRadius) <= same -> Arc {start, end, centre = c, sweep} :| []

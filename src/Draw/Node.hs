@@ -35,7 +35,7 @@ nodes Cut {course, away} =
     runs = NonEmpty.toList course
     first = NonEmpty.head (NonEmpty.head course)
     final = NonEmpty.last (NonEmpty.last course)
-    closed = Vec.near (Segment.start first) (Segment.end final)
+    closed = Vec.isNear (Segment.start first) (Segment.end final)
     -- A closed cut continues at its end with its first move; an open one continues straight on.
     (before, after) = if closed then (final, first) else (first, final)
     entry =
@@ -76,7 +76,7 @@ dots cut = [LineStyle.node (marked n) (place n) | n <- NonEmpty.toList numbered,
 -- | Labels with the numbers of the nodes. The last node of a closed cut has two numbers.
 labels :: Cut -> [PointLabel]
 labels cut
-  | Vec.near (place first) (place final) = entry "0" first : map plain between
+  | Vec.isNear (place first) (place final) = entry "0" first : map plain between
   | otherwise = entry "0" first : plain final : map plain between
   where
     numbered = nodes cut

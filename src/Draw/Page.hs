@@ -146,7 +146,7 @@ extent s = case s of
     let Mm r = Segment.radius centre start
         quarters =
           [Vec.shift v centre | v <- [Vec.vec r 0, Vec.vec 0 r, Vec.vec (-r) 0, Vec.vec 0 (-r)]]
-     in BoundingBox.ofPoints start (end : filter (Segment.spans s) quarters)
+     in BoundingBox.ofPoints start (end : filter (Segment.hasFootOf s) quarters)
 
 -- | True of a point on paper inside an area.
 holds :: Area -> Point -> Bool

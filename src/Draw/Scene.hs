@@ -35,7 +35,7 @@ import Offset.Equidistant qualified as Equidistant
 import Part.Part (Milling (contour, radius), Operation (..), Pace (..), Part)
 import Part.Part qualified as Part
 import Toolpath.FromPart qualified as Toolpath
-import Toolpath.RestMaterial (Remaining (Remaining, beside, places))
+import Toolpath.RestMaterial (Remaining (Remaining, offsetDistance, positions))
 import Toolpath.RestMaterial qualified as RestMaterial
 import Toolpath.Toolpath
   ( Block
@@ -163,12 +163,12 @@ millingOf operation = case operation of
 restsOf :: Toolpath -> [[Segment]]
 restsOf path = nubOrd (concatMap drawn (RestMaterial.ofPath path))
   where
-    drawn Remaining {beside, places} =
-      concatMap (\(_, f) -> material beside f) (NonEmpty.toList places)
-    material beside f = case Equidistant.standing f of
+    drawn Remaining {offsetDistance, positions} =
+      concatMap (\(_, f) -> material offsetDistance f) (NonEmpty.toList positions)
+    material offsetDistance f = case Equidistant.restMaterial f of
       Equidistant.Within outline -> [NonEmpty.toList outline]
       Equidistant.SameAs _ -> []
-      Equidistant.Unbounded -> [spot (Equidistant.middle f) beside]
+      Equidistant.Unbounded -> [spot (Equidistant.cutterCentre f) offsetDistance]
     spot p (Mm r) =
       [ Segment.fullCircle
           CounterClockwise
@@ -198,7 +198,7 @@ movesBetween block = case block of
 -- | Bounding boxes of everything that has to be on the page.
 boxesOf :: [Part.Contour] -> Toolpath -> [BoundingBox]
 boxesOf contours path =
-  [Page.extent s | c <- contours, s <- NonEmpty.toList (Polyarc.segments (Part.outline c))]
+  [Page.extent s | c <- contours, s <- NonEmpty.toList (Polyarc.segments (Part.polyarcOf c))]
     <> [Page.extent (Toolpath.segment m) | b <- Toolpath.blocks path, m <- Toolpath.moves b]
     <> concatMap cutterBox (Toolpath.blocks path)
 
@@ -227,12 +227,12 @@ shapeOf sheet millings c =
       outline = map (Page.segment sheet) (NonEmpty.toList (Polyarc.segments bare))
     }
   where
-    bare = Part.outline c
+    bare = Part.polyarcOf c
     matter =
       case mapMaybe
         sideOf
         ( filter
-            (\m -> Part.outline (contour m) == bare)
+            (\m -> Part.polyarcOf (contour m) == bare)
             (Map.findWithDefault [] (beginning c) millings)
         ) of
         side : _
@@ -303,5 +303,5 @@ awayFrom :: Milling -> Double
 awayFrom milling = case (sideOf milling, Part.ends (contour milling)) of
   (Just Carrier.LeftOf, _) -> -1
   (Just Carrier.RightOf, _) -> 1
-  (Nothing, Closed) -> signum (Polyarc.signedArea (Part.outline (contour milling)))
+  (Nothing, Closed) -> signum (Polyarc.signedArea (Part.polyarcOf (contour milling)))
   (Nothing, Open) -> -1

@@ -17,7 +17,7 @@ import Data.Text (Text)
 import Data.Text qualified as Text
 import Machine.Machine (Machine)
 import Machine.Machine qualified as Machine
-import Tape.Layout (RowMeaning (..))
+import Tape.Layout (RowKind (..))
 import Tape.RowMeaning (Row (..))
 import Tape.RowMeaning qualified as RowMeaning
 
@@ -90,10 +90,10 @@ sprocket tracks = if tracks <= 5 then 2 else 3
 folded :: [Numbered] -> [NonEmpty Numbered]
 folded = NonEmpty.groupBy together
   where
-    together (_, a) (_, b) = isBlank a && sense a == sense b && frame a == frame b
+    together (_, a) (_, b) = isBlank a && kind a == kind b && frame a == frame b
 
 isBlank :: Row -> Bool
-isBlank row = case sense row of
+isBlank row = case kind row of
   Blank _ -> True
   Opening _ -> False
   Closing _ -> False
@@ -163,13 +163,13 @@ printed machine (n, line) = case line of
     place row = maybe "" (\k -> "frame " <> Decimal.whole k <> ": ") (frame row)
     wordsOf rows = case rows of
       [] -> []
-      r : more -> case sense r of
+      r : more -> case kind r of
         InWord c k _ ->
-          RowMeaning.wordMeaning machine c k : wordsOf (dropWhile (sameWord (sense r)) more)
-        Opening _ -> "opening" : wordsOf (filter (isWord . sense) more)
-        Closing _ -> "closing" : wordsOf (filter (isWord . sense) more)
+          RowMeaning.wordMeaning machine c k : wordsOf (dropWhile (sameWord (kind r)) more)
+        Opening _ -> "opening" : wordsOf (filter (isWord . kind) more)
+        Closing _ -> "closing" : wordsOf (filter (isWord . kind) more)
         _ -> wordsOf more
-    sameWord a row = case (a, sense row) of
+    sameWord a row = case (a, kind row) of
       (InWord c _ _, InWord c' _ _) -> c == c'
       _ -> False
     isWord s = case s of

@@ -17,7 +17,7 @@ module Frame.Arc
   )
 where
 
-import Base.PulseVector (Pulses3 (..), flat)
+import Base.PulseVector (Pulses3 (..), xy)
 import Base.Quantity (Mm (..), Pulses (..), Rad (..))
 import Data.Maybe (fromMaybe, listToMaybe, mapMaybe)
 import Frame.Arc.Attempt qualified as Attempt
@@ -60,7 +60,7 @@ halved halvings context begin s = case s of
   Straight _ _ -> asLine
   Segment.Arc {Segment.centre, Segment.sweep = Rad sweep}
     | Attempt.isNearlyStraight context s
-        && Attempt.isStraightEnough context s (flat begin : map (flat . target) asLine) ->
+        && Attempt.isStraightEnough context s (xy begin : map (xy . target) asLine) ->
       asLine
     | halvings <= 0 || not (isCentreFitting context begin centre radius) ->
       map straightTo (chordsOf context begin s)

@@ -26,7 +26,7 @@ import Toolpath.Toolpath (Move (segment))
 -- is then subtracted from the error allowed for rounding, see 'roundingAllowance'.
 fitTolerance :: Machine -> Bounds -> Mm
 fitTolerance machine bounds =
-  max (times leastShare (Machine.pulse machine)) (min (left bounds) (right bounds))
+  max (times leastShare (Machine.planeResolution machine)) (min (left bounds) (right bounds))
 
 -- | Share of a pulse that the fitted arcs may always deviate.
 leastShare :: Double
@@ -36,7 +36,7 @@ leastShare = 0.1
 roundingAllowance :: Machine -> Bounds -> Mm
 roundingAllowance machine bounds =
   minus
-    (Machine.pulse machine)
+    (Machine.planeResolution machine)
     (max (Mm 0) (minus (fitTolerance machine bounds) (min (left bounds) (right bounds))))
 
 -- | Part of a run, and its representation in frames.
@@ -72,7 +72,7 @@ divisions machine bounds run
       Arc {start, centre} -> Just (Segment.radius centre start >= largestRadius)
     -- An arc that deviates less from its chord becomes a line, wherever its centre is.
     isRemoteBend s =
-      isRemote s == Just True && Segment.bulge s >= times 0.5 (Machine.pulse machine)
+      isRemote s == Just True && Segment.sagitta s >= times 0.5 (Machine.planeResolution machine)
     -- Lower bound for the number of chords, against that for the frames of the fitted arcs. A chord
     -- deviates from a fitted arc by at most both bounds and twice the error of the fit. A chord
     -- across the joint of two arcs counts for both. A remote bend is divided into chords itself,
@@ -82,10 +82,10 @@ divisions machine bounds run
         < sum
           (fmap (\s -> if isRemoteBend s then 2 * leastChords (0.3 * pulse) s else 2) fitted)
     Mm band = plus (plus (left bounds) (right bounds)) (times 2 (fitTolerance machine bounds))
-    Mm pulse = Machine.pulse machine
+    Mm pulse = Machine.planeResolution machine
     largestRadius =
       let Pulses n = Machine.centreCapacity machine
-       in times (fromIntegral n) (minimum [Machine.pulseOf machine axis | axis <- [X, Y]])
+       in times (fromIntegral n) (minimum [Machine.resolutionOf machine axis | axis <- [X, Y]])
 
 -- | Largest number of fitted arcs for which other divisions are tried although the centres of all
 -- fitted arcs fit. With more arcs they would take longer than everything else.
@@ -107,7 +107,7 @@ arcs tolerance run =
   case NonEmpty.nonEmpty (filter ((> Mm 0) . Segment.length) (map segment (NonEmpty.toList run))) of
     Nothing -> pure (segment (NonEmpty.head run))
     Just segments ->
-      let fitted = MeasuredPolyarc.fromOutline (PolyarcFit.approximate tolerance segments)
+      let fitted = MeasuredPolyarc.fromFlatPolyarc (PolyarcFit.approximate tolerance segments)
        in if MeasuredPolyarc.count fitted <= length segments
             then MeasuredPolyarc.segments fitted
             else segments

@@ -38,7 +38,7 @@ applied machine instructions = case brakingForm (Machine.braking machine) of
 -- depend on the direction.
 obtained :: Machine -> Move -> Double
 obtained machine m = case pace m of
-  Rapid -> let Feed v = FeedCode.rapid machine in v / 60
+  Rapid -> let Feed v = FeedCode.rapidFeed machine in v / 60
   At (Located _ asked) -> let Feed v = nearestFeed machine asked in v / 60
 
 -- | Feed that the machine gives for the feed asked for, limited to its range.
@@ -53,7 +53,7 @@ nearestFeed machine (Feed asked) = case Machine.feedMeasure (Machine.feeds machi
 slowedAtEnd :: Machine -> Instruction -> [Instruction]
 slowedAtEnd machine instruction = case instruction of
   Run {run = ms}
-    | Toolpath.braked (NonEmpty.last ms),
+    | Toolpath.isBraked (NonEmpty.last ms),
       At _ <- pace (NonEmpty.head ms) ->
       let v = obtained machine (NonEmpty.head ms)
           slowLength = v * v / (2 * deceleration (Machine.braking machine))
@@ -112,7 +112,7 @@ withBrakedFrames machine least instructions = concatMap cut marked
          in (limit', (instruction, ends))
     sectionLengths =
       Map.fromListWith (+) [(within e, brakingLength e) | (_, ends) <- marked, (_, e) <- ends]
-    Mm pulse = Machine.pulse machine
+    Mm pulse = Machine.planeResolution machine
     cut (instruction, ends) = case instruction of
       Words _ _ -> [instruction]
       Run {}
@@ -135,7 +135,7 @@ withBrakedFrames machine least instructions = concatMap cut marked
 -- | Moves of a run, of which only the last one keeps the request to brake at its end. The arcs of a
 -- curve share one request.
 brakedAtEnd :: NonEmpty Move -> [Move]
-brakedAtEnd ms = map Toolpath.unbraked (NonEmpty.init ms) <> [NonEmpty.last ms]
+brakedAtEnd ms = map Toolpath.withoutBraking (NonEmpty.init ms) <> [NonEmpty.last ms]
 
 -- | Braking at the end of a move, from the limit after it, and the limit before it. The third
 -- argument is the feed in mm/s at the end of an element with braking.
@@ -155,6 +155,6 @@ mark machine slow after m
     needed = (v * v - square limit) / (2 * a)
     ownFeed = FeedLimit {square = v * v, target = v, section = section limit + 1}
     limit
-      | Toolpath.braked m && slow * slow < square after =
+      | Toolpath.isBraked m && slow * slow < square after =
         FeedLimit {square = slow * slow, target = slow, section = section after + 1}
       | otherwise = after

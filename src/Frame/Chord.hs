@@ -65,7 +65,7 @@ remainder :: Machine -> Mm -> Mm
 remainder machine tolerance =
   times
     (1 - Tolerance.equal)
-    (max (Mm 0) (minus tolerance (times (sqrt 0.5) (Machine.pulse machine))))
+    (max (Mm 0) (minus tolerance (times (sqrt 0.5) (Machine.planeResolution machine))))
 
 -- | Bounds for the chords of a curve. A chord inside of the material has the curve on the cutter's
 -- side. The arcs of a curve are approximations themselves, so 'Tolerance.curve' is subtracted
@@ -79,7 +79,7 @@ curveBounds machine side job =
       Chording.shortest = pulse
     }
   where
-    pulse = Machine.pulse machine
+    pulse = Machine.planeResolution machine
     (l, r) = case (Part.tolerance job, side) of
       (Part.OnPath d, _) -> (less d, less d)
       (Part.Band a b, Just Carrier.LeftOf) -> (less a, less b)
@@ -116,7 +116,7 @@ raisedToRounding machine tolerance = case tolerance of
     | max (Chording.left bounds) (Chording.right bounds) >= leastOnCurve -> tolerance
     | otherwise -> OnCurve bounds {Chording.left = leastOnCurve, Chording.right = leastOnCurve}
   where
-    least = remainder machine (Machine.pulse machine)
+    least = remainder machine (Machine.planeResolution machine)
     -- The arcs of a curve are off by up to 'Tolerance.curve' themselves.
     leastOnCurve = minus least Tolerance.curve
 
@@ -166,7 +166,7 @@ bandChords machine toward away s = case s of
       toFirstCorner = min (pi / 4) (toInnerEdge + acos (inner / outer))
       widest =
         max
-          (2 * asin (min 1 (let Mm pulse = Machine.pulse machine in pulse / (2 * r))))
+          (2 * asin (min 1 (let Mm pulse = Machine.planeResolution machine in pulse / (2 * r))))
           (min (pi / 2) (2 * acos (inner / outer)))
       count = max 0 (ceiling ((abs angle - 2 * toFirstCorner) / widest - countSlack)) :: Int
       first = if count == 0 then abs angle / 2 else toFirstCorner
@@ -198,7 +198,7 @@ frameCount machine tolerance run chordEnds = case tolerance of
           Mm l = Segment.length only
        in n * parts (l / fromIntegral n)
     parts l = max 1 (ceiling (l / (fromIntegral field * pulse)))
-    Mm pulse = Machine.pulse machine
+    Mm pulse = Machine.planeResolution machine
     Pulses field = max 1 (minimum [Machine.capacity machine axis | axis <- [X, Y]])
 
 -- | Number of equal chords of a segment within a sagitta; 1 for a line. Chords shorter than a pulse
@@ -211,7 +211,7 @@ chordCount machine (Mm y) segment = case segment of
         step = min (pi / 2) (4 * asin (min 1 (sqrt (y / (2 * r)))))
         bySagitta = ceiling (abs angle / step - countSlack) :: Int
         Mm l = Segment.length segment
-        Mm pulse = Machine.pulse machine
+        Mm pulse = Machine.planeResolution machine
         byPulse = ceiling (l / pulse)
      in max 1 (if step * r < pulse then byPulse else bySagitta)
 

@@ -479,7 +479,7 @@ tangentsTo limits view move =
           let away = Vec.to (eye view) centre,
           let sine = sense * (r - y) / Vec.norm away,
           abs sine <= 1 ->
-          [let Rad toCentre = Vec.turn (forward view) away in toCentre - asin sine]
+          [let Rad toCentre = Vec.signedAngle (forward view) away in toCentre - asin sine]
       _ -> []
 
 -- | Sector at fraction @t@ of a move, with the verdict on the chord to the meeting point there.
@@ -511,8 +511,8 @@ sectorAt Outlook {limits, view, before, move, run, tangents} t =
     distance = Vec.norm toPoint
     chord = Vec.to (eye view) goal
     isChord = Vec.norm chord > 0 && covered > 0
-    Rad along = if goal == on then Rad direction else Vec.turn (forward view) chord
-    Rad direction = Vec.turn (forward view) toPoint
+    Rad along = if goal == on then Rad direction else Vec.signedAngle (forward view) chord
+    Rad direction = Vec.signedAngle (forward view) toPoint
     slope = (levelAt t move - eyeLevel view) / covered
     lowSlope = max (leastSlope before) (slope - rising limits / covered)
     highSlope = min (mostSlope before) (slope + rising limits / covered)

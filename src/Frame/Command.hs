@@ -56,7 +56,7 @@ data Translation = Translation
 
 -- | Words for a command with their numbers.
 translated :: Machine -> Located Command -> Translation
-translated machine (Located region c) = case wordsFor (Machine.orders machine) c of
+translated machine (Located region c) = case wordsFor (Machine.commandWords machine) c of
   [] -> case c of
     Part.Auxiliary n -> Translation [] [] [NoSuchCommand region AuxiliaryCommand n 0]
     _ -> Translation [] [ManualCommand region (kindOf c)] []
@@ -68,7 +68,7 @@ translated machine (Located region c) = case wordsFor (Machine.orders machine) c
         (concatMap (speedWarnings region c) commandWords)
         [ NoSuchCommand region (kindOf c) n most
           | (o, n) <- ns,
-            Just most <- [Machine.orderCapacity machine o],
+            Just most <- [Machine.commandCapacity machine o],
             n > most
         ]
 
@@ -95,7 +95,7 @@ kindOf c = case c of
 -- | Numbers of a word for a command: one, or none if the number is the spindle speed and the
 -- program does not give it.
 numbersFor :: Command -> CommandWord -> [(CommandName, Int)]
-numbersFor c CommandWord {order, value} = map (order,) $ case value of
+numbersFor c CommandWord {commandName, value} = map (commandName,) $ case value of
   Fixed n -> [n]
   Argument -> case c of
     Part.Auxiliary n -> [n]
@@ -145,33 +145,34 @@ nearestStep table asked = case Map.toList table of
 -- left and right are exchanged.
 compensationOn :: Machine -> Region -> Side -> Mm -> Translation
 compensationOn machine asked side radius@(Mm r) =
-  case Machine.compensation (Machine.orders machine) of
+  case Machine.compensation (Machine.commandWords machine) of
     Nothing -> Translation [] [] [NoCompensation asked]
-    Just c -> case numberOf (if isLeft then keepLeft c else keepRight c) of
+    Just c -> case numberOf (if isLeft then compensateLeft c else compensateRight c) of
       Just n -> Translation [n] [] []
       Nothing -> Translation [] [] [DiameterOutOfRange asked (times 2 radius)]
   where
     isLeft = (side == LeftOf) /= Machine.isMirrored machine
-    numberOf CommandWord {order, value} = case value of
-      Fixed n -> Just (order, n)
+    numberOf CommandWord {commandName, value} = case value of
+      Fixed n -> Just (commandName, n)
       Diameter
-        | Machine.canOrder machine order n && abs (fromIntegral n / scale - 2 * r) <= pulse ->
-          Just (order, n)
+        | Machine.canEncode machine commandName n
+            && abs (fromIntegral n / scale - 2 * r) <= planeResolution ->
+          Just (commandName, n)
         | otherwise -> Nothing
         where
           n = round (2 * r * scale)
-          scale = 10 ^ Machine.orderDecimals machine order
+          scale = 10 ^ Machine.commandDecimals machine commandName
       Argument -> Nothing
       Step _ -> Nothing
-    Mm pulse = Machine.pulse machine
+    Mm planeResolution = Machine.planeResolution machine
 
 -- | Words that switch cutter compensation off.
 compensationOff :: Machine -> Translation
 compensationOff machine =
   Translation
-    [ (order o, n)
-      | Just c <- [Machine.compensation (Machine.orders machine)],
-        let o = release c,
+    [ (commandName o, n)
+      | Just c <- [Machine.compensation (Machine.commandWords machine)],
+        let o = cancelCompensation c,
         Fixed n <- [value o]
     ]
     []
@@ -220,11 +221,11 @@ inOrder machine = sortOn (\(o, _) -> elemIndex o names)
       Along _ -> bits w
       Centre _ -> bits w
       FeedWord -> bits w
-    bits w = [o | OrderBit o _ <- Machine.service (form w)]
+    bits w = [o | CommandBit o _ <- Machine.service (form w)]
 
 -- | Words of the frames that end every program of a machine.
 finalFrames :: Machine -> [[(CommandName, Int)]]
 finalFrames machine =
-  [ inOrder machine [(order o, n) | o <- NonEmpty.toList group, Fixed n <- [value o]]
-    | group <- Machine.finish (Machine.orders machine)
+  [ inOrder machine [(commandName o, n) | o <- NonEmpty.toList group, Fixed n <- [value o]]
+    | group <- Machine.finish (Machine.commandWords machine)
   ]

@@ -108,7 +108,7 @@ toReport machine err = case err of
         Report.Error
         "E0502"
         (InSource region)
-        ("the cutter would go to " <> Vec.written 4 p <> ", further than any machine reaches")
+        ("the cutter would go to " <> Vec.toText 4 p <> ", further than any machine reaches")
     )
       { message = ["Coordinates may be up to " <> Decimal.mm limit <> "."]
       }
@@ -125,7 +125,7 @@ toReport machine err = case err of
     )
       { message =
           [ "The tolerance and one pulse ("
-              <> Decimal.mm (Machine.pulse machine)
+              <> Decimal.mm (Machine.planeResolution machine)
               <> ") have to stay below the cutter's radius: a cutter that may be off by its own \
                  \size proves nothing."
           ],
@@ -201,7 +201,7 @@ toReport machine err = case err of
     )
       { message =
           [ "The number does not fit the word, or the word holds it to more than a pulse ("
-              <> Decimal.mm (Machine.pulse machine)
+              <> Decimal.mm (Machine.planeResolution machine)
               <> ") only."
           ],
         hints = ["Leave this out: the compiler works out the path of the cutter's centre."]
@@ -242,13 +242,13 @@ warningReport machine warning = case warning of
         Report.Warning
         "W0502"
         (InSource region)
-        ("the cutter cannot start at " <> Vec.written 4 asked <> ": it is between two pulses")
+        ("the cutter cannot start at " <> Vec.toText 4 asked <> ": it is between two pulses")
     )
       { message =
           [ "The tape is computed for a start at "
-              <> Vec.written 4 given
+              <> Vec.toText 4 given
               <> " (a pulse is "
-              <> Decimal.mm (Machine.pulse machine)
+              <> Decimal.mm (Machine.planeResolution machine)
               <> ")."
           ]
       }
@@ -283,7 +283,7 @@ warningReport machine warning = case warning of
         hints =
           [ "A free auxiliary command may serve: aux 1"
             | kind /= ToolCommand,
-              not (null (Machine.auxiliary (Machine.orders machine)))
+              not (null (Machine.auxiliary (Machine.commandWords machine)))
           ]
       }
   SpindleSpeedDiffers region asked given ->
@@ -329,7 +329,7 @@ numbered kind = case kind of
 
 -- | Name of the word of an axis.
 axisName :: Axis -> Text
-axisName axis = Machine.contentWord (Machine.Along axis)
+axisName axis = Machine.contentName (Machine.Along axis)
 
 -- | Name of a machine.
 machineName :: Machine -> Text

@@ -5,11 +5,11 @@
 -- as well.
 module Frame.FeedCode
   ( codeFor,
-    given,
-    wayOf,
+    feedOf,
+    frameLength,
     codeValue,
-    rapid,
-    about,
+    rapidFeed,
+    expectedFeed,
     nearestCode,
     feedAlongAxis,
   )
@@ -35,17 +35,17 @@ codeValue machine (Feed v) f l = maybe v (v / 60 *) (pulsesPerMm machine f l)
 -- | Feed along the path that the code of a frame gives, for a frame of the given length. None for
 -- a frame without motion, for a motion that is rapid by itself, and for a code that the machine
 -- does not have.
-given :: Machine -> Frame -> Mm -> Maybe Feed
-given machine f l = case motion f of
-  Still -> Nothing
+feedOf :: Machine -> Frame -> Mm -> Maybe Feed
+feedOf machine f l = case motion f of
+  NoMotion -> Nothing
   Rapid -> Nothing
-  Straightway -> obtained
-  Round _ -> obtained
+  Linear -> obtained
+  Circular _ -> obtained
   where
     obtained =
       fmap
         (\x -> Feed (maybe x (\n -> 60 * x / n) (pulsesPerMm machine f l)))
-        (Machine.valueOf machine (speed f))
+        (Machine.valueOf machine (feedCode f))
 
 -- | Pulses of the leading axis per mm of the path; none on a machine whose codes are feeds along
 -- the path. On an arc the leading axis changes, so pulses along the path itself are counted. A
@@ -55,15 +55,15 @@ pulsesPerMm machine f (Mm l) = case Machine.feedMeasure (Machine.feeds machine) 
   AlongPath -> Nothing
   LeadingAxis -> Just (if l > 0 && leading > 0 then fromIntegral leading / l else 1 / pulse)
   where
-    Mm pulse = Machine.pulse machine
+    Mm pulse = Machine.planeResolution machine
     leading = case motion f of
-      Round _ -> 0
+      Circular _ -> 0
       _ -> let Pulses3 x y z = abs (increment f); Pulses n = max x (max y z) in n
 
 -- | Length of a frame in mm, in space for a straight one.
-wayOf :: Machine -> Frame -> Mm
-wayOf machine f = case motion f of
-  Round _ -> plane
+frameLength :: Machine -> Frame -> Mm
+frameLength machine f = case motion f of
+  Circular _ -> plane
   _ -> let Mm l = plane; Mm h = Frame.height machine (increment f) in Mm (sqrt (l * l + h * h))
   where
     plane = Segment.length (Frame.segment machine 0 f)
@@ -76,17 +76,17 @@ nearestCode machine v f = case Machine.choose machine asked of
     Given code _ -> code
     NoSuchFeed _ _ -> Machine.rapidCode machine
   where
-    asked = codeValue machine v f (wayOf machine f)
+    asked = codeValue machine v f (frameLength machine f)
 
 -- | Feed of rapid moves along an axis; 0 if the description does not give it.
-rapid :: Machine -> Feed
-rapid machine =
+rapidFeed :: Machine -> Feed
+rapidFeed machine =
   maybe (Feed 0) (feedAlongAxis machine) (Machine.valueOf machine (Machine.rapidCode machine))
 
 -- | Feed that the machine gives for the feed asked for. Exact where codes are feeds along the path.
 -- Where they are frequencies the direction is not known here, so the result is the feed asked for.
-about :: Machine -> Feed -> Feed
-about machine asked@(Feed v) =
+expectedFeed :: Machine -> Feed -> Feed
+expectedFeed machine asked@(Feed v) =
   case (Machine.feedMeasure (Machine.feeds machine), Machine.choose machine v) of
     (AlongPath, Given _ x) -> Feed x
     (AlongPath, NoSuchFeed _ _) -> asked
@@ -96,4 +96,4 @@ about machine asked@(Feed v) =
 feedAlongAxis :: Machine -> Double -> Feed
 feedAlongAxis machine x = case Machine.feedMeasure (Machine.feeds machine) of
   AlongPath -> Feed x
-  LeadingAxis -> let Mm pulse = Machine.pulse machine in Feed (60 * x * pulse)
+  LeadingAxis -> let Mm pulse = Machine.planeResolution machine in Feed (60 * x * pulse)

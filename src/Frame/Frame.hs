@@ -3,24 +3,24 @@
 -- | Frames: what a controller does at once, in whole pulses along the axes of the part.
 --
 -- The module owns the frame, the program of frames and the rules that every frame of a machine
--- keeps. It refuses nothing by itself: 'invariants' lists the rules that are broken. Positions in
+-- keeps. It refuses nothing by itself: 'violations' lists the rules that are broken. Positions in
 -- mm are derived from pulses here and nowhere else.
 module Frame.Frame
   ( Frame (..),
     FrameMotion (..),
-    still,
+    commandFrame,
     isMoving,
-    Planned (..),
+    PlannedFrame (..),
     Role (..),
-    passOf,
+    passNumber,
     FrameProgram (..),
     position,
     height,
     centreOf,
     segment,
-    Broken (..),
-    invariants,
-    broken,
+    Violation (..),
+    violations,
+    frameViolations,
   )
 where
 
@@ -45,71 +45,71 @@ data Frame = Frame
     -- | pulses from the beginning of an arc to its centre; 0 for every other motion
     centre :: {-# UNPACK #-} Pulses2,
     -- | feed code; 0 for a frame without motion and for 'Rapid'
-    speed :: FeedCode,
+    feedCode :: FeedCode,
     -- | the frame slows down to its feed
     braking :: Bool,
     -- | commands with their numbers, in the order of the layout's words; each at most once
-    orders :: [(CommandName, Int)]
+    commands :: [(CommandName, Int)]
   }
   deriving stock (Eq, Show)
 
 -- | Kind of motion in a frame.
 data FrameMotion
   = -- | none: the frame holds only commands
-    Still
+    NoMotion
   | -- | rapid move, on machines that have a motion of its own for it; on all others a rapid move
     -- is a straight one with the highest feed code
     Rapid
   | -- | straight line
-    Straightway
+    Linear
   | -- | circular arc in the plane x, y; a full circle where the increment is 0
-    Round Sense
+    Circular Sense
   deriving stock (Eq, Show)
 
 -- | Frame that holds only these commands.
-still :: [(CommandName, Int)] -> Frame
-still given =
+commandFrame :: [(CommandName, Int)] -> Frame
+commandFrame given =
   Frame
-    { motion = Still,
+    { motion = NoMotion,
       increment = 0,
       centre = 0,
-      speed = FeedCode 0,
+      feedCode = FeedCode 0,
       braking = False,
-      orders = given
+      commands = given
     }
 
 -- | True for a frame with a motion.
 isMoving :: Frame -> Bool
-isMoving f = motion f /= Still
+isMoving f = motion f /= NoMotion
 
 -- | Frame with the reason for it.
-data Planned = Planned
+data PlannedFrame = PlannedFrame
   { frame :: Frame,
     role :: Role,
     -- | the text in the part program that asks for the frame
     origin :: Region,
     -- | radius of the cutter in the spindle
-    tool :: Mm
+    cutterRadius :: Mm
   }
   deriving stock (Eq, Show)
 
 -- | Purpose of a frame. The number counts the passes along contours and in pockets, from 0.
-data Role = Approaching Int | Cutting Int | Retracting Int | Travelling | Drilling | Commanding
+data Role = Approaching Int | Cutting Int | Retracting Int | Linking | Drilling | Commanding
   deriving stock (Eq, Show)
 
 -- | Number of the pass that a frame belongs to, from 0; none for frames outside of passes.
-passOf :: Role -> Maybe Int
-passOf role = case role of
+passNumber :: Role -> Maybe Int
+passNumber role = case role of
   Approaching n -> Just n
   Cutting n -> Just n
   Retracting n -> Just n
-  Travelling -> Nothing
+  Linking -> Nothing
   Drilling -> Nothing
   Commanding -> Nothing
 
 -- | All frames of a tape, and the position of the cutter before the first one, in pulses from the
 -- zero of the part.
-data FrameProgram = FrameProgram {start :: Pulses3, planned :: [Planned]}
+data FrameProgram = FrameProgram {start :: Pulses3, plannedFrames :: [PlannedFrame]}
   deriving stock (Eq, Show)
 
 -- | Position in the plane in mm, from a position in pulses.
@@ -117,13 +117,13 @@ position :: Machine -> Pulses3 -> Point
 position machine (Pulses3 (Pulses x) (Pulses y) _) =
   Vec.point (fromIntegral x * px) (fromIntegral y * py)
   where
-    Mm px = Machine.pulseOf machine X
-    Mm py = Machine.pulseOf machine Y
+    Mm px = Machine.resolutionOf machine X
+    Mm py = Machine.resolutionOf machine Y
 
 -- | Height in mm, from a position in pulses.
 height :: Machine -> Pulses3 -> Mm
 height machine (Pulses3 _ _ (Pulses z)) =
-  let Mm p = Machine.pulseOf machine Z in Mm (fromIntegral z * p)
+  let Mm p = Machine.resolutionOf machine Z in Mm (fromIntegral z * p)
 
 -- | Centre in mm of an arc that begins at the given position.
 centreOf :: Machine -> Pulses3 -> Frame -> Point
@@ -135,13 +135,13 @@ centreOf machine (Pulses3 x y z) f =
 -- and ends where the frame ends.
 segment :: Machine -> Pulses3 -> Frame -> Segment
 segment machine at f = case motion f of
-  Round sense
+  Circular sense
     | begin == finish ->
       Segment.Arc
         { Segment.start = begin,
           Segment.end = finish,
           Segment.centre = middle,
-          Segment.sweep = Rad (Carrier.sense sense * 2 * pi)
+          Segment.sweep = Rad (Carrier.senseSign sense * 2 * pi)
         }
     | otherwise -> Segment.arc sense middle begin finish
   _ -> Straight begin finish
@@ -151,42 +151,42 @@ segment machine at f = case motion f of
     middle = centreOf machine at f
 
 -- | Rule that a frame breaks. The first number is that of the frame, from 1.
-data Broken
+data Violation
   = -- | an increment that does not fit its field
     OverCapacity Int Axis Pulses
   | -- | a centre at the beginning of its arc, or one that does not fit its field
     BadCentre Int
   | -- | a feed code that the machine does not have, or a feed code other than 0 where the motion
     -- takes none
-    NoSuchSpeed Int FeedCode
+    NoSuchFeedCode Int FeedCode
   | -- | a motion that the machine does not have, or that contradicts its increments
     NoSuchMotion Int
   | -- | a command that the machine does not have, or a command given twice
-    NoSuchOrder Int CommandName
+    UnknownCommand Int CommandName
   | -- | a frame without motion and without commands
-    Idle Int
+    EmptyFrame Int
   deriving stock (Eq, Show)
 
 -- | All broken rules in the frames of a program, in the order of the frames; empty for a valid one.
-invariants :: Machine -> [Frame] -> [Broken]
-invariants machine = concat . zipWith (broken machine) [1 ..]
+violations :: Machine -> [Frame] -> [Violation]
+violations machine = concat . zipWith (frameViolations machine) [1 ..]
 
 -- | Rules that a frame with the given number breaks. Nearly all frames keep every rule, so the
 -- result for them is found without building a list.
-broken :: Machine -> Int -> Frame -> [Broken]
-broken machine n f
+frameViolations :: Machine -> Int -> Frame -> [Violation]
+frameViolations machine n f
   | null fields && null feeds && null motions && null repeated && not isEmpty = []
-  | otherwise = fields <> feeds <> motions <> repeated <> [Idle n | isEmpty]
+  | otherwise = fields <> feeds <> motions <> repeated <> [EmptyFrame n | isEmpty]
   where
     !fields = capacityFaults machine n f
     !feeds = feedCodeFaults machine n f
     !motions = motionFaults machine n f
     !repeated = commandFaults machine n f
-    !isEmpty = not (isMoving f) && null (orders f)
+    !isEmpty = not (isMoving f) && null (commands f)
 
 -- | Increments that do not fit their fields. A field for absolute positions limits the position and
 -- not the increment, so nothing is checked there.
-capacityFaults :: Machine -> Int -> Frame -> [Broken]
+capacityFaults :: Machine -> Int -> Frame -> [Violation]
 capacityFaults machine n f =
   [ OverCapacity n axis d
     | Machine.measure (Machine.layout machine) == Increments,
@@ -196,22 +196,22 @@ capacityFaults machine n f =
   where
     Pulses3 x y z = increment f
 
-feedCodeFaults :: Machine -> Int -> Frame -> [Broken]
+feedCodeFaults :: Machine -> Int -> Frame -> [Violation]
 feedCodeFaults machine n f = case motion f of
-  Still -> [NoSuchSpeed n (speed f) | speed f /= FeedCode 0]
-  Rapid -> [NoSuchSpeed n (speed f) | speed f /= FeedCode 0]
-  Straightway -> unknown
-  Round _ -> unknown
+  NoMotion -> [NoSuchFeedCode n (feedCode f) | feedCode f /= FeedCode 0]
+  Rapid -> [NoSuchFeedCode n (feedCode f) | feedCode f /= FeedCode 0]
+  Linear -> unknown
+  Circular _ -> unknown
   where
-    unknown = [NoSuchSpeed n (speed f) | isNothing (Machine.valueOf machine (speed f))]
+    unknown = [NoSuchFeedCode n (feedCode f) | isNothing (Machine.valueOf machine (feedCode f))]
 
-motionFaults :: Machine -> Int -> Frame -> [Broken]
+motionFaults :: Machine -> Int -> Frame -> [Violation]
 motionFaults machine n f = case motion f of
-  Still -> [NoSuchMotion n | increment f /= 0 || centre f /= 0]
+  NoMotion -> [NoSuchMotion n | increment f /= 0 || centre f /= 0]
   Rapid ->
     [NoSuchMotion n | increment f == 0 || centre f /= 0 || not (Machine.hasRapidMotion machine)]
-  Straightway -> [NoSuchMotion n | increment f == 0 || centre f /= 0]
-  Round sense -> case Machine.arcs machine of
+  Linear -> [NoSuchMotion n | increment f == 0 || centre f /= 0]
+  Circular sense -> case Machine.arcs machine of
     NoArcs -> [NoSuchMotion n]
     Arcs {Machine.fullCircle, Machine.quadrants} ->
       [ NoSuchMotion n
@@ -224,11 +224,11 @@ motionFaults machine n f = case motion f of
     Pulses3 _ _ z = increment f
     Pulses2 i j = centre f
 
-commandFaults :: Machine -> Int -> Frame -> [Broken]
+commandFaults :: Machine -> Int -> Frame -> [Violation]
 commandFaults machine n f =
-  [ NoSuchOrder n o
-    | (k, (o, v)) <- zip [0 :: Int ..] (orders f),
-      o `elem` map fst (take k (orders f)) || not (Machine.canOrder machine o v)
+  [ UnknownCommand n o
+    | (k, (o, v)) <- zip [0 :: Int ..] (commands f),
+      o `elem` map fst (take k (commands f)) || not (Machine.canEncode machine o v)
   ]
 
 -- | True for an arc within one quadrant about its centre, computed in whole pulses: both ends lie

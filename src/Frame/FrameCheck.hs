@@ -19,7 +19,7 @@ import Data.Map.Strict qualified as Map
 import Data.Maybe (maybeToList)
 import Frame.Error (Error (..), Warning (..))
 import Frame.FeedCode qualified as FeedCode
-import Frame.Frame (Frame (..), Planned (frame))
+import Frame.Frame (Frame (..), PlannedFrame (frame))
 import Frame.Frame qualified as Frame
 import Frame.Rounding qualified as Rounding
 import Geometry.Tolerance qualified as Tolerance
@@ -105,7 +105,7 @@ warnings findings =
 
 -- | Check the next frame. Given are its feed in the program, 'Rapid' where the compiler sets the
 -- feed itself, and the position at its end.
-check :: FrameContext -> Pace -> Pulses3 -> Planned -> FrameFindings -> FrameFindings
+check :: FrameContext -> Pace -> Pulses3 -> PlannedFrame -> FrameFindings -> FrameFindings
 check context asked at p = checkPosition context at p . checkFeed context asked (frame p)
 
 checkFeed :: FrameContext -> Pace -> Frame -> FrameFindings -> FrameFindings
@@ -113,13 +113,13 @@ checkFeed context asked f before = case asked of
   Rapid -> before
   At (Located region v)
     -- Codes along the path give the same feed for the same code, so nothing new can be found.
-    | isAlongPath context && lastCode before == speed f && lastPace before == asked -> before
+    | isAlongPath context && lastCode before == feedCode f && lastPace before == asked -> before
     | otherwise ->
-      checkNewFeed context (region, v) f before {lastPace = asked, lastCode = speed f}
+      checkNewFeed context (region, v) f before {lastPace = asked, lastCode = feedCode f}
 
 checkNewFeed :: FrameContext -> (Region, Feed) -> Frame -> FrameFindings -> FrameFindings
 checkNewFeed FrameContext {machine, isAlongPath} key@(region, v) f before =
-  case (FeedCode.codeFor machine v f l, FeedCode.given machine f l) of
+  case (FeedCode.codeFor machine v f l, FeedCode.feedOf machine f l) of
     (Machine.Given _ _, Just (Feed g)) ->
       before {obtained = Map.insertWith united key (FeedRange g g) (obtained before)}
     (Machine.Given _ _, Nothing) -> before
@@ -132,7 +132,7 @@ checkNewFeed FrameContext {machine, isAlongPath} key@(region, v) f before =
               Map.insertWith (\_ first -> first) key (frequencyError low high) (withoutCode before)
           }
   where
-    l = FeedCode.wayOf machine f
+    l = FeedCode.frameLength machine f
     frequencyError low high =
       FrequencyOutOfRange
         region
@@ -144,7 +144,7 @@ checkNewFeed FrameContext {machine, isAlongPath} key@(region, v) f before =
 united :: FeedRange -> FeedRange -> FeedRange
 united (FeedRange a b) (FeedRange c d) = FeedRange (min a c) (max b d)
 
-checkPosition :: FrameContext -> Pulses3 -> Planned -> FrameFindings -> FrameFindings
+checkPosition :: FrameContext -> Pulses3 -> PlannedFrame -> FrameFindings -> FrameFindings
 checkPosition FrameContext {machine, missingAxes, largestPositions} at p before
   | not (any isUsed missingAxes) && all isFitting largestPositions = before
   | otherwise =
@@ -165,7 +165,8 @@ checkPosition FrameContext {machine, missingAxes, largestPositions} at p before
     isUsed axis = Rounding.component axis (increment (frame p)) /= 0
     isFitting (axis, most) = abs (Rounding.component axis at) <= most
     region = Frame.origin p
-    mm axis (Pulses n) = let Mm pulse = Machine.pulseOf machine axis in Mm (fromIntegral n * pulse)
+    mm axis (Pulses n) =
+      let Mm pulse = Machine.resolutionOf machine axis in Mm (fromIntegral n * pulse)
     firstOf known found = case (known, found) of
       (Nothing, e : _) -> Just e
       _ -> known

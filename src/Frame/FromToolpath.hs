@@ -41,9 +41,9 @@ import Frame.Error (Error (..), Warning (..))
 import Frame.FeedCode qualified as FeedCode
 import Frame.Frame
   ( Frame (..),
-    FrameMotion (Round, Straightway),
+    FrameMotion (Circular, Linear),
     FrameProgram (FrameProgram),
-    Planned (Planned),
+    PlannedFrame (PlannedFrame),
     Role (..),
   )
 import Frame.Frame qualified as Frame
@@ -133,7 +133,7 @@ commandWarnings made = concatMap Command.warnings (reverse (translations made))
 -- | Warning about a start point between two pulses.
 startWarning :: Machine -> Region -> Point -> Pulses3 -> [Warning]
 startWarning machine region asked begin =
-  [StartRounded region asked given | not (Vec.near given asked)]
+  [StartRounded region asked given | not (Vec.isNear given asked)]
   where
     given = Frame.position machine begin
 
@@ -150,11 +150,11 @@ toleranceError machine block = case block of
   where
     tooLarge job
       | Toolpath.touchedRadius job > Mm 0
-          && plus tolerance (Machine.pulse machine) >= Part.radius job =
+          && plus tolerance (Machine.planeResolution machine) >= Part.radius job =
         Just (ToleranceTooLarge (region (Part.side job)) tolerance (Part.radius job))
       | otherwise = Nothing
       where
-        tolerance = uncurry max (Part.deepest (Part.tolerance job))
+        tolerance = uncurry max (Part.deviationLimits (Part.tolerance job))
 
 -- | Error of more contours than the machine allows. A contour counts once for all of its passes.
 contourErrors :: Machine -> Toolpath -> [Error]
@@ -192,7 +192,7 @@ data Making = Making
     -- | commands that no frame holds yet
     pending :: Maybe Pending,
     -- | frames of the current instruction, the latest first
-    latest :: [Planned],
+    latest :: [PlannedFrame],
     -- | all commands, the latest first
     translations :: [Translation],
     -- | number of frames, and the region of the first frame that is too many
@@ -218,14 +218,14 @@ initial here at =
     }
 
 -- | Frames of instructions as a lazy list, which ends with the final state.
-framesOf :: Context -> Making -> [Instruction] -> LazyList Making Planned
+framesOf :: Context -> Making -> [Instruction] -> LazyList Making PlannedFrame
 framesOf context !made instructions = case instructions of
   [] ->
     let final = ended context emptied
-     in LazyList.behind (latest final) (LazyList.End final)
+     in LazyList.prependReversed (latest final) (LazyList.End final)
   instruction : more ->
     let made' = next context emptied instruction
-     in LazyList.behind (latest made') (framesOf context made' more)
+     in LazyList.prependReversed (latest made') (framesOf context made' more)
   where
     -- The frames of the last instruction are in the list already.
     emptied = made {latest = []}
@@ -275,7 +275,12 @@ ended context@Context {machine} made =
 -- | Add a frame that holds only commands.
 addCommands :: Context -> Making -> Pending -> Making
 addCommands context made Pending {asked, given} =
-  addFrame context Rapid (at made) (Planned (Frame.still given) Commanding asked (Mm 0)) made
+  addFrame
+    context
+    Rapid
+    (at made)
+    (PlannedFrame (Frame.commandFrame given) Commanding asked (Mm 0))
+    made
 
 -- | Add the frame of a step, with the pending commands. A step that moves nothing has no frame.
 addStep :: Context -> Instruction -> Making -> ArcStep -> Making
@@ -285,17 +290,17 @@ addStep context@Context {machine} instruction made step = case instruction of
     case frameOf machine feedMode (Toolpath.pace m) (at made) step of
       Nothing -> made {at = target step}
       Just f ->
-        let f' = maybe f (\p -> f {orders = given p}) (pending made)
+        let f' = maybe f (\p -> f {commands = given p}) (pending made)
          in addFrame
               context
               (if feedMode == AsProgrammed then Toolpath.pace m else Part.Rapid)
               (target step)
-              (Planned f' role (origin m) cutterRadius)
+              (PlannedFrame f' role (origin m) cutterRadius)
               made {pending = Nothing}
 
 -- | Add a frame. Given are its feed in the program, 'Part.Rapid' where the compiler sets it, and
 -- the position at its end.
-addFrame :: Context -> Pace -> Pulses3 -> Planned -> Making -> Making
+addFrame :: Context -> Pace -> Pulses3 -> PlannedFrame -> Making -> Making
 addFrame Context {frameContext} feed end !p made =
   made
     { at = end,
@@ -315,17 +320,17 @@ frameOf machine feedMode pace begin ArcStep {target, turnsAbout} = case turnsAbo
     | increment == 0 -> Nothing
     | feedMode == AsProgrammed && pace == Rapid && Machine.hasRapidMotion machine ->
       Just (withoutFeed Frame.Rapid 0)
-    | otherwise -> Just (withFeed (withoutFeed Straightway 0))
-  Just (sense, c) -> Just (withFeed (withoutFeed (Round sense) c))
+    | otherwise -> Just (withFeed (withoutFeed Linear 0))
+  Just (sense, c) -> Just (withFeed (withoutFeed (Circular sense) c))
   where
     increment = target - begin
     withoutFeed motion centre =
-      Frame {motion, increment, centre, speed = FeedCode 0, braking = False, orders = []}
+      Frame {motion, increment, centre, feedCode = FeedCode 0, braking = False, commands = []}
     withFeed f = case (feedMode, pace) of
-      (LowestCode, _) -> f {speed = fst (Machine.slowest machine)}
-      (BrakingTo v, _) -> f {speed = FeedCode.nearestCode machine v f, braking = True}
-      (AsProgrammed, Rapid) -> f {speed = Machine.rapidCode machine}
-      (AsProgrammed, At (Located _ v)) -> f {speed = FeedCode.nearestCode machine v f}
+      (LowestCode, _) -> f {feedCode = fst (Machine.slowest machine)}
+      (BrakingTo v, _) -> f {feedCode = FeedCode.nearestCode machine v f, braking = True}
+      (AsProgrammed, Rapid) -> f {feedCode = Machine.rapidCode machine}
+      (AsProgrammed, At (Located _ v)) -> f {feedCode = FeedCode.nearestCode machine v f}
 
 -- Steps of a run ----------------------------------------------------------------------------------
 
@@ -358,7 +363,7 @@ arcSteps context@Context {machine} begin tolerance run = case tolerance of
   ArcBand inwards outwards -> ofSegment inwards outwards
   where
     m = NonEmpty.head run
-    pulse = Machine.pulse machine
+    pulse = Machine.planeResolution machine
     ofSegment inwards outwards =
       segmentSteps
         context

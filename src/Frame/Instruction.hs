@@ -65,7 +65,7 @@ instructions machine path =
 -- | Instructions for a block with the number of its pass.
 ofBlock :: Machine -> Int -> Block -> [Instruction]
 ofBlock machine n b = case b of
-  Toolpath.Travelling radius ms -> straightRuns Travelling radius ms
+  Toolpath.Travelling radius ms -> straightRuns Linking radius ms
   Toolpath.Holing (Located _ d) ms -> straightRuns Drilling (Part.drillRadius d) ms
   Toolpath.Commanding c -> [Words (region c) (Command.translated machine c)]
   Toolpath.Cutting
@@ -82,7 +82,7 @@ ofBlock machine n b = case b of
               milled machine (Retracting n) job retract
             ]
         )
-        (compensated machine n (fromMaybe region' (Part.byControl job)) job <$> sent)
+        (compensated machine n (fromMaybe region' (Part.controlCompensation job)) job <$> sent)
   Toolpath.Clearing
     { Toolpath.pocket = Located _ p,
       Toolpath.approach,
@@ -103,7 +103,7 @@ straightRuns r radius = map (Run r (Sagitta (Mm 0)) radius AsProgrammed . (:| []
 -- | Runs of a milling job.
 milled :: Machine -> Role -> Milling -> [Move] -> [Instruction]
 milled machine r job =
-  map (\ms -> Run r (tolerance ms) (Part.radius job) AsProgrammed ms) . Toolpath.runs
+  map (\ms -> Run r (tolerance ms) (Part.radius job) AsProgrammed ms) . Toolpath.curveRuns
   where
     tolerance = Chord.chordTolerance machine job
 
@@ -145,7 +145,7 @@ lengthOf m = Mm (sqrt (l * l + h * h))
 -- | Two parts of a move, cut @distance@ mm before its end. The move has to be longer than that.
 cutBeforeEnd :: Double -> Move -> (Move, Move)
 cutBeforeEnd distance m =
-  ( Toolpath.unbraked (Toolpath.atHeights (fst (heights m), z) m) {segment = front},
+  ( Toolpath.withoutBraking (Toolpath.atHeights (fst (heights m), z) m) {segment = front},
     (Toolpath.atHeights (z, snd (heights m)) m) {segment = back}
   )
   where

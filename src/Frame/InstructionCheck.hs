@@ -61,7 +61,7 @@ contextOf machine startRegion start =
   InstructionContext
     { machine,
       isAlongPath = Machine.feedMeasure (Machine.feeds machine) == AlongPath,
-      isHeightUncertain = Machine.capacity machine Z > 0 && Z `notElem` Machine.driven machine,
+      isHeightUncertain = Machine.capacity machine Z > 0 && Z `notElem` Machine.drivenAxes machine,
       startError = reachError startRegion start
     }
 

@@ -32,7 +32,8 @@ type PathPosition = (Point, Mm)
 rounded :: Machine -> PathPosition -> Pulses3
 rounded machine (p, Mm z) = Pulses3 (pulses X (Vec.x p)) (pulses Y (Vec.y p)) (pulses Z z)
   where
-    pulses axis x = let Mm step = Machine.pulseOf machine axis in Pulses (floor (x / step + 0.5))
+    pulses axis x =
+      let Mm step = Machine.resolutionOf machine axis in Pulses (floor (x / step + 0.5))
 
 -- | Height at a fraction of a move, by linear interpolation; the height of its end from 1 on.
 heightAt :: Double -> Move -> Mm
@@ -74,7 +75,7 @@ split machine begin ((a, za), (b, zb)) = case Machine.measure (Machine.layout ma
       let Pulses c = Machine.capacity machine axis
        in if d == 0 || c == 0 then 1 else (abs d + c - 1) `div` c
     parts n =
-      [ rounded machine (Vec.between t a b, plus za (times t (minus zb za)))
+      [ rounded machine (Vec.interpolate t a b, plus za (times t (minus zb za)))
         | k <- [1 .. n - 1],
           let t = fromIntegral k / fromIntegral n
       ]

@@ -17,7 +17,7 @@ module Geometry.Carrier
 
     -- * Senses
     Sense (..),
-    sense,
+    senseSign,
     senseOf,
     sweepInSense,
 
@@ -74,8 +74,8 @@ data Sense = Clockwise | CounterClockwise
 
 -- | The sign of a sense: +1 counter-clockwise, −1 clockwise. It is also the sign of the side on
 -- which the centre lies.
-sense :: Sense -> Double
-sense t = case t of
+senseSign :: Sense -> Double
+senseSign t = case t of
   Clockwise -> -1
   CounterClockwise -> 1
 

@@ -14,24 +14,24 @@
 -- almost straight arc it keeps its digits, where a centre would lose them.
 module Geometry.ClosedPolyarcs
   ( ClosedPolyarcs (..),
-    fromOutlines,
+    fromFlatPolyarcs,
     twoSided,
-    walks,
-    first,
-    behind,
-    extent,
-    only,
-    closed,
-    apart,
+    loopCount,
+    firstVertex,
+    repeatedVertex,
+    largestCoordinate,
+    restrictTo,
+    toFlatPolyarc,
+    fromSeparateSegments,
 
     -- * Marks of segments
-    smooth,
-    copied,
-    around,
-    connecting,
-    opening,
-    closing,
-    marked,
+    smoothMark,
+    repeatedMark,
+    aroundMark,
+    connectingMark,
+    firstMark,
+    lastMark,
+    hasMark,
 
     -- * Segments
     chord,
@@ -39,7 +39,7 @@ module Geometry.ClosedPolyarcs
     gradient,
     diameter,
     curvature,
-    part,
+    partialBulge,
   )
 where
 
@@ -68,59 +68,59 @@ data ClosedPolyarcs = ClosedPolyarcs
     -- | the index of the input segment from which each segment comes
     sources :: PrimArray Int32,
     -- | the first vertex of each loop, and the number of all vertices
-    heads :: PrimArray Int
+    loopHeads :: PrimArray Int
   }
 
 -- | The number of loops.
-walks :: ClosedPolyarcs -> Int
-walks c = sizeofPrimArray (heads c) - 1
+loopCount :: ClosedPolyarcs -> Int
+loopCount c = sizeofPrimArray (loopHeads c) - 1
 
 -- | The first vertex of a loop.
-first :: ClosedPolyarcs -> Int -> Int
-first c = indexPrimArray (heads c)
-{-# INLINE first #-}
+firstVertex :: ClosedPolyarcs -> Int -> Int
+firstVertex c = indexPrimArray (loopHeads c)
+{-# INLINE firstVertex #-}
 
 -- | The vertex after a loop's last segment: the copy of its first vertex.
-behind :: ClosedPolyarcs -> Int -> Int
-behind c w = indexPrimArray (heads c) (w + 1) - 1
-{-# INLINE behind #-}
+repeatedVertex :: ClosedPolyarcs -> Int -> Int
+repeatedVertex c w = indexPrimArray (loopHeads c) (w + 1) - 1
+{-# INLINE repeatedVertex #-}
 
 -- | The mark of a segment that starts in the direction in which the previous one ends.
-smooth :: Word8
-smooth = 1
+smoothMark :: Word8
+smoothMark = 1
 
 -- | The mark of a loop's repeated first vertex, at which no segment starts.
-copied :: Word8
-copied = 2
+repeatedMark :: Word8
+repeatedMark = 2
 
 -- | The mark of an arc about a corner of the source.
-around :: Word8
-around = 4
+aroundMark :: Word8
+aroundMark = 4
 
 -- | The mark of a segment that connects two offset segments through a corner of the source.
-connecting :: Word8
-connecting = 8
+connectingMark :: Word8
+connectingMark = 8
 
 -- | The mark of the first segment of a loop.
-opening :: Word8
-opening = 16
+firstMark :: Word8
+firstMark = 16
 
 -- | The mark of the last segment of a loop.
-closing :: Word8
-closing = 32
+lastMark :: Word8
+lastMark = 32
 
 -- | True when a segment's marks, the second argument, include a mark.
-marked :: Word8 -> Word8 -> Bool
-marked m w = w .&. m /= 0
-{-# INLINE marked #-}
+hasMark :: Word8 -> Word8 -> Bool
+hasMark m w = w .&. m /= 0
+{-# INLINE hasMark #-}
 
 -- Construction ------------------------------------------------------------------------------
 
 -- | The loops of closed polyarcs. Arcs above a half circle are divided into two. Segments no longer
 -- than @tolerance@, in mm, are omitted, and arcs with no larger sagitta become lines. A loop of
 -- fewer than two segments is omitted. The sources count the segments of all inputs.
-fromOutlines :: Double -> [FlatPolyarc] -> ClosedPolyarcs
-fromOutlines tolerance polyarcs = runST $ do
+fromFlatPolyarcs :: Double -> [FlatPolyarc] -> ClosedPolyarcs
+fromFlatPolyarcs tolerance polyarcs = runST $ do
   let room = sum (map vertexBound polyarcs)
   out <-
     Arrays
@@ -238,9 +238,9 @@ closeLoop out loop k end source = do
   x <- readPrimArray (vertexXs out) k
   y <- readPrimArray (vertexYs out) k
   writeVertex out end x y 0 source
-  writePrimArray (segmentMarks out) k opening
-  writePrimArray (segmentMarks out) (end - 1) closing
-  writePrimArray (segmentMarks out) end copied
+  writePrimArray (segmentMarks out) k firstMark
+  writePrimArray (segmentMarks out) (end - 1) lastMark
+  writePrimArray (segmentMarks out) end repeatedMark
   writePrimArray (loopStarts out) loop k
 
 -- | True when every segment is longer than @tolerance@, every arc has a larger sagitta, and none is
@@ -295,44 +295,44 @@ twoSided o@(FlatPolyarc _ px py pb) =
         (\i -> if i < n then indexPrimArray a i else indexPrimArray b (i - n))
 
 -- | The largest absolute value of a coordinate, in mm; rounding errors are proportional to it.
-extent :: [FlatPolyarc] -> Double
-extent = foldl (\m o -> largest (largest m (FlatPolyarc.xs o)) (FlatPolyarc.ys o)) 0
+largestCoordinate :: [FlatPolyarc] -> Double
+largestCoordinate = foldl (\m o -> largest (largest m (FlatPolyarc.xs o)) (FlatPolyarc.ys o)) 0
   where
     largest = foldlPrimArray' (\m a -> if abs a > m then abs a else m)
 
 -- | The loops with the given indices, in that order.
-only :: [Int] -> ClosedPolyarcs -> ClosedPolyarcs
-only loops c =
+restrictTo :: [Int] -> ClosedPolyarcs -> ClosedPolyarcs
+restrictTo loops c =
   ClosedPolyarcs
     { xs = gathered (xs c),
       ys = gathered (ys c),
       bulges = gathered (bulges c),
       marks = gathered (marks c),
       sources = gathered (sources c),
-      heads = primArrayFromList (scanl (+) 0 (map size loops))
+      loopHeads = primArrayFromList (scanl (+) 0 (map size loops))
     }
   where
-    size w = behind c w + 1 - first c w
+    size w = repeatedVertex c w + 1 - firstVertex c w
     gathered :: Prim a => PrimArray a -> PrimArray a
-    gathered a = mconcat [clonePrimArray a (first c w) (size w) | w <- loops]
+    gathered a = mconcat [clonePrimArray a (firstVertex c w) (size w) | w <- loops]
 
 -- | The loop with an index as a closed polyarc.
-closed :: ClosedPolyarcs -> Int -> FlatPolyarc
-closed c w = FlatPolyarc Closed (cut (xs c)) (cut (ys c)) (cut (bulges c))
+toFlatPolyarc :: ClosedPolyarcs -> Int -> FlatPolyarc
+toFlatPolyarc c w = FlatPolyarc Closed (cut (xs c)) (cut (ys c)) (cut (bulges c))
   where
-    cut a = clonePrimArray a (first c w) (behind c w - first c w)
+    cut a = clonePrimArray a (firstVertex c w) (repeatedVertex c w - firstVertex c w)
 
 -- | Unconnected segments, each in a loop of its own that is not closed: the first has index 0, the
 -- next 2, and so on. Each is given by x and y of its start, x and y of its end, and its bulge.
-apart :: [(Double, Double, Double, Double, Double)] -> ClosedPolyarcs
-apart ss =
+fromSeparateSegments :: [(Double, Double, Double, Double, Double)] -> ClosedPolyarcs
+fromSeparateSegments ss =
   ClosedPolyarcs
     { xs = primArrayFromList (concat [[x, x'] | (x, _, x', _, _) <- ss]),
       ys = primArrayFromList (concat [[y, y'] | (_, y, _, y', _) <- ss]),
       bulges = primArrayFromList (concat [[b, 0] | (_, _, _, _, b) <- ss]),
-      marks = primArrayFromList (concat [[opening + closing, copied] | _ <- ss]),
+      marks = primArrayFromList (concat [[firstMark + lastMark, repeatedMark] | _ <- ss]),
       sources = primArrayFromList (concat (zipWith (\k _ -> [k, k]) [0 ..] ss)),
-      heads = primArrayFromList [2 * k | k <- [0 .. length ss]]
+      loopHeads = primArrayFromList [2 * k | k <- [0 .. length ss]]
     }
 
 -- Segments ----------------------------------------------------------------------------------
@@ -396,8 +396,8 @@ diameter c i =
 -- With the vectors @a@ and @b@ from the arc's centre to the points, @tan(θ/2)@ is
 -- @|a×b| / (|a||b| + a·b)@, or @(|a||b| − a·b) / |a×b|@ where that keeps more digits, up to a half
 -- circle. Then @tan(θ/4) = p / (q + √(p² + q²))@ for @tan(θ/2) = p/q@.
-part :: ClosedPolyarcs -> Int -> Double -> Double -> Double -> Double -> Double
-part c i px py qx qy
+partialBulge :: ClosedPolyarcs -> Int -> Double -> Double -> Double -> Double -> Double
+partialBulge c i px py qx qy
   | b == 0 = 0
   | otherwise = gradient c i px py $ \ax ay -> gradient c i qx qy $ \cx cy ->
     let cross = abs (ax * cy - ay * cx)

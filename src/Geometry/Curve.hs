@@ -26,9 +26,9 @@ module Geometry.Curve
     spline,
     parabola,
     SpanShape (..),
-    ofPieces,
-    ofSegments,
-    ofChain,
+    fromShapes,
+    fromSegments,
+    fromSegmentsAt,
     Segment,
 
     -- * Shifts
@@ -36,17 +36,17 @@ module Geometry.Curve
     column,
     columnAt,
     rowCount,
-    backwards,
+    inReverseOrder,
     Distance (..),
     Growth (..),
     Joggle (..),
-    joggled,
+    fitJoggle,
     ramp,
     shifted,
     Side (..),
 
     -- * Evaluation and measurement
-    chain,
+    toSegments,
     cubics,
     domain,
     spans,
@@ -55,22 +55,22 @@ module Geometry.Curve
     tangent,
     normal,
     curvature,
-    jet,
+    expansion,
     Approach (..),
-    placeFrom,
+    pointFrom,
     tangentFrom,
     start,
     end,
     isClosed,
     length,
-    lengthTo,
-    alongTo,
-    distanceOf,
+    lengthAt,
+    parameterAtLength,
+    shiftDistance,
     nearest,
     atX,
     corners,
     Cusp,
-    fold,
+    firstCusp,
 
     -- * Reversal and transformation
     reversed,
@@ -89,7 +89,7 @@ import Geometry.Curve.Base qualified as Base
 import Geometry.Curve.Column (Column)
 import Geometry.Curve.Column qualified as Column
 import Geometry.Curve.CubicSpans qualified as CubicSpans
-import Geometry.Curve.Cusp (Cusp, fold)
+import Geometry.Curve.Cusp (Cusp, firstCusp)
 import Geometry.Curve.PointSearch (atX, corners, nearest)
 import Geometry.Curve.PointSearch qualified as PointSearch
 import Geometry.Curve.ShiftDistance (Distance (..), Growth (..), Joggle (..), ramp)
@@ -123,17 +123,17 @@ parabola :: Vector Point -> Either CurveFault Curve
 parabola points = Plain <$> Base.parabola points
 
 -- | Curve of consecutive spans with the given rising parameters of the table's rows.
-ofPieces :: NonEmpty SpanShape -> Vector Double -> Either CurveFault Curve
-ofPieces pieces parameters = Plain <$> Base.ofPieces pieces parameters
+fromShapes :: NonEmpty SpanShape -> Vector Double -> Either CurveFault Curve
+fromShapes pieces parameters = Plain <$> Base.fromShapes pieces parameters
 
 -- | Curve of consecutive lines and arcs. The rows of its table are the ends of the segments.
-ofSegments :: NonEmpty Segment -> Either CurveFault Curve
-ofSegments segments = Plain <$> Base.ofSegments segments
+fromSegments :: NonEmpty Segment -> Either CurveFault Curve
+fromSegments segments = Plain <$> Base.fromSegments segments
 
 -- | Curve of consecutive lines and arcs whose rows are the given points, in order. Each point is
 -- an end of a segment. A closed curve need not repeat the first point at the end of the table.
-ofChain :: NonEmpty Segment -> Vector Point -> Either CurveFault Curve
-ofChain segments points = Plain <$> Base.ofChain segments parameters
+fromSegmentsAt :: NonEmpty Segment -> Vector Point -> Either CurveFault Curve
+fromSegmentsAt segments points = Plain <$> Base.fromSegmentsAt segments parameters
   where
     -- Finds the row's parameter: the next segment that starts at the point, else the end of the
     -- last segment.
@@ -144,7 +144,7 @@ ofChain segments points = Plain <$> Base.ofChain segments parameters
         (0, NonEmpty.toList segments, Vector.toList points)
     next (u, ss, ps) = case (ss, ps) of
       (s : rest, p : more)
-        | Vec.near (Segment.start s) p -> u `seq` Just (u, (u, ss, more))
+        | Vec.isNear (Segment.start s) p -> u `seq` Just (u, (u, ss, more))
         | otherwise -> next (u + 1, rest, ps)
       ([], _ : _) -> Just (u, (u, [], []))
       (_, []) -> Nothing
@@ -164,24 +164,24 @@ columnAt curve c u =
   PowerSeries.value (Column.series 0 (base curve) c (ShiftedCurve.spanPoint After u curve))
 
 -- | Row values of the curve, reordered for its reverse.
-backwards :: Curve -> Vector Double -> Vector Double
-backwards curve = Base.backwards (base curve)
+inReverseOrder :: Curve -> Vector Double -> Vector Double
+inReverseOrder curve = Base.inReverseOrder (base curve)
 
 -- | Shift distance of a joggle. Refuses a radius that is not above half of the depth, and ramps
 -- that do not fit between the two parameters of the curve that is shifted.
-joggled :: Joggle -> Curve -> Either CurveFault Distance
-joggled joggle@Joggle {begins, ends, depth = Mm depth, radius = Mm r} curve
+fitJoggle :: Joggle -> Curve -> Either CurveFault Distance
+fitJoggle joggle@Joggle {begins, ends, depth = Mm depth, radius = Mm r} curve
   | r <= 0 || abs depth >= 2 * r = Left DeepJoggle
   | needed > available = Left (LongJoggle needed available)
   | otherwise = Right (Joggled joggle)
   where
     needed = times 2 (ramp joggle)
-    available = minus (lengthTo curve ends) (lengthTo curve begins)
+    available = minus (lengthAt curve ends) (lengthAt curve begins)
 
 -- | Segments of an unshifted curve that consists of lines and arcs only and has at least one arc.
 -- Each segment starts exactly where the one before ends.
-chain :: Curve -> Maybe (NonEmpty Segment)
-chain curve = case curve of
+toSegments :: Curve -> Maybe (NonEmpty Segment)
+toSegments curve = case curve of
   Plain b -> Base.asSegments b
   Shifted {} -> Nothing
 
@@ -196,21 +196,21 @@ spans curve = Base.count (base curve)
 
 -- | Point at a parameter. Parameters outside of the domain give the nearer end.
 at :: Curve -> Double -> Point
-at = placeFrom After
+at = pointFrom After
 
 -- | Point at a parameter, approached from before or from after it. The two differ where a shift
 -- has opened a corner.
-placeFrom :: Approach -> Curve -> Double -> Point
-placeFrom approach curve u = TaylorExpansion.place (jet approach 0 curve u)
+pointFrom :: Approach -> Curve -> Double -> Point
+pointFrom approach curve u = TaylorExpansion.position (expansion approach 0 curve u)
 
 -- | Unit tangent at the point that 'at' gives.
 tangent :: Curve -> Double -> Vec
-tangent = PointSearch.heading After
+tangent = PointSearch.unitTangent After
 
 -- | Unit tangent just before or just after a parameter. On a closed curve the start continues the
 -- end.
 tangentFrom :: Approach -> Curve -> Double -> Vec
-tangentFrom = PointSearch.directionAt
+tangentFrom = PointSearch.unitTangentAcrossSeam
 
 -- | Left unit normal.
 normal :: Curve -> Double -> Vec
@@ -218,40 +218,41 @@ normal curve u = Vec.left (tangent curve u)
 
 -- | Curvature in 1/mm, positive where the curve bends to the left.
 curvature :: Curve -> Double -> Double
-curvature curve u = TaylorExpansion.curvature (jet After 2 curve u)
+curvature curve u = TaylorExpansion.curvature (expansion After 2 curve u)
 
 -- | Taylor expansion of the point about a parameter, up to the given order.
-jet :: Approach -> Int -> Curve -> Double -> TaylorExpansion
-jet approach n curve u = ShiftedCurve.expansionAt n curve (ShiftedCurve.spanPoint approach u curve)
+expansion :: Approach -> Int -> Curve -> Double -> TaylorExpansion
+expansion approach n curve u =
+  ShiftedCurve.expansionAt n curve (ShiftedCurve.spanPoint approach u curve)
 
 -- | First point of the curve.
 start :: Curve -> Point
-start curve = placeFrom After curve 0
+start curve = pointFrom After curve 0
 
 -- | Last point of the curve.
 end :: Curve -> Point
-end curve = placeFrom Before curve (domain curve)
+end curve = pointFrom Before curve (domain curve)
 
 -- | True if the curve ends where it begins.
 isClosed :: Curve -> Bool
-isClosed = PointSearch.closed
+isClosed = PointSearch.isClosed
 
 -- | True arc length. Gaps that a shift opens at corners do not count.
 length :: Curve -> Mm
 length curve = ArcLength.total (ShiftedCurve.arcLength curve)
 
 -- | Arc length from the start to a parameter.
-lengthTo :: Curve -> Double -> Mm
-lengthTo curve = ArcLength.lengthTo (ShiftedCurve.arcLength curve)
+lengthAt :: Curve -> Double -> Mm
+lengthAt curve = ArcLength.lengthAt (ShiftedCurve.arcLength curve)
 
--- | Parameter at an arc length from the start; the inverse of 'lengthTo'.
-alongTo :: Curve -> Mm -> Double
-alongTo curve = ArcLength.parameterAt (ShiftedCurve.arcLength curve)
+-- | Parameter at an arc length from the start; the inverse of 'lengthAt'.
+parameterAtLength :: Curve -> Mm -> Double
+parameterAtLength curve = ArcLength.parameterAt (ShiftedCurve.arcLength curve)
 
 -- | Distance to the left by which the outermost shift moves the point at a parameter; 0 for a
 -- curve without shifts.
-distanceOf :: Curve -> Double -> Mm
-distanceOf curve u = case curve of
+shiftDistance :: Curve -> Double -> Mm
+shiftDistance curve u = case curve of
   Plain _ -> Mm 0
   Shifted layer lower _ ->
     let s = ShiftedCurve.spanPoint After u curve

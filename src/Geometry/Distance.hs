@@ -8,7 +8,7 @@ module Geometry.Distance
     nearestFraction,
     ClosestPoint (..),
     segments,
-    crossings,
+    intersections,
     uncovered,
   )
 where
@@ -33,7 +33,7 @@ toPoint p segment = fst (nearest p segment)
 -- | The distance from a point to a segment, and the nearest point of the segment.
 nearest :: Point -> Segment -> (Mm, Point)
 nearest p segment
-  | hasFoot && Segment.spans segment p = (Vec.distance p foot, foot)
+  | hasFoot && Segment.hasFootOf segment p = (Vec.distance p foot, foot)
   | toStart <= toEnd = (toStart, Segment.start segment)
   | otherwise = (toEnd, Segment.end segment)
   where
@@ -41,7 +41,7 @@ nearest p segment
     toEnd = Vec.distance p (Segment.end segment)
     -- A line without a length has no foot, nor has the centre of an arc.
     (hasFoot, foot) = case segment of
-      Straight a b -> (a /= b, Vec.between (Segment.fraction segment p) a b)
+      Straight a b -> (a /= b, Vec.interpolate (Segment.fraction segment p) a b)
       Arc {start, centre} ->
         let Mm r = Segment.radius centre start
             out = Vec.to centre p
@@ -50,12 +50,12 @@ nearest p segment
 -- | The fraction of a segment's length, from 0 to 1, at which it is nearest to a point.
 nearestFraction :: Point -> Segment -> Double
 nearestFraction p segment
-  | Segment.spans segment p = Segment.fraction segment p
+  | Segment.hasFootOf segment p = Segment.fraction segment p
   | Vec.distance p (Segment.start segment) <= Vec.distance p (Segment.end segment) = 0
   | otherwise = 1
 
 -- | The least distance from one segment to another, and the point of the first at which it occurs.
-data ClosestPoint = ClosestPoint {distance :: Mm, place :: Point}
+data ClosestPoint = ClosestPoint {distance :: Mm, nearestPoint :: Point}
   deriving stock (Eq, Show)
 
 -- | The least distance of two segments. It occurs at an end of one of them, at an intersection, or
@@ -65,14 +65,14 @@ segments a b = minimumBy (comparing distance) (map fromA onA <> map fromB onB)
   where
     fromA p = ClosestPoint (toPoint p b) p
     fromB q = let (d, p) = nearest q a in ClosestPoint d p
-    onA = Segment.start a : Segment.end a : filter (Segment.spans a) (normals a b <> common a b)
-    onB = Segment.start b : Segment.end b : filter (Segment.spans b) (normals b a)
+    onA = Segment.start a : Segment.end a : filter (Segment.hasFootOf a) (normals a b <> common a b)
+    onB = Segment.start b : Segment.end b : filter (Segment.hasFootOf b) (normals b a)
 
 -- | The points on the first segment's carrier at which its normal is also a normal of the second
 -- segment, an arc.
 normals :: Segment -> Segment -> [Point]
 normals a b = case (a, b) of
-  (Straight p q, Arc {centre}) | p /= q -> [Vec.between (Segment.fraction a centre) p q]
+  (Straight p q, Arc {centre}) | p /= q -> [Vec.interpolate (Segment.fraction a centre) p q]
   (Arc {start, centre}, Arc {centre = other})
     | centre /= other ->
       let Mm r = Segment.radius centre start
@@ -82,8 +82,8 @@ normals a b = case (a, b) of
 
 -- | The points at which two segments cross or touch, to 'Tolerance.coincident'. Segments that
 -- overlap on one carrier give those of their ends that lie on the other.
-crossings :: Segment -> Segment -> [Point]
-crossings a b = filter (\p -> reaches a p && reaches b p) (common a b)
+intersections :: Segment -> Segment -> [Point]
+intersections a b = filter (\p -> reaches a p && reaches b p) (common a b)
   where
     reaches s p = toPoint p s <= Tolerance.coincident
 

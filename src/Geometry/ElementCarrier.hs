@@ -6,8 +6,8 @@
 module Geometry.ElementCarrier
   ( ElementCarrier (..),
     ofSegment,
-    within,
-    alongLine,
+    segmentsWithin,
+    positionAlong,
   )
 where
 
@@ -17,7 +17,7 @@ import Geometry.Carrier (Circle (Circle), Line (Line), Sense)
 import Geometry.Carrier qualified as Carrier
 import Geometry.Index.BoundingBox (BoundingBox (BoundingBox))
 import Geometry.Index.BoundingBox qualified as BoundingBox
-import Geometry.MeasuredPolyarc (Polyarc)
+import Geometry.MeasuredPolyarc (MeasuredPolyarc)
 import Geometry.MeasuredPolyarc qualified as MeasuredPolyarc
 import Geometry.Segment (Segment (..))
 import Geometry.Segment qualified as Segment
@@ -29,7 +29,7 @@ data ElementCarrier
   = OnLine {-# UNPACK #-} Line
   | OnCircle Sense {-# UNPACK #-} Circle
   | -- | a curve from its start to its end
-    OnCurve Polyarc
+    OnCurve MeasuredPolyarc
   | -- | a corner through which the contour passes
     AtPoint {-# UNPACK #-} Point
   deriving stock (Eq, Show)
@@ -43,8 +43,8 @@ ofSegment s = case s of
 
 -- | Segments on the carrier that include all of it that lies in a bounding box. A line is cut to
 -- the box with a margin of 1 mm; circles and curves are given whole.
-within :: BoundingBox -> ElementCarrier -> NonEmpty Segment
-within box carrier = case carrier of
+segmentsWithin :: BoundingBox -> ElementCarrier -> NonEmpty Segment
+segmentsWithin box carrier = case carrier of
   OnLine l -> lineWithin box l :| []
   OnCircle sense circle@(Circle c (Mm r)) ->
     Segment.fullCircle sense circle (Vec.shift (Vec.vec r 0) c) :| []
@@ -56,9 +56,9 @@ lineWithin :: BoundingBox -> Line -> Segment
 lineWithin box l = Straight (at (minimum corners)) (at (maximum corners))
   where
     BoundingBox left bottom right top = BoundingBox.inflate (Mm 1) box
-    corners = [alongLine l (Vec.point x y) | x <- [left, right], y <- [bottom, top]]
+    corners = [positionAlong l (Vec.point x y) | x <- [left, right], y <- [bottom, top]]
     at (Mm s) = Vec.shift (Vec.scale s (Carrier.direction l)) (Carrier.from l)
 
 -- | The position of a point's foot along a line, in mm from the first point of the line.
-alongLine :: Line -> Point -> Mm
-alongLine l p = Mm (Vec.dot (Carrier.direction l) (Vec.to (Carrier.from l) p))
+positionAlong :: Line -> Point -> Mm
+positionAlong l p = Mm (Vec.dot (Carrier.direction l) (Vec.to (Carrier.from l) p))

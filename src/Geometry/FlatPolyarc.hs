@@ -8,13 +8,13 @@
 -- are made from a "Geometry.Polyarc", or written vertex by vertex.
 module Geometry.FlatPolyarc
   ( FlatPolyarc (..),
-    outline,
+    fromVertices,
     vertices,
     size,
     reverse,
     area,
     length,
-    fromContour,
+    fromPolyarc,
     fromSegments,
     segments,
   )
@@ -44,8 +44,8 @@ data FlatPolyarc = FlatPolyarc
   deriving stock (Eq, Show)
 
 -- | The polyarc of vertices in order: x and y in mm, and the bulge.
-outline :: Ends -> [(Double, Double, Double)] -> FlatPolyarc
-outline ends vs =
+fromVertices :: Ends -> [(Double, Double, Double)] -> FlatPolyarc
+fromVertices ends vs =
   FlatPolyarc
     { ends,
       xs = PrimArray.primArrayFromList [x | (x, _, _) <- vs],
@@ -137,8 +137,8 @@ folded o f = go 0 0
 
 -- | The flat form of a polyarc, and for each of its segments the index of the polyarc's segment,
 -- from 0.
-fromContour :: Polyarc -> (FlatPolyarc, PrimArray Int)
-fromContour (Polyarc ends ss) =
+fromPolyarc :: Polyarc -> (FlatPolyarc, PrimArray Int)
+fromPolyarc (Polyarc ends ss) =
   fromSegments ends (Vector.fromListN (NonEmpty.length ss) (NonEmpty.toList ss))
 
 -- | The flat form of a polyarc with at least one segment, given as a vector; and for each of its
@@ -155,7 +155,7 @@ fromSegments ends ss = runST $ do
         PrimArray.writePrimArray py k (Vec.y p)
         PrimArray.writePrimArray pb k b
       put k i s = do
-        vertex k (Segment.start s) (Segment.toBulge s)
+        vertex k (Segment.start s) (Segment.bulge s)
         PrimArray.writePrimArray numbers k (i :: Int)
       fill k i
         | i >= Vector.length ss = pure k

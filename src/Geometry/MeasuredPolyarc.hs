@@ -6,26 +6,26 @@
 --
 -- The module also owns intersections and distances of two polyarcs, given as lists of segments.
 module Geometry.MeasuredPolyarc
-  ( Polyarc,
+  ( MeasuredPolyarc,
     fromSegments,
-    fromOutline,
+    fromFlatPolyarc,
     segments,
     count,
     start,
     end,
     length,
     isClosed,
-    joints,
+    stations,
 
     -- * Stations
     at,
     directionAt,
-    station,
-    stretch,
+    nearestStation,
+    segmentsBetween,
 
     -- * Two polyarcs
-    meetings,
-    gap,
+    intersections,
+    leastDistance,
   )
 where
 
@@ -56,22 +56,22 @@ import Prelude hiding (length)
 
 -- | At least one segment, each starting where the previous one ends; and the stations of their
 -- starts and of the end, computed when first needed.
-data Polyarc = Polyarc {chain :: Vector Segment, table :: ~(Unboxed.Vector Double)}
+data MeasuredPolyarc = MeasuredPolyarc {chain :: Vector Segment, table :: ~(Unboxed.Vector Double)}
   deriving stock (Eq, Show)
 
 -- | The polyarc of segments in order.
-fromSegments :: NonEmpty Segment -> Polyarc
+fromSegments :: NonEmpty Segment -> MeasuredPolyarc
 fromSegments ss = fromVector (Vector.fromList (NonEmpty.toList ss))
 
-fromVector :: Vector Segment -> Polyarc
-fromVector chain = Polyarc {chain, table = Unboxed.scanl' (+) 0 lengths}
+fromVector :: Vector Segment -> MeasuredPolyarc
+fromVector chain = MeasuredPolyarc {chain, table = Unboxed.scanl' (+) 0 lengths}
   where
     lengths = Unboxed.convert (Vector.map (\s -> let Mm l = Segment.length s in l) chain)
 
 -- | The polyarc of an open flat one with at least two vertices. Consecutive segments share their
 -- points in memory.
-fromOutline :: FlatPolyarc -> Polyarc
-fromOutline flat = fromVector (Vector.unfoldrN (n - 1) segment (0, vertex 0))
+fromFlatPolyarc :: FlatPolyarc -> MeasuredPolyarc
+fromFlatPolyarc flat = fromVector (Vector.unfoldrN (n - 1) segment (0, vertex 0))
   where
     n = FlatPolyarc.size flat + 1
     vertex i =
@@ -86,51 +86,51 @@ fromOutline flat = fromVector (Vector.unfoldrN (n - 1) segment (0, vertex 0))
          in s `seq` Just (s, (i + 1, q))
 
 -- | The segments in order.
-segments :: Polyarc -> NonEmpty Segment
+segments :: MeasuredPolyarc -> NonEmpty Segment
 segments p = Vector.head (chain p) :| drop 1 (Vector.toList (chain p))
 
 -- | The number of segments.
-count :: Polyarc -> Int
+count :: MeasuredPolyarc -> Int
 count = Vector.length . chain
 
 -- | The first point.
-start :: Polyarc -> Point
+start :: MeasuredPolyarc -> Point
 start = Segment.start . Vector.head . chain
 
 -- | The last point.
-end :: Polyarc -> Point
+end :: MeasuredPolyarc -> Point
 end = Segment.end . Vector.last . chain
 
 -- | The length along all segments.
-length :: Polyarc -> Mm
+length :: MeasuredPolyarc -> Mm
 length = Mm . Unboxed.last . table
 
 -- | The stations at which the segments start, and that of the end; in mm.
-joints :: Polyarc -> [Double]
-joints = Unboxed.toList . table
+stations :: MeasuredPolyarc -> [Double]
+stations = Unboxed.toList . table
 
 -- | True when the polyarc ends where it starts, to 'Tolerance.coincident'.
-isClosed :: Polyarc -> Bool
-isClosed p = Vec.near (start p) (end p)
+isClosed :: MeasuredPolyarc -> Bool
+isClosed p = Vec.isNear (start p) (end p)
 
 -- | The index of the segment that contains a station, and the fraction of its length there.
-locate :: Polyarc -> Mm -> (Int, Double)
+locate :: MeasuredPolyarc -> Mm -> (Int, Double)
 locate p (Mm s) = (i, if l <= 0 then 0 else max 0 (min 1 ((s - table p Unboxed.! i) / l)))
   where
-    i = BinarySearch.lastBelow (Vector.length (chain p)) s (table p)
+    i = BinarySearch.lastAtMost (Vector.length (chain p)) s (table p)
     l = table p Unboxed.! (i + 1) - table p Unboxed.! i
 
 -- | The point at a station; the nearer end for a station outside of the polyarc.
-at :: Polyarc -> Mm -> Point
+at :: MeasuredPolyarc -> Mm -> Point
 at p s = let (i, t) = locate p s in Segment.at t (chain p Vector.! i)
 
 -- | The direction of travel at a station, of length 1.
-directionAt :: Polyarc -> Mm -> Vec
+directionAt :: MeasuredPolyarc -> Mm -> Vec
 directionAt p s = let (i, t) = locate p s in Segment.directionAt t (chain p Vector.! i)
 
 -- | The station nearest to a point. The time is linear in the number of segments.
-station :: Polyarc -> Point -> Mm
-station p q = Mm (table p Unboxed.! best + Distance.nearestFraction q segment * l)
+nearestStation :: MeasuredPolyarc -> Point -> Mm
+nearestStation p q = Mm (table p Unboxed.! best + Distance.nearestFraction q segment * l)
   where
     best = fst (minimumBy (comparing snd) distances)
     distances = [(i, Distance.toPoint q s) | (i, s) <- Vector.toList (Vector.indexed (chain p))]
@@ -139,8 +139,8 @@ station p q = Mm (table p Unboxed.! best + Distance.nearestFraction q segment * 
 
 -- | The segments from one station to a later one, the first and the last cut there. A part no
 -- longer than 'Tolerance.coincident' at either end is omitted.
-stretch :: Polyarc -> Mm -> Mm -> [Segment]
-stretch p a b =
+segmentsBetween :: MeasuredPolyarc -> Mm -> Mm -> [Segment]
+segmentsBetween p a b =
   [ part i
     | i <- [i1 .. i2],
       let Mm l = Segment.length (part i),
@@ -159,9 +159,9 @@ stretch p a b =
 -- | The intersections of two polyarcs, in the order of the first. Polyarcs that represent curves
 -- differ from them by up to 'Tolerance.curve'. They therefore count as touching when they come
 -- within twice that distance, and two intersections where they touch count as one.
-meetings :: NonEmpty Segment -> NonEmpty Segment -> [Point]
-meetings a b = case mergeTouching (crossings a b) of
-  [] | closest <- nearest a b, distance closest <= slack -> [place closest]
+intersections :: NonEmpty Segment -> NonEmpty Segment -> [Point]
+intersections a b = case mergeTouching (crossings a b) of
+  [] | closest <- nearest a b, distance closest <= slack -> [nearestPoint closest]
   ps -> ps
   where
     slack = plus Tolerance.curve Tolerance.curve
@@ -173,7 +173,7 @@ meetings a b = case mergeTouching (crossings a b) of
           mergeTouching (middle : rest)
       p : rest -> p : mergeTouching rest
       [] -> []
-    midway p q = at whole (times 0.5 (plus (station whole p) (station whole q)))
+    midway p q = at whole (times 0.5 (plus (nearestStation whole p) (nearestStation whole q)))
     toOther p = minimum [Distance.toPoint p g | g <- NonEmpty.toList b]
     -- Curves that stay together for longer overlap rather than touch.
     longestTouch = Mm 0.5
@@ -182,7 +182,10 @@ meetings a b = case mergeTouching (crossings a b) of
 crossings :: NonEmpty Segment -> NonEmpty Segment -> [Point]
 crossings a b =
   distinct
-    (concatMap (\s -> concatMap (inOrder s . Distance.crossings s) (closeTo s)) (NonEmpty.toList a))
+    ( concatMap
+        (\s -> concatMap (inOrder s . Distance.intersections s) (closeTo s))
+        (NonEmpty.toList a)
+    )
   where
     tree = BoxTree.index BoundingBox.ofSegment (NonEmpty.toList b)
     closeTo s =
@@ -195,8 +198,8 @@ crossings a b =
     sameWithin = plus Tolerance.coincident Tolerance.coincident
 
 -- | The least distance of two polyarcs.
-gap :: NonEmpty Segment -> NonEmpty Segment -> Mm
-gap a b = distance (nearest a b)
+leastDistance :: NonEmpty Segment -> NonEmpty Segment -> Mm
+leastDistance a b = distance (nearest a b)
 
 -- | The least distance of two polyarcs, and the point of the first at which it occurs.
 nearest :: NonEmpty Segment -> NonEmpty Segment -> ClosestPoint

@@ -9,8 +9,8 @@ module Geometry.Polyarc
     Ends (..),
     length,
     reverse,
-    joints,
-    chained,
+    neighbours,
+    closeGaps,
     signedArea,
     areaOf,
   )
@@ -42,8 +42,8 @@ reverse (Polyarc ends ss) = Polyarc ends (NonEmpty.reverse (fmap Segment.reverse
 
 -- | All pairs of consecutive segments in order, each with the index of its first segment from 0.
 -- For a closed polyarc the last pair is the last segment and the first.
-joints :: Polyarc -> [(Int, Segment, Segment)]
-joints (Polyarc ends ss) = zip3 [0 ..] list (drop 1 list <> closing)
+neighbours :: Polyarc -> [(Int, Segment, Segment)]
+neighbours (Polyarc ends ss) = zip3 [0 ..] list (drop 1 list <> closing)
   where
     list = NonEmpty.toList ss
     closing = case ends of
@@ -53,8 +53,8 @@ joints (Polyarc ends ss) = zip3 [0 ..] list (drop 1 list <> closing)
 -- | Close the gaps that rounding leaves between the segments of a list of things: each segment is
 -- made to start exactly at the end of the previous one, and the last of a closed polyarc to end at
 -- the start of the first. @get@ and @set@ read and replace the segment of a thing.
-chained :: (a -> Segment) -> (Segment -> a -> a) -> Ends -> NonEmpty a -> NonEmpty a
-chained get set ends (first :| rest) = case rest of
+closeGaps :: (a -> Segment) -> (Segment -> a -> a) -> Ends -> NonEmpty a -> NonEmpty a
+closeGaps get set ends (first :| rest) = case rest of
   [] -> (case ends of Open -> first; Closed -> set (closing (get first)) first) :| []
   _ -> first :| follow (end (get first)) rest
   where
@@ -72,7 +72,7 @@ chained get set ends (first :| rest) = case rest of
     -- 0 and −0 are equal but print differently; points with a zero coordinate are always replaced.
     isAt p q = p == q && Vec.x p /= 0 && Vec.y p /= 0
     closing s = s {end = start (get first)}
-{-# INLINE chained #-}
+{-# INLINE closeGaps #-}
 
 -- | The area that a closed polyarc encloses, in mm²; positive when it is counter-clockwise.
 signedArea :: Polyarc -> Double

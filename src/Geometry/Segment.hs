@@ -15,8 +15,8 @@ module Geometry.Segment
     -- * Measures
     length,
     radius,
+    sagitta,
     bulge,
-    toBulge,
     carrier,
 
     -- * Along the segment
@@ -24,7 +24,7 @@ module Geometry.Segment
     startDirection,
     endDirection,
     directionAt,
-    spans,
+    hasFootOf,
     fraction,
 
     -- * Changed segments
@@ -60,12 +60,12 @@ data Segment
 arc :: Sense -> Point -> Point -> Point -> Segment
 arc sense centre start end = Arc {start, end, centre, sweep}
   where
-    sweep = Carrier.sweepInSense sense (Vec.turn (Vec.to centre start) (Vec.to centre end))
+    sweep = Carrier.sweepInSense sense (Vec.signedAngle (Vec.to centre start) (Vec.to centre end))
 
 -- | A full circle as an arc that starts and ends at a point on it.
 fullCircle :: Sense -> Circle -> Point -> Segment
 fullCircle sense (Circle centre _) start =
-  Arc {start, end = start, centre, sweep = Rad (Carrier.sense sense * 2 * pi)}
+  Arc {start, end = start, centre, sweep = Rad (Carrier.senseSign sense * 2 * pi)}
 
 -- | The 'arc' about a centre from a start to an end, or the full circle when both are equal, as in
 -- frames.
@@ -88,7 +88,7 @@ fromBulge start end b
       }
   where
     normal = Vec.left (Vec.to start end)
-    midpoint = Vec.between 0.5 start end
+    midpoint = Vec.interpolate 0.5 start end
 
 -- | The radius of an arc, by its centre and its start.
 radius :: Point -> Point -> Mm
@@ -102,15 +102,15 @@ length segment = case segment of
 
 -- | The sagitta: the largest distance between the segment and its chord, @r·(1 − cos(φ/2))@ for a
 -- sweep φ of at most 2π.
-bulge :: Segment -> Mm
-bulge segment = case segment of
+sagitta :: Segment -> Mm
+sagitta segment = case segment of
   Straight _ _ -> Mm 0
   Arc {start, centre, sweep = Rad s} ->
     let Mm r = radius centre start in Mm (2 * r * sin (s / 4) ^ (2 :: Int))
 
 -- | The bulge of the segment, @tan(sweep/4)@; 0 for a line.
-toBulge :: Segment -> Double
-toBulge segment = case segment of
+bulge :: Segment -> Double
+bulge segment = case segment of
   Straight _ _ -> 0
   Arc {sweep = Rad s} -> tan (s / 4)
 
@@ -130,7 +130,7 @@ at t segment
   | t <= 0 = start segment
   | t >= 1 = end segment
   | otherwise = case segment of
-    Straight a b -> Vec.between t a b
+    Straight a b -> Vec.interpolate t a b
     Arc {start = a, end = b, centre, sweep = Rad s}
       | s /= 0 && abs s < flat -> onFlatArc a b s
       | otherwise -> Vec.shift (Vec.rotate (Rad (t * s)) (Vec.to centre a)) centre
@@ -172,8 +172,8 @@ tangent (Rad s) out = Vec.unit (Vec.scale (signum s) (Vec.left out))
 
 -- | True when the foot of a point lies on the segment and not before or after it. For an arc: the
 -- point lies in its sector.
-spans :: Segment -> Point -> Bool
-spans segment p = let t = fraction segment p in t >= 0 && t <= 1
+hasFootOf :: Segment -> Point -> Bool
+hasFootOf segment p = let t = fraction segment p in t >= 0 && t <= 1
 
 -- | The fraction of the length at which the foot of a point lies. It is negative before a line and
 -- above 1 after it; for an arc it lies in [0, 2π/sweep).
@@ -181,7 +181,7 @@ fraction :: Segment -> Point -> Double
 fraction segment p = case segment of
   Straight a b -> let u = Vec.to a b in Vec.dot u (Vec.to a p) / Vec.dot u u
   Arc {start, centre, sweep = Rad s} ->
-    let Rad t = Vec.turn (Vec.to centre start) (Vec.to centre p)
+    let Rad t = Vec.signedAngle (Vec.to centre start) (Vec.to centre p)
         along = signum s * t
      in (if along < 0 then along + 2 * pi else along) / abs s
 

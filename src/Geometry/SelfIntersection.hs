@@ -1,11 +1,11 @@
 -- | The self-intersections of a polyarc of the part: a report for the user names the first one.
 --
 -- Candidates come from the kernel's bounding-box tree, neighbours are tested separately, and the
--- exact test is 'Distance.crossings'. The self-intersections of raw offsets, which are data and not
--- faults, belong to "Offset.SelfIntersection".
+-- exact test is 'Distance.intersections'. The self-intersections of raw offsets, which are data and
+-- not faults, belong to "Offset.SelfIntersection".
 module Geometry.SelfIntersection
-  ( selfCrossing,
-    crossingOf,
+  ( firstSelfIntersection,
+    firstSelfIntersectionBy,
   )
 where
 
@@ -34,14 +34,15 @@ import Geometry.Vec qualified as Vec
 
 -- | The first two segments of a polyarc, by index, that cross or touch elsewhere than at a common
 -- joint, and the point.
-selfCrossing :: Polyarc -> Maybe (Int, Int, Point)
-selfCrossing (Polyarc ends ss) = crossingOf id ends ss
+firstSelfIntersection :: Polyarc -> Maybe (Int, Int, Point)
+firstSelfIntersection (Polyarc ends ss) = firstSelfIntersectionBy id ends ss
 
--- | 'selfCrossing' for a list of things, by the segment of each.
-crossingOf :: (a -> Segment) -> Ends -> NonEmpty a -> Maybe (Int, Int, Point)
-crossingOf get ends things = case concatMap found (neighbours chain <> closeBy chain) of
-  [] -> Nothing
-  ps -> Just (minimumBy (comparing (\(i, j, _) -> (i, j))) ps)
+-- | 'firstSelfIntersection' for a list of things, by the segment of each.
+firstSelfIntersectionBy :: (a -> Segment) -> Ends -> NonEmpty a -> Maybe (Int, Int, Point)
+firstSelfIntersectionBy get ends things =
+  case concatMap found (neighbours chain <> closeBy chain) of
+    [] -> Nothing
+    ps -> Just (minimumBy (comparing (\(i, j, _) -> (i, j))) ps)
   where
     chain = Chain {ends, segments = Vector.unfoldrN (NonEmpty.length things) next list}
     list = NonEmpty.toList things
@@ -78,18 +79,18 @@ crossingsOf chain i j
   | closes && goesStraightOn other s = []
   | not (BoundingBox.meets (BoundingBox.ofSegment s) (BoundingBox.ofSegment other)) = []
   | null joints = crossings
-  | otherwise = retraced s other <> filter (\q -> not (any (Vec.near q) joints)) crossings
+  | otherwise = retraced s other <> filter (\q -> not (any (Vec.isNear q) joints)) crossings
   where
     s = segments chain Vector.! i
     other = segments chain Vector.! j
-    crossings = Distance.crossings s other
+    crossings = Distance.intersections s other
     closes = j /= i + 1 && isClosingPair chain i j
     joints = [Segment.end s | j == i + 1] <> [Segment.start s | isClosingPair chain i j]
 
 -- | Pairs of segments that are not neighbours and whose bounding boxes meet.
 closeBy :: Chain -> [(Int, Int)]
 closeBy chain
-  | ClosedPolyarcs.walks loops == 0 = []
+  | ClosedPolyarcs.loopCount loops == 0 = []
   | otherwise = runST $ do
     pairs <- newSTRef []
     SegmentTree.pairs tree (pure True) $ \a b -> do
@@ -99,9 +100,9 @@ closeBy chain
     readSTRef pairs
   where
     (flat, numbers) = FlatPolyarc.fromSegments (ends chain) (segments chain)
-    loops = ClosedPolyarcs.fromOutlines 0 [flat]
+    loops = ClosedPolyarcs.fromFlatPolyarcs 0 [flat]
     Mm margin = times 2 Tolerance.coincident
-    tree = SegmentTree.boxes margin loops
+    tree = SegmentTree.build margin loops
     -- The kernel closes every polyarc; the segment that closes an open one has no index.
     number k =
       let i = fromIntegral (indexPrimArray (ClosedPolyarcs.sources loops) k)

@@ -7,7 +7,7 @@ module Geometry.Tolerance
     coincident,
     equal,
     reach,
-    hair,
+    negligibleShare,
 
     -- * Directions
     smoothAngle,
@@ -23,7 +23,7 @@ module Geometry.Tolerance
     arcLength,
     arcLengthShare,
     parameter,
-    still,
+    stationary,
 
     -- * Arc fitting
     straight,
@@ -53,8 +53,8 @@ reach :: Mm
 reach = Mm 1e6
 
 -- | The share of a segment's length that is negligible.
-hair :: Double
-hair = 1e-9
+negligibleShare :: Double
+negligibleShare = 1e-9
 
 -- | The largest angle between the directions of two elements that join smoothly.
 smoothAngle :: Rad
@@ -95,8 +95,8 @@ parameter :: Double
 parameter = 1e-12
 
 -- | The largest velocity, in mm per unit of the parameter, that counts as 0.
-still :: Mm
-still = Mm 1e-9
+stationary :: Mm
+stationary = Mm 1e-9
 
 -- | The largest sweep of an arc that counts as a line. The centre of such an arc is so distant that
 -- distances from it lose more digits (@c·5·10⁷·10⁻¹⁶@ for a chord c) than the sagitta amounts to

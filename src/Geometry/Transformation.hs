@@ -16,7 +16,7 @@ module Geometry.Transformation
     line,
     circle,
     segment,
-    contour,
+    polyarc,
   )
 where
 
@@ -128,5 +128,5 @@ segment t s = case s of
       }
 
 -- | The image of a polyarc.
-contour :: Transformation -> Polyarc -> Polyarc
-contour t (Polyarc ends segments) = Polyarc ends (fmap (segment t) segments)
+polyarc :: Transformation -> Polyarc -> Polyarc
+polyarc t (Polyarc ends segments) = Polyarc ends (fmap (segment t) segments)

@@ -24,11 +24,11 @@ module Geometry.Vec
     rotate,
     polar,
     angle,
-    turn,
+    signedAngle,
     distance,
-    between,
-    near,
-    written,
+    interpolate,
+    isNear,
+    toText,
   )
 where
 
@@ -118,22 +118,22 @@ angle :: Vec -> Rad
 angle (Vec vx vy) = Rad (atan2 vy vx)
 
 -- | The angle from the first vector to the second, in (−π, π], counter-clockwise positive.
-turn :: Vec -> Vec -> Rad
-turn a b = Rad (atan2 (cross a b) (dot a b))
+signedAngle :: Vec -> Vec -> Rad
+signedAngle a b = Rad (atan2 (cross a b) (dot a b))
 
 -- | The distance between two points.
 distance :: Point -> Point -> Mm
 distance a b = Mm (norm (to a b))
 
 -- | The linear interpolation between two points: the first at 0, the second at 1.
-between :: Double -> Point -> Point -> Point
-between t a b = shift (scale t (to a b)) a
+interpolate :: Double -> Point -> Point -> Point
+interpolate t a b = shift (scale t (to a b)) a
 
 -- | True of two points no further apart than 'Tolerance.coincident'.
-near :: Point -> Point -> Bool
-near a b = distance a b <= Tolerance.coincident
+isNear :: Point -> Point -> Bool
+isNear a b = distance a b <= Tolerance.coincident
 
 -- | A point in the notation of a part program, rounded to at most @decimals@ decimals.
-written :: Int -> Point -> Text
-written decimals p =
+toText :: Int -> Point -> Text
+toText decimals p =
   "(" <> Decimal.short decimals (x p) <> ", " <> Decimal.short decimals (y p) <> ")"

@@ -29,7 +29,7 @@ about p segments = round (angles / (2 * pi)) + corrections
       _ | Vec.norm (from s) == 0 || Vec.norm (to s) == 0 -> 0
       -- For a point on the chord, the arc decides on which side of the point the chord passes.
       Arc {sweep = Rad w} | side s == 0 && Vec.dot (from s) (to s) < 0 -> signum w * pi
-      _ -> let Rad t = Vec.turn (from s) (to s) in t
+      _ -> let Rad t = Vec.signedAngle (from s) (to s) in t
     correction s = case s of
       Straight _ _ -> 0
       Arc {start = a, end = b, centre, sweep = Rad w}

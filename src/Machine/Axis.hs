@@ -19,13 +19,13 @@ data Axis = X | Y | Z
 data AxisForm = AxisForm
   { axis :: Axis,
     -- | resolution: length of one pulse
-    step :: Mm,
+    resolution :: Mm,
     -- | true if the axis of the machine points against that of the part
     reversed :: Bool,
     -- | true if the axis points the other way when the machine is set up for turning
     reversedOnLathe :: Bool,
     -- | true if the machine is known to move this axis; a frame may have a word for it in any case
-    moves :: Bool
+    isDriven :: Bool
   }
   deriving stock (Eq, Show)
 

@@ -51,6 +51,6 @@ machineIn :: MachineName -> ByteString -> (Text, Machine)
 machineIn (MachineName name) bytes = (content, machine)
   where
     content = fromRight (Crash.bug (name <> ".machine is not UTF-8")) (Encoding.decodeUtf8' bytes)
-    machine = case Result.settled (FromText.read content) of
+    machine = case Result.ifSound (FromText.read content) of
       Just m -> m
       Nothing -> Crash.bug (name <> ".machine does not read")

@@ -157,7 +157,7 @@ weightsFrom s = do
 
 -- | Checks the rows against each other and against the parity track, the service track and the rows
 -- to skip. The first argument is the number of tracks.
-check :: Int -> Section -> TapeCode -> Map Char (Located Word8) -> [Error]
+check :: Int -> DescriptionSection -> TapeCode -> Map Char (Located Word8) -> [Error]
 check tracks section made located =
   equalRows <> parityFaults <> serviceFaults <> sharedTrack <> skippedSymbols
   where

@@ -21,7 +21,7 @@ import Machine.FeedFromText qualified as FeedFromText
 import Machine.Machine
   ( CommandName (..),
     CommandValue (..),
-    CommandWord (CommandWord, order),
+    CommandWord (CommandWord, commandName),
     CommandWords (..),
     CompensationCommands (..),
     Content (..),
@@ -43,7 +43,7 @@ data CommandContext = CommandContext
 
 -- | The context of a description without commands.
 noCommands :: CommandContext
-noCommands = CommandContext Machine.noOrders []
+noCommands = CommandContext Machine.noCommandWords []
 
 -- | Located words of the commands, before they are put into a 'CommandContext'.
 data Events = Events
@@ -119,7 +119,7 @@ eventFrom word s = do
   NonEmpty.toList <$> wordsFrom section
 
 -- | Reads one or more numbers, each for another word.
-wordsFrom :: Section -> Result w Error (NonEmpty (Located CommandWord))
+wordsFrom :: DescriptionSection -> Result w Error (NonEmpty (Located CommandWord))
 wordsFrom section = do
   found <-
     traverse wordFrom (filter ((== Just "set") . keyWord) (entries section))
@@ -132,8 +132,8 @@ wordsFrom section = do
     repetitions ws =
       [ Twice r ("the number of ‘" <> n <> "’") first
         | (k, Located r w) <- zip [0 ..] ws,
-          let CommandName n = order w,
-          Located first _ <- take 1 [p | p <- take k ws, order (value p) == order w]
+          let CommandName n = commandName w,
+          Located first _ <- take 1 [p | p <- take k ws, commandName (value p) == commandName w]
       ]
 
 -- | Reads one number of a command.
@@ -148,7 +148,7 @@ wordFrom s = case (arguments s, block s) of
   where
     forms = ["set M 8", "set S argument", "set D diameter", "set S steps { 1 = 63 … }"]
     stepSection ss =
-      Section {sectionName = "the steps", sectionRegion = extent s, entries = ss}
+      DescriptionSection {sectionName = "the steps", sectionRegion = extent s, entries = ss}
     located n v = Located (extent s) (CommandWord (CommandName n) v)
     nameFrom a = case value a of
       Word n -> Just n
@@ -196,14 +196,14 @@ check machine context = concatMap (wordFaults machine) (eventWords context)
 -- | Lists the mistakes in one number of an event.
 wordFaults :: Machine -> (Text, Located CommandWord) -> [Error]
 wordFaults machine (event, Located r (CommandWord name v)) =
-  case Machine.orderCapacity machine name of
+  case Machine.commandCapacity machine name of
     Nothing -> [BadCommand r (UnknownCommandName (nameText name) (namesIn machine))]
     Just most ->
       sizeFaults machine r name most v
         <> eventFaults r event v
         <> [ BadCommand r ZeroIsNoCommand
              | givesZero v,
-               not (Machine.canOrder machine name 0)
+               not (Machine.canEncode machine name 0)
            ]
   where
     nameText (CommandName n) = n
@@ -213,7 +213,7 @@ namesIn :: Machine -> [Text]
 namesIn machine =
   [ n
     | w <- Machine.wordsOf machine,
-      CommandName n <- [o | Command o <- [content w]] <> [o | OrderBit o _ <- service (form w)]
+      CommandName n <- [o | Command o <- [content w]] <> [o | CommandBit o _ <- service (form w)]
   ]
 
 givesZero :: CommandValue -> Bool

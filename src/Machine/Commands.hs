@@ -4,7 +4,7 @@ module Machine.Commands
     CommandWord (..),
     CommandValue (..),
     CompensationCommands (..),
-    noOrders,
+    noCommandWords,
   )
 where
 
@@ -28,7 +28,7 @@ data CommandWords = CommandWords
   deriving stock (Eq, Show)
 
 -- | Number in the word or the service bits of a command.
-data CommandWord = CommandWord {order :: CommandName, value :: CommandValue}
+data CommandWord = CommandWord {commandName :: CommandName, value :: CommandValue}
   deriving stock (Eq, Show)
 
 -- | Source of a command's number.
@@ -46,12 +46,12 @@ data CommandValue
 
 -- | Commands for cutter compensation: left (G41), right (G42) and off (G40).
 data CompensationCommands = CompensationCommands
-  { keepLeft :: CommandWord,
-    keepRight :: CommandWord,
-    release :: CommandWord
+  { compensateLeft :: CommandWord,
+    compensateRight :: CommandWord,
+    cancelCompensation :: CommandWord
   }
   deriving stock (Eq, Show)
 
 -- | No word for any command.
-noOrders :: CommandWords
-noOrders = CommandWords [] [] [] [] [] [] [] Nothing []
+noCommandWords :: CommandWords
+noCommandWords = CommandWords [] [] [] [] [] [] [] Nothing []

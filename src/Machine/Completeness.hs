@@ -22,11 +22,11 @@ check machine locatedAxes arcsRegion feedsRegion locatedItems =
   concat
     [ concatMap (wordFaults machine) locatedWords,
       duplicates locatedWords,
-      [ BadFrame r (NoWord (contentWord (Along (axis a))))
+      [ BadFrame r (NoWord (contentName (Along (axis a))))
         | Located r a <- locatedAxes,
           isNothing (wordFor machine (Along (axis a)))
       ],
-      [BadFrame feedsRegion (NoWord (contentWord FeedWord)) | isNothing (wordFor machine FeedWord)],
+      [BadFrame feedsRegion (NoWord (contentName FeedWord)) | isNothing (wordFor machine FeedWord)],
       arcFaults machine arcsRegion,
       bitFaults locatedWords,
       [ BadFrame r (NoCheckDigit m)
@@ -52,11 +52,11 @@ wordFaults machine (r, w) = case content w of
     axisFaults a = case axisForm machine a of
       Nothing -> [BadFrame r (NoSuchAxis (axisName a))]
       Just f ->
-        [ BadFrame r (PulseNotDecimal (decimals (form w)) (step f))
+        [ BadFrame r (PulseNotDecimal (decimals (form w)) (resolution f))
           | decimals (form w) > 0,
-            not (isLastPlace (decimals (form w)) (step f))
+            not (isLastPlace (decimals (form w)) (resolution f))
         ]
-          <> [BadFrame r (NoSign (contentWord (content w))) | sign (form w) == Unsigned]
+          <> [BadFrame r (NoSign (contentName (content w))) | sign (form w) == Unsigned]
     isLastPlace n (Mm p) = abs (p * 10 ^ n - 1) < pulseTolerance
     motionFaults m =
       let ns = catMaybes [rapid m, Just (straight m), clockwise m, counterClockwise m]
@@ -72,7 +72,7 @@ pulseTolerance = 1e-9
 -- | Reports words with the same content as an earlier word.
 duplicates :: [(Region, Word')] -> [Error]
 duplicates locatedWords =
-  [ BadFrame r (TwoWords (contentWord (content w)) first)
+  [ BadFrame r (TwoWords (contentName (content w)) first)
     | (k, (r, w)) <- zip [0 ..] locatedWords,
       (first, _) <- take 1 [p | p@(_, v) <- take k locatedWords, isSame (content v) (content w)]
   ]
@@ -86,7 +86,7 @@ arcFaults :: Machine -> Region -> [Error]
 arcFaults machine r = case arcs machine of
   NoArcs -> []
   Arcs {} ->
-    [ BadFrame r (NoWord (contentWord (Centre a)))
+    [ BadFrame r (NoWord (contentName (Centre a)))
       | a <- [X, Y],
         isNothing (wordFor machine (Centre a))
     ]
@@ -121,7 +121,7 @@ bitFaults locatedWords =
         | b <- bits,
           isOptional b
       ],
-      [ BadFrame r (TwoWords (contentWord (Command c)) r')
+      [ BadFrame r (TwoWords (contentName (Command c)) r')
         | (r, c) <- firsts,
           (r', w) <- locatedWords,
           content w == Command c
@@ -132,7 +132,7 @@ bitFaults locatedWords =
     bits =
       [ BitPlace {wordRegion = r, command = c, bit = k, isOptional = presence w /= Always}
         | (r, w) <- locatedWords,
-          OrderBit c k <- service (form w)
+          CommandBit c k <- service (form w)
       ]
     brakingHoles =
       [r | (r, w) <- locatedWords, _ <- filter (== BrakingHole) (service (form w))]

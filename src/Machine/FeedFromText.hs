@@ -31,7 +31,7 @@ import Machine.Syntax
 
 -- | Reads the lines of a table, such as @1 = 15@ and @0..40 = 10 * 10^(n/20)@. Each line gives the
 -- values of a code or of a range of codes, as a formula in the code @n@. Values are above 0.
-table :: Section -> Result w Error (Map Int Double)
+table :: DescriptionSection -> Result w Error (Map Int Double)
 table section = do
   given <- concat . catMaybes <$> traverse (attempt . tableLine) (entries section)
   let values = Map.fromListWith (\_ first -> first) [(n, v) | (n, _, v) <- given]
@@ -102,7 +102,7 @@ feeds s = do
       _ -> Nothing
 
 -- | Reads the codes: either a table, or a range of codes that are their own values.
-codesFrom :: Section -> Result w Error FeedCodes
+codesFrom :: DescriptionSection -> Result w Error FeedCodes
 codesFrom section =
   case ( [s | s <- entries section, keyWord s == Just "table"],
          [s | s <- entries section, keyWord s == Just "direct"]

@@ -66,7 +66,7 @@ frame hasService s = do
     separatorFrom e = (extent e,) <$> quotedText e
 
 -- | Reads all items of a frame, in their order.
-itemsFrom :: Maybe Bool -> Section -> Result w Error [(Region, LayoutItem)]
+itemsFrom :: Maybe Bool -> DescriptionSection -> Result w Error [(Region, LayoutItem)]
 itemsFrom hasService section = concat <$> traverse item (entries section)
   where
     item e = case keyWord e of
@@ -123,7 +123,7 @@ axisNamed :: Text -> Maybe Axis
 axisNamed a = lookup a [("x", X), ("y", Y), ("z", Z)]
 
 -- | Reads the codes of the kinds of motion.
-motionCodes :: Section -> Result w Error MotionCodes
+motionCodes :: DescriptionSection -> Result w Error MotionCodes
 motionCodes section =
   MotionCodes
     <$> optional "rapid" Nothing (fmap Just . number) section
@@ -137,7 +137,7 @@ motionCodes section =
       _ -> Nothing
 
 -- | Reads the block of a word with this address and content.
-wordFrom :: Maybe Bool -> Statement -> Text -> Content -> Section -> Result w Error Word'
+wordFrom :: Maybe Bool -> Statement -> Text -> Content -> DescriptionSection -> Result w Error Word'
 wordFrom hasService e address' content' section = do
   (exactly, n) <- required "digits" "digits 4" digitsFrom section
   (places, givenSign, givenHoles, presence') <-
@@ -221,7 +221,7 @@ holesFrom args = if null args then Nothing else pure <$> traverse (hole . value)
       Word "minus" -> Just MinusHole
       Word "marker" -> Just Marker
       Word "braking" -> Just BrakingHole
-      Bit name k -> Just (OrderBit (CommandName name) k)
+      Bit name k -> Just (CommandBit (CommandName name) k)
       Dash -> Just NoHole
       _ -> Nothing
 
@@ -255,7 +255,7 @@ kindOf c = case c of
 unsuited :: Region -> Word' -> [Error]
 unsuited r w =
   map
-    (BadFrame r . Unsuited (Machine.contentWord (content w)))
+    (BadFrame r . Unsuited (Machine.contentName (content w)))
     ( catMaybes
         [ unsuitedSign kind (form w),
           unsuitedLength kind (address w) (form w),

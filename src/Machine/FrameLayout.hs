@@ -14,7 +14,7 @@ module Machine.FrameLayout
     Service (..),
     Presence (..),
     CommandName (..),
-    contentWord,
+    contentName,
     capacityOf,
   )
 where
@@ -113,7 +113,7 @@ data Service
   = -- | The number is negative.
     MinusHole
   | -- | Bit of a command's number, counted from the lowest.
-    OrderBit CommandName Int
+    CommandBit CommandName Int
   | -- | The row always has a hole.
     Marker
   | -- | The machine slows down to the feed of this frame.
@@ -141,8 +141,8 @@ newtype CommandName = CommandName Text
   deriving stock (Show)
 
 -- | Names the content of a word in a report.
-contentWord :: Content -> Text
-contentWord c = case c of
+contentName :: Content -> Text
+contentName c = case c of
   FrameNumber -> "frame number"
   Motion _ -> "kind of motion"
   Along a -> axisName a

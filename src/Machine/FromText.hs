@@ -49,7 +49,8 @@ read text
 machineFrom :: Text -> [Statement] -> Result w Error Machine
 machineFrom text ss = marked *> machine
   where
-    whole = Section {sectionName = "the machine", sectionRegion = Region 0 0, entries = ss}
+    whole =
+      DescriptionSection {sectionName = "the machine", sectionRegion = Region 0 0, entries = ss}
     heading = [s | s <- ss, keyWord s == Just "machine"]
     body = [s | s <- ss, keyWord s /= Just "machine"]
     markOfMachine = case heading of
@@ -82,10 +83,10 @@ data Sections = Sections
 
 assemble :: [DescribedValue] -> (Text, Text) -> Sections -> Machine
 assemble values (n, t) s =
-  (machineOf s) {name = MachineName n, title = t, facts = values}
+  (machineOf s) {name = MachineName n, title = t, describedValues = values}
 
 -- | Reads all sections, and then checks them against each other.
-sections :: Section -> Result w Error Sections
+sections :: DescriptionSection -> Result w Error Sections
 sections whole =
   ( Sections
       <$> tape
@@ -106,7 +107,7 @@ sections whole =
     trackCount = output (required "tape" "" tracksFrom whole)
     codeSection =
       required "code" "code \"ISO\" { … }" (located (CodeFromText.code trackCount)) whole
-    hasService = isJust . serviceTrack . value <$> Result.settled codeSection
+    hasService = isJust . serviceTrack . value <$> Result.ifSound codeSection
     located f s = Located (extent s) <$> f s
 
 -- | Checks the sections against each other.
@@ -160,9 +161,9 @@ machineOf s =
       layout = FrameFromText.layout (locatedLayout s),
       feeds = value (locatedFeeds s),
       braking = value (locatedBraking s),
-      orders = CommandFromText.allWords (commandContext s),
+      commandWords = CommandFromText.allWords (commandContext s),
       limits = programLimits s,
-      facts = []
+      describedValues = []
     }
 
 -- | Reads the name of a machine and its title. Part programs can write the name without quotation
@@ -229,7 +230,7 @@ countFrom word low high = withArguments [word <> " " <> Text.pack (show example)
       _ -> Nothing
 
 -- | Reads the axes: at least one, and each once.
-axesFrom :: Section -> Result w Error (NonEmpty (Located AxisForm))
+axesFrom :: DescriptionSection -> Result w Error (NonEmpty (Located AxisForm))
 axesFrom whole = do
   found <- allWith "axis" axisFrom whole
   case NonEmpty.nonEmpty found of

@@ -99,7 +99,7 @@ word formula rest = case Text.uncons rest' of
 numeral :: Text -> (Token_, Int)
 numeral rest
   | Text.any isPart (Text.take 1 rest') = (BadNumber junk, Text.length junk)
-  | otherwise = case Decimal.amount digits of
+  | otherwise = case Decimal.parse digits of
     Just v -> (Numeral digits v, Text.length digits)
     Nothing -> (BadNumber digits, Text.length digits)
   where

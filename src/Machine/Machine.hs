@@ -21,9 +21,9 @@ module Machine.Machine
     AxisForm (..),
     Arcs (..),
     axisForm,
-    pulse,
-    pulseOf,
-    driven,
+    planeResolution,
+    resolutionOf,
+    drivenAxes,
     forTurning,
     isMirrored,
 
@@ -43,10 +43,10 @@ module Machine.Machine
     wordFor,
     capacity,
     centreCapacity,
-    orderCapacity,
-    orderDecimals,
-    canOrder,
-    contentWord,
+    commandCapacity,
+    commandDecimals,
+    canEncode,
+    contentName,
     hasRapidMotion,
 
     -- * Feeds
@@ -72,7 +72,7 @@ module Machine.Machine
     CommandWord (..),
     CommandValue (..),
     CompensationCommands (..),
-    noOrders,
+    noCommandWords,
 
     -- * Limits
     Limits (..),
@@ -95,7 +95,7 @@ import Machine.Commands
     CommandWord (..),
     CommandWords (..),
     CompensationCommands (..),
-    noOrders,
+    noCommandWords,
   )
 import Machine.Feeds
   ( Braking (..),
@@ -121,7 +121,7 @@ import Machine.FrameLayout
     Sign (..),
     Word' (..),
     capacityOf,
-    contentWord,
+    contentName,
   )
 import Machine.TapeCode (Medium (..), Spare (..), TapeCode (..))
 
@@ -141,9 +141,9 @@ data Machine = Machine
     layout :: Layout,
     feeds :: Feeds,
     braking :: Braking,
-    orders :: CommandWords,
+    commandWords :: CommandWords,
     limits :: Limits,
-    facts :: [DescribedValue]
+    describedValues :: [DescribedValue]
   }
   deriving stock (Eq, Show)
 
@@ -176,23 +176,23 @@ axisForm machine a = among a (NonEmpty.toList (axes machine))
 
 -- | Resolution in the plane of x and y: the larger of the two pulses. A machine with neither axis
 -- has the resolution of z.
-pulse :: Machine -> Mm
-pulse machine = if inPlane > Mm 0 then inPlane else largestStep (const True)
+planeResolution :: Machine -> Mm
+planeResolution machine = if inPlane > Mm 0 then inPlane else largestStep (const True)
   where
     inPlane = largestStep (/= Z)
     largestStep chosen =
-      foldl' max (Mm 0) [step f | f <- NonEmpty.toList (axes machine), chosen (axis f)]
+      foldl' max (Mm 0) [resolution f | f <- NonEmpty.toList (axes machine), chosen (axis f)]
 
 -- | Resolution of an axis. An axis that the machine lacks has the resolution of the plane.
-pulseOf :: Machine -> Axis -> Mm
-pulseOf machine a = case axes machine of
+resolutionOf :: Machine -> Axis -> Mm
+resolutionOf machine a = case axes machine of
   first :| others
-    | axis first == a -> step first
-    | otherwise -> maybe (pulse machine) step (among a others)
+    | axis first == a -> resolution first
+    | otherwise -> maybe (planeResolution machine) resolution (among a others)
 
 -- | Axes that the machine is known to move.
-driven :: Machine -> [Axis]
-driven machine = [axis f | f <- NonEmpty.toList (axes machine), moves f]
+drivenAxes :: Machine -> [Axis]
+drivenAxes machine = [axis f | f <- NonEmpty.toList (axes machine), isDriven f]
 
 -- | The machine set up for turning: its axes point as on a lathe.
 forTurning :: Machine -> Machine
@@ -234,24 +234,24 @@ centreCapacity machine = if least == maxBound then 0 else Pulses least
     capacities = [capacityOf (form w) | w <- wordsOf machine, Centre _ <- [content w]]
 
 -- | Largest number of a command; 'Nothing' if the frame has neither a word nor bits for it.
-orderCapacity :: Machine -> CommandName -> Maybe Int
-orderCapacity machine command =
+commandCapacity :: Machine -> CommandName -> Maybe Int
+commandCapacity machine command =
   case ([form w | w <- wordsOf machine, Command c <- [content w], c == command], bits) of
     (f : _, _) -> Just (capacityOf f)
     ([], []) -> Nothing
     ([], ks) -> Just (sum (map (2 ^) ks))
   where
-    bits = [k | w <- wordsOf machine, OrderBit c k <- service (form w), c == command]
+    bits = [k | w <- wordsOf machine, CommandBit c k <- service (form w), c == command]
 
 -- | Number of digits after the decimal point in the word of a command.
-orderDecimals :: Machine -> CommandName -> Int
-orderDecimals machine command =
+commandDecimals :: Machine -> CommandName -> Int
+commandDecimals machine command =
   maximum (0 : [decimals (form w) | w <- wordsOf machine, content w == Command command])
 
 -- | True if a frame can give this number of a command. If every frame contains the word or the
 -- bits, the number 0 means that no command is given.
-canOrder :: Machine -> CommandName -> Int -> Bool
-canOrder machine command v = case orderCapacity machine command of
+canEncode :: Machine -> CommandName -> Int -> Bool
+canEncode machine command v = case commandCapacity machine command of
   Nothing -> False
   Just most ->
     v <= most

@@ -3,7 +3,7 @@
 -- A reader of a line returns 'Nothing' if it does not accept the arguments, and a failed result if
 -- it has reported a mistake in them.
 module Machine.Section
-  ( Section (..),
+  ( DescriptionSection (..),
 
     -- * Keys
     allowKeys,
@@ -40,7 +40,7 @@ import Machine.Error (Error (..))
 import Machine.Syntax
 
 -- | The statements of a block, or of the whole file.
-data Section = Section
+data DescriptionSection = DescriptionSection
   { -- | name in reports, such as @the tape@
     sectionName :: Text,
     -- | region of a report that something is missing
@@ -52,7 +52,7 @@ data Section = Section
 
 -- | Reports every key that is in neither list, and every repetition of a key in the first list.
 -- Keys of the second list may be repeated.
-allowKeys :: [Text] -> [Text] -> Section -> Result w Error ()
+allowKeys :: [Text] -> [Text] -> DescriptionSection -> Result w Error ()
 allowKeys once often section = Result.failing (concat (zipWith fault [0 ..] (entries section))) ()
   where
     fault k s = case keyWord s of
@@ -67,7 +67,12 @@ allowKeys once often section = Result.failing (concat (zipWith fault [0 ..] (ent
 
 -- | Reads the first statement with a key. If the key is missing, the report shows the example. No
 -- report is made if the section has a misspelt key that 'allowKeys' reports as unknown.
-required :: Text -> Text -> (Statement -> Result w Error a) -> Section -> Result w Error a
+required ::
+  Text ->
+  Text ->
+  (Statement -> Result w Error a) ->
+  DescriptionSection ->
+  Result w Error a
 required word example f section = case statementsWith word (entries section) of
   s : _ -> f s
   []
@@ -80,13 +85,13 @@ required word example f section = case statementsWith word (entries section) of
       Nothing -> False
 
 -- | Reads the first statement with a key, or returns the default value.
-optional :: Text -> a -> (Statement -> Result w Error a) -> Section -> Result w Error a
+optional :: Text -> a -> (Statement -> Result w Error a) -> DescriptionSection -> Result w Error a
 optional word absent f section = case statementsWith word (entries section) of
   s : _ -> f s
   [] -> pure absent
 
 -- | Reads all statements with a key.
-allWith :: Text -> (Statement -> Result w Error a) -> Section -> Result w Error [a]
+allWith :: Text -> (Statement -> Result w Error a) -> DescriptionSection -> Result w Error [a]
 allWith word f section = traverse f (statementsWith word (entries section))
 
 statementsWith :: Text -> [Statement] -> [Statement]
@@ -109,13 +114,13 @@ withBlock ::
   Text ->
   ([Argument] -> Maybe (Result w Error a)) ->
   Statement ->
-  Result w Error (a, Section)
+  Result w Error (a, DescriptionSection)
 withBlock forms title f s = case block s of
   _ | broken s -> alreadyReported
   Just ss
     | Just r <- f (arguments s),
       Nothing <- formula s ->
-      (,Section {sectionName = title, sectionRegion = extent s, entries = ss}) <$> r
+      (,DescriptionSection {sectionName = title, sectionRegion = extent s, entries = ss}) <$> r
   _ -> malformed forms s
 
 -- | Accepts a line without arguments.

@@ -13,8 +13,8 @@
 module Offset.Arrangement
   ( Arrangement,
     arrange,
-    numbers,
-    crossed,
+    windingNumbers,
+    intersectingSegments,
     loops,
   )
 where
@@ -118,8 +118,8 @@ intersections tolerance c boxes = runST $ do
   where
     leftmost i
       | b == 0
-          || ClosedPolyarcs.marked
-            ClosedPolyarcs.copied
+          || ClosedPolyarcs.hasMark
+            ClosedPolyarcs.repeatedMark
             (indexPrimArray (ClosedPolyarcs.marks c) i) =
         []
       | otherwise = ClosedPolyarcs.chord c i $ \dx dy ->
@@ -194,7 +194,10 @@ slices c coordinates nodeOf cutNodes =
     [ i
       | i <- [0 .. sizeofPrimArray (ClosedPolyarcs.xs c) - 1],
         not
-          (ClosedPolyarcs.marked ClosedPolyarcs.copied (indexPrimArray (ClosedPolyarcs.marks c) i))
+          ( ClosedPolyarcs.hasMark
+              ClosedPolyarcs.repeatedMark
+              (indexPrimArray (ClosedPolyarcs.marks c) i)
+          )
     ]
   where
     one i =
@@ -224,7 +227,7 @@ slices c coordinates nodeOf cutNodes =
     bulgeOf i p q =
       let ((x, y), (x', y')) =
             (coordinates Vector.! p, coordinates Vector.! q)
-       in ClosedPolyarcs.part c i x y x' y'
+       in ClosedPolyarcs.partialBulge c i x y x' y'
 
 -- | The position of a node along the chord of segment @i@, multiplied by the
 -- chord's length (mm²).
@@ -355,17 +358,17 @@ propagated coordinates es ordered =
           own = IntMap.lookup k components
           add total i
             | IntMap.lookup (from edge) components == own = total
-            | otherwise = total + times edge * WindingNumber.passed edgePolyarcs x y i
+            | otherwise = total + times edge * WindingNumber.contribution edgePolyarcs x y i
             where
               edge = es Vector.! (i `div` 2)
        in SegmentTree.around tree (-1e300) y x y (0 :: Int) add
     edgePolyarcs =
-      ClosedPolyarcs.apart
+      ClosedPolyarcs.fromSeparateSegments
         [ (x, y, x', y', bulge e)
           | e <- Vector.toList es,
             let ((x, y), (x', y')) = (coordinates Vector.! from e, coordinates Vector.! to e)
         ]
-    tree = SegmentTree.boxes 0 edgePolyarcs
+    tree = SegmentTree.build 0 edgePolyarcs
     components = componentsOf es ordered
     -- The half-edges still to be visited, each with the winding number on its right as it leaves
     -- its node.
@@ -440,8 +443,8 @@ sides a h = if even h then (left, left - m) else (left - m, left)
     m = times (edges a Vector.! (h `div` 2))
 
 -- | The least and the largest winding number of all faces. The unbounded face has the number 0.
-numbers :: Arrangement -> (Int, Int)
-numbers a =
+windingNumbers :: Arrangement -> (Int, Int)
+windingNumbers a =
   foldl'
     (\(low, high) v -> (min low v, max high v))
     (0, 0)
@@ -449,8 +452,8 @@ numbers a =
 
 -- | Two segments that intersect. Prefers a pair that crosses between its ends; otherwise takes
 -- the first pair that meets where the winding number leaves the given bounds.
-crossed :: (Int, Int) -> Arrangement -> Maybe (Int, Int)
-crossed (low, high) a =
+intersectingSegments :: (Int, Int) -> Arrangement -> Maybe (Int, Int)
+intersectingSegments (low, high) a =
   listToMaybe
     ( proper a
         <> [ (min i j, max i j)
@@ -535,4 +538,4 @@ loopVertex a run = (x, y, joined, i)
     joined
       | NonEmpty.length run == 1 = bulge e
       | isEntire = indexPrimArray (ClosedPolyarcs.bulges (chain a)) i
-      | otherwise = ClosedPolyarcs.part (chain a) i x y x' y'
+      | otherwise = ClosedPolyarcs.partialBulge (chain a) i x y x' y'

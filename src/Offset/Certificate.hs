@@ -7,8 +7,8 @@
 -- algorithm that made the loops (McConnell et al., "Certifying algorithms").
 module Offset.Certificate
   ( Clearance (..),
-    clear,
-    covers,
+    isClear,
+    coversSource,
   )
 where
 
@@ -27,27 +27,27 @@ import Offset.Loop qualified as Loop
 -- segment's ends.
 data Clearance = Clearance
   { slack :: Double,
-    least :: Double,
-    largest :: Double,
+    leastDistance :: Double,
+    largestDistance :: Double,
     distance :: Int -> Double,
-    turn :: Sense
+    sense :: Sense
   }
 
 -- | True when the midpoint of a loop's first segment keeps the required distance from every
 -- segment of the source.
-clear :: Clearance -> ClosedPolyarcs -> SegmentTree -> OffsetLoops -> Int -> Bool
-clear measure source boxes l k = uncurry (isFarFrom measure source boxes) (witness l k)
+isClear :: Clearance -> ClosedPolyarcs -> SegmentTree -> OffsetLoops -> Int -> Bool
+isClear measure source boxes l k = uncurry (isFarFrom measure source boxes) (witness l k)
 
 -- | True when a cutter whose centre is at the midpoint of the loop's first segment reaches every
 -- segment of the source.
-covers :: Clearance -> ClosedPolyarcs -> OffsetLoops -> Int -> Bool
-covers measure source l k =
+coversSource :: Clearance -> ClosedPolyarcs -> OffsetLoops -> Int -> Bool
+coversSource measure source l k =
   and
     [ fromPoint source i x y (\d _ -> d <= required measure source i + slack measure)
       | i <- [0 .. sizeofPrimArray (ClosedPolyarcs.xs source) - 1],
         not
-          ( ClosedPolyarcs.marked
-              ClosedPolyarcs.copied
+          ( ClosedPolyarcs.hasMark
+              ClosedPolyarcs.repeatedMark
               (indexPrimArray (ClosedPolyarcs.marks source) i)
           )
     ]
@@ -83,13 +83,13 @@ isFarFrom measure source boxes x y =
             d
               >= ( if footDepth > slack measure && isFacing i
                      then required measure source i
-                     else least measure
+                     else leastDistance measure
                  )
                 - slack measure
         )
   where
-    widest = largest measure
-    isFacing i = case turn measure of
+    widest = largestDistance measure
+    isFacing i = case sense measure of
       CounterClockwise -> isLeftOf source i x y
       Clockwise -> not (isLeftOf source i x y)
 

@@ -125,7 +125,7 @@ connected :: OffsetSource -> [OffsetSegment] -> NonEmpty OffsetSegment
 connected source =
   maybe
     (OffsetSegment (Along 0) (movedElement source 0) :| [])
-    (Polyarc.chained segment (\s p -> p {segment = s}) (SourceOffset.ends source))
+    (Polyarc.closeGaps segment (\s p -> p {segment = s}) (SourceOffset.ends source))
     . NonEmpty.nonEmpty
     . filter ((> Tolerance.coincident) . Segment.length . segment)
 
@@ -143,13 +143,17 @@ largestFitting source
 
 -- | The largest radius that fits, between one that does and one that does not.
 largestOf :: (Mm -> Bool) -> Mm -> Mm -> Mm
-largestOf fits low high = fst (BinarySearch.turningPoint Tolerance.resolution fits low high)
+largestOf fits low high = fst (BinarySearch.bisect Tolerance.resolution fits low high)
 
 -- Reachable paths ---------------------------------------------------------------------------------
 
 -- | Rest material: what stops the cutter, the position of its centre then, and the bounds of the
 -- material.
-data UnreachedPart = UnreachedPart {stop :: Obstacle, middle :: Point, standing :: RestMaterial}
+data UnreachedPart = UnreachedPart
+  { stop :: Obstacle,
+    cutterCentre :: Point,
+    restMaterial :: RestMaterial
+  }
   deriving stock (Eq, Show)
 
 -- | The paths that the centre can take beside a contour, in its order, and the rest material at
@@ -170,8 +174,8 @@ reachable style side radius contour =
     rest k gap =
       UnreachedPart
         { stop = Obstacle {cause = reason gap, largest = past k},
-          middle = centreAt (touching gap),
-          standing = IntMap.findWithDefault Unbounded k material
+          cutterCentre = centreAt (touching gap),
+          restMaterial = IntMap.findWithDefault Unbounded k material
         }
 
 -- | A path with sharp corners instead of round ones where these are whole and nothing is in the
@@ -184,8 +188,8 @@ sharpened source =
     corner p = case (origin p, segment p) of
       (Around i, Arc {start, end})
         | Just (Straight from tip, Straight _ to) <- SourceOffset.sharpCorner source i,
-          Vec.near from start,
-          Vec.near to end,
+          Vec.isNear from start,
+          Vec.isNear to end,
           a <- p {segment = Straight start tip},
           b <- p {segment = Straight tip end},
           null (gouges [a, b]) ->
@@ -197,7 +201,7 @@ sharpened source =
 -- 'Tolerance.clearance'.
 reachableFitting :: CornerStyle -> Side -> Mm -> Polyarc -> ([TrimmedOffset], [UnreachedPart])
 reachableFitting style side radius contour
-  | less > Mm 0 && minus (lengthOf smaller) (lengthOf own) > Tolerance.slot = smaller
+  | less > Mm 0 && minus (lengthOf smaller) (lengthOf own) > Tolerance.ignoredSlot = smaller
   | otherwise = own
   where
     less = minus radius Tolerance.clearance
@@ -259,7 +263,7 @@ gapBetween source p q =
       Straight _ _ -> Nothing
     hasCorner i j =
       let Rad turned =
-            Vec.turn
+            Vec.signedAngle
               (Segment.endDirection (elements source Vector.! i))
               (Segment.startDirection (elements source Vector.! j))
           Rad smooth = Tolerance.smoothAngle

@@ -20,7 +20,7 @@ module Offset.Kernel
     OffsetFault (..),
     offset,
     rawOffset,
-    plain,
+    roundOffset,
   )
 where
 
@@ -59,8 +59,8 @@ data OffsetRequest = OffsetRequest
   }
 
 -- | A request for one distance and round corners.
-plain :: Side -> Mm -> OffsetRequest
-plain side distance = OffsetRequest {side, corners = Round, distance, extra = Nothing}
+roundOffset :: Side -> Mm -> OffsetRequest
+roundOffset side distance = OffsetRequest {side, corners = Round, distance, extra = Nothing}
 
 -- | The loops, in the direction of travel of the source, and the raw offset of which they are
 -- parts.
@@ -68,9 +68,9 @@ data ReachableRegion = ReachableRegion {loops :: OffsetLoops, raw :: ClosedPolya
 
 data OffsetFault
   = -- | two segments of the source intersect; they are numbered through all contours
-    Crossed Int Int
+    SelfIntersecting Int Int
   | -- | a contour is nested in the others against its sense
-    Misplaced
+    WrongNesting
   | -- | no result passed its certificate
     Uncertain
   deriving stock (Eq, Show)
@@ -83,20 +83,24 @@ offset request contours = do
     first
       withOriginalNumbers
       (wantedNumber (rounding problem) (sense problem) open source sourceBoxes)
-  let remaining = filter (not . isUnreachable problem chain) [0 .. ClosedPolyarcs.walks chain - 1]
-  if length remaining == ClosedPolyarcs.walks chain
+  let remaining =
+        filter (not . isUnreachable problem chain) [0 .. ClosedPolyarcs.loopCount chain - 1]
+  if length remaining == ClosedPolyarcs.loopCount chain
     then regionOf problem wanted raws sourceBoxes
-    else regionOfContours problem wanted (ClosedPolyarcs.only remaining chain)
+    else regionOfContours problem wanted (ClosedPolyarcs.restrictTo remaining chain)
   where
     open = isOpen contours
     number = originalNumber contours
     withOriginalNumbers fault = case fault of
-      Crossed i j -> let (a, b) = (number i, number j) in Crossed (min a b) (max a b)
-      Misplaced -> Misplaced
+      SelfIntersecting i j ->
+        let (a, b) =
+              (number i, number j)
+         in SelfIntersecting (min a b) (max a b)
+      WrongNesting -> WrongNesting
       Uncertain -> Uncertain
     (problem, chain) = problemOf request contours
     raws@(_, source) = rawOf problem chain
-    sourceBoxes = SegmentTree.boxes (rounding problem) source
+    sourceBoxes = SegmentTree.build (rounding problem) source
 
 -- | The raw offset before trimming. Here a contour may intersect itself.
 rawOffset :: OffsetRequest -> [FlatPolyarc] -> ClosedPolyarcs
@@ -131,9 +135,9 @@ problemOf request contours = (problem, chain)
     largest = case extra request of
       Nothing -> d
       Just _ -> d + maximum (0 : map more [0 .. segmentCount - 1])
-    tolerance = Tolerance.rounding * (ClosedPolyarcs.extent contours + largest)
+    tolerance = Tolerance.rounding * (ClosedPolyarcs.largestCoordinate contours + largest)
     chain =
-      ClosedPolyarcs.fromOutlines
+      ClosedPolyarcs.fromFlatPolyarcs
         tolerance
         (if isOpen contours then map ClosedPolyarcs.twoSided contours else contours)
     problem =
@@ -202,7 +206,7 @@ regionOfContours :: Problem -> Int -> ClosedPolyarcs -> Either OffsetFault Reach
 regionOfContours problem wanted c =
   let raws@(_, source) =
         rawOf problem c
-   in regionOf problem wanted raws (SegmentTree.boxes (rounding problem) source)
+   in regionOf problem wanted raws (SegmentTree.build (rounding problem) source)
 
 -- | The loops of a raw offset, given with its source and the source's bounding-box tree.
 regionOf ::
@@ -219,51 +223,51 @@ regionOf problem wanted (untrimmed, source) sourceBoxes =
     Problem {sense, rounding, least, widest, distances} = problem
     byTrimming = case generalPosition of
       Nothing -> Nothing
-      Just (boxes, xs) -> Trimming.clip rounding wanted untrimmed boxes xs >>= certified
+      Just (boxes, xs) -> Trimming.trim rounding wanted untrimmed boxes xs >>= certified
     generalPosition :: Maybe (SegmentTree, SelfIntersections)
     generalPosition =
-      let boxes = SegmentTree.boxes rounding untrimmed
+      let boxes = SegmentTree.build rounding untrimmed
        in case SelfIntersection.find rounding untrimmed boxes of
-            Unclear -> Nothing
+            NotGeneral -> Nothing
             SearchResult xs -> Just (boxes, xs)
     byArrangements = mapMaybe byArrangement (take 5 (iterate (* 10) (100 * rounding)))
     byArrangement tolerance = do
-      a <- Arrangement.arrange tolerance untrimmed (SegmentTree.boxes tolerance untrimmed)
+      a <- Arrangement.arrange tolerance untrimmed (SegmentTree.build tolerance untrimmed)
       Arrangement.loops sense wanted a >>= certified
     measure =
       Certificate.Clearance
         { Certificate.slack = 1e5 * rounding,
-          Certificate.least = least,
-          Certificate.largest = widest,
+          Certificate.leastDistance = least,
+          Certificate.largestDistance = widest,
           Certificate.distance = distances,
-          Certificate.turn = sense
+          Certificate.sense = sense
         }
     -- When one cutter position covers the whole source except the tips of its corners, the winding
     -- numbers of unreachable positions equal those of reachable ones.
     certified answer
       | all isSound loops' = Just found
-      | ClosedPolyarcs.walks source == 1 && all (\k -> isSound k || isCovering k) loops' =
-        Just (Loop.only isSound found)
+      | ClosedPolyarcs.loopCount source == 1 && all (\k -> isSound k || isCovering k) loops' =
+        Just (Loop.filtered isSound found)
       | otherwise = Nothing
       where
-        found = Loop.only (not . isArtefact rounding answer) answer
+        found = Loop.filtered (not . isArtefact rounding answer) answer
         loops' = [0 .. Loop.count found - 1]
-        isSound = Certificate.clear measure source sourceBoxes found
-        isCovering = Certificate.covers measure source found
+        isSound = Certificate.isClear measure source sourceBoxes found
+        isCovering = Certificate.coversSource measure source found
 
 -- | True for a tiny loop of few segments, which may be an artefact of rounding (tolerance in mm).
 isArtefact :: Double -> OffsetLoops -> Int -> Bool
 isArtefact tolerance answer k =
   Loop.size answer k <= 4
-    && abs (FlatPolyarc.area (Loop.outline answer k)) <= tolerance * tolerance
+    && abs (FlatPolyarc.area (Loop.polyarc answer k)) <= tolerance * tolerance
 
 -- | True when one of several contours bounds a region too small for the cutter. If a cutter
 -- covers such a region completely, the winding number would count it as reachable; computed
 -- separately, it gives no loop.
 isUnreachable :: Problem -> ClosedPolyarcs -> Int -> Bool
-isUnreachable problem c w = ClosedPolyarcs.walks c > 1 && isOuter && isSmall && hasNoLoops
+isUnreachable problem c w = ClosedPolyarcs.loopCount c > 1 && isOuter && isSmall && hasNoLoops
   where
-    o = ClosedPolyarcs.closed c w
+    o = ClosedPolyarcs.toFlatPolyarc c w
     area = FlatPolyarc.area o
     -- If every segment is at most d away from one point, the area seen from that point is at most
     -- d/2 times the total length of the segments.
@@ -272,7 +276,7 @@ isUnreachable problem c w = ClosedPolyarcs.walks c > 1 && isOuter && isSmall && 
     (isOuter, left) = case sense problem of
       CounterClockwise -> (area > 0, 1)
       Clockwise -> (area < 0, 0)
-    hasNoLoops = case regionOfContours problem left (ClosedPolyarcs.only [w] c) of
+    hasNoLoops = case regionOfContours problem left (ClosedPolyarcs.restrictTo [w] c) of
       Right region -> Loop.count (loops region) == 0
       Left _ -> False
 
@@ -281,23 +285,23 @@ isUnreachable problem c w = ClosedPolyarcs.walks c > 1 && isOuter && isSmall && 
 -- whose contours are nested against their sense.
 wantedNumber :: Double -> Sense -> Bool -> ClosedPolyarcs -> SegmentTree -> Either OffsetFault Int
 wantedNumber tolerance sense open source boxes
-  | ClosedPolyarcs.walks source == 0 = Right unbounded
+  | ClosedPolyarcs.loopCount source == 0 = Right unbounded
   | open =
     maybe
       (Right unbounded)
       (Left . uncurry crossed)
-      (SelfIntersection.proper tolerance source boxes)
+      (SelfIntersection.properCrossing tolerance source boxes)
   | otherwise = case SelfIntersection.find tolerance source boxes of
     SearchResult xs
-      | SelfIntersection.count xs > 0 -> Left (uncurry crossed (SelfIntersection.firstOf xs 0))
-      | Just lefts <- traverse outside [0 .. ClosedPolyarcs.walks source - 1],
+      | SelfIntersection.count xs > 0 -> Left (uncurry crossed (SelfIntersection.segmentPair xs 0))
+      | Just lefts <- traverse outside [0 .. ClosedPolyarcs.loopCount source - 1],
         wanted : others <- lefts ->
         if all (== wanted) others && (wanted == 0 || wanted == 1)
           then Right wanted
-          else Left Misplaced
+          else Left WrongNesting
     _ -> numberByArrangement crossed unbounded tolerance source
   where
-    crossed i j = let (a, b) = (number i, number j) in Crossed (min a b) (max a b)
+    crossed i j = let (a, b) = (number i, number j) in SelfIntersecting (min a b) (max a b)
     number i = fromIntegral (indexPrimArray (ClosedPolyarcs.sources source) i)
     unbounded = case sense of
       CounterClockwise -> 0
@@ -305,7 +309,7 @@ wantedNumber tolerance sense open source boxes
     outside w =
       let e = WindingNumber.extreme Leftmost source boxes w
        in ( +
-              ( if ClosedPolyarcs.walks source == 1
+              ( if ClosedPolyarcs.loopCount source == 1
                   then 0
                   else
                     WindingNumber.at
@@ -315,7 +319,7 @@ wantedNumber tolerance sense open source boxes
                       (WindingNumber.y e)
               )
           )
-            <$> WindingNumber.leftMore e
+            <$> WindingNumber.leftExcess e
 
 -- | The same number from an arrangement, for a source in special position. The first argument makes
 -- the fault of two segments that intersect; the second one is the number of an unbounded region.
@@ -327,17 +331,17 @@ numberByArrangement ::
   Either OffsetFault Int
 numberByArrangement crossed unbounded tolerance source =
   case mapMaybe
-    (\t -> Arrangement.arrange t source (SegmentTree.boxes t source))
+    (\t -> Arrangement.arrange t source (SegmentTree.build t source))
     (take 5 (iterate (* 10) (100 * tolerance))) of
     [] -> Left Uncertain
-    a : _ -> case Arrangement.numbers a of
+    a : _ -> case Arrangement.windingNumbers a of
       (0, 0) -> Right unbounded
       (0, 1) -> Right 1
       (-1, 0) -> Right 0
       (_, high) ->
         Left
           ( maybe
-              Misplaced
+              WrongNesting
               (uncurry crossed)
-              (Arrangement.crossed (if high > 0 then (0, 1) else (-1, 0)) a)
+              (Arrangement.intersectingSegments (if high > 0 then (0, 1) else (-1, 0)) a)
           )

@@ -4,13 +4,13 @@
 module Offset.Loop
   ( OffsetLoops (..),
     none,
-    ofRaw,
+    untrimmed,
     count,
     size,
-    outline,
-    outlines,
+    polyarc,
+    polyarcs,
     area,
-    only,
+    filtered,
   )
 where
 
@@ -44,8 +44,8 @@ none =
     (primArrayFromList [])
 
 -- | All closed polyarcs of a raw offset, untrimmed.
-ofRaw :: ClosedPolyarcs -> OffsetLoops
-ofRaw c =
+untrimmed :: ClosedPolyarcs -> OffsetLoops
+untrimmed c =
   OffsetLoops
     { starts = primArrayFromList (scanl (+) 0 (map length ranges)),
       xs = gathered (ClosedPolyarcs.xs c),
@@ -55,8 +55,8 @@ ofRaw c =
     }
   where
     ranges =
-      [ [ClosedPolyarcs.first c w .. ClosedPolyarcs.behind c w - 1]
-        | w <- [0 .. ClosedPolyarcs.walks c - 1]
+      [ [ClosedPolyarcs.firstVertex c w .. ClosedPolyarcs.repeatedVertex c w - 1]
+        | w <- [0 .. ClosedPolyarcs.loopCount c - 1]
       ]
     gathered a = primArrayFromList (map (indexPrimArray a) (concat ranges))
 
@@ -69,23 +69,23 @@ size :: OffsetLoops -> Int -> Int
 size l k = indexPrimArray (starts l) (k + 1) - indexPrimArray (starts l) k
 
 -- | One loop as a polyarc.
-outline :: OffsetLoops -> Int -> FlatPolyarc
-outline l k = FlatPolyarc Closed (cut (xs l)) (cut (ys l)) (cut (bulges l))
+polyarc :: OffsetLoops -> Int -> FlatPolyarc
+polyarc l k = FlatPolyarc Closed (cut (xs l)) (cut (ys l)) (cut (bulges l))
   where
     cut :: PrimArray Double -> PrimArray Double
     cut s = clonePrimArray s (indexPrimArray (starts l) k) (size l k)
 
 -- | All loops as polyarcs.
-outlines :: OffsetLoops -> [FlatPolyarc]
-outlines l = map (outline l) [0 .. count l - 1]
+polyarcs :: OffsetLoops -> [FlatPolyarc]
+polyarcs l = map (polyarc l) [0 .. count l - 1]
 
 -- | The enclosed area in mm². Clockwise loops count as holes.
 area :: OffsetLoops -> Double
-area = sum . map FlatPolyarc.area . outlines
+area = sum . map FlatPolyarc.area . polyarcs
 
 -- | The loops whose numbers satisfy a predicate.
-only :: (Int -> Bool) -> OffsetLoops -> OffsetLoops
-only keep l
+filtered :: (Int -> Bool) -> OffsetLoops -> OffsetLoops
+filtered keep l
   | length kept == count l = l
   | otherwise =
     OffsetLoops

@@ -80,14 +80,14 @@ region source = case Kernel.offset (request source numbers) [flat] of
           numbers
         }
   Left Kernel.Uncertain -> Crash.bug "an equidistant failed its certificate"
-  Left (Kernel.Crossed _ _) -> Nothing
-  Left Kernel.Misplaced -> Nothing
+  Left (Kernel.SelfIntersecting _ _) -> Nothing
+  Left Kernel.WrongNesting -> Nothing
   where
     (flat, numbers) = FlatPolyarc.fromSegments (ends source) (elements source)
 
 -- | The raw offset, before any of it is cut away, as one loop.
 rawRegion :: OffsetSource -> Region
-rawRegion source = Region {contourEnds = ends source, loops = Loop.ofRaw raw, raw, numbers}
+rawRegion source = Region {contourEnds = ends source, loops = Loop.untrimmed raw, raw, numbers}
   where
     raw = Kernel.rawOffset (request source numbers) [flat]
     (flat, numbers) = FlatPolyarc.fromSegments (ends source) (elements source)
@@ -206,10 +206,10 @@ markAt :: Region -> Int -> Word8
 markAt r i = indexPrimArray (ClosedPolyarcs.marks (raw r)) (rawAt r i)
 
 isAroundAt :: Region -> Int -> Bool
-isAroundAt r i = ClosedPolyarcs.marked ClosedPolyarcs.around (markAt r i)
+isAroundAt r i = ClosedPolyarcs.hasMark ClosedPolyarcs.aroundMark (markAt r i)
 
 isConnectingAt :: Region -> Int -> Bool
-isConnectingAt r i = ClosedPolyarcs.marked ClosedPolyarcs.connecting (markAt r i)
+isConnectingAt r i = ClosedPolyarcs.hasMark ClosedPolyarcs.connectingMark (markAt r i)
 
 -- | The number of the segment of the flat contour. An open contour is traversed there and back.
 flatAt :: Region -> Int -> Int
@@ -307,7 +307,7 @@ exactSegment structure source front run back = OffsetSegment (origin run) $ case
        in partOf front run back structural exact
     -- The exact point of the corner that is closest to a vertex.
     snapped i p
-      | Vec.near p nearest = snd pair
+      | Vec.isNear p nearest = snd pair
       | otherwise = p
       where
         pair@(nearest, _) = minimumBy (comparing (Vec.distance p . fst)) points
@@ -321,8 +321,8 @@ partOf front run back structural exact
     Arc {centre} | turned run /= 0 -> Arc {start, end, centre, sweep = sweepNear centre}
     _ -> Straight start end
   where
-    startsThere = isJust front || Vec.near (from run) (Segment.start structural)
-    endsThere = isJust back || Vec.near (to run) (Segment.end structural)
+    startsThere = isJust front || Vec.isNear (from run) (Segment.start structural)
+    endsThere = isJust back || Vec.isNear (to run) (Segment.end structural)
     whole
       | Mm (a + b) < Segment.length exact = shortened a b exact
       | otherwise = exact
@@ -332,5 +332,5 @@ partOf front run back structural exact
     end = if endsThere then Segment.end whole else to run
     -- The sweep between both ends that is nearest to the run's.
     sweepNear centre =
-      let Rad least = Vec.turn (Vec.to centre start) (Vec.to centre end)
+      let Rad least = Vec.signedAngle (Vec.to centre start) (Vec.to centre end)
        in Rad (least + 2 * pi * fromIntegral (round ((turned run - least) / (2 * pi)) :: Int))

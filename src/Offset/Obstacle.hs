@@ -117,5 +117,5 @@ gouges source = concatMap gougesOf
       ]
     isNear s box =
       BoundingBox.meets (BoundingBox.inflate widest (BoundingBox.ofSegment s)) box
-        && BoundingBox.atLeast (`Distance.toPoint` s) box < widest
+        && BoundingBox.lowerBound (`Distance.toPoint` s) box < widest
     widest = maximum (map (distanceAt source) [0 .. count - 1])

@@ -66,11 +66,11 @@ raw !tolerance !smoothness corners uneven distance corner !c = runST $ do
   rb <- newPrimArray capacity
   rm <- newPrimArray capacity
   rs <- newPrimArray capacity
-  rh <- newPrimArray (ClosedPolyarcs.walks c + 1)
+  rh <- newPrimArray (ClosedPolyarcs.loopCount c + 1)
   marks <- thawPrimArray (ClosedPolyarcs.marks c) 0 n
   let filling = Filling rx ry rb rm rs
       offsetAll !w !k !kept
-        | w >= ClosedPolyarcs.walks c = writePrimArray rh kept k >> pure (k, kept)
+        | w >= ClosedPolyarcs.loopCount c = writePrimArray rh kept k >> pure (k, kept)
         | otherwise = do
           k' <-
             offsetPolyarc
@@ -83,8 +83,8 @@ raw !tolerance !smoothness corners uneven distance corner !c = runST $ do
               c
               marks
               filling
-              (ClosedPolyarcs.first c w)
-              (ClosedPolyarcs.behind c w)
+              (ClosedPolyarcs.firstVertex c w)
+              (ClosedPolyarcs.repeatedVertex c w)
               k
           if k' - k < 2
             then offsetAll (w + 1) k kept
@@ -117,12 +117,12 @@ closeUp (Filling rx ry rb rm rs) k k' = do
   readPrimArray rx k >>= writePrimArray rx k'
   readPrimArray ry k >>= writePrimArray ry k'
   writePrimArray rb k' 0
-  writePrimArray rm k' ClosedPolyarcs.copied
+  writePrimArray rm k' ClosedPolyarcs.repeatedMark
   writePrimArray rs k' 0
   m <- readPrimArray rm k
-  writePrimArray rm k (m + ClosedPolyarcs.opening)
+  writePrimArray rm k (m + ClosedPolyarcs.firstMark)
   m' <- readPrimArray rm (k' - 1)
-  writePrimArray rm (k' - 1) (m' + ClosedPolyarcs.closing)
+  writePrimArray rm (k' - 1) (m' + ClosedPolyarcs.lastMark)
 
 -- | Offsets one polyarc. Writes from the given index on, and returns the next free index.
 offsetPolyarc ::
@@ -156,7 +156,7 @@ offsetPolyarc
       tangents (e - 1) $ \_ _ zx zy lz ->
         joint (e - 1) a zx zy sx sy (if lz < l then lz else l) lz l $ \closing bend cut -> do
           markSmooth a closing
-          go a k0 sx sy ex ey l cut (if closing == Smooth then ClosedPolyarcs.smooth else 0) $
+          go a k0 sx sy ex ey l cut (if closing == Smooth then ClosedPolyarcs.smoothMark else 0) $
             const (closing, bend, cut)
     where
       bulge i = indexPrimArray (ClosedPolyarcs.bulges c) i
@@ -186,7 +186,8 @@ offsetPolyarc
       {-# INLINE tangents #-}
       dist = distance
       markSmooth i j = case j of
-        Smooth -> readPrimArray marks i >>= \m -> writePrimArray marks i (m + ClosedPolyarcs.smooth)
+        Smooth ->
+          readPrimArray marks i >>= \m -> writePrimArray marks i (m + ClosedPolyarcs.smoothMark)
         _ -> pure ()
       -- The joint between the end of segment i and segment j: its kind, tan(θ/4) of an outer
       -- corner, and the length by which lines are cut. restI and restJ are the lengths that both
@@ -267,41 +268,41 @@ offsetPolyarc
                 then l - cut - cut' > tolerance
                 else abs (l + 4 * d * b / (1 + b * b)) > tolerance
             k1 = if isLongEnough then k + 1 else k
-            endMark = if isLongEnough then ClosedPolyarcs.smooth else 0
+            endMark = if isLongEnough then ClosedPolyarcs.smoothMark else 0
         if isLongEnough then put k x y b beginMark i else pure ()
         case kind of
           Smooth -> next k1 endMark
-          Step -> put k1 fx fy 0 ClosedPolyarcs.around i >> next (k1 + 1) 0
+          Step -> put k1 fx fy 0 ClosedPolyarcs.aroundMark i >> next (k1 + 1) 0
           Trimmed -> next k1 0
           -- With uneven distances the connection passes through the vertex, because positions
           -- further out may be reachable.
           Over
             | uneven ->
-              put k1 fx fy 0 ClosedPolyarcs.connecting i
-                >> put (k1 + 1) vx vy 0 ClosedPolyarcs.connecting i
+              put k1 fx fy 0 ClosedPolyarcs.connectingMark i
+                >> put (k1 + 1) vx vy 0 ClosedPolyarcs.connectingMark i
                 >> next (k1 + 2) 0
-            | otherwise -> put k1 fx fy 0 ClosedPolyarcs.connecting i >> next (k1 + 1) 0
+            | otherwise -> put k1 fx fy 0 ClosedPolyarcs.connectingMark i >> next (k1 + 1) 0
           Outer -> do
             let dj = dist j
                 radius = if abs (corner j) > abs (corner i) then corner j else corner i
             k2 <-
               if radius == d
                 then pure k1
-                else put k1 fx fy 0 ClosedPolyarcs.around i >> pure (k1 + 1)
+                else put k1 fx fy 0 ClosedPolyarcs.aroundMark i >> pure (k1 + 1)
             let gx = vx + radius * ey
                 gy = vy - radius * ex
-                endMark' = (if radius == d then endMark else 0) + ClosedPolyarcs.around
+                endMark' = (if radius == d then endMark else 0) + ClosedPolyarcs.aroundMark
             -- bend is tan(θ/4). Up to 120° the tangents intersect at wide·tan(θ/2) from both ends.
             k3 <-
               if corners == Sharp && abs bend <= tan (pi / 6) + 1e-9 && d == dj
                 then do
                   let out = abs (radius * 2 * bend / (1 - bend * bend))
                   put k2 gx gy 0 endMark' i
-                  put (k2 + 1) (gx + out * ex) (gy + out * ey) 0 ClosedPolyarcs.around i
+                  put (k2 + 1) (gx + out * ex) (gy + out * ey) 0 ClosedPolyarcs.aroundMark i
                   pure (k2 + 2)
                 else put k2 gx gy bend endMark' i >> pure (k2 + 1)
             if radius == dj
-              then next k3 (if corners == Sharp && d == dj then 0 else ClosedPolyarcs.smooth)
+              then next k3 (if corners == Sharp && d == dj then 0 else ClosedPolyarcs.smoothMark)
               else do
                 -- The direction after the corner is the direction before it, rotated by θ.
                 let p = (1 - bend * bend) / (1 + bend * bend)
@@ -310,7 +311,7 @@ offsetPolyarc
                     si = 2 * p * q
                     ex' = ex * co - ey * si
                     ey' = ey * co + ex * si
-                put k3 (vx + radius * ey') (vy - radius * ex') 0 ClosedPolyarcs.around i
+                put k3 (vx + radius * ey') (vy - radius * ex') 0 ClosedPolyarcs.aroundMark i
                 next (k3 + 1) 0
       {-# INLINE segment #-}
 {-# INLINE offsetPolyarc #-}

@@ -160,7 +160,7 @@ boundaryFrom side bounds first =
         | j <- [0 .. count - 1],
           j /= i,
           let other = edges Vector.! j,
-          p <- Distance.crossings rest other,
+          p <- Distance.intersections rest other,
           Just t <- [inside rest p],
           Just u <- [inside other p]
       ]

@@ -39,20 +39,21 @@ meet !tolerance !c visitor = pair
   where
     pair !i !j
       | j == i + 1 = unless (meetsOnlyAtJoint tolerance c i j) (adjacent tolerance c visitor i j)
-      | mark ClosedPolyarcs.opening i && mark ClosedPolyarcs.closing j =
+      | mark ClosedPolyarcs.firstMark i && mark ClosedPolyarcs.lastMark j =
         adjacent tolerance c visitor i j
       | otherwise = others i j
     others = unconnected tolerance c visitor
-    mark m k = ClosedPolyarcs.marked m (indexPrimArray (ClosedPolyarcs.marks c) k)
+    mark m k = ClosedPolyarcs.hasMark m (indexPrimArray (ClosedPolyarcs.marks c) k)
 {-# INLINE meet #-}
 
 -- | True for neighbours that meet at their common vertex only: their joint is smooth, or both are
 -- lines that do not fold back. Always False in a polyarc of two segments.
 meetsOnlyAtJoint :: Double -> ClosedPolyarcs -> Int -> Int -> Bool
 meetsOnlyAtJoint tolerance c i j
-  | ClosedPolyarcs.marked ClosedPolyarcs.opening (indexPrimArray (ClosedPolyarcs.marks c) i) = False
+  | ClosedPolyarcs.hasMark ClosedPolyarcs.firstMark (indexPrimArray (ClosedPolyarcs.marks c) i) =
+    False
   | isArc c i || isArc c j =
-    ClosedPolyarcs.marked ClosedPolyarcs.smooth (indexPrimArray (ClosedPolyarcs.marks c) j)
+    ClosedPolyarcs.hasMark ClosedPolyarcs.smoothMark (indexPrimArray (ClosedPolyarcs.marks c) j)
   | otherwise =
     ClosedPolyarcs.chord
       c
@@ -86,11 +87,11 @@ adjacent !tolerance !c visitor !i !j
   where
     -- True when the second segment begins at the end of the first.
     after = j == i + 1
-    mark m k = ClosedPolyarcs.marked m (indexPrimArray (ClosedPolyarcs.marks c) k)
+    mark m k = ClosedPolyarcs.hasMark m (indexPrimArray (ClosedPolyarcs.marks c) k)
     before =
-      mark ClosedPolyarcs.opening i
-        && mark ClosedPolyarcs.closing j
-        && mark ClosedPolyarcs.copied (j + 1)
+      mark ClosedPolyarcs.firstMark i
+        && mark ClosedPolyarcs.lastMark j
+        && mark ClosedPolyarcs.repeatedMark (j + 1)
         && at (ClosedPolyarcs.xs c)
         && at (ClosedPolyarcs.ys c)
     at a = indexPrimArray a (j + 1) == indexPrimArray a i
@@ -452,7 +453,7 @@ neighbours !tolerance !c visitor !i !j !vertex
   | bi == 0 && bj == 0 =
     ClosedPolyarcs.chord c i $ \ux uy ->
       ClosedPolyarcs.chord c j $ \vx vy -> when (foldsBack tolerance ux uy vx vy) farEnds
-  | ClosedPolyarcs.marked ClosedPolyarcs.smooth (indexPrimArray (ClosedPolyarcs.marks c) j) =
+  | ClosedPolyarcs.hasMark ClosedPolyarcs.smoothMark (indexPrimArray (ClosedPolyarcs.marks c) j) =
     pure ()
   | liesOn tolerance c j i || liesOn tolerance c i (j + 1) = farEnds
   | bi == 0 = other i j False

@@ -7,8 +7,8 @@ module Offset.SelfIntersection
   ( SelfIntersections (..),
     SearchResult (..),
     find,
-    firstOf,
-    proper,
+    segmentPair,
+    properCrossing,
     decreases,
   )
 where
@@ -37,7 +37,7 @@ data SelfIntersections = SelfIntersections
 data SearchResult
   = SearchResult SelfIntersections
   | -- | somewhere, to within rounding, a segment ends on another one or touches it
-    Unclear
+    NotGeneral
 
 -- | Finds all self-intersections. The tolerance (mm) covers rounding; the bounding boxes are
 -- inflated by it.
@@ -77,7 +77,7 @@ find !tolerance !c !boxes = runST $ do
   k <- readPrimArray state 0
   unclearFlag <- readPrimArray state 1
   if unclearFlag /= 0
-    then pure Unclear
+    then pure NotGeneral
     else do
       r <- readMutVar rs >>= unsafeFreezePrimArray
       g <- readMutVar ss >>= unsafeFreezePrimArray
@@ -85,8 +85,8 @@ find !tolerance !c !boxes = runST $ do
 
 -- | A pair of segments that cross, if there is one. A segment that only ends on another one or
 -- touches it does not count.
-proper :: Double -> ClosedPolyarcs -> SegmentTree -> Maybe (Int, Int)
-proper tolerance c boxes = runST $ do
+properCrossing :: Double -> ClosedPolyarcs -> SegmentTree -> Maybe (Int, Int)
+properCrossing tolerance c boxes = runST $ do
   found <- newMutVar Nothing
   let visitor =
         Visitor
@@ -118,8 +118,8 @@ grow capacity rs ss k = do
     resizeMutablePrimArray g (2 * more) >>= writeMutVar ss
 
 -- | The two segments of an intersection.
-firstOf :: SelfIntersections -> Int -> (Int, Int)
-firstOf c h = (half (2 * h), half (2 * h + 1))
+segmentPair :: SelfIntersections -> Int -> (Int, Int)
+segmentPair c h = (half (2 * h), half (2 * h + 1))
   where
     half k = fromIntegral (indexPrimArray (segments c) k) `quot` 2
 

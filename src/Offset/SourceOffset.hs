@@ -88,7 +88,7 @@ fromContour style side radius (Polyarc ends segments) =
       | i + 1 == count && ends == Open = 0
       | otherwise =
         let Rad angle =
-              Vec.turn
+              Vec.signedAngle
                 (Segment.endDirection (elements Vector.! i))
                 (Segment.startDirection (elements Vector.! (if i + 1 == count then 0 else i + 1)))
          in angle
@@ -161,9 +161,9 @@ data Corner
     NoCorner
   | -- | the direction changes by no more than 'Tolerance.smoothAngle'
     Smooth
-  | -- | turns towards the cutter so little that no more than 'Tolerance.slightRest' remains in the
-    -- corner; lines before and after it are shortened by this length, @r·tan(θ/2)@, in mm. Curves
-    -- through measured points have such corners
+  | -- | turns towards the cutter so little that no more than 'Tolerance.smallestRest' remains in
+    -- the corner; lines before and after it are shortened by this length, @r·tan(θ/2)@, in mm.
+    -- Curves through measured points have such corners
     Slight Double
   | -- | turns towards the cutter, which does not reach into the corner
     Blocked
@@ -185,7 +185,7 @@ cornerAt source i
     turned = indexPrimArray (turnings source) i
     Rad smooth = Tolerance.smoothAngle
     slight (Mm r) =
-      let Mm rest = Tolerance.slightRest
+      let Mm rest = Tolerance.smallestRest
        in if r * (1 / cos (turned / 2) - 1) <= rest
             then Just (r * tan (abs turned / 2))
             else Nothing

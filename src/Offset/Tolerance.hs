@@ -1,8 +1,8 @@
 -- | The tolerances of offsets.
 module Offset.Tolerance
   ( clearance,
-    slot,
-    slightRest,
+    ignoredSlot,
+    smallestRest,
     resolution,
     rounding,
     tangential,
@@ -18,12 +18,12 @@ clearance :: Mm
 clearance = Mm 1e-5
 
 -- | Twice the length of the longest slot, as wide as the cutter, that is ignored.
-slot :: Mm
-slot = Mm 0.01
+ignoredSlot :: Mm
+ignoredSlot = Mm 0.01
 
 -- | The largest rest material in a corner towards the cutter that counts as no corner.
-slightRest :: Mm
-slightRest = Mm 1e-5
+smallestRest :: Mm
+smallestRest = Mm 1e-5
 
 -- | The resolution of bisections for the largest cutter and the largest excess.
 resolution :: Mm

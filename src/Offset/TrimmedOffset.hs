@@ -72,7 +72,7 @@ pathsIn structure source region =
 
 -- | Let each piece begin exactly at the end of the one before it.
 chained :: Ends -> NonEmpty OffsetSegment -> NonEmpty OffsetSegment
-chained = Polyarc.chained segment (\s p -> p {segment = s})
+chained = Polyarc.closeGaps segment (\s p -> p {segment = s})
 
 -- | The runs of a loop that are beside an open contour, stretch by stretch, each with the run
 -- before it and the one after it. The first run is not beside the contour.
@@ -159,7 +159,7 @@ isInOrder source numbers =
 -- | An element whose offset is a point.
 hasShrunk :: OffsetSource -> Int -> Bool
 hasShrunk source i = case elements source Vector.! i of
-  Straight a b -> Vec.near a b
+  Straight a b -> Vec.isNear a b
   Arc {start, centre} ->
     let Mm d = minus (Segment.radius centre start) (distanceAt source i)
      in Mm (abs d) <= Tolerance.clearance

@@ -8,7 +8,7 @@
 -- number at each self-intersection. Keeps the slices with the wanted number on their left, and
 -- joins them at the intersections.
 module Offset.Trimming
-  ( clip,
+  ( trim,
   )
 where
 
@@ -29,11 +29,11 @@ import Offset.WindingNumber qualified as WindingNumber
 -- | The loops that have the wanted winding number on their left. The result is Nothing when the
 -- polyarcs are not in general position: two intersections coincide within the tolerance (mm), a
 -- polyarc has a cusp at its outermost point, or the winding numbers contradict each other.
-clip :: Double -> Int -> ClosedPolyarcs -> SegmentTree -> SelfIntersections -> Maybe OffsetLoops
-clip !tolerance !wanted !c !boxes !xs = do
+trim :: Double -> Int -> ClosedPolyarcs -> SegmentTree -> SelfIntersections -> Maybe OffsetLoops
+trim !tolerance !wanted !c !boxes !xs = do
   -- For each polyarc: the winding number on its left at its leftmost point, and at its rightmost
   -- point.
-  outermost <- traverse outside [0 .. ClosedPolyarcs.walks c - 1]
+  outermost <- traverse outside [0 .. ClosedPolyarcs.loopCount c - 1]
   if total == 0
     then uncut wanted c outermost
     else runST $ do
@@ -56,11 +56,11 @@ clip !tolerance !wanted !c !boxes !xs = do
     outside w = do
       let leftmost = WindingNumber.extreme Leftmost c boxes w
           rightmost = WindingNumber.extreme Rightmost c boxes w
-          single = ClosedPolyarcs.walks c == 1
+          single = ClosedPolyarcs.loopCount c == 1
           base =
             if single then 0 else WindingNumber.at c boxes (x leftmost - 4 * tolerance) (y leftmost)
-      a <- leftMore leftmost
-      b <- leftMore rightmost
+      a <- leftExcess leftmost
+      b <- leftExcess rightmost
       pure (leftmost, base + a, if single then Just (rightmost, b) else Nothing)
 
 -- | The polyarcs without self-intersection that have the wanted number on their left. A single
@@ -68,7 +68,7 @@ clip !tolerance !wanted !c !boxes !xs = do
 uncut :: Int -> ClosedPolyarcs -> [(Extreme, Int, Maybe (Extreme, Int))] -> Maybe OffsetLoops
 uncut wanted c outermost
   | any (\(_, left, rightmost) -> maybe False ((/= left) . snd) rightmost) outermost = Nothing
-  | kept == [0] && ClosedPolyarcs.walks c == 1 =
+  | kept == [0] && ClosedPolyarcs.loopCount c == 1 =
     Just
       ( OffsetLoops
           starts
@@ -88,12 +88,14 @@ uncut wanted c outermost
       )
   where
     kept = [w | (w, (_, left, _)) <- zip [0 ..] outermost, left == wanted]
-    size w = ClosedPolyarcs.behind c w - ClosedPolyarcs.first c w
+    size w = ClosedPolyarcs.repeatedVertex c w - ClosedPolyarcs.firstVertex c w
     starts = primArrayFromList (scanl (+) 0 (map size kept))
-    gathered a = mconcat [clonePrimArray a (ClosedPolyarcs.first c w) (size w) | w <- kept]
+    gathered a = mconcat [clonePrimArray a (ClosedPolyarcs.firstVertex c w) (size w) | w <- kept]
     raws =
       mconcat
-        [generatePrimArray (size w) (\i -> fromIntegral (ClosedPolyarcs.first c w + i)) | w <- kept]
+        [ generatePrimArray (size w) (\i -> fromIntegral (ClosedPolyarcs.firstVertex c w + i))
+          | w <- kept
+        ]
 
 -- | Sorts the occurrences by segment and by position on the segment (counting sort, then
 -- insertion). Fills @begins@ with the index of each segment's first occurrence, and @order@
@@ -196,15 +198,15 @@ propagate c xs begins order lefts (w, (leftmost, left, rightmost)) = do
     Just (_, expected) -> pure (left == expected)
     Nothing -> pure True
   where
-    a = fromIntegral (indexPrimArray begins (ClosedPolyarcs.first c w)) :: Int
-    z = fromIntegral (indexPrimArray begins (ClosedPolyarcs.behind c w)) :: Int
+    a = fromIntegral (indexPrimArray begins (ClosedPolyarcs.firstVertex c w)) :: Int
+    z = fromIntegral (indexPrimArray begins (ClosedPolyarcs.repeatedVertex c w)) :: Int
     q0 = let q = firstAfter leftmost in if q == z then a else q
     firstAfter e = advance (fromIntegral (indexPrimArray begins (segment e)))
       where
         end = fromIntegral (indexPrimArray begins (segment e + 1))
         advance !q
           | q >= end = q
-          | parameterOf xs (fromIntegral (indexPrimArray order q)) < place e = advance (q + 1)
+          | parameterOf xs (fromIntegral (indexPrimArray order q)) < parameter e = advance (q + 1)
           | otherwise = q
     go !q !k !v
       | k >= z - a = pure ()
@@ -233,14 +235,14 @@ joinSlices wanted c xs begins order lefts outermost = do
   oy <- newPrimArray capacity
   ob <- newPrimArray capacity
   os <- newPrimArray capacity
-  starts <- newPrimArray (total + ClosedPolyarcs.walks c + 1)
+  starts <- newPrimArray (total + ClosedPolyarcs.loopCount c + 1)
   position <- newPrimArray (max 1 total)
   forM' total $ \q ->
     writePrimArray position (fromIntegral (indexPrimArray order q)) (fromIntegral q :: Int32)
   -- A single polyarc needs no lookup.
   polyarcOf <- newPrimArray (if single then 0 else max 1 total)
   unless single $
-    forM_ [0 .. ClosedPolyarcs.walks c - 1] $ \w ->
+    forM_ [0 .. ClosedPolyarcs.loopCount c - 1] $ \w ->
       forM' (rangeEnd w - rangeBegin w) $ \q ->
         writePrimArray polyarcOf (rangeBegin w + q) (fromIntegral w :: Int32)
   let emit !k !x !y !b !s = do
@@ -252,7 +254,7 @@ joinSlices wanted c xs begins order lefts outermost = do
         | rangeBegin w == rangeEnd w && k == wanted = do
           writePrimArray starts made l
           let copy !i !o
-                | i >= ClosedPolyarcs.behind c w = pure o
+                | i >= ClosedPolyarcs.repeatedVertex c w = pure o
                 | otherwise =
                   emit
                     o
@@ -261,7 +263,7 @@ joinSlices wanted c xs begins order lefts outermost = do
                     (indexPrimArray (ClosedPolyarcs.bulges c) i)
                     i
                     >> copy (i + 1) (o + 1)
-          l' <- copy (ClosedPolyarcs.first c w) l
+          l' <- copy (ClosedPolyarcs.firstVertex c w) l
           pure (l', made + 1)
         | otherwise = pure (l, made)
       -- Follows the polyarc from occurrence q to the next one, then continues at the partner of
@@ -351,12 +353,13 @@ joinSlices wanted c xs begins order lefts outermost = do
                   <*> unsafeFreezePrimArray os
             )
   where
-    single = ClosedPolyarcs.walks c == 1
+    single = ClosedPolyarcs.loopCount c == 1
     -- The mark of a visited slice. It is no winding number.
     visited = minBound :: Int32
-    rangeBegin w = fromIntegral (indexPrimArray begins (ClosedPolyarcs.first c w)) :: Int
-    rangeEnd w = fromIntegral (indexPrimArray begins (ClosedPolyarcs.behind c w)) :: Int
+    rangeBegin w = fromIntegral (indexPrimArray begins (ClosedPolyarcs.firstVertex c w)) :: Int
+    rangeEnd w = fromIntegral (indexPrimArray begins (ClosedPolyarcs.repeatedVertex c w)) :: Int
     segmentOf o = fromIntegral (indexPrimArray (SelfIntersection.segments xs) o) `quot` 2 :: Int
     pointOf o k = indexPrimArray (SelfIntersection.reals xs) (4 * (o `quot` 2) + k)
-    nextOf w i = if i + 1 == ClosedPolyarcs.behind c w then ClosedPolyarcs.first c w else i + 1
-    part s = ClosedPolyarcs.part c s
+    nextOf w i =
+      if i + 1 == ClosedPolyarcs.repeatedVertex c w then ClosedPolyarcs.firstVertex c w else i + 1
+    part s = ClosedPolyarcs.partialBulge c s

@@ -5,7 +5,7 @@
 -- points.
 module Offset.WindingNumber
   ( at,
-    passed,
+    contribution,
     Extreme (..),
     Outward (..),
     extreme,
@@ -24,12 +24,12 @@ import Geometry.Tolerance qualified as Tolerance
 -- them.
 at :: ClosedPolyarcs -> SegmentTree -> Double -> Double -> Int
 at c boxes px py =
-  SegmentTree.around boxes (-1e300) py px py 0 (\total i -> total + passed c px py i)
+  SegmentTree.around boxes (-1e300) py px py 0 (\total i -> total + contribution c px py i)
 
 -- | The contribution of one segment: the crossing of its chord with a ray from the point to the
 -- left, and ±1 when the point lies between an arc and its chord.
-passed :: ClosedPolyarcs -> Double -> Double -> Int -> Int
-passed c px py i = crossed + between
+contribution :: ClosedPolyarcs -> Double -> Double -> Int -> Int
+contribution c px py i = crossed + between
   where
     x0 = indexPrimArray (ClosedPolyarcs.xs c) i
     y0 = indexPrimArray (ClosedPolyarcs.ys c) i
@@ -51,7 +51,7 @@ passed c px py i = crossed + between
       | side /= 0 = side
       | y1 /= y0 = y1 - y0
       | otherwise = x1 - x0
-{-# INLINE passed #-}
+{-# INLINE contribution #-}
 
 -- | A point of a polyarc: its segment, the parameter along the chord, and its coordinates.
 -- @leftMore@ is the winding number on the left of the polyarc minus the number outside, 1 or 0.
@@ -60,10 +60,10 @@ passed c px py i = crossed + between
 -- end.
 data Extreme = Extreme
   { segment :: Int,
-    place :: Double,
+    parameter :: Double,
     x :: Double,
     y :: Double,
-    leftMore :: Maybe Int
+    leftExcess :: Maybe Int
   }
 
 data Outward = Leftmost | Rightmost
@@ -74,14 +74,14 @@ data Outward = Leftmost | Rightmost
 extreme :: Outward -> ClosedPolyarcs -> SegmentTree -> Int -> Extreme
 extreme outward c boxes w = go start start 0 (1e300 :: Double)
   where
-    start = ClosedPolyarcs.first c w
-    end = ClosedPolyarcs.behind c w
+    start = ClosedPolyarcs.firstVertex c w
+    end = ClosedPolyarcs.repeatedVertex c w
     sign = case outward of
       Leftmost -> 1
       Rightmost -> -1
     go !i !best !t !least
       | i >= end = extremeOf best t least
-      | SegmentTree.run boxes i outermost > bound = go (SegmentTree.behind i) best t least
+      | SegmentTree.runBoxOf boxes i outermost > bound = go (SegmentTree.nextRun i) best t least
       | boxSide >= least = go (i + 1) best t least
       | otherwise =
         let x0 = sign * indexPrimArray (ClosedPolyarcs.xs c) i
@@ -111,9 +111,9 @@ extreme outward c boxes w = go start start 0 (1e300 :: Double)
                       then go (i + 1) i t' ex
                       else go (i + 1) best1 t1 least1
       where
-        boxSide = SegmentTree.leaf boxes i outermost
+        boxSide = SegmentTree.segmentBoxWithMargin boxes i outermost
     -- Nearer to an end than this fraction of the chord, the vertex itself is the outermost point.
-    endMargin = Tolerance.hair
+    endMargin = Tolerance.negligibleShare
     -- The outermost vertex of the run of segments with the outermost bounding box. It is a bound:
     -- runs that do not reach it are skipped.
     bound =
@@ -122,16 +122,16 @@ extreme outward c boxes w = go start start 0 (1e300 :: Double)
             min
             1e300
             [ sign * indexPrimArray (ClosedPolyarcs.xs c) k
-              | k <- [i .. min end (SegmentTree.behind i) - 1]
+              | k <- [i .. min end (SegmentTree.nextRun i) - 1]
             ]
     furthest !i !best !least
       | i >= end = best
       | otherwise =
         let boxSide =
-              SegmentTree.run boxes i outermost
+              SegmentTree.runBoxOf boxes i outermost
          in if boxSide < least
-              then furthest (SegmentTree.behind i) i boxSide
-              else furthest (SegmentTree.behind i) best least
+              then furthest (SegmentTree.nextRun i) i boxSide
+              else furthest (SegmentTree.nextRun i) best least
     -- The outermost side of a bounding box.
     outermost lx _ hx _ = case outward of
       Leftmost -> lx

@@ -199,7 +199,7 @@ image region s v = case v of
   LineValue l -> let m = Transformation.line s l in LineValue m <$ reachable (from m)
   ContourValue c -> do
     let moved e = e {segment = Transformation.segment s (segment e)}
-        d = c {elements = fmap moved (elements c), legs = []}
+        d = c {elements = fmap moved (elements c), writtenElements = []}
     mapM_ (reachable . Segment.end . segment) (elements d)
     pure (ContourValue d)
   ListValue vs -> ListValue <$> traverse (image region s) vs

@@ -33,7 +33,7 @@ import Part.Error (ValueFact (..))
 import Part.ErrorText (Candidate (..))
 import Part.Evaluation (Eval)
 import Part.Evaluation qualified as Evaluation
-import Part.Part (backwards, outline)
+import Part.Part (polyarcOf, reversedContour)
 import Part.Selection (Answers (..), answerPoints, picked)
 import Part.Value
 
@@ -51,7 +51,7 @@ pointFunction region builtin arguments = case (builtin, arguments) of
     | not (any isCurve [a, b]) -> Just (intersection region (carrier a) (carrier b) choice)
   (CentreOf, [Plain (CircleValue c)]) -> at (centre c)
   (Midpoint, [Plain (Spatial p), Plain (Spatial q)]) ->
-    at (Vec.between 0.5 (fromOrigin p) (fromOrigin q))
+    at (Vec.interpolate 0.5 (fromOrigin p) (fromOrigin q))
   (Foot, [Plain (Spatial p), Plain (LineValue l)]) -> at (Carrier.foot l (fromOrigin p))
   (Tangency, [Plain (Spatial p), c]) ->
     Just
@@ -73,7 +73,7 @@ pointFunction region builtin arguments = case (builtin, arguments) of
 lineFunction :: Region -> Builtin -> [Argument] -> Maybe (Eval Value)
 lineFunction region builtin arguments = case (builtin, arguments) of
   (MakeLine, [Plain (Spatial p), Plain (Spatial q)])
-    | Vec.near (fromOrigin p) (fromOrigin q) ->
+    | Vec.isNear (fromOrigin p) (fromOrigin q) ->
       Just (Evaluation.mistake (ZeroLine region (fromOrigin p)))
     | otherwise -> line (Line (fromOrigin p) (fromOrigin q))
   (MakeLine, [Plain (Spatial p), Plain (Quantity a)]) ->
@@ -91,7 +91,7 @@ lineFunction region builtin arguments = case (builtin, arguments) of
     line (ray (fromOrigin p) (Vec.left (Carrier.direction l)))
   (Reversed, [Plain (LineValue l)]) -> line (Line (to l) (from l))
   (Reversed, [Plain (CurveValue c)]) -> Just (pure (CurveValue (Curve.reversed c)))
-  (Reversed, [Plain (ContourValue c)]) -> Just (pure (ContourValue (backwards c)))
+  (Reversed, [Plain (ContourValue c)]) -> Just (pure (ContourValue (reversedContour c)))
   _ -> Nothing
   where
     line = Just . pure . LineValue
@@ -154,7 +154,7 @@ measure region builtin arguments = case (builtin, arguments) of
     | Vec.norm v <= 0 -> Just (fault (NoAnswer region ZeroVector))
     | otherwise -> angled v
   (RadiusOf, [Plain (CircleValue (Circle _ r))]) -> measured r
-  (LengthOf, [Plain (ContourValue c)]) -> measured (Polyarc.length (outline c))
+  (LengthOf, [Plain (ContourValue c)]) -> measured (Polyarc.length (polyarcOf c))
   (LengthOf, [Plain (LineValue l)]) -> measured (Vec.distance (from l) (to l))
   (LengthOf, [Plain (Spatial v)]) -> measured (Mm (Vec.norm v))
   (XOf, [Plain (Spatial v)]) -> number (Vec.x (fromOrigin v))
@@ -193,7 +193,7 @@ intersection region a b choice = case meeting of
   where
     chosen ps = spatial region . offset =<< picked region (answersAmong ps) choice
     answersAmong = answerPoints Tolerance.coincident stationsOnLines
-    stationsOnLines = [ElementCarrier.alongLine l | OnLine l <- [a, b]]
+    stationsOnLines = [ElementCarrier.positionAlong l | OnLine l <- [a, b]]
     meeting = case (a, b) of
       (OnLine l, OnLine m) -> Intersection.lines l m
       (OnLine l, OnCircle _ c) -> Intersection.lineCircle l c
@@ -222,7 +222,7 @@ tangency region a b = case (a, b) of
 -- says on which side of the line the circle lies.
 tangentLine :: Region -> Sought -> (Line -> Candidate) -> Argument -> Argument -> Eval Line
 tangentLine region sought candidate a b =
-  case TangentCircle.touchingLines (sensesOf a, circleAt a) (sensesOf b, circleAt b) of
+  case TangentCircle.tangentLines (sensesOf a, circleAt a) (sensesOf b, circleAt b) of
     [one] -> pure one
     [] -> fault (NoAnswer region (NoTangent sought (obstacle (circleAt a) (circleAt b))))
     several -> fault (Several region sought (map candidate several))
@@ -262,6 +262,6 @@ touched argument = case argument of
   Choosing ToLeft (LineValue l) -> [LeftOf l]
   Choosing ToRight (LineValue l) -> [RightOf l]
   Plain (CircleValue c) -> [OutsideOf c, InsideOf c]
-  Choosing Beyond (CircleValue c) -> [OutsideOf c]
-  Choosing Within' (CircleValue c) -> [InsideOf c]
+  Choosing ToOutside (CircleValue c) -> [OutsideOf c]
+  Choosing ToInside (CircleValue c) -> [InsideOf c]
   _ -> bug "a circle that touches something else"

@@ -76,7 +76,7 @@ toReport :: ConstructionFault -> Report
 toReport fault = case fault of
   NothingCommon region a b gap ->
     (at region "E0330" (describe a <> " and " <> describe b <> " do not meet"))
-      { message = ["They miss one another by " <> Decimal.some gap <> "."]
+      { message = ["They miss one another by " <> Decimal.nonZeroMm gap <> "."]
       }
   SameThing region ->
     at region "E0331" "these are the same curve, so they have no one point in common"
@@ -148,7 +148,7 @@ obstacleText obstacle = case obstacle of
   SamePoints -> "The points are the same."
   PointOnCircle p ->
     "The point "
-      <> Vec.written 4 p
+      <> Vec.toText 4 p
       <> " lies on the circle; the line that touches it there is perpendicular to its radius."
   PointInside depth ->
     "The point lies inside the circle, " <> Decimal.mm depth <> " from its edge."

@@ -62,7 +62,7 @@ contour env name closure items = do
       Right elements ->
         let written = map asWritten (NonEmpty.toList some)
             forced = foldr seq written written
-         in pure Contour {contourName = name, ends, elements, legs = forced}
+         in pure Contour {contourName = name, ends, elements, writtenElements = forced}
   where
     ends = case closure of
       Checked.Open -> Open
@@ -72,10 +72,10 @@ contour env name closure items = do
 asWritten :: LinkSolver.LinkedElement -> ContourElement
 asWritten w =
   ContourElement
-    { Part.spot = LinkSolver.elementRegion w,
-      Part.shape = LinkSolver.carrier w,
-      Part.source = LinkSolver.sourceCurve w,
-      Part.asked = LinkSolver.finish w,
+    { Part.elementRegion = LinkSolver.elementRegion w,
+      Part.elementCarrier = LinkSolver.carrier w,
+      Part.elementCurve = LinkSolver.sourceCurve w,
+      Part.elementFinish = LinkSolver.finish w,
       Part.link = snd <$> LinkSolver.link w
     }
 
@@ -98,7 +98,7 @@ item env (Located _ i) = case i of
 
 modified :: Environment -> Checked.Modifier -> Finish -> Eval Finish
 modified env (Located _ m) finish = case m of
-  AtElementFeed e -> (\f -> finish {ownFeed = Just f}) <$> feedOf env e
+  ElementFeed e -> (\f -> finish {ownFeed = Just f}) <$> feedOf env e
   Slow -> pure finish {slow = True}
   ElementAllowance e -> (\d -> finish {allowance = d}) <$> lengthOf env Parameter.Allowance e
   Bevel _ -> pure finish
@@ -155,7 +155,7 @@ elementsOfContour ::
   Maybe (Region, Link) ->
   [Part.Element] ->
   [LinkSolver.LinkedElement]
-elementsOfContour at finish link segments = case Part.runs segments of
+elementsOfContour at finish link segments = case Part.curveRuns segments of
   [] -> []
   curves -> zipWith (elementOfRun finish) curves (map fixed (init curves) <> [link])
   where
@@ -221,7 +221,7 @@ signed r = Fillet (if r > 0 then Carrier.Clockwise else Carrier.CounterClockwise
 startingNear :: Point -> Contour -> Contour
 startingNear p c = case splitAt (nearestElement p list) list of
   (before, e : after) -> case NonEmpty.nonEmpty (rotated before e after) of
-    Just es -> c {elements = es, legs = []}
+    Just es -> c {elements = es, writtenElements = []}
     Nothing -> c
   _ -> c
   where
@@ -253,7 +253,8 @@ nearestElement p = closest 0 (Mm (1 / 0)) 0
 -- | Cuts a segment at its point nearest to a point; nothing when that is one of its ends.
 cutNear :: Point -> Segment.Segment -> Maybe (Segment.Segment, Segment.Segment)
 cutNear p s
-  | t <= 0 || t >= 1 || Vec.near foot (Segment.start s) || Vec.near foot (Segment.end s) = Nothing
+  | t <= 0 || t >= 1 || Vec.isNear foot (Segment.start s) || Vec.isNear foot (Segment.end s) =
+    Nothing
   | otherwise = Just (Segment.cutAt t s)
   where
     t = Segment.fraction s p

@@ -144,7 +144,7 @@ toReport fault = case fault of
       { label = "this element",
         others =
           [Label second "meets this one" | second /= first] <> [Label contour "in this contour"],
-        message = ["They meet at " <> Vec.written 4 p <> "."],
+        message = ["They meet at " <> Vec.toText 4 p <> "."],
         hints =
           [ "Check the signs of the fillets: +R is walked clockwise, −R counter-clockwise."
             | hasFillets
@@ -169,13 +169,13 @@ overrunReport region carrier overlap links largest =
       "the links do not fit: "
         <> describe carrier
         <> " is too short for them by "
-        <> Decimal.some overlap
+        <> Decimal.nonZeroMm overlap
 
 -- | The report of a link that cannot join its neighbours.
 linkReport :: Neighbours -> LinkFault -> Report
 linkReport j fault = case fault of
   NoMeeting gap ->
-    (titled "E0311" (both j <> " do not meet: they miss one another by " <> Decimal.some gap))
+    (titled "E0311" (both j <> " do not meet: they miss one another by " <> Decimal.nonZeroMm gap))
       { message = [stop "17533"],
         hints =
           if curved
@@ -201,7 +201,7 @@ linkReport j fault = case fault of
   AmbiguousMeeting points ->
     (titled "E0314" (both j <> " meet in more than one point"))
       { message = [meetingPoints points],
-        hints = ["Choose with: meet near " <> Vec.written 4 p | p <- take 1 points]
+        hints = ["Choose with: meet near " <> Vec.toText 4 p | p <- take 1 points]
       }
   NotSmooth gap ->
     (titled "E0315" (both j <> " do not touch: they miss it by " <> Decimal.mm gap))
@@ -272,7 +272,7 @@ linkReport j fault = case fault of
     (titled "E0323" "two fillets make contours of the same length")
       { message =
           [ "Their centres are "
-              <> Text.intercalate " and " (map (Vec.written 4) centres)
+              <> Text.intercalate " and " (map (Vec.toText 4) centres)
               <> "."
           ],
         hints =
@@ -305,7 +305,7 @@ meetingPoints points =
   "They meet at "
     <> Text.intercalate
       (if length points > mostPoints then ", " else " and at ")
-      (map (Vec.written 4) (take mostPoints points))
+      (map (Vec.toText 4) (take mostPoints points))
     <> andMore mostPoints points
     <> "."
 

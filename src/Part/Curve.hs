@@ -13,8 +13,8 @@ module Part.Curve
     ends,
     reversed,
     transformed,
-    track,
-    along,
+    parametric,
+    alongPolyarc,
     xRange,
     spansOfSections,
   )
@@ -37,7 +37,7 @@ import Geometry.Curve (Approach (..), SpanShape (..))
 import Geometry.Curve qualified as Exact
 import Geometry.Curve.Section qualified as Section
 import Geometry.Curve.SectionFit qualified as SectionFit
-import Geometry.MeasuredPolyarc (Polyarc)
+import Geometry.MeasuredPolyarc (MeasuredPolyarc)
 import Geometry.MeasuredPolyarc qualified as MeasuredPolyarc
 import Geometry.Segment qualified as Segment
 import Geometry.Tolerance qualified as Tolerance
@@ -73,15 +73,15 @@ data PartCurve = PartCurve
     -- | the sections that were fitted to its table, if any
     fitting :: Maybe Fitting,
     -- | lines and arcs within 'Tolerance.curve' of it
-    approximation :: ~Polyarc
+    approximation :: ~MeasuredPolyarc
   }
   deriving stock (Eq, Show)
 
 -- | Sections fitted to a table's points, and their deviations from these.
 data Fitting = Fitting
-  { pieces :: NonEmpty Section.Section,
-    misses :: [SectionFit.Deviation],
-    through :: Vector Point
+  { sections :: NonEmpty Section.Section,
+    deviations :: [SectionFit.Deviation],
+    fittedPoints :: Vector Point
   }
   deriving stock (Eq, Show)
 
@@ -93,14 +93,14 @@ curve tableColumns fitting exact =
 -- | Arcs and lines within a tolerance of a curve. A curve that consists of arcs and lines keeps
 -- them, with its small kinks smoothed; a cubic spline is fitted by 'CubicFit', any other curve by
 -- 'ParametricFit'.
-arcsAlong :: Mm -> Exact.Curve -> Polyarc
+arcsAlong :: Mm -> Exact.Curve -> MeasuredPolyarc
 arcsAlong tolerance exact =
-  case (Exact.chain exact, cubics) of
+  case (Exact.toSegments exact, cubics) of
     (Just segments, _) -> MeasuredPolyarc.fromSegments (PolyarcFit.smoothed tolerance segments)
     (Nothing, Just (off, xs, ys)) ->
-      MeasuredPolyarc.fromOutline (CubicFit.approximate (minus tolerance off) xs ys)
+      MeasuredPolyarc.fromFlatPolyarc (CubicFit.approximate (minus tolerance off) xs ys)
     (Nothing, Nothing) ->
-      MeasuredPolyarc.fromSegments (sconcat (fitted (track exact)))
+      MeasuredPolyarc.fromSegments (sconcat (fitted (parametric exact)))
   where
     fitted = ParametricFit.approximate tolerance
     cubics = Exact.cubics (times (0.5 * Tolerance.deviationShare) tolerance) exact
@@ -110,8 +110,8 @@ plain :: Exact.Curve -> PartCurve
 plain = curve [] Nothing
 
 -- | A curve as a function of its parameter, for 'ParametricFit'.
-track :: Exact.Curve -> ParametricCurve
-track c =
+parametric :: Exact.Curve -> ParametricCurve
+parametric c =
   ParametricCurve
     { place = Exact.at c,
       direction =
@@ -133,7 +133,7 @@ ends c = [Exact.start (exact c), Exact.end (exact c)]
 reversed :: PartCurve -> PartCurve
 reversed c =
   curve
-    [(n, Exact.backwards (exact c) vs) | (n, vs) <- tableColumns c]
+    [(n, Exact.inReverseOrder (exact c) vs) | (n, vs) <- tableColumns c]
     Nothing
     (Exact.reversed (exact c))
 
@@ -143,13 +143,14 @@ transformed s c = curve (tableColumns c) Nothing (Exact.transformed s (exact c))
 
 -- | The values of a column of angles along a curve's polyarc: stations in mm and angles in radians,
 -- rising. Linear interpolation between two neighbours is within 'Tolerance.bevel' of the column.
-along :: PartCurve -> Vector Double -> [(Double, Double)]
-along c values = (0, angleAt 0) : concat (zipWith sampled stations (drop 1 stations))
+alongPolyarc :: PartCurve -> Vector Double -> [(Double, Double)]
+alongPolyarc c values = (0, angleAt 0) : concat (zipWith sampled stations (drop 1 stations))
   where
-    stations = MeasuredPolyarc.joints (approximation c)
+    stations = MeasuredPolyarc.stations (approximation c)
     column = Exact.column (exact c) values
     -- Stations are scaled: the polyarc and the curve differ little in length.
-    angleAt s = Exact.columnAt (exact c) column (Exact.alongTo (exact c) (Mm (s * whole / total)))
+    angleAt s =
+      Exact.columnAt (exact c) column (Exact.parameterAtLength (exact c) (Mm (s * whole / total)))
     Mm whole = Exact.length (exact c)
     Mm total = MeasuredPolyarc.length (approximation c)
     -- First steps small enough for every row to be seen.
@@ -182,7 +183,7 @@ xRange c = (Mm (minimum xs), Mm (maximum xs))
       Segment.Straight _ q -> [q]
       Segment.Arc {Segment.start = p, Segment.end = q, Segment.centre = m} ->
         let Mm r = Segment.radius m p
-         in q : filter (Segment.spans s) [Vec.shift (Vec.vec d 0) m | d <- [r, -r]]
+         in q : filter (Segment.hasFootOf s) [Vec.shift (Vec.vec d 0) m | d <- [r, -r]]
 
 -- | Sections as spans of a curve, with the parameters of the rows on it: the number of the span
 -- from 0, and the share of the span up to the row.

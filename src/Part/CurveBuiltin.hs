@@ -61,12 +61,12 @@ newCurve region builtin arguments = case (builtin, arguments) of
   (ClosedSpline, [t]) -> Just (curveThrough t (Exact.spline Exact.Periodic))
   (Polyline, [t]) -> Just (curveThrough t Exact.polyline)
   (Parabola, [t]) -> Just (curveThrough t Exact.parabola)
-  (Biarcs, [Plain (CurveValue c), Choosing UpTo (Quantity d)]) -> Just $ do
+  (Biarcs, [Plain (CurveValue c), Choosing WithinTolerance (Quantity d)]) -> Just $ do
     toleranceOf region d
-    ofSegments region (sconcat (ParametricFit.approximate (Mm d) (Curve.track (exact c))))
+    ofSegments region (sconcat (ParametricFit.approximate (Mm d) (Curve.parametric (exact c))))
   (Biarcs, [t]) -> Just (biarcs region t Open)
   (ClosedBiarcs, [t]) -> Just (biarcs region t Closed)
-  (Fit, [t, Choosing UpTo (Quantity d)]) -> Just $ do
+  (Fit, [t, Choosing WithinTolerance (Quantity d)]) -> Just $ do
     toleranceOf region d
     table <- tableOf region t
     points <- ordered region table (Section.table (pointsOf table))
@@ -131,7 +131,7 @@ biarcs region t ends = do
     Just ps@(_ :| _ : _) -> do
       -- The polyline checks the points.
       _ <- either (faulty region table) pure (Exact.polyline points)
-      c <- either (faulty region table) pure (Exact.ofChain (Biarc.through ends ps) points)
+      c <- either (faulty region table) pure (Exact.fromSegmentsAt (Biarc.through ends ps) points)
       pure (CurveValue (Curve.curve (Curve.columns table) Nothing c))
     _ -> faulty region table (Exact.TooFew 2)
 
@@ -144,14 +144,14 @@ ofSegments region segments =
   either
     (\_ -> Evaluation.mistake (InContour (NoLength region)))
     (pure . CurveValue . Curve.plain)
-    (Exact.ofSegments segments)
+    (Exact.fromSegments segments)
 
 -- | A curve of sections, with their deviations from the points of the table.
 ofSections :: Region -> PartTable -> Section.PointTable -> NonEmpty Section.Section -> Eval Value
 ofSections region table points sections = do
   let (spans, parameters) = Curve.spansOfSections (Curve.points table) sections
       fitting = Fitting sections (SectionFit.deviations points sections) (Curve.points table)
-  c <- either (faulty region table) pure (Exact.ofPieces spans parameters)
+  c <- either (faulty region table) pure (Exact.fromShapes spans parameters)
   pure (CurveValue (Curve.curve (Curve.columns table) (Just fitting) c))
 
 -- | Fails for points that make no curve, at the row where it shows.
@@ -223,7 +223,7 @@ rowNumber region table x
 
 rowAt :: PartTable -> Int -> Maybe Region
 rowAt table k
-  | k >= 1 && k <= NumberTable.count (rows table) = Just (NumberTable.place (rows table) (k - 1))
+  | k >= 1 && k <= NumberTable.count (rows table) = Just (NumberTable.regionOf (rows table) (k - 1))
   | otherwise = Nothing
 
 -- Points and measures of a curve
@@ -261,7 +261,8 @@ pointAlong :: Region -> PartCurve -> Double -> Eval Value
 pointAlong region c s
   | s < -slack || s > whole' + slack =
     Evaluation.mistake (InConstruction (NoAnswer region (BeyondLength (Mm whole'))))
-  | otherwise = spatial region (offset (Exact.at (exact c) (Exact.alongTo (exact c) (Mm s))))
+  | otherwise =
+    spatial region (offset (Exact.at (exact c) (Exact.parameterAtLength (exact c) (Mm s))))
   where
     Mm whole' = Exact.length (exact c)
     Mm slack = Tolerance.coincident
@@ -294,7 +295,7 @@ footOf c p = Exact.at (exact c) (Exact.nearest p (exact c))
 
 -- | The arc length of a curve up to its point nearest to a point.
 lengthTo :: PartCurve -> Point -> Mm
-lengthTo c p = Exact.lengthTo (exact c) (Exact.nearest p (exact c))
+lengthTo c p = Exact.lengthAt (exact c) (Exact.nearest p (exact c))
 
 -- Intersections
 
@@ -314,14 +315,16 @@ intersection ::
   (ElementCarrier, Foot) ->
   [Argument] ->
   Eval Value
-intersection region (a, footA) (b, footB) choice = case MeasuredPolyarc.meetings as bs of
-  [] -> Evaluation.mistake (InConstruction (NothingCommon region a b (MeasuredPolyarc.gap as bs)))
+intersection region (a, footA) (b, footB) choice = case MeasuredPolyarc.intersections as bs of
+  [] ->
+    Evaluation.mistake
+      (InConstruction (NothingCommon region a b (MeasuredPolyarc.leastDistance as bs)))
   ps ->
     picked region (answerPoints Tolerance.nearTie (concatMap stationOn [a, b]) ps) choice
-      >>= spatial region . offset . Intersection.exactly footA footB
+      >>= spatial region . offset . Intersection.refine footA footB
   where
-    as = ElementCarrier.within (extent b) a
-    bs = ElementCarrier.within (extent a) b
+    as = ElementCarrier.segmentsWithin (extent b) a
+    bs = ElementCarrier.segmentsWithin (extent a) b
     extent carrier = case carrier of
       OnCurve p ->
         foldl
@@ -333,7 +336,7 @@ intersection region (a, footA) (b, footB) choice = case MeasuredPolyarc.meetings
 -- | The distance along a carrier to a point; none along a circle, which has no start.
 stationOn :: ElementCarrier -> [Point -> Mm]
 stationOn carrier = case carrier of
-  OnCurve c -> [MeasuredPolyarc.station c]
-  OnLine l -> [ElementCarrier.alongLine l]
+  OnCurve c -> [MeasuredPolyarc.nearestStation c]
+  OnLine l -> [ElementCarrier.positionAlong l]
   OnCircle _ _ -> []
   AtPoint _ -> [const (Mm 0)]

@@ -88,7 +88,7 @@ toReport fault = case fault of
         region
         "E0350"
         ( "the curve folds over: at "
-            <> Vec.written 3 p
+            <> Vec.toText 3 p
             <> " its radius of curvature is only "
             <> below largest
         )
@@ -107,7 +107,7 @@ toReport fault = case fault of
         ( "the curve has a corner of "
             <> Decimal.short (if degrees angle < 0.01 then 6 else 2) (degrees angle)
             <> " deg at "
-            <> Vec.written 3 p
+            <> Vec.toText 3 p
         )
     )
       { message = ["A shift would tear it open there, or let its parts cross."],

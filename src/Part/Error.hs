@@ -118,7 +118,7 @@ factReport fact = case fact of
     (at region "E0305" "this line has no length")
       { message =
           [ "Both its points are "
-              <> Vec.written 4 p
+              <> Vec.toText 4 p
               <> "; a line needs two different ones."
           ]
       }

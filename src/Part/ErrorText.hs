@@ -37,17 +37,17 @@ describe carrier = case carrier of
   OnCircle _ c -> describeCircle c
   OnCurve c ->
     "the curve from "
-      <> Vec.written 4 (MeasuredPolyarc.start c)
+      <> Vec.toText 4 (MeasuredPolyarc.start c)
       <> " to "
-      <> Vec.written 4 (MeasuredPolyarc.end c)
-  AtPoint p -> "the point " <> Vec.written 4 p
+      <> Vec.toText 4 (MeasuredPolyarc.end c)
+  AtPoint p -> "the point " <> Vec.toText 4 p
 
 describeLine :: Line -> Text
-describeLine (Line p q) = "the line from " <> Vec.written 4 p <> " to " <> Vec.written 4 q
+describeLine (Line p q) = "the line from " <> Vec.toText 4 p <> " to " <> Vec.toText 4 q
 
 describeCircle :: Circle -> Text
 describeCircle (Circle c r) =
-  "the circle of radius " <> Decimal.mm r <> " about " <> Vec.written 4 c
+  "the circle of radius " <> Decimal.mm r <> " about " <> Vec.toText 4 c
 
 -- | One of several answers to a construction.
 data Candidate = APoint Point | ALine Line | ACircle Circle
@@ -72,7 +72,7 @@ listed candidates = case candidates of
       <> "."
   where
     described candidate = case candidate of
-      APoint p -> Vec.written 4 p
+      APoint p -> Vec.toText 4 p
       ALine l -> describeLine l
       ACircle c -> describeCircle c
 

@@ -42,7 +42,7 @@ import Part.Curve qualified as Curve
 import Part.Error (ValueFact (..))
 import Part.Evaluation (Eval)
 import Part.Evaluation qualified as Evaluation
-import Part.Part (outline)
+import Part.Part (polyarcOf)
 import Part.Value (Value (..))
 import Part.Value qualified as Value
 
@@ -168,12 +168,12 @@ written dimension v = case v of
     let unit = Dimension.unitWord dimension
      in Decimal.short 6 (x / Dimension.defaultUnit dimension)
           <> (if unit == "" then "" else " " <> unit)
-  Spatial p -> Vec.written 4 (Value.fromOrigin p)
-  SpaceValue p (Mm z) -> Vec.written 4 p <> " at height " <> Decimal.mm (Mm z)
+  Spatial p -> Vec.toText 4 (Value.fromOrigin p)
+  SpaceValue p (Mm z) -> Vec.toText 4 p <> " at height " <> Decimal.mm (Mm z)
   TruthValue b -> if b then "true" else "false"
-  CircleValue (Circle c r) -> "radius " <> Decimal.mm r <> " about " <> Vec.written 4 c
-  LineValue (Line p q) -> "from " <> Vec.written 4 p <> " to " <> Vec.written 4 q
-  ContourValue c -> "length " <> Decimal.mm (Polyarc.length (outline c))
+  CircleValue (Circle c r) -> "radius " <> Decimal.mm r <> " about " <> Vec.toText 4 c
+  LineValue (Line p q) -> "from " <> Vec.toText 4 p <> " to " <> Vec.toText 4 q
+  ContourValue c -> "length " <> Decimal.mm (Polyarc.length (polyarcOf c))
   ListValue vs ->
     Decimal.whole (Vector.length vs) <> (if Vector.length vs == 1 then " item" else " items")
   PlacementValue _ -> ""

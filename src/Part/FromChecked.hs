@@ -133,7 +133,7 @@ step state (Located at s) = case s of
   Checked.Change e c ->
     keep ((,) <$> whole env Parameter.ToolNumber (1, 99) e <*> Machining.cutterOf env c) $
       \(n, c') -> (command (ChangeTool n c')) {context = now {cutter = Just c'}}
-  Checked.Spindle Checked.Still -> command SpindleOff
+  Checked.Spindle Checked.SpindleStop -> command SpindleOff
   Checked.Spindle (Checked.Spinning sense speed) ->
     keep (traverse (positive env Parameter.SpindleSpeed id) speed) $ \speed' ->
       (command (SpindleOn sense speed')) {context = now {modalSense = sense}}

@@ -25,7 +25,7 @@ import Geometry.ElementCarrier (ElementCarrier (..))
 import Geometry.ElementCarrier qualified as ElementCarrier
 import Geometry.Index.BoundingBox (BoundingBox)
 import Geometry.Index.BoundingBox qualified as BoundingBox
-import Geometry.MeasuredPolyarc (Polyarc)
+import Geometry.MeasuredPolyarc (MeasuredPolyarc)
 import Geometry.MeasuredPolyarc qualified as MeasuredPolyarc
 import Geometry.Segment (Segment (..))
 import Geometry.Segment qualified as Segment
@@ -86,15 +86,17 @@ shapes j = (value (before j), value (after j))
 meet :: Neighbours -> [Point] -> Maybe Point -> Either ContourFault Joint
 meet j own near = case shapes j of
   (AtPoint p, AtPoint q)
-    | Vec.near p q -> Left (NotLinked j SameCurve)
+    | Vec.isNear p q -> Left (NotLinked j SameCurve)
     | otherwise -> Right (straight p q)
   (AtPoint p, b) -> pointOn j p b
   (a, AtPoint q) -> pointOn j q a
-  (OnCurve c, b) -> polyarcs (MeasuredPolyarc.segments c) (ElementCarrier.within (extent c) b)
-  (a, OnCurve c) -> polyarcs (ElementCarrier.within (extent c) a) (MeasuredPolyarc.segments c)
+  (OnCurve c, b) ->
+    polyarcs (MeasuredPolyarc.segments c) (ElementCarrier.segmentsWithin (extent c) b)
+  (a, OnCurve c) ->
+    polyarcs (ElementCarrier.segmentsWithin (extent c) a) (MeasuredPolyarc.segments c)
   (OnLine l, OnLine m) -> case Intersection.lines l m of
     Apart gap -> Left (NotLinked j (ParallelLines gap))
-    Same | Vec.near (Carrier.to l) (Carrier.from m) -> Right (through (Carrier.to l))
+    Same | Vec.isNear (Carrier.to l) (Carrier.from m) -> Right (through (Carrier.to l))
     meeting -> common meeting
   (OnLine l, OnCircle _ c) -> common (Intersection.lineCircle l c)
   (OnCircle _ c, OnLine l) -> common (Intersection.lineCircle l c)
@@ -106,8 +108,8 @@ meet j own near = case shapes j of
       Touching p -> Right (through p)
       CrossingOnce p -> Right (through p)
       Crossing p q -> choose j own near Tolerance.coincident [p, q]
-    polyarcs a b = case MeasuredPolyarc.meetings a b of
-      [] -> Left (NotLinked j (NoMeeting (MeasuredPolyarc.gap a b)))
+    polyarcs a b = case MeasuredPolyarc.intersections a b of
+      [] -> Left (NotLinked j (NoMeeting (MeasuredPolyarc.leastDistance a b)))
       [p] -> Right (through p)
       ps -> choose j own near Tolerance.nearTie ps
 
@@ -116,7 +118,7 @@ choose :: Neighbours -> [Point] -> Maybe Point -> Mm -> [Point] -> Either Contou
 choose j own near (Mm tolerance) ps =
   through <$> case (near, sortOn (\p -> maybe 0 (`distance` p) near) ps) of
     (Just n, p : q : _) | distance n q - distance n p > tolerance -> Right p
-    (Nothing, _) | [one] <- [p | p <- ps, any (Vec.near p) own] -> Right one
+    (Nothing, _) | [one] <- [p | p <- ps, any (Vec.isNear p) own] -> Right one
     _ -> Left (NotLinked j (AmbiguousMeeting ps))
   where
     distance a b = let Mm d = Vec.distance a b in d
@@ -135,7 +137,7 @@ pointOn j p carrier
       OnCircle _ _ -> Tolerance.coincident
       AtPoint _ -> Tolerance.coincident
 
-extent :: Polyarc -> BoundingBox
+extent :: MeasuredPolyarc -> BoundingBox
 extent c =
   foldl
     (\box s -> BoundingBox.union box (BoundingBox.ofSegment s))
@@ -147,7 +149,7 @@ distanceTo :: ElementCarrier -> Point -> Mm
 distanceTo carrier p = case carrier of
   OnLine l -> let Mm d = Carrier.signedDistance l p in Mm (abs d)
   OnCircle _ (Circle c (Mm r)) -> let Mm d = Vec.distance c p in Mm (abs (d - r))
-  OnCurve c -> Vec.distance p (MeasuredPolyarc.at c (MeasuredPolyarc.station c p))
+  OnCurve c -> Vec.distance p (MeasuredPolyarc.at c (MeasuredPolyarc.nearestStation c p))
   AtPoint q -> Vec.distance p q
 
 -- Smooth transitions
@@ -173,7 +175,7 @@ smoothLines :: Neighbours -> Line -> Line -> Either ContourFault Joint
 smoothLines j l m
   | Vec.dot (Carrier.direction l) (Carrier.direction m) <= 0 = Left (NotLinked j TurnsBack)
   | otherwise = case Intersection.lines l m of
-    Same | Vec.near (Carrier.to l) (Carrier.from m) -> Right (through (Carrier.to l))
+    Same | Vec.isNear (Carrier.to l) (Carrier.from m) -> Right (through (Carrier.to l))
     Same -> Right (through (Carrier.from m))
     Apart gap -> Left (NotLinked j (NotSmooth gap))
     _ -> meet j [] Nothing
@@ -188,7 +190,7 @@ smoothEnds j (p, u) (q, v)
   | abs angle > allowed = Left (NotLinked j (Kinked (Rad (abs angle))))
   | otherwise = Right (Joint p q Nothing)
   where
-    Rad angle = Vec.turn u v
+    Rad angle = Vec.signedAngle u v
     Rad allowed = Tolerance.smoothTurn
 
 -- | The point of an element nearest to a point, and the element's direction there.
@@ -197,15 +199,15 @@ facing carrier p = case carrier of
   OnLine l -> (Carrier.foot l p, Carrier.direction l)
   OnCircle sense (Circle c (Mm r)) ->
     let out = Vec.unit (Vec.to c p)
-     in (Vec.shift (Vec.scale r out) c, Vec.scale (Carrier.sense sense) (Vec.left out))
+     in (Vec.shift (Vec.scale r out) c, Vec.scale (Carrier.senseSign sense) (Vec.left out))
   OnCurve c ->
-    let s = MeasuredPolyarc.station c p
+    let s = MeasuredPolyarc.nearestStation c p
      in (MeasuredPolyarc.at c s, MeasuredPolyarc.directionAt c s)
   AtPoint q -> (q, Vec.unit (Vec.to q p))
 
 smoothLineCircle :: Neighbours -> Line -> Sense -> Circle -> Either ContourFault Joint
 smoothLineCircle j l sense (Circle c (Mm r))
-  | abs (abs h - r) <= tolerance && signum h /= Carrier.sense sense =
+  | abs (abs h - r) <= tolerance && signum h /= Carrier.senseSign sense =
     Left (NotLinked j TurnsBack)
   | otherwise = touching j (abs h - r) (Carrier.foot l c)
   where
@@ -250,7 +252,7 @@ tangent j = case shapes j of
   (AtPoint _, AtPoint _) -> meet j [] Nothing
   where
     between a@(_, c@(Circle p _)) b@(_, d@(Circle q _))
-      | Vec.near p q =
+      | Vec.isNear p q =
         Left
           ( NotLinked
               j
@@ -296,7 +298,7 @@ checkReach j (Located region carrier) distance p = case carrier of
     | not (MeasuredPolyarc.isClosed c), target < -tolerance -> tooShort (-target)
     | not (MeasuredPolyarc.isClosed c), target > l + tolerance -> tooShort (target - l)
     where
-      Mm s = MeasuredPolyarc.station c p
+      Mm s = MeasuredPolyarc.nearestStation c p
       Mm l = MeasuredPolyarc.length c
       Mm tolerance = Tolerance.coincident
       target = s + distance
@@ -309,6 +311,6 @@ along :: ElementCarrier -> Double -> Point -> Point
 along carrier s p = case carrier of
   OnLine l -> Vec.shift (Vec.scale s (Carrier.direction l)) p
   OnCircle sense (Circle c (Mm r)) ->
-    Vec.shift (Vec.rotate (Rad (Carrier.sense sense * s / r)) (Vec.to c p)) c
-  OnCurve c -> let Mm t = MeasuredPolyarc.station c p in MeasuredPolyarc.at c (Mm (t + s))
+    Vec.shift (Vec.rotate (Rad (Carrier.senseSign sense * s / r)) (Vec.to c p)) c
+  OnCurve c -> let Mm t = MeasuredPolyarc.nearestStation c p in MeasuredPolyarc.at c (Mm (t + s))
   AtPoint q -> q

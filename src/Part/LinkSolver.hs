@@ -23,7 +23,7 @@ import Data.Ord (comparing)
 import Geometry.Carrier (Circle (Circle), Line (Line))
 import Geometry.Carrier qualified as Carrier
 import Geometry.ElementCarrier (ElementCarrier (..))
-import Geometry.MeasuredPolyarc (Polyarc)
+import Geometry.MeasuredPolyarc (MeasuredPolyarc)
 import Geometry.MeasuredPolyarc qualified as MeasuredPolyarc
 import Geometry.Polyarc (Ends (..))
 import Geometry.Polyarc qualified as Polyarc
@@ -142,9 +142,9 @@ attempt region ends linked = do
       | MeasuredPolyarc.isClosed c -> Left (ClosedCurve elementRegion)
     (Open, _) -> open linked
   elements <- maybe (Left (NoLength region)) Right (NonEmpty.nonEmpty (filter isLong chosen))
-  let contour = Polyarc.chained segment (\s e -> e {segment = s}) ends elements
+  let contour = Polyarc.closeGaps segment (\s e -> e {segment = s}) ends elements
       originOf i = origin (contour NonEmpty.!! i)
-  case SelfIntersection.crossingOf segment ends contour of
+  case SelfIntersection.firstSelfIntersectionBy segment ends contour of
     Just (i, j, p) ->
       Left (CrossesItself region (originOf i) (originOf j) p (any hasFillet linked))
     Nothing -> Right contour
@@ -181,7 +181,7 @@ isSmooth :: Segment -> Segment -> Bool
 isSmooth a b =
   -- The sine of the angle excludes most corners, and costs less than the angle.
   Rad (abs (Vec.cross u v)) <= times 2 Tolerance.smoothAngle
-    && (let Rad angle = Vec.turn u v in Rad (abs angle) <= Tolerance.smoothAngle)
+    && (let Rad angle = Vec.signedAngle u v in Rad (abs angle) <= Tolerance.smoothAngle)
   where
     u = Segment.endDirection a
     v = Segment.startDirection b
@@ -382,7 +382,7 @@ arrival before js = case js of
 lengthOn :: ElementCarrier -> Maybe Segment -> Maybe Segment -> Point -> Point -> Mm
 lengthOn shape before after a b = case shape of
   OnLine l
-    | Vec.near a b -> Mm 0
+    | Vec.isNear a b -> Mm 0
     | otherwise -> Mm (Vec.dot (Carrier.direction l) (Vec.to a b))
   OnCircle _ _ -> total (map Segment.length (segmentsOn shape before after a b))
   OnCurve c -> let (Mm from, Mm to) = stations c a b in Mm (to - from)
@@ -395,16 +395,16 @@ lengthOn shape before after a b = case shape of
 -- it have about the same direction: circles in a row, joined by tangents.
 segmentsOn :: ElementCarrier -> Maybe Segment -> Maybe Segment -> Point -> Point -> [Segment]
 segmentsOn shape before after a b = case shape of
-  OnLine (Line _ _) -> [Straight a b | not (Vec.near a b)]
+  OnLine (Line _ _) -> [Straight a b | not (Vec.isNear a b)]
   OnCircle sense circle@(Circle c _)
-    | Vec.near a b && passesBy -> []
-    | Vec.near a b -> [Segment.fullCircle sense circle a]
+    | Vec.isNear a b && passesBy -> []
+    | Vec.isNear a b -> [Segment.fullCircle sense circle a]
     | otherwise -> [Segment.arc sense c a b]
   OnCurve c
     | to > MeasuredPolyarc.length c ->
-      MeasuredPolyarc.stretch c from (MeasuredPolyarc.length c)
-        <> MeasuredPolyarc.stretch c (Mm 0) (minus to (MeasuredPolyarc.length c))
-    | otherwise -> MeasuredPolyarc.stretch c from to
+      MeasuredPolyarc.segmentsBetween c from (MeasuredPolyarc.length c)
+        <> MeasuredPolyarc.segmentsBetween c (Mm 0) (minus to (MeasuredPolyarc.length c))
+    | otherwise -> MeasuredPolyarc.segmentsBetween c from to
     where
       (from, to) = stations c a b
   AtPoint _ -> []
@@ -416,17 +416,18 @@ segmentsOn shape before after a b = case shape of
 
 -- | The stations of two points on a curve. On a closed curve, the second one may lie beyond the
 -- curve's length.
-stations :: Polyarc -> Point -> Point -> (Mm, Mm)
+stations :: MeasuredPolyarc -> Point -> Point -> (Mm, Mm)
 stations c a b
-  | MeasuredPolyarc.isClosed c && (to <= from || Vec.near a b) =
+  | MeasuredPolyarc.isClosed c && (to <= from || Vec.isNear a b) =
     (from, plus to (MeasuredPolyarc.length c))
   | otherwise = (from, to)
   where
-    from = if Vec.near a (MeasuredPolyarc.start c) then Mm 0 else MeasuredPolyarc.station c a
+    from =
+      if Vec.isNear a (MeasuredPolyarc.start c) then Mm 0 else MeasuredPolyarc.nearestStation c a
     to =
-      if Vec.near b (MeasuredPolyarc.end c) && not (MeasuredPolyarc.isClosed c)
+      if Vec.isNear b (MeasuredPolyarc.end c) && not (MeasuredPolyarc.isClosed c)
         then MeasuredPolyarc.length c
-        else MeasuredPolyarc.station c b
+        else MeasuredPolyarc.nearestStation c b
 
 -- | The station on a curve from which its segments between two points start; 0 for other elements.
 entryStation :: ElementCarrier -> Point -> Point -> Mm

@@ -131,8 +131,8 @@ assembled context work side settings passes = do
         allowances = left passes,
         corners = Checked.corners settings,
         sense = Checked.sense settings,
-        spin = modalSense context,
-        byControl = case Checked.compensation settings of
+        spindleSense = modalSense context,
+        controlCompensation = case Checked.compensation settings of
           Just (Located at Checked.ByController) -> Just at
           Just (Located _ Checked.ByCompiler) -> Nothing
           Nothing -> Nothing,
@@ -191,13 +191,13 @@ pocketing context at e step settings = do
   wall <- milling context Milled at e (Located (region e) Inside) settings
   outline' <- named e . contourOf <$> Expression.evaluate env e
   islands <- concat <$> Evaluation.gather (map islandsOf (Checked.islands settings))
-  apart <- lengthOf env Parameter.Stepover step
+  stepover <- lengthOf env Parameter.Stepover step
   Evaluation.spend at (sum [length (elements (PocketCheck.contour c)) | c <- outline' : islands])
-  checkPassCount (region step) (over (PocketCheck.halfWidth outline') apart)
+  checkPassCount (region step) (over (PocketCheck.halfWidth outline') stepover)
   let diameter = times 2 . cutterRadius <$> cutter context
-      tooWide = [StepTooWide (region step) apart d | Just d <- [diameter], apart > d]
+      tooWide = [StepTooWide (region step) stepover d | Just d <- [diameter], stepover > d]
       contours' = map PocketCheck.contour islands
-      pocket w = Pocketing {wall = w, islands = contours', apart}
+      pocket w = Pocketing {wall = w, islands = contours', stepover}
   case PocketCheck.misfits outline' islands <> tooWide of
     [] -> pure (pocket <$> wall)
     found -> Evaluation.mistakes [Error (InPocket m) [] | m <- found]
@@ -233,12 +233,12 @@ drilling context at points depth settings = do
   v <- Expression.evaluate env points
   checkCutter context at DrillStatement
   d <- lengthOf env Parameter.Depth depth
-  pecked <- traverse (lengthOf env Parameter.PeckDepth) (Checked.peck settings)
+  peckDepth <- traverse (lengthOf env Parameter.PeckDepth) (Checked.peck settings)
   plunge <- traverse (feedOf env) (Checked.plunge settings)
   let values = case v of
         ListValue vs -> Vector.toList vs
         _ -> [v]
-      pecks = maybe 1 (\p -> ceiling (min 1e9 (over d p) - Tolerance.equal)) pecked :: Int
+      pecks = maybe 1 (\p -> ceiling (min 1e9 (over d p) - Tolerance.equal)) peckDepth :: Int
   when
     (pecks > 1000)
     ( Evaluation.mistake
@@ -250,14 +250,14 @@ drilling context at points depth settings = do
     Just some -> pure $ do
       tool <- cutter context
       drillFeed <- plunge <|> modalFeed context
-      clear <- clearanceHeight context
+      travelHeight <- clearanceHeight context
       Just
         Drilling
           { holes = fmap (Located (region points)) some,
             drillRadius = cutterRadius tool,
             bottom = times (-1) d,
-            clear,
-            pecked,
+            travelHeight,
+            peckDepth,
             drillFeed
           }
   where

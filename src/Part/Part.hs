@@ -9,9 +9,9 @@ module Part.Part
     Element (..),
     Finish (..),
     plainFinish,
-    runs,
-    outline,
-    backwards,
+    curveRuns,
+    polyarcOf,
+    reversedContour,
     SpacePoint (..),
     Operation (..),
     Milling (..),
@@ -19,7 +19,7 @@ module Part.Part
     Pocketing (..),
     Work (..),
     Accuracy (..),
-    deepest,
+    deviationLimits,
     Drilling (..),
     Command (..),
     Cutter (..),
@@ -89,17 +89,17 @@ data Contour = Contour
     -- | segments, each of which begins where the one before it ends
     elements :: NonEmpty Element,
     -- | the elements as written; empty after a transformation or a reversal
-    legs :: [ContourElement]
+    writtenElements :: [ContourElement]
   }
   deriving stock (Eq, Show)
 
 -- | An element of a contour as written.
 data ContourElement = ContourElement
-  { spot :: Region,
-    shape :: ElementCarrier,
+  { elementRegion :: Region,
+    elementCarrier :: ElementCarrier,
     -- | the exact curve, if the element is one
-    source :: Maybe PartCurve,
-    asked :: Finish,
+    elementCurve :: Maybe PartCurve,
+    elementFinish :: Finish,
     -- | the link to the element after it
     link :: Maybe Link
   }
@@ -137,15 +137,15 @@ plainFinish :: Finish
 plainFinish = Finish {ownFeed = Nothing, slow = False, allowance = Mm 0}
 
 -- | Groups segments that continue one another: each group is one line, arc or smooth curve.
-runs :: [Element] -> [NonEmpty Element]
-runs es = case es of
+curveRuns :: [Element] -> [NonEmpty Element]
+curveRuns es = case es of
   [] -> []
-  e : rest -> let (same, others) = span continues rest in (e :| same) : runs others
+  e : rest -> let (same, others) = span continues rest in (e :| same) : curveRuns others
 
 -- | A contour in the opposite direction. A segment then continues the segment that continued it.
-backwards :: Contour -> Contour
-backwards c =
-  c {elements = NonEmpty.reverse opposite, legs = []}
+reversedContour :: Contour -> Contour
+reversedContour c =
+  c {elements = NonEmpty.reverse opposite, writtenElements = []}
   where
     opposite = snd (mapAccumR reversed first (elements c))
     first = continues (NonEmpty.head (elements c))
@@ -156,8 +156,8 @@ backwards c =
 
 -- | The segments of a contour as a polyarc. Strict, so that the polyarc does not retain the
 -- elements.
-outline :: Contour -> Polyarc.Polyarc
-outline contour = Polyarc.Polyarc (ends contour) (segment first :| segmentsOf others)
+polyarcOf :: Contour -> Polyarc.Polyarc
+polyarcOf contour = Polyarc.Polyarc (ends contour) (segment first :| segmentsOf others)
   where
     first :| others = elements contour
     segmentsOf es = case es of
@@ -203,10 +203,10 @@ data Milling = Milling
     corners :: Corners,
     sense :: Maybe (Located CutSense),
     -- | the sense of the spindle
-    spin :: Sense,
+    spindleSense :: Sense,
     -- | the region that asks for cutter compensation by the control; without it, the compiler
     -- computes the offset
-    byControl :: Maybe Region,
+    controlCompensation :: Maybe Region,
     rest :: RestPolicy
   }
   deriving stock (Eq, Show)
@@ -228,7 +228,7 @@ data Pocketing = Pocketing
     -- | closed contours inside the outline, apart from it and from one another, that remain
     islands :: [Contour],
     -- | the stepover: above 0, at most the diameter of the cutter
-    apart :: Mm
+    stepover :: Mm
   }
   deriving stock (Eq, Show)
 
@@ -245,8 +245,8 @@ data Accuracy
   deriving stock (Eq, Show)
 
 -- | The chord error allowed into the material, and out of it.
-deepest :: Accuracy -> (Mm, Mm)
-deepest accuracy = case accuracy of
+deviationLimits :: Accuracy -> (Mm, Mm)
+deviationLimits accuracy = case accuracy of
   OnPath d -> (d, d)
   Band a b -> (a, b)
 
@@ -258,9 +258,9 @@ data Drilling = Drilling
     -- | the height of the bottom, below 0
     bottom :: Mm,
     -- | the height of moves between the holes
-    clear :: Mm,
+    travelHeight :: Mm,
     -- | the largest depth before the drill is retracted
-    pecked :: Maybe Mm,
+    peckDepth :: Maybe Mm,
     drillFeed :: Located Feed
   }
   deriving stock (Eq, Show)

@@ -53,7 +53,7 @@ import Part.Value qualified as Value
 table :: Environment -> Columns -> Eval PartTable
 table env (Columns names written) = do
   parts <- Evaluation.collect (fmap pure . evaluated) written
-  pure PartTable {rows = NumberTable.joined (2 + length names) parts, names = map fst names}
+  pure PartTable {rows = NumberTable.concatenated (2 + length names) parts, names = map fst names}
   where
     evaluated cells = case cells of
       Numbers rows -> rows <$ Evaluation.collect (reachable rows) [0 .. NumberTable.count rows - 1]
@@ -63,7 +63,7 @@ table env (Columns names written) = do
           <$ mapM_ (Value.within at) (take 2 vs)
     reachable :: NumberTable -> Int -> Eval [()]
     reachable rows k = do
-      let at = NumberTable.place rows k
+      let at = NumberTable.regionOf rows k
       Value.within at (NumberTable.cell rows k 0)
       [] <$ Value.within at (NumberTable.cell rows k 1)
 
@@ -165,21 +165,21 @@ shiftedBy at side distance lower = do
   case [u | u <- Exact.corners lower, gapAt whole u > Tolerance.curve] of
     u : _ -> mistake (ShiftsCorner at (Exact.at lower u) (cornerAngle u))
     [] -> pure ()
-  case Cusp.fold whole of
-    Just f -> mistake (Folds at (Cusp.place f) (Cusp.asked f) (Cusp.largest f))
+  case Cusp.firstCusp whole of
+    Just f -> mistake (Folds at (Cusp.place f) (Cusp.requested f) (Cusp.curvatureRadius f))
     Nothing -> pure whole
   where
     cornerAngle u =
       let before = Exact.tangentFrom Exact.Before lower u
           after = Exact.tangentFrom Exact.After lower u
-          Rad a = Vec.turn before after
+          Rad a = Vec.signedAngle before after
        in Rad (abs a)
 
 -- | The gap of a curve at a parameter; at 0, between its end and its start.
 gapAt :: Exact.Curve -> Double -> Mm
-gapAt whole u = Vec.distance before (Exact.placeFrom Exact.After whole (max 0 u))
+gapAt whole u = Vec.distance before (Exact.pointFrom Exact.After whole (max 0 u))
   where
-    before = Exact.placeFrom Exact.Before whole (if u <= 0 then Exact.domain whole else u)
+    before = Exact.pointFrom Exact.Before whole (if u <= 0 then Exact.domain whole else u)
 
 -- Joggles
 
@@ -199,7 +199,7 @@ joggledBy env side lower (Located at (Joggle from to depth radius)) = do
             ShiftDistance.depth = d,
             ShiftDistance.radius = r
           }
-  case Exact.joggled joggle lower of
+  case Exact.fitJoggle joggle lower of
     Left Exact.DeepJoggle -> mistake (JoggleDepth (region radius) r (times 0.5 d))
     Left (Exact.LongJoggle _ available) ->
       mistake (JoggleRadius (region radius) r available (largestRadius d available))
@@ -240,7 +240,7 @@ bevelled env on e = case on of
     a <- Expression.number <$> Expression.evaluate env e
     when (abs a >= steepest) (mistake (SteepBevel (region e) Nothing (Rad a)))
     pure [(0, a)]
-  Just c -> Curve.along c <$> (alongRows env c e >>= upright c e)
+  Just c -> Curve.alongPolyarc c <$> (alongRows env c e >>= upright c e)
 
 -- | Bevels at the rows of a curve's table; fails for one that is not below a right angle.
 upright :: PartCurve -> Expr -> Vector Double -> Eval (Vector Double)

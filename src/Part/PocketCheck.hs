@@ -60,7 +60,7 @@ misplaced outline islands (k, island)
           l /= k,
           BoundingBox.meets (boxOf island) (boxOf other)
       ]
-    encloses n = WindingNumber.encloses (Part.outline (contour n)) (startOf island)
+    encloses n = WindingNumber.encloses (Part.polyarcOf (contour n)) (startOf island)
 
 -- | The common points of two numbered contours, one for each pair of segments, with the lower
 -- number first.
@@ -71,19 +71,19 @@ crossings numbered =
       s <- segments n,
       (i, other) <- BoxTree.within (BoundingBox.ofSegment s) index,
       i < j,
-      p <- take 1 (Distance.crossings s other)
+      p <- take 1 (Distance.intersections s other)
   ]
   where
     index =
       BoxTree.index (BoundingBox.ofSegment . snd) [(i, s) | (i, n) <- numbered, s <- segments n]
 
 segments :: Named -> [Segment]
-segments n = NonEmpty.toList (Polyarc.segments (Part.outline (contour n)))
+segments n = NonEmpty.toList (Polyarc.segments (Part.polyarcOf (contour n)))
 
 boxOf :: Named -> BoundingBox
 boxOf n = foldl BoundingBox.union first others
   where
-    first :| others = fmap BoundingBox.ofSegment (Polyarc.segments (Part.outline (contour n)))
+    first :| others = fmap BoundingBox.ofSegment (Polyarc.segments (Part.polyarcOf (contour n)))
 
 -- | An upper bound for the distance of a point inside a contour from the contour: half of the
 -- shorter side of its bounding box.

@@ -55,7 +55,7 @@ toReport misfit = case misfit of
     (at region "E0358" ("the island " <> quote name <> " meets the outline of the pocket"))
       { message =
           [ "They cross or touch at "
-              <> Vec.written 4 p
+              <> Vec.toText 4 p
               <> "; the outline is "
               <> quote outline
               <> "."
@@ -65,7 +65,7 @@ toReport misfit = case misfit of
       }
   Meets region (Name name) (Name other) False p ->
     (at region "E0358" ("the island " <> quote name <> " meets the island " <> quote other))
-      { message = ["They cross or touch at " <> Vec.written 4 p <> "."],
+      { message = ["They cross or touch at " <> Vec.toText 4 p <> "."],
         hints = ["Draw islands that grow together as one contour."]
       }
   StepTooWide region stepover diameter ->

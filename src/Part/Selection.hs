@@ -56,8 +56,8 @@ picked region Answers {sought, candidate, keyPoint, stations, tie = Mm tie, answ
     (_, Choosing Near (Spatial p) : _) -> nearest (fromOrigin p)
     (_, Choosing ToLeft (LineValue l) : _) -> only (\a -> leftOf l a > tolerance)
     (_, Choosing ToRight (LineValue l) : _) -> only (\a -> leftOf l a < -tolerance)
-    (_, Choosing Within' (CircleValue c) : _) -> only (\a -> depth c a > tolerance)
-    (_, Choosing Beyond (CircleValue c) : _) -> only (\a -> depth c a < -tolerance)
+    (_, Choosing ToInside (CircleValue c) : _) -> only (\a -> depth c a > tolerance)
+    (_, Choosing ToOutside (CircleValue c) : _) -> only (\a -> depth c a < -tolerance)
     (_, Ranking rank : _)
       | station : _ <- stations -> pure (ranked rank (NonEmpty.fromList (sortOn station answers)))
     _ -> bug "a choice of another kind"

@@ -30,7 +30,7 @@ operation s o = case o of
           retract = map stop (retract m)
         }
     stop p = p {place = fmap (Transformation.point s) (place p)}
-    image c = c {elements = fmap moved (elements c), legs = []}
+    image c = c {elements = fmap moved (elements c), writtenElements = []}
     moved e = e {segment = Transformation.segment s (segment e)}
     mirrored side'
       | Transformation.mirrors s = case side' of

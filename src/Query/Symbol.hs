@@ -88,4 +88,4 @@ parameterList parameters =
 
 -- | The text of a region on one line.
 slice :: Source -> Region -> Text
-slice source part = Text.unwords (concatMap Text.words (Region.pieces source part))
+slice source part = Text.unwords (concatMap Text.words (Region.linesIn source part))

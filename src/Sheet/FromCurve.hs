@@ -54,7 +54,7 @@ piece at curve finish = do
         map recalculation shifts <> [Bevelled | not (any isBevelled shifts), isJust surfaces]
   pure
     Piece
-      { towards = here (if not (null cipher) && side < 0 then RightSide else LeftSide),
+      { shiftSide = here (if not (null cipher) && side < 0 then RightSide else LeftSide),
         cipher = here cipher,
         rows,
         slow = here (Part.slow finish),
@@ -83,7 +83,7 @@ pointsOf at base = case Base.method base of
   Base.Polyline | Vector.length points == 2 -> pure points
   _ -> refused (NoPiece at OtherCurve)
   where
-    points = Vector.map Base.place (Base.rows base)
+    points = Vector.map Base.knotPoint (Base.rows base)
 
 shiftOf :: (Carrier.Side, Distance) -> Shift
 shiftOf (side, distance) = case distance of
@@ -159,7 +159,7 @@ surfaceOf at count shifts
     heights = map snd bevelled
     bevelsAtPoints = concatMap toList (take 1 bevels)
     heightsAtPoints = concatMap toList (take 1 heights) <> replicate count 0
-    surfaceAt m h = Surface {mu = here (degreesOf m), flange = here h}
+    surfaceAt m h = Surface {mu = here (degreesOf m), flangeHeight = here h}
     areDifferent list = case list of
       [] -> False
       x : xs -> any (/= x) xs

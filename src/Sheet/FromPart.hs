@@ -59,7 +59,7 @@ fromPart written part = case (Part.start part, runsOf (Part.operations part)) of
          )
   where
     build general (approach, retracts) arrays' =
-      case NonEmpty.zipWith (\a points -> a {onward = points}) arrays' retracts of
+      case NonEmpty.zipWith (\a points -> a {retract = points}) arrays' retracts of
         a :| as -> Sheet {general, approach, first = a, others = as}
 
 refused :: Unfit -> Result w Unfit a
@@ -168,7 +168,7 @@ titleNumbers title = do
 -- | A number of at most nine digits.
 wholeNumber :: Text -> Maybe Double
 wholeNumber text =
-  if Text.length text <= 9 && not (Text.any (== '.') text) then Decimal.amount text else Nothing
+  if Text.length text <= 9 && not (Text.any (== '.') text) then Decimal.parse text else Nothing
 
 -- The toolpath between the arrays
 
@@ -268,7 +268,7 @@ arrayOf :: (Region, Milling) -> Result w Unfit Array
 arrayOf (at, m) = do
   mapM_ (refused . NoNumbers at) (unsupported m)
   when (Part.ends contour == Part.Closed) (refused (NoPiece name ClosedContour))
-  case NonEmpty.nonEmpty (Part.legs contour) of
+  case NonEmpty.nonEmpty (Part.writtenElements contour) of
     Nothing -> refused (NoPiece name DerivedContour)
     Just elements -> do
       pieces' <- traverse (pieceOf m) elements
@@ -277,7 +277,7 @@ arrayOf (at, m) = do
         Array
           { joined = zipWith LinkedPiece (NonEmpty.init pieces') links,
             final = NonEmpty.last pieces',
-            onward = nowhere :| []
+            retract = nowhere :| []
           }
   where
     contour = Part.contour m
@@ -292,20 +292,20 @@ unsupported m =
     <> [Lead | Just _ <- [Part.leadIn m, Part.leadOut m]]
     <> [ContourAllowance | Part.allowances m /= Mm 0 :| []]
     <> [SharpCorner | Part.corners m == Part.Sharp]
-    <> [ControlCompensation | Just _ <- [Part.byControl m]]
+    <> [ControlCompensation | Just _ <- [Part.controlCompensation m]]
 
 pieceOf :: Milling -> Part.ContourElement -> Result w Unfit Piece
-pieceOf m element = case Part.source element of
+pieceOf m element = case Part.elementCurve element of
   Nothing -> refused (NoPiece at PlainElement)
   Just curve -> do
     mapM_
       (\f -> refused (NoFeed (region f) FeedOfElement))
-      (Part.ownFeed (Part.asked element))
-    piece <- FromCurve.piece at (Curve.exact curve) (Part.asked element)
+      (Part.ownFeed (Part.elementFinish element))
+    piece <- FromCurve.piece at (Curve.exact curve) (Part.elementFinish element)
     mapM_ (const (checkSwivel at curve piece bevels)) (Part.gear m)
     pure piece
   where
-    at = Part.spot element
+    at = Part.elementRegion element
     bevels =
       [ (Part.segment e, b)
         | e <- toList (Part.elements (Part.contour m)),
@@ -328,10 +328,10 @@ checkSwivel at curve piece bevels
   where
     ends = concat [[(Segment.start e, a), (Segment.end e, b)] | (e, (a, b)) <- bevels]
     bevelOf r = maybe 0 (\s -> value (mu s) * pi / 180) (surface r)
-    marks = Curve.along curve (Vector.fromList (map bevelOf (toList (rows piece))))
+    marks = Curve.alongPolyarc curve (Vector.fromList (map bevelOf (toList (rows piece))))
     Rad slack = Tolerance.bevel
     isOther (p, b) =
-      let Mm s = MeasuredPolyarc.station (Curve.approximation curve) p
+      let Mm s = MeasuredPolyarc.nearestStation (Curve.approximation curve) p
        in abs (b - interpolated s marks) > 2 * slack
 
 -- | Linear interpolation between known stations; constant before the first and after the last one.
@@ -357,4 +357,4 @@ linkOf element = case Part.link element of
   Just LinkCandidate.Tangent -> refused (NoLink at TangentLink)
   Just (LinkCandidate.Chamfer _) -> refused (NoLink at ChamferLink)
   where
-    at = Part.spot element
+    at = Part.elementRegion element

@@ -237,8 +237,8 @@ array count = do
   begin <- peek
   when (count > maxArrays) (mapM_ (refuse . TooManyArrays . position) begin)
   (joined, final) <- piecesOfArray
-  (onward, hasMore) <- retractPoints
-  pure (Array {joined, final, onward}, hasMore)
+  (retract, hasMore) <- retractPoints
+  pure (Array {joined, final, retract}, hasMore)
 
 piecesOfArray :: Reader ([LinkedPiece], Piece)
 piecesOfArray = do

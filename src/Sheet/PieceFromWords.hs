@@ -94,7 +94,7 @@ pieceOf opening isNegative digits inside mark = do
   rows <- maybe (misfit PointsFew) Right (NonEmpty.nonEmpty (map row (pointRows parts)))
   pure
     Piece
-      { towards = Located (site (position opening)) (if isRight then RightSide else LeftSide),
+      { shiftSide = Located (site (position opening)) (if isRight then RightSide else LeftSide),
         cipher =
           Located
             (site (position opening))
@@ -133,7 +133,7 @@ flagOf n = case value n of
 
 row :: [Number] -> PointRow
 row numbers = case numbers of
-  [px, py, mu, flange] -> PointRow {px, py, surface = Just Surface {mu, flange}}
+  [px, py, mu, flangeHeight] -> PointRow {px, py, surface = Just Surface {mu, flangeHeight}}
   px : py : _ -> PointRow {px, py, surface = Nothing}
   _ -> PointRow {px = nowhere, py = nowhere, surface = Nothing}
   where

@@ -79,7 +79,7 @@ data Waypoint = Waypoint {x :: Number, y :: Number, z :: Number, feed :: Number}
   deriving stock (Eq, Show)
 
 -- | Linked pieces, and the points after them.
-data Array = Array {joined :: [LinkedPiece], final :: Piece, onward :: NonEmpty Waypoint}
+data Array = Array {joined :: [LinkedPiece], final :: Piece, retract :: NonEmpty Waypoint}
   deriving stock (Eq, Show)
 
 -- | A piece, and its link to the next piece.
@@ -90,7 +90,7 @@ data LinkedPiece = LinkedPiece Piece (Located Link)
 -- uses the bevel, every point has a surface; otherwise none has.
 data Piece = Piece
   { -- | the side to which the distances count
-    towards :: Located Side,
+    shiftSide :: Located Side,
     cipher :: Located [Recalculation],
     rows :: NonEmpty PointRow,
     -- | the flag of the feed: slow down at the end
@@ -121,7 +121,7 @@ data PointRow = PointRow {px :: Number, py :: Number, surface :: Maybe Surface}
   deriving stock (Eq, Show)
 
 -- | The bevel, degrees, and the height of the flange, mm.
-data Surface = Surface {mu :: Number, flange :: Number}
+data Surface = Surface {mu :: Number, flangeHeight :: Number}
   deriving stock (Eq, Show)
 
 -- | The link of two pieces.

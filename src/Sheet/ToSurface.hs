@@ -81,7 +81,7 @@ runs sheet = go 1 1 (leaving (approach sheet)) Nothing (NonEmpty.toList (arrays 
         go
           (count + 1)
           (firstPiece + length (pieces array))
-          (leaving (onward array))
+          (leaving (retract array))
           (Just working)
           rest
     leaving = feed . NonEmpty.last
@@ -154,7 +154,7 @@ linkingMoves sheet Run {working, earlier, array} = approaching <> retracting
       (Nothing, from :| rest) -> setting Surface.Approach (stops isFlat' working (feed from) rest)
       (Just _, _) -> []
     retracting =
-      setting Surface.Retract (stops isFlat' working working (NonEmpty.toList (onward array)))
+      setting Surface.Retract (stops isFlat' working working (NonEmpty.toList (retract array)))
     setting make list =
       [ Located (region (point (NonEmpty.head s))) (make s)
         | Just s <- [NonEmpty.nonEmpty list]
@@ -179,7 +179,7 @@ isFlat sheet =
   not (isBlade sheet)
     && all (all ((== 0) . value . z)) (approach sheet : retracts)
   where
-    retracts = map onward (NonEmpty.toList (arrays sheet))
+    retracts = map retract (NonEmpty.toList (arrays sheet))
 
 -- | A point, with its height unless all heights of the sheet are 0.
 pointOf :: Bool -> Waypoint -> Expr
@@ -218,7 +218,7 @@ pieceStatements count piece =
     name = Located at (pieceName count)
     definition = case value (cipher piece) of
       [] -> Curve name curve
-      rs -> Surface.Piece name curve (ciphers piece rs) (surfaceSide <$> towards piece) []
+      rs -> Surface.Piece name curve (ciphers piece rs) (surfaceSide <$> shiftSide piece) []
     surfaceSide s = case s of
       LeftSide -> Surface.LeftSide
       RightSide -> Surface.RightSide
@@ -241,7 +241,7 @@ tableOf piece = Surface.WrittenLines (Located at (Surface.Header headings) : map
       Located
         (Region.merge (region (px row)) (region (py row)))
         (Surface.Entries (unitless (px row) :| map unitless ([py row] <> surfaceCells row <> ts)))
-    surfaceCells row = concat [[mu s, flange s] | Just s <- [surface row]]
+    surfaceCells row = concat [[mu s, flangeHeight s] | Just s <- [surface row]]
 
 pieceName :: Int -> Name
 pieceName count = Name ("piece_" <> Decimal.whole count)

@@ -45,7 +45,7 @@ array lastArray number' a =
   concatMap (\(LinkedPiece p (Located _ l)) -> piece p (linkText l)) (joined a)
     <> piece (final a) "0"
     <> [""]
-    <> map waypoint (NonEmpty.toList (onward a))
+    <> map waypoint (NonEmpty.toList (retract a))
     <> ["-0" | number' < lastArray]
 
 -- | A piece with its link. The sign of the first distance tells the side; without a first distance,
@@ -64,7 +64,7 @@ piece p link =
     heads = concatMap headOf recalculations
     tails = [t | Growing _ t <- recalculations]
     given = [g | Pointwise g <- recalculations]
-    isRight = value (towards p) == RightSide
+    isRight = value (shiftSide p) == RightSide
     isSignedFirst = any ((/= 0) . value) (take 1 heads)
     cipherText
       | null recalculations = "0"
@@ -85,7 +85,7 @@ headOf r = case r of
   Pointwise _ -> []
 
 row :: PointRow -> Text
-row r = line ([px r, py r] <> maybe [] (\s -> [mu s, flange s]) (surface r))
+row r = line ([px r, py r] <> maybe [] (\s -> [mu s, flangeHeight s]) (surface r))
 
 linkText :: Link -> Text
 linkText link = case link of

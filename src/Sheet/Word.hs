@@ -51,10 +51,10 @@ entry number (Located at word) =
   maybe (Left (NotANumber here word)) (Right . SheetWord here) $ case Text.uncons word of
     Just ('+', "") -> Just Plus
     Just ('-', "") -> Just Minus
-    Just ('+', digits) -> Figure <$> Decimal.amount digits
+    Just ('+', digits) -> Figure <$> Decimal.parse digits
     Just ('-', digits) ->
-      (\x -> if x == 0 then Mark else Figure (negate x)) <$> Decimal.amount digits
-    _ -> Figure <$> Decimal.amount word
+      (\x -> if x == 0 then Mark else Figure (negate x)) <$> Decimal.parse digits
+    _ -> Figure <$> Decimal.parse word
   where
     here = NumberPosition at number
 

@@ -61,14 +61,14 @@ rowsFrom :: Char -> Maybe Int -> Int -> [Located Text] -> [([Error], TableLine)]
 rowsFrom separator columns k texts =
   [ ( [],
       Located
-        (Region.span (NumberTable.place found 0) (NumberTable.place found (count - 1)))
+        (Region.span (NumberTable.regionOf found 0) (NumberTable.regionOf found (count - 1)))
         (Numbers found)
     )
     | count > 0
   ]
     <> other
   where
-    (found, remaining) = maybe (NumberTable.joined 0 [],) (plainRows separator) columns texts
+    (found, remaining) = maybe (NumberTable.concatenated 0 [],) (plainRows separator) columns texts
     count = NumberTable.count found
     other = case remaining of
       [] -> []
@@ -126,9 +126,9 @@ plainRow separator cells = row
       Just ('-', unsigned) -> cell i wanted negate unsigned
       _ -> cell i wanted id text
     cell i wanted signed text = case Decimal.leading text of
-      Leading {size, worth = Just x, behind} | size > 0 -> do
+      Leading {consumed, parsed = Just x, remainder} | consumed > 0 -> do
         writePrimArray cells i (signed x)
-        case Text.uncons behind of
+        case Text.uncons remainder of
           Nothing -> pure (wanted == 1)
           Just (c, more) | c == separator && wanted > 1 -> row (i + 1) (wanted - 1) more
           _ -> pure False
@@ -166,18 +166,18 @@ cellsOf separator (Located (Region at _) line) = NonEmpty.zipWith trimmed starts
 -- the region of the whole part, which starts at an offset.
 trimmed :: Int -> Text -> Located Text
 trimmed from part
-  | size == 0 = Located (Region from (from + Text.length part)) inside
-  | otherwise = Located (Region (from + before) (from + before + size)) inside
+  | consumed == 0 = Located (Region from (from + Text.length part)) inside
+  | otherwise = Located (Region (from + before) (from + before + consumed)) inside
   where
     stripped = Text.dropAround isSpace part
     inside = case Text.stripPrefix "\"" stripped >>= Text.stripSuffix "\"" of
       Just unquoted -> Text.dropAround isSpace unquoted
       Nothing -> stripped
-    size = Text.length inside
+    consumed = Text.length inside
     before = Text.length (Text.takeWhile isSpace part) + quoteWidth
     -- The quotation mark and the spaces after it.
     quoteWidth
-      | size == Text.length stripped = 0
+      | consumed == Text.length stripped = 0
       | otherwise = 1 + Text.length (Text.takeWhile isSpace (Text.drop 1 stripped))
 
 -- Headings

@@ -166,7 +166,7 @@ accuracy =
 
 -- | The command of a spindle.
 spin :: Parser Spin
-spin = (Still <$ keyword "off") <|> (Spinning <$> sense <*> Parsec.optional (onThisLine expr))
+spin = (SpindleStop <$ keyword "off") <|> (Spinning <$> sense <*> Parsec.optional (onThisLine expr))
 
 sense :: Parser Sense
 sense = (Clockwise <$ keyword "cw") <|> (CounterClockwise <$ keyword "ccw")
@@ -190,7 +190,7 @@ contour = do
 -- | The lines of a table in braces, or the name of a file.
 lines' :: Parser Lines
 lines' =
-  (LinesOf <$> (keyword "from" *> (text' <?> "the name of a file in quotation marks")))
+  (LinesFromFile <$> (keyword "from" *> (text' <?> "the name of a file in quotation marks")))
     <|> (WrittenLines <$> block TableBlock (const BrokenLine) line)
 
 -- | A line of a table: its headings, or one cell for each column.
@@ -298,7 +298,7 @@ element = do
 -- | A modifier of an element.
 modifier :: Parser Modifier_
 modifier =
-  (keyword "feed" *> (AtElementFeed <$> expr))
+  (keyword "feed" *> (ElementFeed <$> expr))
     <|> (Slow <$ keyword "slow")
     <|> (keyword "allowance" *> (ElementAllowance <$> expr))
     <|> (keyword "bevel" *> (Bevel <$> expr))
@@ -552,9 +552,9 @@ argument = do
       [ ("near", Near),
         ("left", ToLeft),
         ("right", ToRight),
-        ("inside", Within'),
-        ("outside", Beyond),
-        ("within", UpTo)
+        ("inside", ToInside),
+        ("outside", ToOutside),
+        ("within", WithinTolerance)
       ]
     ranked = Ranked <$> located ((First <$ keyword "first") <|> (Last <$ keyword "last"))
     isWord' t = case shape t of

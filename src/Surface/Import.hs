@@ -129,7 +129,7 @@ replaceImports reader chain = fmap concat . mapM replace
               importPath = path,
               importIdentity = itself
             }
-      Located region (Table name (LinesOf (Located at file))) -> do
+      Located region (Table name (LinesFromFile (Located at file))) -> do
         path <- namedPath chain at file
         rows <- tableLines reader at path file
         pure
@@ -172,10 +172,10 @@ readProgram reader chain i = do
     Left reason -> failed (importRegion i) (ImportMissing (importRegion i) (importName i) reason)
     Right text -> do
       progress <- get
-      let Result {errors, output} = Parser.parse (Region.next (texts progress)) text
+      let Result {errors, output} = Parser.parse (Region.nextOffset (texts progress)) text
       put
         progress
-          { texts = Region.add (Text.pack (importPath i)) text (texts progress),
+          { texts = Region.addFile (Text.pack (importPath i)) text (texts progress),
             seen = Set.insert (importIdentity i) (seen progress),
             found = reverse errors <> found progress
           }
@@ -200,10 +200,10 @@ tableLines reader at path name = do
     Left reason -> Nothing <$ modify' (\p -> p {found = LinesMissing at name reason : found p})
     Right text -> do
       progress <- get
-      let (errors, rows) = Csv.table (Region.next (texts progress)) text
+      let (errors, rows) = Csv.table (Region.nextOffset (texts progress)) text
       put
         progress
-          { texts = Region.add (Text.pack path) text (texts progress),
+          { texts = Region.addFile (Text.pack path) text (texts progress),
             found = reverse errors <> found progress
           }
       pure (if null errors then Just rows else Nothing)

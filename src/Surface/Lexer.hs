@@ -80,8 +80,8 @@ chunk !count ts cs before rest = case Text.uncons rest of
        in chunk count ts (comment : cs) before {at = end region, isTouching = False} more
     | otherwise ->
       case if isMachineNext before then machineName rest else token c after rest of
-        First shape size more ->
-          let region = Region (at before) (at before + size)
+        First shape consumed more ->
+          let region = Region (at before) (at before + consumed)
               next =
                 Before
                   { at = end region,
@@ -152,14 +152,14 @@ quoted rest = case Text.uncons after of
 -- | Reads a number and an optional unit on the same line.
 numeral :: Text -> First
 numeral rest = case Decimal.leading rest of
-  Leading {size, worth, behind} -> case (worth, unitAfter behind) of
-    (Just x, unit) | not (isMalformed (Text.take size rest) behind unit) -> case unit of
+  Leading {consumed, parsed, remainder} -> case (parsed, unitAfter remainder) of
+    (Just x, unit) | not (isMalformed (Text.take consumed rest) remainder unit) -> case unit of
       Just (UnitAfter u gap width) ->
         First
-          (Number (Numeral (Text.take size rest) x) (Just u))
-          (size + gap + width)
-          (Text.drop (gap + width) behind)
-      Nothing -> First (Number (Numeral (Text.take size rest) x) Nothing) size behind
+          (Number (Numeral (Text.take consumed rest) x) (Just u))
+          (consumed + gap + width)
+          (Text.drop (gap + width) remainder)
+      Nothing -> First (Number (Numeral (Text.take consumed rest) x) Nothing) consumed remainder
     _ ->
       let (written, more) = Text.span (\c -> isWordPart c || c == '.') rest
        in First (BadNumber written) (Text.length written) more
@@ -181,7 +181,7 @@ unitAfter = go 0
       Just (c, more)
         | isBlankInLine c -> go (gap + 1) more
         | isWordStart c ->
-          (\(unit, _, size) -> UnitAfter unit gap size) <$> find (fits text) longestFirst
+          (\(unit, _, consumed) -> UnitAfter unit gap consumed) <$> find (fits text) longestFirst
       _ -> Nothing
     fits word (_, name, _) = maybe False (not . begins isWordPart) (Text.stripPrefix name word)
 
@@ -189,7 +189,7 @@ unitAfter = go 0
 longestFirst :: [(Unit, Text, Int)]
 longestFirst =
   sortOn
-    (\(_, _, size) -> Down size)
+    (\(_, _, consumed) -> Down consumed)
     [(unit, unitName unit, Text.length (unitName unit)) | unit <- [minBound .. maxBound]]
 
 isLineEnd :: Char -> Bool

@@ -3,7 +3,7 @@
 -- A document is printed on one line if it fits. Otherwise its outermost brackets and series are
 -- broken first. Documents that must stay on one line are joined by 'Beside'.
 module Surface.PrettyPrinter
-  ( Document (..),
+  ( Doc (..),
     Member (..),
     PrintedLine (..),
     maxWidth,
@@ -16,11 +16,11 @@ import Data.Text (Text)
 import Data.Text qualified as Text
 
 -- | A text with possible line breaks.
-data Document
+data Doc
   = -- | never broken
     Text Text
   | -- | documents next to one another, without a break between them
-    Beside [Document]
+    Beside [Doc]
   | -- | members with a space or a line break between them; further lines are indented by four
     Series [Member]
   | -- | an opening bracket, members and a closing bracket; broken, the members are on lines of
@@ -29,7 +29,7 @@ data Document
   deriving stock (Eq, Show)
 
 -- | A document in a series. The flag tells if it must begin a line.
-data Member = Member {startsLine :: Bool, content :: Document}
+data Member = Member {startsLine :: Bool, content :: Doc}
   deriving stock (Eq, Show)
 
 -- | A line of the output: its indentation in characters, and its text.
@@ -41,7 +41,7 @@ maxWidth :: Int
 maxWidth = 100
 
 -- | The first non-empty text of a document.
-firstText :: Document -> Text
+firstText :: Doc -> Text
 firstText doc = case doc of
   Text t -> t
   Beside ds -> case filter (not . Text.null) (map firstText ds) of
@@ -51,7 +51,7 @@ firstText doc = case doc of
   Brackets _ open _ _ -> open
 
 -- | Renders a document whose first line has the given indentation; gives at least one line.
-render :: Int -> Document -> [PrintedLine]
+render :: Int -> Doc -> [PrintedLine]
 render from doc = map line (reverse (now pen : done pen))
   where
     pen = write from 0 doc Pen {done = [], now = (from, []), column = from}
@@ -76,7 +76,7 @@ newLine indent pen = Pen {done = now pen : done pen, now = (indent, []), column 
 
 -- | Writes a document. New lines are indented by @indent@. On its last line, @trailing@ characters
 -- must fit after the document.
-write :: Int -> Int -> Document -> Pen -> Pen
+write :: Int -> Int -> Doc -> Pen -> Pen
 write indent trailing doc pen
   | fits (maxWidth - column pen - trailing) doc = foldl (flip put) pen (unbroken doc)
   | otherwise = case doc of
@@ -89,7 +89,7 @@ write indent trailing doc pen
        in put close (newLine indent inside)
 
 -- | The number of characters after each document up to the next possible line break.
-widthsAfter :: Int -> [Document] -> [Int]
+widthsAfter :: Int -> [Doc] -> [Int]
 widthsAfter trailing = drop 1 . scanr step trailing
   where
     step doc after = case doc of
@@ -111,12 +111,12 @@ fill indent trailing members = case members of
          in go rest (write indent after content separated)
 
 -- | Tells if a document fits unbroken into @room@ characters.
-fits :: Int -> Document -> Bool
+fits :: Int -> Doc -> Bool
 fits room doc = maybe False (>= 0) (roomAfter doc room)
 
 -- | The room that a document leaves, or 'Nothing' once it is exceeded. Reads no more of the
 -- document than fits.
-roomAfter :: Document -> Int -> Maybe Int
+roomAfter :: Doc -> Int -> Maybe Int
 roomAfter doc room
   | room < 0 = Nothing
   | otherwise = case doc of
@@ -136,7 +136,7 @@ roomAfterAll members room =
       | otherwise = left >>= \r -> roomAfter (content member) (r - 1)
 
 -- | The texts of a document on one line.
-unbroken :: Document -> [Text]
+unbroken :: Doc -> [Text]
 unbroken doc = case doc of
   Text t -> [t]
   Beside ds -> concatMap unbroken ds

@@ -19,7 +19,7 @@ import Data.List.NonEmpty (NonEmpty (..))
 import Data.List.NonEmpty qualified as NonEmpty
 import Data.Text (Text)
 import Data.Text qualified as Text
-import Surface.PrettyPrinter (Document (..), Member (..))
+import Surface.PrettyPrinter (Doc (..), Member (..))
 import Surface.PrettyPrinter qualified as PrettyPrinter
 import Surface.Syntax hiding (Statement_ (..))
 import Surface.Token (unitName)
@@ -51,12 +51,12 @@ data Precedence
   deriving stock (Eq, Ord)
 
 -- | An expression without a demand on its precedence.
-value :: CommentPositions -> Expr -> Document
+value :: CommentPositions -> Expr -> Doc
 value comments = operand comments Loose
 
 -- | An element of a contour. Parentheses keep it apart from the element on the line before if it
 -- begins with a minus or with @by@.
-element :: CommentPositions -> Expr -> Document
+element :: CommentPositions -> Expr -> Doc
 element comments e = if isContinuation (PrettyPrinter.firstText doc) then bracketed doc else doc
   where
     doc = value comments e
@@ -64,7 +64,7 @@ element comments e = if isContinuation (PrettyPrinter.firstText doc) then bracke
       "-" `Text.isPrefixOf` text || Text.takeWhile (\c -> isAlphaNum c || c == '_') text == "by"
 
 -- | Documents with their regions, separated by commas; broken where a comment is.
-list :: CommentPositions -> NonEmpty (Region, Document) -> NonEmpty Member
+list :: CommentPositions -> NonEmpty (Region, Doc) -> NonEmpty Member
 list comments things = NonEmpty.zipWith piece (NonEmpty.zip before things) commas
   where
     before = Nothing :| map (Just . fst) (NonEmpty.toList things)
@@ -76,17 +76,17 @@ list comments things = NonEmpty.zipWith piece (NonEmpty.zip before things) comma
         }
 
 -- | A member that need not begin a line.
-member :: Document -> Member
+member :: Doc -> Member
 member = Member False
 
 -- | Documents with spaces between them on one line.
-spaced :: [Document] -> Document
+spaced :: [Doc] -> Doc
 spaced docs = Beside (drop 1 (concatMap (\d -> [Text " ", d]) docs))
 
-bracketed :: Document -> Document
+bracketed :: Doc -> Doc
 bracketed doc = Beside [Text "(", doc, Text ")"]
 
-operand :: CommentPositions -> Precedence -> Expr -> Document
+operand :: CommentPositions -> Precedence -> Expr -> Doc
 operand comments asked e = if precedence (Region.value e) < asked then bracketed doc else doc
   where
     doc = withoutParentheses comments e
@@ -137,7 +137,7 @@ sign operator = case operator of
   Or -> "or"
 
 -- | An expression without parentheses around it.
-withoutParentheses :: CommentPositions -> Expr -> Document
+withoutParentheses :: CommentPositions -> Expr -> Doc
 withoutParentheses comments (Located region e) = case e of
   Literal number unit -> Text (digits number <> maybe "" ((" " <>) . unitName) unit)
   Variable (Name name) -> Text name
@@ -176,7 +176,7 @@ withoutParentheses comments (Located region e) = case e of
 
 -- | Values separated by commas between an opening text and a parenthesis, with the region of the
 -- whole.
-callDocument :: CommentPositions -> Region -> Text -> NonEmpty Expr -> Document
+callDocument :: CommentPositions -> Region -> Text -> NonEmpty Expr -> Doc
 callDocument comments region open es =
   Brackets
     (isBetween comments (start region) (end region))
@@ -194,7 +194,7 @@ chain comments rank = reverse . go
           signed operator (operand comments (rightDemand rank) right) : go left
       _ -> [member (operand comments rank (Located region e))]
 
-signed :: Operator -> Document -> Member
+signed :: Operator -> Doc -> Member
 signed operator right = member (spaced [Text (sign operator), right])
 
 -- | The precedence that an operator demands of its right operand.
@@ -211,7 +211,7 @@ rightDemand rank = case rank of
   Factor -> Primary
   Primary -> Primary
 
-argument :: CommentPositions -> Argument -> (Region, Document)
+argument :: CommentPositions -> Argument -> (Region, Doc)
 argument comments a = case a of
   Given e -> (Region.region e, value comments e)
   Chosen (Located region choice) e ->
@@ -225,9 +225,9 @@ choiceName choice = case choice of
   Near -> "near"
   ToLeft -> "left"
   ToRight -> "right"
-  Within' -> "inside"
-  Beyond -> "outside"
-  UpTo -> "within"
+  ToInside -> "inside"
+  ToOutside -> "outside"
+  WithinTolerance -> "within"
 
 rankName :: Rank -> Text
 rankName which = case which of

@@ -20,7 +20,7 @@ import Data.Text (Text)
 import Data.Text qualified as Text
 import Surface.Alignment (AlignedLine (..), AlignmentColumn (..), LineCells (..))
 import Surface.Alignment qualified as Alignment
-import Surface.PrettyPrinter (Document (..), Member)
+import Surface.PrettyPrinter (Doc (..), Member)
 import Surface.PrettyPrinter qualified as PrettyPrinter
 import Surface.PrintExpression (CommentPositions, spaced)
 import Surface.PrintExpression qualified as PrintExpression
@@ -38,7 +38,7 @@ rows comments = concatMap (statement comments 0)
 -- Rows
 
 -- | The lines of one document; all but the first are continuations.
-whole :: Int -> Document -> [AlignedLine]
+whole :: Int -> Doc -> [AlignedLine]
 whole indent doc = case PrettyPrinter.render indent doc of
   [] -> []
   first : more ->
@@ -50,7 +50,7 @@ whole indent doc = case PrettyPrinter.render indent doc of
     map continued more
 
 -- | A line of two cells if both fit on it, else the lines of the joined document.
-cells' :: AlignmentColumn -> Int -> Document -> Document -> [AlignedLine]
+cells' :: AlignmentColumn -> Int -> Doc -> Doc -> [AlignedLine]
 cells' column indent first second =
   case (PrettyPrinter.render indent first, PrettyPrinter.render indent second, alone) of
     ([a], [b], [_]) ->
@@ -73,13 +73,13 @@ continued line =
     }
 
 -- | A block: the text before its brace, the lines inside, and the closing brace.
-braces :: Int -> Document -> [AlignedLine] -> [AlignedLine]
+braces :: Int -> Doc -> [AlignedLine] -> [AlignedLine]
 braces indent before inside
   | null inside = whole indent (spaced [before, Text "{ }"])
   | otherwise = opened indent before <> inside <> whole indent (Text "}")
 
 -- | The text before a block and its opening brace.
-opened :: Int -> Document -> [AlignedLine]
+opened :: Int -> Doc -> [AlignedLine]
 opened indent before = whole indent (spaced [before, Text "{"])
 
 -- Statements
@@ -105,7 +105,7 @@ statement comments indent (Located _ s) = case s of
       indent
       (Text ("contour " <> name <> " " <> closureName closure))
       (concatMap (item comments (indent + 2)) items)
-  Table (Located _ (Name name)) (LinesOf (Located _ file)) ->
+  Table (Located _ (Name name)) (LinesFromFile (Located _ file)) ->
     plain (Text ("table " <> name <> " from " <> quoted file))
   Table (Located _ (Name name)) (WrittenLines ls) ->
     braces indent (Text ("table " <> name)) (table comments (indent + 2) ls)
@@ -154,7 +154,7 @@ statement comments indent (Located _ s) = case s of
         (spaced [Text word, value e, Text (sideName side)])
         (concatMap (setting comments (indent + 2)) settings)
     spinning spin = case spin of
-      Still -> Text "off"
+      SpindleStop -> Text "off"
       Spinning sense speed -> spaced (Text (senseName sense) : maybe [] (\e -> [value e]) speed)
     choices = ChoicePrinter {conditionOf = value, blockOf = block, onlyChoice = onlyWhen}
     onlyWhen inside = case inside of
@@ -210,7 +210,7 @@ tableCells comments l = case l of
     text doc = Text.unwords (map PrettyPrinter.text (PrettyPrinter.render 0 doc))
 
 -- | The value of a piece: its curve, ciphers, side and joggles.
-piece :: CommentPositions -> Expr -> [Cipher] -> Side -> [Joggle] -> Document
+piece :: CommentPositions -> Expr -> [Cipher] -> Side -> [Joggle] -> Doc
 piece comments e ciphers side joggles =
   Series
     ( map
@@ -243,7 +243,7 @@ data Choice a = Choice Expr [a] [a]
 
 -- | The printers for the parts of a choice.
 data ChoicePrinter a = ChoicePrinter
-  { conditionOf :: Expr -> Document,
+  { conditionOf :: Expr -> Doc,
     blockOf :: [a] -> [AlignedLine],
     -- | the choice that a block consists of, if it has no other statement or item
     onlyChoice :: [a] -> Maybe (Choice a)
@@ -251,7 +251,7 @@ data ChoicePrinter a = ChoicePrinter
 
 -- | The lines of a choice: @if c { … } else if d { … } else { … }@. The document is that before the
 -- condition.
-alternatives :: ChoicePrinter a -> Int -> Document -> Choice a -> [AlignedLine]
+alternatives :: ChoicePrinter a -> Int -> Doc -> Choice a -> [AlignedLine]
 alternatives printer indent before (Choice condition yes no) = case (no, onlyChoice printer no) of
   ([], _) -> braces indent begin (block yes)
   (_, Just inner) ->
@@ -272,7 +272,7 @@ machineRef ref = case ref of
   Named name -> name
   Described file -> quoted file
 
-cutter :: CommentPositions -> Cutter -> Document
+cutter :: CommentPositions -> Cutter -> Doc
 cutter comments (Located _ c) = case c of
   MillCutter e -> made "mill(diameter " e
   DrillCutter e -> made "drill(diameter " e
@@ -292,7 +292,7 @@ cutter comments (Located _ c) = case c of
     made before e = Beside [Text before, value e, Text ")"]
     value = PrintExpression.value comments
 
-accuracy :: CommentPositions -> Accuracy -> Document
+accuracy :: CommentPositions -> Accuracy -> Doc
 accuracy comments a = case a of
   Within e -> PrintExpression.value comments e
   Between inside outside ->
@@ -304,7 +304,7 @@ accuracy comments a = case a of
       ]
 
 -- | Points separated by commas; the pace stays on the line of its point.
-stops :: CommentPositions -> NonEmpty Stop -> Document
+stops :: CommentPositions -> NonEmpty Stop -> Doc
 stops comments = Series . NonEmpty.toList . PrintExpression.list comments . fmap stop
   where
     stop Stop {point, pace} = case pace of
@@ -356,14 +356,14 @@ item comments indent (Located _ i) = case i of
       [Located _ (Choose c yes no)] -> Just (Choice c yes no)
       _ -> Nothing
 
-modifier :: CommentPositions -> Modifier -> Document
+modifier :: CommentPositions -> Modifier -> Doc
 modifier comments (Located _ m) = case m of
-  AtElementFeed e -> spaced [Text "feed", PrintExpression.value comments e]
+  ElementFeed e -> spaced [Text "feed", PrintExpression.value comments e]
   Slow -> Text "slow"
   ElementAllowance e -> spaced [Text "allowance", PrintExpression.value comments e]
   Bevel e -> spaced [Text "bevel", PrintExpression.value comments e]
 
-linked :: CommentPositions -> Link -> Document
+linked :: CommentPositions -> Link -> Doc
 linked comments (Located _ l) = case l of
   Meet near -> spaced (Text "meet" : maybe [] (\p -> [Text "near", value p]) near)
   Smooth -> Text "smooth"

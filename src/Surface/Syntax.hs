@@ -159,7 +159,7 @@ data DefaultPace = RapidMotion | FeedMotion
   deriving stock (Eq, Show, Enum, Bounded)
 
 -- | The command to a spindle: a sense with an optional speed, or a stop.
-data Spin = Spinning Sense (Maybe Expr) | Still
+data Spin = Spinning Sense (Maybe Expr) | SpindleStop
   deriving stock (Eq, Show)
 
 -- | The state of the coolant.
@@ -223,17 +223,17 @@ data Selector
   | ToLeft
   | ToRight
   | -- | @inside c@
-    Within'
-  | Beyond
+    ToInside
+  | ToOutside
   | -- | @within d@: a tolerance
-    UpTo
+    WithinTolerance
   deriving stock (Eq, Ord, Show, Enum, Bounded)
 
 -- | The lines of a table.
 data Lines
   = WrittenLines [TableLine]
   | -- | the name of a file of comma-separated values
-    LinesOf (Located Text)
+    LinesFromFile (Located Text)
   deriving stock (Eq, Show)
 
 -- | A line of a table with its region.
@@ -302,7 +302,7 @@ type Modifier = Located Modifier_
 -- | A property of one element.
 data Modifier_
   = -- | the feed along it
-    AtElementFeed Expr
+    ElementFeed Expr
   | -- | a lower feed at its end
     Slow
   | -- | the material left on it

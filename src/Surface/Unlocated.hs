@@ -40,7 +40,7 @@ statement s = case s of
   LetFunction name parameters e -> LetFunction (here name) (fmap here parameters) (expr e)
   Param name e -> Param (here name) (expr e)
   Contour name closure items -> Contour (here name) closure (map (unlocated item) items)
-  Table name (LinesOf file) -> Table (here name) (LinesOf (here file))
+  Table name (LinesFromFile file) -> Table (here name) (LinesFromFile (here file))
   Table name (WrittenLines ls) -> Table (here name) (WrittenLines (concatMap line ls))
   Curve name e -> Curve (here name) (expr e)
   Piece name e ciphers side joggles ->
@@ -58,7 +58,7 @@ statement s = case s of
   Travel motion stops -> Travel motion (fmap stop stops)
   Change place c -> Change (expr place) (unlocated cutter c)
   Spindle (Spinning sense speed) -> Spindle (Spinning sense (fmap expr speed))
-  Spindle Still -> Spindle Still
+  Spindle SpindleStop -> Spindle SpindleStop
   Coolant switch -> Coolant switch
   Auxiliary e -> Auxiliary (expr e)
   Repeat name from inside -> Repeat (here name) (expr from) (statements inside)
@@ -136,7 +136,7 @@ item i = case i of
 
 modifier :: Modifier_ -> Modifier_
 modifier m = case m of
-  AtElementFeed e -> AtElementFeed (expr e)
+  ElementFeed e -> ElementFeed (expr e)
   Slow -> Slow
   ElementAllowance e -> ElementAllowance (expr e)
   Bevel e -> Bevel (expr e)

@@ -12,7 +12,7 @@ import Base.Decimal qualified as Decimal
 import Data.Text (Text)
 import Data.Text qualified as Text
 import Data.Word (Word8)
-import Frame.Frame (Broken (..))
+import Frame.Frame (Violation (..))
 import Machine.Machine (CommandName (..), Content, FeedCode (..))
 import Machine.Machine qualified as Machine
 import Report.Report (Report (..), ReportPlace (..), report)
@@ -89,7 +89,7 @@ data Reason
   | -- | neither a motion nor a command
     NoContent
   | -- | a rule for frames is broken
-    BrokenRule Broken
+    BrokenRule Violation
   | -- | a row that the machine would write in another manner; the text describes the expected row
     WrittenOtherwise Text
   | -- | the frames on the tape are not those that were punched
@@ -111,7 +111,7 @@ toReport (Damage at n c why) =
     position = case (n, c) of
       (Nothing, _) -> ""
       (Just k, Nothing) -> " (frame " <> Decimal.whole k <> ")"
-      (Just k, Just w) -> " (frame " <> Decimal.whole k <> ", " <> Machine.contentWord w <> ")"
+      (Just k, Just w) -> " (frame " <> Decimal.whole k <> ", " <> Machine.contentName w <> ")"
 
 -- | Sentences after the title of a report.
 explanation :: Reason -> [Text]
@@ -185,16 +185,17 @@ reasonText why = case why of
   WrittenOtherwise wanted -> "the machine writes this otherwise: here belongs " <> wanted
 
 -- | Title of a report about a broken rule.
-ruleText :: Broken -> Text
+ruleText :: Violation -> Text
 ruleText broken = case broken of
   OverCapacity {} -> "the move is longer than a frame can say"
   BadCentre _ -> "the centre of the arc is none, or too far"
-  NoSuchSpeed _ (FeedCode s) -> "the machine has no speed " <> Decimal.whole s <> " for this motion"
+  NoSuchFeedCode _ (FeedCode s) ->
+    "the machine has no speed " <> Decimal.whole s <> " for this motion"
   NoSuchMotion _ ->
     "the machine has no such motion: an arc that it can not go, or one that its distances \
     \contradict"
-  NoSuchOrder _ (CommandName o) -> "the machine has no such command " <> o
-  Idle _ -> "the frame moves nothing and commands nothing"
+  UnknownCommand _ (CommandName o) -> "the machine has no such command " <> o
+  EmptyFrame _ -> "the frame moves nothing and commands nothing"
 
 -- | Holes as binary digits, from the highest track to the lowest.
 binary :: Int -> Word8 -> Text

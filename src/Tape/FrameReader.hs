@@ -41,10 +41,10 @@ import Tape.FrameReader.Fast qualified as FastFrameReader
 import Tape.FrameWriter qualified as FrameWriter
 import Tape.Layout
   ( Address (..),
-    Layout,
     LayoutStep (..),
     MarkedRow (..),
-    RowMeaning (..),
+    PreparedLayout,
+    RowKind (..),
     WordRow (..),
   )
 import Tape.Layout qualified as Layout
@@ -87,13 +87,13 @@ isAlong a c = case c of Along b -> a == b; _ -> False
 isCentre a c = case c of Centre b -> a == b; _ -> False
 
 -- | Frame that begins at row @begin@, and the index of the row after it.
-readFrame :: Layout -> State -> ShortByteString -> Int -> Either RowFault (Frame, Int)
+readFrame :: PreparedLayout -> State -> ShortByteString -> Int -> Either RowFault (Frame, Int)
 readFrame layout state rows begin = case FastFrameReader.readFrame layout state rows begin of
   FastFrameReader.Read f end -> Right (f, end)
   FastFrameReader.NotSimple -> wordByWord layout state rows begin
 
 -- | The result of 'readFrame' for a frame of any kind, without the fast reader.
-wordByWord :: Layout -> State -> ShortByteString -> Int -> Either RowFault (Frame, Int)
+wordByWord :: PreparedLayout -> State -> ShortByteString -> Int -> Either RowFault (Frame, Int)
 wordByWord layout state rows begin = do
   (reading, end) <- readSteps layout rows begin
   case check reading of
@@ -111,7 +111,7 @@ wordByWord layout state rows begin = do
 -- Reading the words -------------------------------------------------------------------------------
 
 -- | Words of a frame from a row on, and the index of the row after them.
-readSteps :: Layout -> ShortByteString -> Int -> Either RowFault (Reading, Int)
+readSteps :: PreparedLayout -> ShortByteString -> Int -> Either RowFault (Reading, Int)
 readSteps layout rows = go False (Layout.steps layout) [] (Reading [] [] False 0 Nothing)
   where
     -- The words so far are passed on their own, the last one first: the rest of what is read rarely
@@ -147,7 +147,7 @@ readWordOf w n =
 
 -- | True if a word is present whose address ends before row @begin@, which is −1 if the address is
 -- not there. A word without an address that may be left out is present if a number can begin here.
-isPresent :: Layout -> ShortByteString -> Word' -> Address -> Int -> Bool
+isPresent :: PreparedLayout -> ShortByteString -> Word' -> Address -> Int -> Bool
 isPresent layout rows w cs begin =
   begin >= 0
     && ( extent cs > 0
@@ -156,7 +156,7 @@ isPresent layout rows w cs begin =
        )
 
 -- | Steps without the leading words that may be left out and are not present at row @k@.
-skipAbsent :: Layout -> ShortByteString -> Bool -> [LayoutStep] -> Int -> [LayoutStep]
+skipAbsent :: PreparedLayout -> ShortByteString -> Bool -> [LayoutStep] -> Int -> [LayoutStep]
 skipAbsent layout rows followsWord todo k = case todo of
   WordStep w cs joined : more
     | presence w /= Always
@@ -172,14 +172,14 @@ skipAbsent layout rows followsWord todo k = case todo of
   _ -> todo
 
 -- | Add the weights of symbols.
-withSymbols :: Layout -> [Symbol] -> Reading -> Reading
+withSymbols :: PreparedLayout -> [Symbol] -> Reading -> Reading
 withSymbols layout cs now
   | Layout.hasCheckDigit layout =
     now {total = foldl' (\n c -> n + Symbol.weight c) (total now) cs}
   | otherwise = now
 
 -- | Add the check digit at row @k@.
-withCheckDigit :: Layout -> Int -> Int -> Int -> Reading -> Reading
+withCheckDigit :: PreparedLayout -> Int -> Int -> Int -> Reading -> Reading
 withCheckDigit layout k modulus d now =
   now
     { total = total now + Symbol.digitWeight (Layout.symbols layout) d,
@@ -187,7 +187,7 @@ withCheckDigit layout k modulus d now =
     }
 
 -- | Add the number of a word: its weights, the number of a command, the holes of the service track.
-withNumber :: Layout -> Word' -> TapeNumber -> Reading -> Reading
+withNumber :: PreparedLayout -> Word' -> TapeNumber -> Reading -> Reading
 withNumber layout w n now = case content w of
   Command o -> counted {commandNumbers = (o, NumberReader.value n) : commandNumbers counted}
   _ -> counted
@@ -205,13 +205,13 @@ withNumber layout w n now = case content w of
           }
 
 -- | Index of the row after the given symbols; a fault if they are not the rows from @k@ on.
-expect :: Layout -> ShortByteString -> Int -> [Symbol] -> Either RowFault Int
+expect :: PreparedLayout -> ShortByteString -> Int -> [Symbol] -> Either RowFault Int
 expect layout rows k cs =
   let next = Symbol.rowAfter rows k cs
    in if next >= 0 then Right next else Left (mismatch layout Nothing rows k cs)
 
 -- | Fault of the first row that differs from the given symbols.
-mismatch :: Layout -> Maybe Content -> ShortByteString -> Int -> [Symbol] -> RowFault
+mismatch :: PreparedLayout -> Maybe Content -> ShortByteString -> Int -> [Symbol] -> RowFault
 mismatch layout c rows k cs = case cs of
   [] -> RowFault k c NotBlank
   s : more
@@ -220,7 +220,7 @@ mismatch layout c rows k cs = case cs of
     | otherwise -> RowFault k c (insteadOf layout (Short.index rows k) s)
 
 -- | Reason why a row is not the given symbol.
-insteadOf :: Layout -> Word8 -> Symbol -> Reason
+insteadOf :: PreparedLayout -> Word8 -> Symbol -> Reason
 insteadOf layout w s = case NumberReader.rowFault layout w of
   Just why -> why
   Nothing -> case Symbol.symbolAt (Layout.symbols layout) w of
@@ -243,7 +243,7 @@ faultOf begin reading isContent why = case wordWith isContent reading of
   Nothing -> RowFault begin Nothing why
 
 -- | Frame that the words describe.
-frameOf :: Layout -> State -> Int -> Reading -> Either RowFault Frame
+frameOf :: PreparedLayout -> State -> Int -> Reading -> Either RowFault Frame
 frameOf layout state begin reading = do
   mapM_ (checkFrameNumber state) (wordWith isFrameNumber reading)
   let increment = Pulses3 (distance X) (distance Y) (distance Z)
@@ -255,9 +255,9 @@ frameOf layout state begin reading = do
       { motion = m,
         increment,
         centre = Pulses2 i j,
-        speed = FeedCode code,
+        feedCode = FeedCode code,
         braking = isBraking reading,
-        orders = commandsOf layout reading
+        commands = commandsOf layout reading
       }
   where
     axes = Layout.axes layout
@@ -272,7 +272,7 @@ frameOf layout state begin reading = do
 
 -- | Commands of a frame in the order of the layout, each with the sum of its bits. A 0 that is no
 -- command is left out.
-commandsOf :: Layout -> Reading -> [(Machine.CommandName, Int)]
+commandsOf :: PreparedLayout -> Reading -> [(Machine.CommandName, Int)]
 commandsOf layout reading
   | null (commandNumbers reading) = []
   | otherwise =
@@ -292,20 +292,21 @@ checkFrameNumber state s
   where
     n = ordinal state `mod` 10 ^ digits (form (word s))
 
-motionOf :: Layout -> Int -> Reading -> Pulses3 -> Either RowFault FrameMotion
+motionOf :: PreparedLayout -> Int -> Reading -> Pulses3 -> Either RowFault FrameMotion
 motionOf layout begin reading increment = case Layout.motionWord layout of
-  Nothing -> Right (if increment == 0 then Still else Straightway)
+  Nothing -> Right (if increment == 0 then NoMotion else Linear)
   Just (w, codes) -> case wordWith isMotion reading of
     Nothing
-      | increment == 0 -> Right Still
+      | increment == 0 -> Right NoMotion
       | otherwise -> Left (RowFault begin Nothing IncrementWithoutMotion)
     Just s
       | number s == straight codes ->
-        if presence w == Always && increment == 0 then Right Still else moving s Straightway
+        if presence w == Always && increment == 0 then Right NoMotion else moving s Linear
       | Just (number s) == rapid codes -> moving s Rapid
-      | Just (number s) == clockwise codes -> Right (Round (onMachine Clockwise CounterClockwise))
+      | Just (number s) == clockwise codes ->
+        Right (Circular (onMachine Clockwise CounterClockwise))
       | Just (number s) == counterClockwise codes ->
-        Right (Round (onMachine CounterClockwise Clockwise))
+        Right (Circular (onMachine CounterClockwise Clockwise))
       | otherwise -> wrong s (UnknownMotion (number s))
     where
       wrong s why = Left (RowFault (at s) (Just (content w)) why)
@@ -314,14 +315,14 @@ motionOf layout begin reading increment = case Layout.motionWord layout of
     onMachine sense opposite =
       if ModalState.isMirrored (Layout.axes layout) then opposite else sense
 
-feedCodeOf :: Layout -> State -> Int -> Reading -> FrameMotion -> Either RowFault Int
+feedCodeOf :: PreparedLayout -> State -> Int -> Reading -> FrameMotion -> Either RowFault Int
 feedCodeOf layout state begin reading m = case (wordWith isFeed reading, m) of
-  (Nothing, Still) -> Right 0
+  (Nothing, NoMotion) -> Right 0
   (Nothing, Rapid) -> Right 0
   (Nothing, _) -> case feed state of
     Just (FeedCode n) | isModal -> Right n
     _ -> wrong MotionWithoutFeed
-  (Just s, Still) -> if number s == 0 then Right 0 else wrong (FeedWithoutMotion (number s))
+  (Just s, NoMotion) -> if number s == 0 then Right 0 else wrong (FeedWithoutMotion (number s))
   (Just s, Rapid) -> if number s == 0 then Right 0 else wrong (FeedWithoutMotion (number s))
   (Just s, _)
     | isModal && feed state == Just (FeedCode (number s)) -> wrong (FeedRepeated (number s))
@@ -332,27 +333,27 @@ feedCodeOf layout state begin reading m = case (wordWith isFeed reading, m) of
     isModal = Layout.isFeedModal layout
     wrong why = Left (faultOf begin reading isFeed why)
 
--- | Check the rules for frames, see 'Frame.Frame.broken'.
-checkRules :: Layout -> Int -> Reading -> Frame -> Either RowFault ()
+-- | Check the rules for frames, see 'Frame.Frame.frameViolations'.
+checkRules :: PreparedLayout -> Int -> Reading -> Frame -> Either RowFault ()
 checkRules layout begin reading f
-  | not (Frame.isMoving f) && null (orders f) = Left (faultOf begin reading isFeed NoContent)
-  | otherwise = case Frame.broken (Layout.machine layout) 1 f of
+  | not (Frame.isMoving f) && null (commands f) = Left (faultOf begin reading isFeed NoContent)
+  | otherwise = case Frame.frameViolations (Layout.machine layout) 1 f of
     [] -> Right ()
     rule : _ -> Left (faultOf begin reading (blamed rule) (BrokenRule rule))
   where
     blamed rule = case rule of
       Frame.OverCapacity _ a _ -> isAlong a
       Frame.BadCentre _ -> isCentre X
-      Frame.NoSuchSpeed _ _ -> isFeed
+      Frame.NoSuchFeedCode _ _ -> isFeed
       Frame.NoSuchMotion _ -> isMotion
-      Frame.NoSuchOrder _ o -> (== Command o)
-      Frame.Idle _ -> isFeed
+      Frame.UnknownCommand _ o -> (== Command o)
+      Frame.EmptyFrame _ -> isFeed
 
 -- Comparison with the frame as it would be written ------------------------------------------------
 
 -- | True if exactly the words that were read would be written for a frame, each with as many
 -- digits. In a layout whose words cannot differ in anything else, the rows are the same then.
-hasSameWords :: Layout -> State -> Reading -> Frame -> Bool
+hasSameWords :: PreparedLayout -> State -> Reading -> Frame -> Bool
 hasSameWords layout state reading f =
   Layout.isPlain layout && go (Layout.wordsFor layout f) (readWords reading)
   where
@@ -370,7 +371,7 @@ hasSameWords layout state reading f =
           [] -> False
 
 -- | True if the rows from @begin@ to @end@ are those that would be written for a frame.
-hasSameRows :: Layout -> State -> ShortByteString -> Int -> Int -> Frame -> Bool
+hasSameRows :: PreparedLayout -> State -> ShortByteString -> Int -> Int -> Frame -> Bool
 hasSameRows layout state rows begin end f =
   runIdentity (FrameWriter.foldRows same layout state f begin) == end
   where
@@ -379,7 +380,7 @@ hasSameRows layout state rows begin end f =
 
 -- | Compare the rows with those that would be written, and report the first difference. A wrong
 -- check digit follows from other wrong rows, so those are blamed first.
-compareRows :: Layout -> ShortByteString -> Int -> Int -> [MarkedRow] -> Either RowFault ()
+compareRows :: PreparedLayout -> ShortByteString -> Int -> Int -> [MarkedRow] -> Either RowFault ()
 compareRows layout rows begin end = go begin (Right ())
   where
     go k before expected = case expected of
@@ -408,7 +409,7 @@ wordOf m = case kind m of
   CheckSymbol _ -> Nothing
 
 -- | Reason why a row is not the expected one.
-difference :: Layout -> Word8 -> MarkedRow -> Reason
+difference :: PreparedLayout -> Word8 -> MarkedRow -> Reason
 difference layout w m = fromMaybe specific (NumberReader.rowFault layout w)
   where
     table = Layout.symbols layout

@@ -24,10 +24,10 @@ import Machine.Machine
   )
 import Tape.Layout
   ( Address (..),
-    Layout (..),
     LayoutStep (..),
     MarkedRow (MarkedRow),
-    RowMeaning (..),
+    PreparedLayout (..),
+    RowKind (..),
     WordRow (..),
   )
 import Tape.Layout qualified as Layout
@@ -36,7 +36,7 @@ import Tape.ModalState qualified as ModalState
 import Tape.Symbol qualified as Symbol
 
 -- | Rows of a frame without the gap after it.
-frameRows :: Layout -> State -> Frame -> [MarkedRow]
+frameRows :: PreparedLayout -> State -> Frame -> [MarkedRow]
 frameRows layout state frame =
   reverse
     (runIdentity (foldRows (\rows h n m -> pure (MarkedRow h n m : rows)) layout state frame []))
@@ -45,8 +45,8 @@ frameRows layout state frame =
 -- meaning.
 foldRows ::
   Monad m =>
-  (r -> Word8 -> Int -> RowMeaning -> m r) ->
-  Layout ->
+  (r -> Word8 -> Int -> RowKind -> m r) ->
+  PreparedLayout ->
   State ->
   Frame ->
   r ->
@@ -61,7 +61,7 @@ foldRows add layout state frame =
 {-# INLINE foldRows #-}
 
 -- | Sum of the weights of a frame without its check digit.
-checkSum :: Layout -> State -> Frame -> Int
+checkSum :: PreparedLayout -> State -> Frame -> Int
 checkSum layout state frame = runIdentity (foldWithSum count 0 layout state frame 0)
   where
     count total _ n meaning =
@@ -72,9 +72,9 @@ checkSum layout state frame = runIdentity (foldWithSum count 0 layout state fram
 -- | The fold of 'foldRows', from the check sum of the frame.
 foldWithSum ::
   Monad m =>
-  (r -> Word8 -> Int -> RowMeaning -> m r) ->
+  (r -> Word8 -> Int -> RowKind -> m r) ->
   Int ->
-  Layout ->
+  PreparedLayout ->
   State ->
   Frame ->
   r ->
@@ -104,7 +104,7 @@ foldWithSum add total layout state frame =
 {-# INLINE foldWithSum #-}
 
 -- | Add the row of a digit.
-addDigit :: (r -> Word8 -> Int -> RowMeaning -> m r) -> Layout -> RowMeaning -> Int -> r -> m r
+addDigit :: (r -> Word8 -> Int -> RowKind -> m r) -> PreparedLayout -> RowKind -> Int -> r -> m r
 addDigit add layout meaning d before =
   add before (Symbol.digit (symbols layout) d) (Symbol.digitWeight (symbols layout) d) meaning
 {-# INLINE addDigit #-}
@@ -112,8 +112,8 @@ addDigit add layout meaning d before =
 -- | Add the sign of a number, or the digit for its direction and the leading axis.
 foldSign ::
   Monad m =>
-  (r -> Word8 -> Int -> RowMeaning -> m r) ->
-  Layout ->
+  (r -> Word8 -> Int -> RowKind -> m r) ->
+  PreparedLayout ->
   Frame ->
   Word' ->
   Int ->
@@ -141,8 +141,8 @@ foldSign add layout frame w n before = case sign (form w) of
 -- | Add the digits of a number with their decimal point and the holes in the service track.
 foldDigits ::
   Monad m =>
-  (r -> Word8 -> Int -> RowMeaning -> m r) ->
-  Layout ->
+  (r -> Word8 -> Int -> RowKind -> m r) ->
+  PreparedLayout ->
   Frame ->
   Word' ->
   Int ->
@@ -185,8 +185,8 @@ foldDigits add layout frame w n start = case service f of
 -- | Add the decimal point if it comes before the digit in place @k@.
 addPoint ::
   Monad m =>
-  (r -> Word8 -> Int -> RowMeaning -> m r) ->
-  Layout ->
+  (r -> Word8 -> Int -> RowKind -> m r) ->
+  PreparedLayout ->
   Word' ->
   Int ->
   Int ->
@@ -200,10 +200,10 @@ addPoint add layout w n k before
 {-# INLINE addPoint #-}
 
 -- | Upper bound for the number of rows of a frame.
-mostRows :: Layout -> Int
+mostRows :: PreparedLayout -> Int
 mostRows layout = sum (map most (steps layout))
   where
-    most step = case step of
+    most resolution = case resolution of
       FixedStep cs -> length cs
       CheckStep _ -> 1
       -- Two rows more for a sign and a decimal point.
@@ -214,7 +214,7 @@ lowestDigits :: Int -> Int -> Int
 lowestDigits count n = if n < Layout.power count then n else n `rem` Layout.power count
 
 -- | Smallest digit that makes a check sum a multiple of @modulus@; 0 if there is none.
-checkDigit :: Layout -> Int -> Int -> Int
+checkDigit :: PreparedLayout -> Int -> Int -> Int
 checkDigit layout modulus total =
   case [d | d <- [0 .. 9], (total + weightOf d) `mod` max 1 modulus == 0] of
     d : _ -> d
@@ -224,7 +224,7 @@ checkDigit layout modulus total =
 
 -- | True for the word of the leading axis: the one with the most pulses, the first one of several.
 -- True for all words without an axis.
-isLeading :: Layout -> Frame -> Content -> Bool
+isLeading :: PreparedLayout -> Frame -> Content -> Bool
 isLeading layout frame c = case c of
   Along a -> take 1 [b | b <- axisOrder layout, pulses b == most] == [a]
   _ -> True
@@ -236,7 +236,7 @@ isLeading layout frame c = case c of
 isServicePunched :: Frame -> Int -> Service -> Bool
 isServicePunched frame n s = case s of
   MinusHole -> n < 0
-  OrderBit o k -> testBit (fromMaybe 0 (lookup o (orders frame))) k
+  CommandBit o k -> testBit (fromMaybe 0 (lookup o (commands frame))) k
   Marker -> True
   BrakingHole -> braking frame
   NoHole -> False

@@ -7,7 +7,7 @@
 -- of digits that a number has in its form.
 module Tape.Layout
   ( -- * The layout
-    Layout (..),
+    PreparedLayout (..),
     LayoutStep (..),
     Address (..),
     fromMachine,
@@ -17,7 +17,7 @@ module Tape.Layout
 
     -- * Rows with their meaning
     MarkedRow (..),
-    RowMeaning (..),
+    RowKind (..),
     WordRow (..),
     BlankRows (..),
     blanks,
@@ -62,7 +62,7 @@ import Tape.Symbol (Symbol, Symbols)
 import Tape.Symbol qualified as Symbol
 
 -- | Layout of a machine, with everything that is the same for all of its frames.
-data Layout = Layout
+data PreparedLayout = PreparedLayout
   { machine :: Machine,
     symbols :: Symbols,
     axes :: Axes,
@@ -116,9 +116,9 @@ rowAfterAddress rows k Address {spelling, extent, lastHoles}
 {-# INLINE rowAfterAddress #-}
 
 -- | Prepared layout of a machine.
-fromMachine :: Machine -> Layout
+fromMachine :: Machine -> PreparedLayout
 fromMachine machine =
-  Layout
+  PreparedLayout
     { machine,
       symbols,
       axes = ModalState.axes machine,
@@ -169,14 +169,14 @@ addressOf cs =
 
 -- | True for a step that can occur in a simple frame.
 isSimpleStep :: LayoutStep -> Bool
-isSimpleStep step = case step of
+isSimpleStep resolution = case resolution of
   FixedStep _ -> True
   WordStep w _ _ -> ModalState.occursInSimple w
   CheckStep _ -> True
 
 -- | True for a step that gives at least one row in every frame.
 isAlwaysWritten :: LayoutStep -> Bool
-isAlwaysWritten step = case step of
+isAlwaysWritten resolution = case resolution of
   FixedStep cs -> not (null cs)
   WordStep w _ _ -> presence w == Always
   CheckStep _ -> True
@@ -185,7 +185,7 @@ isAlwaysWritten step = case step of
 commandsOf :: Word' -> [(CommandName, Bool)]
 commandsOf w =
   [(o, ModalState.isZeroCommand w) | Command o <- [content w]]
-    <> [(o, False) | OrderBit o _ <- service (form w)]
+    <> [(o, False) | CommandBit o _ <- service (form w)]
 
 -- | True for a form whose rows hold nothing but the number.
 isPlainForm :: NumberForm -> Bool
@@ -199,22 +199,22 @@ isPlainForm f = null (service f) && digits f < mostDigits && isPlainSign (sign f
       Priority {} -> False
 
 -- | Words that can occur in a frame.
-wordsFor :: Layout -> Frame -> [Word']
+wordsFor :: PreparedLayout -> Frame -> [Word']
 wordsFor layout frame =
   if ModalState.isSimple frame then simpleWords layout else frameWords layout
 
 -- | State after a frame.
-after :: Layout -> State -> Frame -> State
+after :: PreparedLayout -> State -> Frame -> State
 after layout = ModalState.after (axes layout) (frameWords layout)
 
 -- Rows with their meaning -------------------------------------------------------------------------
 
 -- | Row with its weight in the check sum and its meaning.
-data MarkedRow = MarkedRow {holes :: Word8, weight :: Int, kind :: RowMeaning}
+data MarkedRow = MarkedRow {holes :: Word8, weight :: Int, kind :: RowKind}
   deriving stock (Eq, Show)
 
 -- | Purpose of a row.
-data RowMeaning
+data RowKind
   = Blank BlankRows
   | -- | symbol before the first frame
     Opening Char
@@ -250,7 +250,7 @@ blanks :: BlankRows -> Int -> [MarkedRow]
 blanks purpose n = replicate n (MarkedRow 0 0 (Blank purpose))
 
 -- | Row of a symbol.
-constant :: (Char -> RowMeaning) -> Symbol -> MarkedRow
+constant :: (Char -> RowKind) -> Symbol -> MarkedRow
 constant meaning (Symbol.Symbol c h n) = MarkedRow h n (meaning c)
 
 -- Digits ------------------------------------------------------------------------------------------

@@ -109,7 +109,7 @@ number system state frame word = case content word of
   where
     present yes n = if yes then Just $! n else Nothing
     moving = Frame.isMoving frame
-    FeedCode code = speed frame
+    FeedCode code = feedCode frame
     centreNumber a =
       let Pulses2 i j = centre frame; Pulses n = along a (signs system * Pulses3 i j 0) in n
     isCentrePresent p = case p of
@@ -121,18 +121,18 @@ number system state frame word = case content word of
       Always -> True
       InMotion -> moving
       WhenNeeded -> hasFeed frame
-      WhenChanged -> hasFeed frame && feed state /= Just (speed frame)
+      WhenChanged -> hasFeed frame && feed state /= Just (feedCode frame)
     commandNumber p o = case p of
       Always -> Just (fromMaybe 0 (given o))
       InMotion -> if moving then Just (fromMaybe 0 (given o)) else given o
       WhenNeeded -> given o
       WhenChanged -> given o
     given :: CommandName -> Maybe Int
-    given o = lookup o (orders frame)
+    given o = lookup o (commands frame)
 
 -- | True for a simple frame: one without an arc and without commands. Most frames are simple.
 isSimple :: Frame -> Bool
-isSimple frame = null (orders frame) && not (isArc frame)
+isSimple frame = null (commands frame) && not (isArc frame)
 
 -- | True for a word that can occur in a simple frame. All other words have no 'number' there.
 occursInSimple :: Word' -> Bool
@@ -163,26 +163,26 @@ isZeroCommand word = case presence word of
 -- are always written.
 motionNumber :: Bool -> MotionCodes -> FrameMotion -> Int
 motionNumber mirror codes m = case m of
-  Still -> straight codes
-  Straightway -> straight codes
+  NoMotion -> straight codes
+  Linear -> straight codes
   Rapid -> fromMaybe (straight codes) (rapid codes)
-  Round sense
+  Circular sense
     | (sense == Clockwise) /= mirror -> fromMaybe (straight codes) (clockwise codes)
     | otherwise -> fromMaybe (straight codes) (counterClockwise codes)
 
 isArc :: Frame -> Bool
 isArc frame = case motion frame of
-  Round _ -> True
-  Still -> False
+  Circular _ -> True
+  NoMotion -> False
   Rapid -> False
-  Straightway -> False
+  Linear -> False
 
 -- | True for a frame that moves at a feed.
 hasFeed :: Frame -> Bool
 hasFeed frame = case motion frame of
-  Round _ -> True
-  Straightway -> True
-  Still -> False
+  Circular _ -> True
+  Linear -> True
+  NoMotion -> False
   Rapid -> False
 
 isAxisPresent :: Axes -> State -> Frame -> Presence -> Axis -> Bool
@@ -216,7 +216,9 @@ after system ws state frame =
         Increments -> unwritten state
         Positions -> filter (not . isWritten) (unwritten state),
       feed =
-        if hasFeed frame && feed state /= Just (speed frame) then Just (speed frame) else feed state
+        if hasFeed frame && feed state /= Just (feedCode frame)
+          then Just (feedCode frame)
+          else feed state
     }
   where
     isWritten a = or [isJust (number system state frame w) | w <- ws, content w == Along a]

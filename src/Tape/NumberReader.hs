@@ -22,7 +22,7 @@ import Data.Word (Word8)
 import Machine.Machine (CommandName, Content, NumberForm (..), Service (..), Sign (..))
 import Machine.Machine qualified as Machine
 import Tape.Damage (Reason (..))
-import Tape.Layout (Layout)
+import Tape.Layout (PreparedLayout)
 import Tape.Layout qualified as Layout
 import Tape.Symbol qualified as Symbol
 
@@ -48,7 +48,13 @@ data TapeNumber = TapeNumber
   }
 
 -- | Number in the given form, from row @begin@ on.
-numeral :: Layout -> Content -> NumberForm -> ShortByteString -> Int -> Either RowFault TapeNumber
+numeral ::
+  PreparedLayout ->
+  Content ->
+  NumberForm ->
+  ShortByteString ->
+  Int ->
+  Either RowFault TapeNumber
 numeral layout c f rows begin = do
   SignPart afterSign minus weight <- readSign layout c f rows begin
   let whole = digits f - decimals f
@@ -90,7 +96,7 @@ numeral layout c f rows begin = do
       EitherSign -> True
 
 -- | True if a number in the given form can begin at row @k@.
-canBegin :: Layout -> NumberForm -> ShortByteString -> Int -> Bool
+canBegin :: PreparedLayout -> NumberForm -> ShortByteString -> Int -> Bool
 canBegin layout f rows k =
   digits f == 0
     || k < Short.length rows && (isJust (Symbol.digitAt (Layout.symbols layout) w) || isSign)
@@ -107,7 +113,13 @@ canBegin layout f rows k =
 -- | Rows before the digits: the index of the row after them, true for a minus, and their weight.
 data SignPart = SignPart Int Bool Int
 
-readSign :: Layout -> Content -> NumberForm -> ShortByteString -> Int -> Either RowFault SignPart
+readSign ::
+  PreparedLayout ->
+  Content ->
+  NumberForm ->
+  ShortByteString ->
+  Int ->
+  Either RowFault SignPart
 readSign layout c f rows k = case sign f of
   Unsigned -> Right (SignPart k False 0)
   ServiceSign -> Right (SignPart k False 0)
@@ -152,7 +164,14 @@ data Digits = Digits
 
 -- | Read at least @least@ digits and at most @most@. Fewer than @most@ are a fault if another digit
 -- follows that cannot be read.
-figures :: Layout -> Content -> ShortByteString -> Int -> Int -> Digits -> Either RowFault Digits
+figures ::
+  PreparedLayout ->
+  Content ->
+  ShortByteString ->
+  Int ->
+  Int ->
+  Digits ->
+  Either RowFault Digits
 figures layout c rows least most ds
   | at now < at ds + least || at now < at ds + most && isDigit = Left (stopFault layout c rows now)
   | otherwise = Right now
@@ -165,7 +184,7 @@ figures layout c rows least most ds
 
 -- | Read digits up to row @end@, as long as the service track beside them has holes only where its
 -- use allows them.
-digitsUpTo :: Layout -> ShortByteString -> Int -> Digits -> Digits
+digitsUpTo :: PreparedLayout -> ShortByteString -> Int -> Digits -> Digits
 digitsUpTo layout rows end ds
   | null (services ds),
     Figures k n <- plainFigures layout rows end (at ds) (amount ds) =
@@ -186,7 +205,7 @@ digitsUpTo layout rows end ds
         ]
 
 -- | Read digits up to row @end@ with the service track beside them.
-serviceDigits :: Layout -> ShortByteString -> Int -> Digits -> Digits
+serviceDigits :: PreparedLayout -> ShortByteString -> Int -> Digits -> Digits
 serviceDigits layout rows end ds =
   go (at ds) (amount ds) (negative ds) (commandBits ds) (braking ds) (weights ds) (services ds)
   where
@@ -203,7 +222,7 @@ serviceDigits layout rows end ds =
               NoHole : rest -> if hole then reached else more minus set brakes rest
               Marker : rest -> if hole then more minus set brakes rest else reached
               MinusHole : rest -> more (minus || hole) set brakes rest
-              OrderBit o b : rest ->
+              CommandBit o b : rest ->
                 more minus (if hole then (o, 1 `shiftL` b) : set else set) brakes rest
               BrakingHole : rest -> more minus set (brakes || hole) rest
       | otherwise = reached
@@ -224,7 +243,7 @@ data Figures = Figures Int Int
 
 -- | Digits without a hole in the service track, from a row on and up to row @end@. The value
 -- continues that of the digits before them.
-plainFigures :: Layout -> ShortByteString -> Int -> Int -> Int -> Figures
+plainFigures :: PreparedLayout -> ShortByteString -> Int -> Int -> Int -> Figures
 plainFigures layout rows end = go
   where
     table = Layout.symbols layout
@@ -238,14 +257,14 @@ plainFigures layout rows end = go
       | otherwise = Figures k n
 
 -- | Reason why the digits end too early.
-stopFault :: Layout -> Content -> ShortByteString -> Digits -> RowFault
+stopFault :: PreparedLayout -> Content -> ShortByteString -> Digits -> RowFault
 stopFault layout c rows ds = case (digit layout (Just c) rows (at ds), services ds) of
   (Left fault, _) -> fault
   (Right _, Marker : _) -> RowFault (at ds) (Just c) MarkerMissing
   (Right _, _) -> RowFault (at ds) (Just c) ServiceHole
 
 -- | Read the decimal point.
-point :: Layout -> Content -> ShortByteString -> Digits -> Either RowFault Digits
+point :: PreparedLayout -> Content -> ShortByteString -> Digits -> Either RowFault Digits
 point layout c rows ds
   | at ds >= Short.length rows = Left (cutOff c rows)
   | w == Symbol.holes s = Right ds {at = at ds + 1, weights = weights ds + Symbol.weight s}
@@ -256,7 +275,7 @@ point layout c rows ds
 {-# INLINE point #-}
 
 -- | Digit at row @k@, with or without a hole in the service track.
-digit :: Layout -> Maybe Content -> ShortByteString -> Int -> Either RowFault Int
+digit :: PreparedLayout -> Maybe Content -> ShortByteString -> Int -> Either RowFault Int
 digit layout c rows k
   | k >= Short.length rows = Left (RowFault (Short.length rows - 1) c CutOff)
   | otherwise = case Symbol.digitAt (Layout.symbols layout) w of
@@ -271,7 +290,7 @@ digit layout c rows k
 
 -- | Fault of a row that is wrong whatever it should be: a hole outside of the tracks, or wrong
 -- parity.
-rowFault :: Layout -> Word8 -> Maybe Reason
+rowFault :: PreparedLayout -> Word8 -> Maybe Reason
 rowFault layout w
   | Symbol.isOutsideTracks (Layout.symbols layout) w = Just ForeignTrack
   | Symbol.isOdd (Layout.symbols layout) w = Just BadParity

@@ -9,8 +9,8 @@ module Tape.Punch
   ( write,
     rows,
     read,
-    readBack,
-    readOwn,
+    readExpected,
+    readPunched,
     Damage (..),
     Reason (..),
     toReport,
@@ -34,7 +34,7 @@ import Machine.Machine qualified as Machine
 import Tape.Damage (Damage (..), Reason (..), toReport)
 import Tape.FrameReader qualified as FrameReader
 import Tape.FrameWriter qualified as FrameWriter
-import Tape.Layout (BlankRows (..), Layout, MarkedRow (..), RowMeaning (..))
+import Tape.Layout (BlankRows (..), MarkedRow (..), PreparedLayout, RowKind (..))
 import Tape.Layout qualified as Layout
 import Tape.ModalState (State)
 import Tape.ModalState qualified as ModalState
@@ -64,7 +64,7 @@ write machine start frames =
 
 -- | Rows of the frames with the blank rows between them, in blocks. The rows are written to one
 -- buffer, which is copied when it is full.
-frameRows :: Layout -> State -> [Frame] -> [ByteString]
+frameRows :: PreparedLayout -> State -> [Frame] -> [ByteString]
 frameRows layout state frames =
   runST (Primitive.newPrimArray (blockSize + mostOfFrame) >>= go 0 state frames)
   where
@@ -100,7 +100,7 @@ rows machine start frames =
     layout = Layout.fromMachine machine
 
 -- | Rows of a tape in groups: those of each frame with its number, and those at both ends.
-markedRows :: Layout -> Pulses3 -> [Frame] -> [(Maybe Int, [MarkedRow])]
+markedRows :: PreparedLayout -> Pulses3 -> [Frame] -> [(Maybe Int, [MarkedRow])]
 markedRows layout start frames =
   (Nothing, rowsBefore layout) :
   go (ModalState.initial (ModalState.changesHeight frames) start) frames
@@ -117,7 +117,7 @@ markedRows layout start frames =
         go (Layout.after layout state f) more
 
 -- | Rows before the first frame: the leader and the opening symbols.
-rowsBefore :: Layout -> [MarkedRow]
+rowsBefore :: PreparedLayout -> [MarkedRow]
 rowsBefore layout =
   Layout.blanks Leader (leader medium)
     <> map (Layout.constant Opening) (symbolsOf layout (opening medium))
@@ -125,7 +125,7 @@ rowsBefore layout =
     medium = Machine.medium (Layout.machine layout)
 
 -- | Rows after the last frame: the closing symbols and the trailer.
-rowsAfter :: Layout -> [MarkedRow]
+rowsAfter :: PreparedLayout -> [MarkedRow]
 rowsAfter layout =
   map (Layout.constant Closing) (symbolsOf layout (closing medium))
     <> Layout.blanks Trailer (leader medium)
@@ -136,7 +136,7 @@ rowsAfter layout =
 shiftCount :: Medium -> Int -> Int
 shiftCount medium n = if even n then evenShift medium else 0
 
-symbolsOf :: Layout -> Text.Text -> [Symbol]
+symbolsOf :: PreparedLayout -> Text.Text -> [Symbol]
 symbolsOf layout = map (Symbol.symbol (Layout.symbols layout)) . Text.unpack
 
 -- Reading -----------------------------------------------------------------------------------------
@@ -164,15 +164,15 @@ read machine start (Tape raw) = case firstFrameRow source of
 
 -- | Frames of a tape that is expected to hold the given frames. If it does, these very frames are
 -- the result, so they are not held in memory twice. Else the tape is read as by 'read'.
-readBack :: Machine -> Pulses3 -> [Frame] -> Tape -> Either Damage [Frame]
-readBack machine start expected tape
+readExpected :: Machine -> Pulses3 -> [Frame] -> Tape -> Either Damage [Frame]
+readExpected machine start expected tape
   | holds machine start expected tape = Right expected
   | otherwise = read machine start tape
 
 -- | Frames of a tape that was punched from the given frames. Any other frames on it are a damage:
 -- the description of the machine is ambiguous.
-readOwn :: Machine -> Pulses3 -> [Frame] -> Tape -> Either Damage [Frame]
-readOwn machine start punched tape
+readPunched :: Machine -> Pulses3 -> [Frame] -> Tape -> Either Damage [Frame]
+readPunched machine start punched tape
   | holds machine start punched tape = Right punched
   | otherwise =
     read machine start tape >>= \frames ->
@@ -228,7 +228,7 @@ damage source n (RowFault at c why) = Damage (1 + tapeIndex source at) n c why
 
 -- | Rows of a tape, prepared for reading.
 data Source = Source
-  { layout :: Layout,
+  { layout :: PreparedLayout,
     -- | all rows
     raw :: ByteString,
     -- | the rows that are left when the skipped ones are removed
@@ -243,7 +243,7 @@ data Source = Source
     ending :: [Symbol]
   }
 
-sourceOf :: Layout -> ByteString -> Source
+sourceOf :: PreparedLayout -> ByteString -> Source
 sourceOf layout raw =
   Source
     { layout,

@@ -25,7 +25,13 @@ import Machine.Machine
     Word' (..),
   )
 import Machine.Machine qualified as Machine
-import Tape.Layout (BlankRows (..), Layout, MarkedRow (MarkedRow), RowMeaning (..), WordRow (..))
+import Tape.Layout
+  ( BlankRows (..),
+    MarkedRow (MarkedRow),
+    PreparedLayout,
+    RowKind (..),
+    WordRow (..),
+  )
 import Tape.Layout qualified as Layout
 import Tape.Symbol qualified as Symbol
 
@@ -36,25 +42,25 @@ data Row = Row
     frame :: Maybe Int,
     -- | its symbol, as it appears in a text
     symbol :: Maybe Char,
-    sense :: RowMeaning,
+    kind :: RowKind,
     -- | its meaning in words
     meaning :: Text
   }
   deriving stock (Eq, Show)
 
 -- | Row with its explanation, from the number of its frame.
-row :: Layout -> Maybe Int -> MarkedRow -> Row
+row :: PreparedLayout -> Maybe Int -> MarkedRow -> Row
 row layout n (MarkedRow h _ purpose) =
   Row
     { holes = h,
       frame = n,
       symbol = Symbol.symbolAt (Layout.symbols layout) h,
-      sense = purpose,
+      kind = purpose,
       meaning = meaningOf layout purpose
     }
 
 -- | Meaning of a row in words.
-meaningOf :: Layout -> RowMeaning -> Text
+meaningOf :: PreparedLayout -> RowKind -> Text
 meaningOf layout purpose = case purpose of
   Blank Leader -> "leader"
   Blank Gap -> "gap"
@@ -65,14 +71,14 @@ meaningOf layout purpose = case purpose of
   Constant c -> "always " <> shown c
   Separator c -> "between words " <> shown c
   CheckSymbol d -> "check digit " <> Decimal.whole d
-  InWord c _ (AddressSymbol a) -> Machine.contentWord c <> ", address " <> shown a
+  InWord c _ (AddressSymbol a) -> Machine.contentName c <> ", address " <> shown a
   InWord c n (PriorityDigit d) ->
-    Machine.contentWord c <> ", " <> priorityText c n d <> " " <> Decimal.whole d
-  InWord c _ (SignSymbol '-') -> Machine.contentWord c <> ", minus"
-  InWord c _ (SignSymbol _) -> Machine.contentWord c <> ", plus"
-  InWord c _ Point -> Machine.contentWord c <> ", point"
+    Machine.contentName c <> ", " <> priorityText c n d <> " " <> Decimal.whole d
+  InWord c _ (SignSymbol '-') -> Machine.contentName c <> ", minus"
+  InWord c _ (SignSymbol _) -> Machine.contentName c <> ", plus"
+  InWord c _ Point -> Machine.contentName c <> ", point"
   InWord c n (Digit d k use isPunched) ->
-    Machine.contentWord c
+    Machine.contentName c
       <> placeText (formOf c) k
       <> " "
       <> Decimal.whole d
@@ -130,7 +136,7 @@ motionText codes n
 serviceText :: Service -> Text
 serviceText s = case s of
   MinusHole -> ", minus"
-  OrderBit (CommandName o) k -> ", " <> o <> " bit " <> Decimal.whole k
+  CommandBit (CommandName o) k -> ", " <> o <> " bit " <> Decimal.whole k
   Marker -> ", marker"
   BrakingHole -> ", braking"
   NoHole -> ""
@@ -147,8 +153,8 @@ wordMeaning :: Machine -> Content -> Int -> Text
 wordMeaning machine c n = case (c, [form w | w <- Machine.wordsOf machine, content w == c]) of
   (Motion codes, _) -> motionText codes n
   (FrameNumber, _) -> "number " <> Decimal.whole n
-  (_, NumberForm {digits = 0} : _) -> Machine.contentWord c
+  (_, NumberForm {digits = 0} : _) -> Machine.contentName c
   (_, NumberForm {decimals} : _)
     | decimals > 0 ->
-      Machine.contentWord c <> " " <> Decimal.fixed decimals (fromIntegral n / 10 ^ decimals)
-  _ -> Machine.contentWord c <> " " <> Decimal.whole n
+      Machine.contentName c <> " " <> Decimal.fixed decimals (fromIntegral n / 10 ^ decimals)
+  _ -> Machine.contentName c <> " " <> Decimal.whole n

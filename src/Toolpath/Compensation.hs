@@ -15,10 +15,10 @@
 -- * After the end of the contour it moves straight from the end of the offset to the next
 -- programmed point.
 module Toolpath.Compensation
-  ( Ways (..),
-    sent,
-    endsAround,
-    onward,
+  ( PassMoves (..),
+    compensationInput,
+    endsAtOuterCorner,
+    overrun,
   )
 where
 
@@ -36,26 +36,26 @@ import Geometry.Vec qualified as Vec
 import Offset.Equidistant qualified as Equidistant
 import Part.Part (Element, Milling)
 import Part.Part qualified as Part
-import Toolpath.Error (Error (..), Unsent (..))
+import Toolpath.Error (Error (..), Unsupported (..))
 import Toolpath.Tolerance qualified as Tolerance
-import Toolpath.Toolpath (Manner (..), Move (..), Sent (Sent), unbraked)
+import Toolpath.Toolpath (Manner (..), Move (..), Sent (Sent), withoutBraking)
 import Toolpath.Toolpath qualified as Toolpath
 
 -- | The moves of the centre in one pass: approach, lead-in, moves along the contour, lead-out,
 -- retract.
-data Ways = Ways
+data PassMoves = PassMoves
   { before :: [Move],
-    inwards :: [Move],
+    leadIn :: [Move],
     cut :: NonEmpty Move,
-    outwards :: [Move],
+    leadOut :: [Move],
     behind :: [Move]
   }
 
 -- | The input for a control that does the cutter compensation, or the reason why that is
 -- impossible. The region is the statement's first word. The result is Nothing when the program
 -- does not ask for it.
-sent :: Region -> Milling -> Maybe Side -> Ways -> Either Error (Maybe Sent)
-sent keyword milling side passMoves = case Part.byControl milling of
+compensationInput :: Region -> Milling -> Maybe Side -> PassMoves -> Either Error (Maybe Sent)
+compensationInput keyword milling side passMoves = case Part.controlCompensation milling of
   Nothing -> Right Nothing
   Just requested -> do
     checkRequest requested milling
@@ -89,19 +89,21 @@ checkRequest requested milling
     refused = Left . NotForControl requested
 
 -- | Refuses elements and leads that a control cannot follow.
-checkElements :: Region -> Region -> Milling -> Side -> Ways -> Either Error ()
+checkElements :: Region -> Region -> Milling -> Side -> PassMoves -> Either Error ()
 checkElements keyword requested milling side passMoves =
   mapM_ (checkLength keyword requested) elements
     >> mapM_ checkRadius edge
-    >> mapM_ (checkCorner requested milling) (Polyarc.joints (Part.outline (Part.contour milling)))
+    >> mapM_
+      (checkCorner requested milling)
+      (Polyarc.neighbours (Part.polyarcOf (Part.contour milling)))
     >> zipWithM_ checkArcStart edge (drop 1 edge)
   where
     elements = NonEmpty.toList (Part.elements (Part.contour milling))
     radius@(Mm r) = Part.radius milling
     edge =
-      map lead (inwards passMoves)
+      map lead (leadIn passMoves)
         <> [(Just i, Part.segment e) | (i, e) <- zip [0 ..] elements]
-        <> map lead (outwards passMoves)
+        <> map lead (leadOut passMoves)
     lead m = (Nothing, touchedCurve radius side (segment m))
     checkRadius (i, s) =
       mapM_
@@ -111,7 +113,7 @@ checkElements keyword requested milling side passMoves =
     -- centre leaves too early on the following arc. Rounding of the end of the segment before the
     -- arc has the same effect.
     checkArcStart (i, a) (_, b) =
-      let Rad deflection = Vec.turn (Segment.endDirection a) (Segment.startDirection b)
+      let Rad deflection = Vec.signedAngle (Segment.endDirection a) (Segment.startDirection b)
           needed = neededBefore (Mm r) side (Rad (max 0 (-(deflection * sideSign side)))) b
        in if not (isIgnored deflection) || needed <= referenceLength a
             then Right ()
@@ -148,7 +150,7 @@ checkCorner requested milling (i, a, b) =
       (isIgnored (pi - abs deflection))
       (Left (BackForControl requested element following (Rad deflection)))
   where
-    Rad deflection = Vec.turn (Segment.endDirection a) (Segment.startDirection b)
+    Rad deflection = Vec.signedAngle (Segment.endDirection a) (Segment.startDirection b)
     Mm r = Part.radius milling
     gouge = Mm (r * (1 - cos deflection))
     element = elementAt milling i
@@ -210,10 +212,10 @@ sideSign side = case side of
 
 -- | The edge of the part in the direction of travel, with the curves that the cutter touches
 -- during the leads.
-programmed :: Milling -> Side -> Ways -> NonEmpty Move
-programmed milling side Ways {inwards, cut, outwards} = case map lead inwards of
-  [] -> elements `followedBy` map lead outwards
-  l : more -> l :| more <> NonEmpty.toList elements <> map lead outwards
+programmed :: Milling -> Side -> PassMoves -> NonEmpty Move
+programmed milling side PassMoves {leadIn, cut, leadOut} = case map lead leadIn of
+  [] -> elements `followedBy` map lead leadOut
+  l : more -> l :| more <> NonEmpty.toList elements <> map lead leadOut
   where
     lead m = m {segment = touchedCurve (Part.radius milling) side (segment m)}
     elements =
@@ -245,8 +247,8 @@ touchedCurve (Mm r) side s = case s of
      in Arc {start = moved start, end = moved end, centre, sweep}
 
 -- | True when a control does the compensation and the closed toolpath ends at an outer corner.
-endsAround :: Milling -> NonEmpty Equidistant.OffsetSegment -> Bool
-endsAround milling offsetSegments = case Part.byControl milling of
+endsAtOuterCorner :: Milling -> NonEmpty Equidistant.OffsetSegment -> Bool
+endsAtOuterCorner milling offsetSegments = case Part.controlCompensation milling of
   Nothing -> False
   Just _ -> case Equidistant.origin (NonEmpty.last offsetSegments) of
     Equidistant.Around _ -> True
@@ -254,8 +256,8 @@ endsAround milling offsetSegments = case Part.byControl milling of
 
 -- | A short move along the first element after such a contour. A control makes the arc round the
 -- last corner only when another move follows.
-onward :: Region -> Milling -> Segment -> [Move]
-onward keyword milling first =
+overrun :: Region -> Milling -> Segment -> [Move]
+overrun keyword milling first =
   [ Move
       (fst (Segment.cutAt share first))
       (Manner (Mm 0, Mm 0) (Part.At (Part.feed milling)) False)
@@ -285,9 +287,9 @@ entering keyword requested milling side passMoves edge = case reverse passMoves 
     | z == z',
       Vec.distance from to' > Tolerance.coincident -> do
       let whole@(Mm long) = Vec.distance from to'
-          on = if whole > times 3 radius then Vec.between (1 - 2 * r / long) from to' else from
+          on = if whole > times 3 radius then Vec.interpolate (1 - 2 * r / long) from to' else from
       begin <- entryPoint m on to'
-      let straight = [(unbraked m) {segment = Straight from on} | on /= from]
+      let straight = [(withoutBraking m) {segment = Straight from on} | on /= from]
       Right (reverse earlier <> straight, m {segment = Straight on begin}, beginningAt begin)
   _ -> Left (ShortForControl keyword requested True (Mm 0) radius)
   where
@@ -300,7 +302,7 @@ entering keyword requested milling side passMoves edge = case reverse passMoves 
           ahead = Segment.startDirection (segment first)
           tangent =
             Vec.rotate (Rad (-sideSign side * asin (min 1 (r / d)))) (Vec.unit (Vec.to on to'))
-          Rad deflection = Vec.turn tangent ahead
+          Rad deflection = Vec.signedAngle tangent ahead
           bend = sideSign side * deflection
           begin = Vec.shift (Vec.scale (-r * tan (bend / 2)) ahead) (Segment.start (segment first))
           Rad least = Tolerance.controlBend
@@ -310,7 +312,7 @@ entering keyword requested milling side passMoves edge = case reverse passMoves 
         (Left (WrongWayForControl (origin m) requested to'))
       let l = Vec.distance on begin
       when
-        (l <= plus radius Tolerance.byControl)
+        (l <= plus radius Tolerance.controlMargin)
         (Left (ShortForControl (origin m) requested True l radius))
       Right begin
     -- Before an arc the line is an additional element, which must not be too short for a control.
@@ -323,7 +325,8 @@ entering keyword requested milling side passMoves edge = case reverse passMoves 
     beginningAt begin = case segment first of
       Straight _ b -> first {segment = Straight begin b} :| NonEmpty.tail edge
       Arc {start} ->
-        (unbraked first) {segment = Straight begin start, continues = False} :| NonEmpty.toList edge
+        (withoutBraking first) {segment = Straight begin start, continues = False}
+          :| NonEmpty.toList edge
 
 -- | The largest change of direction from the approach to the first element: 175°. At this angle
 -- the first element is extended backwards by 23 radii.
@@ -336,7 +339,7 @@ leaving keyword requested milling final passMoves = case passMoves of
   m@Move {segment = Straight _ to', manner = Manner {between = (z, z')}} : later | z == z' -> do
     let l = Vec.distance from to'
     when
-      (l <= plus radius Tolerance.byControl)
+      (l <= plus radius Tolerance.controlMargin)
       (Left (ShortForControl (origin m) requested False l radius))
     Right (m {segment = Straight from to'}, later)
   _ -> Left (ShortForControl keyword requested False (Mm 0) radius)

@@ -30,7 +30,7 @@ import Part.Part
     SpacePoint,
   )
 import Part.Part qualified as Part
-import Toolpath.Compensation (Ways (Ways))
+import Toolpath.Compensation (PassMoves (PassMoves))
 import Toolpath.Compensation qualified as Compensation
 import Toolpath.Error (Error)
 import Toolpath.Lead qualified as Lead
@@ -66,7 +66,7 @@ block :: CuttingPass -> NonEmpty OffsetSegment -> Either Error Block
 block p path = do
   swivels <- Swivel.axis word milling (cutterSide p) path
   let cut = cutMoves p swivels path
-      !around = Compensation.endsAround milling path
+      !around = Compensation.endsAtOuterCorner milling path
       -- From here on only the moves are needed.
       !firstSegment = Toolpath.segment (NonEmpty.head cut)
       !lastSegment = Toolpath.segment (NonEmpty.last cut)
@@ -81,20 +81,21 @@ block p path = do
         Just hs ->
           (plus (level p) (fst (NonEmpty.head hs)), plus (level p) (snd (NonEmpty.last hs)))
       (before, after) = case (Part.levels milling, Part.clearance milling) of
-        (_ : _, Just clear) -> LinkingMove.deep (visit p) clear (inZ, outZ) begin finish
-        _ -> LinkingMove.flat (visit p) (level p) (inZ, outZ) begin finish
+        (_ : _, Just travelHeight) ->
+          LinkingMove.withDepth (visit p) travelHeight (inZ, outZ) begin finish
+        _ -> LinkingMove.withoutDepth (visit p) (level p) (inZ, outZ) begin finish
       inwards = map (Toolpath.atHeights (inZ, inZ)) leadIn
       outwards = map (Toolpath.atHeights (outZ, outZ)) leadOut
   sent <-
-    Compensation.sent
+    Compensation.compensationInput
       word
       milling
       (cutterSide p)
-      Ways
+      PassMoves
         { Compensation.before,
-          Compensation.inwards,
+          Compensation.leadIn,
           Compensation.cut,
-          Compensation.outwards,
+          Compensation.leadOut,
           Compensation.behind = after
         }
   Right
@@ -197,7 +198,7 @@ leads p around firstSegment lastSegment = (leadIn, leadOut)
       Lead.Out
       (directionOf Segment.endDirection lastSegment (NonEmpty.last written))
       (Segment.end lastSegment) of
-      [] | around -> Compensation.onward (wordOf p) milling firstSegment
+      [] | around -> Compensation.overrun (wordOf p) milling firstSegment
       moves -> moves
     -- A cutter that fills a concave arc does not move in it; then the contour gives the direction.
     directionOf :: (Segment -> Vec.Vec) -> Segment -> Part.Element -> Vec.Vec

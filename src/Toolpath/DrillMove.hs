@@ -21,11 +21,12 @@ moves at (Located region d) =
   LinkingMove.rise at clear (LinkingMove.keyword 4 region)
     <> go (SpacePoint (plane at) (max clear (height at))) (NonEmpty.toList (Part.holes d))
   where
-    clear = Part.clear d
+    clear = Part.travelHeight d
     go from holes = case holes of
       [] -> []
       Located hole p : rest ->
-        let over = LinkingMove.ways from [Part.Stop (Located hole p) (Just clear) Part.Rapid]
+        let over =
+              LinkingMove.straightMoves from [Part.Stop (Located hole p) (Just clear) Part.Rapid]
          in over
               <> [ Move (Straight p p) (Manner heights pace False) hole False
                    | (heights, pace) <- pecks
@@ -41,7 +42,7 @@ moves at (Located region d) =
 
 -- | The heights to which a drill goes down, in order: equal pecks, none deeper than is asked.
 depthsOf :: Drilling -> [Mm]
-depthsOf d = case Part.pecked d of
+depthsOf d = case Part.peckDepth d of
   Nothing -> [Part.bottom d]
   Just (Mm most) ->
     let Mm bottom = Part.bottom d

@@ -5,13 +5,13 @@ module Toolpath.Error
   ( Error (..),
     Intrusion (..),
     Tool (..),
-    Unsent (..),
+    Unsupported (..),
     toReport,
     Warning (..),
-    Stay (..),
+    RestPosition (..),
     warningReport,
     cutter,
-    fitting,
+    fittingSize,
   )
 where
 
@@ -69,7 +69,7 @@ data Error
   | -- | two elements with a smooth joint and different bevels, in radians
     BevelJumps Region Element Element Double Double
   | -- | cutter compensation by the control, with a request that its input cannot express
-    NotForControl Region Unsent
+    NotForControl Region Unsupported
   | -- | an approach or retract too short for a control: the move, the region that asks for cutter
     -- compensation, True for an approach, its length, the cutter's radius
     ShortForControl Region Region Bool Mm Mm
@@ -102,15 +102,15 @@ data Error
 
 -- | The kinds of intrusion of a move.
 data Intrusion
-  = CuttingIn
+  = CutsContour
   | -- | the move crosses the contour itself
     Crossing
   | -- | the move cuts into the allowance on the contour
-    Taking
+    CutsAllowance
   deriving stock (Eq, Show)
 
 -- | Requests that the input of a control with cutter compensation cannot express.
-data Unsent = OnContour | Swivelling | SharpCorners | LeavingMaterial | Unreached
+data Unsupported = OnContour | Swivelling | SharpCorners | LeavingMaterial | Unreached
   deriving stock (Eq, Show)
 
 -- | The report of an error.
@@ -127,12 +127,12 @@ toReport err = case err of
         "E0402"
         ( cutter tool
             <> " does not fit into a concave radius of "
-            <> Decimal.unlike (plus (radius tool) (leaves tool)) old
+            <> Decimal.distinctMm (plus (radius tool) (leaves tool)) old
         )
     )
       { label = shape element,
-        others = [Label region (worked tool <> " here") | region /= origin element],
-        hints = [fits tool largest]
+        others = [Label region (workVerb tool <> " here") | region /= origin element],
+        hints = [largestFit tool largest]
       }
   InnerCorner region tool first second p largest ->
     ( at
@@ -147,14 +147,15 @@ toReport err = case err of
     )
       { label = shape first,
         others =
-          secondLabel first second <> [Label region (worked tool <> " here with " <> cutter tool)],
-        message = ["The corner is at " <> Vec.written 3 p <> "."],
+          secondLabel first second
+            <> [Label region (workVerb tool <> " here with " <> cutter tool)],
+        message = ["The corner is at " <> Vec.toText 3 p <> "."],
         hints =
           ( "Round the corner with a fillet of at least "
               <> Decimal.mm (plus (radius tool) (leaves tool))
               <> "."
           ) :
-            [fits tool largest | any (>= Tolerance.smallestCutter) largest]
+            [largestFit tool largest | any (>= Tolerance.smallestCutter) largest]
       }
   Collision region tool first second p largest ->
     ( at
@@ -165,32 +166,32 @@ toReport err = case err of
       { label = shape first,
         others =
           secondLabel first second
-            <> [Label region (worked tool <> " here") | region /= origin first],
+            <> [Label region (workVerb tool <> " here") | region /= origin first],
         message =
           [ "With its centre at "
-              <> Vec.written 3 p
+              <> Vec.toText 3 p
               <> " on the way along "
               <> shape first
               <> " it would cut "
               <> shape second
               <> "."
           ],
-        hints = [fits tool largest]
+        hints = [largestFit tool largest]
       }
   CutsPart region move element depth intrusion p ->
     (at region "E0405" ("this move " <> intruding intrusion depth))
       { label = "the way to here",
         others = [Label (origin element) (shape element) | origin element /= region],
         message =
-          [ if Vec.near (Segment.start move) (Segment.end move)
-              then "It goes up or down at " <> Vec.written 3 p <> "."
+          [ if Vec.isNear (Segment.start move) (Segment.end move)
+              then "It goes up or down at " <> Vec.toText 3 p <> "."
               else
                 "It goes from "
-                  <> Vec.written 3 (Segment.start move)
+                  <> Vec.toText 3 (Segment.start move)
                   <> " to "
-                  <> Vec.written 3 (Segment.end move)
+                  <> Vec.toText 3 (Segment.end move)
                   <> "; the trouble is worst with the cutter's centre at "
-                  <> Vec.written 3 p
+                  <> Vec.toText 3 p
                   <> "."
           ],
         hints =
@@ -202,7 +203,7 @@ toReport err = case err of
     ( at
         region
         "E0413"
-        ("the hole at " <> Vec.written 3 p <> " cuts into a contour by " <> Decimal.mm deep)
+        ("the hole at " <> Vec.toText 3 p <> " cuts into a contour by " <> Decimal.mm deep)
     )
       { others = [Label (origin element) ("it cuts " <> shape element) | origin element /= region],
         message = ["Of several such holes this is the worst."],
@@ -217,7 +218,7 @@ toReport err = case err of
         others =
           [Label milled "along this element" | milled /= region]
             <> [Label (origin element) ("it cuts " <> shape element)],
-        message = ["The cutter's centre is then at " <> Vec.written 3 p <> "."],
+        message = ["The cutter's centre is then at " <> Vec.toText 3 p <> "."],
         hints = ["Use a smaller cutter, or check the sides and the distance of the contours."]
       }
   CutsAir region z ->
@@ -339,7 +340,7 @@ toReport err = case err of
       { others = [Label asked "asked here"],
         message =
           [ "It ends at "
-              <> Vec.written 3 p
+              <> Vec.toText 3 p
               <> ", and comes there out of the part, against the direction of the walk, or nearly \
                  \along an arc with a thin cutter."
           ],
@@ -436,9 +437,9 @@ toReport err = case err of
     (at region "E0421" "the cutter has to be lifted in this pocket, and it has no depth")
       { message =
           [ "On the straight way from "
-              <> Vec.written 3 p
+              <> Vec.toText 3 p
               <> " to "
-              <> Vec.written 3 q
+              <> Vec.toText 3 q
               <> " a wall is in the way."
           ],
         hints =
@@ -460,7 +461,7 @@ toReport err = case err of
       }
 
 -- | The reason why a control's input cannot express a request.
-unsent :: Unsent -> Text
+unsent :: Unsupported -> Text
 unsent what = case what of
   OnContour -> "The cutter runs on the contour itself and has no side."
   Swivelling -> "A blade swivels while it cuts, and the control would not know how far."
@@ -471,7 +472,7 @@ unsent what = case what of
     \would cut into the part."
 
 -- | The hint for such a request.
-unsentHint :: Unsent -> Text
+unsentHint :: Unsupported -> Text
 unsentHint what = case what of
   OnContour -> "Take a side, or leave out compensation controller."
   Swivelling -> "Leave out compensation controller, or take a mill."
@@ -514,6 +515,6 @@ sideWord side = case side of
 -- | The text for an intrusion of this depth.
 intruding :: Intrusion -> Mm -> Text
 intruding intrusion depth = case intrusion of
-  CuttingIn -> "cuts into the part by " <> Decimal.mm depth
+  CutsContour -> "cuts into the part by " <> Decimal.mm depth
   Crossing -> "crosses the contour of the part"
-  Taking -> "takes " <> Decimal.mm depth <> " of what is to be left on the contour"
+  CutsAllowance -> "takes " <> Decimal.mm depth <> " of what is to be left on the contour"

@@ -7,7 +7,7 @@
 -- "Toolpath.CuttingPass", pockets by "Toolpath.PocketMove", holes by "Toolpath.DrillMove". A path
 -- that cuts a contour where it should not is refused ("Toolpath.Intrusion").
 module Toolpath.FromPart
-  ( lay,
+  ( toToolpath,
     leadingSide,
     touchedRadius,
   )
@@ -39,14 +39,14 @@ import Part.Part qualified as Part
 import Toolpath.CuttingPass (CuttingPass (CuttingPass), touchedRadius)
 import Toolpath.CuttingPass qualified as CuttingPass
 import Toolpath.DrillMove qualified as DrillMove
-import Toolpath.Error (Error (..), Unsent (..), Warning (..))
+import Toolpath.Error (Error (..), Unsupported (..), Warning (..))
 import Toolpath.Error qualified as Error
 import Toolpath.Intrusion qualified as Intrusion
 import Toolpath.LinkingMove qualified as LinkingMove
 import Toolpath.MillingSide (keyword, leadingSide, oriented, possible)
 import Toolpath.OffsetRefusal qualified as OffsetRefusal
 import Toolpath.PocketMove qualified as PocketMove
-import Toolpath.RestMaterial (Remaining (Remaining, places, tool, word))
+import Toolpath.RestMaterial (Remaining (Remaining, positions, tool, word))
 import Toolpath.RestMaterial qualified as RestMaterial
 import Toolpath.Toolpath (Block (..), Toolpath (Toolpath))
 import Toolpath.Toolpath qualified as Toolpath
@@ -55,8 +55,8 @@ import Toolpath.Warning qualified as Warning
 -- | Computes the toolpath of a part. There is none when an operation has none, or when there are
 -- operations but the start is unknown, which is reported already. A part that is only drawn has a
 -- path without moves.
-lay :: Part -> Result Warning Error Toolpath
-lay part = case (Part.start part, Part.operations part) of
+toToolpath :: Part -> Result Warning Error Toolpath
+toToolpath part = case (Part.start part, Part.operations part) of
   (Nothing, []) ->
     Result
       []
@@ -89,7 +89,7 @@ turns part = or [isTurning c | Just c <- [Part.firstCutter part]] || any asks (P
 -- at a statement that is carried out several times is one warning.
 restWarnings :: Toolpath -> [Warning]
 restWarnings path =
-  [ Leaves word tool (concatMap (map fst . NonEmpty.toList . places) (r : more))
+  [ LeavesRestMaterial word tool (concatMap (map fst . NonEmpty.toList . positions) (r : more))
     | r@Remaining {word, tool} :| more <- Map.elems statements
   ]
   where
@@ -110,7 +110,7 @@ collect number tool at operations = case operations of
   o : rest -> case blocksOf number tool at o of
     Left e -> first (e :) (collect next tool' at rest)
     Right bs ->
-      (bs <>) <$> collect next tool' (LinkingMove.arriving at (concatMap Toolpath.moves bs)) rest
+      (bs <>) <$> collect next tool' (LinkingMove.endPosition at (concatMap Toolpath.moves bs)) rest
     where
       !next = case o of
         Mill _ -> number + 1
@@ -123,7 +123,7 @@ collect number tool at operations = case operations of
 -- | The blocks of one operation.
 blocksOf :: Int -> Mm -> SpacePoint -> Operation -> Either Error [Block]
 blocksOf number tool at operation = case operation of
-  Travel stops -> Right [Travelling tool (LinkingMove.ways at (NonEmpty.toList stops))]
+  Travel stops -> Right [Travelling tool (LinkingMove.straightMoves at (NonEmpty.toList stops))]
   Command c -> Right [Commanding c]
   Drill d -> Right [Holing d (DrillMove.moves at d)]
   Pocket job -> PocketMove.blocks number at job
@@ -137,7 +137,7 @@ blocksOf number tool at operation = case operation of
         passBlocks number at (Located region milling) side (passesOf milling)
   where
     -- The contour as written is not needed any more; it takes much memory.
-    withoutLegs milling = milling {contour = (contour milling) {Part.legs = []}}
+    withoutLegs milling = milling {contour = (contour milling) {Part.writtenElements = []}}
     -- Without depth the cutter stays at the height of its last approach point.
     heightOf milling =
       fromMaybe (height at) (listToMaybe (mapMaybe Part.level (reverse (Part.approach milling))))
@@ -182,7 +182,7 @@ passBlocks number at job side passes =
                     CuttingPass.restMaterial = if n == 1 then rests else []
                   }
                 path
-            Right (LinkingMove.arriving from (Toolpath.moves b), b : done)
+            Right (LinkingMove.endPosition from (Toolpath.moves b), b : done)
       foldM cut before (zip [1 :: Int ..] (NonEmpty.toList paths))
 
 -- | The paths of the cutter beside a contour, or on it without a side, with an allowance; and the
@@ -203,18 +203,18 @@ along (Located region milling) side numbered allowance = case side of
           :| [],
         []
       )
-  Just s -> case (Equidistant.styled style s r outline, Part.rest milling) of
+  Just s -> case (Equidistant.styled style s r polyarcOf, Part.rest milling) of
     (Right pieces, _) -> Right (pieces :| [], [])
     (Left _, Part.Allowed)
-      | Just asked <- Part.byControl milling ->
-        Left (NotForControl asked Unreached)
-    (Left o, Part.Allowed) -> case Equidistant.reachableFitting style s r outline of
+      | Just elementFinish <- Part.controlCompensation milling ->
+        Left (NotForControl elementFinish Unreached)
+    (Left o, Part.Allowed) -> case Equidistant.reachableFitting style s r polyarcOf of
       ([], _) -> Left (NoPathAlong (keyword region) (contour milling) allowance)
       (_, []) -> Left (refusal o)
       (p : ps, rests) -> Right (fmap Equidistant.pieces (p :| ps), rests)
     (Left o, Part.Refused) -> Left (refusal o)
   where
-    outline = Part.outline (contour milling)
+    polyarcOf = Part.polyarcOf (contour milling)
     r = plus (radius milling) allowance
     style =
       Equidistant.CornerStyle

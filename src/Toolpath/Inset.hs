@@ -3,8 +3,8 @@
 module Toolpath.Inset
   ( oriented,
     inset,
-    fitting,
-    further,
+    insetWithSlots,
+    insetOfLoops,
   )
 where
 
@@ -38,24 +38,24 @@ oriented outer islands = orient (> 0) outer :| map (orient (< 0)) islands
 inset :: NonEmpty Polyarc -> Mm -> [Loop]
 inset contours@(outer :| _) = loopsAt
   where
-    walls = map (fst . FlatPolyarc.fromContour) (NonEmpty.toList contours)
+    walls = map (fst . FlatPolyarc.fromPolyarc) (NonEmpty.toList contours)
     BoundingBox l b r t = boundingBox (Polyarc.segments outer)
     loopsAt distance@(Mm d)
       -- No larger circle fits into the outer contour. Without this test the kernel would have to
       -- distinguish a cutter that covers the whole contour from one that fits.
       | 2 * d >= min (r - l) (t - b) = []
-      | otherwise = case Kernel.offset (Kernel.plain Carrier.LeftOf distance) walls of
+      | otherwise = case Kernel.offset (Kernel.roundOffset Carrier.LeftOf distance) walls of
         Right region -> loopsOf region
         Left Kernel.Uncertain -> Crash.bug "the passes of a pocket failed their certificate"
-        Left (Kernel.Crossed _ _) -> []
-        Left Kernel.Misplaced -> []
+        Left (Kernel.SelfIntersecting _ _) -> []
+        Left Kernel.WrongNesting -> []
 
 -- | The loops at a distance, including passes down slots of exactly twice that width. In such a
 -- slot the centre has only a line and no area. The loop at a distance smaller by
 -- 'Tolerance.clearance' replaces it.
-fitting :: (Mm -> [Loop]) -> Mm -> [Loop]
-fitting loopsAt distance
-  | minus (totalLength smaller) (totalLength own) > Tolerance.slot = smaller
+insetWithSlots :: (Mm -> [Loop]) -> Mm -> [Loop]
+insetWithSlots loopsAt distance
+  | minus (totalLength smaller) (totalLength own) > Tolerance.ignoredSlot = smaller
   | otherwise = own
   where
     own = loopsAt distance
@@ -65,13 +65,13 @@ fitting loopsAt distance
 -- | The inner offset of loops by a distance. From loop to loop the kernel has less work than from
 -- the walls to each loop. The result is Nothing when the kernel cannot decide, as when loops
 -- touch.
-further :: [Loop] -> Mm -> Maybe [Loop]
-further loops distance@(Mm d)
+insetOfLoops :: [Loop] -> Mm -> Maybe [Loop]
+insetOfLoops loops distance@(Mm d)
   | 2 * d >= min (r - l) (t - b) = Just []
   | otherwise =
     case Kernel.offset
-      (Kernel.plain Carrier.LeftOf distance)
-      (map (fst . FlatPolyarc.fromContour . Polyarc Closed) loops) of
+      (Kernel.roundOffset Carrier.LeftOf distance)
+      (map (fst . FlatPolyarc.fromPolyarc . Polyarc Closed) loops) of
       Right region -> Just (loopsOf region)
       Left _ -> Nothing
   where
@@ -90,4 +90,4 @@ boundingBox (s :| more) =
 -- | The loops of a reachable region as segments.
 loopsOf :: Kernel.ReachableRegion -> [Loop]
 loopsOf region =
-  mapMaybe (NonEmpty.nonEmpty . FlatPolyarc.segments) (Loop.outlines (Kernel.loops region))
+  mapMaybe (NonEmpty.nonEmpty . FlatPolyarc.segments) (Loop.polyarcs (Kernel.loops region))

@@ -88,7 +88,7 @@ groupSize = 16
 machinedOf :: [Block] -> Machined
 machinedOf blocks =
   Machined
-    { index = BoxTree.index (BoxTree.around . groups) walls,
+    { index = BoxTree.index (BoxTree.boundingBox . groups) walls,
       -- The axis of a blade may be above the top of the part while the blade is in it.
       top = maximum (Mm 0 : [Swivel.highest milling | Wall {milling} <- walls]),
       statements = map statement walls
@@ -178,12 +178,12 @@ intrusionsOfMove machined intruder m
   | otherwise =
     nubBy
       isSamePoint
-      (map deepest (groupBy ((==) `on` fst) (sortOn fst (hits machined intruder m))))
+      (map deviationLimits (groupBy ((==) `on` fst) (sortOn fst (hits machined intruder m))))
   where
     isSamePoint e f = case (e, f) of
-      (CutsPart _ _ _ _ _ p, CutsPart _ _ _ _ _ q) -> Vec.near p q
+      (CutsPart _ _ _ _ _ p, CutsPart _ _ _ _ _ q) -> Vec.isNear p q
       _ -> False
-    deepest errors = minimumBy (comparing depth) (map snd errors)
+    deviationLimits errors = minimumBy (comparing depth) (map snd errors)
 
 -- | All elements that a move cuts into, with the numbers of their statements.
 hits :: Machined -> Intruder -> Move -> [(Int, Error)]
@@ -215,7 +215,7 @@ hit tool kept milling m element
           (Toolpath.origin m)
           path
           element
-          (minus (if how == Taking then kept else tool) d)
+          (minus (if how == CutsAllowance then kept else tool) d)
           how
           p
       )
@@ -224,11 +224,11 @@ hit tool kept milling m element
     path = Toolpath.segment m
     wall = Part.segment element
     ClosestPoint d p = Distance.segments path wall
-    allowed = plus (fst (Part.deepest (Part.tolerance milling))) Tolerance.clearance
+    allowed = plus (fst (Part.deviationLimits (Part.tolerance milling))) Tolerance.clearance
     how
       | d <= Tolerance.coincident = Crossing
-      | plus d allowed < tool = CuttingIn
-      | otherwise = Taking
+      | plus d allowed < tool = CutsContour
+      | otherwise = CutsAllowance
 
 -- | Whether a segment leads from one side of a wall to the other, by more than an allowed distance
 -- on both sides. The tip of a pointed tool cuts nothing beside it.

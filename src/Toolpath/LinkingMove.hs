@@ -1,11 +1,11 @@
 -- | Linking moves: from the current position to the beginning of a pass, and from its end.
 module Toolpath.LinkingMove
   ( Visit (..),
-    deep,
-    flat,
-    ways,
+    withDepth,
+    withoutDepth,
+    straightMoves,
     rise,
-    arriving,
+    endPosition,
     keyword,
   )
 where
@@ -34,9 +34,10 @@ data Visit = Visit
 
 -- | The linking moves before and after a pass without depth, at the cutter's current height @z@.
 -- The heights in the pair are those at the beginning and at the end of the pass.
-flat :: Visit -> Mm -> (Mm, Mm) -> Point -> Point -> ([Move], [Move])
-flat Visit {word, milling, isFirst, isLast, from} z (inZ, outZ) begin finish =
-  ( before <> ways (arriving from before) [Part.Stop (Located word begin) (Just inZ) pace],
+withoutDepth :: Visit -> Mm -> (Mm, Mm) -> Point -> Point -> ([Move], [Move])
+withoutDepth Visit {word, milling, isFirst, isLast, from} z (inZ, outZ) begin finish =
+  ( before
+      <> straightMoves (endPosition from before) [Part.Stop (Located word begin) (Just inZ) pace],
     after
       <> if null after
         then [Move (Straight finish finish) (Manner (outZ, z) pace False) word False | outZ /= z]
@@ -44,10 +45,10 @@ flat Visit {word, milling, isFirst, isLast, from} z (inZ, outZ) begin finish =
   )
   where
     pace = Part.At (feed milling)
-    before = if isFirst || isOpen then ways from (Part.approach milling) else []
+    before = if isFirst || isOpen then straightMoves from (Part.approach milling) else []
     after =
       if isLast || isOpen
-        then ways (SpacePoint finish outZ) (upright (Part.retract milling))
+        then straightMoves (SpacePoint finish outZ) (upright (Part.retract milling))
         else []
     isOpen = Part.ends (Part.contour milling) == Part.Open
     -- A blade is turned upright on the retract.
@@ -61,12 +62,14 @@ flat Visit {word, milling, isFirst, isLast, from} z (inZ, outZ) begin finish =
 -- | The linking moves before and after a pass with depth. At the clearance height the cutter
 -- moves to the last approach point, or to the beginning of the pass, and plunges there. It
 -- rises again at the first retract point, unless that point has its own height.
-deep :: Visit -> Mm -> (Mm, Mm) -> Point -> Point -> ([Move], [Move])
-deep Visit {word, milling, isFirst, isLast, from} clear (inZ, outZ) begin finish =
+withDepth :: Visit -> Mm -> (Mm, Mm) -> Point -> Point -> ([Move], [Move])
+withDepth Visit {word, milling, isFirst, isLast, from} clear (inZ, outZ) begin finish =
   ( up
       <> over
       <> down
-      <> ways (SpacePoint (plane above) inZ) [Part.Stop (Located word begin) (Just inZ) pace],
+      <> straightMoves
+        (SpacePoint (plane above) inZ)
+        [Part.Stop (Located word begin) (Just inZ) pace],
     leave <> lift <> rest
   )
   where
@@ -77,22 +80,22 @@ deep Visit {word, milling, isFirst, isLast, from} clear (inZ, outZ) begin finish
         | s <- (if isFirst then id else lastOf) (Part.approach milling)
       ]
     over =
-      ways
-        (arriving from up)
+      straightMoves
+        (endPosition from up)
         (if null stops then [Part.Stop (Located word begin) (Just clear) Part.Rapid] else stops)
-    above = arriving (arriving from up) over
+    above = endPosition (endPosition from up) over
     down = plunge word milling above inZ
     (firstRetract, otherRetracts) = case Part.retract milling of
       s : more | Nothing <- Part.level s -> ([s {Part.level = Just outZ}], more)
       stops' -> ([], stops')
-    leave = ways (SpacePoint finish outZ) firstRetract
-    out = arriving (SpacePoint finish outZ) leave
+    leave = straightMoves (SpacePoint finish outZ) firstRetract
+    out = endPosition (SpacePoint finish outZ) leave
     lift = rise out clear word
     rest =
       if isLast
         then
-          ways
-            (arriving out lift)
+          straightMoves
+            (endPosition out lift)
             [s {Part.level = Just (fromMaybe clear (Part.level s))} | s <- otherRetracts]
         else []
     lastOf xs = take 1 (reverse xs)
@@ -110,23 +113,23 @@ rise (SpacePoint p z) clear word =
   [Move (Straight p p) (Manner (z, clear) Part.Rapid False) word False | z < clear]
 
 -- | Straight moves from stop to stop. A stop at the current position needs no move.
-ways :: SpacePoint -> [Stop] -> [Move]
-ways at stops = case stops of
+straightMoves :: SpacePoint -> [Stop] -> [Move]
+straightMoves at stops = case stops of
   [] -> []
   Part.Stop (Located region p) level pace : rest
-    | Vec.near (plane at) p && z == height at -> ways at rest
+    | Vec.isNear (plane at) p && z == height at -> straightMoves at rest
     | otherwise ->
       Move (Straight (plane at) p) (Manner (height at, z) pace False) region False :
-      ways (SpacePoint p z) rest
+      straightMoves (SpacePoint p z) rest
     where
       z = fromMaybe (height at) level
 
 -- | The position after moves that begin at a position.
-arriving :: SpacePoint -> [Move] -> SpacePoint
-arriving from ms = case ms of
+endPosition :: SpacePoint -> [Move] -> SpacePoint
+endPosition from ms = case ms of
   [] -> from
   [m] -> SpacePoint (Segment.end (Toolpath.segment m)) (snd (Toolpath.heights m))
-  _ : more -> arriving from more
+  _ : more -> endPosition from more
 
 -- | The region of a statement's first word, which has @letters@ letters.
 keyword :: Int -> Region -> Region

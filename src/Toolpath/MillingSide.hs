@@ -80,7 +80,7 @@ possible region milling
     lowest s = case s of
       Arc from _ centre _
         | Mm r <- Segment.radius centre from,
-          Segment.spans s (Vec.point (Vec.x centre) (Vec.y centre - r)) ->
+          Segment.hasFootOf s (Vec.point (Vec.x centre) (Vec.y centre - r)) ->
           Vec.y centre - r
       _ -> min (Vec.y (Segment.start s)) (Vec.y (Segment.end s))
 
@@ -91,7 +91,7 @@ oriented region milling = case Part.sense milling of
   Nothing -> Right milling
   Just (Located at sense) -> do
     now <- leadingSide milling
-    let climbs = (sense == Part.Climb) == (Part.spin milling == Part.Clockwise)
+    let climbs = (sense == Part.Climb) == (Part.spindleSense milling == Part.Clockwise)
         wanted = if climbs then Carrier.LeftOf else Carrier.RightOf
     case now of
       Nothing -> Left (SenseOnContour at (keyword region))
@@ -99,7 +99,7 @@ oriented region milling = case Part.sense milling of
         | side' == wanted -> Right milling
         | value (side milling) `elem` [LeftSide, RightSide] ->
           Left (SenseAgainstSide at (region' (side milling)))
-        | otherwise -> Right milling {contour = Part.backwards (contour milling)}
+        | otherwise -> Right milling {contour = Part.reversedContour (contour milling)}
   where
     region' (Located r _) = r
 

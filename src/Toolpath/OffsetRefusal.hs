@@ -1,8 +1,8 @@
 -- | Reasons why a cutter cannot follow contours, expressed in elements of the part program.
 module Toolpath.OffsetRefusal
   ( refusal,
-    stays,
-    shifted,
+    restPositions,
+    renumbered,
   )
 where
 
@@ -17,7 +17,7 @@ import Offset.Equidistant (Cause (..), Obstacle (..))
 import Offset.Equidistant qualified as Equidistant
 import Part.Part (Element)
 import Part.Part qualified as Part
-import Toolpath.Error (Error (ConcaveRadius), Stay (..), Tool (leaves))
+import Toolpath.Error (Error (ConcaveRadius), RestPosition (..), Tool (leaves))
 import Toolpath.Error qualified as Error
 
 -- | The error for an obstacle. The region is the statement's first word; the elements are indexed
@@ -31,17 +31,22 @@ refusal region tool elements (Obstacle cause largest) = case cause of
     Error.Collision region tool (elements ! i) (elements ! j) p (fitting tool largest)
 
 -- | The rest material, one entry for each unreached part of the contour.
-stays :: Functor f => Tool -> Vector Element -> f Equidistant.UnreachedPart -> f Stay
-stays tool elements = fmap restPosition
+restPositions ::
+  Functor f =>
+  Tool ->
+  Vector Element ->
+  f Equidistant.UnreachedPart ->
+  f RestPosition
+restPositions tool elements = fmap restPosition
   where
     restPosition rest = case cause (Equidistant.stop rest) of
       InnerCorner i j p -> InCorner (elements ! i) (elements ! j) p
-      Concave i old -> InHollow (elements ! i) old (largest' rest)
+      Concave i old -> InConcaveArc (elements ! i) old (largest' rest)
       Collision i j _ -> case onlyCorner i j of
         -- At a corner between arcs of a curve and another element. No round cutter reaches into a
         -- corner, though a smaller one comes closer.
         Just (a, b) | isCorner rest a b -> InCorner a b (Segment.start (Part.segment b))
-        _ -> Between (elements ! i) (elements ! j) (Equidistant.middle rest) (largest' rest)
+        _ -> Between (elements ! i) (elements ! j) (Equidistant.cutterCentre rest) (largest' rest)
     largest' rest = fitting tool (largest (Equidistant.stop rest))
     -- The numbers of elements that do not continue a curve, and the count of these before each
     -- element and before the end.
@@ -59,11 +64,14 @@ stays tool elements = fmap restPosition
     -- True for a corner that turns towards the cutter.
     isCorner rest a b =
       let along = Segment.endDirection (Part.segment a)
-          Rad deflection = Vec.turn along (Segment.startDirection (Part.segment b))
+          Rad deflection = Vec.signedAngle along (Segment.startDirection (Part.segment b))
           Rad smooth = Tolerance.smoothAngle
        in deflection
             * signum
-              (Vec.cross along (Vec.to (Segment.end (Part.segment a)) (Equidistant.middle rest)))
+              ( Vec.cross
+                  along
+                  (Vec.to (Segment.end (Part.segment a)) (Equidistant.cutterCentre rest))
+              )
               > smooth
 
 -- | The radius of the largest cutter: the largest radius that fits, less the allowance.
@@ -74,8 +82,8 @@ fitting tool largest = do
   if d > Mm 0 then Just d else Nothing
 
 -- | Adds an offset to the element numbers of an obstacle.
-shifted :: Int -> Obstacle -> Obstacle
-shifted n (Obstacle cause largest) = Obstacle (moved cause) largest
+renumbered :: Int -> Obstacle -> Obstacle
+renumbered n (Obstacle cause largest) = Obstacle (moved cause) largest
   where
     moved c = case c of
       Concave i old -> Concave (n + i) old

@@ -15,10 +15,10 @@ module Toolpath.Pocket
     Loop,
     PocketMove (..),
     clear,
-    skim,
+    finishWalls,
     linked,
-    begins,
-    finishes,
+    startPoint,
+    endPoint,
     segments,
   )
 where
@@ -50,25 +50,25 @@ data PocketRoom = PocketRoom
     -- given distance from both; the free space is on their left
     offsetBy :: Mm -> [Loop],
     -- | the inner offset of such loops by a distance, where that is simpler
-    further :: [Loop] -> Mm -> Maybe [Loop],
+    insetOfLoops :: [Loop] -> Mm -> Maybe [Loop],
     -- | of the cutter
     radius :: Mm,
     -- | the allowance at the walls
     leaves :: Mm,
     -- | traverse every loop with the free space on its right
-    turned :: Bool
+    isReversed :: Bool
   }
 
 -- | A section of the toolpath. Each begins where the one before it ends.
 data PocketMove
   = -- | along a loop or a part of one, with its distance from the walls
-    Round Mm (NonEmpty Segment)
+    AlongLoop Mm (NonEmpty Segment)
   | -- | a detour to stepover residue, no nearer to the walls than the loops
-    Aside (NonEmpty Segment)
+    Detour (NonEmpty Segment)
   | -- | straight to the next loop, with no wall between
-    Across Segment
+    DirectLink Segment
   | -- | up, over and down again, because a wall lies between
-    Over Point Point
+    LiftedLink Point Point
   deriving stock (Eq, Show)
 
 -- | Clears a pocket with a stepover, greater than 0 and at most the diameter. The point is the
@@ -78,9 +78,9 @@ clear room step from =
   along
     room
     from
-    ( PocketTree.nests
+    ( PocketTree.passTrees
         (offsetBy room)
-        (further room)
+        (insetOfLoops room)
         (radius room)
         ( takeWhile
             (<= deepest)
@@ -95,14 +95,14 @@ clear room step from =
 
 -- | Finishes the walls of a pocket that was cleared with the larger allowance @before@. The
 -- distance between passes is at most the stepover and at most the radius.
-skim :: PocketRoom -> Mm -> Mm -> Maybe Point -> [PocketMove]
-skim room step before from =
+finishWalls :: PocketRoom -> Mm -> Mm -> Maybe Point -> [PocketMove]
+finishWalls room step before from =
   along
     room
     from
-    ( PocketTree.nests
+    ( PocketTree.passTrees
         (offsetBy room)
-        (further room)
+        (insetOfLoops room)
         (radius room)
         [ plus (nearest' room) (times (fromIntegral k / fromIntegral count) more)
           | k <- [0 .. count - 1]
@@ -124,9 +124,9 @@ linked room = link
   where
     index = BoxTree.index BoundingBox.ofSegment (NonEmpty.toList (walls room))
     link p q
-      | Vec.near p q = []
-      | free (Straight p q) = [Across (Straight p q)]
-      | otherwise = [Over p q]
+      | Vec.isNear p q = []
+      | free (Straight p q) = [DirectLink (Straight p q)]
+      | otherwise = [LiftedLink p q]
     free s =
       all
         (\w -> plus (distanceTo s w) Tolerance.clearance >= nearest' room)
@@ -159,7 +159,7 @@ along room from nests = reverse (sections (visitAll Progress {current = from, se
           linking = maybe [] (`link` entrance r') (current progress)
        in Progress
             { current = Just (entrance r'),
-              sections = reverse (linking <> roundOf (turned room) r') <> sections progress
+              sections = reverse (linking <> roundOf (isReversed room) r') <> sections progress
             }
 
 -- | Visits items one after the other, always the one nearest to the cutter. With more than @many@
@@ -196,31 +196,31 @@ innermost n = case inner n of
 
 -- | The point at which a loop is entered.
 entrance :: Ring -> Point
-entrance r = Segment.start (segment (NonEmpty.head (stretches r)))
+entrance r = Segment.start (segment (NonEmpty.head (ringSegments r)))
 
 -- | The distance of a loop from a point.
 distanceFrom :: Point -> Ring -> Mm
-distanceFrom p r = minimum (fmap (Distance.toPoint p . segment) (stretches r))
+distanceFrom p r = minimum (fmap (Distance.toPoint p . segment) (ringSegments r))
 
 -- | Rotates a loop so that it begins at its point nearest to a given one.
 enteredNear :: Ring -> Point -> Ring
 enteredNear r p = case NonEmpty.nonEmpty begun of
-  Just ss -> r {stretches = ss}
+  Just ss -> r {ringSegments = ss}
   Nothing -> r
   where
-    list = NonEmpty.toList (stretches r)
+    list = NonEmpty.toList (ringSegments r)
     (number, _) =
       minimumBy
         (comparing snd)
-        (NonEmpty.zip (0 :| [1 ..]) (fmap (Distance.toPoint p . segment) (stretches r)))
+        (NonEmpty.zip (0 :| [1 ..]) (fmap (Distance.toPoint p . segment) (ringSegments r)))
     begun = case splitAt number list of
       (before, s : after)
-        | Vec.near foot (Segment.end (segment s)) -> after <> before <> [s]
-        | Vec.near foot (Segment.start (segment s)) -> s : after <> before
+        | Vec.isNear foot (Segment.end (segment s)) -> after <> before <> [s]
+        | Vec.isNear foot (Segment.start (segment s)) -> s : after <> before
         | otherwise ->
           let (a, b) =
                 Segment.cutAt (Segment.fraction (segment s) foot) (segment s)
-           in s {segment = b} : after <> before <> [RingSegment {segment = a, aside = []}]
+           in s {segment = b} : after <> before <> [RingSegment {segment = a, detours = []}]
         where
           foot = snd (Distance.nearest p (segment s))
       (_, []) -> list
@@ -231,41 +231,42 @@ roundOf isTurned r
   | isTurned = map reverseSection (reverse parts)
   | otherwise = parts
   where
-    parts = go [] (NonEmpty.toList (stretches r))
+    parts = go [] (NonEmpty.toList (ringSegments r))
     go before ss = case ss of
       [] -> whole before
-      RingSegment {segment = s, aside = []} : more -> go (s : before) more
-      RingSegment {segment = s, aside = trips} : more ->
-        whole (s : before) <> map Aside trips <> go [] more
-    whole before = maybe [] (\some -> [Round (away r) some]) (NonEmpty.nonEmpty (reverse before))
+      RingSegment {segment = s, detours = []} : more -> go (s : before) more
+      RingSegment {segment = s, detours = trips} : more ->
+        whole (s : before) <> map Detour trips <> go [] more
+    whole before =
+      maybe [] (\some -> [AlongLoop (wallDistance r) some]) (NonEmpty.nonEmpty (reverse before))
     reverseSection section = case section of
-      Round c ss -> Round c (NonEmpty.reverse (fmap Segment.reverse ss))
-      Aside ss -> Aside (NonEmpty.reverse (fmap Segment.reverse ss))
-      Across s -> Across (Segment.reverse s)
-      Over p q -> Over q p
+      AlongLoop c ss -> AlongLoop c (NonEmpty.reverse (fmap Segment.reverse ss))
+      Detour ss -> Detour (NonEmpty.reverse (fmap Segment.reverse ss))
+      DirectLink s -> DirectLink (Segment.reverse s)
+      LiftedLink p q -> LiftedLink q p
 
 -- Sections
 
 -- | The first point of a section.
-begins :: PocketMove -> Point
-begins section = case section of
-  Over p _ -> p
-  Round _ (s :| _) -> Segment.start s
-  Aside (s :| _) -> Segment.start s
-  Across s -> Segment.start s
+startPoint :: PocketMove -> Point
+startPoint section = case section of
+  LiftedLink p _ -> p
+  AlongLoop _ (s :| _) -> Segment.start s
+  Detour (s :| _) -> Segment.start s
+  DirectLink s -> Segment.start s
 
 -- | The last point of a section.
-finishes :: PocketMove -> Point
-finishes section = case section of
-  Over _ q -> q
-  Round _ ss -> Segment.end (NonEmpty.last ss)
-  Aside ss -> Segment.end (NonEmpty.last ss)
-  Across s -> Segment.end s
+endPoint :: PocketMove -> Point
+endPoint section = case section of
+  LiftedLink _ q -> q
+  AlongLoop _ ss -> Segment.end (NonEmpty.last ss)
+  Detour ss -> Segment.end (NonEmpty.last ss)
+  DirectLink s -> Segment.end s
 
 -- | The segments along which a section cuts.
 segments :: PocketMove -> [Segment]
 segments section = case section of
-  Over _ _ -> []
-  Round _ ss -> NonEmpty.toList ss
-  Aside ss -> NonEmpty.toList ss
-  Across s -> [s]
+  LiftedLink _ _ -> []
+  AlongLoop _ ss -> NonEmpty.toList ss
+  Detour ss -> NonEmpty.toList ss
+  DirectLink s -> [s]

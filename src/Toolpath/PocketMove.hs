@@ -29,7 +29,7 @@ import Offset.Tolerance qualified as Tolerance
 import Part.Part
   ( Element,
     Milling (contour, feed),
-    Pocketing (apart, islands, wall),
+    Pocketing (islands, stepover, wall),
     SpacePoint (..),
   )
 import Part.Part qualified as Part
@@ -64,7 +64,7 @@ blocks number at (Located region given) = do
     currentHeight =
       fromMaybe (height at) (listToMaybe (mapMaybe Part.level (reverse (Part.approach milling))))
     depth = case (Part.levels milling, Part.clearance milling) of
-      (first : more, Just clear) -> Just (clear, first :| more)
+      (first : more, Just travelHeight) -> Just (travelHeight, first :| more)
       _ -> Nothing
     -- With depth, all passes of one allowance have the same sections at every depth.
     passes =
@@ -94,7 +94,7 @@ blocks number at (Located region given) = do
                 retract,
                 rests = if left == NonEmpty.last allowances then rests else []
               }
-      Right (LinkingMove.arriving position (Toolpath.moves b), b : done)
+      Right (LinkingMove.endPosition position (Toolpath.moves b), b : done)
 
 -- | The plunge position of the cutter, if the program gives it.
 lastApproach :: Milling -> Maybe Point
@@ -109,12 +109,12 @@ passOf ::
   (Mm, Mm) ->
   (Maybe Point -> [PocketMove]) ->
   Either Error ([Move], NonEmpty Move, [Move])
-passOf visit clear (left, z) sectionsFrom = do
+passOf visit travelHeight (left, z) sectionsFrom = do
   sections <- fitting (NonEmpty.nonEmpty (sectionsFrom from))
-  (visit', sections') <- case (sections, clear) of
+  (visit', sections') <- case (sections, travelHeight) of
     -- A wall lies between the plunge position and the first loop, so the cutter moves over it at
     -- the clearance height.
-    (Over _ q :| next : more, Just c) ->
+    (LiftedLink _ q :| next : more, Just c) ->
       Right
         ( visit
             { LinkingMove.milling =
@@ -131,31 +131,31 @@ passOf visit clear (left, z) sectionsFrom = do
       maybe
         (Right (visit, sections))
         (\(p, q) -> Left (HasToRise word p q))
-        (listToMaybe [(p, q) | Over p q <- toList sections])
+        (listToMaybe [(p, q) | LiftedLink p q <- toList sections])
   let (before, after) =
         maybe
-          (LinkingMove.flat visit' z)
-          (LinkingMove.deep visit')
-          clear
+          (LinkingMove.withoutDepth visit' z)
+          (LinkingMove.withDepth visit')
+          travelHeight
           (z, z)
-          (Pocket.begins (NonEmpty.head sections'))
-          (Pocket.finishes (NonEmpty.last sections'))
-  cleared <- fitting (NonEmpty.nonEmpty (concatMap (moves word milling z clear) sections'))
+          (Pocket.startPoint (NonEmpty.head sections'))
+          (Pocket.endPoint (NonEmpty.last sections'))
+  cleared <- fitting (NonEmpty.nonEmpty (concatMap (moves word milling z travelHeight) sections'))
   Right (before, cleared, after)
   where
     Visit {LinkingMove.word, LinkingMove.milling} = visit
     fitting = maybe (Left (NoPathInPocket word (contour milling) left)) Right
     currentPoint = plane (LinkingMove.from visit)
-    from = case (clear, lastApproach milling) of
+    from = case (travelHeight, lastApproach milling) of
       (Just _, p) -> p
       (Nothing, Just p) | LinkingMove.isFirst visit -> Just p
       (Nothing, _) -> Just currentPoint
 
 -- | The moves of a section at a height; a section over a wall is at the clearance height.
 moves :: Region -> Milling -> Mm -> Maybe Mm -> PocketMove -> [Move]
-moves word milling z clear section = case section of
-  Over p q
-    | Just c <- clear ->
+moves word milling z travelHeight section = case section of
+  LiftedLink p q
+    | Just c <- travelHeight ->
       [Move (Straight p p) (Manner (z, c) Part.Rapid False) word False | c /= z]
         <> [Move (Straight p q) (Manner (c, c) Part.Rapid False) word False]
         <> [ Move
@@ -174,29 +174,29 @@ moves word milling z clear section = case section of
 sectionsFor :: Pocketing -> NonEmpty (Maybe Point -> [PocketMove])
 sectionsFor pocket =
   (\from -> Pocket.clear (room first) step from)
-    :| zipWith (\before a -> Pocket.skim (room a) step before) (first : more) more
+    :| zipWith (\before a -> Pocket.finishWalls (room a) step before) (first : more) more
   where
     first :| more = Part.allowances (wall pocket)
-    step = apart pocket
+    step = stepover pocket
     contours =
-      Inset.oriented (Part.outline (contour (wall pocket))) (map Part.outline (islands pocket))
+      Inset.oriented (Part.polyarcOf (contour (wall pocket))) (map Part.polyarcOf (islands pocket))
     inset = Inset.inset contours
     -- The passes along the walls also go down slots of exactly the cutter's width.
-    insetFrom nearest d = if d == nearest then Inset.fitting inset d else inset d
+    insetFrom nearest d = if d == nearest then Inset.insetWithSlots inset d else inset d
     room leaves =
       PocketRoom
         { walls = foldr1 (<>) (fmap Polyarc.segments contours),
           offsetBy = insetFrom (plus (Part.radius (wall pocket)) leaves),
-          further = Inset.further,
+          insetOfLoops = Inset.insetOfLoops,
           radius = Part.radius (wall pocket),
           leaves,
-          turned = hasSpaceOnRight pocket
+          isReversed = hasSpaceOnRight pocket
         }
 
 -- | True when the free space lies on the right of the direction of travel. A clockwise spindle
 -- mills climb with the material on its right and the free space on its left.
 hasSpaceOnRight :: Pocketing -> Bool
-hasSpaceOnRight pocket = climbs /= (Part.spin (wall pocket) == Part.Clockwise)
+hasSpaceOnRight pocket = climbs /= (Part.spindleSense (wall pocket) == Part.Clockwise)
   where
     climbs = maybe True ((== Part.Climb) . value) (Part.sense (wall pocket))
 
@@ -204,13 +204,15 @@ hasSpaceOnRight pocket = climbs /= (Part.spin (wall pocket) == Part.Clockwise)
 oriented :: Pocketing -> Pocketing
 oriented pocket =
   pocket
-    { wall = (wall pocket) {contour = orient (not turned) (contour (wall pocket))},
-      islands = map (orient turned) (islands pocket)
+    { wall = (wall pocket) {contour = orient (not isReversed) (contour (wall pocket))},
+      islands = map (orient isReversed) (islands pocket)
     }
   where
-    turned = hasSpaceOnRight pocket
+    isReversed = hasSpaceOnRight pocket
     orient counterClockwise c =
-      if (Polyarc.signedArea (Part.outline c) > 0) == counterClockwise then c else Part.backwards c
+      if (Polyarc.signedArea (Part.polyarcOf c) > 0) == counterClockwise
+        then c
+        else Part.reversedContour c
 
 -- | The elements of the outer contour, then those of the islands in order.
 elementsOf :: Pocketing -> Vector Element
@@ -231,8 +233,8 @@ restAtWalls word pocket = case (Part.rest milling, found) of
       ( concat (zipWith rests starts contours)
           <> [ Equidistant.UnreachedPart
                  { Equidistant.stop = g,
-                   Equidistant.middle = p,
-                   Equidistant.standing = Equidistant.Unbounded
+                   Equidistant.cutterCentre = p,
+                   Equidistant.restMaterial = Equidistant.Unbounded
                  }
                | g@Equidistant.Obstacle {Equidistant.cause = Equidistant.Collision _ _ p} <- gaps
              ]
@@ -247,18 +249,18 @@ restAtWalls word pocket = case (Part.rest milling, found) of
     side = if hasSpaceOnRight pocket then Carrier.RightOf else Carrier.LeftOf
     style = Equidistant.CornerStyle {Equidistant.sharp = False, Equidistant.extra = const (Mm 0)}
     found =
-      [ OffsetRefusal.shifted n o
+      [ OffsetRefusal.renumbered n o
         | (n, c) <- zip starts contours,
-          Left o <- [Equidistant.styled style side r (Part.outline c)]
+          Left o <- [Equidistant.styled style side r (Part.polyarcOf c)]
       ]
         <> gaps
-    rests n c = case Equidistant.styled style side r (Part.outline c) of
+    rests n c = case Equidistant.styled style side r (Part.polyarcOf c) of
       Right _ -> []
       Left _ ->
-        [ rest {Equidistant.stop = OffsetRefusal.shifted n (Equidistant.stop rest)}
-          | rest <- snd (Equidistant.reachableFitting style side r (Part.outline c))
+        [ rest {Equidistant.stop = OffsetRefusal.renumbered n (Equidistant.stop rest)}
+          | rest <- snd (Equidistant.reachableFitting style side r (Part.polyarcOf c))
         ]
-    gaps = gapsBetween r (map Part.outline contours)
+    gaps = gapsBetween r (map Part.polyarcOf contours)
 
 -- | The narrowest point between each two contours between which a circle of this radius does not
 -- pass.
@@ -291,4 +293,4 @@ gapsBetween r contours =
       let q =
             snd (Distance.nearest p s')
           Mm r' = r
-       in if Vec.near p q then p else Vec.shift (Vec.scale r' (Vec.unit (Vec.to p q))) p
+       in if Vec.isNear p q then p else Vec.shift (Vec.scale r' (Vec.unit (Vec.to p q))) p

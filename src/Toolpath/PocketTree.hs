@@ -6,7 +6,7 @@ module Toolpath.PocketTree
     PocketTree (..),
     Ring (..),
     RingSegment (..),
-    nests,
+    passTrees,
   )
 where
 
@@ -40,18 +40,18 @@ type Loop = NonEmpty Segment
 data PocketTree = PocketTree {rings :: NonEmpty Ring, inner :: [PocketTree]}
 
 -- | A loop, and its distance from the walls.
-data Ring = Ring {away :: Mm, stretches :: NonEmpty RingSegment}
+data Ring = Ring {wallDistance :: Mm, ringSegments :: NonEmpty RingSegment}
 
 -- | A segment of a loop, and detours that begin and end at its end.
-data RingSegment = RingSegment {segment :: Segment, aside :: [NonEmpty Segment]}
+data RingSegment = RingSegment {segment :: Segment, detours :: [NonEmpty Segment]}
 
 -- | The passes at increasing distances from the walls, up to the first distance without loops.
 -- The first function gives the loops at a distance from the walls; the second one the inner
 -- offset of loops, if it is known. Where the distances differ by more than the cutter's radius,
 -- residue between the passes is cleared by detours. Residue inside the last of finitely many
 -- distances is not examined.
-nests :: (Mm -> [Loop]) -> ([Loop] -> Mm -> Maybe [Loop]) -> Mm -> [Mm] -> [PocketTree]
-nests offsetBy further radius distances = case distances of
+passTrees :: (Mm -> [Loop]) -> ([Loop] -> Mm -> Maybe [Loop]) -> Mm -> [Mm] -> [PocketTree]
+passTrees offsetBy further radius distances = case distances of
   [] -> []
   c : more -> from c (offsetBy c) Map.empty more
   where
@@ -65,8 +65,8 @@ nests offsetBy further radius distances = case distances of
               c
               loops
               trips
-              ( from next loops' (StepoverResidue.trips residue) others
-                  <> map (leaf (plus c radius)) (StepoverResidue.lone residue)
+              ( from next loops' (StepoverResidue.detours residue) others
+                  <> map (leaf (plus c radius)) (StepoverResidue.isolated residue)
               )
     inwards c loops d = fromMaybe (offsetBy (plus c d)) (further loops d)
     residueOf c loops next loops'
@@ -77,10 +77,10 @@ nests offsetBy further radius distances = case distances of
 
 -- | A ring of the loop with number @n@, with the detours that begin at its segments.
 ring :: Mm -> Map (Int, Int) [NonEmpty Segment] -> (Int, Loop) -> Ring
-ring away trips (n, loop) =
+ring wallDistance trips (n, loop) =
   Ring
-    { away,
-      stretches =
+    { wallDistance,
+      ringSegments =
         NonEmpty.zipWith
           (\i s -> RingSegment s (Map.findWithDefault [] (n, i) trips))
           (0 :| [1 ..])
@@ -124,7 +124,7 @@ grouped c loops trips inside = mapMaybe part (Map.toList members)
 
 -- | The first point of a region's first ring.
 beginning :: PocketTree -> Point
-beginning nest = Segment.start (segment (NonEmpty.head (stretches (NonEmpty.head (rings nest)))))
+beginning nest = Segment.start (segment (NonEmpty.head (ringSegments (NonEmpty.head (rings nest)))))
 
 -- | The rightmost point of a loop.
 rightmost :: Loop -> Point
@@ -139,7 +139,7 @@ rightmost loop =
       Arc {start = a, centre} ->
         let Mm r = Segment.radius centre a
             furthest = Vec.shift (Vec.vec r 0) centre
-         in a : [furthest | Segment.spans s furthest]
+         in a : [furthest | Segment.hasFootOf s furthest]
 
 -- | The first loop that a horizontal ray from a point to the right meets, except the loop @own@.
 firstHit :: BoxTree (Int, Segment) -> Maybe Int -> Point -> Maybe Int

@@ -16,7 +16,7 @@ import Data.Vector qualified as Vector
 import Offset.Equidistant (UnreachedPart)
 import Part.Part (Contour, Milling)
 import Part.Part qualified as Part
-import Toolpath.Error (Stay, Tool (..))
+import Toolpath.Error (RestPosition, Tool (..))
 import Toolpath.LinkingMove qualified as LinkingMove
 import Toolpath.OffsetRefusal qualified as OffsetRefusal
 import Toolpath.Toolpath (Block (..), Pass (..), Toolpath)
@@ -29,8 +29,8 @@ data Remaining = Remaining
   { word :: Region,
     tool :: Tool,
     walls :: NonEmpty Contour,
-    places :: NonEmpty (Stay, UnreachedPart),
-    beside :: Mm
+    positions :: NonEmpty (RestPosition, UnreachedPart),
+    offsetDistance :: Mm
   }
 
 -- | One entry, in program order, for each statement that leaves rest material.
@@ -57,8 +57,8 @@ remaining word milling islands pass rests =
       { word,
         tool,
         walls,
-        places = NonEmpty.zip (OffsetRefusal.stays tool elements rests) rests,
-        beside = reach pass
+        positions = NonEmpty.zip (OffsetRefusal.restPositions tool elements rests) rests,
+        offsetDistance = reach pass
       }
   )
   where

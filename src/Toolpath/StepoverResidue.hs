@@ -7,7 +7,7 @@
 -- distance @s − r@, it sweeps all points between the two. Elsewhere the edge has a corner or a nook
 -- that the inner pass does not enter. There the cutter follows the edge itself.
 module Toolpath.StepoverResidue
-  ( Nooks (..),
+  ( Residue (..),
     none,
     between,
   )
@@ -32,22 +32,25 @@ import Offset.Tolerance qualified as Tolerance
 
 -- | Detours, and loops of the edge that no inner pass reaches. The key of a detour is the number
 -- of the inner loop and the number of the segment at whose end it begins and ends, both from 0.
-data Nooks = Nooks {trips :: Map (Int, Int) [NonEmpty Segment], lone :: [NonEmpty Segment]}
+data Residue = Residue
+  { detours :: Map (Int, Int) [NonEmpty Segment],
+    isolated :: [NonEmpty Segment]
+  }
 
 -- | No residue.
-none :: Nooks
-none = Nooks Map.empty []
+none :: Residue
+none = Residue Map.empty []
 
 -- | The residue between the edge of the swept area and the inner pass at the distance @apart@
 -- from it. All loops have the free space on their left. @radius@ is the cutter's, and @apart@
 -- is at most the radius.
-between :: Mm -> Mm -> [NonEmpty Segment] -> [NonEmpty Segment] -> Nooks
+between :: Mm -> Mm -> [NonEmpty Segment] -> [NonEmpty Segment] -> Residue
 between radius apart edges passes = foldr (gather . gapsOf) none edges
   where
-    gather found (Nooks ts ls) = case found of
-      Nothing -> Nooks ts ls
-      Just (Left loop) -> Nooks ts (loop : ls)
-      Just (Right gaps) -> Nooks (foldr add ts gaps) ls
+    gather found (Residue ts ls) = case found of
+      Nothing -> Residue ts ls
+      Just (Left loop) -> Residue ts (loop : ls)
+      Just (Right gaps) -> Residue (foldr add ts gaps) ls
     add gap ts =
       maybe
         ts
@@ -121,7 +124,7 @@ furthest :: Point -> Segment -> Mm
 furthest p s = case s of
   Straight a b -> max (Vec.distance p a) (Vec.distance p b)
   Arc {start = a, end = b, centre}
-    | opposite /= centre && Segment.spans s opposite ->
+    | opposite /= centre && Segment.hasFootOf s opposite ->
       let Mm d =
             Vec.distance p centre
           Mm r = Segment.radius centre a
@@ -185,7 +188,7 @@ covered s other = filter coincides (filter (uncurry (<)) (map clip ranges))
       (Straight a b, Straight c d) | a /= b -> [(Segment.fraction s c, Segment.fraction s d)]
       (Arc {start = a, centre, sweep = Rad w}, Arc {start = c, sweep = Rad v})
         | w * v > 0 ->
-          let Rad angle = Vec.turn (Vec.to centre a) (Vec.to centre c)
+          let Rad angle = Vec.signedAngle (Vec.to centre a) (Vec.to centre c)
               ahead = signum w * angle
            in [ ((ahead + k * 2 * pi) / abs w, (ahead + k * 2 * pi + abs v) / abs w)
                 | k <- [-1, 0, 1]

@@ -8,7 +8,7 @@ module Toolpath.Tolerance
   ( smallestCutter,
 
     -- * Cutter compensation
-    byControl,
+    controlMargin,
     controlArc,
     controlTurn,
     controlRounding,
@@ -26,8 +26,8 @@ smallestCutter = Mm 0.05
 
 -- | The margin by which a length must exceed the cutter's radius so that it does so after rounding
 -- to pulses.
-byControl :: Mm
-byControl = Mm 0.01
+controlMargin :: Mm
+controlMargin = Mm 0.01
 
 -- | The smallest radius of the arc on which the centre rolls along the inside of an arc. On a
 -- smaller one, rounding to pulses may add more than 'controlTurn' to the sweep: of 1500 arcs of

@@ -11,12 +11,12 @@ module Toolpath.Toolpath
     Manner (..),
     heights,
     pace,
-    braked,
-    unbraked,
+    isBraked,
+    withoutBraking,
     atHeights,
     moves,
     passNumbers,
-    runs,
+    curveRuns,
     isCurve,
     isFlat,
     end,
@@ -121,7 +121,7 @@ data Manner = Manner
     between :: (Mm, Mm),
     at :: Pace,
     -- | slow down at the end
-    slowing :: Bool
+    isBraking :: Bool
   }
   deriving stock (Eq, Show)
 
@@ -134,16 +134,16 @@ pace :: Move -> Pace
 pace = at . manner
 
 -- | True when a move slows down at its end.
-braked :: Move -> Bool
-braked = slowing . manner
+isBraked :: Move -> Bool
+isBraked = isBraking . manner
 
 -- | Changes the heights of a move.
 atHeights :: (Mm, Mm) -> Move -> Move
 atHeights zs m = m {manner = (manner m) {between = zs}}
 
 -- | Removes the braking of a move.
-unbraked :: Move -> Move
-unbraked m = m {manner = (manner m) {slowing = False}}
+withoutBraking :: Move -> Move
+withoutBraking m = m {manner = (manner m) {isBraking = False}}
 
 -- | The moves of a block in order.
 moves :: Block -> [Move]
@@ -172,12 +172,12 @@ passNumbers = go 0
 
 -- | Groups moves that follow one curve: every move of a group except the first continues the one
 -- before.
-runs :: [Move] -> [NonEmpty Move]
-runs ms = case ms of
+curveRuns :: [Move] -> [NonEmpty Move]
+curveRuns ms = case ms of
   [] -> []
   -- Most moves are a group of their own.
-  m : rest@(following : _) | not (continues following) -> (m :| []) : runs rest
-  m : rest -> let (along, others) = span continues rest in (m :| along) : runs others
+  m : rest@(following : _) | not (continues following) -> (m :| []) : curveRuns rest
+  m : rest -> let (along, others) = span continues rest in (m :| along) : curveRuns others
 
 -- | True when a group follows a curve that is approximated by arcs, and not a single line or arc.
 isCurve :: NonEmpty Move -> Bool

@@ -40,7 +40,7 @@ data Body = Body {named :: Part.Contour, outline :: Polyarc.Polyarc, isMaterial 
 -- is an error and is reported elsewhere, so its midpoint represents the whole move.
 throughPart :: Toolpath -> [Warning]
 throughPart path =
-  [ Through region (Toolpath.segment m) (Part.contourName (named body))
+  [ RapidThroughPart region (Toolpath.segment m) (Part.contourName (named body))
     | (region, m) <-
         Map.toList
           ( Map.fromListWith
@@ -90,9 +90,9 @@ bodiesOf b = case b of
      in Just
           ( Body
               outer
-              (Part.outline outer)
+              (Part.polyarcOf outer)
               False
-              NonEmpty.:| [Body island (Part.outline island) True | island <- Part.islands p]
+              NonEmpty.:| [Body island (Part.polyarcOf island) True | island <- Part.islands p]
           )
   _ -> Nothing
 
@@ -124,9 +124,9 @@ bodyOf milling = case (Part.ends contour, value (Part.side milling)) of
   _ -> []
   where
     contour = Part.contour milling
-    whole = Body contour (Part.outline contour)
-    isCounterClockwise = Polyarc.signedArea (Part.outline contour) > 0
-    segments = Polyarc.segments (Part.outline contour)
+    whole = Body contour (Part.polyarcOf contour)
+    isCounterClockwise = Polyarc.signedArea (Part.polyarcOf contour) > 0
+    segments = Polyarc.segments (Part.polyarcOf contour)
     begin = Segment.start (NonEmpty.head segments)
     end = Segment.end (NonEmpty.last segments)
     onAxis = Vec.point (Vec.x end) 0
@@ -141,7 +141,7 @@ stoppedSpindles path = if Toolpath.isTurned path then [] else go Resting (Toolpa
       (_, []) -> []
       (_, Commanding (Located at c) : rest) -> go (commanded spindle at c) rest
       (_, Travelling _ _ : rest) -> go spindle rest
-      (Stopped at, _ : rest) -> Standing at : go Resting rest
+      (Stopped at, _ : rest) -> SpindleAtRest at : go Resting rest
       (_, _ : rest) -> go spindle rest
     commanded spindle at c = case (c, spindle) of
       (Part.SpindleOn _ _, _) -> Turning

@@ -4,13 +4,13 @@
 -- all reports of this folder share.
 module Toolpath.WarningReport
   ( Warning (..),
-    Stay (..),
+    RestPosition (..),
     Tool (..),
     warningReport,
     cutter,
-    fits,
-    fitting,
-    worked,
+    largestFit,
+    fittingSize,
+    workVerb,
     shape,
     at,
     inDegrees,
@@ -37,20 +37,20 @@ data Tool = Tool {work :: Work, radius :: Mm, leaves :: Mm}
 -- | Warnings about a toolpath that has no errors.
 data Warning
   = -- | rest material on a contour: the statement, the cutter, the unreached parts
-    Leaves Region Tool [Stay]
+    LeavesRestMaterial Region Tool [RestPosition]
   | -- | a rapid move through the part, below its top: the stop, the move, the contour around it
-    Through Region Segment (Located Name)
+    RapidThroughPart Region Segment (Located Name)
   | -- | a tool change after which the program does not start the spindle
-    Standing Region
+    SpindleAtRest Region
   deriving stock (Eq, Show)
 
 -- | Rest material at a position the cutter does not reach. The radius of the largest cutter that
 -- would reach it is lazy, because it is needed for reports only.
-data Stay
+data RestPosition
   = -- | in a corner between two elements
     InCorner Element Element Point
   | -- | in a concave arc of this radius
-    InHollow Element Mm ~(Maybe Mm)
+    InConcaveArc Element Mm ~(Maybe Mm)
   | -- | beyond the position of the centre at which the cutter touches two elements
     Between Element Element Point ~(Maybe Mm)
   deriving stock (Eq, Show)
@@ -58,7 +58,7 @@ data Stay
 -- | The text of a warning.
 warningReport :: Warning -> Report
 warningReport warning = case warning of
-  Leaves region tool stays ->
+  LeavesRestMaterial region tool stays ->
     ( report
         Report.Warning
         "W0401"
@@ -72,21 +72,21 @@ warningReport warning = case warning of
         hints =
           ["Take a smaller cutter afterwards, or leave rest allowed out to have this refused."]
       }
-  Through region move (Located named contour) ->
+  RapidThroughPart region move (Located named contour) ->
     (report Report.Warning "W0402" (InSource region) "this rapid move goes through the part")
       { others = [Label named "inside this contour"],
         message =
           [ "It goes from "
-              <> Vec.written 3 (Segment.start move)
+              <> Vec.toText 3 (Segment.start move)
               <> " to "
-              <> Vec.written 3 (Segment.end move)
+              <> Vec.toText 3 (Segment.end move)
               <> " inside "
               <> text contour
               <> ", not above the top of the part. That it was cleared there is not known."
           ],
         hints = ["Lift the cutter first: a third coordinate is a height."]
       }
-  Standing region ->
+  SpindleAtRest region ->
     ( report
         Report.Warning
         "W0403"
@@ -107,29 +107,34 @@ warningReport warning = case warning of
       l : more -> l : distinct (filter (/= l) more)
     labels s = case s of
       InCorner a _ _ -> [Label (origin a) "in the corner behind this"]
-      InHollow a _ _ -> [Label (origin a) "in this hollow"]
+      InConcaveArc a _ _ -> [Label (origin a) "in this hollow"]
       Between a b _ _ -> [Label (origin a) "beside this", Label (origin b) "beside this"]
 
 -- | The text for one position of rest material.
-restPositionText :: Tool -> Stay -> Text
+restPositionText :: Tool -> RestPosition -> Text
 restPositionText tool s = case s of
-  InCorner _ _ p -> "In the inner corner at " <> Vec.written 3 p <> "."
-  InHollow a old largest ->
-    "In the concave radius of " <> Decimal.mm old <> " of " <> shape a <> ". " <> fits tool largest
+  InCorner _ _ p -> "In the inner corner at " <> Vec.toText 3 p <> "."
+  InConcaveArc a old largest ->
+    "In the concave radius of "
+      <> Decimal.mm old
+      <> " of "
+      <> shape a
+      <> ". "
+      <> largestFit tool largest
   Between a b p largest ->
     "Between "
       <> shape a
       <> " and "
       <> shape b
       <> ", with the centre at "
-      <> Vec.written 3 p
+      <> Vec.toText 3 p
       <> ". "
-      <> fits tool largest
+      <> largestFit tool largest
 
 -- | The diameter of a cutter, or the radius of a nose, for a radius that fits, rounded down to
 -- 0.001 mm.
-fitting :: Tool -> Mm -> Text
-fitting tool r = case work tool of
+fittingSize :: Tool -> Mm -> Text
+fittingSize tool r = case work tool of
   Milled -> down (times 2 r)
   Turned -> down r
   where
@@ -145,8 +150,8 @@ cutter Tool {work, radius, leaves} =
       Turned -> "a nose of radius " <> Decimal.mm radius
 
 -- | The verb for the kind of work.
-worked :: Tool -> Text
-worked tool = case work tool of
+workVerb :: Tool -> Text
+workVerb tool = case work tool of
   Milled -> "milled"
   Turned -> "turned"
 
@@ -157,14 +162,14 @@ shape element = case segment element of
   Arc {start, centre}
     | ofCurve element ->
       "the curve, here of radius " <> Decimal.mm (Segment.radius centre start)
-  Straight a b -> "the line from " <> Vec.written 3 a <> " to " <> Vec.written 3 b
+  Straight a b -> "the line from " <> Vec.toText 3 a <> " to " <> Vec.toText 3 b
   Arc {start, centre, sweep = Rad s} ->
     "the "
       <> (if s > 0 then "counter-clockwise" else "clockwise")
       <> " arc of radius "
       <> Decimal.mm (Segment.radius centre start)
       <> " about "
-      <> Vec.written 3 centre
+      <> Vec.toText 3 centre
 
 -- | An error report with a code and a title, at a region of the program.
 at :: Region -> ReportCode -> Text -> Report
@@ -175,8 +180,8 @@ inDegrees :: Double -> Text
 inDegrees a = Decimal.short 3 (degrees (Rad a)) <> " deg"
 
 -- | The text for the largest cutter that fits.
-fits :: Tool -> Maybe Mm -> Text
-fits tool largest = case (work tool, largest) of
+largestFit :: Tool -> Maybe Mm -> Text
+largestFit tool largest = case (work tool, largest) of
   (_, Nothing) -> "No cutter fits here, however small."
-  (Milled, Just r) -> "The largest cutter that fits has a diameter of " <> fitting tool r <> "."
-  (Turned, Just r) -> "The largest nose that fits has a radius of " <> fitting tool r <> "."
+  (Milled, Just r) -> "The largest cutter that fits has a diameter of " <> fittingSize tool r <> "."
+  (Turned, Just r) -> "The largest nose that fits has a radius of " <> fittingSize tool r <> "."

@@ -59,7 +59,7 @@ largestGap cover known least segment
       gapOf
         cover
         segment
-        (snd (BinarySearch.turningPoint Tolerance.resolution (not . isClosedBy) least enough))
+        (snd (BinarySearch.bisect Tolerance.resolution (not . isClosedBy) least enough))
   where
     isClosedBy m = case known of
       Just DistanceBounds {atMost} | plus (reach cover) m > plus atMost touching -> True
@@ -112,10 +112,11 @@ isCovered cover distance segment
       Just other -> case filter ((> t) . snd) (uncovered distance [pathsOf cover other] segment) of
         [] -> True
         (a, _) : _
-          | a > t + Tolerance.hair -> from a
+          | a > t + Tolerance.negligibleShare -> from a
           -- The member ends right here, and the nearest one a hair further on does not begin
           -- before.
-          | otherwise -> maybe False (const together) (nearestAt (min 1 (t + Tolerance.hair)))
+          | otherwise ->
+            maybe False (const together) (nearestAt (min 1 (t + Tolerance.negligibleShare)))
     nearestAt t =
       let p = Segment.at t segment
        in case BoxTree.closest (distanceFrom p) p (index cover) of

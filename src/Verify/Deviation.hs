@@ -108,7 +108,7 @@ allowedOf set job
   where
     (inside, outside) = allowedDeviation (Edge.isCurved (edges job)) (milling job)
     larger = max inside outside
-    pulse = Machine.pulse (MotionSet.machine set)
+    pulse = Machine.planeResolution (MotionSet.machine set)
 
 -- | Allowed chord errors of a tape, into the material and out of it. A curve is replaced by arcs
 -- that deviate by up to 'Tolerance.curve' themselves; the tape has to be closer to them by that.
@@ -117,7 +117,7 @@ allowedDeviation isCurved milling
   | isCurved = (less inside, less outside)
   | otherwise = (inside, outside)
   where
-    (inside, outside) = Part.deepest (Part.tolerance milling)
+    (inside, outside) = Part.deviationLimits (Part.tolerance milling)
     less d = max (Mm 0) (minus d Tolerance.curve)
 
 -- | Fault in the order of travel, if nothing else is wrong with the contour.
@@ -168,7 +168,7 @@ keepOutOf set job along = \m ->
             }
         else (Gouge.constantKeepOut tool) {searchRadius}
   where
-    pulse = Machine.pulse (MotionSet.machine set)
+    pulse = Machine.planeResolution (MotionSet.machine set)
     ownFrames = IntSet.fromDistinctAscList (ascending (map number along))
     largestAllowance = max (Mm 0) (Edge.largestAllowance (edges job))
 
@@ -217,7 +217,7 @@ missedOn set isFirst MillingPass {job, level, found} allowed bounds
           (BoxTree.index BoundingBox.ofSegment (map (Part.segment . element) es))
         | (own, es) <- groups
       ]
-    index = BoxTree.indexOf (length cutting) Motion.box cutting
+    index = BoxTree.indexFirst (length cutting) Motion.box cutting
     cutting = case found of
       Complete {} | not (allowsRest job) -> PassSearch.motionsOf found
       _ -> MotionSet.atHeight set level

@@ -48,7 +48,7 @@ data Edge = Edge
 -- | Bounding-box tree of the elements of a contour.
 edgesOf :: Contour -> BoxTree Edge
 edgesOf contour =
-  BoxTree.indexOf
+  BoxTree.indexFirst
     (NonEmpty.length elements)
     (FastDistance.box . shape)
     (go 0 0 (NonEmpty.toList elements))
@@ -115,6 +115,6 @@ leftwardness edges foot p = sum (map crossProduct touching)
 -- | Direction of a segment at one of its points.
 directionAt :: Point -> Segment -> Vec
 directionAt p s
-  | Vec.near p (Segment.start s) = Segment.startDirection s
-  | Vec.near p (Segment.end s) = Segment.endDirection s
+  | Vec.isNear p (Segment.start s) = Segment.startDirection s
+  | Vec.isNear p (Segment.end s) = Segment.endDirection s
   | otherwise = Segment.directionAt (Segment.fraction s p) s

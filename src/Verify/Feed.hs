@@ -28,7 +28,7 @@ import Verify.Proof (Finding (..), Speed (..))
 -- | Speed that a frame asks for.
 speedOf :: Frame -> Speed
 speedOf f =
-  Speed {rapidly = Frame.motion f == Rapid, code = Frame.speed f, braking = Frame.braking f}
+  Speed {rapidly = Frame.motion f == Rapid, code = Frame.feedCode f, braking = Frame.braking f}
 
 -- Demanded feeds ----------------------------------------------------------------------------------
 
@@ -36,12 +36,12 @@ speedOf f =
 asPlanned :: FrameProgram -> [Frame] -> [Finding]
 asPlanned program frames =
   [ WrongFeed n (speedOf f) (speedOf (Frame.frame planned)) (Frame.origin planned)
-    | (n, planned, f) <- zip3 [1 ..] (Frame.planned program) frames,
+    | (n, planned, f) <- zip3 [1 ..] (Frame.plannedFrames program) frames,
       isOtherSpeed f (Frame.frame planned)
   ]
   where
     isOtherSpeed a b =
-      Frame.speed a /= Frame.speed b
+      Frame.feedCode a /= Frame.feedCode b
         || Frame.braking a /= Frame.braking b
         || (Frame.motion a == Rapid) /= (Frame.motion b == Rapid)
 
@@ -80,14 +80,14 @@ atFeed machine demanded finishes motions =
 -- | Findings for vertical motions into solid material at a speed that no such motion of the program
 -- has.
 downwards :: FrameProgram -> [Frame] -> [Finding]
-downwards program frames = case plunges (map Frame.frame (Frame.planned program)) of
+downwards program frames = case plunges (map Frame.frame (Frame.plannedFrames program)) of
   [] -> []
   own@(m : _) ->
     [ WrongFeed
         (number p)
         (speedOf (frame p))
         (speedOf (frame m))
-        (Frame.origin (Frame.planned program !! (number m - 1)))
+        (Frame.origin (Frame.plannedFrames program !! (number m - 1)))
       | p <- plunges frames,
         speedOf (frame p) `notElem` allowed
     ]
@@ -145,7 +145,7 @@ speedAlong machine m = case Machine.feedMeasure (Machine.feeds machine) of
     ofCode
       | Frame.motion (frame m) == Rapid =
         fromMaybe highest (Machine.valueOf machine (Machine.rapidCode machine))
-      | otherwise = fromMaybe highest (Machine.valueOf machine (Frame.speed (frame m)))
+      | otherwise = fromMaybe highest (Machine.valueOf machine (Frame.feedCode (frame m)))
     highest = snd (Machine.feedRange machine)
 
 -- Braking -----------------------------------------------------------------------------------------
@@ -192,13 +192,13 @@ tooFastIn machine ((begin, end), m, next) (least, found)
         <> found
     )
   where
-    isSameBraking n = brakes n && Frame.speed (frame n) == Frame.speed (frame m)
+    isSameBraking n = brakes n && Frame.feedCode (frame n) == Frame.feedCode (frame m)
     brakes = Frame.braking . frame
     v = speedAlong machine m
     a = Machine.deceleration (Machine.braking machine)
     most = max 0 (least - 2 * a * (end - pulsesRounded * pulse))
     rounding = 1e-9 * max 1 (v * v)
-    Mm pulse = Machine.pulse machine
+    Mm pulse = Machine.planeResolution machine
 
 -- | Number of pulses by which rounding may change the distance of two positions: one for each.
 pulsesRounded :: Double

@@ -32,7 +32,7 @@ foreignCuts machine path own motions =
       p : _ <- [[p | (p, z) <- samplesOf m, isDeep z, not (isKnown p z)]]
   ]
   where
-    pulse = Machine.pulse machine
+    pulse = Machine.planeResolution machine
     isDeep z = z < minus (Mm 0) pulse
     index =
       BoxTree.index
@@ -63,7 +63,7 @@ largestTolerance :: Toolpath -> Mm
 largestTolerance path =
   maximum
     ( Mm 0 :
-        [ uncurry max (Part.deepest (Part.tolerance m))
+        [ uncurry max (Part.deviationLimits (Part.tolerance m))
           | m <- concatMap millingOf (Toolpath.blocks path)
         ]
     )

@@ -37,11 +37,11 @@ refused machine = go 1
 -- | Reasons to refuse one frame, by its number and its start position.
 refusals :: Machine -> Int -> Pulses3 -> Frame -> [Refusal]
 refusals machine n at f =
-  map ByRule (Frame.broken machine n f) <> case Frame.motion f of
-    Round _ -> impossibleArc machine n at f
-    Still -> []
+  map ByRule (Frame.frameViolations machine n f) <> case Frame.motion f of
+    Circular _ -> impossibleArc machine n at f
+    NoMotion -> []
     Rapid -> []
-    Straightway -> []
+    Linear -> []
 
 -- | Faults of an arc. Its radii may differ by two pulses.
 impossibleArc :: Machine -> Int -> Pulses3 -> Frame -> [Refusal]
@@ -56,7 +56,7 @@ impossibleArc machine n at f =
        ]
   where
     motion = Motion {number = n, from = at, to = at + Frame.increment f, frame = f}
-    largestDifference = times 2 (Machine.pulse machine)
+    largestDifference = times 2 (Machine.planeResolution machine)
 
 -- Commands ----------------------------------------------------------------------------------------
 
@@ -74,10 +74,10 @@ wrongCommands program frames =
       lookup name wanted /= lookup name found
   ]
   where
-    ownFrames = map Frame.frame (Frame.planned program)
-    commanded = map Frame.orders ownFrames
+    ownFrames = map Frame.frame (Frame.plannedFrames program)
+    commanded = map Frame.commands ownFrames
     differences
-      | length frames == length commanded = frameByFrame 1 commanded (map Frame.orders frames)
+      | length frames == length commanded = frameByFrame 1 commanded (map Frame.commands frames)
       | otherwise = inOrder (length frames) (positioned ownFrames) (positioned frames)
 
 -- | Frames with different commands: the number, the program's commands, the tape's.
@@ -91,9 +91,9 @@ frameByFrame n own found = case (own, found) of
 -- | Frames with commands: the number, the position where the frame starts, the commands.
 positioned :: [Frame] -> [(Int, Pulses3, Commands)]
 positioned fs =
-  [ (n, at, Frame.orders f)
+  [ (n, at, Frame.commands f)
     | (n, at, f) <- zip3 [1 ..] (scanl (+) 0 (map Frame.increment fs)) fs,
-      not (null (Frame.orders f))
+      not (null (Frame.commands f))
   ]
 
 -- | Differences between frames with commands, taken in pairs. Commands that are missing at the end

@@ -96,9 +96,9 @@ prove :: Machine -> Toolpath -> FrameProgram -> [Frame] -> Proof
 prove machine path program frames =
   Proof
     { Proof.frames = TapeSummary.count (summary subject),
-      Proof.passages = contourProofs <> pocketProofs,
+      Proof.contourProofs = contourProofs <> pocketProofs,
       Proof.closure,
-      Proof.largest = TapeSummary.largestIncrement (summary subject),
+      Proof.largestIncrement = TapeSummary.largestIncrement (summary subject),
       Proof.firstDifference = TapeSummary.firstDifference (summary subject),
       Proof.findings =
         sortOn
@@ -129,11 +129,11 @@ subjectOf machine path program frames =
       path,
       program,
       frames,
-      summary = TapeSummary.summarize (Frame.start program) (Frame.planned program) frames,
+      summary = TapeSummary.summarize (Frame.start program) (Frame.plannedFrames program) frames,
       tools,
       motions,
       ownMotions =
-        Swivel.levelled machine path (fst (run (map Frame.frame (Frame.planned program)))),
+        Swivel.levelled machine path (fst (run (map Frame.frame (Frame.plannedFrames program)))),
       motionIndex = BoxTree.index Motion.box motions,
       compensationErrors,
       pockets = Pocket.pocketsOf (Toolpath.blocks path),
@@ -352,7 +352,7 @@ pocketFeeds subject (pocket, pass, ms) =
 isAlong :: Machine -> Segment -> Segment -> Bool
 isAlong machine s move =
   all
-    (\p -> Distance.toPoint p move <= times 2 (Machine.pulse machine))
+    (\p -> Distance.toPoint p move <= times 2 (Machine.planeResolution machine))
     [Segment.start s, Segment.end s]
 
 -- | Programmed motions of the frames of some motions. The frames are run once more, because few

@@ -58,7 +58,7 @@ gougeOf KeepOut {searchRadius, required} edges m = Proof.deepest gouges
       ]
     isWithinReach path b =
       BoundingBox.meets (BoundingBox.inflate searchRadius (BoundingBox.ofSegment path)) b
-        && BoundingBox.atLeast (`Distance.toPoint` path) b <= searchRadius
+        && BoundingBox.lowerBound (`Distance.toPoint` path) b <= searchRadius
 
 -- | Test by fast bounds that a motion may gouge some elements deeper than the deepest gouge so far.
 -- Its bounding paths are given. Those of an arc differ from its segment by the difference of its

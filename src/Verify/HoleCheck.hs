@@ -33,13 +33,16 @@ missingHoles machine path motions =
   where
     near p =
       BoxTree.within
-        (BoundingBox.inflate (times 2 (Machine.pulse machine)) (BoundingBox.ofPoints p []))
+        ( BoundingBox.inflate
+            (times 2 (Machine.planeResolution machine))
+            (BoundingBox.ofPoints p [])
+        )
         index
     index = BoxTree.index Motion.box (filter Motion.isVertical motions)
 
 -- | Test that a vertical motion drills a hole to its bottom.
 isDrilled :: Machine -> Mm -> Point -> CutterMotion -> Bool
 isDrilled machine bottom p m =
-  Vec.distance (Segment.start (segment m)) p <= Machine.pulse machine
+  Vec.distance (Segment.start (segment m)) p <= Machine.planeResolution machine
     && minus (uncurry min (Motion.heights m)) bottom
-      <= times 0.6 (Machine.pulseOf machine Machine.Z)
+      <= times 0.6 (Machine.resolutionOf machine Machine.Z)

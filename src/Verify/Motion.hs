@@ -72,7 +72,7 @@ endPosition m = (Segment.end (segment m), toHeight m)
 
 -- | Bounding paths of the motion; see "Control.Motion".
 paths :: CutterMotion -> NonEmpty Segment
-paths = Control.between . segment
+paths = Control.boundingPaths . segment
 
 -- | Bounding paths as a list; cheap for a line, which is most motions.
 pathList :: CutterMotion -> [Segment]

@@ -43,7 +43,7 @@ isAtHeight m level motion =
 
 -- | Test that two heights differ by no more than a pulse.
 isSameHeight :: Machine -> Mm -> Mm -> Bool
-isSameHeight m (Mm z) (Mm h) = let Mm pulse = Machine.pulseOf m Z in abs (z - h) <= pulse
+isSameHeight m (Mm z) (Mm h) = let Mm pulse = Machine.resolutionOf m Z in abs (z - h) <= pulse
 
 -- | Test that a motion is not wholly above the top of the part, where nothing is cut.
 isBelowTop :: CutterMotion -> Bool

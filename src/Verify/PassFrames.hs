@@ -21,7 +21,7 @@ includes (FrameRange a b) n = a <= n && n <= b
 
 -- | Frames of each pass with its approach and its retract, by the number of the pass.
 framesOfPasses :: FrameProgram -> IntMap FrameRange
-framesOfPasses = rangesBy Frame.passOf
+framesOfPasses = rangesBy Frame.passNumber
 
 -- | Frames along the contour in each pass, by the number of the pass.
 framesOfCuts :: FrameProgram -> IntMap FrameRange
@@ -36,7 +36,7 @@ rangesBy key program =
   IntMap.fromListWith
     hull
     [ (n, FrameRange k k)
-      | (k, p) <- zip [1 ..] (Frame.planned program),
+      | (k, p) <- zip [1 ..] (Frame.plannedFrames program),
         Just n <- [key (Frame.role p)]
     ]
   where

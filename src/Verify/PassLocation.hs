@@ -163,7 +163,7 @@ jobOf machine statement milling cut edges =
     allowance =
       plus
         (uncurry max (Deviation.allowedDeviation (Edge.isCurved edges) milling))
-        (Machine.pulse machine)
+        (Machine.planeResolution machine)
 
 -- | Tests for each block whether it is one of several cuts of its pass. A pass is only divided
 -- where rest material is allowed.
@@ -188,7 +188,7 @@ arePartial blocks =
 -- | Position of the centre at the end of a contour under cutter compensation: square beside the end
 -- of the last element. On a closed contour, the control may or may not count the last corner.
 exitByControl :: Milling -> Maybe Side -> Mm -> Maybe Point
-exitByControl milling side (Mm reach) = case (Part.byControl milling, side) of
+exitByControl milling side (Mm reach) = case (Part.controlCompensation milling, side) of
   (Just _, Just s) ->
     Just
       ( Vec.shift
@@ -205,11 +205,11 @@ exitByControl milling side (Mm reach) = case (Part.byControl milling, side) of
 -- | Uncertainty of that position. Rounding to pulses changes the direction of the last move, most
 -- if it has the smallest length that a control is sent.
 exitUncertainty :: Machine -> Milling -> Mm -> Mm
-exitUncertainty machine milling reach = case Part.byControl milling of
+exitUncertainty machine milling reach = case Part.controlCompensation milling of
   Just _ -> times (2 * pulse / shortest) reach
   Nothing -> Mm 0
   where
-    Mm pulse = Machine.pulse machine
+    Mm pulse = Machine.planeResolution machine
     Mm shortest = Tolerance.controlLength
 
 -- | Largest distance of the centre from a contour, for the largest allowance of its elements. At a

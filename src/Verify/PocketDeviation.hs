@@ -96,7 +96,7 @@ floorFindings pocket pass allowedExcess clearing =
           ( PocketFloor.unclearedPoint
               pocket
               (plus (Part.radius (milling pocket)) allowedExcess)
-              (BoxTree.byPlace Motion.box clearing)
+              (BoxTree.sortedIndex Motion.box clearing)
           )
   ]
 
@@ -106,7 +106,7 @@ allowedIn :: MotionSet -> Pocket -> (Mm, Mm)
 allowedIn set pocket =
   (plus inside pulse, plus (plus (max inside outside) pulse) Pocket.spareRoom)
   where
-    pulse = Machine.pulse (MotionSet.machine set)
+    pulse = Machine.planeResolution (MotionSet.machine set)
     (inside, outside) = Deviation.allowedDeviation isCurved (milling pocket)
     isCurved = any Part.continues (Part.elements (Part.contour (milling pocket)))
 

@@ -51,12 +51,12 @@ gougeOf side contour edges allowance m =
       ]
     marksOn path =
       concatMap
-        (Distance.crossings path . shape)
+        (Distance.intersections path . shape)
         ( BoxTree.within
             (BoundingBox.inflate Tolerance.coincident (BoundingBox.ofSegment path))
             edges
         )
-        <> concatMap (Distance.crossings path) (normals contour)
+        <> concatMap (Distance.intersections path) (normals contour)
     gouges part = map witness (maybeToList (Coverage.largestGap cover Nothing (Mm 0) part))
     cover =
       Cover
@@ -78,7 +78,8 @@ gougeOf side contour edges allowance m =
 
 -- | Parts of a segment between some of its points.
 divided :: [Point] -> Segment -> [Segment]
-divided points s = [part a b | (a, b) <- zip marks (drop 1 marks), b - a > Tolerance.hair]
+divided points s =
+  [part a b | (a, b) <- zip marks (drop 1 marks), b - a > Tolerance.negligibleShare]
   where
     marks = 0 : sort (filter (\t -> t > 0 && t < 1) (map (Segment.fraction s) points)) <> [1]
     part a b =
@@ -123,8 +124,8 @@ sideOf contour edges p =
     Just (d, nearest)
       | d <= Tolerance.coincident -> Nothing
       | Part.ends contour == Part.Open
-          && (Vec.near foot begin || Vec.near foot finish)
-          && not (Segment.spans (shape nearest) p) ->
+          && (Vec.isNear foot begin || Vec.isNear foot finish)
+          && not (Segment.hasFootOf (shape nearest) p) ->
         Nothing
       | otherwise -> Just (if Edge.leftwardness edges foot p > 0 then LeftOf else RightOf)
       where

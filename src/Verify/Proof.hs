@@ -25,7 +25,7 @@ import Control.Compensation (CompensationError (..))
 import Data.List (foldl')
 import Data.Text (Text)
 import Data.Text qualified as Text
-import Frame.Frame (Broken)
+import Frame.Frame (Violation)
 import Frame.Frame qualified as Frame
 import Geometry.Vec (Point)
 import Geometry.Vec qualified as Vec
@@ -75,11 +75,11 @@ data ContourProof = ContourProof
 data Proof = Proof
   { -- | number of frames on the tape
     frames :: Int,
-    passages :: [ContourProof],
+    contourProofs :: [ContourProof],
     -- | difference of the last position and the position where the tape has to end
     closure :: Pulses3,
     -- | largest increment of each axis, without its sign
-    largest :: Pulses3,
+    largestIncrement :: Pulses3,
     -- | number of the first frame that differs from the program's own frame
     firstDifference :: Maybe Int,
     -- | in the order of the tape; none if the tape is proven
@@ -172,7 +172,7 @@ data Speed = Speed {rapidly :: Bool, code :: FeedCode, braking :: Bool}
 -- | Reason why a control refuses a frame.
 data Refusal
   = -- | A rule of the frames is broken.
-    ByRule Broken
+    ByRule Violation
   | -- | The radii of an arc differ: the frame, the end radius less the start radius.
     UnequalRadii Int Mm
   | -- | The end of an arc lies at its centre, or in the direction of its start from the centre but
@@ -207,7 +207,7 @@ toReport machine finding = case finding of
       { label = "into this element",
         message =
           [ "The cutter's centre is then at "
-              <> Vec.written 3 (location first)
+              <> Vec.toText 3 (location first)
               <> ". Allowed is a gouge of "
               <> micro allowed
               <> ", the tolerance and one pulse."
@@ -229,7 +229,7 @@ toReport machine finding = case finding of
       { label = "at this element",
         message =
           [ "It is worst at "
-              <> Vec.written 3 (location w)
+              <> Vec.toText 3 (location w)
               <> ". Allowed is an excess of "
               <> micro allowed
               <> ", the tolerance and one pulse."
@@ -256,7 +256,7 @@ toReport machine finding = case finding of
     ( wrong
         "E0714"
         (InSource region)
-        ("the tape does not clear the floor of this pocket at " <> Vec.written 3 p)
+        ("the tape does not clear the floor of this pocket at " <> Vec.toText 3 p)
     )
       { label = "at the height " <> Decimal.mm z,
         message = ["The cutter can stand there, and no frame comes within its radius."]
@@ -271,14 +271,14 @@ toReport machine finding = case finding of
     wrong
       "E0710"
       (InSource region)
-      ("the tape drills no hole of the right depth at " <> Vec.written 3 p)
+      ("the tape drills no hole of the right depth at " <> Vec.toText 3 p)
   CutsElsewhere n p ->
     ( wrong
         "E0711"
         InFile
         (frameWord n <> " goes into the material where the program does not, or deeper")
     )
-      { message = ["The cutter's centre is then at " <> Vec.written 3 p <> "."]
+      { message = ["The cutter's centre is then at " <> Vec.toText 3 p <> "."]
       }
   WrongFeed n found wanted region ->
     ( wrong
@@ -348,7 +348,7 @@ refusalWords refusal = case refusal of
       (n, "moves " <> axisWord axis <> " by " <> pulses d <> ", more than its field holds", [])
     Frame.BadCentre n ->
       (n, "has no centre for its arc", ["It is missing, or it is more than its fields hold."])
-    Frame.NoSuchSpeed n (FeedCode c) ->
+    Frame.NoSuchFeedCode n (FeedCode c) ->
       (n, "has the feed code " <> Decimal.whole c <> ", which the machine does not know there", [])
     Frame.NoSuchMotion n ->
       ( n,
@@ -357,9 +357,9 @@ refusalWords refusal = case refusal of
           \full circle where it must not, or a motion that goes nowhere."
         ]
       )
-    Frame.NoSuchOrder n (CommandName o) ->
+    Frame.UnknownCommand n (CommandName o) ->
       (n, "gives the command " <> o <> " twice, or with a number that it does not have", [])
-    Frame.Idle n -> (n, "neither moves nor commands anything", [])
+    Frame.EmptyFrame n -> (n, "neither moves nor commands anything", [])
   UnequalRadii n (Mm d) ->
     ( n,
       "is an arc that ends "

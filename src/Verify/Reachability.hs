@@ -41,7 +41,7 @@ parts side distance others element = case beside side distance element of
   Just centres ->
     [ part element a b
       | (a, b) <- foldl' (freeOf side distance element centres) [(0, 1)] others,
-        b - a > Tolerance.hair
+        b - a > Tolerance.negligibleShare
     ]
 
 -- | Intervals in which no other segment is too near to the centres of the cutter.
@@ -74,16 +74,16 @@ onThisSide element centres near (a, b) =
     marks =
       concat
         [ [ Segment.fraction element p
-            | p <- [Segment.start s, Segment.end s] <> Distance.crossings element s
+            | p <- [Segment.start s, Segment.end s] <> Distance.intersections element s
           ]
-            <> [Segment.fraction centres p | p <- Distance.crossings centres s]
+            <> [Segment.fraction centres p | p <- Distance.intersections centres s]
           | s <- near
         ]
     isBetween t s =
       let foot = Segment.at t element
        in any
             (\p -> Vec.distance foot p > Tolerance.clearance)
-            (Distance.crossings (Straight foot (Segment.at t centres)) s)
+            (Distance.intersections (Straight foot (Segment.at t centres)) s)
 
 -- | Parts of an interval of centres that are on no normal of a segment with a larger distance, or
 -- far enough from it.
@@ -98,7 +98,7 @@ withoutNormals side kept near centres (a, b) =
       [ Segment.fraction centres p
         | s <- near,
           border <- bordersOf s,
-          p <- Distance.crossings centres border
+          p <- Distance.intersections centres border
       ]
     -- Border of the region of too near centres: the offset, and the normals at both ends.
     bordersOf s = case beside side kept s of
@@ -108,7 +108,7 @@ withoutNormals side kept near centres (a, b) =
           Straight (Segment.start s) (Segment.start offset),
           Straight (Segment.end s) (Segment.end offset)
         ]
-    isAbove p s = Segment.spans s p && Distance.toPoint p s < roomy kept
+    isAbove p s = Segment.hasFootOf s p && Distance.toPoint p s < roomy kept
 
 -- | Interval, divided at the marks inside it.
 dividedAt :: [Double] -> Interval -> [Interval]
@@ -142,7 +142,7 @@ rim side distance segments contours =
               (minus distance Tolerance.clearance)
               (BoxTree.within (BoundingBox.inflate distance (BoundingBox.ofSegment s)) segments)
               s,
-          b - a > Tolerance.hair
+          b - a > Tolerance.negligibleShare
       ]
 
 -- Offsets -----------------------------------------------------------------------------------------
@@ -173,7 +173,7 @@ outerCorner side (Mm d) s next
         }
   | otherwise = Nothing
   where
-    turned@(Rad t) = Vec.turn (Segment.endDirection s) (Segment.startDirection next)
+    turned@(Rad t) = Vec.signedAngle (Segment.endDirection s) (Segment.startDirection next)
     centre = Segment.end s
     off direction =
       Vec.shift (Vec.scale (leftward side * d) (Vec.left (Vec.unit direction))) centre

@@ -77,7 +77,7 @@ facingTheRoom :: Contour -> [Contour] -> [Contour]
 facingTheRoom outline islands = outline : map facing islands
   where
     facing island
-      | isCounterClockwise island == isCounterClockwise outline = Part.backwards island
+      | isCounterClockwise island == isCounterClockwise outline = Part.reversedContour island
       | otherwise = island
 
 -- Bevels ------------------------------------------------------------------------------------------

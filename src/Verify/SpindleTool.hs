@@ -20,7 +20,8 @@ type Tools = Vector Double
 
 -- | Radius of the cutter in each of the program's own frames.
 plannedTools :: FrameProgram -> Tools
-plannedTools program = Vector.fromList [r | p <- Frame.planned program, let Mm r = Frame.tool p]
+plannedTools program =
+  Vector.fromList [r | p <- Frame.plannedFrames program, let Mm r = Frame.cutterRadius p]
 
 -- | Number of the program's own frames.
 toolCount :: Tools -> Int

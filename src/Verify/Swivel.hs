@@ -72,7 +72,7 @@ bladePass milling Toolpath.Pass {Toolpath.left, Toolpath.atHeight} =
               (Requirement.centreDistance milling left)
               (maximum (fmap (Part.allowance . Part.finish) (Part.elements contour)))
           ),
-      tolerance = uncurry max (Part.deepest (Part.tolerance milling)),
+      tolerance = uncurry max (Part.deviationLimits (Part.tolerance milling)),
       elements =
         BoxTree.index
           (BoundingBox.ofSegment . snd)
@@ -129,9 +129,10 @@ isRightHeight machine pass p z = case demanded of
           d <= limit
       ]
     nearest = minimum (limit : [d | (d, _, _) <- near])
-    deviation = plus (tolerance pass) (Machine.pulse machine)
+    deviation = plus (tolerance pass) (Machine.planeResolution machine)
     limit = plus (maxReach pass) deviation
-    slack = times 1.5 (max (Machine.pulse machine) (Machine.pulseOf machine Machine.Z))
+    slack =
+      times 1.5 (max (Machine.planeResolution machine) (Machine.resolutionOf machine Machine.Z))
 
 -- | Uncertainty of the axis height beside an element, because the position is rounded to pulses.
 -- Inside an arc the contact point moves further than the centre, in proportion to the radii.
@@ -141,7 +142,7 @@ heightUncertainty machine pass i s p = case axisHeights pass Vector.!? i of
     | Mm l <- Segment.length s,
       Mm rise <- minus to from,
       l > 0 ->
-      times (1.5 * magnification * abs rise / l) (Machine.pulse machine)
+      times (1.5 * magnification * abs rise / l) (Machine.planeResolution machine)
   _ -> Mm 0
   where
     magnification = case s of
@@ -158,6 +159,6 @@ axisAt pass i s p =
   (\(from, to) -> plus from (times fraction (minus to from))) <$> axisHeights pass Vector.!? i
   where
     fraction
-      | Segment.spans s p = max 0 (min 1 (Segment.fraction s p))
+      | Segment.hasFootOf s p = max 0 (min 1 (Segment.fraction s p))
       | Vec.distance p (Segment.start s) <= Vec.distance p (Segment.end s) = 0
       | otherwise = 1

@@ -27,10 +27,10 @@ data TapeSummary = TapeSummary
   }
 
 -- | Summarize the frames of a tape from a start position, compared with the program's own frames.
-summarize :: Pulses3 -> [Frame.Planned] -> [Frame] -> TapeSummary
+summarize :: Pulses3 -> [Frame.PlannedFrame] -> [Frame] -> TapeSummary
 summarize begin@(Pulses3 _ _ startHeight) = go (TapeSummary 0 begin 0 Nothing Nothing)
   where
-    go :: TapeSummary -> [Frame.Planned] -> [Frame] -> TapeSummary
+    go :: TapeSummary -> [Frame.PlannedFrame] -> [Frame] -> TapeSummary
     go !summary planned frames = case frames of
       []
         | null planned -> summary

@@ -69,7 +69,7 @@ wrongAt job demanded m around p = case [(Distance.toPoint p (segmentOf e), e) | 
   [] -> Nothing
   distances
     | d > allowance job
-        && Segment.spans (segmentOf nearest) p
+        && Segment.hasFootOf (segmentOf nearest) p
         && sideOf p (segmentOf nearest) /= demanded ->
       Just (WrongSide (number m) (Part.origin (element nearest)))
     | otherwise -> Nothing

@@ -15,7 +15,7 @@ spec = do
     -- Catches a reader or a writer with an error in the last bit.
     prop "read again: a number that is written exactly is the same number" $
       forAll anyNumber $ \x ->
-        Decimal.amount (Text.dropWhile (== '-') (Decimal.exact x)) === Just (abs x)
+        Decimal.parse (Text.dropWhile (== '-') (Decimal.exact x)) === Just (abs x)
     prop "has no exponent and no minus zero" $
       forAll anyNumber $ \x ->
         Text.all (\c -> isDigit c || c `elem` ("-." :: String)) (Decimal.exact x)
@@ -23,17 +23,17 @@ spec = do
       map Decimal.exact [0, -0.0, 0.1, 59.3, -2.5, 1e-3, 100, 1 / 3]
         `shouldBe` ["0", "0", "0.1", "59.3", "-2.5", "0.001", "100", "0.3333333333333333"]
     it "rounds a number with more digits than a program allows" $
-      (Decimal.amount (Decimal.exact 1e-30), Decimal.exact 5e-324) `shouldBe` (Just 1e-30, "0")
+      (Decimal.parse (Decimal.exact 1e-30), Decimal.exact 5e-324) `shouldBe` (Just 1e-30, "0")
   describe "unlike" $ do
     it
       "has enough decimals to tell two lengths apart (catches a radius of 3 mm into which 3 mm do \
       \not fit)"
-      $ [Decimal.unlike (Mm 3) (Mm x) | x <- [2.5, 3, 2.9999, 2.99999, 3.000004, 3 - 1e-12]]
+      $ [Decimal.distinctMm (Mm 3) (Mm x) | x <- [2.5, 3, 2.9999, 2.99999, 3.000004, 3 - 1e-12]]
         `shouldBe` ["2.5 mm", "3 mm", "2.9999 mm", "2.99999 mm", "3.000004 mm", "3 mm"]
   describe "amount" $ do
     it "is the nearest double, whatever the number of digits" $
       map
-        Decimal.amount
+        Decimal.parse
         [ "0.1",
           "0.3",
           "2.675",
@@ -45,7 +45,7 @@ spec = do
           Just
           [0.1, 0.3, 2.675, 9007199254740992, 0.30000000000000004, 123456789.12345679]
     it "is nothing for what is no number" $
-      map Decimal.amount ["", ".", ".5", "5.", "1.2.3", "1e3", "-1", "+1", "1,5", "٣"]
+      map Decimal.parse ["", ".", ".5", "5.", "1.2.3", "1e3", "-1", "+1", "1,5", "٣"]
         `shouldBe` replicate 10 Nothing
   where
     anyNumber =

@@ -21,14 +21,14 @@ spec =
            in label (if Text.any (== '\n') inside then "lines" else "one line") $
                 concatMap
                   Text.words
-                  (Region.pieces source (Region from (from + Text.length inside)))
+                  (Region.linesIn source (Region from (from + Text.length inside)))
                   === Text.words inside
     it "parts of lines of an import have the words of the whole" $
       property $
         forAll ((,,) <$> texts <*> texts <*> texts) $ \(own, above, inside) ->
-          let source = Region.add "q.part" (above <> inside) (Region.fromText "p.part" own)
-              from = Region.next (Region.fromText "p.part" own) + Text.length above
-           in concatMap Text.words (Region.pieces source (Region from (from + Text.length inside)))
+          let source = Region.addFile "q.part" (above <> inside) (Region.fromText "p.part" own)
+              from = Region.nextOffset (Region.fromText "p.part" own) + Text.length above
+           in concatMap Text.words (Region.linesIn source (Region from (from + Text.length inside)))
                 === Text.words inside
 
 texts :: Gen Text

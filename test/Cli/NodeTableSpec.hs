@@ -31,7 +31,7 @@ import Toolpath.Toolpath qualified as Toolpath
 
 spec :: Spec
 spec =
-  case ( Result.output (FromPart.lay winding),
+  case ( Result.output (FromPart.toToolpath winding),
          Result.output (Compile.analyse [] (LoadedProgram.fromText "p.part" "part p\n"))
        ) of
     (Just path, Just analysis) -> do

@@ -68,7 +68,7 @@ compared close change =
       Just (begin, own) -> forAll (change own) $ \fs -> ioProperty $ do
         made <- interpreted begin fs
         let (moved, unkept) = Compensation.run iso6983 (const (Mm 0)) begin fs
-            broken = Frame.invariants iso6983 fs
+            broken = Frame.violations iso6983 fs
         pure $ case made of
           Left why ->
             classify
@@ -97,7 +97,7 @@ compared close change =
                in counterexample (unlines found <> show fs) (null found)
   where
     flat f = case motion f of
-      Round _ -> not (Motion.isRound f)
+      Circular _ -> not (Motion.isRound f)
       _ -> False
     -- LinuxCNC uses either radius of such an arc; the proof refuses it. No tape of the compiler has
     -- one.
@@ -110,17 +110,18 @@ programOf job = do
   from <- listToMaybe [p | Part.Stop (Located _ p) _ _ <- Part.approach job]
   path <- ByControl.path (Vec.shift (Vec.vec 7 5) from) job
   program <- Result.output (FromToolpath.quantise iso6983 path)
-  Just (Frame.start program, map Frame.frame (Frame.planned program))
+  Just (Frame.start program, map Frame.frame (Frame.plannedFrames program))
 
 -- | Path that LinuxCNC makes of frames. It starts at the zero of the part and is moved to the start
 -- position first.
-interpreted :: Pulses3 -> [Frame] -> IO (Either Text [LinuxCnc.Way])
+interpreted :: Pulses3 -> [Frame] -> IO (Either Text [LinuxCnc.Move])
 interpreted begin fs = inFolder $ \folder -> do
   let file = folder </> "a.ngc"
-      onto = [(Frame.still []) {motion = Rapid, increment = begin} | begin /= 0]
+      onto = [(Frame.commandFrame []) {motion = Rapid, increment = begin} | begin /= 0]
       Tape rows = Punch.write iso6983 0 (onto <> fs)
   ByteString.writeFile file rows
-  fmap (drop (length onto) . LinuxCnc.ways (LinuxCnc.Place 0 0 0)) <$> LinuxCnc.canonical file
+  fmap (drop (length onto) . LinuxCnc.movesFrom (LinuxCnc.Position 0 0 0))
+    <$> LinuxCnc.canonical file
 
 -- | First difference between two paths. Moves that are no longer than the rounding of printed
 -- numbers may be missing.
@@ -163,7 +164,7 @@ damaged own = do
         pure
           ( with
               f
-                { orders =
+                { commands =
                     [ ( o,
                         if o `elem` [CommandName "left", CommandName "right"]
                           then
@@ -173,7 +174,7 @@ damaged own = do
                                  in k
                           else v
                       )
-                      | (o, v) <- orders f
+                      | (o, v) <- commands f
                     ]
                 }
           )
@@ -183,7 +184,7 @@ damaged own = do
     ]
 
 exchanged :: Frame -> Frame
-exchanged f = f {orders = [(other o, v) | (o, v) <- orders f]}
+exchanged f = f {commands = [(other o, v) | (o, v) <- commands f]}
   where
     other o
       | o == CommandName "left" = CommandName "right"
@@ -201,22 +202,22 @@ refusals =
     ),
     ( "an arc to begin with",
       [ArcEntry 1],
-      (begun 40) {motion = Round CounterClockwise, centre = Pulses2 20000 0} : drop 1 good
+      (begun 40) {motion = Circular CounterClockwise, centre = Pulses2 20000 0} : drop 1 good
     ),
     ( "an arc to end with",
       [ArcExit 4],
       take 3 good
         <> [ (straight (-40) 0)
-               { motion = Round Clockwise,
+               { motion = Circular Clockwise,
                  centre = Pulses2 (-20000) 0,
-                 orders = [(CommandName "release", 0)]
+                 commands = [(CommandName "release", 0)]
                }
            ]
     ),
     ( "an arc as tight as the cutter",
       [TightArc 3 (Mm 10) (Mm 10)],
       take 2 good
-        <> [(straight (-10) 10) {motion = Round CounterClockwise, centre = Pulses2 (-10000) 0}]
+        <> [(straight (-10) 10) {motion = Circular CounterClockwise, centre = Pulses2 (-10000) 0}]
         <> drop 3 good
     ),
     ( "an arc after a corner of 0.02 mm that counts as none, which makes the arc longer",
@@ -241,37 +242,37 @@ refusals =
     ),
     ( "switched on twice",
       [SwitchedOnTwice 2],
-      [begun 40, (straight 0 50) {orders = [(CommandName "left", 20000)]}] <> drop 2 good
+      [begun 40, (straight 0 50) {commands = [(CommandName "left", 20000)]}] <> drop 2 good
     ),
     ( "switched on twice in one frame",
       [SwitchedOnTwice 1],
-      (begun 40) {orders = [(CommandName "left", 20000), (CommandName "right", 20000)]} :
-      map (\f -> f {orders = []}) (drop 1 good)
+      (begun 40) {commands = [(CommandName "left", 20000), (CommandName "right", 20000)]} :
+      map (\f -> f {commands = []}) (drop 1 good)
     ),
     ( "a tool changed while compensation is on",
       [ToolChanged 2],
-      [begun 40, Frame.still [(CommandName "T", 2), (CommandName "M", 6)]] <> drop 1 good
+      [begun 40, Frame.commandFrame [(CommandName "T", 2), (CommandName "M", 6)]] <> drop 1 good
     ),
     ( "another command while compensation is on",
       [],
-      [begun 40, Frame.still [(CommandName "M", 8)]] <> drop 1 good
+      [begun 40, Frame.commandFrame [(CommandName "M", 8)]] <> drop 1 good
     ),
     ("never switched off", [NotSwitchedOff 3], take 3 good)
   ]
   where
     good = [begun 40, straight 0 50, straight 50 0, off]
-    begun x = (straight x 0) {orders = [(CommandName "left", 20000)]}
+    begun x = (straight x 0) {commands = [(CommandName "left", 20000)]}
     -- Quarter of a circle after a corner to the right; @aside@ pulses set the corner.
     onArc aside =
       (straight 0 0)
-        { motion = Round CounterClockwise,
+        { motion = Circular CounterClockwise,
           increment = Pulses3 (-20000) (20000 + aside) 0,
           centre = Pulses2 (-20000) aside
         }
-    off = (straight 0 40) {orders = [(CommandName "release", 0)]}
+    off = (straight 0 40) {commands = [(CommandName "release", 0)]}
     straight x y =
-      (Frame.still [])
-        { motion = Straightway,
+      (Frame.commandFrame [])
+        { motion = Linear,
           increment = Pulses3 (Pulses (round (1000 * x))) (Pulses (round (1000 * y))) 0
         }
       where

@@ -7,7 +7,7 @@ import Base.Result qualified as Result
 import Data.List.NonEmpty qualified as NonEmpty
 import Data.Text (Text)
 import Frame.ArcFitting qualified as ArcFitting
-import Frame.Frame (Frame (..), Planned (frame))
+import Frame.Frame (Frame (..), PlannedFrame (frame))
 import Frame.Frame qualified as Frame
 import Frame.Made qualified as Made
 import Generate (Case (..))
@@ -61,7 +61,7 @@ spec = describe "a curve" $ do
     $ thirtyTimes $
       forAll nearlyStraight $ \c ->
         let cuts name =
-              fmap (\p -> length [() | f <- Frame.planned p, Frame.role f == Frame.Cutting 0])
+              fmap (\p -> length [() | f <- Frame.plannedFrames p, Frame.role f == Frame.Cutting 0])
                 . Made.program (withoutBraking (Machines.named name))
                 =<< toolpathOf (Part.OnPath (Mm 0.05)) c
          in counterexample
@@ -71,17 +71,20 @@ spec = describe "a curve" $ do
     "keeps the machine's rules, and closes (catches arcs that are cut off at the end of their run)"
     $ thirtyTimes $
       forAll Run.curveCase $ \c -> onMachine (Part.OnPath (Mm 0.02)) c $ \m _ program ->
-        Frame.invariants m (map frame (Frame.planned program))
+        Frame.violations m (map frame (Frame.plannedFrames program))
           === []
             .&&. sum
-              [increment (frame p) | p <- Frame.planned program, Frame.role p == Frame.Cutting 0]
+              [ increment (frame p)
+                | p <- Frame.plannedFrames program,
+                  Frame.role p == Frame.Cutting 0
+              ]
           === 0
   it "becomes few arcs (catches the thousands that approximate it exactly)" $
     thirtyTimes $
       forAll Run.curveCase $ \c ->
         onMachineNamed "lki-u" (Part.OnPath (Mm 0.1)) c $ \path program ->
           let exactly = sum [length cut | Cutting {cut} <- Toolpath.blocks path]
-              made = length (Frame.planned program)
+              made = length (Frame.plannedFrames program)
            in counterexample
                 (show (exactly, made))
                 (classify (exactly > 300) "many" (exactly <= 300 || 4 * made <= exactly))
@@ -105,7 +108,7 @@ staysWithin tolerance m path program =
   where
     exact = concatMap (map segment . Toolpath.moves) (Toolpath.blocks path)
     actual = filter (\s -> Segment.length s > Mm 0) (Made.frameSegments m program)
-    Mm pulse = Machine.pulse m
+    Mm pulse = Machine.planeResolution m
     most = tolerance + pulse + 1e-6
 
 -- | Wave of arcs with radii of about 2 m and more.
@@ -127,7 +130,7 @@ thirtyTimes = withMaxSuccess 30 . property
 toolpathOf :: Part.Accuracy -> Case -> Maybe Toolpath
 toolpathOf accuracy c =
   Result.output
-    ( FromPart.lay
+    ( FromPart.toToolpath
         ( Generate.partOf
             (Generate.begin c)
             ( Part.Mill

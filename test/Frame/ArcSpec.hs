@@ -9,7 +9,7 @@ import Data.ByteString qualified as ByteString
 import Data.List.NonEmpty qualified as NonEmpty
 import Data.Text (Text)
 import Data.Text.Encoding qualified as Encoding
-import Frame.Frame (Frame (increment), Planned (frame))
+import Frame.Frame (Frame (increment), PlannedFrame (frame))
 import Frame.Frame qualified as Frame
 import Frame.Made qualified as Made
 import Geometry.Carrier (Sense (..))
@@ -32,13 +32,13 @@ spec = do
       \its field)"
       $ property $
         forAllShow ((,) <$> machine <*> arc) (const "") $ \(m, a) ->
-          onArc m a $ \p -> Frame.invariants m (framesOf p) === []
+          onArc m a $ \p -> Frame.violations m (framesOf p) === []
     it
       "has frames within a pulse, along all of it (catches a centre that is merely rounded, and a \
       \sagitta that is added to the rounding of the ends)"
       $ property $
         forAllShow ((,) <$> machine <*> arc) (const "") $ \(m, a) -> onArc m a $ \p ->
-          let Mm pulse = Machine.pulse m
+          let Mm pulse = Machine.planeResolution m
               path = Made.frameSegments m p
               most = 1.01 * pulse
            in counterexample (show (Made.largestDistance [a] path, Made.largestDistance path [a])) $
@@ -49,10 +49,10 @@ spec = do
       \right)"
       $ property $
         forAllShow ((,) <$> machine <*> arc) (const "") $ \(m, a) -> onArc m a $ \p ->
-          let Mm pulse = Machine.pulse m
+          let Mm pulse = Machine.planeResolution m
               both =
                 concatMap
-                  (NonEmpty.toList . Control.between . Control.segment m)
+                  (NonEmpty.toList . Control.boundingPaths . Control.segment m)
                   (Control.run (Frame.start p) (framesOf p))
               off = maximum (0 : [circleError a w | w@Arc {} <- both])
            in counterexample (show off) (off <= 1.01 * pulse)
@@ -61,7 +61,7 @@ spec = do
       \nothing)"
       $ property $
         forAllShow ((,) <$> machine <*> arc) (const "") $ \(m, a) -> onArc m a $ \p ->
-          let Mm pulse = Machine.pulse m
+          let Mm pulse = Machine.planeResolution m
               whole = sum [s | Arc {sweep = Rad s} <- Made.frameSegments m p]
               Mm r = Segment.radius (centre a) (start a)
               Rad exact = sweep a
@@ -85,11 +85,13 @@ spec = do
     it "ends at its rounded end (catches rounding errors of cuts that add up)" $
       property $
         forAllShow ((,) <$> machine <*> arc) (const "") $ \(m, a) -> onArc m a $ \p ->
-          let Mm pulse = Machine.pulse m
+          let Mm pulse = Machine.planeResolution m
               at =
                 Frame.position
                   m
-                  (Frame.start p + sum (map (Frame.increment . Frame.frame) (Frame.planned p)))
+                  ( Frame.start p
+                      + sum (map (Frame.increment . Frame.frame) (Frame.plannedFrames p))
+                  )
            in counterexample
                 (show (at, end a))
                 ( max (abs (Vec.x at - Vec.x (end a))) (abs (Vec.y at - Vec.y (end a)))
@@ -124,7 +126,7 @@ spec = do
       $ property $
         forAll (ordinaryArc (0.3, 6)) $ \a -> onArc (Machines.named "lki-u") a $ \p ->
           let m = Machines.named "lki-u"
-              Mm pulse = Machine.pulse m
+              Mm pulse = Machine.planeResolution m
            in case Made.frameSegments m p of
                 [w@Arc {}] ->
                   counterexample
@@ -174,8 +176,8 @@ spec = do
           (const "")
           $ \(m, (x, y, r)) ->
             onArc m (circle (Vec.point x y) r) $ \p ->
-              let Mm pulse = Machine.pulse m
-               in Frame.invariants m (framesOf p)
+              let Mm pulse = Machine.planeResolution m
+               in Frame.violations m (framesOf p)
                     === []
                       .&&. Made.largestDistance (Made.frameSegments m p) [circle (Vec.point x y) r]
                       <= 1.01 * pulse
@@ -189,7 +191,11 @@ spec = do
       fmap
         ( \p ->
             length
-              [() | f <- Frame.planned p, Frame.role f == Frame.Cutting 0, Made.isArc (frame f)]
+              [ ()
+                | f <- Frame.plannedFrames p,
+                  Frame.role f == Frame.Cutting 0,
+                  Made.isArc (frame f)
+              ]
         )
         (Made.program (Machines.named m) (Made.pathOf text))
 
@@ -208,11 +214,11 @@ withFramesOnly :: Machine -> Machine
 withFramesOnly m =
   m
     { Machine.braking = (Machine.braking m) {Machine.brakingForm = ByControl},
-      Machine.orders = (Machine.orders m) {Machine.finish = []}
+      Machine.commandWords = (Machine.commandWords m) {Machine.finish = []}
     }
 
 framesOf :: Frame.FrameProgram -> [Frame]
-framesOf = map frame . Frame.planned
+framesOf = map frame . Frame.plannedFrames
 
 feed :: Part.Pace
 feed = Part.At (Located (Region 0 0) (Feed 60))
@@ -236,7 +242,7 @@ circleError a w =
 fitsOneFrame :: Machine -> Segment -> Bool
 fitsOneFrame m a = any (<= 0.98 * pulse) (errorsAbout 3 m a)
   where
-    Mm pulse = Machine.pulse m
+    Mm pulse = Machine.planeResolution m
 
 -- | Deviations in mm of one frame for an arc, about each grid point up to @most@ pulses from its
 -- centre. Only those are listed that stay well within a pulse with the radius of either end, whose
@@ -260,7 +266,7 @@ errorsAbout most m a =
        in abs (s - exact) <= 4 * pulse / distance (Segment.centre a) (start a)
   ]
   where
-    Mm pulse = Machine.pulse m
+    Mm pulse = Machine.planeResolution m
     on p = Vec.point (nearest (Vec.x p)) (nearest (Vec.y p))
     nearest x = pulse * fromIntegral (floor (x / pulse + 0.5) :: Int)
     -- The arc with the radius of its end throughout.

@@ -5,7 +5,7 @@ import Base.PulseVector (Pulses3 (..))
 import Base.Quantity (Feed (..), Mm (..), Rad (..))
 import Base.Region (Located (..), Region (Region))
 import Frame.FeedCode qualified as FeedCode
-import Frame.Frame (Frame (..), Planned (frame))
+import Frame.Frame (Frame (..), PlannedFrame (frame))
 import Frame.Frame qualified as Frame
 import Frame.Made qualified as Made
 import Geometry.Carrier (Sense (..))
@@ -30,7 +30,7 @@ spec = do
       \reach back over a short move)"
       $ property $
         forAll moves $ \ms -> onMachine ms $ \m fs ->
-          let pulse = let Mm g = Machine.pulse m in g
+          let pulse = let Mm g = Machine.planeResolution m in g
               lengths = map fst fs
               -- Lower feeds after a frame with the distance to them; the last one is the end of the
               -- program.
@@ -51,7 +51,7 @@ spec = do
       \every feed)"
       $ property $
         forAll moves $ \ms -> onMachine ms $ \m fs ->
-          let pulse = let Mm g = Machine.pulse m in g
+          let pulse = let Mm g = Machine.planeResolution m in g
               slowing = sum [l | (l, Nothing) <- fs]
               needed = neededLength m ms
            in counterexample
@@ -88,7 +88,7 @@ spec = do
   where
     brief f = (pulses f, code f, braking f)
     pulses f = let Pulses3 x y z = abs (increment f) in fromIntegral (x + y + z) :: Int
-    code f = let FeedCode n = speed f in n
+    code f = let FeedCode n = feedCode f in n
     to a b pace slow =
       Move
         (Straight (Vec.point a 0) (Vec.point b 0))
@@ -102,7 +102,7 @@ here = Located (Region 0 0) . Feed
 framesFor :: Machine -> [Move] -> Maybe [Frame]
 framesFor m ms =
   fmap
-    (filter Frame.isMoving . map frame . Frame.planned)
+    (filter Frame.isMoving . map frame . Frame.plannedFrames)
     ( Made.program
         m
         ( Toolpath
@@ -124,8 +124,8 @@ onMachine ms law =
               m
               [ (l, if braking f then Nothing else Just (v / 60))
                 | f <- fs,
-                  let Mm l = FeedCode.wayOf m f,
-                  let v = maybe 0 (\(Feed x) -> x) (FeedCode.given m f (Mm l))
+                  let Mm l = FeedCode.frameLength m f,
+                  let v = maybe 0 (\(Feed x) -> x) (FeedCode.feedOf m f (Mm l))
               ]
           )
 
@@ -156,7 +156,7 @@ neededLength m ms =
         ( zipWith3
             ( \j x (s, (_, v)) ->
                 [(s, v) | j > k]
-                  <> [(s + fst (pieces !! j), 10 / 60) | Toolpath.braked x || j == length ms - 1]
+                  <> [(s + fst (pieces !! j), 10 / 60) | Toolpath.isBraked x || j == length ms - 1]
             )
             [k :: Int ..]
             (drop k ms)

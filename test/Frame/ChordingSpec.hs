@@ -159,21 +159,21 @@ spec = do
                         }
                   }
            in case Result.output
-                ( FromPart.lay
+                ( FromPart.toToolpath
                     (Generate.partOf (Generate.begin c) (Part.Mill (Located (Region 0 0) braked')))
                 )
                 >>= Result.output . FromToolpath.quantise lkp01f of
                 Nothing -> counterexample "no frames" False
                 Just program ->
-                  let frames = map Frame.frame (Frame.planned program)
-                      (quick, slow) = span ((== FeedCode 9) . speed) frames
+                  let frames = map Frame.frame (Frame.plannedFrames program)
+                      (quick, slow) = span ((== FeedCode 9) . feedCode) frames
                       wayOf f =
                         let Mm d =
                               Vec.distance (Vec.point 0 0) (Frame.position lkp01f (increment f))
                          in d
-                   in counterexample (show (map speed frames)) $
+                   in counterexample (show (map feedCode frames)) $
                         not (null quick)
-                          && all ((== FeedCode 1) . speed) slow
+                          && all ((== FeedCode 1) . feedCode) slow
                           && abs (sum (map wayOf slow) - 1.6) <= 0.05
     it
       "follow the same runs on a contour in the opposite sense (catches arcs that continue the \
@@ -195,14 +195,14 @@ spec = do
                   }
               runsOf sense =
                 case Result.output
-                  ( FromPart.lay
+                  ( FromPart.toToolpath
                       ( Generate.partOf
                           (Generate.begin c)
                           (Part.Mill (Located (Region 0 0) (sensed sense)))
                       )
                   ) of
                   Just path ->
-                    [ map NonEmpty.length (Toolpath.runs (NonEmpty.toList cut))
+                    [ map NonEmpty.length (Toolpath.curveRuns (NonEmpty.toList cut))
                       | Toolpath.Cutting {Toolpath.cut} <- Toolpath.blocks path
                     ]
                   Nothing -> []

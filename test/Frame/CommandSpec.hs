@@ -6,7 +6,7 @@ import Base.Region (Located (..), Region (Region))
 import Base.Result qualified as Result
 import Data.Text (Text)
 import Frame.Error (CommandKind (..), Error (..), Warning (..))
-import Frame.Frame (Frame (..), Planned (frame))
+import Frame.Frame (Frame (..), PlannedFrame (frame))
 import Frame.Frame qualified as Frame
 import Frame.Made qualified as Made
 import Geometry.Segment (Segment (Straight))
@@ -156,7 +156,7 @@ quantised m parts = Made.quantised m (base {blocks = blocksFrom 0 parts})
 -- | Commands of each frame, and True for a frame with a motion.
 commandsOf :: Machine -> [Either Command Double] -> [(Bool, [(Text, Int)])]
 commandsOf m parts =
-  [ (Frame.isMoving f, [(w, n) | (CommandName w, n) <- orders f])
-    | Just p <- [Result.settled (quantised m parts)],
-      f <- map frame (Frame.planned p)
+  [ (Frame.isMoving f, [(w, n) | (CommandName w, n) <- commands f])
+    | Just p <- [Result.ifSound (quantised m parts)],
+      f <- map frame (Frame.plannedFrames p)
   ]

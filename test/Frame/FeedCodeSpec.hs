@@ -9,7 +9,7 @@ import Data.Maybe (fromMaybe)
 import Data.Text (Text)
 import Frame.Error (Error (..), Warning (..))
 import Frame.FeedCode qualified as FeedCode
-import Frame.Frame (Frame (..), Planned (frame))
+import Frame.Frame (Frame (..), PlannedFrame (frame))
 import Frame.Frame qualified as Frame
 import Frame.Made qualified as Made
 import Geometry.Segment (Segment (Straight))
@@ -29,7 +29,7 @@ spec = do
     it
       "begins the shaft of its manual as printed (catches feeds along the path, and commands after \
       \the move)"
-      $ fmap (map brief . Frame.planned) (Made.program kontur shaftPath)
+      $ fmap (map brief . Frame.plannedFrames) (Made.program kontur shaftPath)
         `shouldBe` Just [((0, -6000), 27, [("spindle", 10)]), ((-4200, 0), 32, [])]
     it
       "gets within a step of the feed asked for, in every direction (catches the length and the \
@@ -60,7 +60,7 @@ spec = do
                     \(33, 0)\ncontour round closed { ccw circle((0, 0), 30) }\nmill round \
                     \outside { }\n"
                 )
-            codesOf p = [c | f <- framesOf p, let FeedCode c = speed f]
+            codesOf p = [c | f <- framesOf p, let FeedCode c = feedCode f]
             ranges =
               [ (v, low < 0.9 * v, v < high)
                 | FeedDiffers _ (Feed v) (Feed low) (Feed high) <- Result.warnings made
@@ -96,8 +96,8 @@ spec = do
               Nothing -> counterexample "no frames" False
               Just p ->
                 conjoin
-                  [ FeedCode.given m f (FeedCode.wayOf m f)
-                      === fmap Feed (Machine.valueOf m (speed f))
+                  [ FeedCode.feedOf m f (FeedCode.frameLength m f)
+                      === fmap Feed (Machine.valueOf m (feedCode f))
                     | f <- take 1 (framesOf p)
                   ]
     it "refuses a feed outside of its codes with one report" $
@@ -116,7 +116,7 @@ spec = do
   describe "rapid moves" $
     it "have a motion of their own where there is one, else the code for rapid moves" $
       [ fmap
-          (map (\f -> (motion f, speed f)) . filter Frame.isMoving . framesOf)
+          (map (\f -> (motion f, feedCode f)) . filter Frame.isMoving . framesOf)
           ( Made.program
               (Machines.named m)
               (Made.pathAlong Rapid [Straight (Vec.point 0 0) (Vec.point 0.1 0)])
@@ -126,8 +126,8 @@ spec = do
         `shouldBe` map
           (Just . pure)
           [ (Frame.Rapid, FeedCode 0),
-            (Frame.Straightway, FeedCode 27),
-            (Frame.Straightway, FeedCode 9)
+            (Frame.Linear, FeedCode 27),
+            (Frame.Linear, FeedCode 9)
           ]
   where
     -- The feed in mm/min: the frequency times the pulse of 0.01 mm gives the speed of the leading
@@ -136,18 +136,22 @@ spec = do
       let Pulses3 (Pulses x) (Pulses y) _ = increment f
           (dx, dy) = (fromIntegral (abs x), fromIntegral (abs y)) :: (Double, Double)
        in 60
-            * fromMaybe 0 (Machine.valueOf kontur (speed f))
+            * fromMaybe 0 (Machine.valueOf kontur (feedCode f))
             * 0.01
             * sqrt (dx * dx + dy * dy) / max dx dy
     brief p =
       let f =
             frame p
           Pulses3 (Pulses x) (Pulses y) _ = increment f
-          FeedCode c = speed f
-       in ((x, y), c, [(n, k) | (CommandName n, k) <- orders f]) :: ((Int, Int), Int, [(Text, Int)])
+          FeedCode c = feedCode f
+       in ( (x, y),
+            c,
+            [(n, k) | (CommandName n, k) <- commands f]
+          ) ::
+            ((Int, Int), Int, [(Text, Int)])
 
 framesOf :: Frame.FrameProgram -> [Frame]
-framesOf = map frame . Frame.planned
+framesOf = map frame . Frame.plannedFrames
 
 here :: Double -> Located Feed
 here = Located (Region 0 0) . Feed

@@ -7,7 +7,7 @@ import Base.Result qualified as Result
 import Data.Text (Text)
 import Data.Text qualified as Text
 import Frame.Error qualified as Error
-import Frame.Frame (Frame (increment), Planned (frame))
+import Frame.Frame (Frame (increment), PlannedFrame (frame))
 import Frame.Frame qualified as Frame
 import Frame.FromToolpath qualified as FromToolpath
 import Frame.Made qualified as Made
@@ -75,7 +75,7 @@ spec = do
                   [ d
                     | (p, q) <- zip (start a : ends) ends,
                       k <- [0 .. 40 :: Int],
-                      let Mm d = Vec.distance (centre a) (Vec.between (fromIntegral k / 40) p q)
+                      let Mm d = Vec.distance (centre a) (Vec.interpolate (fromIntegral k / 40) p q)
                   ]
              in -- A step of a pulse is taken also where it leaves the band.
                 (r + o) * cos (asin (min 1 (0.02 / (2 * r))))
@@ -114,7 +114,7 @@ spec = do
               Segment.Arc (Vec.point 50 0) (Vec.point 0 50) (Vec.point 0 0) (Rad (pi / 2))
             quarter =
               fmap
-                (length . Frame.planned)
+                (length . Frame.plannedFrames)
                 ( Made.program
                     lkp01f
                     (Made.pathAlong (Part.At (Located (Region 0 0) (Feed 60))) [quarterArc])
@@ -126,7 +126,7 @@ spec = do
         forAllBlind machine $ \m ->
           forAll (oneof [Generate.closedCase, Generate.openCase]) $ \c -> forAll accuracy $ \a ->
             case Result.output
-              ( FromPart.lay
+              ( FromPart.toToolpath
                   ( Generate.partOf
                       (Generate.begin c)
                       (Part.Mill (Located (Region 0 0) (Generate.job c) {Part.tolerance = a}))
@@ -137,13 +137,17 @@ spec = do
                 -- The tolerance is too large for the cutter.
                 Nothing -> label "none" True
                 Just p ->
-                  Proof.findings (Verify.prove m path p (map frame (Frame.planned p))) === []
+                  Proof.findings (Verify.prove m path p (map frame (Frame.plannedFrames p))) === []
   describe "increments" $ do
     it "of a closed contour add to zero (catches rounded increments instead of rounded positions)" $
       property $
         forAllBlind machine $ \m ->
           forAll Generate.closedCase $ \c -> onPath m (Generate.milled (Mm 0.02) c) $ \_ program ->
-            sum [increment (frame p) | p <- Frame.planned program, Frame.role p == Frame.Cutting 0]
+            sum
+              [ increment (frame p)
+                | p <- Frame.plannedFrames program,
+                  Frame.role p == Frame.Cutting 0
+              ]
               === 0
     it "lead to within half a pulse of every node (catches rounding errors that add up)" $
       property $
@@ -155,9 +159,9 @@ spec = do
                     ( scanl
                         (+)
                         (Frame.start program)
-                        (map (increment . frame) (Frame.planned program))
+                        (map (increment . frame) (Frame.plannedFrames program))
                     )
-                Mm pulse = Machine.pulse m
+                Mm pulse = Machine.planeResolution m
                 distanceTo n =
                   minimum [max (abs (Vec.x n - Vec.x p)) (abs (Vec.y n - Vec.y p)) | p <- positions]
              in conjoin
@@ -168,7 +172,7 @@ spec = do
       property $
         forAll (choose (-3e4, 3e4)) $ \x -> forAll (choose (-3e4, 3e4)) $ \y ->
           let frames = longMove x y
-           in Frame.invariants lkp01f frames
+           in Frame.violations lkp01f frames
                 === []
                   .&&. counterexample
                     (show (length frames))
@@ -181,7 +185,7 @@ spec = do
           forAll anyCase $ \c ->
             forAllBlind Generate.settings $ \set ->
               case Result.output
-                ( FromPart.lay
+                ( FromPart.toToolpath
                     ( Generate.partOf
                         (Vec.point (-200) 0)
                         (Part.Mill (Located (Region 0 0) (set (Generate.job c))))
@@ -190,7 +194,7 @@ spec = do
                 Nothing -> property Discard
                 Just path ->
                   onPath m (Just path) $ \_ program ->
-                    Frame.invariants m (map frame (Frame.planned program)) === []
+                    Frame.violations m (map frame (Frame.plannedFrames program)) === []
     it
       "stay within the tolerance and a pulse of the toolpath, along all of it (catches a chord on \
       \the wrong side, a lost part)"
@@ -200,7 +204,7 @@ spec = do
             forAll
               ( elements
                   [ y
-                    | let Mm pulse = Machine.pulse m,
+                    | let Mm pulse = Machine.planeResolution m,
                       y <- [0.005, 0.02, 0.1],
                       y + pulse < Generate.radiusOf c
                   ]
@@ -209,7 +213,7 @@ spec = do
                 onPath m (Generate.milled (Mm y) c) $ \path program ->
                   let exact = concatMap (map segment . Toolpath.moves) (Toolpath.blocks path)
                       actual = filter (\s -> Segment.length s > Mm 0) (Made.frameSegments m program)
-                      Mm pulse = Machine.pulse m
+                      Mm pulse = Machine.planeResolution m
                    in counterexample
                         ( show
                             (Made.largestDistance exact actual, Made.largestDistance actual exact)
@@ -326,5 +330,5 @@ longMove :: Double -> Double -> [Frame]
 longMove x y =
   maybe
     []
-    (map frame . Frame.planned)
+    (map frame . Frame.plannedFrames)
     (Result.output (FromToolpath.quantise lkp01f (Generate.straightPath x y)))

@@ -23,7 +23,7 @@ import Data.List.NonEmpty qualified as NonEmpty
 import Data.Maybe (fromMaybe)
 import Data.Text (Text)
 import Frame.Error (Error, Warning)
-import Frame.Frame (Frame (..), FrameProgram (planned), Planned (frame))
+import Frame.Frame (Frame (..), FrameProgram (plannedFrames), PlannedFrame (frame))
 import Frame.Frame qualified as Frame
 import Frame.FromToolpath qualified as FromToolpath
 import Geometry.Distance qualified as Distance
@@ -41,7 +41,7 @@ import Toolpath.Toolpath qualified as Toolpath
 
 -- | Toolpath of a program without errors.
 pathOf :: Text -> Toolpath
-pathOf text = need "path" (Toolpath.lay part)
+pathOf text = need "path" (Toolpath.toToolpath part)
   where
     loaded = runIdentity (Surface.load (Surface.byName (const (pure (Left "")))) "test.part" text)
     assigned = need "assignments" (Surface.assign [] (need "syntax" (Surface.surface loaded)))
@@ -68,22 +68,22 @@ quantised :: Machine -> Toolpath -> Result Warning Error FrameProgram
 quantised = FromToolpath.quantise
 
 program :: Machine -> Toolpath -> Maybe FrameProgram
-program machine = Result.settled . quantised machine
+program machine = Result.ifSound . quantised machine
 
 -- | Line or arc of each frame in the plane.
 frameSegments :: Machine -> FrameProgram -> [Segment]
 frameSegments machine p =
   zipWith (Frame.segment machine) (scanl (+) (Frame.start p) (map increment frames)) frames
   where
-    frames = map frame (planned p)
+    frames = map frame (plannedFrames p)
 
 isArc :: Frame -> Bool
 isArc f = case motion f of
-  Frame.Round _ -> True
+  Frame.Circular _ -> True
   _ -> False
 
 arcCount :: FrameProgram -> Int
-arcCount = length . filter (isArc . frame) . planned
+arcCount = length . filter (isArc . frame) . plannedFrames
 
 -- | Largest distance in mm of the points of @these@ from @those@. Each segment has up to 25 points,
 -- fewer if there are many segments.

@@ -2,7 +2,7 @@
 -- to test the verification, independently of the compiler's frames and of its distances.
 module Generate.Arcs
   ( quantise,
-    Off (..),
+    Deviation (..),
     deviation,
     change,
   )
@@ -18,7 +18,7 @@ import Frame.Frame
   ( Frame (..),
     FrameMotion (..),
     FrameProgram (FrameProgram),
-    Planned (Planned, origin, tool),
+    PlannedFrame (PlannedFrame, cutterRadius, origin),
     Role (..),
   )
 import Frame.Frame qualified as Frame
@@ -44,7 +44,7 @@ quantise machine path =
     Located _ (SpacePoint p z) = Toolpath.start path
     begin = rounded machine (p, z)
     block n b = case b of
-      Toolpath.Travelling r ms -> map (Travelling,r,) ms
+      Toolpath.Travelling r ms -> map (Linking,r,) ms
       Toolpath.Holing (Located _ d) ms -> map (Drilling,Part.drillRadius d,) ms
       Toolpath.Commanding _ -> []
       Toolpath.Clearing
@@ -68,9 +68,14 @@ quantise machine path =
             <> map (Retracting n,Part.radius m,) retract
     go at moves = case moves of
       [] -> []
-      (role, tool, m) : rest ->
+      (role, cutterRadius, m) : rest ->
         let fs = framesOf machine at m
-         in [ Planned {Frame.frame = f, Frame.role = role, origin = Toolpath.origin m, tool}
+         in [ PlannedFrame
+                { Frame.frame = f,
+                  Frame.role = role,
+                  origin = Toolpath.origin m,
+                  cutterRadius
+                }
               | f <- fs
             ]
               <> go (at + sum (map increment fs)) rest
@@ -78,7 +83,7 @@ quantise machine path =
 rounded :: Machine -> (Point, Mm) -> Pulses3
 rounded machine (p, Mm z) = Pulses3 (on X (Vec.x p)) (on Y (Vec.y p)) (on Z z)
   where
-    on axis v = let Mm step = Machine.pulseOf machine axis in Pulses (round (v / step))
+    on axis v = let Mm step = Machine.resolutionOf machine axis in Pulses (round (v / step))
 
 -- | The frames of one move, from the present position.
 framesOf :: Machine -> Pulses3 -> Move -> [Frame]
@@ -102,12 +107,12 @@ framesOf machine at m = case Toolpath.segment m of
 straight :: FeedCode -> Pulses3 -> Pulses3 -> [Frame]
 straight code from to =
   [ Frame
-      { motion = Straightway,
+      { motion = Linear,
         increment = to - from,
         centre = 0,
-        speed = code,
+        feedCode = code,
         braking = False,
-        orders = []
+        commands = []
       }
     | to /= from
   ]
@@ -136,7 +141,7 @@ quarters s = case s of
 -- | The frames of an arc: one if a centre of whole pulses keeps it within one pulse, otherwise
 -- those of its halves.
 arcFrames :: Machine -> FeedCode -> Mm -> Pulses3 -> Segment -> [Frame]
-arcFrames machine code z at s = case (Segment.bulge s, candidates) of
+arcFrames machine code z at s = case (Segment.sagitta s, candidates) of
   (Mm sagitta, _) | sagitta < pulse / 2 -> straight code at end
   (_, []) -> halves
   (_, fs) ->
@@ -144,23 +149,23 @@ arcFrames machine code z at s = case (Segment.bulge s, candidates) of
           minimumBy (comparing fst) [(arcDeviation machine at s f', f') | f' <- fs]
      in if d <= pulse then [f] else halves
   where
-    Mm pulse = Machine.pulse machine
+    Mm pulse = Machine.planeResolution machine
     end = rounded machine (Segment.end s, z)
     candidates =
       [ f
         | f <- [about (Pulses2 (i + Pulses a) (j + Pulses b)) | a <- [-3 .. 3], b <- [-3 .. 3]],
-          null (Frame.invariants machine [f]),
+          null (Frame.violations machine [f]),
           apart f <= 2 * pulse
       ]
     Pulses3 i j _ = rounded machine (Segment.centre s, z) - at
     about c =
       Frame
-        { motion = Round (if positive then CounterClockwise else Clockwise),
+        { motion = Circular (if positive then CounterClockwise else Clockwise),
           increment = end - at,
           centre = c,
-          speed = code,
+          feedCode = code,
           braking = False,
-          orders = []
+          commands = []
         }
     Rad turned = Segment.sweep s
     positive = turned > 0
@@ -208,16 +213,16 @@ between :: Point -> Point -> Double
 between p q = let Mm d = Vec.distance p q in d
 
 -- | The deepest gouge and the largest excess, in mm.
-data Off = Off {deepest :: Double, most :: Double}
+data Deviation = Deviation {deepestGouge :: Double, largestExcess :: Double}
   deriving stock (Show)
 
 -- | The deviation of frames from a contour, for a cutter of this radius in mm, by dense points on
 -- both. The position is that before the first frame. An arc keeps the radius of its beginning.
-deviation :: Machine -> Pulses3 -> [Frame] -> [Segment] -> Double -> Off
+deviation :: Machine -> Pulses3 -> [Frame] -> [Segment] -> Double -> Deviation
 deviation machine begin frames contour radius =
-  Off
-    { deepest = radius - minimum [nearest onContour p | p <- onPath],
-      most = maximum [nearest onPath q | q <- onContour] - radius
+  Deviation
+    { deepestGouge = radius - minimum [nearest onContour p | p <- onPath],
+      largestExcess = maximum [nearest onPath q | q <- onContour] - radius
     }
   where
     onContour = concatMap (dense 0.4) contour
@@ -256,22 +261,25 @@ change frames = do
       pure ("doubled", take (n + 1) frames <> drop n frames)
     ]
       <> case motion f of
-        Round sense ->
+        Circular sense ->
           [ pure ("i by " <> show d, with f {centre = centre f + Pulses2 d 0}),
             pure ("j by " <> show d, with f {centre = centre f + Pulses2 0 d}),
             pure
               ( "the long way round",
-                with f {motion = Round (if sense == Clockwise then CounterClockwise else Clockwise)}
+                with
+                  f {motion = Circular (if sense == Clockwise then CounterClockwise else Clockwise)}
               ),
             pure ("the centre on the other side", with f {centre = Pulses2 (x - i) (y - j)}),
             pure
               ( "both",
                 with
                   f
-                    { motion = Round (if sense == Clockwise then CounterClockwise else Clockwise),
+                    { motion =
+                        Circular
+                          (if sense == Clockwise then CounterClockwise else Clockwise),
                       centre = Pulses2 (x - i) (y - j)
                     }
               ),
-            pure ("its chord", with f {motion = Straightway, centre = 0})
+            pure ("its chord", with f {motion = Linear, centre = 0})
           ]
         _ -> []

@@ -2,7 +2,7 @@
 module Generate.ByControl
   ( cases,
     firstAndLast,
-    laid,
+    blocksOf,
     path,
     beginning,
   )
@@ -61,7 +61,7 @@ cases = do
             plain
               { Part.approach = [stop from],
                 Part.retract = [stop to'],
-                Part.byControl = Just nowhere
+                Part.controlCompensation = Just nowhere
               }
           )
   where
@@ -86,7 +86,7 @@ snug c less =
 
 -- | The first and the last move of the cutter beside a contour, leads included.
 firstAndLast :: Milling -> Maybe (Segment, Segment)
-firstAndLast job = case laid (beginning job) job of
+firstAndLast job = case blocksOf (beginning job) job of
   Just (Toolpath.Cutting {Toolpath.approach, Toolpath.cut, Toolpath.retract} : _) ->
     let leads =
           [ Toolpath.segment m
@@ -102,12 +102,12 @@ firstAndLast job = case laid (beginning job) job of
   _ -> Nothing
 
 -- | The blocks of the toolpath of a milling job. The cutter begins at the point.
-laid :: Point -> Milling -> Maybe [Toolpath.Block]
-laid at job = Toolpath.blocks <$> path at job
+blocksOf :: Point -> Milling -> Maybe [Toolpath.Block]
+blocksOf at job = Toolpath.blocks <$> path at job
 
 -- | The toolpath of a milling job. The cutter begins at the point.
 path :: Point -> Milling -> Maybe Toolpath
-path at job = Result.output (FromPart.lay (Generate.partOf at (Mill (Located nowhere job))))
+path at job = Result.output (FromPart.toToolpath (Generate.partOf at (Mill (Located nowhere job))))
 
 -- | The beginning of the contour.
 beginning :: Milling -> Point

@@ -11,7 +11,7 @@ module Generate.Curve
     winding,
     polyline,
     parabola,
-    chain,
+    toSegments,
     pieces,
     parameter,
     parameterOf,
@@ -60,7 +60,7 @@ ok = either (error . show) id
 
 -- | A curve of any kind.
 anyCurve :: Gen Curve
-anyCurve = frequency [(2, smooth), (1, polyline), (1, parabola), (1, chain), (1, pieces)]
+anyCurve = frequency [(2, smooth), (1, polyline), (1, parabola), (1, toSegments), (1, pieces)]
 
 -- | A spline.
 smooth :: Gen Curve
@@ -159,14 +159,14 @@ parabola = do
   pure (ok (Curve.parabola (Exts.fromList (zipWith Vec.point xs ys))))
 
 -- | A chain of lines and arcs, with and without corners.
-chain :: Gen Curve
-chain = do
+toSegments :: Gen Curve
+toSegments = do
   n <- choose (1, 6)
   parts <-
     vectorOf
       n
       ((,,) <$> choose (-2, 2) <*> choose (10, 40) <*> frequency [(2, pure 0), (1, choose (-1, 1))])
-  pure (ok (Curve.ofSegments (segments (Vec.point 3 (-4)) 0.3 parts)))
+  pure (ok (Curve.fromSegments (segments (Vec.point 3 (-4)) 0.3 parts)))
   where
     segments p heading parts = case parts of
       [] -> Straight p (Vec.shift (Vec.polar (Mm 10) (Rad heading)) p) :| []
@@ -208,7 +208,7 @@ pieces = do
           }
   pure
     ( ok
-        ( Curve.ofPieces
+        ( Curve.fromShapes
             (Line (Vec.point (-l) 0) (Vec.point 0 0) :| [Quadratic a 0 0 0 w, Circular arc])
             (Exts.fromList (scanl (+) 0 inner <> [3]))
         )
@@ -239,7 +239,7 @@ columnOf curve low high = do
   wave <- choose (0, min (high - middle) (middle - low))
   phase <- choose (0, 6)
   let n = length (Base.rows (Curve.base curve))
-      repeated = Curve.isClosed curve && not (Base.unrepeated (Curve.base curve))
+      repeated = Curve.isClosed curve && not (Base.lacksRepeatedStart (Curve.base curve))
       turns = 2 * pi / fromIntegral (if repeated then n - 1 else n)
       value k =
         if repeated && k == n - 1
@@ -257,7 +257,7 @@ distance reach curve =
       Growing <$> growth,
       Square <$> columnOf curve (-0.5) 0.5 <*> (Constant . Mm <$> choose (0, 0.8 * reach)),
       Square <$> columnOf curve (-0.5) 0.5 <*> (Growing <$> growth),
-      joggled
+      fitJoggle
     ]
   where
     bevelled =
@@ -272,7 +272,7 @@ distance reach curve =
       b <- choose (0.6, 0.95)
       ends <- elements [Nothing, Just (parameterOf curve a, parameterOf curve b)]
       pure Growth {from = Mm h1, to = Mm h2, between = ends}
-    joggled = do
+    fitJoggle = do
       a <- choose (0.05, 0.2)
       b <- choose (0.8, 0.95)
       d <- choose (0.2, 0.8) >>= \share -> pure (share * min 1 reach)
@@ -281,7 +281,7 @@ distance reach curve =
       pure
         ( fromRight
             (Constant (Mm d))
-            ( Curve.joggled
+            ( Curve.fitJoggle
                 Joggle
                   { begins = parameterOf curve a,
                     ends = parameterOf curve b,
@@ -298,7 +298,8 @@ shifts curve = do
   side <- elements [LeftOf, RightOf]
   d <- distance (min 5 (0.3 / (1e-9 + tightest curve))) curve
   let s = Curve.shifted side d curve
-  pure (case Curve.fold s of Nothing -> s; Just _ -> Curve.shifted side (Constant (Mm 0)) curve)
+  pure
+    (case Curve.firstCusp s of Nothing -> s; Just _ -> Curve.shifted side (Constant (Mm 0)) curve)
 
 -- | A curve with at most @most@ shifts.
 layered :: Int -> Gen Curve -> Gen Curve

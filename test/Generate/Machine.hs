@@ -19,7 +19,7 @@ import Data.Word (Word8)
 import Frame.Frame (Frame (..), FrameMotion (..))
 import Frame.Frame qualified as Frame
 import Geometry.Carrier (Sense (..))
-import Machine.Machine hiding (braking, choose, orders)
+import Machine.Machine hiding (braking, choose, commandWords)
 import Machine.Machine qualified as Machine
 import Test.QuickCheck
 
@@ -105,9 +105,9 @@ blankMachine forms arcKind how feedTable =
         Layout {items = NonEmpty.fromList [Literal "x"], measure = how, separator = ""},
       feeds = Feeds AlongPath feedTable NotAbove Highest,
       Machine.braking = Braking 5 SlowFrames,
-      Machine.orders = noOrders,
+      Machine.commandWords = noCommandWords,
       limits = Limits Nothing,
-      facts = []
+      describedValues = []
     }
 
 -- | Feed codes for a word of @n@ digits: a range, a list, the values of a formula.
@@ -192,7 +192,7 @@ fixedWords s = do
             axisDigits
             ( if orderBits && [a] == take 1 (used s)
                 then
-                  [ OrderBit (CommandName "bits") (k - 1)
+                  [ CommandBit (CommandName "bits") (k - 1)
                     | k <- [axisDigits - 1, axisDigits - 2 .. 1]
                   ]
                 else []
@@ -424,7 +424,7 @@ frame m feeds' at = do
           <> [(2, only) | not (null (orderNames m))]
           <> [(6, round') | arcs m /= NoArcs]
       )
-  if null (Frame.invariants m [f]) && fits f then pure f else frame m feeds' at
+  if null (Frame.violations m [f]) && fits f then pure f else frame m feeds' at
   where
     fits f =
       and
@@ -434,7 +434,7 @@ frame m feeds' at = do
     straightway = do
       d <- move m at
       base <- atFeed
-      pure base {motion = Straightway, increment = d}
+      pure base {motion = Linear, increment = d}
     rapidly = do
       d <- move m at
       given <- ordersOf m 3
@@ -443,15 +443,15 @@ frame m feeds' at = do
           { motion = Rapid,
             increment = d,
             centre = 0,
-            speed = FeedCode 0,
+            feedCode = FeedCode 0,
             braking = False,
-            orders = given
+            commands = given
           }
-    only = Frame.still <$> ordersOf m 1
+    only = Frame.commandFrame <$> ordersOf m 1
     round' = do
       base <- atFeed
       (sense, d, c) <- arc m at
-      pure base {motion = Round sense, increment = d, centre = c}
+      pure base {motion = Circular sense, increment = d, centre = c}
     atFeed = frameAt m =<< elements feeds'
 
 -- | A frame without increments at a feed, with random commands and braking.
@@ -464,12 +464,12 @@ frameAt m speed' = do
   given <- ordersOf m 3
   pure
     Frame
-      { motion = Straightway,
+      { motion = Linear,
         increment = 0,
         centre = 0,
-        speed = speed',
+        feedCode = speed',
         braking = isSlow,
-        orders = given
+        commands = given
       }
 
 parts :: Pulses3 -> [Pulses]
@@ -521,7 +521,7 @@ arc m at = case arcs m of
 orderNames :: Machine -> [CommandName]
 orderNames m =
   concat
-    [ [o | Command o <- [content w]] <> take 1 [o | OrderBit o _ <- service (form w)]
+    [ [o | Command o <- [content w]] <> take 1 [o | CommandBit o _ <- service (form w)]
       | w <- wordsOf m
     ]
 
@@ -531,5 +531,5 @@ ordersOf m odds = concat <$> traverse some (orderNames m)
   where
     some o = do
       yes <- choose (1, odds)
-      v <- maybe (pure 0) (\most -> choose (0, most)) (orderCapacity m o)
-      pure [(o, v) | yes == 1 && canOrder m o v]
+      v <- maybe (pure 0) (\most -> choose (0, most)) (commandCapacity m o)
+      pure [(o, v) | yes == 1 && canEncode m o v]

@@ -51,7 +51,7 @@ data Family = Cells | Lattice | Arcs | Noise
 type Vertex = (Double, Double, Double)
 
 loop :: [Vertex] -> FlatPolyarc
-loop = FlatPolyarc.outline Closed
+loop = FlatPolyarc.fromVertices Closed
 
 -- | Closed polyarcs: a third with integer vertices, a third with arcs, a third noisy.
 problem :: Gen Case
@@ -66,7 +66,7 @@ open = do
       | vs <- FlatPolyarc.vertices o,
         length vs >= 3 -> do
         k <- choose (2, length vs)
-        let o' = FlatPolyarc.outline Open (take k vs)
+        let o' = FlatPolyarc.fromVertices Open (take k vs)
         if FlatPolyarc.length o' > Mm 1e-9 then pure c {outlines = [o'], free = 0} else open
     _ -> open
 
@@ -111,7 +111,7 @@ somewhere c = do
 -- | A polyarc, scaled, rotated and translated.
 turned :: Double -> Double -> (Double, Double) -> FlatPolyarc -> FlatPolyarc
 turned factor angle (mx, my) o =
-  FlatPolyarc.outline
+  FlatPolyarc.fromVertices
     (FlatPolyarc.ends o)
     [ (mx + factor * (co * x - si * y), my + factor * (co * y + si * x), b)
       | (x, y, b) <- FlatPolyarc.vertices o

@@ -6,7 +6,7 @@ module Generate.Pocket
     roomOf,
     insetOf,
     pocketing,
-    laid,
+    toolpathOf,
   )
 where
 
@@ -123,12 +123,12 @@ pocketing before p =
               foldr (\more rest -> plus more (left p) NonEmpty.<| rest) (left p :| []) before,
             Part.corners = Part.Round,
             Part.sense = Nothing,
-            Part.spin = Part.Clockwise,
-            Part.byControl = Nothing,
+            Part.spindleSense = Part.Clockwise,
+            Part.controlCompensation = Nothing,
             Part.rest = Part.Allowed
           },
       Part.islands = map contourOf islands,
-      Part.apart = step p
+      Part.stepover = step p
     }
   where
     outline :| islands = loops p
@@ -140,9 +140,9 @@ pocketing before p =
         []
 
 -- | The toolpath of a pocket, if the cutter has room in it.
-laid :: Pocketing -> Maybe Toolpath
-laid p =
-  case FromPart.lay
+toolpathOf :: Pocketing -> Maybe Toolpath
+toolpathOf p =
+  case FromPart.toToolpath
     (Generate.partOf (Vec.point 0 0) (Part.Pocket (here p)))
       { Part.start =
           Just (here (Part.SpacePoint (Vec.point 0 0) (Mm 20)))
@@ -159,10 +159,10 @@ roomOf p =
   PocketRoom
     { walls = NonEmpty.fromList (concatMap NonEmpty.toList (loops p)),
       offsetBy = insetOf (NonEmpty.toList (loops p)),
-      further = \_ _ -> Nothing,
+      insetOfLoops = \_ _ -> Nothing,
       radius = cutter p,
       leaves = left p,
-      turned = False
+      isReversed = False
     }
 
 -- | The offset loops at a distance on the left: moves all segments, rounds all corners, divides
@@ -211,7 +211,7 @@ rounding d s next =
     | t < -1e-9
   ]
   where
-    Rad t = Vec.turn (Segment.endDirection s) (Segment.startDirection next)
+    Rad t = Vec.signedAngle (Segment.endDirection s) (Segment.startDirection next)
     beside direction = Vec.shift (Vec.scale d (Vec.left direction)) (Segment.end s)
 
 -- | A segment, divided at its intersections with others.
@@ -228,7 +228,7 @@ divided others s =
           1 :
             [ t
               | other <- others,
-                p <- Distance.crossings s other,
+                p <- Distance.intersections s other,
                 let t = Segment.fraction s p,
                 t > 1e-9,
                 t < 1 - 1e-9

@@ -120,7 +120,7 @@ number =
       ]
   where
     whole = Text.pack <$> (choose (1, 4) >>= \k -> vectorOf k (choose ('0', '9')))
-    numeral digits = Numeral digits (fromMaybe 0 (Decimal.amount digits))
+    numeral digits = Numeral digits (fromMaybe 0 (Decimal.parse digits))
 
 title :: Gen Text
 title = Text.pack <$> listOf (elements "ab Фл-.,(){}'\t%0")
@@ -142,7 +142,7 @@ statement n = at (frequency ([(1, s) | s <- simple] <> [(3, s) | n > 0, s <- dee
         LetValue <$> at name <*> expr (n + 1),
         LetFunction <$> at name <*> nonEmpty 2 (at name) <*> expr (n + 1),
         Param <$> at name <*> expr n,
-        Table <$> at name <*> (LinesOf <$> at title),
+        Table <$> at name <*> (LinesFromFile <$> at title),
         Curve <$> at name <*> expr (n + 1),
         Piece
           <$> at name
@@ -154,7 +154,7 @@ statement n = at (frequency ([(1, s) | s <- simple] <> [(3, s) | n > 0, s <- dee
         Drill <$> expr n <*> expr n <*> some' 3 (setting n),
         Travel <$> every <*> nonEmpty 3 (stop n),
         Change <$> expr n <*> cutter n,
-        Spindle <$> oneof [pure Still, Spinning <$> every <*> maybe' (expr n)],
+        Spindle <$> oneof [pure SpindleStop, Spinning <$> every <*> maybe' (expr n)],
         Coolant <$> every,
         Auxiliary <$> expr n
       ]
@@ -224,7 +224,7 @@ item n = at (frequency ((6, element) : [(1, i) | n > 0, i <- deep]))
     element =
       Element <$> maybe' (at every) <*> expr (n + 1) <*> some' 2 (at modifier) <*> maybe' (at link)
     modifier =
-      oneof [AtElementFeed <$> expr n, pure Slow, ElementAllowance <$> expr n, Bevel <$> expr n]
+      oneof [ElementFeed <$> expr n, pure Slow, ElementAllowance <$> expr n, Bevel <$> expr n]
     link =
       oneof
         [Meet <$> maybe' (expr n), pure Smooth, pure Tangent, Fillet <$> expr n, Chamfer <$> expr n]

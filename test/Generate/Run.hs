@@ -133,7 +133,7 @@ biarcs points = concat (zipWith pair points (drop 1 points))
             if spread < 1e-12
               then Vec.dot v v / (2 * along)
               else (sqrt (along * along + spread * Vec.dot v v) - along) / spread
-          m = Vec.between 0.5 (Vec.shift (Vec.scale d t) p) (Vec.shift (Vec.scale (-d) u) q)
+          m = Vec.interpolate 0.5 (Vec.shift (Vec.scale d t) p) (Vec.shift (Vec.scale (-d) u) q)
        in [touching p t m, Segment.reverse (touching q (Vec.negate u) m)]
 
 -- | The arc or line from a point in a direction to another point.
@@ -150,7 +150,7 @@ touching p t q
   where
     v = Vec.to p q
     n = Vec.left t
-    turned = let Rad half = Vec.turn t v in 2 * half
+    turned = let Rad half = Vec.signedAngle t v in 2 * half
 
 -- | A segment divided into @n@ parts of equal length.
 parts :: Int -> Segment -> [Segment]

@@ -36,7 +36,7 @@ cut = do
   ways <- vectorOf (count - 1) (onePoint 60)
   let arraysOf =
         zipWith
-          (\p w -> Array {joined = [], final = p, onward = w :| []})
+          (\p w -> Array {joined = [], final = p, retract = w :| []})
           alone
           (ways <> [(plain 900 900) {feed = here 0}])
   pure $ case arraysOf of
@@ -75,7 +75,7 @@ gentle strip = do
   slow <- arbitrary
   pure
     Piece
-      { towards = here (if null cipher then LeftSide else side),
+      { shiftSide = here (if null cipher then LeftSide else side),
         cipher = here cipher,
         rows,
         slow = here slow,
@@ -93,7 +93,7 @@ gentle strip = do
             py = here (rounded (py + dy)),
             surface =
               if steep
-                then Just Surface {mu = here (rounded mu), flange = here (rounded h)}
+                then Just Surface {mu = here (rounded mu), flangeHeight = here (rounded h)}
                 else Nothing
           }
     rounded v = fromIntegral (round (v * 100 :: Double) :: Int) / 100
@@ -153,11 +153,11 @@ coordinate :: Gen Number
 coordinate = here <$> number
 
 array :: NonEmpty Waypoint -> Gen Array
-array onward = do
+array retract = do
   count <- choose (0, 3 :: Int)
   joined <- vectorOf count (LinkedPiece <$> piece <*> (here <$> link))
   final <- piece
-  pure Array {joined, final, onward}
+  pure Array {joined, final, retract}
 
 link :: Gen Link
 link = oneof [pure Joint, pure Intersection, Rounding <$> (number `suchThat` (/= 0))]
@@ -173,7 +173,7 @@ piece = do
   allowance <- oneof [pure (here 0), coordinate]
   pure
     Piece
-      { towards = here (if null cipher then LeftSide else side),
+      { shiftSide = here (if null cipher then LeftSide else side),
         cipher = here cipher,
         rows,
         slow = here slow,

@@ -111,7 +111,7 @@ touches :: ElementCarrier -> Point -> Vec -> Property
 touches w p direction = case w of
   OnLine l -> onLine l p .&&. same (Carrier.direction l)
   OnCircle t c@(Circle m _) ->
-    on c p .&&. same (Vec.unit (Vec.scale (Carrier.sense t) (Vec.left (Vec.to m p))))
+    on c p .&&. same (Vec.unit (Vec.scale (Carrier.senseSign t) (Vec.left (Vec.to m p))))
   AtPoint q -> property (away p q < 1e-6)
   OnCurve _ -> property False
   where
@@ -120,7 +120,7 @@ touches w p direction = case w of
 -- | The signed radii differ by more than the distance of the centres: there is no tangent.
 noTangent :: (Sense, Circle) -> (Sense, Circle) -> Bool
 noTangent (t1, Circle c1 (Mm r1)) (t2, Circle c2 (Mm r2)) =
-  away c1 c2 <= abs (Carrier.sense t1 * r1 - Carrier.sense t2 * r2) + 1e-6
+  away c1 c2 <= abs (Carrier.senseSign t1 * r1 - Carrier.senseSign t2 * r2) + 1e-6
 
 on :: Circle -> Point -> Property
 on (Circle c (Mm r)) p = counterexample (show (away c p, r)) (abs (away c p - r) < 1e-6)

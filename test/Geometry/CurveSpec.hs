@@ -37,7 +37,7 @@ spec = do
       property $
         forAll Generate.anyCurve $ \c ->
           conjoin
-            [ close 1e-9 (Curve.at c (Base.at row)) (Base.place row)
+            [ close 1e-9 (Curve.at c (Base.at row)) (Base.knotPoint row)
               | row <- toList (Base.rows (Curve.base c))
             ]
     it
@@ -51,7 +51,7 @@ spec = do
           conjoin
             [ counterexample (show v) (Vec.norm v < 1e-9)
               | (approach, u) <- endPositions c,
-                let v = secondBy (chord c u) (Curve.jet approach 2 c u)
+                let v = secondBy (chord c u) (Curve.expansion approach 2 c u)
             ]
     it
       "a clamped spline sets out and arrives in its directions, at one mm for a mm of the chord \
@@ -64,7 +64,7 @@ spec = do
                 conjoin
                   [ alike 1e-9 v w
                     | ((approach, u), w) <- zip (endPositions c) [from, to],
-                      let v = firstBy (chord c u) (Curve.jet approach 1 c u)
+                      let v = firstBy (chord c u) (Curve.expansion approach 1 c u)
                   ]
     it
       "a closed spline goes over into itself at its joint (catches a corner of the cyclic system \
@@ -72,8 +72,8 @@ spec = do
       $ property $
         forAll Generate.ring $ \c ->
           let n = Curve.domain c
-              arriving = Curve.jet Before 2 c n
-              leaving = Curve.jet After 2 c 0
+              arriving = Curve.expansion Before 2 c n
+              leaving = Curve.expansion After 2 c 0
            in alike 1e-8 (firstBy (chord c n) arriving) (firstBy (chord c 0) leaving)
                 .&&. alike 1e-8 (secondBy (chord c n) arriving) (secondBy (chord c 0) leaving)
                 .&&. Curve.corners c === []
@@ -130,7 +130,7 @@ spec = do
       property $
         forAll (Generate.layered 2 Generate.anyCurve) $ \c -> forAll Generate.parameter $ \t ->
           let u = Generate.parameterOf c t
-              Mm l = Curve.lengthTo c u
+              Mm l = Curve.lengthAt c u
               byChords = chordSum c u
            in counterexample (show (l, byChords)) (abs (l - byChords) < 1e-6)
     it
@@ -145,7 +145,7 @@ spec = do
            in counterexample (show (l, byChords)) (abs (l - byChords) < 1e-7)
     it "is exact for lines and arcs" $
       property $
-        forAll Generate.chain $ \c ->
+        forAll Generate.toSegments $ \c ->
           let Mm l = Curve.length c
               known = sum [spanLength s | s <- toList (Base.spans (Curve.base c))]
            in counterexample (show (l, known)) (abs (l - known) < 1e-8)
@@ -154,7 +154,7 @@ spec = do
         forAll ((,) <$> choose (1, 50) <*> choose (1, 80)) $ \(p, x) ->
           let c =
                 Generate.ok
-                  (Curve.ofPieces (Quadratic (1 / (2 * p)) 0 0 0 x :| []) (Exts.fromList [0, 1]))
+                  (Curve.fromShapes (Quadratic (1 / (2 * p)) 0 0 0 x :| []) (Exts.fromList [0, 1]))
               Mm l = Curve.length c
               t = x / p
            in counterexample (show l) (abs (l - p / 2 * (t * sqrt (1 + t * t) + asinh t)) < 1e-8)
@@ -162,7 +162,7 @@ spec = do
       property $
         forAll (Generate.layered 2 Generate.anyCurve) $ \c -> forAll Generate.parameter $ \t ->
           let u = Generate.parameterOf c t
-              back = Curve.alongTo c (Curve.lengthTo c u)
+              back = Curve.parameterAtLength c (Curve.lengthAt c u)
            in counterexample (show (u, back)) (abs (back - u) < 1e-7)
 
   describe "searches on a curve" $ do
@@ -174,12 +174,12 @@ spec = do
                 u = Curve.nearest p c
                 found =
                   minimum
-                    [Vec.distance p (Curve.placeFrom approach c u) | approach <- [Before, After]]
+                    [Vec.distance p (Curve.pointFrom approach c u) | approach <- [Before, After]]
                 sampled =
                   minimum
                     [ Vec.distance
                         p
-                        (Curve.placeFrom approach c (Generate.parameterOf c (k / 1500)))
+                        (Curve.pointFrom approach c (Generate.parameterOf c (k / 1500)))
                       | k <- [0 .. 1500],
                         approach <- [Before, After]
                     ]
@@ -216,10 +216,10 @@ spec = do
                     let a' = a + step * fromIntegral k
                 ]
            in conjoin
-                [ counterexample (show u) (abs (Vec.x (Curve.placeFrom approach c u) - x) < 1e-6)
+                [ counterexample (show u) (abs (Vec.x (Curve.pointFrom approach c u) - x) < 1e-6)
                   | u <- found,
                     let approach =
-                          if u `elem` bs && abs (Vec.x (Curve.placeFrom Before c u) - x) < 1e-6
+                          if u `elem` bs && abs (Vec.x (Curve.pointFrom Before c u) - x) < 1e-6
                             then Before
                             else After
                 ]
@@ -271,7 +271,7 @@ spec = do
         forAll Generate.polyline $ \c ->
           let turned u =
                 let Rad a =
-                      Vec.turn (Curve.tangentFrom Before c u) (Curve.tangentFrom After c u)
+                      Vec.signedAngle (Curve.tangentFrom Before c u) (Curve.tangentFrom After c u)
                  in abs a > 1e-6
               inner = map fromIntegral [1 .. Curve.spans c - 1]
            in Curve.corners c === [0 | Curve.isClosed c, turned 0] <> filter turned inner
@@ -312,7 +312,7 @@ spec = do
         forAll (Generate.layered 3 Generate.anyCurve) $ \c -> forAll Generate.parameter $ \t ->
           let u = Generate.parameterOf c t
               n = Curve.domain c
-           in close 1e-6 (Curve.placeFrom Before (Curve.reversed c) (n - u)) (Curve.at c u)
+           in close 1e-6 (Curve.pointFrom Before (Curve.reversed c) (n - u)) (Curve.at c u)
     it "every kind of curve occurs" $
       checkCoverage $
         forAll Generate.anyCurve $ \c ->
@@ -340,13 +340,13 @@ spec = do
       Curve.parabola (Exts.fromList [Vec.point 0 0, Vec.point 2 1, Vec.point 1 2])
         `shouldBe` Left (NotMonotone 2)
     it "spans that do not join, and a span without length" $ do
-      Curve.ofPieces
+      Curve.fromShapes
         (Line (Vec.point 0 0) (Vec.point 1 0) :| [Line (Vec.point 1 1) (Vec.point 2 0)])
         (Exts.fromList [])
         `shouldBe` Left (Disjoint 1)
-      Curve.ofPieces (Quadratic 1 2 3 4 4 :| []) (Exts.fromList []) `shouldBe` Left (NoLength 1)
+      Curve.fromShapes (Quadratic 1 2 3 4 4 :| []) (Exts.fromList []) `shouldBe` Left (NoLength 1)
     it "rows out of order" $
-      Curve.ofPieces (Line (Vec.point 0 0) (Vec.point 1 0) :| []) (Exts.fromList [0, 0.5, 0.4])
+      Curve.fromShapes (Line (Vec.point 0 0) (Vec.point 1 0) :| []) (Exts.fromList [0, 0.5, 0.4])
         `shouldBe` Left (Disordered 2)
     it "an end direction that is a zero vector" $
       Curve.spline
@@ -394,8 +394,8 @@ periodicLaw c =
     [ alike 1e-8 (firstBy (chord c (u - 1)) arriving) (firstBy (chord c u) leaving)
         .&&. alike 1e-8 (secondBy (chord c (u - 1)) arriving) (secondBy (chord c u) leaving)
       | u <- map fromIntegral [1 .. Curve.spans c - 1],
-        let arriving = Curve.jet Before 2 c u,
-        let leaving = Curve.jet After 2 c u
+        let arriving = Curve.expansion Before 2 c u,
+        let leaving = Curve.expansion After 2 c u
     ]
 
 -- | Arc length up to a parameter: Richardson extrapolation of two chord sums.
@@ -412,7 +412,7 @@ chordsBetween c a b = fine + (fine - chords 300) / 3
     chords n =
       let place k =
             if k == n
-              then Curve.placeFrom Before c b
+              then Curve.pointFrom Before c b
               else Curve.at c (a + (b - a) * fromIntegral k / fromIntegral n)
        in sum [let Mm d = Vec.distance (place k) (place (k + 1)) in d | k <- [0 .. n - 1 :: Int]]
 
@@ -450,7 +450,7 @@ template =
 -- | @a, b, c@ of every parabola, from three of its points.
 coefficients :: Curve -> [(Double, Double, Double)]
 coefficients c =
-  [ ofThree (Curve.at c u) (Curve.at c (u + 0.3)) (Curve.placeFrom Before c (u + 1))
+  [ ofThree (Curve.at c u) (Curve.at c (u + 0.3)) (Curve.pointFrom Before c (u + 1))
     | u <- map fromIntegral [0 .. Curve.spans c - 1]
   ]
   where

@@ -45,7 +45,7 @@ spec = describe "a flat polyarc" $ do
   it "of a polyarc is as long (catches an arc divided at the wrong point)" $
     property . forAll Generate.closedCase $ \c ->
       let contour = Generate.contour c
-          (o, numbers) = FlatPolyarc.fromContour contour
+          (o, numbers) = FlatPolyarc.fromPolyarc contour
           Mm whole =
             foldr (plus . Segment.length) (Mm 0) (NonEmpty.toList (Polyarc.segments contour))
        in near (len o) whole
@@ -58,7 +58,8 @@ spec = describe "a flat polyarc" $ do
     near a b = counterexample (show (a, b)) (abs (a - b) < 1e-9 * (1 + abs a + abs b))
     plus (Mm a) (Mm b) = Mm (a + b)
     -- The last bulge of an open polyarc has no meaning.
-    lastless o = FlatPolyarc.outline (FlatPolyarc.ends o) (withoutLast (FlatPolyarc.vertices o))
+    lastless o =
+      FlatPolyarc.fromVertices (FlatPolyarc.ends o) (withoutLast (FlatPolyarc.vertices o))
     withoutLast vs = case reverse vs of
       (x, y, _) : rest -> reverse ((x, y, 0) : rest)
       [] -> []

@@ -22,7 +22,7 @@ spec = describe "a contour" $ do
     \without an arc's sagitta, and the closing segment of an open one)"
     $ property $
       forAll contour $ \c ->
-        let found = SelfIntersection.selfCrossing c
+        let found = SelfIntersection.firstSelfIntersection c
             meet = meetings c
          in checkCoverage
               . cover 20 (isJust found) "crosses"
@@ -31,7 +31,7 @@ spec = describe "a contour" $ do
               $ null meet || isJust found
   it "crosses itself nowhere else (catches neighbours that meet where they are joined)" $
     property $
-      forAll contour $ \c -> case SelfIntersection.selfCrossing c of
+      forAll contour $ \c -> case SelfIntersection.firstSelfIntersection c of
         Just (i, j, p) ->
           counterexample
             (show (i, j, p))
@@ -52,7 +52,10 @@ spec = describe "a contour" $ do
           let q = Vec.point 300 (-20)
               p = Vec.shift (Vec.polar (Mm l) (Rad a)) q
               r = Vec.shift (Vec.polar (Mm m) (Rad (a + away))) q
-           in isJust (SelfIntersection.selfCrossing (Polyarc Open (Straight p q :| [Straight q r])))
+           in isJust
+                ( SelfIntersection.firstSelfIntersection
+                    (Polyarc Open (Straight p q :| [Straight q r]))
+                )
                 === (away == 0)
 
 -- | The points at which segments that are not neighbours meet, pair by pair.
@@ -62,7 +65,7 @@ meetings (Polyarc ends ss) =
     | (i, s) <- numbered,
       (j, other) <- drop (i + 2) numbered,
       not (ends == Closed && i == 0 && j == length ss - 1),
-      p <- Distance.crossings s other
+      p <- Distance.intersections s other
   ]
   where
     numbered = zip [0 ..] (NonEmpty.toList ss)

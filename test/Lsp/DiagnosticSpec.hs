@@ -40,7 +40,7 @@ text' = "🙂\r\nx"
 
 -- | The document, and after it a file that it imports.
 source :: Source
-source = Region.add "/tmp/ж.part" "a\nbcd" (Region.fromText "/tmp/a.part" text')
+source = Region.addFile "/tmp/ж.part" "a\nbcd" (Region.fromText "/tmp/a.part" text')
 
 shown :: Report -> [(Value, Value)]
 shown r =

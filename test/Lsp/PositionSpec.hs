@@ -51,7 +51,7 @@ spec = do
       ]
         `shouldBe` [4, 4, 4, 4]
   it "finds the file of a region" $
-    let source = Region.add "b" "cd" (Region.fromText "a" "xy\n")
+    let source = Region.addFile "b" "cd" (Region.fromText "a" "xy\n")
      in map
           (\r -> (Position.fileOf source r, Position.position source (start r)))
           [Region 1 2, Region 5 6]

@@ -9,7 +9,7 @@ import Data.Either (lefts)
 import Data.List (sort)
 import Data.Text (Text)
 import Data.Text qualified as Text
-import Files (readText, walk)
+import Files (filesBelow, readText)
 import Lsp.Message (ErrorCode (..), Failure (..), Incoming (..), Outgoing (..))
 import Lsp.Session (Effect (..), Ending (..))
 import Lsp.Talk
@@ -197,7 +197,7 @@ spec = do
                 found === squiggles final,
                 version === Number (fromIntegral (1 + length steps))
               ]
-    programs <- runIO (sort . filter ((== ".part") . takeExtension) <$> walk "test/programs")
+    programs <- runIO (sort . filter ((== ".part") . takeExtension) <$> filesBelow "test/programs")
     it "have the regions and codes of the command line's reports, for all test programs" $
       forM_ programs $ \file -> do
         text <- readText file

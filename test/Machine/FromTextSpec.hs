@@ -14,7 +14,7 @@ import Data.Maybe (fromMaybe, isJust)
 import Data.Text (Text)
 import Data.Text qualified as Text
 import Data.Word (Word8)
-import Files (expected, readText, walk)
+import Files (expected, filesBelow, readText)
 import Generate.Machine (machine)
 import Machine.BuiltIn qualified as BuiltIn
 import Machine.Error (Error)
@@ -34,11 +34,12 @@ spec :: Spec
 spec = do
   describe "the machines that partc has" builtInMachines
   describe "wrong descriptions give their reports, and no machine" $ do
-    files <- runIO (sort . filter ((== ".machine") . takeExtension) <$> walk "test/machines/bad")
+    files <-
+      runIO (sort . filter ((== ".machine") . takeExtension) <$> filesBelow "test/machines/bad")
     forM_ files $ \file -> it file $ do
       text <- readText file
       let outcome = reading text
-      Result.settled outcome `shouldBe` Nothing
+      Result.ifSound outcome `shouldBe` Nothing
       let source = Region.fromText (Text.pack file) text
       expected
         (file -<.> "report")
@@ -87,7 +88,7 @@ builtInMachines = do
                    "n55"
                  ]
   it "list the origin of their values: more than 30 each (a value without its history)" $
-    forM_ BuiltIn.machines $ \m -> length (facts m) `shouldSatisfy` (> 30)
+    forM_ BuiltIn.machines $ \m -> length (describedValues m) `shouldSatisfy` (> 30)
   it "5121 is Table 6 of the Ural paper (a digit punched as another)" $
     forM_ ["lkp-01f", "lki-u"] $ \n ->
       rows n "0123456789" `shouldBe` [0x0, 0x1, 0x5, 0x6, 0x7, 0x8, 0x9, 0xA, 0xB, 0xF]
@@ -102,13 +103,13 @@ builtInMachines = do
   it "ISO-7bit has the holes that the course prints for X, 3 and + (a wrong parity)" $
     map (holesOf "n55") "X3+" `shouldBe` [[4, 5, 7, 8], [1, 2, 5, 6], [1, 2, 4, 6]]
   it "frames of lkp-01f have four digits of x, four of y, three of z and one of speed" $
-    fmap (\m -> [(contentWord (content w), digits (form w)) | w <- wordsOf m]) (found "lkp-01f")
+    fmap (\m -> [(contentName (content w), digits (form w)) | w <- wordsOf m]) (found "lkp-01f")
       `shouldBe` Just [("x", 4), ("y", 4), ("z", 3), ("feed", 1)]
   it "lkp-01f is not known to move z, and Контур-2П has none" $
-    map (fmap driven . found) ["lkp-01f", "kontur-2p", "kontur-3p"]
+    map (fmap drivenAxes . found) ["lkp-01f", "kontur-2p", "kontur-3p"]
       `shouldBe` [Just [X, Y], Just [X, Y], Just [X, Y, Z]]
   it "pulses are those of the table of machines (a part of another size)" $
-    [fmap (\m -> let Mm p = pulse m in p) (BuiltIn.find n) | n <- BuiltIn.names]
+    [fmap (\m -> let Mm p = planeResolution m in p) (BuiltIn.find n) | n <- BuiltIn.names]
       `shouldBe` map Just [0.001, 0.01, 0.01, 0.02, 0.02, 0.01, 0.02, 0.01]
   it "feeds are those of the tables (another feed than asked)" $ do
     fmap (`valueOf` FeedCode 5) (found "lkp-01f") `shouldBe` Just (Just 60)
@@ -132,7 +133,7 @@ builtInMachines = do
     rows n cs = case found n of
       Just m -> [p | c <- cs, Just p <- [Map.lookup c (symbols (code m))]]
       Nothing -> []
-    capacity' m n = orderCapacity m (CommandName n)
+    capacity' m n = commandCapacity m (CommandName n)
     choose' = Machine.choose
     holesOf n c = case found n of
       Just m
@@ -151,7 +152,8 @@ laws = do
       let outcome = reading (toText m)
        in counterexample
             (Text.unpack (toText m <> "\n" <> Text.unlines (map titleOf (errors outcome))))
-            $ fmap (\read' -> read' {facts = []}) (Result.settled outcome) === Just m {facts = []}
+            $ fmap (\read' -> read' {describedValues = []}) (Result.ifSound outcome)
+              === Just m {describedValues = []}
   it
     "no text stops the reader, and what it says lies in the text (an exception, a report beside \
     \the file)"
@@ -165,7 +167,7 @@ laws = do
               w <- take 1 (Text.words l),
               w `elem` requiredKeys
           ]
-        isAccepted ls' = isJust (Result.settled (reading (Text.unlines ls')))
+        isAccepted ls' = isJust (Result.ifSound (reading (Text.unlines ls')))
     [l | k <- needed, (front, l : rest) <- [splitAt k ls], isAccepted (front <> rest)]
       `shouldBe` []
   where
@@ -208,8 +210,8 @@ provenanceLaws = do
   where
     valuesOf text =
       [ (mark, fact)
-        | Just m <- [Result.settled (reading text)],
-          DescribedValue mark fact <- facts m
+        | Just m <- [Result.ifSound (reading text)],
+          DescribedValue mark fact <- describedValues m
       ]
     isPresenceOfWord fact =
       "when" `Text.isInfixOf` fact
@@ -251,7 +253,7 @@ furnished m = do
         braking = Braking a (if canBrakeByFrames then brakingForm' else ByControl),
         limits = Limits contours,
         feeds = (feeds m) {feedMeasure = measured, rule = rounding, rapidFeed = rapid'},
-        orders = orders'
+        commandWords = orders'
       }
 
 -- | Random commands for the words and bits of a machine.
@@ -273,7 +275,7 @@ commandsFor m = do
           compensation = compensationBy m n <$ compensated,
           finish = [o NonEmpty.:| [] | Just o <- ends]
         }
-    _ -> noOrders
+    _ -> noCommandWords
   where
     names = namesOfCommands m
     event = sublistOf names >>= traverse (commandWord m)
@@ -291,7 +293,7 @@ namesOfCommands m =
   nub
     [ n
       | w <- wordsOf m,
-        CommandName n <- [o | Command o <- [content w]] <> [o | OrderBit o _ <- service (form w)],
+        CommandName n <- [o | Command o <- [content w]] <> [o | CommandBit o _ <- service (form w)],
         leastNumber m n <= mostNumber m n
     ]
 
@@ -318,11 +320,11 @@ fixedWord m n
 
 -- | Least number of a command. In a word of every frame, 0 means that no command is given.
 leastNumber :: Machine -> Text -> Int
-leastNumber m n = if canOrder m (CommandName n) 0 then 0 else 1
+leastNumber m n = if canEncode m (CommandName n) 0 then 0 else 1
 
 -- | Largest number of a command.
 mostNumber :: Machine -> Text -> Int
-mostNumber m n = fromMaybe 0 (orderCapacity m (CommandName n))
+mostNumber m n = fromMaybe 0 (commandCapacity m (CommandName n))
 
 -- | Changes a random machine into one that a description can express. An axis has the resolution of
 -- the last decimal of its word. A feed word is in frames with a new feed, and a command word in
@@ -338,7 +340,7 @@ describable m =
             content w `elem` [Along (axis a), Centre (axis a)],
             decimals (form w) > 0
         ] of
-        k : _ -> a {step = Mm (10 ^^ negate k)}
+        k : _ -> a {resolution = Mm (10 ^^ negate k)}
         [] -> a
     fitting item = case item of
       AWord w -> AWord w {presence = expressible (content w) (presence w)}

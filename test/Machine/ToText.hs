@@ -28,7 +28,7 @@ toText m =
         <> block "frame" (frameLines (layout m))
         <> block "feeds" (feedLines (feeds m))
         <> block "braking" (brakingLines (braking m))
-        <> block "commands" (commandLines (orders m))
+        <> block "commands" (commandLines (commandWords m))
         <> block "limits" ["contours " <> Decimal.whole k | Just k <- [mostContours (limits m)]]
     )
   where
@@ -78,11 +78,11 @@ codeLines n c =
 axisLines :: AxisForm -> [Text]
 axisLines a =
   block
-    ("axis " <> contentWord (Along (axis a)))
-    ( ["pulse " <> millimetres (step a)]
+    ("axis " <> contentName (Along (axis a)))
+    ( ["pulse " <> millimetres (resolution a)]
         <> ["direction reversed" | reversed a]
         <> ["lathe reversed" | reversedOnLathe a]
-        <> ["moves unsure" | not (moves a)]
+        <> ["moves unsure" | not (isDriven a)]
     )
 
 arcsText :: Arcs -> Text
@@ -115,8 +115,8 @@ contentText :: Content -> Text
 contentText c = case c of
   FrameNumber -> "frame-number"
   Motion _ -> "motion"
-  Along _ -> "along " <> contentWord c
-  Centre _ -> contentWord c
+  Along _ -> "along " <> contentName c
+  Centre _ -> contentName c
   FeedWord -> "feed"
   Command (CommandName n) -> "command " <> quoted n
 
@@ -150,7 +150,7 @@ wordLines w =
       Priority a b c d -> Just ("priority " <> Text.unwords (map Decimal.whole [a, b, c, d]))
     serviceText s = case s of
       MinusHole -> "minus"
-      OrderBit (CommandName n) k -> quoted n <> ":" <> Decimal.whole k
+      CommandBit (CommandName n) k -> quoted n <> ":" <> Decimal.whole k
       Marker -> "marker"
       BrakingHole -> "braking"
       NoHole -> "-"
@@ -190,9 +190,9 @@ commandLines o =
     <> concat
       [ block
           "compensation"
-          ( block "left" (commandWordLines (keepLeft c))
-              <> block "right" (commandWordLines (keepRight c))
-              <> block "off" (commandWordLines (release c))
+          ( block "left" (commandWordLines (compensateLeft c))
+              <> block "right" (commandWordLines (compensateRight c))
+              <> block "off" (commandWordLines (cancelCompensation c))
           )
         | Just c <- [compensation o]
       ]

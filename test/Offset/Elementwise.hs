@@ -25,7 +25,7 @@ elementwise :: CornerStyle -> Side -> Mm -> Polyarc -> NonEmpty OffsetSegment
 elementwise style side radius (Polyarc ends segments) =
   maybe
     (moved side (radiusAt style radius 0) 0 (NonEmpty.head segments) :| [])
-    (Polyarc.chained segment (\s p -> p {segment = s}) ends)
+    (Polyarc.closeGaps segment (\s p -> p {segment = s}) ends)
     (NonEmpty.nonEmpty (filter isLong (concatMap pieces [0 .. count - 1])))
   where
     isLong p = Segment.length (segment p) > Tolerance.coincident
@@ -80,7 +80,7 @@ corner style side radius i j before after
     r1 = radiusAt style radius i
     r2 = radiusAt style radius j
     Rad smooth = Tolerance.smoothAngle
-    Rad turned = Vec.turn before' after'
+    Rad turned = Vec.signedAngle before' after'
     before' = Segment.endDirection before
     after' = Segment.startDirection after
     vertex = Segment.end before

@@ -224,7 +224,7 @@ cutOff c =
   or
     [ turned * (if side c == LeftOf then 1 else -1) > 1e-6
       | (a, b) <- zip ss (drop 1 ss <> take 1 ss),
-        let Rad turned = Vec.turn (Segment.endDirection a) (Segment.startDirection b)
+        let Rad turned = Vec.signedAngle (Segment.endDirection a) (Segment.startDirection b)
     ]
   where
     ss = NonEmpty.toList (segments (contour c))
@@ -238,8 +238,8 @@ lengthLaw c = counterexample (show (len, old, r)) (abs (len - (old + sign * 2 * 
     outside = (Polyarc.signedArea (contour c) > 0) == (side c == RightOf)
     sign = if outside then 1 else -1
 
--- | At a corner between two elements, at least one of them an arc, that is so slight that the cutter
--- passes it, the centre is at the radius from both.
+-- | At a corner between two elements, at least one of them an arc, that is so slight that the
+-- cutter passes it, the centre is at the radius from both.
 slightCornerLaw :: Property
 slightCornerLaw =
   forAll (choose (2e-7, 0.0039)) $ \turned ->

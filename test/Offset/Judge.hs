@@ -44,7 +44,8 @@ data Verdict
   deriving stock (Eq, Show)
 
 answer :: Case -> Either OffsetFault Kernel.ReachableRegion
-answer c = Kernel.offset (Kernel.plain (side c) (Mm (radius c))) {Kernel.extra = more} (outlines c)
+answer c =
+  Kernel.offset (Kernel.roundOffset (side c) (Mm (radius c))) {Kernel.extra = more} (outlines c)
   where
     more = case extras c of
       [] -> Nothing
@@ -64,7 +65,7 @@ judge c = case answer c of
   Left fault
     | sound c -> Wrong ("fault of a sound source: " <> show fault)
     | apart c -> Wrong ("fault of a source whose segments keep apart: " <> show fault)
-    | Crossed i j <- fault, not (meeting i j) -> Wrong ("no crossing: " <> show fault)
+    | SelfIntersecting i j <- fault, not (meeting i j) -> Wrong ("no crossing: " <> show fault)
     | otherwise -> Refused
   Right reach -> case places c reach of
     Left problem -> Wrong problem
@@ -110,7 +111,7 @@ consistent c = case answer c of
               | otherwise ->
                 [name <> " area " <> show (Loop.area (Kernel.loops r)) <> " not " <> show total]
       perimeter =
-        size + sum [l | o <- Loop.outlines (Kernel.loops reach), let Mm l = FlatPolyarc.length o]
+        size + sum [l | o <- Loop.polyarcs (Kernel.loops reach), let Mm l = FlatPolyarc.length o]
       exactly r =
         [ twin "quarter" quarter False r,
           twin "half" (quarter . quarter) False r,
@@ -121,8 +122,8 @@ consistent c = case answer c of
           c {outlines = map f (outlines c), side = if flipped then other (side c) else side c} of
           Left fault -> [name <> ": " <> show fault]
           Right r'
-            | cyclic (map f (Loop.outlines (Kernel.loops r)))
-                == cyclic (Loop.outlines (Kernel.loops r')) ->
+            | cyclic (map f (Loop.polyarcs (Kernel.loops r)))
+                == cyclic (Loop.polyarcs (Kernel.loops r')) ->
               []
             | otherwise ->
               [ name
@@ -131,15 +132,19 @@ consistent c = case answer c of
                     ( take
                         2
                         ( zip
-                            (cyclic (map f (Loop.outlines (Kernel.loops r))))
-                            (cyclic (Loop.outlines (Kernel.loops r')))
+                            (cyclic (map f (Loop.polyarcs (Kernel.loops r))))
+                            (cyclic (Loop.polyarcs (Kernel.loops r')))
                         )
                     )
               ]
       quarter o =
-        FlatPolyarc.outline (FlatPolyarc.ends o) [(-y, x, b) | (x, y, b) <- FlatPolyarc.vertices o]
+        FlatPolyarc.fromVertices
+          (FlatPolyarc.ends o)
+          [(-y, x, b) | (x, y, b) <- FlatPolyarc.vertices o]
       mirror o =
-        FlatPolyarc.outline (FlatPolyarc.ends o) [(-x, y, -b) | (x, y, b) <- FlatPolyarc.vertices o]
+        FlatPolyarc.fromVertices
+          (FlatPolyarc.ends o)
+          [(-x, y, -b) | (x, y, b) <- FlatPolyarc.vertices o]
       cyclic = sort . map (canonical . FlatPolyarc.vertices)
       canonical vs =
         let n = length vs; best = snd (minimum (zip vs [0 ..])) in take n (drop best (cycle vs))
@@ -152,7 +157,7 @@ other s = case s of
 -- | Begun at another vertex.
 fromVertex :: Int -> FlatPolyarc -> FlatPolyarc
 fromVertex k o =
-  FlatPolyarc.outline
+  FlatPolyarc.fromVertices
     (FlatPolyarc.ends o)
     (let (a, b) = splitAt k (FlatPolyarc.vertices o) in b <> a)
 
@@ -175,18 +180,18 @@ rounds c = case answer c of
     where
       size = scaleOf c
       total = Loop.area (Kernel.loops reach)
-      go s d os = Kernel.loops <$> Kernel.offset (Kernel.plain s (Mm d)) os
+      go s d os = Kernel.loops <$> Kernel.offset (Kernel.roundOffset s (Mm d)) os
       steps =
         close
           "in two steps"
           ( go (side c) (0.375 * radius c) (outlines c)
-              >>= go (side c) (0.625 * radius c) . Loop.outlines
+              >>= go (side c) (0.625 * radius c) . Loop.polyarcs
           )
       back r =
         close
           "there and back"
-          ( go (other (side c)) (radius c) (Loop.outlines (Kernel.loops r))
-              >>= go (side c) (radius c) . Loop.outlines
+          ( go (other (side c)) (radius c) (Loop.polyarcs (Kernel.loops r))
+              >>= go (side c) (radius c) . Loop.polyarcs
           )
       close name r = case r of
         Left fault -> [name <> ": " <> show fault]
@@ -205,8 +210,8 @@ identity c = case answer c >>= offset' (other (side c)) (radius c) . loopsOf of
     | otherwise ->
       maybe (Right' 1) Wrong (listToMaybe (concatMap (again (loopsOf reach)) [0.9, 0.35]))
   where
-    loopsOf = Loop.outlines . Kernel.loops
-    offset' s d = Kernel.offset (Kernel.plain s (Mm d))
+    loopsOf = Loop.polyarcs . Kernel.loops
+    offset' s d = Kernel.offset (Kernel.roundOffset s (Mm d))
     again swept part =
       case offset' (side c) (part * radius c) swept
         >>= offset' (other (side c)) (part * radius c) . loopsOf of
@@ -236,7 +241,7 @@ uncrossed c = case answer c of
   Left _ -> Refused
   Right reach ->
     let segments =
-          concatMap (FlatPolyarc.segments . straightened) (Loop.outlines (Kernel.loops reach))
+          concatMap (FlatPolyarc.segments . straightened) (Loop.polyarcs (Kernel.loops reach))
      in maybe
           (Right' (length segments))
           Wrong
@@ -244,7 +249,7 @@ uncrossed c = case answer c of
               [ show a <> " crosses " <> show b <> " at " <> show p
                 | a : more <- tails segments,
                   b <- more,
-                  p <- Distance.crossings a b,
+                  p <- Distance.intersections a b,
                   all (clearly p) [a, b],
                   slant a b p
               ]
@@ -271,7 +276,7 @@ stays c = case answer c {radius = 0} of
     let same :: String -> (FlatPolyarc -> Double) -> Double -> [String]
         same name f allowed =
           [ name <> " " <> show (total os) <> " not " <> show (total (outlines c))
-            | let os = Loop.outlines (Kernel.loops reach); total = sum . map f,
+            | let os = Loop.polyarcs (Kernel.loops reach); total = sum . map f,
               abs (total os - total (outlines c)) > allowed
           ]
      in maybe
@@ -315,7 +320,7 @@ apart c =
 -- | Arcs that are nearly their chords are chords: distances by centres lose their digits there.
 straightened :: FlatPolyarc -> FlatPolyarc
 straightened o =
-  FlatPolyarc.outline
+  FlatPolyarc.fromVertices
     (FlatPolyarc.ends o)
     [(x, y, if abs b < 2e-6 then 0 else b) | (x, y, b) <- FlatPolyarc.vertices o]
 
@@ -330,7 +335,7 @@ places c reach =
     (firstJust boundary result <|> firstJust beside spots <|> firstJust thin loops)
   where
     firstJust f = listToMaybe . mapMaybe f
-    loops = Loop.outlines (Kernel.loops reach)
+    loops = Loop.polyarcs (Kernel.loops reach)
     result = concatMap Naive.pieces loops
     sources = concatMap Naive.pieces (outlines c)
     isOpen = any ((== Open) . FlatPolyarc.ends) (outlines c)

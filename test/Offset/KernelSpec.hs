@@ -106,7 +106,7 @@ spec = do
       "far out: short arcs that go over into lines leave no corners, nor are any made and cut off \
       \again (catches directions that are compared more finely than they are known)"
       $ do
-        let made = Kernel.offset (Kernel.plain RightOf (Mm 3)) [lobes 10000]
+        let made = Kernel.offset (Kernel.roundOffset RightOf (Mm 3)) [lobes 10000]
         fmap (map FlatPolyarc.size . found) made `shouldBe` Right [20000]
         fmap (\reach -> sizeofPrimArray (ClosedPolyarcs.xs (Kernel.raw reach))) made
           `shouldBe` Right (20000 + 1)
@@ -157,14 +157,14 @@ spec = do
         (loopsOf LeftOf 1 [FlatPolyarc.reverse (square 0 0 2), FlatPolyarc.reverse (square 3 0 2)])
         `shouldBe` Right 1
     it "an outline in another one the wrong way is misplaced" $
-      loopsOf LeftOf 1 [square 0 0 10, square 4 4 2] `shouldBe` Left Misplaced
+      loopsOf LeftOf 1 [square 0 0 10, square 4 4 2] `shouldBe` Left WrongNesting
     it "corners that touch, and sides, are no fault" $
       fmap length (loopsOf RightOf 0.25 [square 0 0 1, square 1 1 1, square 1 0 1])
         `shouldBe` Right 1
     it "sharp corners stay where the ways meet" $
       fmap
         (map FlatPolyarc.vertices . found)
-        (Kernel.offset (Kernel.plain RightOf (Mm 1)) {corners = Sharp} [square 0 0 2])
+        (Kernel.offset (Kernel.roundOffset RightOf (Mm 1)) {corners = Sharp} [square 0 0 2])
         `nearly'` [(-1, -1), (3, -1), (3, 3), (-1, 3)]
     it
       "into a cusp nothing reaches: what is asked for there is not asked for behind it (catches a \
@@ -172,7 +172,7 @@ spec = do
       $ fmap
         (maximum . concatMap (\o -> [y | (_, y, _) <- FlatPolyarc.vertices o]) . found)
         ( Kernel.offset
-            (Kernel.plain RightOf (Mm 1))
+            (Kernel.roundOffset RightOf (Mm 1))
               { extra =
                   Just (\i -> Mm (if i == 1 || i == 2 then 4 else 0))
               }
@@ -182,15 +182,16 @@ spec = do
         )
         `nearly` Right 2.5
     it "an open line is gone round on both sides and at both ends" $
-      areaOf LeftOf 1 [FlatPolyarc.outline Open [(0, 0, 0), (5, 0, 0)]] `nearly` Right (-(10 + pi))
+      areaOf LeftOf 1 [FlatPolyarc.fromVertices Open [(0, 0, 0), (5, 0, 0)]]
+        `nearly` Right (-(10 + pi))
     it "the side of an open line does not matter but for the way round" $
-      areaOf RightOf 1 [FlatPolyarc.outline Open [(0, 0, 0), (5, 0, 0), (5, 5, 0)]]
+      areaOf RightOf 1 [FlatPolyarc.fromVertices Open [(0, 0, 0), (5, 0, 0), (5, 5, 0)]]
         `nearly` Right (20 + pi - 1 + pi / 4)
 
 -- | @n@ circles of radius 4 around a large one, joined by tangents.
 lobes :: Int -> FlatPolyarc
 lobes n =
-  FlatPolyarc.outline
+  FlatPolyarc.fromVertices
     Closed
     ( concat
         [ [at (a - half) k, at (a + half) 0]
@@ -277,10 +278,10 @@ degenerate =
     pairs os = [(o, p) | o : more <- tails os, p <- more]
 
 found :: Kernel.ReachableRegion -> [FlatPolyarc]
-found = Loop.outlines . Kernel.loops
+found = Loop.polyarcs . Kernel.loops
 
 loopsOf :: Side -> Double -> [FlatPolyarc] -> Either OffsetFault [FlatPolyarc]
-loopsOf s r os = found <$> Kernel.offset (Kernel.plain s (Mm r)) os
+loopsOf s r os = found <$> Kernel.offset (Kernel.roundOffset s (Mm r)) os
 
 areaOf :: Side -> Double -> [FlatPolyarc] -> Either OffsetFault Double
 areaOf s r os = sum . map FlatPolyarc.area <$> loopsOf s r os
@@ -359,7 +360,7 @@ side' (ax, ay) (bx, by) (cx, cy) = (bx - ax) * (cy - ay) - (by - ay) * (cx - ax)
 -- | The reported sides cross. Other sides may cross as well.
 crossedLaw :: (FlatPolyarc, Int, Int) -> Property
 crossedLaw (o, _, _) = case loopsOf LeftOf 0.1 [o] of
-  Left (Crossed i j) ->
+  Left (SelfIntersecting i j) ->
     counterexample (show (i, j)) (crossing (point i) (point (i + 1)) (point j) (point (j + 1)))
   other -> counterexample (show other) False
   where

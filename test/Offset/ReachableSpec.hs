@@ -53,12 +53,12 @@ spec = describe "laws of what can be reached" $ do
       let causes = map (cause . stop) (snd (reached s))
        in cover 30 (not (null causes)) "rests"
             . cover 20 (any isCorner causes) "corners"
-            . cover 0.5 (or [True | SameAs _ <- map standing (snd (reached s))]) "passages"
+            . cover 0.5 (or [True | SameAs _ <- map restMaterial (snd (reached s))]) "passages"
             . cover
               10
               ( ends (contour s) == Closed
                   && not (null causes)
-                  && notElem Unbounded (map standing (snd (reached s)))
+                  && notElem Unbounded (map restMaterial (snd (reached s)))
               )
               "bounded"
             . cover 2 (any isHollow causes) "hollows"
@@ -133,7 +133,7 @@ subject = do
                     (FlatPolyarc.segments (straightened o))
                 ),
             whole <- Polyarc (FlatPolyarc.ends o) ss,
-            Nothing <- SelfIntersection.selfCrossing whole ->
+            Nothing <- SelfIntersection.firstSelfIntersection whole ->
             pure whole
         _ -> outlined gen
 
@@ -166,7 +166,7 @@ rooms = do
 -- many digits.
 straightened :: FlatPolyarc -> FlatPolyarc
 straightened o =
-  FlatPolyarc.outline
+  FlatPolyarc.fromVertices
     (FlatPolyarc.ends o)
     [(x, y, if abs b < 1e-5 then 0 else b) | (x, y, b) <- FlatPolyarc.vertices o]
 
@@ -270,8 +270,8 @@ middleLaw :: Law
 middleLaw s =
   concatMap
     ( \r ->
-        [ "rest " <> show (cause (stop r)) <> " at " <> show (middle r) <> ": " <> show d
-          | d <- map (distanceTo (middle r) . (elementsOf s !!)) (touched (cause (stop r))),
+        [ "rest " <> show (cause (stop r)) <> " at " <> show (cutterCentre r) <> ": " <> show d
+          | d <- map (distanceTo (cutterCentre r) . (elementsOf s !!)) (touched (cause (stop r))),
             abs (d - radius s) > slack s
         ]
     )
@@ -286,7 +286,7 @@ middleLaw s =
 
 materialLaw :: Law
 materialLaw s
-  | ends (contour s) == Open || null ways || any ((== Unbounded) . standing) rests = []
+  | ends (contour s) == Open || null ways || any ((== Unbounded) . restMaterial) rests = []
   | otherwise =
     [ "stays " <> show stays <> ", reported " <> show told <> " at " <> show p
       | p <- places,
@@ -299,7 +299,7 @@ materialLaw s
   where
     (ways, rests) = reached s
     wayPieces = map segment (concatMap (NonEmpty.toList . pieces) ways)
-    outlines = [NonEmpty.toList outline | Within outline <- map standing rests]
+    outlines = [NonEmpty.toList outline | Within outline <- map restMaterial rests]
     -- Points on the cutter's side of the contour, nearer to it than the radius.
     places =
       [ p
@@ -320,12 +320,13 @@ boundaryLaw :: Law
 boundaryLaw s = concatMap one (snd (reached s))
   where
     rests = snd (reached s)
-    edgesIn chain = [a | a@Arc {centre} <- chain, any ((<= slack s) . gap centre . middle) rests]
-    one r = case standing r of
+    edgesIn chain =
+      [a | a@Arc {centre} <- chain, any ((<= slack s) . gap centre . cutterCentre) rests]
+    one r = case restMaterial r of
       Unbounded -> []
       SameAs p ->
         [ "the other place is none of them"
-          | null [() | o <- rests, middle o == p, Within _ <- [standing o]]
+          | null [() | o <- rests, cutterCentre o == p, Within _ <- [restMaterial o]]
         ]
       Within outline@(first :| more) ->
         let chain = NonEmpty.toList outline
@@ -335,11 +336,14 @@ boundaryLaw s = concatMap one (snd (reached s))
             ]
               <> [ "not the cutter's edge"
                    | Arc {centre, start} <- take 1 (reverse chain),
-                     gap centre (middle r) > slack s || abs (gap centre start - radius s) > slack s
+                     gap centre (cutterCentre r) > slack s
+                       || abs (gap centre start - radius s) > slack s
                  ]
               <> [ "it takes in the cutter: " <> show (cause (stop r))
                    | edge <- take 1 (reverse chain),
-                     WindingNumber.about (Vec.between (-0.5) (middle r) (Segment.at 0.5 edge)) chain
+                     WindingNumber.about
+                       (Vec.interpolate (-0.5) (cutterCentre r) (Segment.at 0.5 edge))
+                       chain
                        /= 0
                  ]
               <> [ "a path goes through it: " <> show (cause (stop r))

@@ -55,14 +55,14 @@ spec = describe "two segments" $ do
     $ length (met (39.99999, 31, 39.99999, 29, 0) (40, 30, 30, 30, 1e-10)) `shouldBe` 1
   describe "a part of an arc (catches half a turn without digits)" $ do
     it "of half a circle is half a circle" $
-      ClosedPolyarcs.part (pair (0, 0, 0, 0, 0) (1, -1, 1, 1, 1)) 2 1 (-1) 1 1 `shouldBe` 1
+      ClosedPolyarcs.partialBulge (pair (0, 0, 0, 0, 0) (1, -1, 1, 1, 1)) 2 1 (-1) 1 1 `shouldBe` 1
     it "of any arc from end to end has its bulge" $
       property . forAll (choose (-1, 1)) $ \b -> forAll (choose (0.1, 10)) $ \l ->
         let c =
               pair (0, 0, 0, 0, 0) (0, 0, l, l / 2, b)
          in counterexample
-              (show (ClosedPolyarcs.part c 2 0 0 l (l / 2)))
-              (abs (ClosedPolyarcs.part c 2 0 0 l (l / 2) - b) < 1e-12)
+              (show (ClosedPolyarcs.partialBulge c 2 0 0 l (l / 2)))
+              (abs (ClosedPolyarcs.partialBulge c 2 0 0 l (l / 2) - b) < 1e-12)
   where
     rough t = case t of
       Crosses x y s -> Crosses (round3 x) (round3 y) s
@@ -75,7 +75,7 @@ type Ends = (Double, Double, Double, Double, Double)
 
 -- | Two disjoint segments, numbered 0 and 2.
 pair :: Ends -> Ends -> ClosedPolyarcs
-pair a b = ClosedPolyarcs.apart [a, b]
+pair a b = ClosedPolyarcs.fromSeparateSegments [a, b]
 
 met :: Ends -> Ends -> [Meeting]
 met a b = sort $

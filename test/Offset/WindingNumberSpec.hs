@@ -19,12 +19,12 @@ spec = do
     it "are those of the naive count (catches an arc whose inside is forgotten)" $
       property . forAll Generate.problem $ \c -> forAll samplePoints $ \ps ->
         let os = Generate.outlines c
-            chain = ClosedPolyarcs.fromOutlines 1e-14 os
-            bs = SegmentTree.boxes 1e-14 chain
+            chain = ClosedPolyarcs.fromFlatPolyarcs 1e-14 os
+            bs = SegmentTree.build 1e-14 chain
             naive = concatMap Naive.pieces os
             at (u, v) =
               let (lx, ly, hx, hy) =
-                    SegmentTree.whole bs (,,,)
+                    SegmentTree.boundingBox bs (,,,)
                in (lx + u * (hx - lx), ly + v * (hy - ly))
          in conjoin
               [ counterexample
@@ -36,13 +36,13 @@ spec = do
               ]
     it "are so on the chord of an arc (catches a point that belongs to neither side)" $
       let chain =
-            ClosedPolyarcs.fromOutlines
+            ClosedPolyarcs.fromFlatPolyarcs
               1e-14
               [ Generate.loop [(2, 0, b), (0, 2, b), (-2, 0, b), (0, -2, b)],
                 Generate.loop [(3, 1, 1), (1, 1, 1)]
               ]
           b = tan (pi / 8)
-          bs = SegmentTree.boxes 0 chain
+          bs = SegmentTree.build 0 chain
        in [ WindingNumber.at chain bs x y
             | (x, y) <- [(1, 1), (-1, 1), (-1, -1), (1, -1), (0.5, 1.5), (2, 1)]
           ]
@@ -51,25 +51,25 @@ spec = do
       "beside the outermost places of a simple outline are those of its sense (catches an arc \
       \taken for its chord)"
       $ property . forAll Generate.simple $ \o ->
-        let chain = ClosedPolyarcs.fromOutlines 1e-14 [o]
-            bs = SegmentTree.boxes 1e-14 chain
-         in map (\w -> leftMore (WindingNumber.extreme w chain bs 0)) [Leftmost, Rightmost]
+        let chain = ClosedPolyarcs.fromFlatPolyarcs 1e-14 [o]
+            bs = SegmentTree.build 1e-14 chain
+         in map (\w -> leftExcess (WindingNumber.extreme w chain bs 0)) [Leftmost, Rightmost]
               === [Just 1, Just 1]
     it
       "and also where its outermost place is a cusp (catches a walk that is taken to go back along \
       \itself, a cusp's side)"
       $ checkCoverage . forAll horn $ \o ->
-        let chain = ClosedPolyarcs.fromOutlines 1e-14 [o]
-            bs = SegmentTree.boxes 1e-14 chain
+        let chain = ClosedPolyarcs.fromFlatPolyarcs 1e-14 [o]
+            bs = SegmentTree.build 1e-14 chain
             ends = map (\w -> WindingNumber.extreme w chain bs 0) [Leftmost, Rightmost]
             atTip e = abs (x e) + abs (y e) < 1e-9
          in cover 30 (any atTip ends) "at the tip" $
-              map leftMore ends
+              map leftExcess ends
                 === (if FlatPolyarc.area o > 0 then [Just 1, Just 1] else [Just 0, Just 0])
     it "a circle is leftmost in the middle of an arc" $
-      let chain = ClosedPolyarcs.fromOutlines 1e-14 [Generate.loop [(0, -1, 1), (0, 1, 1)]]
-          e = WindingNumber.extreme Leftmost chain (SegmentTree.boxes 0 chain) 0
-       in (segment e, x e, abs (y e) < 1e-15, leftMore e) `shouldBe` (1, -1, True, Just 1)
+      let chain = ClosedPolyarcs.fromFlatPolyarcs 1e-14 [Generate.loop [(0, -1, 1), (0, 1, 1)]]
+          e = WindingNumber.extreme Leftmost chain (SegmentTree.build 0 chain) 0
+       in (segment e, x e, abs (y e) < 1e-15, leftExcess e) `shouldBe` (1, -1, True, Just 1)
   describe "boxes" $
     it
       "around a place are those that a look at all of them finds (catches a level that is cut \
@@ -77,10 +77,10 @@ spec = do
       $ property . forAll Generate.simple $ \o ->
         forAll (choose (-8, 8)) $ \px ->
           forAll (choose (-8, 8)) $ \py -> forAll (choose (0, 4)) $ \r ->
-            let chain = ClosedPolyarcs.fromOutlines 1e-14 [o]
-                bs = SegmentTree.boxes 0 chain
+            let chain = ClosedPolyarcs.fromFlatPolyarcs 1e-14 [o]
+                bs = SegmentTree.build 0 chain
                 hit i =
-                  SegmentTree.leaf
+                  SegmentTree.segmentBoxWithMargin
                     bs
                     i
                     (\lx ly hx hy -> lx <= px + r && px - r <= hx && ly <= py + r && py - r <= hy)
@@ -119,10 +119,10 @@ horn = do
   back <- arbitrary
   let sweep k = asin k
       height k = if k == 0 then 0 else (1 - cos (sweep k)) / k
-      place (px, py, b) = (px * cos angle - py * sin angle, px * sin angle + py * cos angle, b)
+      parameter (px, py, b) = (px * cos angle - py * sin angle, px * sin angle + py * cos angle, b)
       corners =
         map
-          place
+          parameter
           [ (0, 0, tan (sweep low / 4)),
             (1, height low, 0),
             (1, height high, negate (tan (sweep high / 4)))
@@ -132,9 +132,9 @@ horn = do
 
 numbersOf :: [FlatPolyarc] -> Maybe (Int, Int)
 numbersOf os =
-  Arrangement.numbers <$> Arrangement.arrange 1e-12 chain (SegmentTree.boxes 1e-12 chain)
+  Arrangement.windingNumbers <$> Arrangement.arrange 1e-12 chain (SegmentTree.build 1e-12 chain)
   where
-    chain = ClosedPolyarcs.fromOutlines 1e-14 os
+    chain = ClosedPolyarcs.fromFlatPolyarcs 1e-14 os
 
 square :: Double -> Double -> Double -> FlatPolyarc
 square x y a = Generate.loop [(x, y, 0), (x + a, y, 0), (x + a, y + a, 0), (x, y + a, 0)]

@@ -226,7 +226,7 @@ offCurve p c = p `apart` Curve.at c (Curve.nearest p c)
 lengthBetween :: Point -> Point -> Curve -> Double
 lengthBetween p q c = abs (at p - at q)
   where
-    at x = let Mm s = Curve.lengthTo c (Curve.nearest x c) in s
+    at x = let Mm s = Curve.lengthAt c (Curve.nearest x c) in s
 
 lengthOf :: Segment -> Double
 lengthOf s = let Mm l = Segment.length s in l
@@ -423,7 +423,7 @@ pieceCase = do
       pure
         [ Vec.point (digits (Vec.x p)) (digits (Vec.y p))
           | p <-
-              if length ps > 1 && Vec.near (head' ps) (last ps)
+              if length ps > 1 && Vec.isNear (head' ps) (last ps)
                 then drop 1 ps
                 else ps
         ]
@@ -588,4 +588,6 @@ milled text holds = maybe (counterexample (Text.unpack text) False) holds (cutsO
 -- | Tells whether two segments meet at a corner.
 isCorner :: Segment -> Segment -> Bool
 isCorner a b =
-  let Rad angle = Vec.turn (Segment.endDirection a) (Segment.startDirection b) in abs angle > 1e-3
+  let Rad angle =
+        Vec.signedAngle (Segment.endDirection a) (Segment.startDirection b)
+   in abs angle > 1e-3

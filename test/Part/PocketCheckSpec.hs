@@ -37,9 +37,9 @@ spec = do
       fmap
         ( \p ->
             ( map
-                (Segment.start . NonEmpty.head . Polyarc.segments . Part.outline)
+                (Segment.start . NonEmpty.head . Polyarc.segments . Part.polyarcOf)
                 (Part.islands p),
-              Part.apart p
+              Part.stepover p
             )
         )
         whole
@@ -57,13 +57,13 @@ spec = do
         `shouldBe` Just Part.Refused
     it "may be called pocket" $
       fmap
-        Part.apart
+        Part.stepover
         (pocketOf ["contour pocket closed { ccw circle((0, 0), 40) }", "pocket pocket step 4 { }"])
         `shouldBe` Just (Mm 4)
     -- Catches islands that are not transformed with the pocket.
     it "moves with its islands, but keeps its stepover" $
-      fmap (\p -> (starts (transformed p), Part.apart (transformed p))) whole
-        `shouldBe` fmap (\p -> (map (Transformation.point turn) (starts p), Part.apart p)) whole
+      fmap (\p -> (starts (transformed p), Part.stepover (transformed p))) whole
+        `shouldBe` fmap (\p -> (map (Transformation.point turn) (starts p), Part.stepover p)) whole
   describe "mill" $
     it "leaves rest material when that is allowed" $
       [ Part.rest m

@@ -99,7 +99,7 @@ spec = do
               begin = Segment.start (Part.segment (NonEmpty.head (Part.elements after)))
               joined =
                 and
-                  [ Vec.near (Segment.end (Part.segment a)) (Segment.start (Part.segment b))
+                  [ Vec.isNear (Segment.end (Part.segment a)) (Segment.start (Part.segment b))
                     | (a, b) <- zip es (drop 1 es <> take 1 es)
                   ]
               es = NonEmpty.toList (Part.elements after)
@@ -207,7 +207,7 @@ movesOfOperation :: Point -> Operation -> Maybe [Toolpath.Move]
 movesOfOperation at operation =
   fmap
     (concatMap cuts . Toolpath.blocks)
-    (Result.output (FromPart.lay (Generate.partOf at operation)))
+    (Result.output (FromPart.toToolpath (Generate.partOf at operation)))
   where
     cuts b = case b of
       Toolpath.Cutting {Toolpath.cut, Toolpath.retract} -> NonEmpty.toList cut <> retract

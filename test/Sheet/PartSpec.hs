@@ -12,7 +12,7 @@ import Data.Either (fromLeft)
 import Data.List (sort)
 import Data.Text (Text)
 import Data.Text qualified as Text
-import Files (expected, readText, walk)
+import Files (expected, filesBelow, readText)
 import Generate.Sheet qualified as Generate
 import Machines (lkp01f)
 import Project.LoadedProgram qualified as LoadedProgram
@@ -96,7 +96,7 @@ spec = do
     it "is the example again, to the letter" $
       exported "x.sheet" rib `shouldBe` ([], Just rib)
     it "is every good sheet again, and its program has the same tape" $ do
-      sheets <- filter ((== ".sheet") . takeExtension) <$> walk "test/programs/sheet/good"
+      sheets <- filter ((== ".sheet") . takeExtension) <$> filesBelow "test/programs/sheet/good"
       forM_ sheets $ \file -> do
         text <- readText file
         (file, exported "x.sheet" text) `shouldBe` (file, ([], meaning text))
@@ -154,7 +154,7 @@ fromTextCodes text = case FromText.read text :: Result () Error Sheet of
 
 -- | A program or a sheet as a sheet, with the codes of the reports.
 exported :: Text -> Text -> ([ReportCode], Maybe Text)
-exported path' text = (map Report.code (errors outcome), ToText.write <$> Result.settled outcome)
+exported path' text = (map Report.code (errors outcome), ToText.write <$> Result.ifSound outcome)
   where
     outcome =
       Compile.evaluate [] (LoadedProgram.fromText path' text)
@@ -172,7 +172,7 @@ variants change words' =
 
 -- | The tape, or the codes of the errors, whose reports are rendered.
 judged :: Text -> Text -> IO (Either [ReportCode] Tape)
-judged path' text = case Result.settled outcome of
+judged path' text = case Result.ifSound outcome of
   Nothing ->
     Left (map Report.code (errors outcome))
       <$ evaluate (sum (map (Text.length . shown) (errors outcome)))

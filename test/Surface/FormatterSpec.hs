@@ -9,7 +9,7 @@ import Data.Maybe (isJust, mapMaybe)
 import Data.Set qualified as Set
 import Data.Text (Text)
 import Data.Text qualified as Text
-import Files (readText, walk)
+import Files (filesBelow, readText)
 import Generate.Program qualified as Generate
 import Surface.Error (Error)
 import Surface.Formatter qualified as Formatter
@@ -76,16 +76,16 @@ spec = do
     it "an empty text stays empty" $
       Formatter.format "\n \n" `shouldBe` Just ""
   describe "programs of this project" $ do
-    examples <- runIO (sort . filter ((== ".part") . takeExtension) <$> walk "examples")
+    examples <- runIO (sort . filter ((== ".part") . takeExtension) <$> filesBelow "examples")
     forM_ examples $ \file ->
       it (file <> " is laid out") $ do
         text <- readText file
         Formatter.format text `shouldBe` Just text
-    programs <- runIO (sort . filter ((== ".part") . takeExtension) <$> walk "test/programs")
+    programs <- runIO (sort . filter ((== ".part") . takeExtension) <$> filesBelow "test/programs")
     forM_ programs $ \file ->
       it (file <> " keeps its meaning") (readText file >>= keeps)
     documents <-
-      runIO (("README.md" :) . sort . filter ((== ".md") . takeExtension) <$> walk "docs")
+      runIO (("README.md" :) . sort . filter ((== ".md") . takeExtension) <$> filesBelow "docs")
     forM_ documents $ \file -> do
       blocks <- runIO (fences <$> readText file)
       forM_ (zip [1 :: Int ..] blocks) $ \(n, text) ->
@@ -122,11 +122,12 @@ tree = fmap fst . meaning
 
 -- | The content of a text without regions: its statements and its comments.
 meaning :: Text -> Maybe ([Statement], [Text])
-meaning text = fmap content (Result.settled (Parser.parse 0 text :: Result.Result () Error Program))
+meaning text = fmap content (Result.ifSound (Parser.parse 0 text :: Result.Result () Error Program))
   where
     content p = (Unlocated.statements (statements p), map (Text.stripEnd . value) (comments p))
 
--- | Demands that formatting keeps the content of a text, and that a text with mistakes has no layout.
+-- | Demands that formatting keeps the content of a text, and that a text with mistakes has no
+-- layout.
 keeps :: Text -> Expectation
 keeps text = case meaning text of
   Nothing -> Formatter.layout text `shouldBe` Nothing

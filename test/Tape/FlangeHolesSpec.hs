@@ -67,4 +67,4 @@ row machine = case Machine.pitch (Machine.medium machine) of
       Holes.share
         machine
         (Frame.start (program punched))
-        (map Frame.frame (Frame.planned (program punched)))
+        (map Frame.frame (Frame.plannedFrames (program punched)))

@@ -31,11 +31,11 @@ start = Pulses3 500 (-200) 100
 journey :: Machine -> [Frame]
 journey machine =
   filter
-    (null . Frame.invariants machine . pure)
+    (null . Frame.violations machine . pure)
     ( concat
         [ commands,
           concat (zipWith3 framesAlong feeds slowFlags increments),
-          [Frame.still o | o <- take 1 commandFrames]
+          [Frame.commandFrame o | o <- take 1 commandFrames]
         ]
     )
   where
@@ -54,33 +54,33 @@ journey machine =
     feeds = cycle (twice (feedCodes machine))
     twice cs = concat [[c, c] | c <- cs]
     slowFlags = cycle [False, False, True]
-    commandFrames = [[(o, v)] | o <- orderNames, v <- [1, 3], Machine.canOrder machine o v]
+    commandFrames = [[(o, v)] | o <- orderNames, v <- [1, 3], Machine.canEncode machine o v]
     orderNames =
       [ o
         | w <- Machine.wordsOf machine,
           o <-
             [o | Command o <- [Machine.content w]]
-              <> take 1 [o | OrderBit o _ <- Machine.service (Machine.form w)]
+              <> take 1 [o | CommandBit o _ <- Machine.service (Machine.form w)]
       ]
-    commands = map Frame.still commandFrames
+    commands = map Frame.commandFrame commandFrames
     framesAlong code slow (x, y) =
       [rapid x y | Machine.hasRapidMotion machine, x > 1000]
         <> [ Frame
-               { motion = Straightway,
+               { motion = Linear,
                  increment = Pulses3 (Pulses x) (Pulses y) (if hasZ && x > 0 then 5 else 0),
                  centre = 0,
-                 speed = code,
+                 feedCode = code,
                  braking = slow && hasBrakingHole,
-                 orders = if y == 0 then concat (take 1 commandFrames) else []
+                 commands = if y == 0 then concat (take 1 commandFrames) else []
                }
            ]
         <> [ Frame
-               { motion = Round sense,
+               { motion = Circular sense,
                  increment = Pulses3 (Pulses x) (Pulses y) 0,
                  centre = c,
-                 speed = code,
+                 feedCode = code,
                  braking = slow && hasBrakingHole,
-                 orders = []
+                 commands = []
                }
              | Machine.arcs machine /= NoArcs,
                (sense, c) <- arcs x y
@@ -90,9 +90,9 @@ journey machine =
         { motion = Rapid,
           increment = Pulses3 (Pulses x) (Pulses y) 0,
           centre = 0,
-          speed = FeedCode 0,
+          feedCode = FeedCode 0,
           braking = False,
-          orders = []
+          commands = []
         }
     arcs x y =
       [(sense, Pulses2 (Pulses x) 0) | abs x == abs y, sense <- [Clockwise, CounterClockwise]]

@@ -66,7 +66,7 @@ randomMachineLaws = do
             either
               (Left . Punch.reason)
               Right
-              (Punch.readOwn machine 0 fs (Punch.write machine 0 fs))
+              (Punch.readPunched machine 0 fs (Punch.write machine 0 fs))
       readAgain [straightAt60 1000 0, straightAt60 2000 1000]
         `shouldBe` Right [straightAt60 1000 0, straightAt60 2000 1000]
       readAgain [straightAt60 1000 0, straightAt60 2000 0, straightAt60 0 1000]
@@ -78,7 +78,7 @@ randomMachineLaws = do
       machine <- machineOf "test/machines/no-end.machine"
       let fs =
             [ straightAt60 1000 0,
-              (straightAt60 0 1000) {orders = [(CommandName "M", 8)]},
+              (straightAt60 0 1000) {commands = [(CommandName "M", 8)]},
               straightAt60 1000 1000
             ]
       Punch.read machine 0 (Punch.write machine 0 fs) `shouldBe` Right fs
@@ -105,7 +105,7 @@ randomMachineLaws = do
                       )
                in cover 20 (Punch.read m at t == Right expected) "just these" $
                     cover 20 (Punch.read m at t /= Right expected) "others" $
-                      Punch.readBack m at expected t === Punch.read m at t
+                      Punch.readExpected m at expected t === Punch.read m at t
   it "rows with their meaning are the rows of the tape (catches a picture of another tape)" $
     forAll Generate.machine $ \m -> forAll (Generate.frames m) $ \(at, fs) ->
       ByteString.pack (map RowMeaning.holes (Punch.rows m at fs)) === rowsOf (Punch.write m at fs)
@@ -209,11 +209,11 @@ withCoverage m fs =
   cover 20 (Machine.measure (Machine.layout m) == Positions) "positions"
     . cover 20 (Machine.measure (Machine.layout m) == Increments) "increments"
     . cover 20 (any reversed (NonEmpty.toList (Machine.axes m))) "reversed axes"
-    . cover 5 (not (null [() | Frame {motion = Round _} <- fs])) "arcs"
-    . cover 1 (not (null [() | Frame {motion = Round _, increment = 0} <- fs])) "full circles"
+    . cover 5 (not (null [() | Frame {motion = Circular _} <- fs])) "arcs"
+    . cover 1 (not (null [() | Frame {motion = Circular _, increment = 0} <- fs])) "full circles"
     . cover 3 (Machine.arcs m `elem` [Arcs True False, Arcs True True]) "quadrants"
     . cover 10 (not (null [() | Frame {motion = Rapid} <- fs])) "rapid moves"
-    . cover 20 (not (all (null . orders) fs)) "commands"
+    . cover 20 (not (all (null . commands) fs)) "commands"
     . cover 1 (any Frame.braking fs) "braking"
     . cover
       20
@@ -237,20 +237,20 @@ mirroredFrame f =
   where
     Pulses2 i j = centre f
     reversedMotion m = case m of
-      Round Clockwise -> Round CounterClockwise
-      Round CounterClockwise -> Round Clockwise
-      Still -> Still
+      Circular Clockwise -> Circular CounterClockwise
+      Circular CounterClockwise -> Circular Clockwise
+      NoMotion -> NoMotion
       Rapid -> Rapid
-      Straightway -> Straightway
+      Linear -> Linear
 
 -- | Straight frame with the feed code 60.
 straightAt60 :: Pulses -> Pulses -> Frame
 straightAt60 x y =
-  (Frame.still []) {motion = Straightway, increment = Pulses3 x y 0, speed = FeedCode 60}
+  (Frame.commandFrame []) {motion = Linear, increment = Pulses3 x y 0, feedCode = FeedCode 60}
 
 machineOf :: FilePath -> IO Machine
 machineOf file =
-  readText file >>= maybe (fail "the description has errors") pure . Result.settled . FromText.read
+  readText file >>= maybe (fail "the description has errors") pure . Result.ifSound . FromText.read
 
 knownTapes :: Spec
 knownTapes = do
@@ -283,7 +283,7 @@ knownTapes = do
       14
       ( drop
           25
-          (written kontur3p [(straight 0 6000 0 27 []) {orders = [(CommandName "spindle", 8)]}])
+          (written kontur3p [(straight 0 6000 0 27 []) {commands = [(CommandName "spindle", 8)]}])
       )
       `shouldBe` [9, 18, 5, 6, 0, 0, 0, 21, 2, 7, 22, 0, 8, 16]
   it "ISO-7bit: X has holes 4 5 7 8, 3 has 1 2 5 6, + has 1 2 4 6" $
@@ -295,8 +295,8 @@ knownTapes = do
       (Pulses3 100 200 300)
       [ straight 5000 0 0 60 [],
         straight 0 (-200) 0 60 [],
-        (straight 10 10 0 70 []) {motion = Round Clockwise, centre = Pulses2 10 0},
-        Frame.still [(CommandName "release", 0)]
+        (straight 10 10 0 70 []) {motion = Circular Clockwise, centre = Pulses2 10 0},
+        Frame.commandFrame [(CommandName "release", 0)]
       ]
       `shouldBe` [ "%",
                    "G21 G17 G90 G94 G40 G49 G80",
@@ -479,12 +479,12 @@ faultLine lines' =
 straight :: Int -> Int -> Int -> Int -> [(CommandName, Int)] -> Frame
 straight x y z s given =
   Frame
-    { motion = Straightway,
+    { motion = Linear,
       increment = Pulses3 (Pulses x) (Pulses y) (Pulses z),
       centre = 0,
-      speed = FeedCode s,
+      feedCode = FeedCode s,
       braking = False,
-      orders = given
+      commands = given
     }
 
 tapeOf :: Machine -> Tape

@@ -9,7 +9,7 @@ import Base.Region (Located (..), Region (..))
 import Data.List.NonEmpty qualified as NonEmpty
 import Data.Maybe (listToMaybe)
 import Generate (Case (..))
-import Generate.ByControl (beginning, cases, firstAndLast, laid)
+import Generate.ByControl (beginning, blocksOf, cases, firstAndLast)
 import Geometry.Carrier (Sense (..), Side (..))
 import Geometry.Polyarc qualified as Polyarc
 import Geometry.Segment (Segment (..))
@@ -93,7 +93,7 @@ control r sent = onto : go entered (NonEmpty.toList edges)
               Arc {centre, sweep} -> Arc {Segment.start = at, Segment.end = finish, centre, sweep}
          in along : case rest of
               next : _
-                | Rad t <- Vec.turn (Segment.endDirection e) (Segment.startDirection next),
+                | Rad t <- Vec.signedAngle (Segment.endDirection e) (Segment.startDirection next),
                   abs t > 1e-6 ->
                   let out = beside (Segment.startDirection next) (Segment.start next)
                    in Segment.arc
@@ -111,8 +111,8 @@ turnsIn :: Case -> Bool
 turnsIn c =
   or
     [ t * left > 1e-7
-      | (_, a, b) <- Polyarc.joints (contour c),
-        let Rad t = Vec.turn (Segment.endDirection a) (Segment.startDirection b)
+      | (_, a, b) <- Polyarc.neighbours (contour c),
+        let Rad t = Vec.signedAngle (Segment.endDirection a) (Segment.startDirection b)
     ]
   where
     left = if side c == LeftOf then 1 else -1
@@ -128,7 +128,7 @@ unbroken = foldr join [] . filter long
     long s = let Mm l = Segment.length s in l > 1e-6
     join s rest = case (s, rest) of
       (Straight a b, Straight _ c : more)
-        | Rad t <- Vec.turn (Vec.to a b) (Vec.to b c),
+        | Rad t <- Vec.signedAngle (Vec.to a b) (Vec.to b c),
           abs t < 1e-6 ->
           Straight a c : more
       _ -> s : rest
@@ -138,7 +138,8 @@ unbroken = foldr join [] . filter long
 -- | A milling statement whose approach begins at a distance of @share@ radii from the contour.
 nearer :: Double -> Milling -> Milling
 nearer share job =
-  case ( firstAndLast job {Part.byControl = Nothing, Part.approach = [], Part.retract = []},
+  case ( firstAndLast
+           job {Part.controlCompensation = Nothing, Part.approach = [], Part.retract = []},
          Part.approach job
        ) of
     (Just (begin, _), [s]) ->
@@ -161,7 +162,9 @@ nearer share job =
 -- refuse the input.
 sentOf :: Milling -> Maybe (Double, Sent, [Toolpath.Move])
 sentOf job =
-  case laid (maybe (beginning job) (value . Part.place) (listToMaybe (Part.approach job))) job of
+  case blocksOf
+    (maybe (beginning job) (value . Part.place) (listToMaybe (Part.approach job)))
+    job of
     Just [b@Toolpath.Cutting {Toolpath.sent = Just s}] ->
       let Mm r =
             Part.radius job

@@ -40,6 +40,6 @@ spec =
 
 punchedFrom :: Text -> IO Punched
 punchedFrom text =
-  maybe (fail "the program has errors") pure . Result.settled $
+  maybe (fail "the program has errors") pure . Result.ifSound $
     Compile.analyse [] (LoadedProgram.fromText "lathe.part" text) `Result.thenSound` \a ->
       Compile.punch (Target.setUpFor (path a) kontur3p) (path a)

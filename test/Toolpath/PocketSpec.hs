@@ -47,7 +47,7 @@ spec = modifyMaxSuccess (const 60) $ do
       "go with the free space on the left, or all the other way (catches a trip that is not turned)"
       $ forAll Generate.pocket $ \p ->
         let sections = cleared p
-            back = Pocket.clear (Generate.roomOf p) {turned = True} (step p) Nothing
+            back = Pocket.clear (Generate.roomOf p) {isReversed = True} (step p) Nothing
          in counterexample "joined" (conjoin (zipWith joined back (drop 1 back)))
               .&&. counterexample
                 (show (area sections, area back))
@@ -55,7 +55,7 @@ spec = modifyMaxSuccess (const 60) $ do
     prop "of a rectangle come nearer and nearer to the wall (catches passes from the outside in)" $
       forAll Generate.rectangle $ \p ->
         let ds =
-              [d | Round d _ <- cleared p]
+              [d | AlongLoop d _ <- cleared p]
          in ds === reverse (sorted ds)
     prop
       "of a rectangle are linked by ways no longer than the step (catches a loop entered anywhere)"
@@ -63,10 +63,10 @@ spec = modifyMaxSuccess (const 60) $ do
         [section | section <- cleared p, isOver section || isLong p section] === []
     prop "come behind those that lie in them (catches the first part of two left for the end)" $
       forAll (Generate.pocket `suchThat` (null . NonEmpty.tail . loops)) $ \p ->
-        let rounds = [(d, ss) | Round d ss <- cleared p]
+        let rounds = [(d, ss) | AlongLoop d ss <- cleared p]
          in [ (d, d')
               | (d, ss) : later <- tails rounds,
-                Vec.near (Segment.start (NonEmpty.head ss)) (Segment.end (NonEmpty.last ss)),
+                Vec.isNear (Segment.start (NonEmpty.head ss)) (Segment.end (NonEmpty.last ss)),
                 (d', s :| _) <- later,
                 d' > plus d (Mm 1e-3),
                 WindingNumber.about (Segment.start s) ss /= 0
@@ -78,7 +78,7 @@ spec = modifyMaxSuccess (const 60) $ do
         `shouldBe` [True, True]
     it "begin at the place given" $
       fmap
-        Pocket.begins
+        Pocket.startPoint
         (take 1 (Pocket.clear (Generate.roomOf plain) (Mm 5) (Just (Vec.point 30 20))))
         `shouldBe` [Vec.point 30 20]
     it "of a pocket into which the cutter does not fit are none" $
@@ -99,7 +99,7 @@ spec = modifyMaxSuccess (const 60) $ do
       forAll Generate.pocket $ \p -> forAll (choose (0, 6)) $ \more ->
         let room = Generate.roomOf p
             rough = Pocket.clear room {leaves = plus (left p) (Mm more)} (step p) Nothing
-            sections = rough <> Pocket.skim room (step p) (plus (left p) (Mm more)) Nothing
+            sections = rough <> Pocket.finishWalls room (step p) (plus (left p) (Mm more)) Nothing
          in forAllBlind (floorPoints p sections) $ \ps -> conjoin (map (swept p sections) ps)
   where
     plain = Pocket {loops = rectangle 60 40 :| [], cutter = Mm 5, left = Mm 0, step = Mm 5}
@@ -123,16 +123,16 @@ spec = modifyMaxSuccess (const 60) $ do
 -- | True for a loop, a part of one, or a detour.
 isPass :: PocketMove -> Bool
 isPass section = case section of
-  Round _ _ -> True
-  Aside _ -> True
-  Across _ -> False
-  Over _ _ -> False
+  AlongLoop _ _ -> True
+  Detour _ -> True
+  DirectLink _ -> False
+  LiftedLink _ _ -> False
 
 isAside :: PocketMove -> Bool
-isAside section = isPass section && null [() | Round _ _ <- [section]]
+isAside section = isPass section && null [() | AlongLoop _ _ <- [section]]
 
 isLong :: Pocket -> PocketMove -> Bool
-isLong p section = or [Segment.length s > plus (step p) (Mm 1e-6) | Across s <- [section]]
+isLong p section = or [Segment.length s > plus (step p) (Mm 1e-6) | DirectLink s <- [section]]
 
 -- | Like 'cleared', with walls of any sense and loops made by the kernel.
 byKernel :: Pocket -> [PocketMove]
@@ -140,7 +140,7 @@ byKernel p =
   Pocket.clear
     (Generate.roomOf p)
       { offsetBy = Inset.inset (Inset.oriented outline islands),
-        further = Inset.further
+        insetOfLoops = Inset.insetOfLoops
       }
     (step p)
     Nothing
@@ -152,14 +152,14 @@ cleared p = Pocket.clear (Generate.roomOf p) (step p) Nothing
 
 isOver :: PocketMove -> Bool
 isOver section = case section of
-  Over _ _ -> True
-  Round _ _ -> False
-  Aside _ -> False
-  Across _ -> False
+  LiftedLink _ _ -> True
+  AlongLoop _ _ -> False
+  Detour _ -> False
+  DirectLink _ -> False
 
 joined :: PocketMove -> PocketMove -> Property
 joined a b =
-  counterexample (show (a, b)) (Vec.distance (Pocket.finishes a) (Pocket.begins b) <= Mm 1e-5)
+  counterexample (show (a, b)) (Vec.distance (Pocket.endPoint a) (Pocket.startPoint b) <= Mm 1e-5)
 
 -- | The cutter's centre keeps its distance from the walls.
 deepEnough :: Pocket -> Segment -> Property

@@ -16,7 +16,7 @@ import Frame.Frame (Frame (..), FrameMotion (..), FrameProgram)
 import Frame.Frame qualified as Frame
 import Generate (Case (..))
 import Generate qualified
-import Generate.Arcs (Off (..))
+import Generate.Arcs (Deviation (..))
 import Generate.Arcs qualified as Arcs
 import Geometry.Carrier (Circle (Circle), Sense (..), Side (..))
 import Geometry.Polyarc (Ends (..), Polyarc (..))
@@ -118,12 +118,12 @@ spec = do
             f : fs <- [own program],
             let loop =
                   Frame
-                    { motion = Round Clockwise,
+                    { motion = Circular Clockwise,
                       increment = 0,
                       centre = Pulses2 (-1000) 0,
-                      speed = speed f,
+                      feedCode = feedCode f,
                       braking = False,
-                      orders = []
+                      commands = []
                     },
             not (any isGouge (findings uncut path program (loop : f : fs)))
         ]
@@ -149,7 +149,7 @@ spec = do
            in (any isGouge found, any isExcess found) === (d == -2, d == 2)
   where
     uncut = quick "lki-u"
-    own program = map Frame.frame (Frame.planned program)
+    own program = map Frame.frame (Frame.plannedFrames program)
     rounds = [(s, circle s) | s <- [LeftOf, RightOf]]
     circle s =
       let path =
@@ -172,7 +172,7 @@ spec = do
     changedBy change =
       [(s, findings uncut path program (change (own program))) | (s, (path, program)) <- rounds]
     mirrored f = case motion f of
-      Round t -> f {motion = Round (if t == Clockwise then CounterClockwise else Clockwise)}
+      Circular t -> f {motion = Circular (if t == Clockwise then CounterClockwise else Clockwise)}
       _ -> f
 
 -- | Machine by its name, with a deceleration so large that no frame has to brake.
@@ -190,7 +190,7 @@ laid from tolerance side polyarc = case Equidistant.equidistant side (Mm 5) poly
   Right pieces
     | Just path <-
         Result.output
-          ( Toolpath.lay
+          ( Toolpath.toToolpath
               ( Generate.partOf
                   from
                   ( Part.Mill
@@ -211,7 +211,7 @@ laid from tolerance side polyarc = case Equidistant.equidistant side (Mm 5) poly
 flange :: Text -> Spec
 flange name = describe (Text.unpack name) $ do
   it "its own frames are proven" $
-    findings machine path' program (map Frame.frame (Frame.planned program)) `shouldBe` []
+    findings machine path' program (map Frame.frame (Frame.plannedFrames program)) `shouldBe` []
   it
     "every change that cuts too deep or leaves too much is found (catches an arc that is measured \
     \at its ends)"
@@ -230,18 +230,19 @@ flange name = describe (Text.unpack name) $ do
 -- that it leaves too much, there is an excess.
 changed :: Machine -> Toolpath -> FrameProgram -> [Segment] -> Double -> Property
 changed machine path program contour radius =
-  forAll (Arcs.change (map Frame.frame (Frame.planned program))) $ \(what, fs) ->
-    let Off {deepest, most} = Arcs.deviation machine (Frame.start program) fs contour radius
+  forAll (Arcs.change (map Frame.frame (Frame.plannedFrames program))) $ \(what, fs) ->
+    let Deviation {deepestGouge, largestExcess} =
+          Arcs.deviation machine (Frame.start program) fs contour radius
         found = findings machine path program fs
-        gouges = deepest > allowed + 0.001
-        leaves = most > allowed + 0.001 + 0.01 / (2 * radius)
-     in counterexample (show (deepest, most, found)) $
+        gouges = deepestGouge > allowed + 0.001
+        leaves = largestExcess > allowed + 0.001 + 0.01 / (2 * radius)
+     in counterexample (show (deepestGouge, largestExcess, found)) $
           tabulate "change" [takeWhile (/= '(') what]
             . classify (not gouges && not leaves) "within"
             . classify (null found) "proven"
             $ (not gouges || any isGouge found) && (not leaves || any isExcess found)
   where
-    allowed = 0.02 + (let Mm pulse = Machine.pulse machine in pulse)
+    allowed = 0.02 + (let Mm pulse = Machine.planeResolution machine in pulse)
 
 -- | Arcs with a name and the reasons why a control refuses them.
 arcs :: [(String, [String], Frame)]
@@ -259,19 +260,19 @@ arcs =
     ("an arc that rises", ["motion"], quarter {increment = Pulses3 (-1000) 1000 1}),
     ( "a straight frame that goes nowhere",
       ["motion"],
-      quarter {motion = Straightway, centre = 0, increment = 0}
+      quarter {motion = Linear, centre = 0, increment = 0}
     )
   ]
 
 quarter, half, long :: Frame
 quarter =
   Frame
-    { motion = Round CounterClockwise,
+    { motion = Circular CounterClockwise,
       increment = Pulses3 (-1000) 1000 0,
       centre = Pulses2 (-1000) 0,
-      speed = FeedCode 1,
+      feedCode = FeedCode 1,
       braking = False,
-      orders = []
+      commands = []
     }
 half = quarter {increment = Pulses3 (-2000) 0 0}
 long = quarter {increment = Pulses3 (-1000) (-1000) 0}
@@ -320,12 +321,12 @@ findingsBeside sense atStart d = findings machine path (Arcs.quantise machine pa
       Clockwise -> ((0, off atStart), (off (not atStart), 0))
     f =
       Frame
-        { motion = Round sense,
+        { motion = Circular sense,
           increment = Pulses3 (ex - sx) (ey - sy) 0,
           centre = Pulses2 (-sx) (-sy),
-          speed = FeedCode 1,
+          feedCode = FeedCode 1,
           braking = False,
-          orders = []
+          commands = []
         }
 
 isGouge, isExcess, isNotFollowed :: Finding -> Bool

@@ -13,7 +13,7 @@ import Data.List.NonEmpty qualified as NonEmpty
 import Data.Maybe (listToMaybe)
 import Data.Text (Text)
 import Files (readText)
-import Frame.Frame (Frame (..), FrameProgram, Planned, Role (..))
+import Frame.Frame (Frame (..), FrameProgram, PlannedFrame, Role (..))
 import Frame.Frame qualified as Frame
 import Frame.FromToolpath qualified as FromToolpath
 import Generate qualified
@@ -44,13 +44,13 @@ spec = do
         Nothing -> property Discard
         Just (path, program) -> findings path program (own program) === []
   describe "of random contours" $ do
-    changes "the other side" $ \_ fs -> [[f {orders = map exchanged (orders f)} | f <- fs]]
+    changes "the other side" $ \_ fs -> [[f {commands = map exchanged (commands f)} | f <- fs]]
     changes "a diameter of one unit more or less" $ \_ fs ->
-      [ [f {orders = [(o, if isKeep o then v + d else v) | (o, v) <- orders f]} | f <- fs]
+      [ [f {commands = [(o, if isKeep o then v + d else v) | (o, v) <- commands f]} | f <- fs]
         | d <- [1, -1]
       ]
     changes "a lost command that switches compensation on" $ \_ fs ->
-      [[f {orders = filter (not . isKeep . fst) (orders f)} | f <- fs]]
+      [[f {commands = filter (not . isKeep . fst) (commands f)} | f <- fs]]
     changes "a lost release" $ \_ fs ->
       [map (without "release") fs]
     changes "a lost frame along the edge" $ \ps fs ->
@@ -90,7 +90,7 @@ spec = do
                   findings
                     path
                     program
-                    [ f {orders = [(o, if isKeep o then v + d else v) | (o, v) <- orders f]}
+                    [ f {commands = [(o, if isKeep o then v + d else v) | (o, v) <- commands f]}
                       | f <- own program
                     ]
              in counterexample
@@ -112,7 +112,7 @@ spec = do
       findings path program (own program) `shouldBe` []
 
 -- | Law: none of the changed tapes is proven.
-changes :: String -> ([Planned] -> [Frame] -> [[Frame]]) -> Spec
+changes :: String -> ([PlannedFrame] -> [Frame] -> [[Frame]]) -> Spec
 changes what change =
   it ("is found: " <> what) $
     property $
@@ -121,19 +121,19 @@ changes what change =
         Just (path, program) ->
           conjoin
             [ counterexample (show fs) (findings path program fs /= [])
-              | fs <- change (Frame.planned program) (own program),
+              | fs <- change (Frame.plannedFrames program) (own program),
                 fs /= own program
             ]
 
 -- | Frame without a command.
 without :: Text -> Frame -> Frame
-without name f = f {orders = filter ((/= CommandName name) . fst) (orders f)}
+without name f = f {commands = filter ((/= CommandName name) . fst) (commands f)}
 
 own :: FrameProgram -> [Frame]
-own program = map Frame.frame (Frame.planned program)
+own program = map Frame.frame (Frame.plannedFrames program)
 
 -- | Numbers of the frames along the edge, from 0.
-cutting :: [Planned] -> [Int]
+cutting :: [PlannedFrame] -> [Int]
 cutting ps = [n | (n, p) <- zip [0 ..] ps, Cutting _ <- [Frame.role p]]
 
 -- | Depth of the deepest gouge and largest excess of a path of the cutter's centre, by dense
@@ -195,7 +195,8 @@ tolerant (_, job) = pure job {Part.tolerance = Part.OnPath (Mm 0.02)}
 -- control.
 made :: Milling -> Maybe (Toolpath, FrameProgram)
 made job = do
-  (plainly, frames) <- laid job {Part.byControl = Nothing, Part.tolerance = Part.OnPath (Mm 0.015)}
+  (plainly, frames) <-
+    laid job {Part.controlCompensation = Nothing, Part.tolerance = Part.OnPath (Mm 0.015)}
   if null (findings plainly frames (own frames)) then laid job else Nothing
   where
     laid m = do
@@ -207,7 +208,7 @@ made job = do
 compiled :: String -> IO (Toolpath, FrameProgram)
 compiled name = do
   text <- readText ("test/programs/mill/good/compensation-" <> name <> ".part") :: IO Text
-  case Result.settled
+  case Result.ifSound
     ( Compile.analyse [] (LoadedProgram.fromText "p.part" text) `Result.thenSound` \a ->
         (,) (path a) . Compile.program <$> Compile.punch iso6983 (path a)
     ) of

@@ -54,7 +54,7 @@ spec = do
           let back =
                 reverse
                   [ f {increment = negate (increment f)}
-                    | f <- map Frame.frame (Frame.planned program)
+                    | f <- map Frame.frame (Frame.plannedFrames program)
                   ]
            in counterexample
                 (show (findings path program back))
@@ -74,7 +74,7 @@ spec = do
     $ property $
       forAll ((,) <$> Curve.curveCase <*> choose (0.1, 0.9)) $ \(c, share) ->
         punched (Generate.begin c) (Curve.jobAlong c) $ \path program ->
-          let fs = map Frame.frame (Frame.planned program)
+          let fs = map Frame.frame (Frame.plannedFrames program)
               some = take (max 1 (floor (share * fromIntegral (length fs) :: Double))) fs
            in not (null (findings path program []))
                 .&&. not (null (findings path program some))
@@ -86,9 +86,11 @@ spec = do
           Part.Band <$> (Mm <$> elements [0.01, 0.03]) <*> (Mm <$> elements [0.01, 0.06])
         ]
     proven path program =
-      let found = findings path program (map Frame.frame (Frame.planned program)) in found === []
+      let found =
+            findings path program (map Frame.frame (Frame.plannedFrames program))
+       in found === []
     findings path program fs = Proof.findings (Verify.prove lkp01f path program fs)
-    frameCount = length . Frame.planned
+    frameCount = length . Frame.plannedFrames
 
 lkp01f :: Machine
 lkp01f = Machines.named "lkp-01f"
@@ -96,7 +98,7 @@ lkp01f = Machines.named "lkp-01f"
 -- | Law of the toolpath and the frames of a milling, from a start point.
 punched :: Testable p => Point -> Milling -> (Toolpath -> FrameProgram -> p) -> Property
 punched begin job holds =
-  case Toolpath.lay (Generate.partOf begin (Part.Mill (Located (Region 0 0) job))) of
+  case Toolpath.toToolpath (Generate.partOf begin (Part.Mill (Located (Region 0 0) job))) of
     Result.Result _ [] (Just path) -> case Result.output (FromToolpath.quantise lkp01f path) of
       Just program -> property (holds path program)
       Nothing -> counterexample "no frames" False
@@ -129,7 +131,7 @@ shortened program from count =
     maximum (0 : map distance positions)
   )
   where
-    frames = map Frame.frame (Frame.planned program)
+    frames = map Frame.frame (Frame.plannedFrames program)
     (earlier, others) = splitAt (floor (from * fromIntegral (length frames - 1))) frames
     (replaced, later) = splitAt count others
     start = Frame.start program + sum (map increment earlier)

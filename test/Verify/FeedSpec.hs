@@ -10,7 +10,7 @@ import Frame.Frame
   ( Frame (..),
     FrameMotion (..),
     FrameProgram (FrameProgram),
-    Planned (Planned),
+    PlannedFrame (PlannedFrame),
     Role (..),
   )
 import Frame.Frame qualified as Frame
@@ -110,14 +110,14 @@ spec = do
                 prove
                   (Machines.named "n55")
                   resting
-                  [go 60 10, Frame.still [(CommandName "M", 2)]]
+                  [go 60 10, Frame.commandFrame [(CommandName "M", 2)]]
                   fs
           ]
           | fs <-
-              [ [go 60 5, go 60 5, Frame.still [(CommandName "M", 2)]],
-                [go 60 5, go 60 5, Frame.still [(CommandName "M", 3)]],
+              [ [go 60 5, go 60 5, Frame.commandFrame [(CommandName "M", 2)]],
+                [go 60 5, go 60 5, Frame.commandFrame [(CommandName "M", 3)]],
                 [go 60 5, go 60 5, go 60 1],
-                [go 60 5, Frame.still [(CommandName "M", 2)], go 60 5]
+                [go 60 5, Frame.commandFrame [(CommandName "M", 2)], go 60 5]
               ]
         ]
         `shouldBe` [ [],
@@ -133,15 +133,15 @@ spec = do
                 prove
                   (Machines.named "n55")
                   resting
-                  [go 60 10, Frame.still [(CommandName "M", 2)]]
+                  [go 60 10, Frame.commandFrame [(CommandName "M", 2)]]
                   fs
           ]
           | fs <-
-              [ [go 60 10, Frame.still [(CommandName "M", 2)]],
-                [go 60 10, Frame.still [(CommandName "M", 3)]],
+              [ [go 60 10, Frame.commandFrame [(CommandName "M", 2)]],
+                [go 60 10, Frame.commandFrame [(CommandName "M", 3)]],
                 [go 60 10],
-                [ (go 60 10) {orders = [(CommandName "S", 4), (CommandName "T", 2)]},
-                  Frame.still [(CommandName "M", 2)]
+                [ (go 60 10) {commands = [(CommandName "S", 4), (CommandName "T", 2)]},
+                  Frame.commandFrame [(CommandName "M", 2)]
                 ]
               ]
         ]
@@ -158,12 +158,12 @@ spec = do
     -- Frame along x by a length in mm, with pulses of 0.02 mm.
     go code mm =
       Frame
-        { motion = Straightway,
+        { motion = Linear,
           increment = Pulses3 (Pulses (round (mm / 0.02 :: Double))) 0 0,
           centre = 0,
-          speed = FeedCode code,
+          feedCode = FeedCode code,
           braking = False,
-          orders = []
+          commands = []
         }
     over = go 40 10
     halves = [go 40 5, go 40 5]
@@ -183,12 +183,12 @@ prove machine path own fs =
     ( Verify.prove
         machine
         path
-        (FrameProgram begin [Planned f Travelling (Region 0 0) (Mm 0) | f <- own])
+        (FrameProgram begin [PlannedFrame f Linking (Region 0 0) (Mm 0) | f <- own])
         fs
     )
   where
     Located _ (Part.SpacePoint p _) = Toolpath.start path
-    Mm pulse = Machine.pulse machine
+    Mm pulse = Machine.planeResolution machine
     begin = Pulses3 (Pulses (round (Vec.x p / pulse))) (Pulses (round (Vec.y p / pulse))) 0
 
 -- | Toolpath without moves.
@@ -203,7 +203,7 @@ edge end = case Equidistant.equidistant LeftOf (Mm 5) contour of
     | c <- Case {contour, side = LeftOf, radius = Mm 5, pieces},
       Just path <-
         Result.output
-          ( Toolpath.lay
+          ( Toolpath.toToolpath
               ( Generate.partOf
                   (Generate.begin c)
                   (Part.Mill (Located (Region 0 0) (Generate.job c)))

@@ -9,7 +9,7 @@ import Compile (Analysis (..))
 import Compile qualified
 import Data.List.NonEmpty qualified as NonEmpty
 import Flange qualified
-import Frame.Frame (Frame (increment, orders, speed))
+import Frame.Frame (Frame (commands, feedCode, increment))
 import Frame.Frame qualified as Frame
 import Frame.FromToolpath qualified as FromToolpath
 import Generate qualified
@@ -42,8 +42,8 @@ spec = do
     [ (n, s)
       | (n, f) <- zip [1 ..] Flange.frames,
         s <- map FeedCode [1 .. 9],
-        s /= speed f,
-        wrongFeeds (proofOf (replaceFrame n f {speed = s})) /= [n]
+        s /= feedCode f,
+        wrongFeeds (proofOf (replaceFrame n f {feedCode = s})) /= [n]
     ]
       `shouldBe` []
   it "a frame left out, doubled or swapped with the next is found" $
@@ -62,12 +62,19 @@ spec = do
             punched "contour l open { line((-10, 0), (10, 0)) }\nmill l on { depth 1 }"
           further =
             own
-              { Frame.planned =
-                  Frame.planned own
-                    <> take 1 (reverse (filter (Frame.isMoving . Frame.frame) (Frame.planned own)))
+              { Frame.plannedFrames =
+                  Frame.plannedFrames own
+                    <> take
+                      1
+                      (reverse (filter (Frame.isMoving . Frame.frame) (Frame.plannedFrames own)))
               }
        in findings
-            (Verify.prove lkp01f (path analysis) further (map Frame.frame (Frame.planned further)))
+            ( Verify.prove
+                lkp01f
+                (path analysis)
+                further
+                (map Frame.frame (Frame.plannedFrames further))
+            )
             `shouldSatisfy` any isOpen
   it "two lobes that are never cut, although the path closes, are an excess" $
     findings (proofOf shortcut) `shouldSatisfy` any isExcess
@@ -82,9 +89,9 @@ spec = do
           \closed { ccw circle((0, 0), 20) }\nmill c on { }\n"
       ) of
       r
-        | Just a <- Result.settled r,
+        | Just a <- Result.ifSound r,
           Just program <- Result.output (FromToolpath.quantise iso6983 (path a)) ->
-          let fs = map Frame.frame (Frame.planned program)
+          let fs = map Frame.frame (Frame.plannedFrames program)
               halves = [n | (n, f) <- zip [0 ..] fs, Frame.centre f /= 0]
            in [ any
                   isExcess
@@ -107,7 +114,7 @@ spec = do
         case (Generate.milled (Mm 0.3) c, Generate.milled (Mm 0.003) c) of
           (Just rough, Just fine) -> case Result.output (FromToolpath.quantise lkp01f rough) of
             Just program ->
-              let fs = map Frame.frame (Frame.planned program)
+              let fs = map Frame.frame (Frame.plannedFrames program)
                   coarse = any ((> 0.06) . chordError) (cutSegments rough)
                in classify coarse "with coarse chords" $
                     findings (Verify.prove lkp01f rough program fs) === []
@@ -155,14 +162,14 @@ spec = do
                   []
                   entries
                   ( Result.output
-                      ( Toolpath.lay
+                      ( Toolpath.toToolpath
                           (Generate.partOf (Vec.point 0 0) (Part.Mill (Located (Region 0 0) job)))
                       )
                   )
            in case pieces of
                 [] -> discard
                 entry : _ ->
-                  case Toolpath.lay
+                  case Toolpath.toToolpath
                     (Generate.partOf entry (Part.Mill (Located (Region 0 0) job))) of
                     Result.Result _ [] (Just laid) ->
                       case Result.output (FromToolpath.quantise lkp01f laid) of
@@ -185,7 +192,7 @@ spec = do
                                   lkp01f
                                   laid
                                   program
-                                  (map Frame.frame (Frame.planned program))
+                                  (map Frame.frame (Frame.plannedFrames program))
                               )
                               === []
                     _ -> discard
@@ -195,7 +202,7 @@ spec = do
     $ property $
       forAll (Generate.closedCase `suchThat` ((> 0.4) . Generate.radiusOf)) $ \c ->
         case Result.output
-          ( Toolpath.lay
+          ( Toolpath.toToolpath
               ( Generate.partOf
                   (Generate.begin c)
                   ( Part.Mill
@@ -210,12 +217,13 @@ spec = do
           Just laid -> case Result.output (FromToolpath.quantise lkp01f laid) of
             Nothing -> discard
             Just program ->
-              let p = Verify.prove lkp01f laid program (map Frame.frame (Frame.planned program))
+              let p =
+                    Verify.prove lkp01f laid program (map Frame.frame (Frame.plannedFrames program))
                in findings p
                     === []
                       .&&. conjoin
                         [ counterexample (show w) (Proof.amount w <= Mm 0.0201)
-                          | Just w <- map Proof.gouge (Proof.passages p)
+                          | Just w <- map Proof.gouge (Proof.contourProofs p)
                         ]
   where
     -- Proof of the tape of one program for another program.
@@ -227,10 +235,10 @@ spec = do
               lkp01f
               (path analysis)
               own
-              (map Frame.frame (Frame.planned tapeProgram))
+              (map Frame.frame (Frame.plannedFrames tapeProgram))
     punched text = case analysed (deepHead <> text <> "\n") of
       r
-        | Just a <- Result.settled r,
+        | Just a <- Result.ifSound r,
           Just p <- Result.output (FromToolpath.quantise lkp01f (path a)) ->
           (a, p)
         | otherwise -> error (show (Result.errors r))
@@ -323,7 +331,7 @@ shortcut =
 backwards :: [Frame]
 backwards = approach <> reverse [f {increment = negate (increment f)} | f <- along] <> retract
   where
-    numbered = zip (map Frame.role (Frame.planned Flange.program)) Flange.frames
+    numbered = zip (map Frame.role (Frame.plannedFrames Flange.program)) Flange.frames
     approach = take 2 Flange.frames
     along = [f | (Frame.Cutting _, f) <- numbered]
     retract = drop (2 + length along) Flange.frames
@@ -340,7 +348,7 @@ doubledFirst fs = case fs of
 -- | Frames with an auxiliary command in the last one.
 commanded :: [Frame] -> [Frame]
 commanded fs = case reverse fs of
-  f : rest -> reverse (f {orders = [(CommandName "aux", 7)]} : rest)
+  f : rest -> reverse (f {commands = [(CommandName "aux", 7)]} : rest)
   [] -> []
 
 isNotFollowed :: Finding -> Bool
@@ -368,7 +376,7 @@ isFound n f p =
     Pulses3 (Pulses x) (Pulses y) _ = increment f - increment (Flange.frames !! (n - 1))
     moved = max (abs x) (abs y)
     cutting =
-      Frame.role (Frame.planned Flange.program !! (n - 1)) == Frame.Cutting 0
+      Frame.role (Frame.plannedFrames Flange.program !! (n - 1)) == Frame.Cutting 0
         && n < length Flange.frames - 12
 
 -- | Test for a gouge or an excess in a frame or in a later one.

@@ -117,7 +117,8 @@ spec = modifyMaxSuccess (const 60) $ do
     \left at the end)"
     $ forAll Generate.rectangle $ \p ->
       let asked = Generate.pocketing [] p
-          at zs = Generate.laid asked {Part.wall = (Part.wall asked) {Part.levels = map Mm zs}}
+          at zs =
+            Generate.toolpathOf asked {Part.wall = (Part.wall asked) {Part.levels = map Mm zs}}
        in case (at [-1, -2], at [-2, -1]) of
             (Just path, Just other) -> case (framesOf iso path, framesOf iso other) of
               (Just program, Just reversed) ->
@@ -131,8 +132,8 @@ spec = modifyMaxSuccess (const 60) $ do
     "a pocket whose walls are a little further out is found to be left too small (catches a \
     \tolerance that grows)"
     $ forAll Generate.rectangle $ \p ->
-      case ( Generate.laid (Generate.pocketing [] p),
-             Generate.laid (Generate.pocketing [] p {left = plus (left p) (Mm 0.08)})
+      case ( Generate.toolpathOf (Generate.pocketing [] p),
+             Generate.toolpathOf (Generate.pocketing [] p {left = plus (left p) (Mm 0.08)})
            ) of
         (Just wide, Just narrow) -> case (framesOf iso wide, framesOf iso narrow) of
           (Just program, Just other) ->
@@ -219,13 +220,13 @@ iso :: Machine
 iso = Machines.named "iso6983"
 
 forAllPath :: Pocketing -> (Toolpath -> Property) -> Property
-forAllPath p holds = maybe discard holds (Generate.laid p)
+forAllPath p holds = maybe discard holds (Generate.toolpathOf p)
 
 framesOf :: Machine -> Toolpath -> Maybe FrameProgram
 framesOf m path = Result.output (FromToolpath.quantise m path)
 
 framesAlone :: FrameProgram -> [Frame]
-framesAlone = map Frame.frame . Frame.planned
+framesAlone = map Frame.frame . Frame.plannedFrames
 
 proofOf :: Machine -> Toolpath -> Proof
 proofOf m path =

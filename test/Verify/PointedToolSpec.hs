@@ -76,7 +76,7 @@ spec = describe "a nose without radius" $ do
     ]
       `shouldBe` []
   where
-    own program = map Frame.frame (Frame.planned program)
+    own program = map Frame.frame (Frame.plannedFrames program)
     found path program fs = Proof.findings (Verify.prove machine path program fs)
     -- Frames between the first and the last one, @d@ pulses further from the axis.
     shifted d fs = case fs of
@@ -88,14 +88,14 @@ spec = describe "a nose without radius" $ do
       _ -> fs
     dip d =
       Frame
-        { motion = Straightway,
+        { motion = Linear,
           increment = d,
           Frame.centre = 0,
-          speed = Machine.rapidCode machine,
+          feedCode = Machine.rapidCode machine,
           braking = False,
-          orders = []
+          commands = []
         }
-    Mm a `inPulses` m = let Mm p = Machine.pulse m in a / p
+    Mm a `inPulses` m = let Mm p = Machine.planeResolution m in a / p
     kind f = takeWhile (/= ' ') (show f)
     isGouge f = case f of
       Gouge {} -> True
@@ -114,7 +114,7 @@ machine = m {Machine.braking = (Machine.braking m) {deceleration = 1e12}}
 turned :: Part.Side -> Bool -> Toolpath
 turned side back =
   case Result.output
-    ( Toolpath.lay
+    ( Toolpath.toToolpath
         ( Generate.partOf
             (Vec.point (if back then -100 else 10) 80)
             (Part.Mill (Located (Region 0 0) job))

@@ -70,7 +70,12 @@ spec = do
             Just program ->
               let prove path' =
                     Proof.findings
-                      (Verify.prove lkp01f path' program (map Frame.frame (Frame.planned program)))
+                      ( Verify.prove
+                          lkp01f
+                          path'
+                          program
+                          (map Frame.frame (Frame.plannedFrames program))
+                      )
                   larger = withJobs (\m -> m {Part.radius = Mm (Generate.radiusOf c + 0.2)}) laid
                in prove (withReach (Mm 0) laid) === []
                     .&&. counterexample "a larger cutter" (any isGouge (prove larger))
@@ -95,13 +100,13 @@ lkp01f = Machines.named "lkp-01f"
 -- | Toolpath of a program and the proof of its own tape.
 proven :: Machine -> Text -> IO (Toolpath, Proof)
 proven machine text =
-  maybe (fail "the program has errors") pure . Result.settled $
+  maybe (fail "the program has errors") pure . Result.ifSound $
     Compile.analyse [] (LoadedProgram.fromText "p.part" text) `Result.thenSound` \a ->
       Compile.punch machine (path a) `Result.thenSound` \p ->
         pure (path a, proofOf (path a) (program p))
   where
     proofOf path' program' =
-      Verify.prove machine path' program' (map Frame.frame (Frame.planned program'))
+      Verify.prove machine path' program' (map Frame.frame (Frame.plannedFrames program'))
 
 -- | Program whose toolpath exists on both sides of each contour: the cutter goes down where it
 -- begins to cut.

@@ -22,10 +22,10 @@ spec =
     $ do
       text <- readText "test/programs/tool/good/blade-upright-ends.part"
       (toolpath, program) <-
-        maybe (fail "the program has errors") pure . Result.settled $
+        maybe (fail "the program has errors") pure . Result.ifSound $
           Compile.analyse [] (LoadedProgram.fromText "blade.part" text) `Result.thenSound` \a ->
             Compile.punch iso6983 (path a) `Result.thenSound` \p -> pure (path a, program p)
-      let frames = map Frame.frame (Frame.planned program)
+      let frames = map Frame.frame (Frame.plannedFrames program)
           (onto, along) = break rises frames
           rises f = let Pulses3 _ _ z = increment f in z > 0
           -- Frames with a smaller descent before the element and a smaller rise after it.

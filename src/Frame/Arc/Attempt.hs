@@ -10,7 +10,7 @@ module Frame.Arc.Attempt
   )
 where
 
-import Base.PulseVector (Pulses2 (..), Pulses3 (..), flat)
+import Base.PulseVector (Pulses2 (..), Pulses3 (..), xy)
 import Base.Quantity (Mm (..), Rad (..), minus, plus)
 import Data.List (foldl')
 import Data.Maybe (mapMaybe)
@@ -147,9 +147,9 @@ attempt context arc c
         (Quadrant.crossings (grid context) (radius arc) (centre arc) c)
         (sense arc)
         c
-        (flat (begin arc))
-        (flat (finish arc))
-    starts = flat (begin arc) : ends
+        (xy (begin arc))
+        (xy (finish arc))
+    starts = xy (begin arc) : ends
     isClosed = begin arc == finish arc
     isFullCircle =
       allowsFullCircle context && abs (sweep arc) >= 2 * pi - Tolerance.equal
@@ -189,7 +189,7 @@ legBetween context arc c from to =
           { Segment.start = a,
             Segment.end = a,
             Segment.centre = m,
-            Segment.sweep = Rad (Carrier.sense (sense arc) * 2 * pi)
+            Segment.sweep = Rad (Carrier.senseSign (sense arc) * 2 * pi)
           }
       | otherwise = Segment.arc (sense arc) m a (Context.gridPoint (grid context) to)
     m = Context.gridPoint (grid context) c
@@ -235,7 +235,7 @@ swept s = case s of
 
 -- | True for a segment with a sagitta of less than half a pulse.
 isNearlyStraight :: ArcContext -> Segment -> Bool
-isNearlyStraight context s = Segment.bulge s < Mm (0.5 * pulse (grid context))
+isNearlyStraight context s = Segment.sagitta s < Mm (0.5 * pulse (grid context))
 
 -- | True if straight steps through some grid points stay within the tolerance of an arc. A sagitta
 -- of half a pulse and the rounding of the ends together exceed a pulse, so this has to be tested.
@@ -247,7 +247,7 @@ isStraightEnough context exact stops = case exact of
     -- line as their ends are. If the sum is small, the whole arc lies near the line.
     | [a, b] <- points,
       plus
-        (Segment.bulge exact)
+        (Segment.sagitta exact)
         (max (Vec.distance a begin) (Vec.distance b (Segment.end exact)))
         <= most ->
       isWithin

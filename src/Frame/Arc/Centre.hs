@@ -8,7 +8,7 @@ module Frame.Arc.Centre
   )
 where
 
-import Base.PulseVector (Pulses2 (..), flat)
+import Base.PulseVector (Pulses2 (..), xy)
 import Base.Quantity (Mm (..), Pulses (..))
 import Frame.Arc.Context (ArcContext (..), ArcTolerance (linearError), Grid (..), RoundedArc (..))
 import Frame.Arc.Context qualified as Context
@@ -27,16 +27,16 @@ nearCentres context arc
     let first = nearest (centre arc)
      in around first <> filter (not . isBeside first) (around (nearest equidistant))
   where
-    nearest c = flat (Context.roundedPoint context c)
+    nearest c = xy (Context.roundedPoint context c)
     around c = map (c +) neighbours
     isBeside = isWithin nearReach
-    a = Context.gridPoint (grid context) (flat (begin arc))
-    b = Context.gridPoint (grid context) (flat (finish arc))
+    a = Context.gridPoint (grid context) (xy (begin arc))
+    b = Context.gridPoint (grid context) (xy (finish arc))
     -- The exact centre, moved onto the perpendicular bisector of the rounded ends.
     equidistant =
       let u = Vec.unit (Vec.to a b)
           c = centre arc
-       in Vec.shift (Vec.scale (Vec.dot u (Vec.to c (Vec.between 0.5 a b))) u) c
+       in Vec.shift (Vec.scale (Vec.dot u (Vec.to c (Vec.interpolate 0.5 a b))) u) c
 
 -- | Distance in pulses, in x and in y, up to which centres are tried about a point.
 nearReach :: Pulses
@@ -70,7 +70,7 @@ remoteCentres context arc
         errorInMiddle c <= most
     ]
   where
-    first = flat (Context.roundedPoint context (centre arc))
+    first = xy (Context.roundedPoint context (centre arc))
     Mm most = linearError (tolerance context)
     reach =
       ceiling
@@ -93,4 +93,4 @@ isOneFrame context arc c = case Machine.arcs (machine (grid context)) of
   NoArcs -> False
   Arcs {Machine.quadrants} ->
     not quadrants
-      || Quadrant.isInQuadrant (sense arc) (flat (begin arc) - c) (flat (finish arc) - c)
+      || Quadrant.isInQuadrant (sense arc) (xy (begin arc) - c) (xy (finish arc) - c)

@@ -39,9 +39,9 @@ gridOf :: Machine -> Grid
 gridOf machine =
   Grid {machine, pulseX, pulseY, pulse, largestCentre = Machine.centreCapacity machine}
   where
-    Mm pulseX = Machine.pulseOf machine X
-    Mm pulseY = Machine.pulseOf machine Y
-    Mm pulse = Machine.pulse machine
+    Mm pulseX = Machine.resolutionOf machine X
+    Mm pulseY = Machine.resolutionOf machine Y
+    Mm pulse = Machine.planeResolution machine
 
 -- | Grid point in mm.
 gridPoint :: Grid -> Pulses2 -> Point

@@ -128,7 +128,7 @@ sampledDeviation arc =
   where
     out = Vec.vec (startX arc) (startY arc)
     aside = Vec.vec (centreX arc - exactX arc) (centreY arc - exactY arc)
-    Rad toward = Vec.turn out aside
+    Rad toward = Vec.signedAngle out aside
     share angle =
       let t = angle * signum (turned arc) in (if t < 0 then t + 2 * pi else t) / abs (turned arc)
     extremes =

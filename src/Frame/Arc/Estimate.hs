@@ -14,7 +14,7 @@ module Frame.Arc.Estimate
   )
 where
 
-import Base.PulseVector (Pulses2 (..), flat)
+import Base.PulseVector (Pulses2 (..), xy)
 import Base.Quantity (Mm (..), Pulses (..), Rad (..))
 import Frame.Arc.Context (Grid (pulseX, pulseY), RoundedArc (..))
 import Frame.Arc.Context qualified as Context
@@ -73,8 +73,8 @@ endsOf grid arc
           wholeY = Vec.dot (Vec.vec 0 1) whole
         }
   where
-    a = Context.gridPoint grid (flat (begin arc))
-    b = Context.gridPoint grid (flat (finish arc))
+    a = Context.gridPoint grid (xy (begin arc))
+    b = Context.gridPoint grid (xy (finish arc))
     from = Vec.unit (Vec.to (centre arc) a)
     half = Vec.add (Vec.rotate (Rad (sweep arc / 2)) from) (Vec.negate from)
     whole = Vec.add (Vec.unit (Vec.to (centre arc) b)) (Vec.negate from)
@@ -168,10 +168,10 @@ frameArcAbout
 -- be applied to many grid points between the same ends.
 errorInMiddle :: Grid -> RoundedArc -> Pulses2 -> Double
 errorInMiddle grid arc =
-  let a = Context.gridPoint grid (flat (begin arc))
-      b = Context.gridPoint grid (flat (finish arc))
+  let a = Context.gridPoint grid (xy (begin arc))
+      b = Context.gridPoint grid (xy (finish arc))
       exactCentre = centre arc
-      sign = -(Carrier.sense (sense arc))
+      sign = -(Carrier.senseSign (sense arc))
       Mm r = radius arc
    in \c ->
         let m = Context.gridPoint grid c

@@ -40,7 +40,7 @@ crossings grid (Mm r) exactCentre c =
     dx = Vec.dot (Vec.vec 1 0) off
     dy = Vec.dot (Vec.vec 0 1) off
     crossing axis sign along across =
-      let Mm p = Machine.pulseOf (machine grid) axis
+      let Mm p = Machine.resolutionOf (machine grid) axis
        in Pulses (max 1 (round ((sqrt (max 0 (r * r - across * across)) - sign * along) / p)))
 
 -- | Ends of the frames of an arc about the grid point @c@, from @begin@ to @finish@: its end, and
@@ -62,7 +62,7 @@ frameEnds machine at sense c begin finish = case Machine.arcs machine of
 -- | True for an arc about zero that stays within one quadrant between the two points.
 isInQuadrant :: Sense -> Pulses2 -> Pulses2 -> Bool
 isInQuadrant sense (Pulses2 a b) (Pulses2 c d) =
-  a * c >= 0 && b * d >= 0 && Carrier.sense sense * fromIntegral (a * d - b * c) > 0
+  a * c >= 0 && b * d >= 0 && Carrier.senseSign sense * fromIntegral (a * d - b * c) > 0
 
 -- | First crossing after a point on an arc about zero.
 nextCrossing :: Sense -> Crossings -> Pulses2 -> Pulses2

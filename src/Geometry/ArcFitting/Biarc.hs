@@ -46,7 +46,7 @@ join from to = joinWith (ratio from to) from to
 -- | Biarc with a given ratio of the second arc's chord to the first one's.
 joinWith :: Double -> (Point, Vec) -> (Point, Vec) -> Maybe (NonEmpty Segment)
 joinWith r from@(p, _) to@(q, _) = do
-  guard (not (Vec.near p q))
+  guard (not (Vec.isNear p q))
   guard (isWithin (gamma - alpha) Tolerance.halfTurn && isWithin (beta - gamma) Tolerance.halfTurn)
   guard (Vec.distance p joint <= Tolerance.reach && Vec.distance joint q <= Tolerance.reach)
   pure result
@@ -78,8 +78,8 @@ isWithin a (Rad limit) = abs a <= limit
 chordAngles :: (Point, Vec) -> (Point, Vec) -> (Double, Double)
 chordAngles (p, s) (q, t) = (a, b)
   where
-    Rad a = Vec.turn (Vec.to p q) s
-    Rad b = Vec.turn (Vec.to p q) t
+    Rad a = Vec.signedAngle (Vec.to p q) s
+    Rad b = Vec.signedAngle (Vec.to p q) t
 
 -- | Chord ratio that 'join' uses: 1, or the ratio that avoids an S-shape. It keeps the direction
 -- at the joint at least half of each end's angle away from that end's direction.
@@ -100,7 +100,7 @@ arcBySweep p q sweep
   where
     chord = Vec.to p q
     centre =
-      Vec.shift (Vec.scale (1 / (2 * tan (sweep / 2))) (Vec.left chord)) (Vec.between 0.5 p q)
+      Vec.shift (Vec.scale (1 / (2 * tan (sweep / 2))) (Vec.left chord)) (Vec.interpolate 0.5 p q)
 
 -- Through points --------------------------------------------------------------------------------
 
@@ -137,11 +137,11 @@ distinctPoints ends (first :| others) = first :| withoutLast (withoutRepeats fir
     withoutRepeats before rest = case rest of
       [] -> []
       p : more
-        | Vec.near before p -> withoutRepeats before more
+        | Vec.isNear before p -> withoutRepeats before more
         | otherwise -> p : withoutRepeats p more
     withoutLast ps = case ends of
       Open -> ps
-      Closed -> reverse (dropWhile (Vec.near first) (reverse ps))
+      Closed -> reverse (dropWhile (Vec.isNear first) (reverse ps))
 
 -- | Directions at three or more points of an open chain. The direction at an end mirrors the
 -- neighbour's direction in the perpendicular bisector of the two points, so that the last
@@ -155,18 +155,18 @@ openDirections ps = case (ps, reverse ps) of
           <> [mirrored y z t | t <- take 1 (reverse inner)]
   _ -> []
   where
-    mirrored a b t = Vec.rotate (Vec.turn t (Vec.to a b)) (Vec.unit (Vec.to a b))
+    mirrored a b t = Vec.rotate (Vec.signedAngle t (Vec.to a b)) (Vec.unit (Vec.to a b))
 
 -- | Direction at the middle one of three points. On their circle, the angle between tangent and
 -- chord equals the opposite angle of the triangle.
 tangentAt :: Point -> Point -> Point -> Vec
 tangentAt a b c
-  | not (Vec.near a c) && Vec.dot circleTangent ab >= 0 && Vec.dot circleTangent bc >= 0 =
+  | not (Vec.isNear a c) && Vec.dot circleTangent ab >= 0 && Vec.dot circleTangent bc >= 0 =
     circleTangent
   | Vec.norm bisector > Tolerance.parallel = Vec.unit bisector
   | otherwise = Vec.left ab
   where
     ab = Vec.unit (Vec.to a b)
     bc = Vec.unit (Vec.to b c)
-    circleTangent = Vec.unit (Vec.rotate (Vec.turn (Vec.to a c) bc) ab)
+    circleTangent = Vec.unit (Vec.rotate (Vec.signedAngle (Vec.to a c) bc) ab)
     bisector = Vec.add ab bc

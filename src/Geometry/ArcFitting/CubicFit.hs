@@ -275,7 +275,7 @@ parametricCurve xs ys from to =
     clamped i = max from (min (to - 1) i)
     -- Where the speed vanishes, the second derivative gives the direction.
     tangentIn sign i u
-      | Mm (Vec.norm first) > Tolerance.still = Vec.unit first
+      | Mm (Vec.norm first) > Tolerance.stationary = Vec.unit first
       | Vec.norm second > 0 = Vec.unit (Vec.scale sign second)
       | otherwise = Vec.vec 1 0
       where

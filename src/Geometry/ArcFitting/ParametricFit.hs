@@ -78,7 +78,7 @@ stretches curve =
         | otherwise -> gather (next :| before : others) more
     isCorner u =
       let Rad jump =
-            Vec.turn (direction curve Arriving u) (direction curve Leaving u)
+            Vec.signedAngle (direction curve Arriving u) (direction curve Leaving u)
        in Rad (abs jump) > Tolerance.kink
 
 -- | State of the fit along one stretch: the largest deviation to aim at, the end of the stretch,
@@ -210,7 +210,7 @@ longestBiarc w first = tryLonger (search (24 :: Int) Nothing Nothing first)
 -- are tried, among them those that put the joint where spans meet.
 try :: FitState -> Double -> Trial
 try w v
-  | Vec.near p q = measured (Straight p q :| [])
+  | Vec.isNear p q = measured (Straight p q :| [])
   | otherwise = case tried [usual] of
     (d, _, pieces) : _ | d <= aim w -> measured pieces
     _ -> case tried (map (* usual) [1, 0.7, 1.4, 0.5, 2, 0.35, 2.8, 0.25, 4] <> breaking) of
@@ -390,6 +390,6 @@ lengthAtFoot pieces p = go 0 (NonEmpty.toList pieces) (1 / 0, 0)
             Mm long = Segment.length s
          in go (before + long) more (if d < nearest then (d, before + long * footAt s) else best)
     footAt s
-      | Segment.spans s p = Segment.fraction s p
+      | Segment.hasFootOf s p = Segment.fraction s p
       | Vec.distance p (Segment.start s) <= Vec.distance p (Segment.end s) = 0
       | otherwise = 1

@@ -89,7 +89,7 @@ approximate (Mm tolerance) segments = runST $ do
     -- The general fit looks at no more than 64 segments ahead of the current one.
     generalFit to u =
       let i =
-            min (to - 1) (BinarySearch.lastBelow n u (stations chain))
+            min (to - 1) (BinarySearch.lastAtMost n u (stations chain))
        in ParametricFit.oneBiarc
             (Mm tolerance)
             (parametricCurve chain i (min to (i + 64)))
@@ -116,12 +116,12 @@ smoothed tolerance (first :| others) = groups (first :| []) first False others
         where
           jump =
             let Rad a =
-                  Vec.turn (Segment.endDirection s) (Segment.startDirection next)
+                  Vec.signedAngle (Segment.endDirection s) (Segment.startDirection next)
              in Rad (abs a)
     finished hasKink before
       | hasKink =
         MeasuredPolyarc.segments
-          (MeasuredPolyarc.fromOutline (approximate tolerance (NonEmpty.reverse before)))
+          (MeasuredPolyarc.fromFlatPolyarc (approximate tolerance (NonEmpty.reverse before)))
       | otherwise = NonEmpty.reverse before
 
 -- | Merges two consecutive arcs into one arc of at most half a turn, if they lie on one circle
@@ -139,7 +139,8 @@ mergedArc s next = case (s, next) of
   _ -> Nothing
   where
     isOnCircle c (Mm r) p = let Mm d = Vec.distance c p in Mm (abs (d - r)) <= Tolerance.arcLength
-    bend both = let Rad t = Vec.turn (Segment.endDirection next) (Segment.endDirection both) in t
+    bend both =
+      let Rad t = Vec.signedAngle (Segment.endDirection next) (Segment.endDirection both) in t
 
 -- | Arrays of a polyarc.
 tableOf :: NonEmpty Segment -> SegmentTable

@@ -16,7 +16,7 @@ import Geometry.ElementCarrier (ElementCarrier (..))
 import Geometry.ElementCarrier qualified as ElementCarrier
 import Geometry.Index.BoundingBox qualified as BoundingBox
 import Geometry.Index.BoxTree qualified as BoxTree
-import Geometry.MeasuredPolyarc (Polyarc)
+import Geometry.MeasuredPolyarc (MeasuredPolyarc)
 import Geometry.MeasuredPolyarc qualified as MeasuredPolyarc
 import Geometry.Segment (Segment)
 import Geometry.Tolerance qualified as Tolerance
@@ -50,11 +50,11 @@ between radius sense a b = case (a, b) of
     fillets = ofPair radius sense
     isOn p s = Distance.toPoint p s <= Tolerance.coincident
 
-segmentsOf :: Polyarc -> [Segment]
+segmentsOf :: MeasuredPolyarc -> [Segment]
 segmentsOf = NonEmpty.toList . MeasuredPolyarc.segments
 
 -- | The pairs of segments of two curves that are close enough for one circle to touch both.
-closePairs :: Mm -> Polyarc -> Polyarc -> [(Segment, Segment)]
+closePairs :: Mm -> MeasuredPolyarc -> MeasuredPolyarc -> [(Segment, Segment)]
 closePairs radius p q = [(s, g) | s <- segmentsOf p, g <- BoxTree.within (around s) tree]
   where
     tree = BoxTree.index BoundingBox.ofSegment (segmentsOf q)
@@ -83,7 +83,7 @@ ofPair radius sense a b =
 -- | The locus of the centres of arcs that are tangent to a carrier in its direction of travel.
 locus :: Mm -> Sense -> ElementCarrier -> Maybe Carrier
 locus radius@(Mm r) sense carrier = case carrier of
-  OnLine l -> Just (LineCarrier (Carrier.parallelAt (Mm (Carrier.sense sense * r)) l))
+  OnLine l -> Just (LineCarrier (Carrier.parallelAt (Mm (Carrier.senseSign sense * r)) l))
   OnCircle t (Circle c rc)
     | t /= sense -> Just (CircleCarrier (Circle c (plus rc radius)))
     | gap <= Tolerance.coincident -> Nothing

@@ -2,7 +2,7 @@
 -- solutions; the caller chooses.
 module Geometry.Construction.TangentCircle
   ( Touched (..),
-    touchingLines,
+    tangentLines,
     circles,
     through,
   )
@@ -32,8 +32,8 @@ data Touched
 -- | The directed lines that touch the first circle and then the second. A circle of radius 0 is a
 -- point. Each circle comes with the senses that it may have; a counter-clockwise circle lies to the
 -- left of the line.
-touchingLines :: ([Sense], Circle) -> ([Sense], Circle) -> [Line]
-touchingLines (sensesA, a) (sensesB, b) =
+tangentLines :: ([Sense], Circle) -> ([Sense], Circle) -> [Line]
+tangentLines (sensesA, a) (sensesB, b) =
   distinct
     [ l
       | senseA <- relevant a sensesA,
@@ -46,7 +46,7 @@ touchingLines (sensesA, a) (sensesB, b) =
     distinct ls = case ls of
       [] -> []
       l : rest -> l : distinct (filter (differs l) rest)
-    differs l m = not (Vec.near (from l) (from m) && Vec.near (to l) (to m))
+    differs l m = not (Vec.isNear (from l) (from m) && Vec.isNear (to l) (to m))
 
 -- | The circles of a radius that meet two conditions: at most two.
 circles :: Mm -> Touched -> Touched -> [Circle]
@@ -73,11 +73,11 @@ locus r@(Mm radius) touched = case touched of
 -- | The circle through three points; nothing when they lie on a line or two of them coincide.
 through :: Point -> Point -> Point -> Maybe Circle
 through p q s
-  | Vec.near p q || Vec.near q s || Vec.near p s = Nothing
+  | Vec.isNear p q || Vec.isNear q s || Vec.isNear p s = Nothing
   | otherwise = case Intersection.lines (bisector p q) (bisector q s) of
     CrossingOnce c -> Just (Circle c (Vec.distance c p))
     _ -> Nothing
   where
     bisector a b =
-      let m = Vec.between 0.5 a b
+      let m = Vec.interpolate 0.5 a b
        in Line m (Vec.shift (Vec.left (Vec.to a b)) m)

@@ -26,8 +26,8 @@ directed (sense1, Circle c1 (Mm r1)) (sense2, Circle c2 (Mm r2))
   where
     Mm tolerance = Tolerance.coincident
     Mm d = Vec.distance c1 c2
-    rho1 = Carrier.sense sense1 * r1
-    rho2 = Carrier.sense sense2 * r2
+    rho1 = Carrier.senseSign sense1 * r1
+    rho2 = Carrier.senseSign sense2 * r2
     len = sqrt ((d - (rho2 - rho1)) * (d + (rho2 - rho1)))
     e = Vec.unit (Vec.to c1 c2)
     u = Vec.add (Vec.scale (len / d) e) (Vec.scale ((rho1 - rho2) / d) (Vec.left e))

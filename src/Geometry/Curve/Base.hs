@@ -15,19 +15,19 @@ module Geometry.Curve.Base
     polyline,
     spline,
     parabola,
-    ofPieces,
-    ofChain,
-    ofSegments,
+    fromShapes,
+    fromSegmentsAt,
+    fromSegments,
     count,
     arcLength,
     chords,
     fractions,
     SpanPoint (..),
     spanPoint,
-    jet,
+    expansion,
     reversed,
-    backwards,
-    unrepeated,
+    inReverseOrder,
+    lacksRepeatedStart,
     transformed,
   )
 where
@@ -102,7 +102,7 @@ data EndCondition
   deriving stock (Eq, Show)
 
 -- | Point of the table with its parameter on the curve.
-data Knot = Knot {at :: Double, place :: Point}
+data Knot = Knot {at :: Double, knotPoint :: Point}
   deriving stock (Eq, Show)
 
 -- | Reason why the data give no curve. Rows and spans are counted from 1.
@@ -140,7 +140,7 @@ makeBase method closed rows spanList = base
           rows,
           spanList,
           closed,
-          lengthTable = ArcLength.measured speed (map fromIntegral [0 .. count base])
+          lengthTable = ArcLength.fromSpeed speed (map fromIntegral [0 .. count base])
         }
     speed u = let s = spanPoint After u base in speedAt base (number s) (local s)
 
@@ -152,7 +152,7 @@ speedAt base i t = case spanList base of
           Spline.rate (Spline.at xs i) t
         b = Spline.rate (Spline.at ys i) t
      in sqrt (a * a + b * b)
-  Mixed parts -> Vec.norm (TaylorExpansion.velocity (Span.jet 1 (parts Vector.! i) t))
+  Mixed parts -> Vec.norm (TaylorExpansion.velocity (Span.expansion 1 (parts Vector.! i) t))
 
 -- | Spans as a vector.
 spans :: Base -> Vector Span
@@ -265,7 +265,7 @@ chords base
   | closed base && not (isLoop points) = distances (Vector.snoc points (Vector.head points))
   | otherwise = distances points
   where
-    points = Vector.map place (rows base)
+    points = Vector.map knotPoint (rows base)
 
 -- | Position of the middle row of each parabola, as a fraction of its span.
 fractions :: Base -> Vector Double
@@ -294,7 +294,7 @@ parabola points
                 if even i
                   then fromIntegral (i `div` 2)
                   else fromIntegral (i `div` 2) + middles Vector.! (i `div` 2),
-              place = p
+              knotPoint = p
             }
         through part = Spline.parabolas middles (Unboxed.convert (Vector.map part points))
         across =
@@ -308,12 +308,12 @@ parabola points
     middle i = (x (2 * i + 1) - x (2 * i)) / (x (2 * i + 2) - x (2 * i))
 
 -- | Base of consecutive spans with the given rising parameters of the table's rows.
-ofPieces :: NonEmpty SpanShape -> Vector Double -> Either CurveFault Base
-ofPieces = ofSpans . vector Span.ofShape
+fromShapes :: NonEmpty SpanShape -> Vector Double -> Either CurveFault Base
+fromShapes = ofSpans . vector Span.fromShape
 
 -- | Base of consecutive lines and arcs with the given rising parameters of the table's rows.
-ofChain :: NonEmpty Segment -> Vector Double -> Either CurveFault Base
-ofChain = ofSpans . vector Span.ofSegment
+fromSegmentsAt :: NonEmpty Segment -> Vector Double -> Either CurveFault Base
+fromSegmentsAt = ofSpans . vector Span.fromSegment
 
 -- | Base of consecutive spans with the given rising parameters of the rows.
 ofSpans :: Vector Span -> Vector Double -> Either CurveFault Base
@@ -325,7 +325,10 @@ ofSpans parts parameters = do
       { rows =
           Vector.map
             ( \u ->
-                Knot {at = u, place = TaylorExpansion.place (jet 0 base (spanPoint After u base))}
+                Knot
+                  { at = u,
+                    knotPoint = TaylorExpansion.position (expansion 0 base (spanPoint After u base))
+                  }
             )
             parameters
       }
@@ -340,8 +343,8 @@ ofSpans parts parameters = do
 
 -- | Base of consecutive lines and arcs. Its rows are the starts of the segments, and the end of
 -- the last one unless the base is closed.
-ofSegments :: NonEmpty Segment -> Either CurveFault Base
-ofSegments segments = do
+fromSegments :: NonEmpty Segment -> Either CurveFault Base
+fromSegments segments = do
   checkJoined parts
   Right
     base
@@ -353,7 +356,7 @@ ofSegments segments = do
             )
       }
   where
-    parts = vector Span.ofSegment segments
+    parts = vector Span.fromSegment segments
     base = chain Vector.empty parts
     starts = Vector.fromList (map Segment.start (NonEmpty.toList segments))
 
@@ -367,7 +370,7 @@ vector f list = Vector.unfoldrN (NonEmpty.length list) next (NonEmpty.toList lis
 
 -- | Base of at least one span. The spans must join.
 chain :: Vector Knot -> Vector Span -> Base
-chain rows parts = makeBase Joined (Vec.near first lastPoint) rows (toSpanList parts)
+chain rows parts = makeBase Joined (Vec.isNear first lastPoint) rows (toSpanList parts)
   where
     (first, _) = Span.ends (Vector.head parts)
     (_, lastPoint) = Span.ends (Vector.last parts)
@@ -379,7 +382,7 @@ checkJoined parts
   | Just i <- find (Span.isPoint . span') [1 .. n] = Left (NoLength i)
   | Just i <-
       find
-        (\i -> not (Vec.near (snd (Span.ends (span' i))) (fst (Span.ends (span' (i + 1))))))
+        (\i -> not (Vec.isNear (snd (Span.ends (span' i))) (fst (Span.ends (span' (i + 1))))))
         [1 .. n - 1] =
     Left (Disjoint i)
   | otherwise = Right ()
@@ -396,19 +399,19 @@ checkDistinct needed points
       (Right ())
       (Left . Coincident)
       ( find
-          (\i -> Vec.near (points Vector.! (i - 1)) (points Vector.! i))
+          (\i -> Vec.isNear (points Vector.! (i - 1)) (points Vector.! i))
           [1 .. Vector.length points - 1]
       )
 
 -- | True if the last of at least three points repeats the first.
 isLoop :: Vector Point -> Bool
 isLoop points = case (points Vector.!? 0, points Vector.!? (Vector.length points - 1)) of
-  (Just p, Just q) -> Vector.length points > 2 && Vec.near p q
+  (Just p, Just q) -> Vector.length points > 2 && Vec.isNear p q
   _ -> False
 
 -- | Rows at the ends of the spans.
 rowsAtEnds :: Vector Point -> Vector Knot
-rowsAtEnds = Vector.imap (\i p -> Knot {at = fromIntegral i, place = p})
+rowsAtEnds = Vector.imap (\i p -> Knot {at = fromIntegral i, knotPoint = p})
 
 -- | Count of spans, which is the parameter of the end.
 count :: Base -> Int
@@ -442,13 +445,13 @@ spanPoint approach u base =
       Before -> max 0 (ceiling parameter - 1)
 
 -- | Taylor expansion of the point about a position, up to the given order.
-jet :: Int -> Base -> SpanPoint -> TaylorExpansion
-jet n base s = case spanList base of
+expansion :: Int -> Base -> SpanPoint -> TaylorExpansion
+expansion n base s = case spanList base of
   Cubical xs ys ->
     V2
       (Spline.series n (Spline.at xs (number s)) (local s))
       (Spline.series n (Spline.at ys (number s)) (local s))
-  Mixed parts -> Span.jet n (parts Vector.! number s) (local s)
+  Mixed parts -> Span.expansion n (parts Vector.! number s) (local s)
 
 -- | Base in the opposite direction.
 reversed :: Base -> Base
@@ -456,11 +459,11 @@ reversed base =
   makeBase
     method'
     (closed base)
-    (Vector.imap back (backwards base (rows base)))
+    (Vector.imap back (inReverseOrder base (rows base)))
     (mapSpans (Vector.map Span.reversed . Vector.reverse) base)
   where
     back i row =
-      row {at = if i == 0 && unrepeated base then 0 else fromIntegral (count base) - at row}
+      row {at = if i == 0 && lacksRepeatedStart base then 0 else fromIntegral (count base) - at row}
     method' = case method base of
       Spline (Clamped from to) -> Spline (Clamped (Vec.negate to) (Vec.negate from))
       Spline Natural -> Spline Natural
@@ -474,14 +477,14 @@ mapSpans :: (Vector Span -> Vector Span) -> Base -> SpanList
 mapSpans f base = toSpanList (f (spans base))
 
 -- | Row values in the order of the reversed base.
-backwards :: Base -> Vector a -> Vector a
-backwards base values
-  | unrepeated base = Vector.cons (Vector.head values) (Vector.reverse (Vector.tail values))
+inReverseOrder :: Base -> Vector a -> Vector a
+inReverseOrder base values
+  | lacksRepeatedStart base = Vector.cons (Vector.head values) (Vector.reverse (Vector.tail values))
   | otherwise = Vector.reverse values
 
 -- | True if the base is closed and its first row, at parameter 0, is not repeated at the end.
-unrepeated :: Base -> Bool
-unrepeated base =
+lacksRepeatedStart :: Base -> Bool
+lacksRepeatedStart base =
   case (rows base Vector.!? 0, rows base Vector.!? (Vector.length (rows base) - 1)) of
     (Just first, Just lastPoint) ->
       closed base && at first == 0 && at lastPoint < fromIntegral (count base)
@@ -493,7 +496,7 @@ transformed s base =
   makeBase
     method'
     (closed base)
-    (Vector.map (\row -> row {place = Transformation.point s (place row)}) (rows base))
+    (Vector.map (\row -> row {knotPoint = Transformation.point s (knotPoint row)}) (rows base))
     (mapSpans (Vector.map (Span.transformed s)) base)
   where
     method' = case method base of

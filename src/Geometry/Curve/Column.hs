@@ -52,8 +52,10 @@ column base values
     flat = Unboxed.convert values
     first = Vector.take 1 values
     -- A table that repeats its first point may give the repeated row another value.
-    isPeriodic = Base.unrepeated base || first == Vector.drop (Vector.length values - 1) values
-    periodicValues = if Base.unrepeated base then Unboxed.convert (values <> first) else flat
+    isPeriodic =
+      Base.lacksRepeatedStart base || first == Vector.drop (Vector.length values - 1) values
+    periodicValues =
+      if Base.lacksRepeatedStart base then Unboxed.convert (values <> first) else flat
     interpolation = case Base.method base of
       Polyline ->
         BySpan
@@ -79,7 +81,7 @@ byLength base values = case Vector.toList values of
   [] -> BySpan (Spline.generate (Base.count base) (const (Cubic 0 0 0 0)))
   [v] -> BySpan (Spline.generate (Base.count base) (const (Cubic v 0 0 0)))
   v : _
-    | Base.unrepeated base ->
+    | Base.lacksRepeatedStart base ->
       spline
         (if Vector.length values >= 3 then Periodic else Natural)
         (Unboxed.snoc stations whole)
@@ -91,7 +93,7 @@ byLength base values = case Vector.toList values of
     stations =
       Unboxed.convert
         ( Vector.map
-            (\row -> let Mm s = ArcLength.lengthTo (Base.arcLength base) (Base.at row) in s)
+            (\row -> let Mm s = ArcLength.lengthAt (Base.arcLength base) (Base.at row) in s)
             (Base.rows base)
         )
     isFullTurn =
@@ -121,13 +123,16 @@ series n base c spanPoint = case interpolation c of
         let ahead = Spline.series 1 (Spline.at cubics i) t
             rise = PowerSeries.coefficient 1 ahead
          in [PowerSeries.value ahead - rise * t, rise]
-      Mm currentLength = ArcLength.lengthTo (Base.arcLength base) (parameter spanPoint)
+      Mm currentLength = ArcLength.lengthAt (Base.arcLength base) (parameter spanPoint)
       i = intervalAt currentLength stations
       from = stations Unboxed.! i
       width = stations Unboxed.! (i + 1) - from
       lengthSeries = case n of
         0 -> PowerSeries.constant 0 currentLength
-        _ -> PowerSeries.integral currentLength (TaylorExpansion.speed (Base.jet n base spanPoint))
+        _ ->
+          PowerSeries.integral
+            currentLength
+            (TaylorExpansion.speed (Base.expansion n base spanPoint))
       fraction = PowerSeries.scale (1 / width) (PowerSeries.plusConstant (-from) lengthSeries)
 
 -- | Rising parameters of the base at which one cubic follows another, apart from the ends of the
@@ -140,7 +145,7 @@ knots base c = case interpolation c of
 -- | Index of the interval that contains a length; outside of all intervals, that of the nearer
 -- one.
 intervalAt :: Double -> Unboxed.Vector Double -> Int
-intervalAt s stations = BinarySearch.lastBelow (Unboxed.length stations - 1) s stations
+intervalAt s stations = BinarySearch.lastAtMost (Unboxed.length stations - 1) s stations
 
 -- | Column with scaled values, on the given base.
 scaled :: Base -> Double -> Column -> Column
@@ -148,4 +153,4 @@ scaled base k c = column base (Vector.map (k *) (values c))
 
 -- | Column for the reversed base, given the original base and the reversed one.
 reversed :: Base -> Base -> Column -> Column
-reversed old new c = column new (Base.backwards old (values c))
+reversed old new c = column new (Base.inReverseOrder old (values c))

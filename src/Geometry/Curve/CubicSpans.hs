@@ -38,13 +38,14 @@ along (Mm tolerance) curve = case curve of
   where
     refineStretch stretch@(a, b) =
       refine maxHalvings (between (node stretch) a (node stretch a) b (node stretch b))
-    node stretch u = case ShiftedCurve.expansionAt 1 curve (PointSearch.within stretch curve u) of
-      V2 x y ->
-        Node
-          (PowerSeries.value x)
-          (PowerSeries.value y)
-          (PowerSeries.coefficient 1 x)
-          (PowerSeries.coefficient 1 y)
+    node stretch u =
+      case ShiftedCurve.expansionAt 1 curve (PointSearch.positionWithin stretch curve u) of
+        V2 x y ->
+          Node
+            (PowerSeries.value x)
+            (PowerSeries.value y)
+            (PowerSeries.coefficient 1 x)
+            (PowerSeries.coefficient 1 y)
     refine remaining interval@Interval {begin, end, first, middleNode, final, nodeAt}
       | not (speed first > still && speed final > still && speed middleNode > still) = Nothing
       | areHalvesNear tolerance interval firstHalf secondHalf =
@@ -55,7 +56,7 @@ along (Mm tolerance) curve = case curve of
         m = middle begin end
         firstHalf = between nodeAt begin first m middleNode
         secondHalf = between nodeAt m middleNode end final
-    Mm still = Tolerance.still
+    Mm still = Tolerance.stationary
 
 -- | Largest count of halvings of one interval.
 maxHalvings :: Int

@@ -2,7 +2,7 @@
 -- curvature. Beyond it, the shifted curve runs backwards between two cusps.
 module Geometry.Curve.Cusp
   ( Cusp (..),
-    fold,
+    firstCusp,
   )
 where
 
@@ -29,18 +29,18 @@ data Cusp = Cusp
     -- | point on the curve that is shifted
     place :: Point,
     -- | absolute value of the requested distance at this point
-    asked :: Mm,
+    requested :: Mm,
     -- | radius of curvature at this point
-    largest :: Mm
+    curvatureRadius :: Mm
   }
   deriving stock (Eq, Show)
 
 -- | Finds the cusp of a curve. Nothing if every shift d to the left satisfies @1 − d·κ > 0@. Only
 -- smooth stretches are tested, not the corners between them.
-fold :: Curve -> Maybe Cusp
-fold curve = case curve of
+firstCusp :: Curve -> Maybe Cusp
+firstCusp curve = case curve of
   Plain _ -> Nothing
-  Shifted top lower _ -> case fold lower of
+  Shifted top lower _ -> case firstCusp lower of
     Just found -> Just found
     Nothing -> cuspOfLayer top lower curve
 
@@ -52,18 +52,26 @@ cuspOfLayer top lower whole
       Cusp
         { layer = length (ShiftedCurve.layers whole),
           parameter,
-          place = TaylorExpansion.place expansion,
-          asked = Mm (abs d),
-          largest = Mm (if overshoot > fromIntegral (maxBound :: Int) then 0 else abs d / overshoot)
+          place = TaylorExpansion.position expansion,
+          requested = Mm (abs d),
+          curvatureRadius =
+            Mm (if overshoot > fromIntegral (maxBound :: Int) then 0 else abs d / overshoot)
         }
   | otherwise = Nothing
   where
     (stretch, parameter, overshoot) =
       maximumBy (comparing (\(_, _, g) -> g)) (concatMap candidates (PointSearch.stretches whole))
-    expansion = ShiftedCurve.expansionAt 1 lower (PointSearch.within stretch whole parameter)
+    expansion =
+      ShiftedCurve.expansionAt 1 lower (PointSearch.positionWithin stretch whole parameter)
     d =
       PowerSeries.value
-        (ShiftedCurve.distanceAt 0 top lower expansion (PointSearch.within stretch whole parameter))
+        ( ShiftedCurve.distanceAt
+            0
+            top
+            lower
+            expansion
+            (PointSearch.positionWithin stretch whole parameter)
+        )
     -- Candidates for the maximum: the samples, maxima between them, and local minima of the speed,
     -- where the curve bends most.
     candidates s =
@@ -88,7 +96,7 @@ speedMinima lower whole stretch =
   where
     slope u =
       let V2 a b =
-            ShiftedCurve.expansionAt 3 lower (PointSearch.within stretch whole u)
+            ShiftedCurve.expansionAt 3 lower (PointSearch.positionWithin stretch whole u)
        in slopes
             ( PowerSeries.add
                 (square (PowerSeries.derivative a))
@@ -104,10 +112,10 @@ slopes g = (PowerSeries.coefficient 1 g, 2 * PowerSeries.coefficient 2 g)
 -- that is shifted has no speed, the series of d alone, and False.
 productSeries :: Int -> Layer -> Curve -> Curve -> (Double, Double) -> Double -> (PowerSeries, Bool)
 productSeries n top lower whole stretch u
-  | Mm (Vec.norm (TaylorExpansion.velocity expansion)) > Tolerance.still =
-    (PowerSeries.multiply d (TaylorExpansion.bending expansion), True)
+  | Mm (Vec.norm (TaylorExpansion.velocity expansion)) > Tolerance.stationary =
+    (PowerSeries.multiply d (TaylorExpansion.curvatureSeries expansion), True)
   | otherwise = (d, False)
   where
-    s = PointSearch.within stretch whole u
+    s = PointSearch.positionWithin stretch whole u
     expansion = ShiftedCurve.expansionAt (n + 2) lower s
     d = ShiftedCurve.distanceAt n top lower expansion s

@@ -8,7 +8,7 @@ module Geometry.Curve.Intersection
     onLine,
     onCircle,
     onCurve,
-    exactly,
+    refine,
   )
 where
 
@@ -41,8 +41,8 @@ onCurve c p = let u = Curve.nearest p c in (Curve.at c u, Curve.tangent c u)
 -- | Intersection of two curves near a point that is within 'Tolerance.curve' of both. Returns
 -- this point unchanged where there is no intersection nearby, where a curve ends, and where the
 -- curves are nearly parallel.
-exactly :: Foot -> Foot -> Point -> Point
-exactly footA footB initial = newton (8 :: Int) initial
+refine :: Foot -> Foot -> Point -> Point
+refine footA footB initial = newton (8 :: Int) initial
   where
     newton remaining p
       | Vec.distance a b <= Tolerance.crossing =

@@ -8,12 +8,12 @@ module Geometry.Curve.PointSearch
   ( nearest,
     atX,
     corners,
-    directionAt,
-    heading,
-    closed,
+    unitTangentAcrossSeam,
+    unitTangent,
+    isClosed,
     stretches,
     samples,
-    within,
+    positionWithin,
   )
 where
 
@@ -49,8 +49,8 @@ sampleSteps :: Int
 sampleSteps = 8
 
 -- | Position at a parameter of a stretch, approached from within the stretch.
-within :: (Double, Double) -> Curve -> Double -> SpanPoint
-within (_, b) curve u = ShiftedCurve.spanPoint (if u >= b then Before else After) u curve
+positionWithin :: (Double, Double) -> Curve -> Double -> SpanPoint
+positionWithin (_, b) curve u = ShiftedCurve.spanPoint (if u >= b then Before else After) u curve
 
 -- | Parameter of the point nearest to a given point. Of several equally near points the first is
 -- taken.
@@ -71,8 +71,8 @@ nearest p curve =
         )
         (stretches curve)
     sample stretch u =
-      let jet = ShiftedCurve.expansionAt 1 curve (within stretch curve u)
-       in (u, TaylorExpansion.place jet, TaylorExpansion.velocity jet)
+      let jet = ShiftedCurve.expansionAt 1 curve (positionWithin stretch curve u)
+       in (u, TaylorExpansion.position jet, TaylorExpansion.velocity jet)
     best = minimum [Vec.distance p q | (_, found) <- sampled, (_, q, _) <- found]
     -- Refines each minimum of the distance that neighbouring samples enclose, unless it is
     -- certainly farther away than the best sample.
@@ -80,7 +80,9 @@ nearest p curve =
       [ ( u,
           Vec.distance
             p
-            (TaylorExpansion.place (ShiftedCurve.expansionAt 0 curve (within stretch curve u)))
+            ( TaylorExpansion.position
+                (ShiftedCurve.expansionAt 0 curve (positionWithin stretch curve u))
+            )
         )
         | ((a, q, v), (b, r, w)) <- zip found (drop 1 found),
           Vec.dot (Vec.to p q) v < 0,
@@ -90,8 +92,8 @@ nearest p curve =
       ]
     distanceSlope stretch u = (Vec.dot out v, Vec.dot v v + Vec.dot out acceleration)
       where
-        jet@(V2 x y) = ShiftedCurve.expansionAt 2 curve (within stretch curve u)
-        out = Vec.to p (TaylorExpansion.place jet)
+        jet@(V2 x y) = ShiftedCurve.expansionAt 2 curve (positionWithin stretch curve u)
+        out = Vec.to p (TaylorExpansion.position jet)
         v = TaylorExpansion.velocity jet
         acceleration = Vec.vec (2 * PowerSeries.coefficient 2 x) (2 * PowerSeries.coefficient 2 y)
 
@@ -107,7 +109,7 @@ refineSamples sample = go
       _ -> found
     between n a@(u, _, v) b@(w, _, v')
       | n > 0,
-        Rad change <- Vec.turn v v',
+        Rad change <- Vec.signedAngle v v',
         abs change > largestChange =
         let m = sample ((u + w) / 2) in between (n - 1) a m <> [m] <> between (n - 1) m b
       | otherwise = []
@@ -121,7 +123,7 @@ atX :: Double -> Curve -> [Double]
 atX abscissa curve = distinct (concatMap found (stretches curve))
   where
     x order stretch u =
-      let V2 a _ = ShiftedCurve.expansionAt order curve (within stretch curve u) in a
+      let V2 a _ = ShiftedCurve.expansionAt order curve (positionWithin stretch curve u) in a
     found stretch =
       roots
         ( map
@@ -171,39 +173,43 @@ merge as bs = case (as, bs) of
 -- of a closed curve has the parameter 0.
 corners :: Curve -> [Double]
 corners curve =
-  [0 | closed curve, isCorner 0] <> filter isCorner (drop 1 (init (ShiftedCurve.breaks curve)))
+  [0 | isClosed curve, isCorner 0] <> filter isCorner (drop 1 (init (ShiftedCurve.breaks curve)))
   where
     isCorner u =
       let Rad a =
-            Vec.turn (directionAt Before curve u) (directionAt After curve u)
+            Vec.signedAngle
+              (unitTangentAcrossSeam Before curve u)
+              (unitTangentAcrossSeam After curve u)
        in Rad (abs a) > Tolerance.smoothAngle
 
 -- | True if the curve ends where it begins.
-closed :: Curve -> Bool
-closed curve = Vec.near (end After 0) (end Before (ShiftedCurve.domain curve))
+isClosed :: Curve -> Bool
+isClosed curve = Vec.isNear (end After 0) (end Before (ShiftedCurve.domain curve))
   where
     end approach u =
-      TaylorExpansion.place
+      TaylorExpansion.position
         (ShiftedCurve.expansionAt 0 curve (ShiftedCurve.spanPoint approach u curve))
 
 -- | Unit tangent just before or just after a parameter. On a closed curve the start continues the
 -- end.
-directionAt :: Approach -> Curve -> Double -> Vec
-directionAt approach curve u
-  | approach == Before && u <= 0 && closed curve = heading Before curve (ShiftedCurve.domain curve)
-  | approach == After && u >= ShiftedCurve.domain curve && closed curve = heading After curve 0
-  | otherwise = heading approach curve u
+unitTangentAcrossSeam :: Approach -> Curve -> Double -> Vec
+unitTangentAcrossSeam approach curve u
+  | approach == Before && u <= 0 && isClosed curve =
+    unitTangent Before curve (ShiftedCurve.domain curve)
+  | approach == After && u >= ShiftedCurve.domain curve && isClosed curve =
+    unitTangent After curve 0
+  | otherwise = unitTangent approach curve u
 
 -- | Unit tangent just before or just after a parameter; at an end of the curve, the one-sided
 -- tangent. Where the speed vanishes it is the limit. Where a shift has collapsed a stretch to a
 -- point it is the tangent of the curve below.
-heading :: Approach -> Curve -> Double -> Vec
-heading approach curve u = case TaylorExpansion.direction approach (expansion 1) of
+unitTangent :: Approach -> Curve -> Double -> Vec
+unitTangent approach curve u = case TaylorExpansion.direction approach (expansion 1) of
   Just d -> d
   Nothing -> case TaylorExpansion.direction approach (expansion 4) of
     Just d -> d
     Nothing -> case curve of
-      Shifted _ lower _ -> heading approach lower u
+      Shifted _ lower _ -> unitTangent approach lower u
       Plain _ -> Crash.bug "a span that is a point"
   where
     expansion n = ShiftedCurve.expansionAt n curve (ShiftedCurve.spanPoint approach u curve)

@@ -17,7 +17,7 @@ module Geometry.Curve.Section
     SectionKind (..),
     kind,
     height,
-    missed,
+    deviationFrom,
     SectionFormula (..),
     formula,
     segment,
@@ -89,7 +89,7 @@ data Section = Section
     to :: Point,
     curve :: SectionShape,
     -- | largest absolute deviation in y at its rows
-    largest :: Mm
+    largestDeviation :: Mm
   }
   deriving stock (Eq, Show)
 
@@ -143,8 +143,8 @@ formula p = case curve p of
     polynomial a = let s = h / w in Polynomial a (s - a * (x1 + x2)) (y1 - s * x1 + a * x1 * x2)
 
 -- | Deviation in y of a section from a point, positive where the section is above.
-missed :: Section -> Point -> Double
-missed p q = height p (Vec.x q) - Vec.y q
+deviationFrom :: Section -> Point -> Double
+deviationFrom p q = height p (Vec.x q) - Vec.y q
 
 -- | Parabola through three points, relative to the chord from the first to the last.
 parabola :: Point -> Point -> Point -> SectionShape
@@ -162,7 +162,7 @@ centre :: Section -> Double -> Point
 centre p t =
   Vec.shift
     (Vec.scale (-(sense / (2 * tan t))) (Vec.left (Vec.to (from p) (to p))))
-    (Vec.between 0.5 (from p) (to p))
+    (Vec.interpolate 0.5 (from p) (to p))
   where
     Chord w _ = chordOf (from p) (to p)
     sense = signum w

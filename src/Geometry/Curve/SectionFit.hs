@@ -25,7 +25,7 @@ import Geometry.Curve.Section
     SectionShape (..),
     best,
     bestWithin,
-    missed,
+    deviationFrom,
     parabola,
     row,
     rows,
@@ -61,8 +61,8 @@ fit kinds (Mm tolerance) t = fmap piece (simplest t steps (bottleneck steps))
 
 -- | Section between two rows (indices from 0) with a shape and its largest deviation.
 sectionBetween :: PointTable -> Int -> Int -> SectionShape -> Mm -> Section
-sectionBetween t i j curve largest =
-  Section {first = i + 1, final = j + 1, from = row t i, to = row t j, curve, largest}
+sectionBetween t i j curve largestDeviation =
+  Section {first = i + 1, final = j + 1, from = row t i, to = row t j, curve, largestDeviation}
 
 -- | Sections that start at a row: their last rows, and the deviation for each kind.
 type SectionsFrom = [(Int, NonEmpty (SectionKind, Double))]
@@ -192,18 +192,18 @@ sections t chosen = case NonEmpty.nonEmpty chosen of
         _ -> Left (WrongCount number (length ks))
     chosenSection i j c =
       let p = sectionBetween t i j c (Mm 0)
-       in p {largest = Mm (maximum (map (\k -> abs (missed p (row t k))) [i .. j]))}
+       in p {largestDeviation = Mm (maximum (map (\k -> abs (deviationFrom p (row t k))) [i .. j]))}
 
 -- Deviations ------------------------------------------------------------------------------------
 
 -- | Deviation of a row from its section.
 data Deviation = Deviation
   { -- | number of the row, counted from 1
-    ofRow :: Int,
+    rowNumber :: Int,
     -- | number of the section that contains the row, counted from 1; the earlier of two
-    onPiece :: Int,
+    sectionNumber :: Int,
     -- | y of the section minus y of the row, as in the paper's tables
-    miss :: Mm
+    signedDeviation :: Mm
   }
   deriving stock (Eq, Show)
 
@@ -212,6 +212,6 @@ deviations :: PointTable -> NonEmpty Section -> [Deviation]
 deviations t pieces = concat (zipWith onOne [1 ..] (toList pieces))
   where
     onOne number p =
-      [ Deviation k number (Mm (missed p (row t (k - 1))))
+      [ Deviation k number (Mm (deviationFrom p (row t (k - 1))))
         | k <- [(if number == 1 then first p else first p + 1) .. final p]
       ]

@@ -90,13 +90,13 @@ intervalOf arcLength distance = case distance of
   Growing Growth {between = Just (a, b)} ->
     ShiftInterval
       { marks = [a, b],
-        first = ArcLength.lengthTo arcLength a,
-        final = ArcLength.lengthTo arcLength b
+        first = ArcLength.lengthAt arcLength a,
+        final = ArcLength.lengthAt arcLength b
       }
   Square _ inner -> intervalOf arcLength inner
   Joggled joggle@Joggle {begins, ends} ->
-    let first = ArcLength.lengthTo arcLength begins
-        final = ArcLength.lengthTo arcLength ends
+    let first = ArcLength.lengthAt arcLength begins
+        final = ArcLength.lengthAt arcLength ends
         on share = ArcLength.parameterAt arcLength (plus first (times share (ramp joggle)))
         off share = ArcLength.parameterAt arcLength (minus final (times share (ramp joggle)))
      in ShiftInterval {marks = [begins, on 0.5, on 1, off 1, off 0.5, ends], first, final}
@@ -213,7 +213,7 @@ lengthSeries n below position = case n of
   0 -> PowerSeries.constant 0 runLength
   _ -> PowerSeries.integral runLength (TaylorExpansion.speed (near below))
   where
-    Mm runLength = ArcLength.lengthTo (along below) (parameter position)
+    Mm runLength = ArcLength.lengthAt (along below) (parameter position)
 
 -- | Count of marks before the position.
 marksBefore :: SpanPoint -> [Double] -> Int

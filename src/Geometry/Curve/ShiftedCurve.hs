@@ -48,7 +48,7 @@ shifted side distance lower = whole
       Shifted
         Layer {side, distance, interval = ShiftDistance.intervalOf (arcLength lower) distance}
         lower
-        (ArcLength.measured speed (merge (breaks whole) (knots whole)))
+        (ArcLength.fromSpeed speed (merge (breaks whole) (knots whole)))
     speed u = Vec.norm (TaylorExpansion.velocity (expansionAt 1 whole (spanPoint After u whole)))
 
 -- | Base under all shifts.
@@ -112,13 +112,13 @@ spanPoint approach u curve = Base.spanPoint approach u (base curve)
 -- order more of the curve below, except where its distance vanishes.
 expansionAt :: Int -> Curve -> SpanPoint -> TaylorExpansion
 expansionAt n curve s = case curve of
-  Plain b -> Base.jet n b s
+  Plain b -> Base.expansion n b s
   Shifted layer lower _
     | ShiftDistance.vanishes (distance layer) s -> expansionAt n lower s
     | otherwise ->
       let near =
             expansionAt (n + 1) lower s
-       in TaylorExpansion.moved (distanceAt n layer lower near s) near
+       in TaylorExpansion.offset (distanceAt n layer lower near s) near
 
 -- | Power series of a shift's distance to the left, up to the given order. The expansion is that
 -- of the curve below about the position.

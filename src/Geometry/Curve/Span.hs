@@ -2,12 +2,12 @@
 module Geometry.Curve.Span
   ( Span (..),
     SpanShape (..),
-    ofShape,
-    ofSegment,
+    fromShape,
+    fromSegment,
     ends,
     segment,
     isPoint,
-    jet,
+    expansion,
     reversed,
     transformed,
     image,
@@ -48,20 +48,20 @@ data SpanShape
   deriving stock (Eq, Show)
 
 -- | Span of a shape.
-ofShape :: SpanShape -> Span
-ofShape shape = case shape of
+fromShape :: SpanShape -> Span
+fromShape shape = case shape of
   Line p q -> Polynomial (Spline.line (Vec.x p) (Vec.x q)) (Spline.line (Vec.y p) (Vec.y q))
   Quadratic a b c from to ->
     let d = to - from
      in Polynomial
           (Spline.line from to)
           (Cubic (c + from * (b + from * a)) (d * (b + 2 * a * from)) (a * d * d) 0)
-  Circular s -> ofSegment s
+  Circular s -> fromSegment s
 
 -- | Span of a line or an arc.
-ofSegment :: Segment -> Span
-ofSegment s = case s of
-  Straight p q -> ofShape (Line p q)
+fromSegment :: Segment -> Span
+fromSegment s = case s of
+  Straight p q -> fromShape (Line p q)
   Arc {} -> Round s
 
 -- | Start and end of a span.
@@ -83,12 +83,12 @@ segment s = case s of
 -- | True if a span has no length. A full circle ends where it begins, but has a length.
 isPoint :: Span -> Bool
 isPoint s = case s of
-  Polynomial _ _ -> let (p, q) = ends s in Vec.near p q
+  Polynomial _ _ -> let (p, q) = ends s in Vec.isNear p q
   Round g -> Segment.length g <= Tolerance.coincident
 
 -- | Taylor expansion of the point about a local parameter, up to the given order.
-jet :: Int -> Span -> Double -> TaylorExpansion
-jet n s t = case s of
+expansion :: Int -> Span -> Double -> TaylorExpansion
+expansion n s t = case s of
   Polynomial x y -> V2 (Spline.series n x t) (Spline.series n y t)
   Round (Arc {start, centre, sweep = Rad sweep}) ->
     -- Each derivative is the one before, rotated by a quarter turn and multiplied by the sweep.

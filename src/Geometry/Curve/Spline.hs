@@ -56,7 +56,7 @@ rate (Cubic _ b c d) t = b + t * (2 * c + 3 * t * d)
 -- | Power series about a parameter, up to the given order.
 series :: Int -> Cubic -> Double -> PowerSeries
 series n (Cubic a b c d) t =
-  PowerSeries.ofFour
+  PowerSeries.cubic
     n
     (a + t * (b + t * (c + t * d)))
     (b + t * (2 * c + 3 * t * d))

@@ -8,8 +8,8 @@ module Geometry.Index.BoundingBox
     inflate,
     meets,
     distance,
-    apart,
-    atLeast,
+    gapBetween,
+    lowerBound,
   )
 where
 
@@ -40,7 +40,7 @@ ofSegment segment = case segment of
       (max (Vec.x a) (Vec.x b))
       (max (Vec.y a) (Vec.y b))
   Arc {start, end, centre, sweep = Rad s}
-    | abs s < pi -> inflate (Segment.bulge segment) (ofPoints start [end])
+    | abs s < pi -> inflate (Segment.sagitta segment) (ofPoints start [end])
     | otherwise -> inflate (Segment.radius centre start) (ofPoints centre [])
 
 -- | The smallest box that contains two boxes.
@@ -58,15 +58,15 @@ meets (BoundingBox l b r t) (BoundingBox l' b' r' t') = l <= r' && l' <= r && b 
 
 -- | A lower bound of a distance over all points of a box: the distance at the box's middle less
 -- half of its diagonal. @distanceTo@ is the distance of a point from some fixed set.
-atLeast :: (Point -> Mm) -> BoundingBox -> Mm
-atLeast distanceTo (BoundingBox l b r t) =
+lowerBound :: (Point -> Mm) -> BoundingBox -> Mm
+lowerBound distanceTo (BoundingBox l b r t) =
   minus
     (distanceTo (Vec.point ((l + r) / 2) ((b + t) / 2)))
     (Mm (Vec.norm (Vec.vec (r - l) (t - b)) / 2))
 
 -- | The distance between two boxes, 0 when they meet.
-apart :: BoundingBox -> BoundingBox -> Mm
-apart (BoundingBox l b r t) (BoundingBox l' b' r' t') =
+gapBetween :: BoundingBox -> BoundingBox -> Mm
+gapBetween (BoundingBox l b r t) (BoundingBox l' b' r' t') =
   Mm (Vec.norm (Vec.vec (gap l r l' r') (gap b t b' t')))
   where
     gap low high low' high' = max 0 (max (low' - high) (low - high'))

@@ -3,25 +3,25 @@
 -- | A bounding-box tree: an index of things by their bounding boxes.
 --
 -- It is a packed R-tree in flat arrays: one array for the boxes of the things, one for the boxes of
--- each eight of those, and so on up to a single box. Only 'byPlace' sorts the things: they usually
--- come in the order of a contour or toolpath, where neighbours are close in space.
+-- each eight of those, and so on up to a single box. Only 'sortedIndex' sorts the things: they
+-- usually come in the order of a contour or toolpath, where neighbours are close in space.
 --
--- This is the tree for things of any type. "Geometry.Index.SegmentTree" is the one for the
--- segments of 'Geometry.ClosedPolyarcs.ClosedPolyarcs': it computes the lowest boxes from those
--- arrays and excludes pairs by direction, which only consecutive segments allow.
+-- This is the tree for things of any type. "Geometry.Index.SegmentTree" is the one for the segments
+-- of 'Geometry.ClosedPolyarcs.ClosedPolyarcs': it computes the lowest boxes from those arrays and
+-- excludes pairs by direction, which only consecutive segments allow.
 module Geometry.Index.BoxTree
   ( BoxTree,
 
     -- * Construction
     index,
-    indexOf,
-    byPlace,
+    indexFirst,
+    sortedIndex,
 
     -- * Contents
     toList,
     foldl',
     size,
-    around,
+    boundingBox,
 
     -- * Queries
     within,
@@ -67,15 +67,15 @@ index box list = indexed box (Vector.fromList list)
 
 -- | Build a tree of the first @count@ things of a list. It is faster than 'index', because the
 -- array is allocated once.
-indexOf :: Int -> (a -> BoundingBox) -> [a] -> BoxTree a
-indexOf count box list = indexed box (Vector.fromListN count list)
+indexFirst :: Int -> (a -> BoundingBox) -> [a] -> BoxTree a
+indexFirst count box list = indexed box (Vector.fromListN count list)
 
 -- | Build a tree of things whose order means nothing in space, such as the loops of a pocket, each
 -- of which surrounds the next. It sorts them by sort-tile-recursive packing: into columns by the
 -- middles of their boxes, each column by height, with as many things in a column as the column is
 -- boxes wide. The time is @n·log n@.
-byPlace :: (a -> BoundingBox) -> [a] -> BoxTree a
-byPlace box list =
+sortedIndex :: (a -> BoundingBox) -> [a] -> BoxTree a
+sortedIndex box list =
   index box (concatMap (sortOn (middleY . box)) (columns (sortOn (middleX . box) list)))
   where
     columns things = case splitAt (fan * perColumn) things of
@@ -149,8 +149,8 @@ size :: BoxTree a -> Int
 size = Vector.length . things
 
 -- | The box around all things. That of an empty tree meets no other box.
-around :: BoxTree a -> BoundingBox
-around tree = case levels tree of
+boundingBox :: BoxTree a -> BoundingBox
+boundingBox tree = case levels tree of
   top : _ | boxCount top > 0 -> boxAt top 0
   _ -> BoundingBox (1 / 0) (1 / 0) (-1 / 0) (-1 / 0)
 
@@ -320,7 +320,7 @@ closestPair measure distanceOf one other =
   where
     go best a b
       | Just c <- best,
-        minus (BoundingBox.apart (nodeBox a) (nodeBox b)) Tolerance.coincident > distanceOf c =
+        minus (BoundingBox.gapBetween (nodeBox a) (nodeBox b)) Tolerance.coincident > distanceOf c =
         best
       | otherwise = case (a, b) of
         (Leaf _ s, Leaf _ t) -> better best (measure s t)
@@ -330,7 +330,7 @@ closestPair measure distanceOf one other =
         (Branch _ as, Leaf _ _) -> nearestFirst best [(a', b) | a' <- as]
         (Leaf _ _, Branch _ bs) -> nearestFirst best [(a, b') | b' <- bs]
     nearestFirst best = List.foldl' (\best' (a, b) -> go best' a b) best . sortOn boxDistance
-    boxDistance (a, b) = BoundingBox.apart (nodeBox a) (nodeBox b)
+    boxDistance (a, b) = BoundingBox.gapBetween (nodeBox a) (nodeBox b)
     better best c = case best of
       Just b | distanceOf b <= distanceOf c -> best
       _ -> Just c

@@ -17,13 +17,13 @@
 -- segments, and cannot know about directions.
 module Geometry.Index.SegmentTree
   ( SegmentTree,
-    boxes,
+    build,
 
     -- * Boxes
-    leaf,
-    whole,
-    run,
-    behind,
+    segmentBoxWithMargin,
+    boundingBox,
+    runBoxOf,
+    nextRun,
 
     -- * Queries
     pairs,
@@ -65,11 +65,12 @@ fan = 8
 
 -- | The box of a segment with the margin, passed to a continuation: least x, least y, largest x,
 -- largest y.
-leaf :: SegmentTree -> Int -> (Double -> Double -> Double -> Double -> r) -> r
-leaf bs i k = segmentBox (chain bs) i (\lx ly hx hy -> k (lx - m) (ly - m) (hx + m) (hy + m))
+segmentBoxWithMargin :: SegmentTree -> Int -> (Double -> Double -> Double -> Double -> r) -> r
+segmentBoxWithMargin bs i k =
+  segmentBox (chain bs) i (\lx ly hx hy -> k (lx - m) (ly - m) (hx + m) (hy + m))
   where
     m = margin bs
-{-# INLINE leaf #-}
+{-# INLINE segmentBoxWithMargin #-}
 
 -- | The box of a segment without the margin. An arc up to a half circle lies in the parallelogram
 -- on its chord whose other side is tangent to it.
@@ -97,22 +98,23 @@ reaches (D# a) (D# b) = I# (a >=## b)
 -- | True when a segment starts at a vertex: it is not the repeated first vertex of a loop.
 present :: ClosedPolyarcs -> Int -> Bool
 present c i =
-  not (ClosedPolyarcs.marked ClosedPolyarcs.copied (indexPrimArray (ClosedPolyarcs.marks c) i))
+  not
+    (ClosedPolyarcs.hasMark ClosedPolyarcs.repeatedMark (indexPrimArray (ClosedPolyarcs.marks c) i))
 {-# INLINE present #-}
 
 -- | The box of the run of eight segments to which a segment belongs, passed to a continuation.
-run :: SegmentTree -> Int -> (Double -> Double -> Double -> Double -> r) -> r
-run bs i = boxAt (sides bs) (i `shiftR` 3)
-{-# INLINE run #-}
+runBoxOf :: SegmentTree -> Int -> (Double -> Double -> Double -> Double -> r) -> r
+runBoxOf bs i = boxAt (sides bs) (i `shiftR` 3)
+{-# INLINE runBoxOf #-}
 
 -- | The first segment of the next run.
-behind :: Int -> Int
-behind i = (i `shiftR` 3 + 1) `shiftL` 3
-{-# INLINE behind #-}
+nextRun :: Int -> Int
+nextRun i = (i `shiftR` 3 + 1) `shiftL` 3
+{-# INLINE nextRun #-}
 
 -- | The box around all segments, passed to a continuation.
-whole :: SegmentTree -> (Double -> Double -> Double -> Double -> r) -> r
-whole bs = boxAt (sides bs) (indexPrimArray (begins bs) (highest bs))
+boundingBox :: SegmentTree -> (Double -> Double -> Double -> Double -> r) -> r
+boundingBox bs = boxAt (sides bs) (indexPrimArray (begins bs) (highest bs))
 
 -- | The stored box with an index, passed to a continuation.
 boxAt :: PrimArray Double -> Int -> (Double -> Double -> Double -> Double -> r) -> r
@@ -127,8 +129,8 @@ boxAt a k next =
 -- Construction ------------------------------------------------------------------------------
 
 -- | Build the tree of all segments with a margin in mm.
-boxes :: Double -> ClosedPolyarcs -> SegmentTree
-boxes !m !c = runST $ do
+build :: Double -> ClosedPolyarcs -> SegmentTree
+build !m !c = runST $ do
   let n = sizeofPrimArray (ClosedPolyarcs.xs c)
       lowest = max 1 ((n + fan - 1) `quot` fan)
       levels = levelSizes lowest
@@ -267,7 +269,10 @@ headings !m !c !a !e = go a (2 * enough) (2 * enough)
       | axis <= enough && diagonal <= enough = 0
       | i >= e =
         (if axis > enough then axisBit else 0) .|. (if diagonal > enough then diagonalBit else 0)
-      | ClosedPolyarcs.marked ClosedPolyarcs.copied (indexPrimArray (ClosedPolyarcs.marks c) i) = 0
+      | ClosedPolyarcs.hasMark
+          ClosedPolyarcs.repeatedMark
+          (indexPrimArray (ClosedPolyarcs.marks c) i) =
+        0
       | b == 0 =
         ClosedPolyarcs.chord c i $ \dx dy ->
           go (i + 1) (least axis (ax * dx + ay * dy)) (least diagonal (sx * dx + sy * dy))
@@ -388,7 +393,7 @@ data Grid = Grid {halfSteps :: Double, addX :: Double, addY :: Double}
 
 -- | The grid of a tree. Coordinates are far enough above 0 for rounding not to make one negative.
 gridOf :: SegmentTree -> Grid
-gridOf bs = whole bs $ \lx ly hx hy ->
+gridOf bs = boundingBox bs $ \lx ly hx hy ->
   let w = most (hx - lx) (hy - ly)
       steps = if w > 0 then 268435456 / w else 0
    in Grid {halfSteps = steps, addX = 134217728 - steps * lx, addY = 134217728 - steps * ly}

@@ -6,9 +6,9 @@
 -- is Gauss–Legendre quadrature; up to a parameter within the panel it is a closed formula.
 module Geometry.Numeric.ArcLength
   ( ArcLength,
-    measured,
+    fromSpeed,
     total,
-    lengthTo,
+    lengthAt,
     parameterAt,
   )
 where
@@ -45,8 +45,8 @@ data Panel = Panel Double Double (Vector Double)
 -- | The table for a speed in mm per unit of the parameter, not negative. @breaks@ are the ends of
 -- the curve and the parameters between at which the speed may jump, in ascending order; the speed
 -- is never evaluated there.
-measured :: (Double -> Double) -> [Double] -> ArcLength
-measured speed breaks = ArcLength {starts, lengths, speeds}
+fromSpeed :: (Double -> Double) -> [Double] -> ArcLength
+fromSpeed speed breaks = ArcLength {starts, lengths, speeds}
   where
     panels = concat (zipWith (measuredBetween speed 0) breaks (drop 1 breaks))
     starts = Unboxed.fromList ([u | Panel u _ _ <- panels] <> take 1 (reverse breaks))
@@ -82,8 +82,8 @@ total :: ArcLength -> Mm
 total table = Mm (Unboxed.last (lengths table))
 
 -- | The arc length from the start to a parameter.
-lengthTo :: ArcLength -> Double -> Mm
-lengthTo table u
+lengthAt :: ArcLength -> Double -> Mm
+lengthAt table u
   | Unboxed.null (speeds table) || u <= Unboxed.head (starts table) = Mm 0
   | u >= Unboxed.last (starts table) = total table
   | otherwise = Mm (lengths table Unboxed.! p + run)
@@ -112,7 +112,7 @@ extent table p =
 -- | The index of the last element, but for the very last, that is not above a value; the elements
 -- are ascending.
 lastBelow :: Double -> Vector Double -> Int
-lastBelow v sorted = BinarySearch.lastBelow (Unboxed.length sorted - 1) v sorted
+lastBelow v sorted = BinarySearch.lastAtMost (Unboxed.length sorted - 1) v sorted
 
 -- | The arc length from the start of a panel to a position in it, from −1 to 1, and the speed there
 -- in mm per half panel. It uses @∫P_k = (P_{k+1} − P_{k−1}) / (2k + 1)@ for Legendre polynomials.

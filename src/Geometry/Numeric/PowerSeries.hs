@@ -11,7 +11,7 @@
 module Geometry.Numeric.PowerSeries
   ( PowerSeries,
     constant,
-    ofFour,
+    cubic,
     fromList,
     coefficients,
     order,
@@ -46,8 +46,8 @@ constant :: Int -> Double -> PowerSeries
 constant n c = PowerSeries (Unboxed.generate (n + 1) (\k -> if k == 0 then c else 0))
 
 -- | The series of a cubic polynomial by its coefficients from the constant on, up to order @n@.
-ofFour :: Int -> Double -> Double -> Double -> Double -> PowerSeries
-ofFour n a b c d =
+cubic :: Int -> Double -> Double -> Double -> Double -> PowerSeries
+cubic n a b c d =
   PowerSeries (Unboxed.generate (n + 1) (\case 0 -> a; 1 -> b; 2 -> c; 3 -> d; _ -> 0))
 
 -- | The series with the given first coefficients, up to order @n@; the others are 0.

@@ -1,13 +1,13 @@
 -- | Taylor expansions of a point that moves with a parameter: a vector of two power series.
 module Geometry.Numeric.TaylorExpansion
   ( TaylorExpansion,
-    place,
+    position,
     velocity,
     speed,
-    moved,
+    offset,
     direction,
     curvature,
-    bending,
+    curvatureSeries,
     Approach (..),
   )
 where
@@ -29,8 +29,8 @@ data Approach = Before | After
   deriving stock (Eq, Show, Enum, Bounded)
 
 -- | The point itself.
-place :: TaylorExpansion -> Point
-place expansion = Vec.point x y
+position :: TaylorExpansion -> Point
+position expansion = Vec.point x y
   where
     V2 x y = fmap PowerSeries.value expansion
 
@@ -58,8 +58,8 @@ cross (V2 x y) (V2 x' y') =
 
 -- | The point offset by a distance along the left normal, or to the right when it is negative; one
 -- order less: @P = C + d·N@ with @N = (−y′, x′)/√(x′² + y′²)@. The velocity must not be 0.
-moved :: PowerSeries -> TaylorExpansion -> TaylorExpansion
-moved d expansion@(V2 x y) =
+offset :: PowerSeries -> TaylorExpansion -> TaylorExpansion
+offset d expansion@(V2 x y) =
   V2
     (PowerSeries.subtract x (PowerSeries.multiply share y'))
     (PowerSeries.add y (PowerSeries.multiply share x'))
@@ -68,7 +68,7 @@ moved d expansion@(V2 x y) =
     share = PowerSeries.multiply d (PowerSeries.power (-0.5) (squared velocities))
 
 -- | The direction of travel, of length 1. Where the velocity is 0 it is the limit from the given
--- side, by the first derivative that is longer than 'Tolerance.still'. There is none when all
+-- side, by the first derivative that is longer than 'Tolerance.stationary'. There is none when all
 -- derivatives of the expansion vanish.
 direction :: Approach -> TaylorExpansion -> Maybe Vec
 direction approach expansion = case find moves (zip [1 :: Int ..] derivatives) of
@@ -77,7 +77,7 @@ direction approach expansion = case find moves (zip [1 :: Int ..] derivatives) o
   where
     derivatives = drop 1 (zipWith Vec.vec xs ys)
     V2 xs ys = fmap PowerSeries.coefficients expansion
-    moves (_, v) = Mm (Vec.norm v) > Tolerance.still
+    moves (_, v) = Mm (Vec.norm v) > Tolerance.stationary
 
 -- | The curvature in 1/mm, positive to the left. The order must be at least 2.
 curvature :: TaylorExpansion -> Double
@@ -88,8 +88,8 @@ curvature expansion = 2 * (x' * y'' - y' * x'') / (w * sqrt w)
     w = x' * x' + y' * y'
 
 -- | The curvature as a series, two orders less: @(x′·y″ − y′·x″) / (x′² + y′²)^(3/2)@.
-bending :: TaylorExpansion -> PowerSeries
-bending expansion =
+curvatureSeries :: TaylorExpansion -> PowerSeries
+curvatureSeries expansion =
   PowerSeries.multiply
     (cross velocities accelerations)
     (PowerSeries.multiply inverseSpeed (PowerSeries.multiply inverseSpeed inverseSpeed))

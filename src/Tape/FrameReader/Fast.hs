@@ -31,7 +31,7 @@ import Machine.Machine
     Sign (..),
     Word' (..),
   )
-import Tape.Layout (Layout, LayoutStep (..))
+import Tape.Layout (LayoutStep (..), PreparedLayout)
 import Tape.Layout qualified as Layout
 import Tape.ModalState (State (..))
 import Tape.ModalState qualified as ModalState
@@ -49,7 +49,7 @@ data Read
     NotSimple
 
 -- | Frame that begins at row @begin@.
-readFrame :: Layout -> State -> ShortByteString -> Int -> Read
+readFrame :: PreparedLayout -> State -> ShortByteString -> Int -> Read
 readFrame layout state rows begin
   | Layout.isPlain layout =
     go False (Layout.simpleSteps layout) begin 0 (withoutWords layout state)
@@ -98,7 +98,7 @@ data Numbers = Numbers
   }
 
 -- | Numbers of a frame without words: the cutter stays in place, and the motion is straight.
-withoutWords :: Layout -> State -> Numbers
+withoutWords :: PreparedLayout -> State -> Numbers
 withoutWords layout state =
   Numbers
     { present = 0,
@@ -127,7 +127,7 @@ withNumber c n ns = case c of
 
 -- | Frame with these numbers that ends before row @end@, if exactly these words would be written
 -- for it.
-frameFrom :: Layout -> State -> Numbers -> Int -> Read
+frameFrom :: PreparedLayout -> State -> Numbers -> Int -> Read
 frameFrom layout state ns end
   | increment /= 0,
     Just m <- motionOf layout (motionNumber ns),
@@ -137,12 +137,12 @@ frameFrom layout state ns end
         { motion = m,
           increment,
           centre = 0,
-          speed = FeedCode code,
+          feedCode = FeedCode code,
           braking = False,
-          orders = []
+          commands = []
         },
     areThese 0 f (Layout.simpleWords layout),
-    null (Frame.broken (Layout.machine layout) 1 f) =
+    null (Frame.frameViolations (Layout.machine layout) 1 f) =
     Read f end
   | otherwise = NotSimple
   where
@@ -168,11 +168,11 @@ frameFrom layout state ns end
 
 -- | Straight or rapid motion of a number; on a machine without a word for it every motion is
 -- straight.
-motionOf :: Layout -> Int -> Maybe FrameMotion
+motionOf :: PreparedLayout -> Int -> Maybe FrameMotion
 motionOf layout code = case Layout.motionWord layout of
-  Nothing -> Just Straightway
+  Nothing -> Just Linear
   Just (_, codes)
-    | code == straight codes -> Just Straightway
+    | code == straight codes -> Just Linear
     | Just code == rapid codes -> Just Rapid
     | otherwise -> Nothing
 
@@ -180,7 +180,7 @@ motionOf layout code = case Layout.motionWord layout of
 -- it would be written with other rows.
 data Number = Number Int Int
 
-plainNumber :: Layout -> NumberForm -> ShortByteString -> Int -> Number
+plainNumber :: PreparedLayout -> NumberForm -> ShortByteString -> Int -> Number
 plainNumber layout f rows begin = case sign f of
   Unsigned -> unsigned False begin
   MinusSign ->

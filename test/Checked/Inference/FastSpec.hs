@@ -12,7 +12,7 @@ import Data.Char (isDigit)
 import Data.List (sort)
 import Data.Text (Text)
 import Data.Text qualified as Text
-import Files (readText, walk)
+import Files (filesBelow, readText)
 import Generate.Program qualified as Generate
 import Surface.Error qualified as Surface
 import Surface.Lexer qualified as Lexer
@@ -47,7 +47,7 @@ spec = describe "literals checked fast and by full inference" $ do
 
 -- | The part programs in a folder, in the order of their names.
 partFiles :: FilePath -> IO [FilePath]
-partFiles folder = sort . filter ((== ".part") . takeExtension) <$> walk folder
+partFiles folder = sort . filter ((== ".part") . takeExtension) <$> filesBelow folder
 
 -- | The reports of a text and its checked program, as text without the numbers of unknowns, in
 -- which the two checks differ. Statements that cannot be parsed count as broken.

@@ -209,7 +209,7 @@ smooth ss = conjoin (zipWith joined ss (drop 1 ss))
 
 -- | Directions agree, apart from the error of a line in place of a nearly straight arc.
 aligned :: Vec -> Vec -> Property
-aligned a b = let Rad off = Vec.turn a b in counterexample (show off) (abs off < 2.1e-8)
+aligned a b = let Rad off = Vec.signedAngle a b in counterexample (show off) (abs off < 2.1e-8)
 
 sweepOf :: Segment -> Double
 sweepOf s = case s of
@@ -399,7 +399,7 @@ fewLaw w@(FitCase c tolerance) =
       _ -> (1 + length (filter ends (zip ss (drop 1 ss))), const 1, 1)
     ends (previous, s) =
       let (_, u) = near (Segment.start s)
-          Rad off = Vec.turn (Segment.startDirection s) (direction t Leaving u)
+          Rad off = Vec.signedAngle (Segment.startDirection s) (direction t Leaving u)
        in Segment.length previous > Mm 0.1
             && abs (Vec.cross (direction t Leaving u) (Vec.to (place t u) (Segment.start s))) < 1e-9
             && abs off < 5e-6
@@ -419,7 +419,7 @@ fewOnCubicsLaw (FitCase c tolerance) = case c of
       ss =
         toList
           ( MeasuredPolyarc.segments
-              ( MeasuredPolyarc.fromOutline
+              ( MeasuredPolyarc.fromFlatPolyarc
                   (CubicFit.approximate (Mm tolerance) (part (Vec.vec 1 0)) (part (Vec.vec 0 1)))
               )
           )

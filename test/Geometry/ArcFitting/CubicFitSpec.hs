@@ -102,7 +102,7 @@ arcsOf tolerance c = case Curve.cubics (Mm 1e-9) c of
   Just (_, xs, ys) ->
     toList
       ( MeasuredPolyarc.segments
-          (MeasuredPolyarc.fromOutline (CubicFit.approximate (Mm tolerance) xs ys))
+          (MeasuredPolyarc.fromFlatPolyarc (CubicFit.approximate (Mm tolerance) xs ys))
       )
   Nothing -> []
 
@@ -116,7 +116,7 @@ jumpsOf c =
     | u <- drop 1 (init (Curve.breaks c))
   ]
   where
-    angle a b = let Rad t = Vec.turn a b in t
+    angle a b = let Rad t = Vec.signedAngle a b in t
 
 -- | True if a kink that is no corner takes up between a fifth and all of the tolerance. An arc
 -- across it then has hardly any freedom, and whether the fit finds one within the bound is
@@ -207,7 +207,11 @@ smoothLaw (FitCase _ tolerance c) =
     ss = arcsOf tolerance c
     turns =
       zipWith
-        (\a b -> let Rad t = Vec.turn (Segment.endDirection a) (Segment.startDirection b) in abs t)
+        ( \a b ->
+            let Rad t =
+                  Vec.signedAngle (Segment.endDirection a) (Segment.startDirection b)
+             in abs t
+        )
         ss
         (drop 1 ss)
     joined a b = counterexample (show (a, b)) (Segment.end a === Segment.start b)
@@ -222,4 +226,5 @@ fewLaw t@(FitCase _ tolerance c) =
       )
   where
     ss = arcsOf tolerance c
-    general = NonEmpty.length (sconcat (ParametricFit.approximate (Mm tolerance) (Part.track c)))
+    general =
+      NonEmpty.length (sconcat (ParametricFit.approximate (Mm tolerance) (Part.parametric c)))

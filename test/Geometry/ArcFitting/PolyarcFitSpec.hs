@@ -81,7 +81,12 @@ fitCase = oneof [splined, bent, through, polygon]
       case Curve.spline Curve.Natural (Vector.fromList ps) of
         Left _ -> splined
         Right c ->
-          (\t -> FitCase "splined" t (sconcat (ParametricFit.approximate (Mm fine) (Part.track c))))
+          ( \t ->
+              FitCase
+                "splined"
+                t
+                (sconcat (ParametricFit.approximate (Mm fine) (Part.parametric c)))
+          )
             <$> tolerance
     -- Lines and arcs in tangent contact.
     bent = do
@@ -154,7 +159,7 @@ arcsOf :: FitCase -> [Segment]
 arcsOf (FitCase _ tolerance pieces) =
   toList
     ( MeasuredPolyarc.segments
-        (MeasuredPolyarc.fromOutline (PolyarcFit.approximate (Mm tolerance) pieces))
+        (MeasuredPolyarc.fromFlatPolyarc (PolyarcFit.approximate (Mm tolerance) pieces))
     )
 
 cornersOf :: [Segment] -> Int
@@ -163,7 +168,11 @@ cornersOf ss = length (filter (> 1e-3) (jumpsOf ss))
 jumpsOf :: [Segment] -> [Double]
 jumpsOf ss =
   zipWith
-    (\a b -> let Rad t = Vec.turn (Segment.endDirection a) (Segment.startDirection b) in abs t)
+    ( \a b ->
+        let Rad t =
+              Vec.signedAngle (Segment.endDirection a) (Segment.startDirection b)
+         in abs t
+    )
     ss
     (drop 1 ss)
 
@@ -268,6 +277,7 @@ fewLaw t@(FitCase _ tolerance pieces) =
       Straight _ _ -> 0
       Arc {sweep = Rad a} -> abs a
     found = length (arcsOf t)
-    general = case Curve.ofSegments pieces of
-      Right c -> NonEmpty.length (sconcat (ParametricFit.approximate (Mm tolerance) (Part.track c)))
+    general = case Curve.fromSegments pieces of
+      Right c ->
+        NonEmpty.length (sconcat (ParametricFit.approximate (Mm tolerance) (Part.parametric c)))
       Left _ -> found

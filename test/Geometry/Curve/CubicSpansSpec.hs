@@ -38,7 +38,7 @@ spec =
           fmap (\(Mm d, _, _) -> d) (Curve.cubics (Mm 1e-7) c) === Just 0
 
 shifted :: Gen Curve
-shifted = Generate.layered 2 Generate.smooth `suchThat` (isNothing . Cusp.fold)
+shifted = Generate.layered 2 Generate.smooth `suchThat` (isNothing . Cusp.firstCusp)
 
 -- | Curve on which the halves of an interval deviate more than the whole interval lets expect.
 shallow :: Curve
@@ -123,7 +123,7 @@ joinedLaw c = case pointsOf 1e-6 c of
             && apart (place (n - 1) (fromIntegral n)) (Curve.end c) < 1e-9
         )
   where
-    torn u = apart (Curve.placeFrom Curve.Before c u) (Curve.placeFrom Curve.After c u) > 1e-6
+    torn u = apart (Curve.pointFrom Curve.Before c u) (Curve.pointFrom Curve.After c u) > 1e-6
 
 -- | Count of spans, and the point on one of them by the cubics.
 pointsOf :: Double -> Curve -> Maybe (Int, Int -> Double -> Point)

@@ -31,7 +31,7 @@ spec =
                 off =
                   Vec.distance p
                     . ( \way ->
-                          Intersection.exactly
+                          Intersection.refine
                             (Intersection.onCurve curve)
                             way
                             (Vec.shift (Vec.polar (Mm 1e-5) (Rad aside)) p)

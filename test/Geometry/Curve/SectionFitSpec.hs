@@ -113,12 +113,14 @@ spec = do
           [(0, 63366, -17545), (-722596, 11707467, -27504988), (-460579, 8200501, -16220749)]
     it "has the deviations of the paper's tables" $
       fmap
-        (map (\d -> let Mm m = SectionFit.miss d in rounded 100 m) . SectionFit.deviations template)
+        ( map (\d -> let Mm m = SectionFit.signedDeviation d in rounded 100 m)
+            . SectionFit.deviations template
+        )
         (SectionFit.sections template paper)
         `shouldBe` Right [0, 1, 0, 3, 0, 0, -2, 0, -2, 0, 1, 3, 0]
     it "deviates from its second point by 0.006" $
       fmap
-        ( map (\d -> let Mm m = SectionFit.miss d in rounded 1000 m)
+        ( map (\d -> let Mm m = SectionFit.signedDeviation d in rounded 1000 m)
             . take 2
             . SectionFit.deviations template
         )
@@ -141,7 +143,7 @@ spec = do
     summary ks =
       let ps =
             toList (SectionFit.fit ks (Mm 0.03) template)
-       in (map shape ps, rounded 1e4 (maximum (map largestDeviation ps)))
+       in (map shape ps, rounded 1e4 (maximum (map deviationInMm ps)))
 
 everyKind :: NonEmpty SectionKind
 everyKind = LineKind :| [ParabolaKind, ArcKind]
@@ -149,8 +151,8 @@ everyKind = LineKind :| [ParabolaKind, ArcKind]
 shape :: Section -> (Int, Int, SectionKind)
 shape p = (first p, final p, Section.kind (curve p))
 
-largestDeviation :: Section -> Double
-largestDeviation p = let Mm d = largest p in d
+deviationInMm :: Section -> Double
+deviationInMm p = let Mm d = largestDeviation p in d
 
 template :: PointTable
 template =
@@ -234,11 +236,11 @@ withinLaw ks c@(Case ps tolerance) =
       )
     .&&. conjoin (map near (toList pieces))
     .&&. conjoin (map onSegment (toList pieces))
-    .&&. map SectionFit.ofRow deviations === [1 .. length ps]
+    .&&. map SectionFit.rowNumber deviations === [1 .. length ps]
     .&&. conjoin
       [ counterexample (show d) (abs m <= tolerance + 2e-9)
         | d <- deviations,
-          let Mm m = SectionFit.miss d
+          let Mm m = SectionFit.signedDeviation d
       ]
     .&&. conjoin
       [ counterexample (show p) (Section.kind (curve p) `elem` ks || final p == first p + 1)
@@ -251,7 +253,7 @@ withinLaw ks c@(Case ps tolerance) =
     near p =
       let off = maximum [abs (equation p (Vec.x q) - Vec.y q) | q <- rowsOf p]
        in counterexample (show (p, off)) $
-            off <= tolerance + 1e-6 && abs (off - largestDeviation p) < 1e-6
+            off <= tolerance + 1e-6 && abs (off - deviationInMm p) < 1e-6
     -- Points on the segment of a line or an arc satisfy its equation.
     onSegment p = case Section.segment p of
       Nothing -> Section.kind (curve p) === ParabolaKind
@@ -296,7 +298,7 @@ bestLaw ks c@(Case ps tolerance) =
     )
   where
     pieces = fitted ks c
-    worst' = maximum (fmap largestDeviation pieces)
+    worst' = maximum (fmap deviationInMm pieces)
     splits = allSplits ks tolerance ps
     fewest = minimum (map length splits)
     least =
@@ -315,7 +317,7 @@ simplestLaw ks c@(Case ps tolerance) =
   where
     pieces = fitted ks c
     found = sum (map (fromEnum . Section.kind . curve) (toList pieces))
-    bound = maximum (fmap largestDeviation pieces)
+    bound = maximum (fmap deviationInMm pieces)
     splits =
       [ s
         | s <- allSplits ks tolerance ps,
@@ -328,7 +330,7 @@ simplestLaw ks c@(Case ps tolerance) =
     surely (i, j, ds)
       | (i, j) `elem` decisive = maximum [fromEnum k | (k, d) <- ds, d <= bound + 1e-5]
       | otherwise = simplest (max 1e-9 (bound - 1e-5)) ds
-    decisive = [(first p - 1, final p - 1) | p <- toList pieces, largestDeviation p == bound]
+    decisive = [(first p - 1, final p - 1) | p <- toList pieces, deviationInMm p == bound]
 
 allSplits :: NonEmpty SectionKind -> Double -> [Point] -> [[(Int, Int, [(SectionKind, Double)])]]
 allSplits ks tolerance ps = from' 0
@@ -458,7 +460,7 @@ movedLaw ks c@(Case ps tolerance) =
       ]
   where
     outcome c' =
-      let pieces = fitted ks c' in (length pieces, maximum (fmap largestDeviation pieces))
+      let pieces = fitted ks c' in (length pieces, maximum (fmap deviationInMm pieces))
     alike (n, d) (m, e) = n === m .&&. counterexample (show (d, e)) (abs (d - e) < 1e-7)
 
 mirroredLaw :: NonEmpty SectionKind -> Case -> Property

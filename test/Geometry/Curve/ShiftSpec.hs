@@ -75,9 +75,9 @@ spec = do
                         (toList (Column.values h)),
                     let u = Base.at row,
                     let Mm d =
-                          Curve.distanceOf (Curve.shifted LeftOf (Bevelled mu h (Mm delta)) c) u,
+                          Curve.shiftDistance (Curve.shifted LeftOf (Bevelled mu h (Mm delta)) c) u,
                     let Mm d' =
-                          Curve.distanceOf (Curve.shifted LeftOf (Square mu (Pointwise h)) c) u
+                          Curve.shiftDistance (Curve.shifted LeftOf (Square mu (Pointwise h)) c) u
                 ]
     it "grows evenly along the true length (catches a length by the parameter)" $
       property $
@@ -113,7 +113,7 @@ spec = do
                   ub = Generate.parameterOf c b
                   u = Generate.parameterOf c t
                   Mm d =
-                    Curve.distanceOf
+                    Curve.shiftDistance
                       ( Curve.shifted
                           RightOf
                           (Growing Growth {from = Mm h1, to = Mm h2, between = Just (ua, ub)})
@@ -223,24 +223,26 @@ spec = do
                   ub = Generate.parameterOf c b
                   joggle = Joggle {begins = ua, ends = ub, depth = Mm d, radius = Mm (k * d)}
                   middle =
-                    Curve.alongTo c (times 0.5 (plus (Curve.lengthTo c ua) (Curve.lengthTo c ub)))
-               in case Curve.joggled joggle c of
+                    Curve.parameterAtLength
+                      c
+                      (times 0.5 (plus (Curve.lengthAt c ua) (Curve.lengthAt c ub)))
+               in case Curve.fitJoggle joggle c of
                     Left flaw ->
                       label
                         "does not fit"
                         ( flaw
                             === LongJoggle
                               (times 2 (Curve.ramp joggle))
-                              (minus (Curve.lengthTo c ub) (Curve.lengthTo c ua))
+                              (minus (Curve.lengthAt c ub) (Curve.lengthAt c ua))
                         )
                     Right distance ->
                       let s = Curve.shifted LeftOf distance c
-                          at u = let Mm v = Curve.distanceOf s u in v
+                          at u = let Mm v = Curve.shiftDistance s u in v
                        in near' 1e-12 (at (0.5 * ua)) 0
                             .&&. near' 1e-12 (at (0.5 * (ub + Curve.domain c))) 0
                             .&&. near' 1e-9 (at middle) d
                             .&&. conjoin
-                              [ close 1e-6 (Curve.placeFrom Before s u) (Curve.placeFrom After s u)
+                              [ close 1e-6 (Curve.pointFrom Before s u) (Curve.pointFrom After s u)
                                 | u <- Curve.breaks s
                               ]
                             .&&. Curve.corners s === []
@@ -253,7 +255,7 @@ spec = do
             let r = k * d
                 c = Generate.ok (Curve.polyline (Exts.fromList [Vec.point 0 0, Vec.point 100 0]))
                 joggle = Joggle {begins = 0.1, ends = 0.9, depth = Mm (flip' * d), radius = Mm r}
-                s = Curve.shifted LeftOf (Generate.ok (Curve.joggled joggle c)) c
+                s = Curve.shifted LeftOf (Generate.ok (Curve.fitJoggle joggle c)) c
                 Mm l = Curve.ramp joggle
                 place x = Curve.at s (x / 100)
                 lowCentre = Vec.point 10 (flip' * r)
@@ -267,8 +269,8 @@ spec = do
     it "does not fit when its radius is too small, or its ramps too long" $ do
       let c = Generate.ok (Curve.polyline (Exts.fromList [Vec.point 0 0, Vec.point 100 0]))
           joggle d r = Joggle {begins = 0.4, ends = 0.6, depth = Mm d, radius = Mm r}
-      Curve.joggled (joggle 2 1) c `shouldBe` Left DeepJoggle
-      Curve.joggled (joggle 2 14) c
+      Curve.fitJoggle (joggle 2 1) c `shouldBe` Left DeepJoggle
+      Curve.fitJoggle (joggle 2 14) c
         `shouldBe` Left (LongJoggle (times 2 (Curve.ramp (joggle 2 14))) (Mm 20))
 
   describe "shifts that do not fit" $ do
@@ -279,17 +281,17 @@ spec = do
             forAll (choose (0.5, 2)) $ \k ->
               let c =
                     Generate.ok
-                      ( Curve.ofPieces
+                      ( Curve.fromShapes
                           (Quadratic (1 / (2 * p)) 0 0 (left * p) (right * p) :| [])
                           (Exts.fromList [0, 1])
                       )
-                  found = Curve.fold (Curve.shifted LeftOf (Constant (Mm (k * p))) c)
+                  found = Curve.firstCusp (Curve.shifted LeftOf (Constant (Mm (k * p))) c)
                in abs (k - 1) > 1e-6 ==> case found of
                     Nothing -> property (k < 1)
                     Just f ->
                       counterexample (show f) (k > 1)
-                        .&&. near' 1e-6 (mm (largest f)) p
-                        .&&. near' 1e-9 (mm (asked f)) (k * p)
+                        .&&. near' 1e-6 (mm (curvatureRadius f)) p
+                        .&&. near' 1e-9 (mm (requested f)) (k * p)
                         .&&. close 1e-4 (place f) (Vec.point 0 0)
     it
       "is found just when the distance passes the radius somewhere (catches a layer that is not \
@@ -313,15 +315,15 @@ spec = do
                   && abs (k - 1)
                     > 0.01
                       ==> counterexample
-                        (show (most, Curve.fold above))
-                        (isJust (Curve.fold above) == (k > 1))
+                        (show (most, Curve.firstCusp above))
+                        (isJust (Curve.firstCusp above) == (k > 1))
     it "there is no cusp on the outer side" $
       property $
         forAll (choose (0.1, 90)) $ \h ->
-          isNothing (Curve.fold (Curve.shifted RightOf (Constant (Mm h)) (circle 40)))
-            && isJust (Curve.fold (Curve.shifted LeftOf (Constant (Mm (41 + h))) (circle 40)))
+          isNothing (Curve.firstCusp (Curve.shifted RightOf (Constant (Mm h)) (circle 40)))
+            && isJust (Curve.firstCusp (Curve.shifted LeftOf (Constant (Mm (41 + h))) (circle 40)))
     it "a curve that reverses its direction allows no shift at the reversal" $
-      Curve.fold
+      Curve.firstCusp
         ( Curve.shifted
             LeftOf
             (Constant (Mm 1))
@@ -341,7 +343,8 @@ spec = do
           conjoin
             [ near' 1e-9 d v
               | (row, v) <- zip (toList (Base.rows (Curve.base c))) (toList (Column.values col)),
-                let Mm d = Curve.distanceOf (Curve.shifted LeftOf (Pointwise col) c) (Base.at row)
+                let Mm d =
+                      Curve.shiftDistance (Curve.shifted LeftOf (Pointwise col) c) (Base.at row)
             ]
     it
       "are as smooth as the points: a shifted spline has no corner (catches a column that is \
@@ -350,7 +353,7 @@ spec = do
         forAll (oneof [Generate.gentle, Generate.ring]) $ \c ->
           forAll (Generate.columnOf c 0 2) $ \col ->
             let s = Curve.shifted RightOf (Pointwise col) c
-             in isNothing (Curve.fold s) ==> Curve.corners s === Curve.corners c
+             in isNothing (Curve.firstCusp s) ==> Curve.corners s === Curve.corners c
     it "change evenly along pieces where these touch (catches a column by the parameter)" $
       property $
         forAll touching $ \c ->
@@ -361,7 +364,7 @@ spec = do
                     / Vec.norm (velocity approach c)
                 velocity approach curve =
                   let V2 a b =
-                        Curve.jet approach 1 curve u
+                        Curve.expansion approach 1 curve u
                    in Vec.vec (PowerSeries.coefficient 1 a) (PowerSeries.coefficient 1 b)
              in near' 1e-9 (rate Before) (rate After)
 
@@ -401,7 +404,7 @@ derivativesLaw c u e =
   alike (1e-4 * (1 + Vec.norm first)) first byFirst
     .&&. alike (1e-2 * (1 + Vec.norm second + Vec.norm first)) second bySecond
   where
-    V2 a b = Curve.jet After 2 c u
+    V2 a b = Curve.expansion After 2 c u
     first = Vec.vec (PowerSeries.coefficient 1 a) (PowerSeries.coefficient 1 b)
     second = Vec.scale 2 (Vec.vec (PowerSeries.coefficient 2 a) (PowerSeries.coefficient 2 b))
     byFirst =
@@ -460,7 +463,7 @@ chordSum c from' to' =
     chords a b n =
       let place' k =
             if k == n
-              then Curve.placeFrom Before c b
+              then Curve.pointFrom Before c b
               else Curve.at c (a + (b - a) * fromIntegral k / fromIntegral n)
        in sum [mm (Vec.distance (place' k) (place' (k + 1))) | k <- [0 .. n - 1 :: Int]]
 
@@ -474,7 +477,7 @@ touching = do
       q = Vec.shift (Vec.rotate (Rad sweep) (Vec.to centre p)) centre
   pure
     ( Generate.ok
-        ( Curve.ofSegments
+        ( Curve.fromSegments
             ( Straight (Vec.point 0 0) p
                 :| [ Arc {start = p, end = q, centre, sweep = Rad sweep},
                      Straight q (Vec.shift (Vec.polar (Mm 15) (Rad sweep)) q)
@@ -486,7 +489,7 @@ touching = do
 circle :: Double -> Curve
 circle r =
   Generate.ok
-    ( Curve.ofSegments
+    ( Curve.fromSegments
         ( Arc
             { start = Vec.point r 0,
               end = Vec.point r 0,

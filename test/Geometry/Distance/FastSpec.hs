@@ -146,8 +146,8 @@ beside r others = do
     Straight a b -> do
       let out = if a == b then Vec.vec r 0 else Vec.scale r (Vec.left (Vec.unit (Vec.to a b)))
       Straight
-        <$> moved (Vec.shift out (Vec.between from a b))
-          <*> moved (Vec.shift out (Vec.between to a b))
+        <$> moved (Vec.shift out (Vec.interpolate from a b))
+          <*> moved (Vec.shift out (Vec.interpolate to a b))
     Arc {start, centre, sweep = Rad sweep} -> do
       let Mm old = Segment.radius centre start
       c <- moved centre
@@ -172,7 +172,7 @@ wayBetween r first final = do
         Vec.shift (Vec.scale (r + shaken) (Vec.left (Segment.directionAt t s))) (Segment.at t s)
       (a, b) = (out first share, out final (1 - share))
       l = Vec.to a b
-      c = Vec.shift (Vec.scale (1 / (2 * tan (bend / 2))) (Vec.left l)) (Vec.between 0.5 a b)
+      c = Vec.shift (Vec.scale (1 / (2 * tan (bend / 2))) (Vec.left l)) (Vec.interpolate 0.5 a b)
   pure
     ( if abs bend < 0.01 || a == b
         then Straight a b

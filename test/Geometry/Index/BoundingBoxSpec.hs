@@ -16,7 +16,7 @@ spec = describe "a lower bound of the distance over a box" $ do
       forAll ((,,) <$> curve <*> curve <*> choose (0, 30)) $ \(ss, others, d) ->
         let tree = BoxTree.index BoundingBox.ofSegment others
             isClose s o = Distance.distance (Distance.segments s o) <= Mm d
-            mayBeClose s box = BoundingBox.atLeast (`Distance.toPoint` s) box <= Mm d
+            mayBeClose s box = BoundingBox.lowerBound (`Distance.toPoint` s) box <= Mm d
          in conjoin
               [ counterexample
                   (show s)

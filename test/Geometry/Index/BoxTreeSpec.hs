@@ -79,7 +79,7 @@ spec = do
     \column that is left out)"
     $ property $
       forAll ((,) <$> boxes <*> point) $ \(things, p) ->
-        let sorted = BoxTree.byPlace snd things
+        let sorted = BoxTree.sortedIndex snd things
             distanceOf = fmap fst . BoxTree.closest (BoundingBox.distance p . snd) p
          in (sort (map fst (BoxTree.toList sorted)), distanceOf sorted)
               === (map fst things, distanceOf (BoxTree.index snd things))

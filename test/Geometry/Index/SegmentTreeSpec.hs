@@ -21,10 +21,10 @@ spec :: Spec
 spec = describe "the pair search of a tree" $ do
   it "finds all pairs that meet (catches a run that is taken for one that advances)" $
     withMaxSuccess 1000 . forAll polyarcs $ \os ->
-      let c = ClosedPolyarcs.fromOutlines tolerance os
+      let c = ClosedPolyarcs.fromFlatPolyarcs tolerance os
           expected = meetings AllPairs c
        in cover 40 (Set.size expected > 1) "that meet"
-            . cover 20 (ClosedPolyarcs.walks c > 1) "several loops"
+            . cover 20 (ClosedPolyarcs.loopCount c > 1) "several loops"
             $ meetings FoundByTree c === expected
 
 -- | The pairs of segments that are tested.
@@ -46,15 +46,15 @@ meetings candidates c = runST $ do
             }
   case candidates of
     AllPairs -> sequence_ [visit i j | i <- segments, j <- segments, i < j]
-    FoundByTree -> SegmentTree.pairs (SegmentTree.boxes tolerance c) (pure True) visit
+    FoundByTree -> SegmentTree.pairs (SegmentTree.build tolerance c) (pure True) visit
   readMutVar pairs
   where
     segments =
       [ i
         | i <- [0 .. sizeofPrimArray (ClosedPolyarcs.xs c) - 2],
           not
-            ( ClosedPolyarcs.marked
-                ClosedPolyarcs.copied
+            ( ClosedPolyarcs.hasMark
+                ClosedPolyarcs.repeatedMark
                 (indexPrimArray (ClosedPolyarcs.marks c) i)
             )
       ]
@@ -69,7 +69,7 @@ polyarcs = do
   loops <- elements [1, 1, 2, 3]
   vectorOf loops (oneof [winding, scattered, onGrid])
   where
-    polyarc = FlatPolyarc.outline Closed
+    polyarc = FlatPolyarc.fromVertices Closed
     -- Directions change little from step to step, so that whole runs advance.
     winding = do
       n <- choose (3, 300 :: Int)
