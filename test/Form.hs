@@ -13,6 +13,7 @@ module Form
 where
 
 import Data.Char (isUpper)
+import Data.List (nub)
 import Data.Map.Strict (Map)
 import Data.Map.Strict qualified as Map
 import Data.Text (Text)
@@ -72,14 +73,46 @@ longestFunction = 40
 mostParameters :: Int
 mostParameters = 6
 
--- | Modules that may be tuned: the faster twins, the offset kernel and what it works on, arc
--- fitting and the reading and writing of tapes, all of which work per segment or per row.
-isTuned :: Text -> Bool
-isTuned name =
-  ".Fast" `Text.isSuffixOf` name || any (`Text.isPrefixOf` name) kernels
-  where
-    kernels =
-      ["Offset.", "Geometry.Index.", "Geometry.ClosedPolyarcs", "Geometry.ArcFitting.", "Tape."]
+-- | Modules that may have tuning pragmas, by the beginning of their names, and the reason. Faster
+-- twins may have them too.
+tunedModules :: [(Text, Text)]
+tunedModules =
+  [ ("Offset.", "the offset kernel, per segment"),
+    ("Geometry.", "arithmetic, per segment"),
+    ("Frame.Arc.", "the search for centres in whole pulses, per candidate"),
+    ("Frame.Rounding", "per chord"),
+    ("Tape.", "writing and reading, per row"),
+    ("Surface.Combinator", "the parser, per token"),
+    ("Surface.Grammar", "the parser, per token"),
+    ("Surface.Parser", "the parser, per token"),
+    ("Surface.Lexer", "the lexer, per character"),
+    ("Base.", "flat arrays and positions")
+  ]
+
+-- | Modules that keep strict accumulators over all frames of a tape; without their bang patterns
+-- memory grows with the tape.
+strictModules :: [Text]
+strictModules =
+  [ "Cli.Subcommand",
+    "Frame.Frame",
+    "Frame.FromToolpath",
+    "Frame.InstructionCheck",
+    "Toolpath.CuttingPass",
+    "Toolpath.FromPart",
+    "Toolpath.Toolpath",
+    "Verify.Edge",
+    "Verify.FrameRule",
+    "Verify.MillingJob",
+    "Verify.PassSearch",
+    "Verify.TapeSummary"
+  ]
+
+-- | True of a module that may have a tuning pragma.
+mayHave :: Text -> Text -> Bool
+mayHave name pragma =
+  ".Fast" `Text.isSuffixOf` name
+    || any ((`Text.isPrefixOf` name) . fst) tunedModules
+    || name `elem` strictModules && pragma `elem` ["BangPatterns", "{-# NOINLINE"]
 
 -- The check -----------------------------------------------------------------------------------
 
@@ -89,7 +122,7 @@ problems excepted (Source path text) =
   [WideLine n w | (n, l) <- zip [1 ..] rows, let w = Text.length l, w > widestLine]
     <> [LongModule count | let count = length rows, count > longestModule]
     <> concatMap ofDefinition own
-    <> [Tuned pragma | isLibrary, not (isTuned name), pragma <- tuningPragmas rows]
+    <> [Tuned pragma | isLibrary, pragma <- tuningPragmas rows, not (mayHave name pragma)]
     <> [NeedlessException d | isLibrary, d <- needless]
   where
     rows = Text.lines text
@@ -126,7 +159,7 @@ sharedTypes excepted sources =
         (flip (<>))
         [ (t, [moduleName path])
           | Source path text <- sources,
-            t <- exportedTypes (tokenise text),
+            t <- nub (exportedTypes (tokenise text)),
             Text.any isUpper (Text.take 1 t)
         ]
     isAllowed t ms = or [all (`elem` allowed) ms | (t', allowed, _) <- shared excepted, t == t']
@@ -146,5 +179,163 @@ sentence problem = case problem of
 
 -- The exceptions ------------------------------------------------------------------------------
 
+-- | The exceptions of this project. Every one has a reason.
 exceptions :: Exceptions
-exceptions = Exceptions {long = Map.empty, wide = Map.empty, shared = []}
+exceptions = Exceptions {long = longFunctions, wide = manyParameters, shared = sharedNames}
+
+-- | Long definitions by reason.
+longFunctions :: Map Text Text
+longFunctions =
+  Map.fromList $
+    because
+      "a table with one arm or entry per constructor"
+      [ "Checked.Builtin.forms",
+        "Checked.Builtin.name",
+        "Checked.Error.toReport",
+        "Cli.Error.toReport",
+        "Cli.Options.commands",
+        "Frame.Error.toReport",
+        "Frame.Error.warningReport",
+        "Machine.Error.decodingReport",
+        "Machine.Error.frameReport",
+        "Machine.Error.holeReport",
+        "Machine.Error.toReport",
+        "Part.ContourError.linkReport",
+        "Part.ContourError.toReport",
+        "Part.CurveError.toReport",
+        "Part.Error.factReport",
+        "Part.PocketError.toReport",
+        "Project.Error.toReport",
+        "Sheet.Error.toReport",
+        "Sheet.Unsupported.toReport",
+        "Surface.Error.toReport",
+        "Surface.Grammar.statementForms",
+        "Tape.Damage.reasonText",
+        "Toolpath.Error.toReport",
+        "Toolpath.WarningReport.warningReport",
+        "Verify.Proof.toReport"
+      ]
+      <> because
+        "one arm per constructor; the longer arms are functions of their own"
+        [ "Checked.Expression.infer",
+          "Checked.FromSurface.statement",
+          "Part.FromChecked.step",
+          "Query.Symbol.symbol",
+          "Surface.PrintProgram.statement"
+        ]
+      <> because
+        "names the parts of one record, one after the other"
+        [ "Toolpath.CuttingPass.block"
+        ]
+      <> because
+        "one computation whose local functions share its arrays and numbers; not yet split"
+        [ "Frame.Chording.sectorAt",
+          "Geometry.ArcFitting.Biarc.Fast.between",
+          "Geometry.ArcFitting.Biarc.Fast.withRatio",
+          "Geometry.ArcFitting.CubicFit.approximate",
+          "Geometry.ArcFitting.CubicFit.distanceBound",
+          "Geometry.ArcFitting.LongestBiarc.along",
+          "Geometry.ArcFitting.ParametricFit.longestBiarc",
+          "Geometry.ArcFitting.ParametricFit.try",
+          "Geometry.ArcFitting.PolyarcFit.advance",
+          "Geometry.ArcFitting.PolyarcFit.approximate",
+          "Geometry.ArcFitting.PolyarcFit.biarcDistances",
+          "Geometry.Distance.Fast.beside",
+          "Geometry.Distance.Fast.isAccompanied",
+          "Geometry.Index.SegmentTree.pairs",
+          "Offset.Arrangement.propagated",
+          "Offset.Arrangement.ring",
+          "Offset.Kernel.problemOf",
+          "Offset.RawOffset.offsetPolyarc",
+          "Offset.RawOffset.raw",
+          "Offset.RestMaterial.boundaryFrom",
+          "Offset.RestMaterial.restMaterials",
+          "Offset.SegmentIntersection.arcs",
+          "Offset.SegmentIntersection.lineArc",
+          "Offset.SegmentIntersection.neighbours",
+          "Offset.Trimming.joinSlices",
+          "Offset.WindingNumber.extreme",
+          "Toolpath.Compensation.entering",
+          "Toolpath.PocketMove.blocks"
+        ]
+
+-- | Definitions with many parameters.
+manyParameters :: Map Text Text
+manyParameters =
+  Map.fromList $
+    because
+      "unboxed numbers in an inner loop; a record of them would be allocated for every segment"
+      [ "Geometry.ArcFitting.CubicFit.advance",
+        "Geometry.ArcFitting.CubicFit.biarcDistances",
+        "Geometry.ArcFitting.PolyarcFit.advance",
+        "Geometry.ArcFitting.PolyarcFit.biarcDistances",
+        "Geometry.ArcFitting.PolyarcFit.isTooFar",
+        "Geometry.Index.SegmentTree.around",
+        "Geometry.Index.SegmentTree.putBox",
+        "Geometry.Index.SegmentTree.runBox",
+        "Geometry.Segment.Fast.bearing",
+        "Offset.RawOffset.offsetPolyarc",
+        "Offset.RawOffset.raw",
+        "Offset.Trimming.joinSlices"
+      ]
+
+-- | The same reason for several definitions.
+because :: Text -> [Text] -> [(Text, Text)]
+because reason names = [(name, reason) | name <- names]
+
+-- | Groups of exported types that share a name.
+sharedNames :: [(Text, [Text], Text)]
+sharedNames =
+  inGroup
+    "errors and warnings of a stage"
+    [ ( "Error",
+        [ "Checked.Error",
+          "Cli.Error",
+          "Frame.Error",
+          "Machine.Error",
+          "Part.Error",
+          "Project.Error",
+          "Sheet.Error",
+          "Surface.Error",
+          "Toolpath.Error"
+        ]
+      ),
+      ("Warning", ["Cli.Error", "Frame.Error", "Toolpath.WarningReport"])
+    ]
+    <> inGroup
+      "the syntax of the two languages, part programs and machine descriptions"
+      [ ("Argument", ["Checked.Syntax", "Machine.Syntax", "Part.Value", "Surface.Syntax"]),
+        ("Operator", ["Machine.Syntax", "Surface.Syntax"]),
+        ("Statement", ["Checked.Syntax", "Machine.Syntax", "Surface.Syntax"]),
+        ("Token", ["Machine.Lexer", "Surface.Token"]),
+        ("Token_", ["Machine.Lexer", "Surface.Token"])
+      ]
+    <> inGroup
+      "one concept at stages that follow one another"
+      [ ("Accuracy", ["Checked.Syntax", "Part.Part", "Surface.Syntax"]),
+        ("Cipher", ["Checked.Syntax", "Surface.Syntax"]),
+        ("Cipher_", ["Checked.Syntax", "Surface.Syntax"]),
+        ("Corners", ["Offset.RawOffset", "Surface.Syntax"]),
+        ("Cutter", ["Checked.Syntax", "Part.Part", "Surface.Syntax"]),
+        ("Cutter_", ["Checked.Syntax", "Surface.Syntax"]),
+        ("Expr", ["Checked.Syntax", "Surface.Syntax"]),
+        ("Expr_", ["Checked.Syntax", "Surface.Syntax"]),
+        ("Item", ["Checked.Syntax", "Surface.Syntax"]),
+        ("Item_", ["Checked.Syntax", "Surface.Syntax"]),
+        ("Joggle", ["Checked.Syntax", "Geometry.Curve.ShiftDistance", "Surface.Syntax"]),
+        ("Joggle_", ["Checked.Syntax", "Surface.Syntax"]),
+        ("Link", ["Checked.Syntax", "Part.Link", "Sheet.Sheet", "Surface.Syntax"]),
+        ("Link_", ["Checked.Syntax", "Surface.Syntax"]),
+        ("Modifier", ["Checked.Syntax", "Surface.Syntax"]),
+        ("Modifier_", ["Checked.Syntax", "Surface.Syntax"]),
+        ("Pace", ["Checked.Syntax", "Part.Part", "Surface.Syntax"]),
+        ("Program", ["Checked.Syntax", "Surface.Syntax"]),
+        ("Region", ["Base.Region"]),
+        ("Sense", ["Geometry.Carrier", "Surface.Syntax"]),
+        ("Side", ["Geometry.Carrier", "Sheet.Sheet", "Surface.Syntax"]),
+        ("Spin", ["Checked.Syntax", "Surface.Syntax"]),
+        ("Statement_", ["Checked.Syntax", "Surface.Syntax"]),
+        ("Stop", ["Checked.Syntax", "Part.Part", "Surface.Syntax"])
+      ]
+  where
+    inGroup reason groups = [(name, modules, reason) | (name, modules) <- groups]

@@ -117,7 +117,14 @@ stageData =
       ("Part.Part", ["Part.Curve", "Part.Link"]),
       ("Sheet.Sheet", []),
       ("Toolpath.Toolpath", []),
-      ("Machine.Machine", []),
+      ( "Machine.Machine",
+        [ "Machine.Axis",
+          "Machine.Commands",
+          "Machine.Feeds",
+          "Machine.FrameLayout",
+          "Machine.TapeCode"
+        ]
+      ),
       ("Frame.Frame", []),
       ("Tape.Tape", []),
       ("Verify.Proof", [])

@@ -7,7 +7,7 @@ where
 import Base.Name (Name (..))
 import Base.Region (Located (..))
 import Checked.Deferred (Deferred, mapStrict, resolveAll)
-import Checked.Expression (Environment, contourElement, expect, repetition)
+import Checked.Expression (TypingEnvironment, contourElement, expect, repetition)
 import Checked.Inference (Infer)
 import Checked.Inference qualified as Inference
 import Checked.Piece qualified as Piece
@@ -20,7 +20,7 @@ import Data.Text (Text)
 import Surface.Syntax qualified as Surface
 
 -- | Checks an item in the braces of a contour.
-item :: Environment -> Surface.Item -> Infer (Deferred Checked.Item)
+item :: TypingEnvironment -> Surface.Item -> Infer (Deferred Checked.Item)
 item env (Located at i) = case i of
   Surface.BrokenItem name -> do
     mapM_ (\n -> Inference.define (value n) (Poisoned (region n))) name
@@ -53,7 +53,7 @@ item env (Located at i) = case i of
 -- | Checks the modifiers of an element of a type. Bevels of an element that is already reported as
 -- wrong are skipped, since its columns are unknown.
 elementModifiers ::
-  Environment -> Type -> [Surface.Modifier] -> Infer [Deferred Checked.Modifier]
+  TypingEnvironment -> Type -> [Surface.Modifier] -> Infer [Deferred Checked.Modifier]
 elementModifiers env t modifiers
   | null modifiers = pure []
   | otherwise = do
@@ -71,7 +71,7 @@ isBevel (Located _ m) = case m of
 
 -- | Checks a modifier of an element with columns, which a bevel may name.
 modifier ::
-  Environment -> [(Text, Type)] -> Surface.Modifier -> Infer (Deferred Checked.Modifier)
+  TypingEnvironment -> [(Text, Type)] -> Surface.Modifier -> Infer (Deferred Checked.Modifier)
 modifier env columns (Located at m) = fmap (Located at .) $ case m of
   Surface.ElementFeed e -> (Checked.ElementFeed .) <$> expect env Type.feed e
   Surface.Slow -> pure (const Checked.Slow)
@@ -80,7 +80,7 @@ modifier env columns (Located at m) = fmap (Located at .) $ case m of
     (Checked.Bevel .) <$> Piece.withColumns (region e) columns (expect env Type.angle e)
 
 -- | Checks the link to the next element.
-linkTo :: Environment -> Surface.Link -> Infer (Deferred Checked.Link)
+linkTo :: TypingEnvironment -> Surface.Link -> Infer (Deferred Checked.Link)
 linkTo env (Located at l) = fmap (Located at .) $ case l of
   Surface.Meet near -> do
     near' <- traverse (expect env Type.aPoint) near

@@ -3,7 +3,7 @@
 -- Every function gives a type and a 'Deferred' term. The term is complete once inference knows
 -- all dimensions of the program.
 module Checked.Expression
-  ( Environment (..),
+  ( TypingEnvironment (..),
     expect,
     infer,
     operation,
@@ -48,7 +48,7 @@ import Surface.Syntax qualified as Surface
 import Surface.Token (Numeral (..), Unit)
 
 -- | The surroundings of an expression.
-data Environment = Environment
+data TypingEnvironment = TypingEnvironment
   { -- | all names that the program or the surrounding blocks define anywhere, with their regions
     definitions :: Map Name Region,
     -- | literals are checked by "Checked.Inference.Fast", otherwise by full inference
@@ -61,7 +61,7 @@ type Typed = (Type, Deferred Checked.Expr)
 -- Wanted types
 
 -- | Checks an expression that must have a type.
-expect :: Environment -> Type -> Surface.Expr -> Infer (Deferred Checked.Expr)
+expect :: TypingEnvironment -> Type -> Surface.Expr -> Infer (Deferred Checked.Expr)
 expect env wanted e = case (value e, wanted) of
   _ | isFast env, Just e' <- FastInference.literal wanted e -> pure (const e')
   (Surface.Pair x y, Type.Spatial d) | Dimension.isKnown d -> pair env (region e) x y
@@ -85,7 +85,7 @@ isEqual at wanted t = do
   pure same
 
 -- | Checks a point of the plane or a point with a height.
-spatialPoint :: Environment -> Surface.Expr -> Infer (Deferred Checked.Expr)
+spatialPoint :: TypingEnvironment -> Surface.Expr -> Infer (Deferred Checked.Expr)
 spatialPoint env e = do
   (t, e') <- infer env e
   t' <- Inference.resolved t
@@ -93,7 +93,7 @@ spatialPoint env e = do
   pure e'
 
 -- | Checks a list of points or a single point.
-pointOrPoints :: Environment -> Surface.Expr -> Infer (Deferred Checked.Expr)
+pointOrPoints :: TypingEnvironment -> Surface.Expr -> Infer (Deferred Checked.Expr)
 pointOrPoints env e = do
   (t, e') <- infer env e
   t' <- Inference.resolved t
@@ -105,7 +105,7 @@ pointOrPoints env e = do
 -- | Checks an element of a contour: a circle with a sense, or a line, a point, a curve or a contour
 -- without one.
 contourElement ::
-  Environment ->
+  TypingEnvironment ->
   Maybe (Located Surface.Sense) ->
   Surface.Expr ->
   Infer Typed
@@ -134,13 +134,13 @@ contourElement env sense e = case (sense, value e) of
     pure (t, e')
 
 -- | The fast check of a call, if the environment allows it.
-fastCall :: Environment -> Surface.Expr -> Infer (Maybe FastInference.FastCall)
+fastCall :: TypingEnvironment -> Surface.Expr -> Infer (Maybe FastInference.FastCall)
 fastCall env e = if isFast env then FastInference.call (expect env) e else pure Nothing
 
 -- Inferred types
 
 -- | Checks an expression and infers its type.
-infer :: Environment -> Surface.Expr -> Infer Typed
+infer :: TypingEnvironment -> Surface.Expr -> Infer Typed
 infer env located@(Located at e) = case e of
   Surface.Literal (Numeral _ x) unit -> literal at x unit
   Surface.Variable name -> variable env at name
@@ -197,10 +197,10 @@ literal at x unit = case unit of
     pure (Type.Quantity d, \sol -> Located at (Checked.Number (x * Dimension.defaultUnit (sol d))))
 
 -- | A pair of lengths at a region.
-pair :: Environment -> Region -> Surface.Expr -> Surface.Expr -> Infer (Deferred Checked.Expr)
+pair :: TypingEnvironment -> Region -> Surface.Expr -> Surface.Expr -> Infer (Deferred Checked.Expr)
 pair env at x y = (Located at .) <$> pair' env x y
 
-pair' :: Environment -> Surface.Expr -> Surface.Expr -> Infer (Deferred Checked.Expr_)
+pair' :: TypingEnvironment -> Surface.Expr -> Surface.Expr -> Infer (Deferred Checked.Expr_)
 pair' env x y = do
   x' <- expect env Type.len x
   y' <- expect env Type.len y
@@ -208,7 +208,7 @@ pair' env x y = do
 
 -- | A term with an operator.
 binary ::
-  Environment ->
+  TypingEnvironment ->
   Region ->
   Surface.Operator ->
   Surface.Expr ->
@@ -261,7 +261,7 @@ operation arithmeticRegion operator left right = do
 
 -- | A range: of plain numbers, or with a step of quantities of one dimension.
 range ::
-  Environment ->
+  TypingEnvironment ->
   Region ->
   Surface.Expr ->
   Surface.Expr ->
@@ -278,7 +278,7 @@ range env at low high step = do
     )
 
 -- | Checks the variable and the list of a repetition; gives the type of the variable.
-repetition :: Environment -> Located Name -> Surface.Expr -> Infer Typed
+repetition :: TypingEnvironment -> Located Name -> Surface.Expr -> Infer Typed
 repetition env counter@(Located _ (Name text)) list = do
   when (isBuiltin text) (Inference.mistake (NameTaken (region counter) (value counter)))
   t <- Inference.freshType
@@ -293,7 +293,7 @@ isBuiltin = isJust . Builtin.lookup
 -- Names
 
 -- | A name used as a value.
-variable :: Environment -> Region -> Name -> Infer Typed
+variable :: TypingEnvironment -> Region -> Name -> Infer Typed
 variable env at name@(Name text) = do
   binding <- Inference.find name
   case binding of
@@ -318,7 +318,7 @@ variable env at name@(Name text) = do
 
 -- | The error for a name without a meaning here: it is defined below, it is being defined, or it is
 -- misspelt.
-unknownName :: Environment -> Region -> Name -> Infer Error
+unknownName :: TypingEnvironment -> Region -> Name -> Infer Error
 unknownName env at name = do
   names <- Inference.namesInScope
   pure $ case Map.lookup name (definitions env) of
@@ -353,7 +353,7 @@ data Call = Call
   }
 
 -- | A call of a function of the program or of the language.
-call :: Environment -> Region -> Located Name -> NonEmpty Surface.Argument -> Infer Typed
+call :: TypingEnvironment -> Region -> Located Name -> NonEmpty Surface.Argument -> Infer Typed
 call env at callee@(Located nameRegion name@(Name text)) arguments = do
   binding <- Inference.find name
   case binding of
@@ -378,15 +378,15 @@ call env at callee@(Located nameRegion name@(Name text)) arguments = do
     this = Call {callRegion = at, callee, written = NonEmpty.toList arguments}
 
 -- | Reports a call and looks for further mistakes in its arguments.
-wrongCall :: Environment -> Call -> Error -> Infer Typed
+wrongCall :: TypingEnvironment -> Call -> Error -> Infer Typed
 wrongCall env c e = wrong (callRegion c) <$ (checkArguments env c *> Inference.mistake e)
 
 -- | Checks the arguments of a call without its function.
-checkArguments :: Environment -> Call -> Infer ()
+checkArguments :: TypingEnvironment -> Call -> Infer ()
 checkArguments env c = mapM_ (infer env) (argumentValues c)
 
 -- | A call of a function that the program defines.
-functionCall :: Environment -> Call -> [Text] -> Scheme -> Infer Typed
+functionCall :: TypingEnvironment -> Call -> [Text] -> Scheme -> Infer Typed
 functionCall env c parameters scheme = do
   (types, t, constraints) <- Inference.instantiate at scheme
   case unlabelled c of
@@ -406,7 +406,7 @@ functionCall env c parameters scheme = do
 
 -- | A call of a function of the language. A function with one form, or a form that its labels
 -- single out, is checked at once; other calls become constraints.
-builtinCall :: Environment -> Call -> Checked.Builtin -> Infer Typed
+builtinCall :: TypingEnvironment -> Call -> Checked.Builtin -> Infer Typed
 builtinCall env c builtin = do
   unknowns <- freshUnknowns
   let forms = Builtin.forms unknowns builtin
@@ -461,7 +461,7 @@ fastCallType at c
   | otherwise = pure (FastInference.resultType c)
 
 -- | Checks an argument against the type of its parameter; tells if they agree.
-argument :: Environment -> Type -> Surface.Expr -> Infer (Bool, Deferred Checked.Expr)
+argument :: TypingEnvironment -> Type -> Surface.Expr -> Infer (Bool, Deferred Checked.Expr)
 argument env wanted e = do
   (t, e') <- infer env e
   agrees <- isEqual (region e) wanted t

@@ -17,7 +17,7 @@ import Checked.Deferred (Deferred, resolveAll)
 import Checked.Dimension qualified as Dimension
 import Checked.Error (Error (..))
 import Checked.Expression
-  ( Environment (..),
+  ( TypingEnvironment (..),
     expect,
     infer,
     isBuiltin,
@@ -65,7 +65,7 @@ checkBy isFast Surface.Program {Surface.statements = written} =
     (found, solution, checked, mentions) =
       Inference.run
         ( catMaybes
-            <$> mapM (statement Environment {definitions = definedIn written, isFast}) written
+            <$> mapM (statement TypingEnvironment {definitions = definedIn written, isFast}) written
         )
     -- A file that could not be imported may define any name.
     isExcused e = isImportBroken && isUndefinedName e
@@ -107,7 +107,7 @@ definedName s = case s of
 -- Statements
 
 -- | Checks a statement; 'Nothing' when it contains a mistake or leaves nothing to evaluate.
-statement :: Environment -> Statement -> Infer (Maybe (Deferred Checked.Statement))
+statement :: TypingEnvironment -> Statement -> Infer (Maybe (Deferred Checked.Statement))
 statement env (Located at s) = case s of
   Surface.Part n _ -> Nothing <$ mentionDefinition n (Inference.Described "the name of the part")
   Surface.Machine _ -> pure Nothing
@@ -167,17 +167,17 @@ statement env (Located at s) = case s of
     one = done . Inference.separately
 
 -- | Statements of a block, whose definitions are known only there.
-block :: Environment -> [Statement] -> Infer [Deferred Checked.Statement]
+block :: TypingEnvironment -> [Statement] -> Infer [Deferred Checked.Statement]
 block env body = Inference.scoped (inBlock env body)
 
-inBlock :: Environment -> [Statement] -> Infer [Deferred Checked.Statement]
+inBlock :: TypingEnvironment -> [Statement] -> Infer [Deferred Checked.Statement]
 inBlock env body = catMaybes <$> mapM (statement inner) body
   where
     inner = env {definitions = Map.union (definedIn body) (definitions env)}
 
 -- | A repetition of statements. The variable is poisoned if the list contains a mistake.
 repeated ::
-  Environment ->
+  TypingEnvironment ->
   Located Name ->
   Surface.Expr ->
   [Statement] ->
@@ -206,7 +206,7 @@ valueDefinition name inside = do
 
 -- | The definition of a function.
 functionDefinition ::
-  Environment ->
+  TypingEnvironment ->
   Located Name ->
   NonEmpty (Located Name) ->
   Surface.Expr ->
@@ -218,7 +218,7 @@ functionDefinition env name parameters body = do
 
 -- | A function with its generalised type.
 function ::
-  Environment ->
+  TypingEnvironment ->
   Located Name ->
   NonEmpty (Located Name) ->
   Surface.Expr ->
@@ -246,7 +246,7 @@ reportRepeated names = case names of
 
 -- | The definition of a contour.
 contourDefinition ::
-  Environment ->
+  TypingEnvironment ->
   Located Name ->
   Surface.Closure ->
   [Surface.Item] ->
@@ -257,7 +257,7 @@ contourDefinition env name closure items = do
 
 -- | The definition of a table, whose file is already read.
 tableDefinition ::
-  Environment -> Located Name -> Surface.Lines -> Infer (Maybe (Deferred Checked.Statement_))
+  TypingEnvironment -> Located Name -> Surface.Lines -> Infer (Maybe (Deferred Checked.Statement_))
 tableDefinition env name written = do
   checked <- defining name (Value (region name) . fst) (Piece.table env name tableLines)
   pure ((\(_, columns) sol -> Checked.Table name (columns sol)) <$> checked)
@@ -268,7 +268,7 @@ tableDefinition env name written = do
 
 -- | The definition of a piece.
 pieceDefinition ::
-  Environment ->
+  TypingEnvironment ->
   Located Name ->
   Surface.Expr ->
   [Surface.Cipher] ->
@@ -287,7 +287,7 @@ pieceDefinition env name e ciphers side joggles = do
   pure (make <$> checked)
 
 -- | A curve through any table or points.
-curve :: Environment -> Surface.Expr -> Infer (Type, Deferred Checked.Expr)
+curve :: TypingEnvironment -> Surface.Expr -> Infer (Type, Deferred Checked.Expr)
 curve env e = do
   t <- Type.Curve <$> Inference.freshType
   e' <- expect env t e
@@ -341,7 +341,7 @@ meaningOf binding = case binding of
 
 -- | A machining statement on a contour.
 machining ::
-  Environment ->
+  TypingEnvironment ->
   (Checked.Expr -> Located Surface.Side -> Checked.Settings -> Checked.Statement_) ->
   Text ->
   Surface.Expr ->
@@ -359,7 +359,7 @@ atPace motion s = case (motion, Surface.pace s) of
   (Surface.RapidMotion, Surface.Cutting) -> s {Surface.pace = Surface.Rapid}
   _ -> s
 
-cutter :: Environment -> Surface.Cutter -> Infer (Deferred Checked.Cutter)
+cutter :: TypingEnvironment -> Surface.Cutter -> Infer (Deferred Checked.Cutter)
 cutter env (Located at c) = fmap (Located at .) $ case c of
   Surface.MillCutter e -> (Checked.MillCutter .) <$> len e
   Surface.DrillCutter e -> (Checked.DrillCutter .) <$> len e
@@ -372,14 +372,14 @@ cutter env (Located at c) = fmap (Located at .) $ case c of
   where
     len = expect env Type.len
 
-tolerance :: Environment -> Surface.Accuracy -> Infer (Deferred Checked.Accuracy)
+tolerance :: TypingEnvironment -> Surface.Accuracy -> Infer (Deferred Checked.Accuracy)
 tolerance env accuracy = case accuracy of
   Surface.Within e -> (Checked.Within .) <$> expect env Type.len e
   Surface.Between a b ->
     (\a' b' sol -> Checked.Between (a' sol) (b' sol))
       <$> expect env Type.len a <*> expect env Type.len b
 
-spindle :: Environment -> Surface.Spin -> Infer (Deferred Checked.Spin)
+spindle :: TypingEnvironment -> Surface.Spin -> Infer (Deferred Checked.Spin)
 spindle env spin = case spin of
   Surface.SpindleStop -> pure (const Checked.SpindleStop)
   Surface.Spinning sense speed -> do
@@ -387,7 +387,11 @@ spindle env spin = case spin of
     pure (\sol -> Checked.Spinning sense (($ sol) <$> speed'))
 
 -- | Checks an assertion: a comparison, an equation with an optional tolerance, or another truth.
-assertion :: Environment -> Surface.Expr -> Maybe Surface.Expr -> Infer (Deferred Checked.Assertion)
+assertion ::
+  TypingEnvironment ->
+  Surface.Expr ->
+  Maybe Surface.Expr ->
+  Infer (Deferred Checked.Assertion)
 assertion env e within = case (value e, within) of
   (Surface.Binary Surface.Equal l r, _) -> do
     (t, l', r') <- compared Surface.Equal l r

@@ -19,7 +19,7 @@ import Checked.Builtin qualified as Builtin
 import Checked.Deferred (Deferred, resolveAll)
 import Checked.Dimension qualified as Dimension
 import Checked.Error (Error (..))
-import Checked.Expression (Environment, expect)
+import Checked.Expression (TypingEnvironment, expect)
 import Checked.Inference (Infer)
 import Checked.Inference qualified as Inference
 import Checked.Syntax (Cells, Columns (..))
@@ -41,7 +41,7 @@ import Surface.Token (Numeral (..))
 data Column = Column {heading :: Located Name, kind :: Type, size :: Maybe Double}
 
 -- | Checks a table and gives its type. The first line must name the columns.
-table :: Environment -> Located Name -> [Surface.TableLine] -> Infer (Type, Deferred Columns)
+table :: TypingEnvironment -> Located Name -> [Surface.TableLine] -> Infer (Type, Deferred Columns)
 table env name written = case written of
   Located at (Surface.Header headings) : rows -> do
     columns <- traverse column (NonEmpty.toList headings)
@@ -148,7 +148,7 @@ data Row
 data Cell = Literal Region Double | Written (Deferred Checked.Expr)
 
 -- | Checks the rows of a table; gives the last one first.
-rowsOf :: Environment -> [Column] -> [Surface.TableLine] -> Infer [Row]
+rowsOf :: TypingEnvironment -> [Column] -> [Surface.TableLine] -> Infer [Row]
 rowsOf env columns = go 1 []
   where
     go number found ls = case ls of
@@ -161,7 +161,7 @@ rowsOf env columns = go 1 []
       _ -> 1
 
 -- | Checks a line of a table below its headings. The number is that of its first row, from 1.
-row :: Environment -> [Column] -> Int -> Surface.TableLine -> Infer (Maybe Row)
+row :: TypingEnvironment -> [Column] -> Int -> Surface.TableLine -> Infer (Maybe Row)
 row env columns number (Located at line) = case line of
   Surface.Header _ -> Nothing <$ Inference.mistake (HeadingsRepeated at)
   Surface.BrokenLine -> Nothing <$ Inference.taint
@@ -188,7 +188,7 @@ row env columns number (Located at line) = case line of
       Written _ -> Nothing
 
 -- | Checks a cell of a column.
-cell :: Environment -> Column -> Surface.Expr -> Infer Cell
+cell :: TypingEnvironment -> Column -> Surface.Expr -> Infer Cell
 cell env c e = case literalOf e of
   Just x -> pure $! Literal (region e) x
   Nothing -> Written <$> expect env (kind c) e
@@ -230,7 +230,10 @@ cellsOf order sizes rows sol = case rows of
 -- | Checks a cipher of a piece on a curve with columns. 'Nothing' when the digit or the number of
 -- values is wrong, or when the columns are unknown because of an earlier mistake.
 cipher ::
-  Environment -> Maybe [(Text, Type)] -> Surface.Cipher -> Infer (Maybe (Deferred Checked.Cipher))
+  TypingEnvironment ->
+  Maybe [(Text, Type)] ->
+  Surface.Cipher ->
+  Infer (Maybe (Deferred Checked.Cipher))
 cipher env known (Located at (Surface.Cipher (Located digitRegion digit) given)) =
   case recalculation env columns (digits digit) (NonEmpty.toList given) of
     Just checked
@@ -246,7 +249,7 @@ cipher env known (Located at (Surface.Cipher (Located digitRegion digit) given))
 -- | The recalculation of a cipher by its digit and the number of its values; 'Nothing' when there
 -- is none.
 recalculation ::
-  Environment ->
+  TypingEnvironment ->
   [(Text, Type)] ->
   Text ->
   [Surface.Expr] ->
@@ -282,7 +285,7 @@ recalculation env columns digit values = case (digit, values) of
 
 -- | Checks a length that holds for the whole piece, so that no column may occur in it.
 constantLength ::
-  Environment -> [(Text, Type)] -> Text -> Surface.Expr -> Infer (Deferred Checked.Expr)
+  TypingEnvironment -> [(Text, Type)] -> Text -> Surface.Expr -> Infer (Deferred Checked.Expr)
 constantLength env columns digit e =
   case [(r, n) | (r, n) <- freeNames e, n `elem` map (Name . fst) columns] of
     (r, n) : _ -> zero e <$ Inference.mistake (ColumnForWholePiece r digit n)
@@ -290,7 +293,7 @@ constantLength env columns digit e =
 
 -- | Checks a value at every point of a curve, which may name its columns.
 valueAlong ::
-  Environment -> [(Text, Type)] -> Type -> Surface.Expr -> Infer (Deferred Checked.Expr)
+  TypingEnvironment -> [(Text, Type)] -> Type -> Surface.Expr -> Infer (Deferred Checked.Expr)
 valueAlong env columns t e = do
   unknown <- catMaybes <$> traverse unknownName (freeNames e)
   mapM_ (\(r, n) -> Inference.mistake (NoColumn r n (map fst columns))) unknown
@@ -331,7 +334,7 @@ freeNames (Located at e) = case e of
 -- Joggles
 
 -- | Checks a joggle: four lengths.
-joggle :: Environment -> Surface.Joggle -> Infer (Deferred Checked.Joggle)
+joggle :: TypingEnvironment -> Surface.Joggle -> Infer (Deferred Checked.Joggle)
 joggle env (Located at (Surface.Joggle from to depth radius)) = do
   from' <- len from
   to' <- len to

@@ -8,7 +8,7 @@ where
 import Base.Region (Located (..))
 import Checked.Deferred (Deferred)
 import Checked.Error (Error (..))
-import Checked.Expression (Environment, expect, spatialPoint)
+import Checked.Expression (TypingEnvironment, expect, spatialPoint)
 import Checked.Inference (Infer)
 import Checked.Inference qualified as Inference
 import Checked.Syntax (Settings (..))
@@ -23,7 +23,7 @@ import Surface.Syntax qualified as Surface
 
 -- | Checks the block of a statement with the given keyword. Each setting is allowed once, except
 -- @approach@ and @retract@, whose stops follow one another.
-check :: Environment -> Text -> [Surface.Setting] -> Infer (Deferred Settings)
+check :: TypingEnvironment -> Text -> [Surface.Setting] -> Infer (Deferred Settings)
 check env statement written = do
   mapM_ reportRepeated (zip (drop 1 (scanl (flip (:)) [] written)) written)
   changes <- mapM (setting env statement) written
@@ -41,7 +41,7 @@ reportRepeated (upToHere, Located at s) =
     [] -> pure ()
 
 -- | Checks a setting, and that the statement allows it. Gives the change to the settings.
-setting :: Environment -> Text -> Surface.Setting -> Infer (Deferred (Settings -> Settings))
+setting :: TypingEnvironment -> Text -> Surface.Setting -> Infer (Deferred (Settings -> Settings))
 setting env statement (Located at s) = do
   unless
     (keyword s `elem` "" : Keyword.settingsOf statement)
@@ -76,11 +76,11 @@ setting env statement (Located at s) = do
   where
     len = expect env Type.len
 
-stops :: Environment -> NonEmpty Surface.Stop -> Infer (Deferred [Checked.Stop])
+stops :: TypingEnvironment -> NonEmpty Surface.Stop -> Infer (Deferred [Checked.Stop])
 stops env to = (\ps sol -> map ($ sol) ps) <$> mapM (stop env) (NonEmpty.toList to)
 
 -- | Checks a stop of a motion: its point and its feed.
-stop :: Environment -> Surface.Stop -> Infer (Deferred Checked.Stop)
+stop :: TypingEnvironment -> Surface.Stop -> Infer (Deferred Checked.Stop)
 stop env (Surface.Stop p pace) = do
   p' <- spatialPoint env p
   pace' <- case pace of
@@ -90,7 +90,7 @@ stop env (Surface.Stop p pace) = do
   pure (\sol -> Checked.Stop (p' sol) (pace' sol))
 
 -- | Checks a contour or a list of contours.
-contourOrContours :: Environment -> Surface.Expr -> Infer (Deferred Checked.Expr)
+contourOrContours :: TypingEnvironment -> Surface.Expr -> Infer (Deferred Checked.Expr)
 contourOrContours env e@(Located at _) = do
   t <- Inference.freshType
   e' <- expect env t e

@@ -9,7 +9,7 @@
 -- is replaced by this point. A vertex where the offsets of two distant elements intersect keeps the
 -- kernel's coordinates.
 module Offset.LoopPath
-  ( Region (..),
+  ( LoopRegion (..),
     region,
     rawRegion,
     flatCount,
@@ -61,7 +61,7 @@ import Offset.Tolerance qualified as Tolerance
 
 -- | Loops of the kernel, the raw offset that they are parts of, and the number of the element for
 -- each segment of the flat contour.
-data Region = Region
+data LoopRegion = LoopRegion
   { contourEnds :: Ends,
     loops :: OffsetLoops,
     raw :: ClosedPolyarcs,
@@ -69,11 +69,11 @@ data Region = Region
   }
 
 -- | The region that the cutter's centre can reach; nothing for a contour that intersects itself.
-region :: OffsetSource -> Maybe Region
+region :: OffsetSource -> Maybe LoopRegion
 region source = case Kernel.offset (request source numbers) [flat] of
   Right found ->
     Just
-      Region
+      LoopRegion
         { contourEnds = ends source,
           loops = Kernel.loops found,
           raw = Kernel.raw found,
@@ -86,14 +86,14 @@ region source = case Kernel.offset (request source numbers) [flat] of
     (flat, numbers) = FlatPolyarc.fromSegments (ends source) (elements source)
 
 -- | The raw offset, before any of it is cut away, as one loop.
-rawRegion :: OffsetSource -> Region
-rawRegion source = Region {contourEnds = ends source, loops = Loop.untrimmed raw, raw, numbers}
+rawRegion :: OffsetSource -> LoopRegion
+rawRegion source = LoopRegion {contourEnds = ends source, loops = Loop.untrimmed raw, raw, numbers}
   where
     raw = Kernel.rawOffset (request source numbers) [flat]
     (flat, numbers) = FlatPolyarc.fromSegments (ends source) (elements source)
 
 -- | The number of segments of the flat contour, in which arcs over half a turn are two segments.
-flatCount :: Region -> Int
+flatCount :: LoopRegion -> Int
 flatCount = sizeofPrimArray . numbers
 
 request :: OffsetSource -> PrimArray Int -> Kernel.OffsetRequest
@@ -130,7 +130,7 @@ data Circuit = Circuit {before :: Origin, runs :: [Run]}
 
 -- | The runs of a loop, by the loop's number. They begin with a run that is not beside the contour
 -- or, when there is none, with the one of the least origin.
-circuit :: Region -> Int -> Circuit
+circuit :: LoopRegion -> Int -> Circuit
 circuit r k = circuitFrom r a z (fromMaybe (leastStart r a z) beyond)
   where
     beyond = find (not . isBesideAt r) (if contourEnds r == Open then [a .. z - 1] else [])
@@ -138,7 +138,7 @@ circuit r k = circuitFrom r a z (fromMaybe (leastStart r a z) beyond)
     z = indexPrimArray (Loop.starts (loops r)) (k + 1)
 
 -- | The runs of the raw offset of a contour at whose corners the cutter passes.
-rawCircuit :: Region -> Circuit
+rawCircuit :: LoopRegion -> Circuit
 rawCircuit r
   | z == 0 = Circuit (Along 0) []
   | otherwise = full {runs = filter (not . isConnecting) (takeWhile isBeside (runs full))}
@@ -148,7 +148,7 @@ rawCircuit r
 
 -- | The first segment of the run with the least origin, among those from @a@ to before @z@. A run
 -- around the end of the numbers begins before it, unless it is a full circle.
-leastStart :: Region -> Int -> Int -> Int
+leastStart :: LoopRegion -> Int -> Int -> Int
 leastStart r a z = if first == a then backwards a (z - 1) else first
   where
     !first = least (a + 1) a (originAt r a)
@@ -164,7 +164,7 @@ leastStart r a z = if first == a then backwards a (z - 1) else first
       | otherwise = start
 
 -- | The runs once around the segments from @a@ to before @z@, beginning at one of them.
-circuitFrom :: Region -> Int -> Int -> Int -> Circuit
+circuitFrom :: LoopRegion -> Int -> Int -> Int -> Circuit
 circuitFrom r a z begin = Circuit (earlier begin) (go begin (z - a))
   where
     earlier i
@@ -179,7 +179,7 @@ circuitFrom r a z begin = Circuit (earlier begin) (go begin (z - a))
         after = if i + 1 == z then a else i + 1
 
 -- | The run of one segment of a loop, which ends at a vertex.
-runAt :: Region -> Int -> Int -> Run
+runAt :: LoopRegion -> Int -> Int -> Run
 runAt r i j =
   Run
     { origin = originAt r i,
@@ -199,23 +199,23 @@ runAt r i j =
     vertex k = Vec.point (indexPrimArray (Loop.xs l) k) (indexPrimArray (Loop.ys l) k)
 
 -- | The number of the segment of the raw offset that a segment of a loop is a part of.
-rawAt :: Region -> Int -> Int
+rawAt :: LoopRegion -> Int -> Int
 rawAt r i = fromIntegral (indexPrimArray (Loop.raws (loops r)) i)
 
-markAt :: Region -> Int -> Word8
+markAt :: LoopRegion -> Int -> Word8
 markAt r i = indexPrimArray (ClosedPolyarcs.marks (raw r)) (rawAt r i)
 
-isAroundAt :: Region -> Int -> Bool
+isAroundAt :: LoopRegion -> Int -> Bool
 isAroundAt r i = ClosedPolyarcs.hasMark ClosedPolyarcs.aroundMark (markAt r i)
 
-isConnectingAt :: Region -> Int -> Bool
+isConnectingAt :: LoopRegion -> Int -> Bool
 isConnectingAt r i = ClosedPolyarcs.hasMark ClosedPolyarcs.connectingMark (markAt r i)
 
 -- | The number of the segment of the flat contour. An open contour is traversed there and back.
-flatAt :: Region -> Int -> Int
+flatAt :: LoopRegion -> Int -> Int
 flatAt r i = fromIntegral (indexPrimArray (ClosedPolyarcs.sources (raw r)) (rawAt r i))
 
-originAt :: Region -> Int -> Origin
+originAt :: LoopRegion -> Int -> Origin
 originAt r i = if isAroundAt r i then Around element else Along element
   where
     k = flatAt r i
@@ -223,7 +223,7 @@ originAt r i = if isAroundAt r i then Around element else Along element
     element = indexPrimArray (numbers r) (if k < n then k else 2 * n - 1 - k)
 
 -- | Excludes the way back along an open contour, and the arcs about its ends.
-isBesideAt :: Region -> Int -> Bool
+isBesideAt :: LoopRegion -> Int -> Bool
 isBesideAt r i = contourEnds r == Closed || flatAt r i < (if isAroundAt r i then n - 1 else n)
   where
     n = sizeofPrimArray (numbers r)

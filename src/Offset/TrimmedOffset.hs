@@ -55,7 +55,7 @@ along source = maybe [] (pathsIn source source) (LoopPath.region source)
 
 -- | The paths in a region, with the coordinates of a source; the first request is the one that the
 -- kernel answered.
-pathsIn :: OffsetSource -> OffsetSource -> LoopPath.Region -> [TrimmedOffset]
+pathsIn :: OffsetSource -> OffsetSource -> LoopPath.LoopRegion -> [TrimmedOffset]
 pathsIn structure source region =
   sortOn
     (origin . NonEmpty.head . pieces)
@@ -138,7 +138,7 @@ whole structure source = case LoopPath.region structure of
     finalOf = numberOf . origin . NonEmpty.last . pieces
 
 -- | Nothing of the raw offset was cut away: its segments are the loop, in order.
-isUncut :: LoopPath.Region -> Bool
+isUncut :: LoopPath.LoopRegion -> Bool
 isUncut region =
   Loop.count loops == 1
     && count == sizeofPrimArray (ClosedPolyarcs.xs (LoopPath.raw region)) - 1

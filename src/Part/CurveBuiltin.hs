@@ -35,7 +35,7 @@ import Part.ConstructionError (ConstructionFault (..), NoAnswer (..))
 import Part.ContourError (ContourFault (NoLength))
 import Part.Curve (Fitting (..), PartCurve (..), PartTable (..))
 import Part.Curve qualified as Curve
-import Part.CurveError (CurveFault (..), ListFault (..), Listing (..))
+import Part.CurveError (CurveMistake (..), ListFault (..), Listing (..))
 import Part.Error (ValueFact (..))
 import Part.Evaluation (Eval)
 import Part.Evaluation qualified as Evaluation

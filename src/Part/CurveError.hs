@@ -3,7 +3,7 @@
 -- | Faults of curves and pieces: points that make no curve, shifts that fold a curve or tear it,
 -- bevels and joggles that do not fit.
 module Part.CurveError
-  ( CurveFault (..),
+  ( CurveMistake (..),
     Listing (..),
     ListFault (..),
     toReport,
@@ -21,7 +21,7 @@ import Part.ErrorText (Candidate (APoint), at, below, downTo, listed, stop)
 import Report.Report (Label (..), Report (..))
 
 -- | A fault of a curve or a piece; the region of the call or the cipher comes first.
-data CurveFault
+data CurveMistake
   = -- | points that make no curve: their source, the region of the row where it shows
     BadPoints Region Listing (Maybe Region) ListFault
   | -- | the number of a row or a point that does not exist, and the count of those that do
@@ -74,7 +74,7 @@ data ListFault
   deriving stock (Eq, Show)
 
 -- | The report of a fault.
-toReport :: CurveFault -> Report
+toReport :: CurveMistake -> Report
 toReport fault = case fault of
   BadPoints region listing row listFault ->
     (at (fromMaybe region row) "E0349" (listTitle (nounOf listing) listFault))

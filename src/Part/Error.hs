@@ -24,10 +24,10 @@ import Part.ConstructionError (ConstructionFault)
 import Part.ConstructionError qualified as ConstructionError
 import Part.ContourError (ContourFault)
 import Part.ContourError qualified as ContourError
-import Part.CurveError (CurveFault)
+import Part.CurveError (CurveMistake)
 import Part.CurveError qualified as CurveError
 import Part.ErrorText (at)
-import Part.Parameter (Domain, Parameter, Range, WholeNumber)
+import Part.Parameter (Domain, LimitedQuantity, Range, WholeNumber)
 import Part.Parameter qualified as Parameter
 import Part.Part (CutterKind (..))
 import Part.PocketError (PocketMisfit)
@@ -51,8 +51,8 @@ data ValueFact
   | RadiusNotPositive Region Mm
   | -- | a line whose two points are this one
     ZeroLine Region Point
-  | NotPositive Region Parameter Double
-  | Negative Region Parameter Double
+  | NotPositive Region LimitedQuantity Double
+  | Negative Region LimitedQuantity Double
   | -- | a number that is not whole or not in the range
     NotWhole Region WholeNumber Range Double
   | -- | the number of an item, and the count of items
@@ -69,7 +69,7 @@ data ValueFact
     StepsUndercut Region
   | InConstruction ConstructionFault
   | InContour ContourFault
-  | InCurve CurveFault
+  | InCurve CurveMistake
   | InPocket PocketMisfit
   deriving stock (Eq, Show)
 

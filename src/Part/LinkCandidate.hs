@@ -4,8 +4,7 @@
 -- Candidates are independent of the other links of the contour; 'Part.LinkSolver' chooses among
 -- them.
 module Part.LinkCandidate
-  ( Link (..),
-    Joint (..),
+  ( Joint (..),
     through,
     candidates,
   )
@@ -33,21 +32,8 @@ import Geometry.Tolerance qualified as Tolerance
 import Geometry.Vec (Point, Vec)
 import Geometry.Vec qualified as Vec
 import Part.ContourError (ContourFault (..), LinkFault (..), Neighbours (..))
+import Part.Link (Link (..))
 import Part.Tolerance qualified as Tolerance
-
--- | A link with its values.
-data Link
-  = -- | the intersection nearest to the point, if there is one
-    Meet (Maybe Point)
-  | -- | at this point, between the elements of a contour that is an element itself
-    Fixed Point
-  | Smooth
-  | Tangent
-  | -- | the sense and the radius of the arc
-    Fillet Sense Mm
-  | -- | the length that it cuts off each neighbour
-    Chamfer Mm
-  deriving stock (Eq, Show)
 
 -- | The point that ends one element, the point that begins the next, and the segment between them.
 data Joint = Joint

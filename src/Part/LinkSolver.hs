@@ -36,7 +36,8 @@ import Geometry.Vec qualified as Vec
 import Part.ContourError (ContourFault (..), LinkFault (..), Neighbours (Neighbours))
 import Part.ContourError qualified as ContourError
 import Part.Curve (PartCurve)
-import Part.LinkCandidate (Joint (..), Link (..))
+import Part.Link (Link (..))
+import Part.LinkCandidate (Joint (..))
 import Part.LinkCandidate qualified as LinkCandidate
 import Part.Part (Element (Element, continues, origin, segment), Finish, plainFinish)
 import Part.Tolerance qualified as Tolerance

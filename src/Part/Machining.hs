@@ -28,7 +28,7 @@ import Data.Vector qualified as Vector
 import Geometry.Tolerance qualified as Tolerance
 import Part.ContourElement qualified as ContourElement
 import Part.ContourError (ContourFault (OpenBegins))
-import Part.CurveError (CurveFault (SteepBevel))
+import Part.CurveError (CurveMistake (SteepBevel))
 import Part.Error (CutterStatement (..), Error (..), ValueFact (..))
 import Part.Evaluation (Eval)
 import Part.Evaluation qualified as Evaluation

@@ -18,12 +18,12 @@ import Part.Evaluation (Eval)
 import Part.Evaluation qualified as Evaluation
 import Part.Expression (Environment)
 import Part.Expression qualified as Expression
-import Part.Parameter (Parameter, Range (FromTo), WholeNumber)
+import Part.Parameter (LimitedQuantity, Range (FromTo), WholeNumber)
 import Part.Parameter qualified as Parameter
 import Part.Value qualified as Value
 
 -- | A quantity above 0, and within the reach of machines.
-positive :: Environment -> Parameter -> (Double -> q) -> Expr -> Eval q
+positive :: Environment -> LimitedQuantity -> (Double -> q) -> Expr -> Eval q
 positive env parameter make e = do
   x <- Expression.number <$> Expression.evaluate env e
   if x <= 0
@@ -31,11 +31,11 @@ positive env parameter make e = do
     else make x <$ Value.within (region e) x
 
 -- | A length above 0.
-lengthOf :: Environment -> Parameter -> Expr -> Eval Mm
+lengthOf :: Environment -> LimitedQuantity -> Expr -> Eval Mm
 lengthOf env parameter = positive env parameter Mm
 
 -- | A length of 0 or more.
-notNegative :: Environment -> Parameter -> Expr -> Eval Mm
+notNegative :: Environment -> LimitedQuantity -> Expr -> Eval Mm
 notNegative env parameter e = do
   x <- Expression.number <$> Expression.evaluate env e
   when (x < 0) (Evaluation.mistake (Negative (region e) parameter x))

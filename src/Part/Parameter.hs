@@ -1,9 +1,9 @@
 -- | The quantities that statements and functions ask for, and their names and units in reports.
 --
--- A mistake in one of them carries the 'Parameter' and the number; 'name' and 'written' are the
--- only definitions that turn them into words.
+-- A mistake in one of them carries the 'LimitedQuantity' and the number; 'name' and 'written' are
+-- the only definitions that turn them into words.
 module Part.Parameter
-  ( Parameter (..),
+  ( LimitedQuantity (..),
     name,
     written,
     WholeNumber (..),
@@ -20,7 +20,7 @@ import Base.Quantity (Mm (..), Rad, degrees)
 import Data.Text (Text)
 
 -- | A quantity with a lower limit of 0.
-data Parameter
+data LimitedQuantity
   = Feed
   | SpindleSpeed
   | ScalingFactor
@@ -51,7 +51,7 @@ data Parameter
   deriving stock (Eq, Show)
 
 -- | The name of a parameter in a report.
-name :: Parameter -> Text
+name :: LimitedQuantity -> Text
 name parameter = case parameter of
   Feed -> "the feed"
   SpindleSpeed -> "the speed of the spindle"
@@ -79,7 +79,7 @@ name parameter = case parameter of
 
 -- | A parameter's value with its unit: mm\/min for the feed, turns a minute for the spindle, no
 -- unit for a factor, else mm.
-written :: Parameter -> Double -> Text
+written :: LimitedQuantity -> Double -> Text
 written parameter x = case parameter of
   Feed -> Decimal.short 4 x <> " mm/min"
   SpindleSpeed -> Decimal.short 4 x <> " rpm"

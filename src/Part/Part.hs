@@ -61,7 +61,7 @@ import Geometry.Segment (Segment)
 import Geometry.Segment qualified as Segment
 import Geometry.Vec (Point)
 import Part.Curve (Fitting, PartCurve)
-import Part.LinkCandidate (Link)
+import Part.Link (Link)
 
 -- | An evaluated program.
 data Part = Part

@@ -39,7 +39,7 @@ import Geometry.Tolerance qualified as Tolerance
 import Geometry.Vec qualified as Vec
 import Part.Curve (PartCurve (..), PartTable (..))
 import Part.Curve qualified as Curve
-import Part.CurveError (CurveFault (..))
+import Part.CurveError (CurveMistake (..))
 import Part.Error (ValueFact (..))
 import Part.Evaluation (Eval)
 import Part.Evaluation qualified as Evaluation
@@ -120,7 +120,7 @@ recalculated env base side lower (Located at cipher) = do
       if a < b then pure (a, b) else mistake (GrowthEnds at)
     parameter e = (\v -> Exact.nearest (Expression.point v) lower) <$> Expression.evaluate env e
 
-mistake :: CurveFault -> Eval a
+mistake :: CurveMistake -> Eval a
 mistake = Evaluation.mistake . InCurve
 
 -- | The values of an expression at the rows of a curve's table. An expression without the table's

@@ -26,7 +26,7 @@ import Numeric (showEFloat)
 import Part.Part (Finish)
 import Part.Part qualified as Part
 import Sheet.Sheet
-import Sheet.Unsupported (CipherFault (..), PieceFault (..), Unfit (..))
+import Sheet.Unsupported (PieceFault (..), Unfit (..), UnsupportedCipher (..))
 import Text.Read (readMaybe)
 
 -- | One shift of a curve.

@@ -25,7 +25,7 @@ import Geometry.Segment (Segment)
 import Geometry.Segment qualified as Segment
 import Geometry.Vec qualified as Vec
 import Part.Curve qualified as Curve
-import Part.LinkCandidate qualified as LinkCandidate
+import Part.Link qualified as Link
 import Part.Part (Milling, Part)
 import Part.Part qualified as Part
 import Part.Tolerance qualified as Tolerance
@@ -33,14 +33,14 @@ import Sheet.FromCurve (here)
 import Sheet.FromCurve qualified as FromCurve
 import Sheet.Sheet
 import Sheet.Unsupported
-  ( CipherFault (..),
-    Feature (..),
+  ( Feature (..),
     FeedFault (..),
     LinkFeature (..),
     PathFault (..),
     PieceFault (..),
     SharedSetting (..),
     Unfit (..),
+    UnsupportedCipher (..),
   )
 
 -- | The sheet of a part, or all that does not fit one. The program tells the dimensions of a cone,
@@ -347,14 +347,14 @@ interpolated s known = case known of
 linkOf :: Part.ContourElement -> Result w Unfit (Located Link)
 linkOf element = case Part.link element of
   Nothing -> pure (here Intersection)
-  Just (LinkCandidate.Meet Nothing) -> pure (here Intersection)
-  Just LinkCandidate.Smooth -> pure (here Joint)
-  Just (LinkCandidate.Fillet sense (Mm r)) ->
+  Just (Link.Meet Nothing) -> pure (here Intersection)
+  Just Link.Smooth -> pure (here Joint)
+  Just (Link.Fillet sense (Mm r)) ->
     pure
       (here (Rounding (case sense of Carrier.Clockwise -> r; Carrier.CounterClockwise -> negate r)))
-  Just (LinkCandidate.Meet (Just _)) -> refused (NoLink at ChosenIntersection)
-  Just (LinkCandidate.Fixed _) -> refused (NoPiece at NestedContour)
-  Just LinkCandidate.Tangent -> refused (NoLink at TangentLink)
-  Just (LinkCandidate.Chamfer _) -> refused (NoLink at ChamferLink)
+  Just (Link.Meet (Just _)) -> refused (NoLink at ChosenIntersection)
+  Just (Link.Fixed _) -> refused (NoPiece at NestedContour)
+  Just Link.Tangent -> refused (NoLink at TangentLink)
+  Just (Link.Chamfer _) -> refused (NoLink at ChamferLink)
   where
     at = Part.elementRegion element

@@ -4,7 +4,7 @@ module Sheet.Unsupported
     Feature (..),
     PieceFault (..),
     LinkFeature (..),
-    CipherFault (..),
+    UnsupportedCipher (..),
     FeedFault (..),
     SharedSetting (..),
     PathFault (..),
@@ -26,7 +26,7 @@ data Unfit
     NoPiece Region PieceFault
   | NoLink Region LinkFeature
   | -- | the recalculations of the piece that this element is
-    NoCipher Region CipherFault
+    NoCipher Region UnsupportedCipher
   | NoFeed Region FeedFault
   | -- | a setting that a sheet has once, and that differs from the one of the first contour
     TwoOfOne Region SharedSetting
@@ -74,7 +74,7 @@ data LinkFeature = ChosenIntersection | TangentLink | ChamferLink
   deriving stock (Eq, Ord, Show)
 
 -- | The reason why recalculations have no cipher.
-data CipherFault
+data UnsupportedCipher
   = AllowanceOfFour
   | GrowthBetweenPoints
   | HasJoggle
@@ -208,7 +208,7 @@ linkText feature = case feature of
   ChamferLink -> "a chamfer"
 
 -- | The end of the title, and the hint.
-cipherTexts :: CipherFault -> (Text, Text)
+cipherTexts :: UnsupportedCipher -> (Text, Text)
 cipherTexts fault = case fault of
   AllowanceOfFour ->
     ("its 4 has an allowance", "Write the allowance behind the element: allowance 0.5")

@@ -61,12 +61,12 @@ import Surface.Keyword qualified as Keyword
 import Surface.Syntax (Expr, Statement, Statement_ (..))
 import Surface.Token (Token (..), Token_ (..))
 import Surface.Token qualified as Token
-import Surface.TokenStream (Input (..))
+import Surface.TokenStream (TokenStream (..))
 import Text.Megaparsec (ErrorItem (..), MonadParsec, ParseError (..), ParsecT, (<?>))
 import Text.Megaparsec qualified as Parsec
 
 -- | A failure of megaparsec.
-type Failure = ParseError Input Problem
+type Failure = ParseError TokenStream Problem
 
 -- | Failures that are more specific than an unexpected token.
 data Problem
@@ -111,7 +111,7 @@ data ParserState = ParserState
 data Consumed a = Consumed a Int [Token]
 
 -- | The operations from which the grammar is built.
-class MonadParsec Problem Input p => Grammar p where
+class MonadParsec Problem TokenStream p => Grammar p where
   -- | Accepts a token for which the function gives a value. The label describes the expectation.
   token :: Text -> (Token -> Maybe a) -> p a
 
@@ -119,7 +119,7 @@ class MonadParsec Problem Input p => Grammar p where
   zeroOrMore :: p a -> p [a]
 
   -- | Replaces a failure of a parser.
-  onFailure :: (ParseError Input Problem -> p a) -> p a -> p a
+  onFailure :: (ParseError TokenStream Problem -> p a) -> p a -> p a
 
   -- | The remaining tokens.
   remaining :: p [Token]
@@ -142,16 +142,16 @@ class MonadParsec Problem Input p => Grammar p where
 type Parser a = forall p. Grammar p => p a
 
 -- | The parser that reports mistakes.
-type Explaining = ParsecT Problem Input (State ParserState)
+type Explaining = ParsecT Problem TokenStream (State ParserState)
 
-instance Grammar (ParsecT Problem Input (State ParserState)) where
+instance Grammar (ParsecT Problem TokenStream (State ParserState)) where
   token expected accept = do
     (t, a) <- Parsec.token (\t -> (t,) <$> accept t) Set.empty <?> Text.unpack expected
     lift (modify' (\m -> m {lastEnd = end (Token.place t)}))
     pure a
   zeroOrMore = Parsec.many
   onFailure replace p = Parsec.observing p >>= either replace pure
-  remaining = (\(Input ts) -> ts) <$> Parsec.getInput
+  remaining = (\(TokenStream ts) -> ts) <$> Parsec.getInput
   fastPath _ p = p
   isWordNext = pure True
   parserState = lift get
@@ -164,7 +164,7 @@ run parser finish tokens = (map (fromFailure (Vector.fromList tokens) finish) in
   where
     (result, remembered) =
       runState
-        (Parsec.runParserT parser "" (Input tokens))
+        (Parsec.runParserT parser "" (TokenStream tokens))
         ParserState
           { failures = [],
             lastEnd = 0,

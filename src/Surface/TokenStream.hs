@@ -2,7 +2,7 @@
 
 -- | A list of tokens as an input stream of megaparsec.
 module Surface.TokenStream
-  ( Input (..),
+  ( TokenStream (..),
   )
 where
 
@@ -10,21 +10,21 @@ import Surface.Token (Token)
 import Text.Megaparsec qualified as Parsec
 
 -- | The tokens that remain to be parsed.
-newtype Input = Input [Token]
+newtype TokenStream = TokenStream [Token]
 
-instance Parsec.Stream Input where
-  type Token Input = Token
-  type Tokens Input = [Token]
+instance Parsec.Stream TokenStream where
+  type Token TokenStream = Token
+  type Tokens TokenStream = [Token]
   tokenToChunk _ t = [t]
   tokensToChunk _ ts = ts
   chunkToTokens _ ts = ts
   chunkLength _ ts = length ts
   chunkEmpty _ ts = null ts
-  take1_ (Input ts) = case ts of
+  take1_ (TokenStream ts) = case ts of
     [] -> Nothing
-    t : rest -> Just (t, Input rest)
-  takeN_ n (Input ts)
-    | n <= 0 = Just ([], Input ts)
+    t : rest -> Just (t, TokenStream rest)
+  takeN_ n (TokenStream ts)
+    | n <= 0 = Just ([], TokenStream ts)
     | null ts = Nothing
-    | otherwise = let (taken, rest) = splitAt n ts in Just (taken, Input rest)
-  takeWhile_ p (Input ts) = let (taken, rest) = span p ts in (taken, Input rest)
+    | otherwise = let (taken, rest) = splitAt n ts in Just (taken, TokenStream rest)
+  takeWhile_ p (TokenStream ts) = let (taken, rest) = span p ts in (taken, TokenStream rest)

@@ -17,8 +17,10 @@ spec = do
     (code, out, err) <- partc ["check", "--format", "sarif", "examples/flange.part"]
     (code, out) `shouldBe` (ExitSuccess, "")
     err
-      `shouldBe` "\
-                 \{\"$schema\":\"https://json.schemastore.org/sarif-2.1.0.json\",\"version\":\"2.1.0\",\"runs\":[{\"tool\":{\"driver\":{\"name\":\"partc\",\"rules\":[]}},\"columnKind\":\"unicodeCodePoints\",\"results\":[]}]}\n"
+      `shouldBe` "{\"$schema\":\"https://json.schemastore.org/sarif-2.1.0.json\",\
+                 \\"version\":\"2.1.0\",\
+                 \\"runs\":[{\"tool\":{\"driver\":{\"name\":\"partc\",\"rules\":[]}},\
+                 \\"columnKind\":\"unicodeCodePoints\",\"results\":[]}]}\n"
   it "contains the reports of all files, in the order of the command line" $ do
     (code, out, err) <-
       partc

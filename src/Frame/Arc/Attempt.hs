@@ -24,9 +24,9 @@ import Frame.Arc.Context
     RoundedArc (..),
   )
 import Frame.Arc.Context qualified as Context
-import Frame.Arc.Deviation (Deviation (..))
+import Frame.Arc.Deviation (ArcDeviation (..))
 import Frame.Arc.Deviation qualified as Deviation
-import Frame.Arc.Estimate (Ends)
+import Frame.Arc.Estimate (ArcEnds)
 import Frame.Arc.Estimate qualified as Estimate
 import Frame.Arc.Quadrant qualified as Quadrant
 import Geometry.Carrier qualified as Carrier
@@ -71,7 +71,7 @@ fewestSteps attempts = case attempts of
 -- | Grid point with the least estimated deviation, and its rank.
 data Likeliest = None | Likeliest Int Pulses2
 
-likeliest :: Ends -> [Pulses2] -> Likeliest
+likeliest :: ArcEnds -> [Pulses2] -> Likeliest
 likeliest ends = go 0 None (1 / 0)
   where
     go !k best !least todo = case todo of
@@ -87,7 +87,7 @@ likeliest ends = go 0 None (1 / 0)
 
 -- | Attempt with the least deviation about some grid points, from the first attempt.
 leastDeviation ::
-  ArcContext -> RoundedArc -> Ends -> [Pulses2] -> Maybe Ranked -> Maybe Ranked
+  ArcContext -> RoundedArc -> ArcEnds -> [Pulses2] -> Maybe Ranked -> Maybe Ranked
 leastDeviation context arc ends = go 0
   where
     go !k todo best = case todo of
@@ -104,7 +104,7 @@ ranked context arc k c = Ranked k <$> attempt context arc c
 
 -- | True if the whole arc about a grid point deviates less than the best attempt so far. The tests
 -- come in the order of their cost.
-isBetter :: ArcContext -> RoundedArc -> Ends -> Ranked -> Int -> Pulses2 -> Bool
+isBetter :: ArcContext -> RoundedArc -> ArcEnds -> Ranked -> Int -> Pulses2 -> Bool
 isBetter context arc ends best k c =
   not isSurelyWorse
     && isLess (Estimate.errorAtBegin ends c)
@@ -165,7 +165,7 @@ allowsFullCircle context = case Machine.arcs (machine (grid context)) of
   NoArcs -> False
   Arcs {Machine.fullCircle} -> fullCircle
 
-isWithinTolerance :: ArcTolerance -> Deviation -> Bool
+isWithinTolerance :: ArcTolerance -> ArcDeviation -> Bool
 isWithinTolerance allowed d =
   Mm (linear d) <= linearError allowed
     && Mm (inward d) <= inwards allowed

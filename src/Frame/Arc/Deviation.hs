@@ -8,7 +8,7 @@
 -- measured.
 module Frame.Arc.Deviation
   ( FrameArc (..),
-    Deviation (..),
+    ArcDeviation (..),
     deviationOf,
     sampledDeviation,
     deviationAtEnds,
@@ -68,7 +68,7 @@ frameArcOf exact ofFrame = case (exact, ofFrame) of
   _ -> Nothing
 
 -- | Largest radial deviations of a frame's arc from the exact circle, in mm.
-data Deviation = Deviation
+data ArcDeviation = ArcDeviation
   { -- | if the control keeps the radius of the beginning, or changes it linearly to that of the end
     linear :: Double,
     -- | towards the centre, whichever of the two radii the control uses at any point
@@ -78,10 +78,10 @@ data Deviation = Deviation
   }
 
 -- | Deviation of a frame's arc (third argument) from the exact arc; 0 if either of them is a line.
-deviationOf :: ArcTolerance -> Segment -> Segment -> Deviation
+deviationOf :: ArcTolerance -> Segment -> Segment -> ArcDeviation
 deviationOf tolerance exact ofFrame =
   maybe
-    (Deviation 0 0 0)
+    (ArcDeviation 0 0 0)
     (\arc -> fromMaybe (sampledDeviation arc) (deviationAtEnds tolerance arc))
     (frameArcOf exact ofFrame)
 
@@ -89,7 +89,7 @@ deviationOf tolerance exact ofFrame =
 -- the smaller tolerance whatever the control does. Between the ends the deviation is interpolated
 -- linearly, up to @φ²·v/8@ for a centre that is off by v and a sweep φ. The bound used here is
 -- twice that, for the terms of second order in v.
-deviationAtEnds :: ArcTolerance -> FrameArc -> Maybe Deviation
+deviationAtEnds :: ArcTolerance -> FrameArc -> Maybe ArcDeviation
 deviationAtEnds tolerance arc
   | abs (turned arc) < 1
       && off < startRadius arc / 8
@@ -119,7 +119,7 @@ roundingError = 1e-9
 
 -- | Deviation from samples at every eighth of the sweep, and at the points that are nearest to and
 -- furthest from the exact centre.
-sampledDeviation :: FrameArc -> Deviation
+sampledDeviation :: FrameArc -> ArcDeviation
 sampledDeviation arc =
   foldl'
     (\d t -> larger d (deviationAt arc t))
@@ -136,16 +136,16 @@ sampledDeviation arc =
         then filter (< 1) [share toward, share (if toward > 0 then toward - pi else toward + pi)]
         else []
 
-larger :: Deviation -> Deviation -> Deviation
-larger (Deviation a b d) (Deviation a' b' d') = Deviation (max a a') (max b b') (max d d')
+larger :: ArcDeviation -> ArcDeviation -> ArcDeviation
+larger (ArcDeviation a b d) (ArcDeviation a' b' d') = ArcDeviation (max a a') (max b b') (max d d')
 
 eighths :: [Double]
 eighths = [k / 8 | k <- [1 .. 8]]
 
 -- | Deviation at a fraction of the sweep.
-deviationAt :: FrameArc -> Double -> Deviation
+deviationAt :: FrameArc -> Double -> ArcDeviation
 deviationAt arc t =
-  Deviation
+  ArcDeviation
     { linear = max (abs first) (abs between),
       inward = -(min first final),
       outward = max first final

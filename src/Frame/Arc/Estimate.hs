@@ -4,7 +4,7 @@
 -- | Quick estimates of the deviation of an arc about a grid point, so that most grid points are
 -- rejected without the exact computation in "Frame.Arc.Deviation".
 module Frame.Arc.Estimate
-  ( Ends,
+  ( ArcEnds,
     endsOf,
     estimate,
     estimateError,
@@ -25,7 +25,7 @@ import Geometry.Carrier qualified as Carrier
 import Geometry.Vec qualified as Vec
 
 -- | Rounded ends of an arc and its exact circle, in mm, and what the estimate needs of them.
-data Ends = Ends
+data ArcEnds = ArcEnds
   { -- | resolution of the axes
     stepX :: Double,
     stepY :: Double,
@@ -50,12 +50,12 @@ data Ends = Ends
   }
 
 -- | Ends of an arc; none if both are the same grid point.
-endsOf :: Grid -> RoundedArc -> Maybe Ends
+endsOf :: Grid -> RoundedArc -> Maybe ArcEnds
 endsOf grid arc
   | begin arc == finish arc = Nothing
   | otherwise =
     Just
-      Ends
+      ArcEnds
         { stepX = pulseX grid,
           stepY = pulseY grid,
           beginX = Vec.x a,
@@ -89,9 +89,9 @@ endsOf grid arc
 -- About a centre that is off by a vector v, the deviation is @e + v·(u − u₀)@ where the exact
 -- radius has the direction u. Here e is the deviation at the beginning and u₀ the direction there.
 -- Terms of second order in v are neglected.
-estimate :: Ends -> Pulses2 -> Double
+estimate :: ArcEnds -> Pulses2 -> Double
 estimate
-  Ends {stepX, stepY, exactX, exactY, beginError, finishError, halfX, halfY, wholeX, wholeY}
+  ArcEnds {stepX, stepY, exactX, exactY, beginError, finishError, halfX, halfY, wholeX, wholeY}
   (Pulses2 (Pulses i) (Pulses j)) =
     larger between (larger (abs half) (abs whole))
     where
@@ -106,8 +106,8 @@ estimate
 {-# INLINE estimate #-}
 
 -- | Largest amount in mm by which the true deviation can be less than 'estimate'.
-estimateError :: Ends -> Pulses2 -> Double
-estimateError Ends {stepX, stepY, exactX, exactY, exactRadius} (Pulses2 (Pulses i) (Pulses j)) =
+estimateError :: ArcEnds -> Pulses2 -> Double
+estimateError ArcEnds {stepX, stepY, exactX, exactY, exactRadius} (Pulses2 (Pulses i) (Pulses j)) =
   (if 8 * off < exactRadius then 4 else 16) * off * off / exactRadius + Deviation.roundingError
   where
     off =
@@ -119,9 +119,9 @@ estimateError Ends {stepX, stepY, exactX, exactY, exactRadius} (Pulses2 (Pulses 
 
 -- | Exact deviation at the beginning of an arc about a grid point, as
 -- 'Frame.Arc.Deviation.linearErrorAt' computes it.
-errorAtBegin :: Ends -> Pulses2 -> Double
+errorAtBegin :: ArcEnds -> Pulses2 -> Double
 errorAtBegin
-  Ends {stepX, stepY, beginX, beginY, exactX, exactY, exactRadius}
+  ArcEnds {stepX, stepY, beginX, beginY, exactX, exactY, exactRadius}
   (Pulses2 (Pulses i) (Pulses j)) =
     abs (sqrt (x * x + y * y) - exactRadius)
     where
@@ -132,9 +132,9 @@ errorAtBegin
 {-# INLINE errorAtBegin #-}
 
 -- | The whole arc about a grid point as one frame.
-frameArcAbout :: Ends -> Sense -> Pulses2 -> FrameArc
+frameArcAbout :: ArcEnds -> Sense -> Pulses2 -> FrameArc
 frameArcAbout
-  Ends {stepX, stepY, beginX, beginY, finishX, finishY, exactX, exactY, exactRadius}
+  ArcEnds {stepX, stepY, beginX, beginY, finishX, finishY, exactX, exactY, exactRadius}
   sense
   (Pulses2 (Pulses i) (Pulses j)) =
     FrameArc

@@ -6,8 +6,7 @@
 --
 -- It is a packed R-tree in flat arrays: a box around each run of eight consecutive segments, one
 -- around each eight such boxes, and so on. Consecutive segments are close in space, so nothing is
--- sorted. The boxes of single segments are computed when needed, which costs less than storing
--- them.
+-- sorted. Boxes of single segments are computed when needed, which costs less than storing them.
 --
 -- A chain that advances in a fixed direction throughout does not meet itself. Each box therefore
 -- stores in which of eight directions all that it contains advances, and the search for pairs skips

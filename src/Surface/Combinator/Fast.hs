@@ -29,7 +29,7 @@ import Surface.Combinator
 import Surface.Syntax (Expr, Expr_ (..))
 import Surface.Token (Token)
 import Surface.Token qualified as Token
-import Surface.TokenStream (Input (..))
+import Surface.TokenStream (TokenStream (..))
 import Text.Megaparsec (MonadParsec (..))
 import Text.Megaparsec qualified as Parsec
 
@@ -93,7 +93,7 @@ instance Alternative FastParser where
 
 instance MonadPlus FastParser
 
-instance MonadParsec Problem Input FastParser where
+instance MonadParsec Problem TokenStream FastParser where
   parseError _ = empty
   {-# INLINE parseError #-}
   label _ p = p
@@ -137,15 +137,15 @@ instance MonadParsec Problem Input FastParser where
   getParserState = FastParser (\s ok _ -> ok (stateOf s) s)
   {-# INLINE getParserState #-}
   updateParserState f = FastParser $ \s ok _ ->
-    let Parsec.State {Parsec.stateInput = Input ts, Parsec.stateOffset} =
+    let Parsec.State {Parsec.stateInput = TokenStream ts, Parsec.stateOffset} =
           f (stateOf s)
      in ok () s {left = ts, room = negate stateOffset}
 
 -- | The state in megaparsec's form.
-stateOf :: Ahead -> Parsec.State Input Problem
+stateOf :: Ahead -> Parsec.State TokenStream Problem
 stateOf s =
   Parsec.State
-    { Parsec.stateInput = Input (left s),
+    { Parsec.stateInput = TokenStream (left s),
       Parsec.stateOffset = negate (room s),
       Parsec.statePosState = nowhere (left s),
       Parsec.stateParseErrors = []
@@ -211,10 +211,10 @@ grammarStateOf s =
 {-# INLINE grammarStateOf #-}
 
 -- | A constant position: lines and columns are not counted.
-nowhere :: [Token] -> Parsec.PosState Input
+nowhere :: [Token] -> Parsec.PosState TokenStream
 nowhere ts =
   Parsec.PosState
-    { Parsec.pstateInput = Input ts,
+    { Parsec.pstateInput = TokenStream ts,
       Parsec.pstateOffset = 0,
       Parsec.pstateSourcePos = Parsec.initialPos "",
       Parsec.pstateTabWidth = Parsec.defaultTabWidth,
