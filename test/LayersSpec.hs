@@ -156,10 +156,8 @@ check layers sources = concatMap faults sources
     reaches = reachable layers
     faults (Source path text) =
       Fault path
-        <$> concat
-          [ [Unlisted | not (listsExports tokens)],
-            maybe [Unplaced] (edges path (imports tokens)) (layerOf layers path)
-          ]
+        <$> [Unlisted | not (listsExports tokens)]
+        <> maybe [Unplaced] (edges path (imports tokens)) (layerOf layers path)
       where
         tokens = tokenise text
     edges path names home = mapMaybe (edge path home) names

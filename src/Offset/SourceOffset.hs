@@ -1,5 +1,3 @@
-{-# LANGUAGE BangPatterns #-}
-
 -- | The exact offset of each element of a contour by itself, and of each of its corners.
 --
 -- A line is moved along its normal; an arc keeps its centre and changes its radius; the centre of a

@@ -17,7 +17,7 @@ import Base.Quantity (Mm (..), plus)
 import Base.Region (Located (..))
 import Control.Applicative ((<|>))
 import Data.List.NonEmpty qualified as NonEmpty
-import Data.Maybe (isNothing)
+import Data.Maybe (fromMaybe, isNothing)
 import Data.Vector (Vector)
 import Data.Vector qualified as Vector
 import Geometry.Carrier qualified as Carrier
@@ -94,9 +94,7 @@ bevels contour
   | otherwise = Just (Vector.imap bevelOf elements)
   where
     elements = Vector.fromList (NonEmpty.toList (Part.elements contour))
-    bevelOf i element = case Part.bevel element of
-      Just given -> given
-      Nothing -> (at i (marks Vector.! i), at i (marks Vector.! (i + 1)))
+    bevelOf i element = fromMaybe (at i (marks Vector.! i), at i (marks Vector.! (i + 1))) (Part.bevel element)
     at i = interpolated (earlier Vector.! i) (later Vector.! i)
     -- Positions of the starts of all elements, and the length of the contour.
     marks = Vector.scanl' (+) 0 (fmap lengthOf elements)
