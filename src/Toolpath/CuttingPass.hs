@@ -93,9 +93,9 @@ block p path = do
       (cutterSide p)
       PassMoves
         { Compensation.before,
-          Compensation.leadIn,
+          Compensation.leadIn = inwards,
           Compensation.cut,
-          Compensation.leadOut,
+          Compensation.leadOut = outwards,
           Compensation.behind = after
         }
   Right
