@@ -90,8 +90,8 @@ leading text = case digits 0 text of
         let (before, rest) = Text.breakOn "." (Text.take width text)
          in longer before (Text.drop 1 rest)
 
--- | The number that leading digits append to another one, which may overflow; their count; and the
--- text after them.
+-- | The result of reading the digits at the start of a text: the given number with these digits
+-- appended (it may overflow), the count of these digits, and the rest of the text.
 data Digits = Digits Int Int {-# UNPACK #-} Text
 
 digits :: Int -> Text -> Digits

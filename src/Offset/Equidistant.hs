@@ -269,7 +269,8 @@ gapBetween source p q =
           Rad smooth = Tolerance.smoothAngle
        in abs turned > smooth
 
--- | Beyond a point there are only arcs of the cutter's radius, in which it does not move.
+-- | True if all the numbered elements are arcs around this point with the cutter's radius. The
+-- cutter's centre does not move while the cutter follows them.
 isSpent :: OffsetSource -> Point -> [Int] -> Bool
 isSpent source p numbers = not (null numbers) && all standsStill numbers
   where

@@ -111,7 +111,8 @@ request OffsetSource {style, side, radius, elements} numbers =
 -- | A segment of a loop, or consecutive segments of one arc.
 data Run = Run
   { origin :: Origin,
-    -- | number of its first segment in the flat contour, there and back
+    -- | index of its first segment in the flat contour, in which an open contour is traversed
+    -- forwards and then backwards
     flat :: Int,
     -- | joins both halves of an arc over half a turn
     isInterior :: Bool,

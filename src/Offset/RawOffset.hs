@@ -201,8 +201,10 @@ offsetPolyarc
                      && abs (cr * d) * (abs cr + abs (bulge i) + abs (bulge j)) <= tolerance
                ) =
           k (if di == dj then Smooth else Step) 0 0
-        -- The cutter cannot enter a cusp that opens to its side. With one common distance, the path
-        -- round such a cusp is blocked anyway.
+        -- The direction reverses here: a cusp. With different distances a cusp that is open
+        -- towards the cutter's side is joined over the vertex, because the cutter cannot get into
+        -- it. With one common distance every cusp can be treated as an outer corner, because the
+        -- path round it cannot be reached.
         | dt < 0 && abs (cr * d) <= tolerance =
           k
             ( if uneven

@@ -123,7 +123,8 @@ segmentPair c h = (half (2 * h), half (2 * h + 1))
   where
     half k = fromIntegral (indexPrimArray (segments c) k) `quot` 2
 
--- | True when the winding number on the left of the segment decreases by one at this occurrence.
+-- | True if the winding number on the left of a segment decreases by one where it passes this
+-- intersection. The number is that of the occurrence: 2h or 2h + 1 for intersection h.
 decreases :: SelfIntersections -> Int -> Bool
 decreases c o = odd (indexPrimArray (segments c) o)
 {-# INLINE decreases #-}

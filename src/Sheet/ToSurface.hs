@@ -188,7 +188,9 @@ pointOf isFlat' Waypoint {x, y, z}
   | otherwise =
     Located (Region.merge (region x) (region z)) (Triple (unitless x) (unitless y) (unitless z))
 
--- | Points one after the other, given the feed of the pieces and the feed to the first point.
+-- | Waypoints as the stops of an approach or a retract, each with the pace of the move to it. Given
+-- are: whether all heights of the sheet are 0, the feed of the pieces, the feed to the first
+-- point.
 stops :: Bool -> Number -> Number -> [Waypoint] -> [Stop]
 stops isFlat' working leaving list = case list of
   [] -> []

@@ -471,7 +471,7 @@ unsent what = case what of
     "The control goes along all of the edge, also where the cutter does not reach it: there it \
     \would cut into the part."
 
--- | The hint for such a request.
+-- | The hint for a request that the input of a control cannot express.
 unsentHint :: Unsupported -> Text
 unsentHint what = case what of
   OnContour -> "Take a side, or leave out compensation controller."

@@ -33,7 +33,7 @@ data Cover a = Cover
   { index :: BoxTree a,
     -- | paths of a member: a point is covered if all of them are within the distance
     pathsOf :: a -> NonEmpty Segment,
-    -- | members that do not count
+    -- | members that count
     isEligible :: a -> Bool,
     -- | distance at which a point is covered
     reach :: Mm,

@@ -103,7 +103,8 @@ isVertical m = case segment m of
   Straight a b -> a == b
   Arc {} -> False
 
--- | Sample points of a motion, as fractions of its length from above 0 to 1.
+-- | Sample points of a motion, as fractions of its length. They are equally spaced; 0 is left out
+-- and 1 is included.
 samples :: CutterMotion -> [Double]
 samples m = let n = sampleCount m in [fromIntegral k / fromIntegral n | k <- [1 .. n]]
 

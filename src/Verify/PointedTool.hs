@@ -38,7 +38,7 @@ import Verify.Proof (Witness (Witness))
 import Verify.Proof qualified as Proof
 
 -- | Deepest gouge of a motion beside a contour, if there is one; the tool has to stay on the given
--- side. The allowance is the first depth that is tried.
+-- side. The depth is found by a search that starts at the allowance.
 gougeOf :: Side -> Contour -> BoxTree Edge -> Mm -> CutterMotion -> Maybe Witness
 gougeOf side contour edges allowance m =
   Proof.deepest (concatMap onPath (NonEmpty.toList (Motion.paths m)))

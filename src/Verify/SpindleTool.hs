@@ -27,7 +27,8 @@ plannedTools program =
 toolCount :: Tools -> Int
 toolCount = Vector.length
 
--- | Radius in a frame by its number; 0 if the program has no such frame.
+-- | Radius of the cutter in the program's frame with this number; 0 if the program has no such
+-- frame.
 toolInFrame :: Tools -> Int -> Mm
 toolInFrame tools n = maybe (Mm 0) Mm (tools Vector.!? (n - 1))
 
