@@ -94,7 +94,8 @@ bevels contour
   | otherwise = Just (Vector.imap bevelOf elements)
   where
     elements = Vector.fromList (NonEmpty.toList (Part.elements contour))
-    bevelOf i element = fromMaybe (at i (marks Vector.! i), at i (marks Vector.! (i + 1))) (Part.bevel element)
+    bevelOf i element = fromMaybe (bevelAt i i, bevelAt i (i + 1)) (Part.bevel element)
+    bevelAt i mark = at i (marks Vector.! mark)
     at i = interpolated (earlier Vector.! i) (later Vector.! i)
     -- Positions of the starts of all elements, and the length of the contour.
     marks = Vector.scanl' (+) 0 (fmap lengthOf elements)
