@@ -1,9 +1,9 @@
 -- | Commands of the part program as words of a machine, and the frames that hold them.
 --
 -- A command for which a machine has no word becomes a warning, because the operator can carry it
--- out by hand. An auxiliary command is refused there, and so is a number that does not fit its
--- word. Commands are pending until the next move, whose frame holds them if no word would occur
--- twice in it.
+-- out by hand. Only an auxiliary command without a word is an error, and so is a number that does
+-- not fit its word. Commands are pending until the next move, whose frame holds them if no word
+-- would occur twice in it.
 module Frame.Command
   ( Translation (..),
     translated,

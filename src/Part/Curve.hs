@@ -46,7 +46,8 @@ import Geometry.Vec (Point)
 import Geometry.Vec qualified as Vec
 import Part.Tolerance qualified as Tolerance
 
--- | Rows of x and y in mm, and of columns with these names in units of mm, radians and minutes.
+-- | The numbers of a table: x and y in mm, then one column for each name. Lengths are in mm, angles
+-- in radians, times in minutes.
 data PartTable = PartTable {rows :: NumberTable, names :: [Name]}
   deriving stock (Eq, Show)
 

@@ -91,7 +91,8 @@ examine set isFirst pass = (contourProof, if null findings then orderFindings pa
           isTooDeep w,
           first : _ <- [filter isTooDeep gouges]
       ]
-        -- A tip that crosses the contour lies on it, so its excess says nothing.
+        -- The tip of a pointed tool is at distance 0 where it crosses the contour. That distance
+        -- does not show how much material remains, so no excess is reported then.
         <> [ Excess first (fromMaybe first worst) (allowedExcess allowed)
              | not (any isTooDeep pierced),
                first : _ <-
