@@ -9,6 +9,7 @@ import Data.Char (isUpper)
 import Data.List (minimumBy, sort)
 import Data.Map.Strict (Map)
 import Data.Map.Strict qualified as Map
+import Data.Maybe (mapMaybe)
 import Data.Ord (comparing)
 import Data.Set (Set)
 import Data.Set qualified as Set
@@ -169,8 +170,22 @@ spec = do
       case check modules glossary of
         [] -> pure ()
         problems -> expectationFailure (unlines (map render problems))
+  describe "docs/architecture.md" $ do
+    modules <- runIO readModules
+    page <- runIO (readText "docs/architecture.md")
+    let names = filter isQualified (quoted page)
+    it "names modules and types" $
+      length names `shouldSatisfy` (> 10)
+    it "names only modules and types that exist" $
+      filter (not . exists modules) names `shouldBe` []
   describe "entries" entriesSpec
   describe "check" checkSpec
+
+-- | True of names with at least one dot whose components all begin with a capital letter.
+isQualified :: Text -> Bool
+isQualified name = length components > 1 && all (isUpper . fst) (mapMaybe Text.uncons components)
+  where
+    components = Text.splitOn "." name
 
 entriesSpec :: Spec
 entriesSpec = do
