@@ -84,7 +84,7 @@ rapidFeed machine =
   maybe (Feed 0) (feedAlongAxis machine) (Machine.valueOf machine (Machine.rapidCode machine))
 
 -- | Feed that the machine gives for the feed asked for. Exact where codes are feeds along the path.
--- Where they are frequencies the direction is not known here, so the result is the feed asked for.
+-- For frequencies the direction is not known here, so the result is the feed asked for.
 expectedFeed :: Machine -> Feed -> Feed
 expectedFeed machine asked@(Feed v) =
   case (Machine.feedMeasure (Machine.feeds machine), Machine.choose machine v) of

@@ -82,14 +82,14 @@ numeric region builtin arguments = case (builtin, arguments) of
   (Sin, [Plain (Quantity a)]) -> number (sin a)
   (Cos, [Plain (Quantity a)]) -> number (cos a)
   (Tan, [Plain (Quantity a)])
-    | abs (cos a) < 1e-15 -> undefined' (TangentAtPole (Rad a))
+    | abs (cos a) < 1e-15 -> outOfDomain (TangentAtPole (Rad a))
     | otherwise -> Just (finite region (tan a))
   (Asin, [Plain (Quantity x)]) -> inverse asin ArcSineOf x
   (Acos, [Plain (Quantity x)]) -> inverse acos ArcCosineOf x
-  (Atan2, [Plain (Quantity 0), Plain (Quantity 0)]) -> undefined' ArcTangentOfZeros
+  (Atan2, [Plain (Quantity 0), Plain (Quantity 0)]) -> outOfDomain ArcTangentOfZeros
   (Atan2, [Plain (Quantity y), Plain (Quantity x)]) -> number (atan2 y x)
   (Sqrt, [Plain (Quantity x)])
-    | x < negate Tolerance.equal -> undefined' (RootOf x)
+    | x < negate Tolerance.equal -> outOfDomain (RootOf x)
     | otherwise -> number (sqrt (max 0 x))
   (Abs, [Plain (Quantity x)]) -> number (abs x)
   (Min, [Plain (Quantity a), Plain (Quantity b)]) -> number (min a b)
@@ -98,9 +98,9 @@ numeric region builtin arguments = case (builtin, arguments) of
   _ -> Nothing
   where
     number = Just . pure . Quantity
-    undefined' = Just . Evaluation.mistake . OutOfDomain region
+    outOfDomain = Just . Evaluation.mistake . OutOfDomain region
     inverse f domain x
-      | abs x > 1 + Tolerance.equal = undefined' (domain x)
+      | abs x > 1 + Tolerance.equal = outOfDomain (domain x)
       | otherwise = number (f (max (-1) (min 1 x)))
 
 -- Lists and patterns

@@ -273,7 +273,7 @@ parametricCurve xs ys from to =
       Arriving -> tangentIn (-1) (clamped (ceiling u - 1)) u
       Leaving -> tangentIn 1 (clamped (truncate u)) u
     clamped i = max from (min (to - 1) i)
-    -- Where the speed vanishes, the second derivative gives the direction.
+    -- At zero speed, the second derivative gives the direction.
     tangentIn sign i u
       | Mm (Vec.norm first) > Tolerance.stationary = Vec.unit first
       | Vec.norm second > 0 = Vec.unit (Vec.scale sign second)

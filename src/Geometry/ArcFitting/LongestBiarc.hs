@@ -154,7 +154,7 @@ along
                 mapM_ writeSegment (NonEmpty.toList segments)
                   >> (let j = seek i v in go j v (pose j v) (v - u) 0)
               | otherwise -> pure ()
-      -- Where the curvature changes unevenly, a longer biarc can succeed although shorter ones
+      -- If the curvature changes unevenly, a longer biarc can succeed although shorter ones
       -- fail.
       lengthen !i !u !from before !j !v !to !pair !step
         | not triesLonger

@@ -432,7 +432,7 @@ beside e t = case (coordinates e, coordinates t) of
             min
               (min (away ax ay) (away bx by))
               (min (if behind then off + r else never) (if before then abs (off - r) else never))
-          -- What is furthest past an end of the other is an end, too, or lies square to the line to
+          -- The point furthest past an end of the other is an end or lies square to the line to
           -- that end.
           squarePast x y sense =
             let f =
