@@ -30,7 +30,7 @@ import Foreign.C.Error (Errno (Errno), eBADF, ePIPE)
 import GHC.IO.Exception (IOErrorType (..), IOException (ioe_errno, ioe_type))
 import Report.Explanation qualified as Explanation
 import Report.Human qualified as Human
-import Report.Line qualified as Line
+import Report.LineFormat qualified as LineFormat
 import Report.Report (Report)
 import Report.Report qualified as Report
 import Report.Sarif (Filed (..))
@@ -142,8 +142,8 @@ showReports Reporter {settings, collected} path source reports = do
       writeError
         (if null more then "" else Decimal.whole (length more) <> " more reports are not shown.\n")
       writeError (Human.summary colours visible)
-    ShortFormat -> mapM_ (writeError . Line.short path source) visible
-    JsonFormat -> mapM_ (writeError . Line.json path source) visible
+    ShortFormat -> mapM_ (writeError . LineFormat.short path source) visible
+    JsonFormat -> mapM_ (writeError . LineFormat.json path source) visible
     SarifFormat -> modifyIORef collected (reverse filed <>)
   pure (any Report.isError reports || werror settings && not (null reports))
   where

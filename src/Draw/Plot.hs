@@ -17,7 +17,7 @@ import Data.Set qualified as Set
 import Data.Text (Text)
 import Draw.Label qualified as Label
 import Draw.LineStyle qualified as LineStyle
-import Draw.Node qualified as Node
+import Draw.NodeLabel qualified as NodeLabel
 import Draw.Page (Area (..), Page)
 import Draw.Page qualified as Page
 import Draw.Scene (Cut (..), Matter (..), Scene (..), Shape (..))
@@ -55,7 +55,7 @@ plot part path =
              Svg.layer "path" (concatMap cutLine (cuts scene)),
              Svg.layer "start" (LineStyle.start (start scene) <> originMark (sheet scene)),
              Svg.layer "cutters" (concatMap cutter (filter entered (cuts scene))),
-             Svg.layer "nodes" (concatMap Node.dots (filter numbered (cuts scene))),
+             Svg.layer "nodes" (concatMap NodeLabel.dots (filter numbered (cuts scene))),
              Svg.layer "numbers" (numbers scene),
              Svg.layer "title" (TitleBlock.block part scene)
            ]
@@ -233,7 +233,9 @@ numbers Scene {shapes, cuts, feeds, rapids, start} =
   where
     style = TextStyle {size = Label.size, ink = LineStyle.blue, bold = False}
     labels =
-      concatMap Node.labels (if length marked > Node.most then filter readable marked else marked)
+      concatMap
+        NodeLabel.labels
+        (if length marked > NodeLabel.most then filter readable marked else marked)
     marked = filter numbered cuts
     -- If there are many cuts, only the larger ones have numbers.
     readable cut =

@@ -32,8 +32,8 @@ import Frame.Arc qualified as Arc
 import Frame.ArcFitting (RunPart)
 import Frame.ArcFitting qualified as ArcFitting
 import Frame.Braking qualified as Braking
-import Frame.Chord (ChordTolerance (..), bandChords, chordCount, chords)
-import Frame.Chord qualified as Chord
+import Frame.ChordError (ChordTolerance (..), bandChords, chordCount, chords)
+import Frame.ChordError qualified as ChordError
 import Frame.Chording (Bounds)
 import Frame.Command (Pending (..), Translation)
 import Frame.Command qualified as Command
@@ -368,7 +368,7 @@ arcSteps context@Context {machine} begin tolerance run = case tolerance of
       segmentSteps
         context
         (ArcTolerance pulse (plus pulse inwards) (plus pulse outwards))
-        (Chord.raisedToRounding machine tolerance)
+        (ChordError.raisedToRounding machine tolerance)
         m
         begin
         (segment m)
@@ -394,7 +394,7 @@ partSteps context@Context {machine} bounds m begin part = case part of
      in (lastOr begin ends, map straightTo ends)
   ArcFitting.Arcs segments ->
     let allowance = ArcFitting.roundingAllowance machine bounds
-        chordError = Sagitta (Chord.remainder machine allowance)
+        chordError = Sagitta (ChordError.remainder machine allowance)
         tolerance = ArcTolerance allowance allowance allowance
         ends = [Rounding.rounded machine (Segment.end s, level) | s <- NonEmpty.toList segments]
         parts =
@@ -420,14 +420,17 @@ segmentSteps Context {machine, grid} tolerance chordError m =
               machine
               at
               chord
-              (Chord.ends InstructionCheck.mostFrames machine chordError chord)
+              (ChordError.ends InstructionCheck.mostFrames machine chordError chord)
     )
     (fst (heights m))
 
 -- | Ends of the chords of a run in mm, with their heights.
 chordEndsOf :: Machine -> ChordTolerance -> NonEmpty Move -> [PathPosition]
 chordEndsOf machine tolerance =
-  Chord.ends InstructionCheck.mostFrames machine (Chord.raisedToRounding machine tolerance)
+  ChordError.ends
+    InstructionCheck.mostFrames
+    machine
+    (ChordError.raisedToRounding machine tolerance)
 
 -- | Ends of the steps along the chords of a run in pulses, from a position on.
 chordSteps :: Machine -> Pulses3 -> NonEmpty Move -> [PathPosition] -> [Pulses3]

@@ -17,8 +17,8 @@ import Base.Region (Located (..), Region)
 import Data.List.NonEmpty (NonEmpty (..))
 import Data.List.NonEmpty qualified as NonEmpty
 import Data.Maybe (fromMaybe)
-import Frame.Chord (ChordTolerance (..))
-import Frame.Chord qualified as Chord
+import Frame.ChordError (ChordTolerance (..))
+import Frame.ChordError qualified as ChordError
 import Frame.Command (Translation)
 import Frame.Command qualified as Command
 import Frame.Frame (Role (..))
@@ -105,7 +105,7 @@ milled :: Machine -> Role -> Milling -> [Move] -> [Instruction]
 milled machine r job =
   map (\ms -> Run r (tolerance ms) (Part.radius job) AsProgrammed ms) . Toolpath.curveRuns
   where
-    tolerance = Chord.chordTolerance machine job
+    tolerance = ChordError.chordTolerance machine job
 
 -- | Role of a move in a pocket. Where material or an island lies between two cuts, the cutter
 -- retracts with a rapid move and approaches again.

@@ -23,8 +23,8 @@ import Control.Applicative ((<|>))
 import Data.List.NonEmpty (NonEmpty (..))
 import Data.List.NonEmpty qualified as NonEmpty
 import Data.Maybe (listToMaybe, mapMaybe, maybeToList)
-import Frame.Chord (ChordTolerance)
-import Frame.Chord qualified as Chord
+import Frame.ChordError (ChordTolerance)
+import Frame.ChordError qualified as ChordError
 import Frame.Error (Error (..), Warning (..))
 import Frame.Instruction (FeedMode (..), Instruction (..))
 import Frame.Rounding (PathPosition)
@@ -213,8 +213,8 @@ counted context tolerance moves chordEnds before = case tooMany before of
       count before + case Machine.arcs (machine context) of
         Arcs {} | Rounding.isLevel (machine context) moves -> 1
         _ ->
-          Chord.frameCount
+          ChordError.frameCount
             (machine context)
-            (Chord.raisedToRounding (machine context) tolerance)
+            (ChordError.raisedToRounding (machine context) tolerance)
             moves
             (take (mostFrames + 1) chordEnds)

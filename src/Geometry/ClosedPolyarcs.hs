@@ -7,7 +7,7 @@
 --
 -- They are made from several "Geometry.FlatPolyarc"s, each of which is normalised: tiny
 -- segments are omitted, and flat arcs become lines. One set of arrays lets a single bounding-box
--- tree ("Geometry.Index.SegmentTree") cover all loops.
+-- tree ("Geometry.Index.SegmentBoxTree") cover all loops.
 --
 -- Arcs are handled by chord and bulge alone. The power of a point @p@ with respect to the circle of
 -- an arc from @a@ to @b@ is @(p − a)·(p − b) + κ·(b − a)×(p − a)@ with @κ = (β² − 1)/2β@. For an

@@ -1,5 +1,5 @@
--- | Planar curves given by point tables, span shapes or segments, and their shifts (the ciphers
--- of the Ural paper), without sampling.
+-- | Planar curves given by point tables, span shapes or segments, and their shifts (the ciphers of
+-- the Ural paper), without sampling.
 --
 -- A curve maps a parameter from 0 to its span count to a point. A shift adds a layer: it moves
 -- every point of the curve below along the left normal, by a distance that is itself a function of
@@ -7,14 +7,14 @@
 -- rounding is the only error. A shift of a curve with a corner leaves a gap or an overlap there;
 -- this module does not close it, links are the caller's task.
 --
--- This module is the interface of the folder. The fields of 'Base', 'Knot', 'Column' and 'Cusp' are
--- read through the modules of these types.
+-- This module is the interface of the folder. The fields of 'BasisCurve', 'Knot', 'Column' and
+-- 'Cusp' are read through the modules of these types.
 module Geometry.Curve
   ( -- * Types
     Curve,
     base,
     layers,
-    Base,
+    BasisCurve,
     CurveKind (..),
     EndCondition (..),
     Knot,
@@ -84,8 +84,14 @@ import Data.List.NonEmpty qualified as NonEmpty
 import Data.Vector (Vector)
 import Data.Vector qualified as Vector
 import Geometry.Carrier (Side (..))
-import Geometry.Curve.Base (Base, CurveFault (..), CurveKind (..), EndCondition (..), Knot)
-import Geometry.Curve.Base qualified as Base
+import Geometry.Curve.BasisCurve
+  ( BasisCurve,
+    CurveFault (..),
+    CurveKind (..),
+    EndCondition (..),
+    Knot,
+  )
+import Geometry.Curve.BasisCurve qualified as BasisCurve
 import Geometry.Curve.Column (Column)
 import Geometry.Curve.Column qualified as Column
 import Geometry.Curve.CubicSpans qualified as CubicSpans
@@ -112,28 +118,28 @@ import Prelude hiding (length)
 
 -- | Polyline through the points. It is closed when the last point equals the first.
 polyline :: Vector Point -> Either CurveFault Curve
-polyline points = Plain <$> Base.polyline points
+polyline points = Plain <$> BasisCurve.polyline points
 
 -- | Cubic spline through the points, parametrised by chord length.
 spline :: EndCondition -> Vector Point -> Either CurveFault Curve
-spline ends points = Plain <$> Base.spline ends points
+spline ends points = Plain <$> BasisCurve.spline ends points
 
 -- | Chain of parabolas y(x) through points 1–3, 3–5, and so on. The count of points is odd.
 parabola :: Vector Point -> Either CurveFault Curve
-parabola points = Plain <$> Base.parabola points
+parabola points = Plain <$> BasisCurve.parabola points
 
 -- | Curve of consecutive spans with the given rising parameters of the table's rows.
 fromShapes :: NonEmpty SpanShape -> Vector Double -> Either CurveFault Curve
-fromShapes pieces parameters = Plain <$> Base.fromShapes pieces parameters
+fromShapes pieces parameters = Plain <$> BasisCurve.fromShapes pieces parameters
 
 -- | Curve of consecutive lines and arcs. The rows of its table are the ends of the segments.
 fromSegments :: NonEmpty Segment -> Either CurveFault Curve
-fromSegments segments = Plain <$> Base.fromSegments segments
+fromSegments segments = Plain <$> BasisCurve.fromSegments segments
 
 -- | Curve of consecutive lines and arcs whose rows are the given points, in order. Each point is
 -- an end of a segment. A closed curve need not repeat the first point at the end of the table.
 fromSegmentsAt :: NonEmpty Segment -> Vector Point -> Either CurveFault Curve
-fromSegmentsAt segments points = Plain <$> Base.fromSegmentsAt segments parameters
+fromSegmentsAt segments points = Plain <$> BasisCurve.fromSegmentsAt segments parameters
   where
     -- Finds the row's parameter: the next segment that starts at the point, else the end of the
     -- last segment.
@@ -156,7 +162,7 @@ column curve = Column.column (base curve)
 
 -- | Count of rows in the curve's table.
 rowCount :: Curve -> Int
-rowCount = Vector.length . Base.rows . base
+rowCount = Vector.length . BasisCurve.rows . base
 
 -- | Value of a column at a parameter.
 columnAt :: Curve -> Column -> Double -> Double
@@ -165,7 +171,7 @@ columnAt curve c u =
 
 -- | Row values of the curve, reordered for its reverse.
 inReverseOrder :: Curve -> Vector Double -> Vector Double
-inReverseOrder curve = Base.inReverseOrder (base curve)
+inReverseOrder curve = BasisCurve.inReverseOrder (base curve)
 
 -- | Shift distance of a joggle. Refuses a radius that is not above half of the depth, and ramps
 -- that do not fit between the two parameters of the curve that is shifted.
@@ -182,7 +188,7 @@ fitJoggle joggle@Joggle {begins, ends, depth = Mm depth, radius = Mm r} curve
 -- Each segment starts exactly where the one before ends.
 toSegments :: Curve -> Maybe (NonEmpty Segment)
 toSegments curve = case curve of
-  Plain b -> Base.asSegments b
+  Plain b -> BasisCurve.asSegments b
   Shifted {} -> Nothing
 
 -- | Cubic spans in x and y within a tolerance of the curve, and the bound of their error; see
@@ -192,7 +198,7 @@ cubics = CubicSpans.along
 
 -- | Count of spans.
 spans :: Curve -> Int
-spans curve = Base.count (base curve)
+spans curve = BasisCurve.count (base curve)
 
 -- | Point at a parameter. Parameters outside of the domain give the nearer end.
 at :: Curve -> Double -> Point
@@ -264,7 +270,7 @@ shiftDistance curve u = case curve of
 -- | Curve in the opposite direction.
 reversed :: Curve -> Curve
 reversed curve = case curve of
-  Plain b -> Plain (Base.reversed b)
+  Plain b -> Plain (BasisCurve.reversed b)
   Shifted layer lower _ ->
     let lower' = reversed lower
      in shifted
@@ -276,7 +282,7 @@ reversed curve = case curve of
 -- sides.
 transformed :: Transformation -> Curve -> Curve
 transformed s curve = case curve of
-  Plain b -> Plain (Base.transformed s b)
+  Plain b -> Plain (BasisCurve.transformed s b)
   Shifted layer lower _ ->
     let lower' = transformed s lower
         side' = if Transformation.mirrors s then otherSide (side layer) else side layer

@@ -24,7 +24,7 @@ import Geometry.ClosedPolyarcs qualified as ClosedPolyarcs
 import Geometry.Distance qualified as Distance
 import Geometry.FlatPolyarc qualified as FlatPolyarc
 import Geometry.Index.BoundingBox qualified as BoundingBox
-import Geometry.Index.SegmentTree qualified as SegmentTree
+import Geometry.Index.SegmentBoxTree qualified as SegmentBoxTree
 import Geometry.Polyarc (Ends (..), Polyarc (Polyarc))
 import Geometry.Segment (Segment (..))
 import Geometry.Segment qualified as Segment
@@ -93,7 +93,7 @@ closeBy chain
   | ClosedPolyarcs.loopCount loops == 0 = []
   | otherwise = runST $ do
     pairs <- newSTRef []
-    SegmentTree.pairs tree (pure True) $ \a b -> do
+    SegmentBoxTree.pairs tree (pure True) $ \a b -> do
       let (i, j) = (number a, number b)
       when (i >= 0 && j > i + 1 && j < count chain && not (isClosingPair chain i j)) $
         modifySTRef' pairs ((i, j) :)
@@ -102,7 +102,7 @@ closeBy chain
     (flat, numbers) = FlatPolyarc.fromSegments (ends chain) (segments chain)
     loops = ClosedPolyarcs.fromFlatPolyarcs 0 [flat]
     Mm margin = times 2 Tolerance.coincident
-    tree = SegmentTree.build margin loops
+    tree = SegmentBoxTree.build margin loops
     -- The kernel closes every polyarc; the segment that closes an open one has no index.
     number k =
       let i = fromIntegral (indexPrimArray (ClosedPolyarcs.sources loops) k)

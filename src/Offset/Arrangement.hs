@@ -36,8 +36,8 @@ import Data.Vector qualified as Vector
 import Geometry.Carrier (Sense (..))
 import Geometry.ClosedPolyarcs (ClosedPolyarcs)
 import Geometry.ClosedPolyarcs qualified as ClosedPolyarcs
-import Geometry.Index.SegmentTree (SegmentTree)
-import Geometry.Index.SegmentTree qualified as SegmentTree
+import Geometry.Index.SegmentBoxTree (SegmentBoxTree)
+import Geometry.Index.SegmentBoxTree qualified as SegmentBoxTree
 import Offset.Loop (OffsetLoops (OffsetLoops))
 import Offset.SegmentIntersection (Visitor (..))
 import Offset.SegmentIntersection qualified as SegmentIntersection
@@ -65,7 +65,7 @@ data Arrangement = Arrangement
 -- | Builds the arrangement. Points within the tolerance (mm) become one node. The bounding boxes
 -- must be inflated by at least the tolerance. The result is Nothing when the winding numbers
 -- contradict each other.
-arrange :: Double -> ClosedPolyarcs -> SegmentTree -> Maybe Arrangement
+arrange :: Double -> ClosedPolyarcs -> SegmentBoxTree -> Maybe Arrangement
 arrange tolerance c boxes
   | isConsistent arrangement = Just arrangement
   | otherwise = Nothing
@@ -96,7 +96,11 @@ arrange tolerance c boxes
 -- | The points at which each segment is cut, and the pairs of segments that cross between their
 -- ends. Arcs are also cut at their leftmost points, so that the leftmost point of every
 -- connected component is a node.
-intersections :: Double -> ClosedPolyarcs -> SegmentTree -> ([(Int, Double, Double)], [(Int, Int)])
+intersections ::
+  Double ->
+  ClosedPolyarcs ->
+  SegmentBoxTree ->
+  ([(Int, Double, Double)], [(Int, Int)])
 intersections tolerance c boxes = runST $ do
   cuts <- newMutVar []
   pairs <- newMutVar []
@@ -108,7 +112,7 @@ intersections tolerance c boxes = runST $ do
             resting = \s k -> at k (cut s),
             touching = \i j x y -> cut i x y >> cut j x y
           }
-  SegmentTree.pairs boxes (pure True :: ST s Bool) (SegmentIntersection.meet tolerance c visitor)
+  SegmentBoxTree.pairs boxes (pure True :: ST s Bool) (SegmentIntersection.meet tolerance c visitor)
   found <- readMutVar cuts
   crossings <- readMutVar pairs
   pure
@@ -361,14 +365,14 @@ propagated coordinates es ordered =
             | otherwise = total + times edge * WindingNumber.contribution edgePolyarcs x y i
             where
               edge = es Vector.! (i `div` 2)
-       in SegmentTree.around tree (-1e300) y x y (0 :: Int) add
+       in SegmentBoxTree.around tree (-1e300) y x y (0 :: Int) add
     edgePolyarcs =
       ClosedPolyarcs.fromSeparateSegments
         [ (x, y, x', y', bulge e)
           | e <- Vector.toList es,
             let ((x, y), (x', y')) = (coordinates Vector.! from e, coordinates Vector.! to e)
         ]
-    tree = SegmentTree.build 0 edgePolyarcs
+    tree = SegmentBoxTree.build 0 edgePolyarcs
     components = componentsOf es ordered
     -- The half-edges still to be visited, each with the winding number on its right as it leaves
     -- its node.

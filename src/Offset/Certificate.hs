@@ -16,8 +16,8 @@ import Data.Primitive.PrimArray
 import Geometry.Carrier (Sense (..))
 import Geometry.ClosedPolyarcs (ClosedPolyarcs)
 import Geometry.ClosedPolyarcs qualified as ClosedPolyarcs
-import Geometry.Index.SegmentTree (SegmentTree)
-import Geometry.Index.SegmentTree qualified as SegmentTree
+import Geometry.Index.SegmentBoxTree (SegmentBoxTree)
+import Geometry.Index.SegmentBoxTree qualified as SegmentBoxTree
 import Offset.Loop (OffsetLoops)
 import Offset.Loop qualified as Loop
 
@@ -35,7 +35,7 @@ data Clearance = Clearance
 
 -- | True when the midpoint of a loop's first segment keeps the required distance from every
 -- segment of the source.
-isClear :: Clearance -> ClosedPolyarcs -> SegmentTree -> OffsetLoops -> Int -> Bool
+isClear :: Clearance -> ClosedPolyarcs -> SegmentBoxTree -> OffsetLoops -> Int -> Bool
 isClear measure source boxes l k = uncurry (isFarFrom measure source boxes) (witness l k)
 
 -- | True when a cutter whose centre is at the midpoint of the loop's first segment reaches every
@@ -70,9 +70,9 @@ witness l k = (x0 + 0.5 * (dx + b * dy), y0 + 0.5 * (dy - b * dx))
     b = indexPrimArray (Loop.bulges l) i
 
 -- | True when a point keeps the required distance from every segment.
-isFarFrom :: Clearance -> ClosedPolyarcs -> SegmentTree -> Double -> Double -> Bool
+isFarFrom :: Clearance -> ClosedPolyarcs -> SegmentBoxTree -> Double -> Double -> Bool
 isFarFrom measure source boxes x y =
-  SegmentTree.around boxes (x - widest) (y - widest) (x + widest) (y + widest) True $ \isFar i ->
+  SegmentBoxTree.around boxes (x - widest) (y - widest) (x + widest) (y + widest) True $ \isFar i ->
     isFar
       && fromPoint
         source

@@ -33,8 +33,8 @@ import Geometry.ClosedPolyarcs (ClosedPolyarcs)
 import Geometry.ClosedPolyarcs qualified as ClosedPolyarcs
 import Geometry.FlatPolyarc (FlatPolyarc)
 import Geometry.FlatPolyarc qualified as FlatPolyarc
-import Geometry.Index.SegmentTree (SegmentTree)
-import Geometry.Index.SegmentTree qualified as SegmentTree
+import Geometry.Index.SegmentBoxTree (SegmentBoxTree)
+import Geometry.Index.SegmentBoxTree qualified as SegmentBoxTree
 import Geometry.Polyarc (Ends (..))
 import Offset.Arrangement qualified as Arrangement
 import Offset.Certificate qualified as Certificate
@@ -100,7 +100,7 @@ offset request contours = do
       Uncertain -> Uncertain
     (problem, chain) = problemOf request contours
     raws@(_, source) = rawOf problem chain
-    sourceBoxes = SegmentTree.build (rounding problem) source
+    sourceBoxes = SegmentBoxTree.build (rounding problem) source
 
 -- | The raw offset before trimming. Here a contour may intersect itself.
 rawOffset :: OffsetRequest -> [FlatPolyarc] -> ClosedPolyarcs
@@ -206,14 +206,14 @@ regionOfContours :: Problem -> Int -> ClosedPolyarcs -> Either OffsetFault Reach
 regionOfContours problem wanted c =
   let raws@(_, source) =
         rawOf problem c
-   in regionOf problem wanted raws (SegmentTree.build (rounding problem) source)
+   in regionOf problem wanted raws (SegmentBoxTree.build (rounding problem) source)
 
 -- | The loops of a raw offset, given with its source and the source's bounding-box tree.
 regionOf ::
   Problem ->
   Int ->
   (ClosedPolyarcs, ClosedPolyarcs) ->
-  SegmentTree ->
+  SegmentBoxTree ->
   Either OffsetFault ReachableRegion
 regionOf problem wanted (untrimmed, source) sourceBoxes =
   case maybe id (:) byTrimming byArrangements of
@@ -224,15 +224,15 @@ regionOf problem wanted (untrimmed, source) sourceBoxes =
     byTrimming = case generalPosition of
       Nothing -> Nothing
       Just (boxes, xs) -> Trimming.trim rounding wanted untrimmed boxes xs >>= certified
-    generalPosition :: Maybe (SegmentTree, SelfIntersections)
+    generalPosition :: Maybe (SegmentBoxTree, SelfIntersections)
     generalPosition =
-      let boxes = SegmentTree.build rounding untrimmed
+      let boxes = SegmentBoxTree.build rounding untrimmed
        in case SelfIntersection.find rounding untrimmed boxes of
             NotGeneral -> Nothing
             SearchResult xs -> Just (boxes, xs)
     byArrangements = mapMaybe byArrangement (take 5 (iterate (* 10) (100 * rounding)))
     byArrangement tolerance = do
-      a <- Arrangement.arrange tolerance untrimmed (SegmentTree.build tolerance untrimmed)
+      a <- Arrangement.arrange tolerance untrimmed (SegmentBoxTree.build tolerance untrimmed)
       Arrangement.loops sense wanted a >>= certified
     measure =
       Certificate.Clearance
@@ -283,7 +283,13 @@ isUnreachable problem c w = ClosedPolyarcs.loopCount c > 1 && isOuter && isSmall
 -- | The winding number of the reachable region as seen from the left of the source: 1 when the
 -- outermost contour is counter-clockwise, else 0. Refuses a source that intersects itself or
 -- whose contours are nested against their sense.
-wantedNumber :: Double -> Sense -> Bool -> ClosedPolyarcs -> SegmentTree -> Either OffsetFault Int
+wantedNumber ::
+  Double ->
+  Sense ->
+  Bool ->
+  ClosedPolyarcs ->
+  SegmentBoxTree ->
+  Either OffsetFault Int
 wantedNumber tolerance sense open source boxes
   | ClosedPolyarcs.loopCount source == 0 = Right unbounded
   | open =
@@ -331,7 +337,7 @@ numberByArrangement ::
   Either OffsetFault Int
 numberByArrangement crossed unbounded tolerance source =
   case mapMaybe
-    (\t -> Arrangement.arrange t source (SegmentTree.build t source))
+    (\t -> Arrangement.arrange t source (SegmentBoxTree.build t source))
     (take 5 (iterate (* 10) (100 * tolerance))) of
     [] -> Left Uncertain
     a : _ -> case Arrangement.windingNumbers a of

@@ -20,8 +20,8 @@ import Data.Primitive.MutVar
 import Data.Primitive.PrimArray
 import Geometry.ClosedPolyarcs (ClosedPolyarcs)
 import Geometry.ClosedPolyarcs qualified as ClosedPolyarcs
-import Geometry.Index.SegmentTree (SegmentTree)
-import Geometry.Index.SegmentTree qualified as SegmentTree
+import Geometry.Index.SegmentBoxTree (SegmentBoxTree)
+import Geometry.Index.SegmentBoxTree qualified as SegmentBoxTree
 import Offset.SegmentIntersection (Visitor (..))
 import Offset.SegmentIntersection qualified as SegmentIntersection
 
@@ -41,7 +41,7 @@ data SearchResult
 
 -- | Finds all self-intersections. The tolerance (mm) covers rounding; the bounding boxes are
 -- inflated by it.
-find :: Double -> ClosedPolyarcs -> SegmentTree -> SearchResult
+find :: Double -> ClosedPolyarcs -> SegmentBoxTree -> SearchResult
 find !tolerance !c !boxes = runST $ do
   state <- newPrimArray 2
   writePrimArray state 0 (0 :: Int)
@@ -70,7 +70,7 @@ find !tolerance !c !boxes = runST $ do
             resting = \_ _ -> markUnclear,
             touching = \_ _ _ _ -> markUnclear
           }
-  SegmentTree.pairs
+  SegmentBoxTree.pairs
     boxes
     ((== 0) <$> readPrimArray state 1)
     (SegmentIntersection.meet tolerance c visitor)
@@ -85,7 +85,7 @@ find !tolerance !c !boxes = runST $ do
 
 -- | A pair of segments that cross, if there is one. A segment that only ends on another one or
 -- touches it does not count.
-properCrossing :: Double -> ClosedPolyarcs -> SegmentTree -> Maybe (Int, Int)
+properCrossing :: Double -> ClosedPolyarcs -> SegmentBoxTree -> Maybe (Int, Int)
 properCrossing tolerance c boxes = runST $ do
   found <- newMutVar Nothing
   let visitor =
@@ -94,7 +94,7 @@ properCrossing tolerance c boxes = runST $ do
             resting = \_ _ -> pure (),
             touching = \_ _ _ _ -> pure ()
           }
-  SegmentTree.pairs
+  SegmentBoxTree.pairs
     boxes
     ((== Nothing) <$> readMutVar found)
     (SegmentIntersection.meet tolerance c visitor)

@@ -19,7 +19,7 @@ import Data.List (sortOn)
 import Data.Primitive.PrimArray
 import Geometry.ClosedPolyarcs (ClosedPolyarcs)
 import Geometry.ClosedPolyarcs qualified as ClosedPolyarcs
-import Geometry.Index.SegmentTree (SegmentTree)
+import Geometry.Index.SegmentBoxTree (SegmentBoxTree)
 import Offset.Loop (OffsetLoops (OffsetLoops))
 import Offset.SelfIntersection (SelfIntersections)
 import Offset.SelfIntersection qualified as SelfIntersection
@@ -29,7 +29,7 @@ import Offset.WindingNumber qualified as WindingNumber
 -- | The loops that have the wanted winding number on their left. The result is Nothing when the
 -- polyarcs are not in general position: two intersections coincide within the tolerance (mm), a
 -- polyarc has a cusp at its outermost point, or the winding numbers contradict each other.
-trim :: Double -> Int -> ClosedPolyarcs -> SegmentTree -> SelfIntersections -> Maybe OffsetLoops
+trim :: Double -> Int -> ClosedPolyarcs -> SegmentBoxTree -> SelfIntersections -> Maybe OffsetLoops
 trim !tolerance !wanted !c !boxes !xs = do
   -- For each polyarc: the winding number on its left at its leftmost point, and at its rightmost
   -- point.

@@ -16,15 +16,15 @@ import Data.List (foldl')
 import Data.Primitive.PrimArray
 import Geometry.ClosedPolyarcs (ClosedPolyarcs)
 import Geometry.ClosedPolyarcs qualified as ClosedPolyarcs
-import Geometry.Index.SegmentTree (SegmentTree)
-import Geometry.Index.SegmentTree qualified as SegmentTree
+import Geometry.Index.SegmentBoxTree (SegmentBoxTree)
+import Geometry.Index.SegmentBoxTree qualified as SegmentBoxTree
 import Geometry.Tolerance qualified as Tolerance
 
 -- | The counter-clockwise winding number of the polyarcs around a point that does not lie on
 -- them.
-at :: ClosedPolyarcs -> SegmentTree -> Double -> Double -> Int
+at :: ClosedPolyarcs -> SegmentBoxTree -> Double -> Double -> Int
 at c boxes px py =
-  SegmentTree.around boxes (-1e300) py px py 0 (\total i -> total + contribution c px py i)
+  SegmentBoxTree.around boxes (-1e300) py px py 0 (\total i -> total + contribution c px py i)
 
 -- | The contribution of one segment: the crossing of its chord with a ray from the point to the
 -- left, and ±1 when the point lies between an arc and its chord.
@@ -71,7 +71,7 @@ data Outward = Leftmost | Rightmost
 
 -- | The leftmost or rightmost point of a polyarc. Runs of segments whose bounding box lies
 -- further in are skipped.
-extreme :: Outward -> ClosedPolyarcs -> SegmentTree -> Int -> Extreme
+extreme :: Outward -> ClosedPolyarcs -> SegmentBoxTree -> Int -> Extreme
 extreme outward c boxes w = go start start 0 (1e300 :: Double)
   where
     start = ClosedPolyarcs.firstVertex c w
@@ -81,7 +81,8 @@ extreme outward c boxes w = go start start 0 (1e300 :: Double)
       Rightmost -> -1
     go !i !best !t !least
       | i >= end = extremeOf best t least
-      | SegmentTree.runBoxOf boxes i outermost > bound = go (SegmentTree.nextRun i) best t least
+      | SegmentBoxTree.runBoxOf boxes i outermost > bound =
+        go (SegmentBoxTree.nextRun i) best t least
       | boxSide >= least = go (i + 1) best t least
       | otherwise =
         let x0 = sign * indexPrimArray (ClosedPolyarcs.xs c) i
@@ -111,7 +112,7 @@ extreme outward c boxes w = go start start 0 (1e300 :: Double)
                       then go (i + 1) i t' ex
                       else go (i + 1) best1 t1 least1
       where
-        boxSide = SegmentTree.segmentBoxWithMargin boxes i outermost
+        boxSide = SegmentBoxTree.segmentBoxWithMargin boxes i outermost
     -- Nearer to an end than this fraction of the chord, the vertex itself is the outermost point.
     endMargin = Tolerance.negligibleShare
     -- The outermost vertex of the run of segments with the outermost bounding box. It is a bound:
@@ -122,16 +123,16 @@ extreme outward c boxes w = go start start 0 (1e300 :: Double)
             min
             1e300
             [ sign * indexPrimArray (ClosedPolyarcs.xs c) k
-              | k <- [i .. min end (SegmentTree.nextRun i) - 1]
+              | k <- [i .. min end (SegmentBoxTree.nextRun i) - 1]
             ]
     furthest !i !best !least
       | i >= end = best
       | otherwise =
         let boxSide =
-              SegmentTree.runBoxOf boxes i outermost
+              SegmentBoxTree.runBoxOf boxes i outermost
          in if boxSide < least
-              then furthest (SegmentTree.nextRun i) i boxSide
-              else furthest (SegmentTree.nextRun i) best least
+              then furthest (SegmentBoxTree.nextRun i) i boxSide
+              else furthest (SegmentBoxTree.nextRun i) best least
     -- The outermost side of a bounding box.
     outermost lx _ hx _ = case outward of
       Leftmost -> lx

@@ -17,7 +17,7 @@ import Data.Vector (Vector)
 import Data.Vector qualified as Vector
 import Geometry.Carrier qualified as Carrier
 import Geometry.Curve qualified as Curve
-import Geometry.Curve.Base qualified as Base
+import Geometry.Curve.BasisCurve qualified as BasisCurve
 import Geometry.Curve.Column qualified as Column
 import Geometry.Curve.ShiftDistance (Distance, Growth (..))
 import Geometry.Curve.ShiftDistance qualified as ShiftDistance
@@ -77,13 +77,13 @@ refused :: Unfit -> Result w Unfit a
 refused e = Result [] [e] Nothing
 
 -- | The points of a natural spline, or the two points of a straight line.
-pointsOf :: Region -> Base.Base -> Result w Unfit (Vector Vec.Point)
-pointsOf at base = case Base.method base of
-  Base.Spline Base.Natural -> pure points
-  Base.Polyline | Vector.length points == 2 -> pure points
+pointsOf :: Region -> BasisCurve.BasisCurve -> Result w Unfit (Vector Vec.Point)
+pointsOf at base = case BasisCurve.method base of
+  BasisCurve.Spline BasisCurve.Natural -> pure points
+  BasisCurve.Polyline | Vector.length points == 2 -> pure points
   _ -> refused (NoPiece at OtherCurve)
   where
-    points = Vector.map Base.knotPoint (Base.rows base)
+    points = Vector.map BasisCurve.knotPoint (BasisCurve.rows base)
 
 shiftOf :: (Carrier.Side, Distance) -> Shift
 shiftOf (side, distance) = case distance of

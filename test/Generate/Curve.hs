@@ -42,7 +42,7 @@ import Geometry.Curve
     SpanShape (..),
   )
 import Geometry.Curve qualified as Curve
-import Geometry.Curve.Base qualified as Base
+import Geometry.Curve.BasisCurve qualified as BasisCurve
 import Geometry.Segment (Segment (..))
 import Geometry.Segment qualified as Segment
 import Geometry.Transformation (Transformation)
@@ -238,8 +238,8 @@ columnOf curve low high = do
   middle <- choose (low, high)
   wave <- choose (0, min (high - middle) (middle - low))
   phase <- choose (0, 6)
-  let n = length (Base.rows (Curve.base curve))
-      repeated = Curve.isClosed curve && not (Base.lacksRepeatedStart (Curve.base curve))
+  let n = length (BasisCurve.rows (Curve.base curve))
+      repeated = Curve.isClosed curve && not (BasisCurve.lacksRepeatedStart (Curve.base curve))
       turns = 2 * pi / fromIntegral (if repeated then n - 1 else n)
       value k =
         if repeated && k == n - 1

@@ -18,7 +18,7 @@ import Geometry.Curve
     SpanShape (..),
   )
 import Geometry.Curve qualified as Curve
-import Geometry.Curve.Base qualified as Base
+import Geometry.Curve.BasisCurve qualified as BasisCurve
 import Geometry.Curve.Spline qualified as Spline
 import Geometry.Numeric.PowerSeries qualified as PowerSeries
 import Geometry.Numeric.TaylorExpansion (TaylorExpansion)
@@ -37,8 +37,8 @@ spec = do
       property $
         forAll Generate.anyCurve $ \c ->
           conjoin
-            [ close 1e-9 (Curve.at c (Base.at row)) (Base.knotPoint row)
-              | row <- toList (Base.rows (Curve.base c))
+            [ close 1e-9 (Curve.at c (BasisCurve.at row)) (BasisCurve.knotPoint row)
+              | row <- toList (BasisCurve.rows (Curve.base c))
             ]
     it
       "a spline has the same derivatives by the chord on both sides of a row (catches a wrong \
@@ -138,7 +138,7 @@ spec = do
       \more (catches a panel across a row)"
       $ property $
         forAll shiftedTwice $ \c ->
-          let rows = map Base.at (toList (Base.rows (Curve.base c)))
+          let rows = map BasisCurve.at (toList (BasisCurve.rows (Curve.base c)))
               Mm l = Curve.length c
               places = nub (sort (rows <> Curve.breaks c))
               byChords = sum (zipWith (chordsBetween c) places (drop 1 places))
@@ -147,7 +147,7 @@ spec = do
       property $
         forAll Generate.toSegments $ \c ->
           let Mm l = Curve.length c
-              known = sum [spanLength s | s <- toList (Base.spans (Curve.base c))]
+              known = sum [spanLength s | s <- toList (BasisCurve.spans (Curve.base c))]
            in counterexample (show (l, known)) (abs (l - known) < 1e-8)
     it "equals the closed formula for a parabola" $
       property $
@@ -379,7 +379,7 @@ endPositions c = [(After, 0), (Before, Curve.domain c)]
 
 -- | Chord of the span that starts at a parameter; at the end, of the last span.
 chord :: Curve -> Double -> Double
-chord c u = Exts.toList (Base.chords (Curve.base c)) !! min (Curve.spans c - 1) (truncate u)
+chord c u = Exts.toList (BasisCurve.chords (Curve.base c)) !! min (Curve.spans c - 1) (truncate u)
 
 -- | First and second derivatives by chord length.
 firstBy, secondBy :: Double -> TaylorExpansion -> Vec

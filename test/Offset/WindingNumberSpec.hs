@@ -5,7 +5,7 @@ import Generate.Outline qualified as Generate
 import Geometry.ClosedPolyarcs qualified as ClosedPolyarcs
 import Geometry.FlatPolyarc (FlatPolyarc)
 import Geometry.FlatPolyarc qualified as FlatPolyarc
-import Geometry.Index.SegmentTree qualified as SegmentTree
+import Geometry.Index.SegmentBoxTree qualified as SegmentBoxTree
 import Offset.Arrangement qualified as Arrangement
 import Offset.Naive qualified as Naive
 import Offset.WindingNumber (Extreme (..), Outward (..))
@@ -20,11 +20,11 @@ spec = do
       property . forAll Generate.problem $ \c -> forAll samplePoints $ \ps ->
         let os = Generate.outlines c
             chain = ClosedPolyarcs.fromFlatPolyarcs 1e-14 os
-            bs = SegmentTree.build 1e-14 chain
+            bs = SegmentBoxTree.build 1e-14 chain
             naive = concatMap Naive.pieces os
             at (u, v) =
               let (lx, ly, hx, hy) =
-                    SegmentTree.boundingBox bs (,,,)
+                    SegmentBoxTree.boundingBox bs (,,,)
                in (lx + u * (hx - lx), ly + v * (hy - ly))
          in conjoin
               [ counterexample
@@ -42,7 +42,7 @@ spec = do
                 Generate.loop [(3, 1, 1), (1, 1, 1)]
               ]
           b = tan (pi / 8)
-          bs = SegmentTree.build 0 chain
+          bs = SegmentBoxTree.build 0 chain
        in [ WindingNumber.at chain bs x y
             | (x, y) <- [(1, 1), (-1, 1), (-1, -1), (1, -1), (0.5, 1.5), (2, 1)]
           ]
@@ -52,7 +52,7 @@ spec = do
       \taken for its chord)"
       $ property . forAll Generate.simple $ \o ->
         let chain = ClosedPolyarcs.fromFlatPolyarcs 1e-14 [o]
-            bs = SegmentTree.build 1e-14 chain
+            bs = SegmentBoxTree.build 1e-14 chain
          in map (\w -> leftExcess (WindingNumber.extreme w chain bs 0)) [Leftmost, Rightmost]
               === [Just 1, Just 1]
     it
@@ -60,7 +60,7 @@ spec = do
       \itself, a cusp's side)"
       $ checkCoverage . forAll horn $ \o ->
         let chain = ClosedPolyarcs.fromFlatPolyarcs 1e-14 [o]
-            bs = SegmentTree.build 1e-14 chain
+            bs = SegmentBoxTree.build 1e-14 chain
             ends = map (\w -> WindingNumber.extreme w chain bs 0) [Leftmost, Rightmost]
             atTip e = abs (x e) + abs (y e) < 1e-9
          in cover 30 (any atTip ends) "at the tip" $
@@ -68,7 +68,7 @@ spec = do
                 === (if FlatPolyarc.area o > 0 then [Just 1, Just 1] else [Just 0, Just 0])
     it "a circle is leftmost in the middle of an arc" $
       let chain = ClosedPolyarcs.fromFlatPolyarcs 1e-14 [Generate.loop [(0, -1, 1), (0, 1, 1)]]
-          e = WindingNumber.extreme Leftmost chain (SegmentTree.build 0 chain) 0
+          e = WindingNumber.extreme Leftmost chain (SegmentBoxTree.build 0 chain) 0
        in (segment e, x e, abs (y e) < 1e-15, leftExcess e) `shouldBe` (1, -1, True, Just 1)
   describe "boxes" $
     it
@@ -78,13 +78,13 @@ spec = do
         forAll (choose (-8, 8)) $ \px ->
           forAll (choose (-8, 8)) $ \py -> forAll (choose (0, 4)) $ \r ->
             let chain = ClosedPolyarcs.fromFlatPolyarcs 1e-14 [o]
-                bs = SegmentTree.build 0 chain
+                bs = SegmentBoxTree.build 0 chain
                 hit i =
-                  SegmentTree.segmentBoxWithMargin
+                  SegmentBoxTree.segmentBoxWithMargin
                     bs
                     i
                     (\lx ly hx hy -> lx <= px + r && px - r <= hx && ly <= py + r && py - r <= hy)
-             in reverse (SegmentTree.around bs (px - r) (py - r) (px + r) (py + r) [] (flip (:)))
+             in reverse (SegmentBoxTree.around bs (px - r) (py - r) (px + r) (py + r) [] (flip (:)))
                   === filter hit [0 .. FlatPolyarc.size o - 1]
   describe "arrangements" $ do
     it "of a square that is walked twice has the numbers 0 and 2" $
@@ -132,7 +132,7 @@ horn = do
 
 numbersOf :: [FlatPolyarc] -> Maybe (Int, Int)
 numbersOf os =
-  Arrangement.windingNumbers <$> Arrangement.arrange 1e-12 chain (SegmentTree.build 1e-12 chain)
+  Arrangement.windingNumbers <$> Arrangement.arrange 1e-12 chain (SegmentBoxTree.build 1e-12 chain)
   where
     chain = ClosedPolyarcs.fromFlatPolyarcs 1e-14 os
 

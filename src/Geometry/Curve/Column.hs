@@ -21,8 +21,8 @@ import Base.Quantity (Mm (..))
 import Data.Vector (Vector)
 import Data.Vector qualified as Vector
 import Data.Vector.Unboxed qualified as Unboxed
-import Geometry.Curve.Base (Base, CurveKind (..), SpanPoint (..))
-import Geometry.Curve.Base qualified as Base
+import Geometry.Curve.BasisCurve (BasisCurve, CurveKind (..), SpanPoint (..))
+import Geometry.Curve.BasisCurve qualified as BasisCurve
 import Geometry.Curve.Spline (Boundary (..), Cubic (..), Cubics)
 import Geometry.Curve.Spline qualified as Spline
 import Geometry.Numeric.ArcLength qualified as ArcLength
@@ -43,9 +43,9 @@ data Interpolation
   deriving stock (Eq, Show)
 
 -- | Column with one value for each row of the base. A different count is a fault of the program.
-column :: Base -> Vector Double -> Column
+column :: BasisCurve -> Vector Double -> Column
 column base values
-  | Vector.length values /= Vector.length (Base.rows base) =
+  | Vector.length values /= Vector.length (BasisCurve.rows base) =
     Crash.bug "a column of another length than its table"
   | otherwise = Column {values, interpolation}
   where
@@ -53,48 +53,54 @@ column base values
     first = Vector.take 1 values
     -- A table that repeats its first point may give the repeated row another value.
     isPeriodic =
-      Base.lacksRepeatedStart base || first == Vector.drop (Vector.length values - 1) values
+      BasisCurve.lacksRepeatedStart base || first == Vector.drop (Vector.length values - 1) values
     periodicValues =
-      if Base.lacksRepeatedStart base then Unboxed.convert (values <> first) else flat
-    interpolation = case Base.method base of
+      if BasisCurve.lacksRepeatedStart base then Unboxed.convert (values <> first) else flat
+    interpolation = case BasisCurve.method base of
       Polyline ->
         BySpan
           ( Spline.generate
               (Vector.length values - 1)
               (\i -> Spline.line (values Vector.! i) (values Vector.! (i + 1)))
           )
-      Spline Base.Natural -> BySpan (Spline.interpolate Natural (Base.chords base) flat)
-      Spline (Base.Clamped _ _) -> BySpan (Spline.interpolate Natural (Base.chords base) flat)
-      Spline Base.Periodic ->
+      Spline BasisCurve.Natural -> BySpan (Spline.interpolate Natural (BasisCurve.chords base) flat)
+      Spline (BasisCurve.Clamped _ _) ->
+        BySpan (Spline.interpolate Natural (BasisCurve.chords base) flat)
+      Spline BasisCurve.Periodic ->
         BySpan
           ( Spline.interpolate
               (if isPeriodic then Periodic else Natural)
-              (Base.chords base)
+              (BasisCurve.chords base)
               periodicValues
           )
-      Parabola -> BySpan (Spline.parabolas (Base.fractions base) flat)
+      Parabola -> BySpan (Spline.parabolas (BasisCurve.fractions base) flat)
       Joined -> byLength base values
 
 -- | Spline by arc length along the base. A single value is constant along the base.
-byLength :: Base -> Vector Double -> Interpolation
+byLength :: BasisCurve -> Vector Double -> Interpolation
 byLength base values = case Vector.toList values of
-  [] -> BySpan (Spline.generate (Base.count base) (const (Cubic 0 0 0 0)))
-  [v] -> BySpan (Spline.generate (Base.count base) (const (Cubic v 0 0 0)))
+  [] -> BySpan (Spline.generate (BasisCurve.count base) (const (Cubic 0 0 0 0)))
+  [v] -> BySpan (Spline.generate (BasisCurve.count base) (const (Cubic v 0 0 0)))
   v : _
-    | Base.lacksRepeatedStart base ->
+    | BasisCurve.lacksRepeatedStart base ->
       spline
         (if Vector.length values >= 3 then Periodic else Natural)
         (Unboxed.snoc stations whole)
         (Vector.snoc values v)
-    | Base.closed base && isFullTurn && Vector.length values >= 4 -> spline Periodic stations values
+    | BasisCurve.closed base && isFullTurn && Vector.length values >= 4 ->
+      spline Periodic stations values
     | otherwise -> spline Natural stations values
   where
-    Mm whole = ArcLength.total (Base.arcLength base)
+    Mm whole = ArcLength.total (BasisCurve.arcLength base)
     stations =
       Unboxed.convert
         ( Vector.map
-            (\row -> let Mm s = ArcLength.lengthAt (Base.arcLength base) (Base.at row) in s)
-            (Base.rows base)
+            ( \row ->
+                let Mm s =
+                      ArcLength.lengthAt (BasisCurve.arcLength base) (BasisCurve.at row)
+                 in s
+            )
+            (BasisCurve.rows base)
         )
     isFullTurn =
       Unboxed.take 1 stations == Unboxed.singleton 0
@@ -110,7 +116,7 @@ byLength base values = case Vector.toList values of
         )
 
 -- | Power series of the value about a position, up to the given order.
-series :: Int -> Base -> Column -> SpanPoint -> PowerSeries
+series :: Int -> BasisCurve -> Column -> SpanPoint -> PowerSeries
 series n base c spanPoint = case interpolation c of
   BySpan cubics -> Spline.series n (Spline.at cubics (number spanPoint)) (local spanPoint)
   ByLength stations cubics
@@ -123,7 +129,7 @@ series n base c spanPoint = case interpolation c of
         let ahead = Spline.series 1 (Spline.at cubics i) t
             rise = PowerSeries.coefficient 1 ahead
          in [PowerSeries.value ahead - rise * t, rise]
-      Mm currentLength = ArcLength.lengthAt (Base.arcLength base) (parameter spanPoint)
+      Mm currentLength = ArcLength.lengthAt (BasisCurve.arcLength base) (parameter spanPoint)
       i = intervalAt currentLength stations
       from = stations Unboxed.! i
       width = stations Unboxed.! (i + 1) - from
@@ -132,15 +138,15 @@ series n base c spanPoint = case interpolation c of
         _ ->
           PowerSeries.integral
             currentLength
-            (TaylorExpansion.speed (Base.expansion n base spanPoint))
+            (TaylorExpansion.speed (BasisCurve.expansion n base spanPoint))
       fraction = PowerSeries.scale (1 / width) (PowerSeries.plusConstant (-from) lengthSeries)
 
 -- | Rising parameters of the base at which one cubic follows another, apart from the ends of the
 -- base's spans.
-knots :: Base -> Column -> [Double]
+knots :: BasisCurve -> Column -> [Double]
 knots base c = case interpolation c of
   BySpan _ -> []
-  ByLength _ _ -> map Base.at (Vector.toList (Base.rows base))
+  ByLength _ _ -> map BasisCurve.at (Vector.toList (BasisCurve.rows base))
 
 -- | Index of the interval that contains a length; outside of all intervals, that of the nearer
 -- one.
@@ -148,9 +154,9 @@ intervalAt :: Double -> Unboxed.Vector Double -> Int
 intervalAt s stations = BinarySearch.lastAtMost (Unboxed.length stations - 1) s stations
 
 -- | Column with scaled values, on the given base.
-scaled :: Base -> Double -> Column -> Column
+scaled :: BasisCurve -> Double -> Column -> Column
 scaled base k c = column base (Vector.map (k *) (values c))
 
 -- | Column for the reversed base, given the original base and the reversed one.
-reversed :: Base -> Base -> Column -> Column
-reversed old new c = column new (Base.inReverseOrder old (values c))
+reversed :: BasisCurve -> BasisCurve -> Column -> Column
+reversed old new c = column new (BasisCurve.inReverseOrder old (values c))

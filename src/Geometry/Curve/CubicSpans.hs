@@ -11,7 +11,7 @@ where
 
 import Base.Quantity (Mm (..))
 import Data.Vector qualified as Vector
-import Geometry.Curve.Base (SpanList (..), spanList)
+import Geometry.Curve.BasisCurve (SpanList (..), spanList)
 import Geometry.Curve.PointSearch qualified as PointSearch
 import Geometry.Curve.ShiftedCurve (Curve (..))
 import Geometry.Curve.ShiftedCurve qualified as ShiftedCurve

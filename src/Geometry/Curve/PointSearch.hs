@@ -21,7 +21,7 @@ import Base.Crash qualified as Crash
 import Base.Quantity (Mm (..), Rad (..), plus, times)
 import Data.List (minimumBy)
 import Data.Ord (comparing)
-import Geometry.Curve.Base (SpanPoint)
+import Geometry.Curve.BasisCurve (SpanPoint)
 import Geometry.Curve.ShiftedCurve (Curve (..))
 import Geometry.Curve.ShiftedCurve qualified as ShiftedCurve
 import Geometry.Numeric.PowerSeries qualified as PowerSeries

@@ -20,8 +20,8 @@ module Geometry.Curve.ShiftDistance
 where
 
 import Base.Quantity (Mm (..), minus, plus, times)
-import Geometry.Curve.Base (Base, SpanPoint (..))
-import Geometry.Curve.Base qualified as Base
+import Geometry.Curve.BasisCurve (BasisCurve, SpanPoint (..))
+import Geometry.Curve.BasisCurve qualified as BasisCurve
 import Geometry.Curve.Column (Column)
 import Geometry.Curve.Column qualified as Column
 import Geometry.Numeric.ArcLength (ArcLength)
@@ -105,7 +105,7 @@ intervalOf arcLength distance = case distance of
 
 -- | Rising parameters of the base at which the third derivative of a distance may jump, apart
 -- from its marks and the ends of the base's spans.
-knots :: Base -> Distance -> [Double]
+knots :: BasisCurve -> Distance -> [Double]
 knots base distance = case distance of
   Constant _ -> []
   Pointwise c -> Column.knots base c
@@ -127,7 +127,7 @@ vanishes distance position = case distance of
 
 -- | Properties of the curve that is shifted: the base under all layers, the arc length (evaluated
 -- only for distances that depend on it), and the Taylor expansion about the position.
-data CurveBelow = CurveBelow {under :: Base, along :: ~ArcLength, near :: TaylorExpansion}
+data CurveBelow = CurveBelow {under :: BasisCurve, along :: ~ArcLength, near :: TaylorExpansion}
 
 -- | Power series of the distance about a position, up to the given order. The expansion of the
 -- curve below must have one order more.
@@ -226,7 +226,7 @@ isPast position mark = case approach position of
   Before -> mark < parameter position
 
 -- | Distance for the curve scaled by a factor, on its new base. Angles are unchanged.
-scaled :: Base -> Double -> Distance -> Distance
+scaled :: BasisCurve -> Double -> Distance -> Distance
 scaled on k distance = case distance of
   Constant h -> Constant (times k h)
   Pointwise c -> Pointwise (Column.scaled on k c)
@@ -238,7 +238,7 @@ scaled on k distance = case distance of
     Joggled joggle {depth = times k (depth joggle), radius = times k (radius joggle)}
 
 -- | Distance for the reversed curve, given the original base and the reversed one.
-reversed :: Base -> Base -> Distance -> Distance
+reversed :: BasisCurve -> BasisCurve -> Distance -> Distance
 reversed old new distance = case distance of
   Constant h -> Constant h
   Pointwise c -> Pointwise (reverseColumn c)
@@ -254,4 +254,4 @@ reversed old new distance = case distance of
   Joggled joggle -> Joggled joggle {begins = n - ends joggle, ends = n - begins joggle}
   where
     reverseColumn = Column.reversed old new
-    n = fromIntegral (Base.count old)
+    n = fromIntegral (BasisCurve.count old)

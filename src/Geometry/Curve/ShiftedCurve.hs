@@ -17,8 +17,8 @@ module Geometry.Curve.ShiftedCurve
 where
 
 import Geometry.Carrier (Side (..))
-import Geometry.Curve.Base (Base, SpanPoint (..))
-import Geometry.Curve.Base qualified as Base
+import Geometry.Curve.BasisCurve (BasisCurve, SpanPoint (..))
+import Geometry.Curve.BasisCurve qualified as BasisCurve
 import Geometry.Curve.ShiftDistance (CurveBelow (..), Distance, ShiftInterval)
 import Geometry.Curve.ShiftDistance qualified as ShiftDistance
 import Geometry.Numeric.ArcLength (ArcLength)
@@ -31,7 +31,7 @@ import Geometry.Vec qualified as Vec
 
 -- | Curve with any number of shifts.
 data Curve
-  = Plain Base
+  = Plain BasisCurve
   | -- | a curve moved along its left normal; the arc length is that of the result
     Shifted Layer Curve ~ArcLength
   deriving stock (Eq, Show)
@@ -52,7 +52,7 @@ shifted side distance lower = whole
     speed u = Vec.norm (TaylorExpansion.velocity (expansionAt 1 whole (spanPoint After u whole)))
 
 -- | Base under all shifts.
-base :: Curve -> Base
+base :: Curve -> BasisCurve
 base curve = case curve of
   Plain b -> b
   Shifted _ lower _ -> base lower
@@ -68,7 +68,7 @@ layers curve = reverse (outermost curve)
 -- | Rising parameters between which the curve is smooth, its start and its end included.
 breaks :: Curve -> [Double]
 breaks curve = case curve of
-  Plain b -> map fromIntegral [0 .. Base.count b]
+  Plain b -> map fromIntegral [0 .. BasisCurve.count b]
   Shifted layer lower _ ->
     merge (breaks lower) (filter isInside (ShiftDistance.marks (interval layer)))
   where
@@ -96,23 +96,23 @@ merge as bs = case (as, bs) of
 
 -- | Parameter of the end, which is the count of spans.
 domain :: Curve -> Double
-domain = fromIntegral . Base.count . base
+domain = fromIntegral . BasisCurve.count . base
 
 -- | Arc length along the curve as a function of its parameter.
 arcLength :: Curve -> ArcLength
 arcLength curve = case curve of
-  Plain b -> Base.arcLength b
+  Plain b -> BasisCurve.arcLength b
   Shifted _ _ along -> along
 
 -- | Position at a parameter. Parameters outside of the domain give the nearer end.
 spanPoint :: Approach -> Double -> Curve -> SpanPoint
-spanPoint approach u curve = Base.spanPoint approach u (base curve)
+spanPoint approach u curve = BasisCurve.spanPoint approach u (base curve)
 
 -- | Taylor expansion of the point about a position, up to the given order. A shift needs one
 -- order more of the curve below, except where its distance vanishes.
 expansionAt :: Int -> Curve -> SpanPoint -> TaylorExpansion
 expansionAt n curve s = case curve of
-  Plain b -> Base.expansion n b s
+  Plain b -> BasisCurve.expansion n b s
   Shifted layer lower _
     | ShiftDistance.vanishes (distance layer) s -> expansionAt n lower s
     | otherwise ->

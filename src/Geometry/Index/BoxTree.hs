@@ -6,9 +6,9 @@
 -- each eight of those, and so on up to a single box. Only 'sortedIndex' sorts the things: they
 -- usually come in the order of a contour or toolpath, where neighbours are close in space.
 --
--- This is the tree for things of any type. "Geometry.Index.SegmentTree" is the one for the segments
--- of 'Geometry.ClosedPolyarcs.ClosedPolyarcs': it computes the lowest boxes from those arrays and
--- excludes pairs by direction, which only consecutive segments allow.
+-- This is the tree for things of any type. "Geometry.Index.SegmentBoxTree" is the one for the
+-- segments of 'Geometry.ClosedPolyarcs.ClosedPolyarcs': it computes the lowest boxes from those
+-- arrays and excludes pairs by direction, which only consecutive segments allow.
 module Geometry.Index.BoxTree
   ( BoxTree,
 

@@ -22,7 +22,7 @@ import Geometry.Curve
     SpanShape (..),
   )
 import Geometry.Curve qualified as Curve
-import Geometry.Curve.Base qualified as Base
+import Geometry.Curve.BasisCurve qualified as BasisCurve
 import Geometry.Curve.Column qualified as Column
 import Geometry.Curve.Cusp (Cusp (..))
 import Geometry.Numeric.PowerSeries qualified as PowerSeries
@@ -70,10 +70,10 @@ spec = do
                 [ near' 1e-9 d (height * tan m + delta) .&&. near' 1e-9 d' (height / cos m)
                   | (row, m, height) <-
                       zip3
-                        (toList (Base.rows (Curve.base c)))
+                        (toList (BasisCurve.rows (Curve.base c)))
                         (toList (Column.values mu))
                         (toList (Column.values h)),
-                    let u = Base.at row,
+                    let u = BasisCurve.at row,
                     let Mm d =
                           Curve.shiftDistance (Curve.shifted LeftOf (Bevelled mu h (Mm delta)) c) u,
                     let Mm d' =
@@ -176,8 +176,8 @@ spec = do
       $ property $
         forAll Generate.gentle $ \c ->
           forAll ((,) <$> Generate.columnOf c 0.1 0.4 <*> Generate.columnOf c 1 3) $ \(mu, h) ->
-            forAll (elements (toList (Base.rows (Curve.base c)))) $ \row ->
-              sequenceLaw c mu h (Base.at row)
+            forAll (elements (toList (BasisCurve.rows (Curve.base c)))) $ \row ->
+              sequenceLaw c mu h (BasisCurve.at row)
 
   describe "equivalent shifts" $ do
     it "a growth from h to h is the constant h (catches a growth that begins with what it adds)" $
@@ -342,9 +342,12 @@ spec = do
         forAll Generate.anyCurve $ \c -> forAll (Generate.columnOf c (-5) 5) $ \col ->
           conjoin
             [ near' 1e-9 d v
-              | (row, v) <- zip (toList (Base.rows (Curve.base c))) (toList (Column.values col)),
+              | (row, v) <-
+                  zip (toList (BasisCurve.rows (Curve.base c))) (toList (Column.values col)),
                 let Mm d =
-                      Curve.shiftDistance (Curve.shifted LeftOf (Pointwise col) c) (Base.at row)
+                      Curve.shiftDistance
+                        (Curve.shifted LeftOf (Pointwise col) c)
+                        (BasisCurve.at row)
             ]
     it
       "are as smooth as the points: a shifted spline has no corner (catches a column that is \
@@ -377,7 +380,7 @@ displacement c u s = Vec.to (Curve.at c u) (Curve.at s u)
 -- | Column with one constant value.
 constantColumn :: Double -> Curve -> Curve.Column
 constantColumn v c =
-  Curve.column c (Exts.fromList (map (const v) (toList (Base.rows (Curve.base c)))))
+  Curve.column c (Exts.fromList (map (const v) (toList (BasisCurve.rows (Curve.base c)))))
 
 -- | Law that two distances give the same shifted curve.
 sameShift :: Curve -> Distance -> Distance -> Property
@@ -395,7 +398,8 @@ radiusShare = choose (-0.4, 0.4)
 smoothStretches :: Curve -> [(Double, Double)]
 smoothStretches c =
   let bs =
-        nubOrd (sort (Curve.breaks c <> map Base.at (toList (Base.rows (Curve.base c)))))
+        nubOrd
+          (sort (Curve.breaks c <> map BasisCurve.at (toList (BasisCurve.rows (Curve.base c)))))
    in filter (\(a, b) -> b - a > 1e-6) (zip bs (drop 1 bs))
 
 -- | First and second derivatives, against Richardson extrapolation of two differences.
@@ -445,8 +449,9 @@ sequenceLaw c mu h u = close 1e-4 (Curve.at third u) byHand
     value col =
       head
         ( [ v
-            | (row, v) <- zip (toList (Base.rows (Curve.base c))) (toList (Column.values col)),
-              Base.at row == u
+            | (row, v) <-
+                zip (toList (BasisCurve.rows (Curve.base c))) (toList (Column.values col)),
+              BasisCurve.at row == u
           ]
             <> [0]
         )

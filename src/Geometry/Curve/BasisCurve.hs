@@ -3,8 +3,8 @@
 -- The parameter runs from 0 to the count of spans, with a range of 1 for each span. A base keeps
 -- the rows of the table from which it was made, so that columns of numbers can be interpolated in
 -- the same way as the points.
-module Geometry.Curve.Base
-  ( Base (..),
+module Geometry.Curve.BasisCurve
+  ( BasisCurve (..),
     SpanList (..),
     spans,
     asSegments,
@@ -58,7 +58,7 @@ import Geometry.Vec qualified as Vec
 import Linear.V2 (V2 (..))
 
 -- | Unshifted curve with the rows of its table.
-data Base = Base
+data BasisCurve = BasisCurve
   { method :: CurveKind,
     -- | rows of the table in the curve's direction; evaluated on demand
     rows :: ~(Vector Knot),
@@ -131,11 +131,11 @@ data CurveFault
   deriving stock (Eq, Show)
 
 -- | Makes a base of spans and adds its arc length.
-makeBase :: CurveKind -> Bool -> Vector Knot -> SpanList -> Base
+makeBase :: CurveKind -> Bool -> Vector Knot -> SpanList -> BasisCurve
 makeBase method closed rows spanList = base
   where
     base =
-      Base
+      BasisCurve
         { method,
           rows,
           spanList,
@@ -145,7 +145,7 @@ makeBase method closed rows spanList = base
     speed u = let s = spanPoint After u base in speedAt base (number s) (local s)
 
 -- | Speed in mm per unit of the parameter, in a span at its local parameter.
-speedAt :: Base -> Int -> Double -> Double
+speedAt :: BasisCurve -> Int -> Double -> Double
 speedAt base i t = case spanList base of
   Cubical xs ys ->
     let a =
@@ -155,7 +155,7 @@ speedAt base i t = case spanList base of
   Mixed parts -> Vec.norm (TaylorExpansion.velocity (Span.expansion 1 (parts Vector.! i) t))
 
 -- | Spans as a vector.
-spans :: Base -> Vector Span
+spans :: BasisCurve -> Vector Span
 spans base = case spanList base of
   Cubical xs ys ->
     Vector.generate (Spline.count xs) (\i -> Polynomial (Spline.at xs i) (Spline.at ys i))
@@ -163,7 +163,7 @@ spans base = case spanList base of
 
 -- | Lines and arcs of a base that consists of them and has at least one arc. Spans join within a
 -- tolerance; the segments that are given join exactly.
-asSegments :: Base -> Maybe (NonEmpty Segment)
+asSegments :: BasisCurve -> Maybe (NonEmpty Segment)
 asSegments base = case spanList base of
   Cubical _ _ -> Nothing
   Mixed parts
@@ -192,7 +192,7 @@ toSpanList parts = case traverse polynomial parts of
       Round _ -> Nothing
 
 -- | Polyline through the points. It is closed when the last point equals the first.
-polyline :: Vector Point -> Either CurveFault Base
+polyline :: Vector Point -> Either CurveFault BasisCurve
 polyline points = do
   checkDistinct 2 points
   let cubicSpans = Cubical (lineCubics Vec.x) (lineCubics Vec.y)
@@ -207,7 +207,7 @@ polyline points = do
 -- | Cubic spline parametrised by chord length, with continuous second derivatives by chord
 -- length. At clamped ends the derivative by chord length is the given direction. A periodic
 -- spline may repeat its first point at the end or not.
-spline :: EndCondition -> Vector Point -> Either CurveFault Base
+spline :: EndCondition -> Vector Point -> Either CurveFault BasisCurve
 spline ends points = case ends of
   Natural -> do
     checkDistinct 2 points
@@ -260,7 +260,7 @@ distances points =
 
 -- | Distances between neighbouring rows, in mm. For a closed base whose last row does not repeat
 -- the first, the closing distance follows.
-chords :: Base -> Unboxed.Vector Double
+chords :: BasisCurve -> Unboxed.Vector Double
 chords base
   | closed base && not (isLoop points) = distances (Vector.snoc points (Vector.head points))
   | otherwise = distances points
@@ -268,7 +268,7 @@ chords base
     points = Vector.map knotPoint (rows base)
 
 -- | Position of the middle row of each parabola, as a fraction of its span.
-fractions :: Base -> Vector Double
+fractions :: BasisCurve -> Vector Double
 fractions base =
   Vector.generate
     (count base)
@@ -277,7 +277,7 @@ fractions base =
 -- | Parabolas y(x) through points 1–3, 3–5, and so on (Lagrange; Ural paper, sections 3–8 and
 -- 8–13 of the template). Each span is one parabola. Its parameter is proportional to x, which
 -- must rise or fall throughout.
-parabola :: Vector Point -> Either CurveFault Base
+parabola :: Vector Point -> Either CurveFault BasisCurve
 parabola points
   | Vector.length points < 3 = Left (TooFew 3)
   | even (Vector.length points) = Left (EvenCount (Vector.length points))
@@ -308,15 +308,15 @@ parabola points
     middle i = (x (2 * i + 1) - x (2 * i)) / (x (2 * i + 2) - x (2 * i))
 
 -- | Base of consecutive spans with the given rising parameters of the table's rows.
-fromShapes :: NonEmpty SpanShape -> Vector Double -> Either CurveFault Base
+fromShapes :: NonEmpty SpanShape -> Vector Double -> Either CurveFault BasisCurve
 fromShapes = ofSpans . vector Span.fromShape
 
 -- | Base of consecutive lines and arcs with the given rising parameters of the table's rows.
-fromSegmentsAt :: NonEmpty Segment -> Vector Double -> Either CurveFault Base
+fromSegmentsAt :: NonEmpty Segment -> Vector Double -> Either CurveFault BasisCurve
 fromSegmentsAt = ofSpans . vector Span.fromSegment
 
 -- | Base of consecutive spans with the given rising parameters of the rows.
-ofSpans :: Vector Span -> Vector Double -> Either CurveFault Base
+ofSpans :: Vector Span -> Vector Double -> Either CurveFault BasisCurve
 ofSpans parts parameters = do
   checkJoined parts
   maybe (Right ()) (Left . Disordered) (find (not . ordered) [1 .. count'])
@@ -343,7 +343,7 @@ ofSpans parts parameters = do
 
 -- | Base of consecutive lines and arcs. Its rows are the starts of the segments, and the end of
 -- the last one unless the base is closed.
-fromSegments :: NonEmpty Segment -> Either CurveFault Base
+fromSegments :: NonEmpty Segment -> Either CurveFault BasisCurve
 fromSegments segments = do
   checkJoined parts
   Right
@@ -369,7 +369,7 @@ vector f list = Vector.unfoldrN (NonEmpty.length list) next (NonEmpty.toList lis
       a : rest -> let b = f a in b `seq` Just (b, rest)
 
 -- | Base of at least one span. The spans must join.
-chain :: Vector Knot -> Vector Span -> Base
+chain :: Vector Knot -> Vector Span -> BasisCurve
 chain rows parts = makeBase Joined (Vec.isNear first lastPoint) rows (toSpanList parts)
   where
     (first, _) = Span.ends (Vector.head parts)
@@ -414,13 +414,13 @@ rowsAtEnds :: Vector Point -> Vector Knot
 rowsAtEnds = Vector.imap (\i p -> Knot {at = fromIntegral i, knotPoint = p})
 
 -- | Count of spans, which is the parameter of the end.
-count :: Base -> Int
+count :: BasisCurve -> Int
 count base = case spanList base of
   Cubical xs _ -> Spline.count xs
   Mixed parts -> Vector.length parts
 
 -- | Arc length along the base.
-arcLength :: Base -> ArcLength
+arcLength :: BasisCurve -> ArcLength
 arcLength = lengthTable
 
 -- | Position on a curve: the parameter, the index of its span, the local parameter in the span,
@@ -434,7 +434,7 @@ data SpanPoint = SpanPoint
   deriving stock (Eq, Show)
 
 -- | Position at a parameter. Parameters outside of the domain give the nearer end.
-spanPoint :: Approach -> Double -> Base -> SpanPoint
+spanPoint :: Approach -> Double -> BasisCurve -> SpanPoint
 spanPoint approach u base =
   SpanPoint {parameter, number, local = parameter - fromIntegral number, approach}
   where
@@ -445,7 +445,7 @@ spanPoint approach u base =
       Before -> max 0 (ceiling parameter - 1)
 
 -- | Taylor expansion of the point about a position, up to the given order.
-expansion :: Int -> Base -> SpanPoint -> TaylorExpansion
+expansion :: Int -> BasisCurve -> SpanPoint -> TaylorExpansion
 expansion n base s = case spanList base of
   Cubical xs ys ->
     V2
@@ -454,7 +454,7 @@ expansion n base s = case spanList base of
   Mixed parts -> Span.expansion n (parts Vector.! number s) (local s)
 
 -- | Base in the opposite direction.
-reversed :: Base -> Base
+reversed :: BasisCurve -> BasisCurve
 reversed base =
   makeBase
     method'
@@ -473,17 +473,17 @@ reversed base =
       Joined -> Joined
 
 -- | Applies a function to the spans.
-mapSpans :: (Vector Span -> Vector Span) -> Base -> SpanList
+mapSpans :: (Vector Span -> Vector Span) -> BasisCurve -> SpanList
 mapSpans f base = toSpanList (f (spans base))
 
 -- | Row values in the order of the reversed base.
-inReverseOrder :: Base -> Vector a -> Vector a
+inReverseOrder :: BasisCurve -> Vector a -> Vector a
 inReverseOrder base values
   | lacksRepeatedStart base = Vector.cons (Vector.head values) (Vector.reverse (Vector.tail values))
   | otherwise = Vector.reverse values
 
 -- | True if the base is closed and its first row, at parameter 0, is not repeated at the end.
-lacksRepeatedStart :: Base -> Bool
+lacksRepeatedStart :: BasisCurve -> Bool
 lacksRepeatedStart base =
   case (rows base Vector.!? 0, rows base Vector.!? (Vector.length (rows base) - 1)) of
     (Just first, Just lastPoint) ->
@@ -491,7 +491,7 @@ lacksRepeatedStart base =
     _ -> False
 
 -- | Image of a base under a similarity, span by span.
-transformed :: Transformation -> Base -> Base
+transformed :: Transformation -> BasisCurve -> BasisCurve
 transformed s base =
   makeBase
     method'

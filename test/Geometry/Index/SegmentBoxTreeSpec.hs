@@ -1,5 +1,5 @@
 -- | The pair search of the kernel's bounding-box tree against a test of all pairs.
-module Geometry.Index.SegmentTreeSpec (spec) where
+module Geometry.Index.SegmentBoxTreeSpec (spec) where
 
 import Control.Monad.ST (runST)
 import Data.Primitive.MutVar (modifyMutVar', newMutVar, readMutVar)
@@ -10,7 +10,7 @@ import Geometry.ClosedPolyarcs (ClosedPolyarcs)
 import Geometry.ClosedPolyarcs qualified as ClosedPolyarcs
 import Geometry.FlatPolyarc (FlatPolyarc)
 import Geometry.FlatPolyarc qualified as FlatPolyarc
-import Geometry.Index.SegmentTree qualified as SegmentTree
+import Geometry.Index.SegmentBoxTree qualified as SegmentBoxTree
 import Geometry.Polyarc (Ends (..))
 import Offset.SegmentIntersection (Visitor (..))
 import Offset.SegmentIntersection qualified as SegmentIntersection
@@ -46,7 +46,7 @@ meetings candidates c = runST $ do
             }
   case candidates of
     AllPairs -> sequence_ [visit i j | i <- segments, j <- segments, i < j]
-    FoundByTree -> SegmentTree.pairs (SegmentTree.build tolerance c) (pure True) visit
+    FoundByTree -> SegmentBoxTree.pairs (SegmentBoxTree.build tolerance c) (pure True) visit
   readMutVar pairs
   where
     segments =

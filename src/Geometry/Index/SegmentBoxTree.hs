@@ -14,8 +14,8 @@
 --
 -- The tree for things of any type is "Geometry.Index.BoxTree". It would store the boxes of single
 -- segments, and cannot know about directions.
-module Geometry.Index.SegmentTree
-  ( SegmentTree,
+module Geometry.Index.SegmentBoxTree
+  ( SegmentBoxTree,
     build,
 
     -- * Boxes
@@ -40,7 +40,7 @@ import Geometry.ClosedPolyarcs (ClosedPolyarcs)
 import Geometry.ClosedPolyarcs qualified as ClosedPolyarcs
 
 -- | The levels are stored one after the other, the lowest first.
-data SegmentTree = SegmentTree
+data SegmentBoxTree = SegmentBoxTree
   { chain :: ClosedPolyarcs,
     -- | in mm; every box is enlarged by it
     margin :: Double,
@@ -64,7 +64,7 @@ fan = 8
 
 -- | The box of a segment with the margin, passed to a continuation: least x, least y, largest x,
 -- largest y.
-segmentBoxWithMargin :: SegmentTree -> Int -> (Double -> Double -> Double -> Double -> r) -> r
+segmentBoxWithMargin :: SegmentBoxTree -> Int -> (Double -> Double -> Double -> Double -> r) -> r
 segmentBoxWithMargin bs i k =
   segmentBox (chain bs) i (\lx ly hx hy -> k (lx - m) (ly - m) (hx + m) (hy + m))
   where
@@ -102,7 +102,7 @@ present c i =
 {-# INLINE present #-}
 
 -- | The box of the run of eight segments to which a segment belongs, passed to a continuation.
-runBoxOf :: SegmentTree -> Int -> (Double -> Double -> Double -> Double -> r) -> r
+runBoxOf :: SegmentBoxTree -> Int -> (Double -> Double -> Double -> Double -> r) -> r
 runBoxOf bs i = boxAt (sides bs) (i `shiftR` 3)
 {-# INLINE runBoxOf #-}
 
@@ -112,7 +112,7 @@ nextRun i = (i `shiftR` 3 + 1) `shiftL` 3
 {-# INLINE nextRun #-}
 
 -- | The box around all segments, passed to a continuation.
-boundingBox :: SegmentTree -> (Double -> Double -> Double -> Double -> r) -> r
+boundingBox :: SegmentBoxTree -> (Double -> Double -> Double -> Double -> r) -> r
 boundingBox bs = boxAt (sides bs) (indexPrimArray (begins bs) (highest bs))
 
 -- | The stored box with an index, passed to a continuation.
@@ -128,7 +128,7 @@ boxAt a k next =
 -- Construction ------------------------------------------------------------------------------
 
 -- | Build the tree of all segments with a margin in mm.
-build :: Double -> ClosedPolyarcs -> SegmentTree
+build :: Double -> ClosedPolyarcs -> SegmentBoxTree
 build !m !c = runST $ do
   let n = sizeofPrimArray (ClosedPolyarcs.xs c)
       lowest = max 1 ((n + fan - 1) `quot` fan)
@@ -138,7 +138,7 @@ build !m !c = runST $ do
   writeRuns m c out
   writeLevels out 0 lowest
   let Boxes sides directions = out
-  SegmentTree c m
+  SegmentBoxTree c m
     <$> unsafeFreezePrimArray sides
       <*> unsafeFreezePrimArray directions
       <*> pure (primArrayFromList (scanl (+) 0 levels))
@@ -298,8 +298,8 @@ allDirections = 255
 
 -- | Visit all pairs of segments that may meet and whose boxes overlap, the earlier segment first,
 -- as long as @continues@ is true.
-pairs :: SegmentTree -> ST s Bool -> (Int -> Int -> ST s ()) -> ST s ()
-pairs bs@SegmentTree {chain = c, margin = m, sides, directions, highest} continues visit = do
+pairs :: SegmentBoxTree -> ST s Bool -> (Int -> Int -> ST s ()) -> ST s ()
+pairs bs@SegmentBoxTree {chain = c, margin = m, sides, directions, highest} continues visit = do
   -- The boxes of the segments of some runs, each run in the slot of its number modulo 'fan' or in a
   -- spare slot; and which run each slot holds.
   near <- Near <$> newPrimArray (answer + 1) <*> newPrimArray answer
@@ -391,7 +391,7 @@ pairs bs@SegmentTree {chain = c, margin = m, sides, directions, highest} continu
 data Grid = Grid {halfSteps :: Double, addX :: Double, addY :: Double}
 
 -- | The grid of a tree. Coordinates are far enough above 0 for rounding not to make one negative.
-gridOf :: SegmentTree -> Grid
+gridOf :: SegmentBoxTree -> Grid
 gridOf bs = boundingBox bs $ \lx ly hx hy ->
   let w = most (hx - lx) (hy - ly)
       steps = if w > 0 then 268435456 / w else 0
@@ -461,8 +461,8 @@ exactly !m !c !i !j =
 
 -- | Write the corners of the boxes of run @r@ into slot @s@. A vertex at which no segment starts
 -- gets a box that overlaps none.
-fill :: SegmentTree -> Grid -> Near s -> Int -> Int -> ST s ()
-fill SegmentTree {chain = c, margin = m} Grid {halfSteps, addX, addY} (Near !lows !highs) !s !r =
+fill :: SegmentBoxTree -> Grid -> Near s -> Int -> Int -> ST s ()
+fill SegmentBoxTree {chain = c, margin = m} Grid {halfSteps, addX, addY} (Near !lows !highs) !s !r =
   go (fan * s) begin (stepsX begin) (stepsY begin)
   where
     !begin = fan * r
@@ -575,8 +575,8 @@ overlaps a k lx ly hx hy =
 -- Segments in a box -------------------------------------------------------------------------
 
 -- | A strict left fold over the segments whose boxes overlap a box, in order.
-around :: SegmentTree -> Double -> Double -> Double -> Double -> a -> (a -> Int -> a) -> a
-around SegmentTree {chain = c, margin = m, sides, begins, counts, highest} lx ly hx hy start f =
+around :: SegmentBoxTree -> Double -> Double -> Double -> Double -> a -> (a -> Int -> a) -> a
+around SegmentBoxTree {chain = c, margin = m, sides, begins, counts, highest} lx ly hx hy start f =
   go highest 0 start
   where
     n = sizeofPrimArray (ClosedPolyarcs.xs c)

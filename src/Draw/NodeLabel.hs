@@ -1,5 +1,5 @@
 -- | Nodes of the toolpath along a contour, numbered from the entry, as dots and labels.
-module Draw.Node
+module Draw.NodeLabel
   ( dots,
     labels,
     most,

@@ -1,6 +1,6 @@
 -- | Rendering of reports for other programs, one line per report: the format of compilers, which
 -- editors match, and JSON.
-module Report.Line
+module Report.LineFormat
   ( short,
     json,
   )

@@ -3,7 +3,7 @@
 -- The module derives from the tolerance of a job how far a chord may lie from the toolpath, divides
 -- an arc into equal chords within that error, and counts chords and frames in advance. Curves of
 -- several moves are divided by "Frame.Chording".
-module Frame.Chord
+module Frame.ChordError
   ( ChordTolerance (..),
     chordTolerance,
     raisedToRounding,
