@@ -84,11 +84,13 @@ commits: ## hold the subjects of commits to their rule
 	@bash scripts/commits-try.sh
 	@bash scripts/commits.sh
 
-bench: needs-build needs-test ## time the kernel, the stages, the whole compile; into docs/performance.md
+bench: needs-build needs-test ## time the kernel, the stages, the whole compile; BEFORE=FOLDER compares
 	$(call banner,build with benchmark)
 	$(quietly) $(BENCH) build --flag partc:bench --bench --no-run-benchmarks
+	$(if $(BEFORE),$(call banner,build of the earlier state))
+	$(if $(BEFORE),@cd "$(BEFORE)" && $(BENCH) build --flag partc:bench --bench --no-run-benchmarks)
 	$(call banner,bench)
-	@bash scripts/bench.sh "$$($(BENCH) path --dist-dir)"
+	@bash scripts/bench.sh "$$($(BENCH) path --dist-dir)" $(if $(BEFORE),"$(BEFORE)/$$(cd "$(BEFORE)" && $(BENCH) path --dist-dir)")
 
 pictures: needs-build needs-test ## draw the pictures of the documents anew from their programs
 	$(call banner,build with tests)

@@ -32,7 +32,8 @@ main = do
 
 -- | The options: kernel, stages, partc, cost: required commands; cavalier, chords, rs274: optional
 -- commands; parts: the parts of the benchmark to run; most: the largest number of segments and
--- elements; seconds: the longest time of a compiler run; about: lines on the machine.
+-- elements; seconds: the longest time of a compiler run; about: lines on the machine; before: the
+-- build folder of an earlier state, which takes turns with this one.
 run :: FilePath -> FilePath -> [(String, String)] -> IO ()
 run page folder options = do
   place "machine" (Text.unlines ["- " <> l | l <- Text.lines (Text.pack (option "about" ""))])
@@ -42,6 +43,9 @@ run page folder options = do
     let notes = if null broken then ["Nothing differs."] else map ("- " <>) broken
     place "differences" (Text.unlines notes)
   when ("stages" `elem` parts) $ Whole.staged tools most seconds >>= place "stages"
+  forM_ (lookup "before" options) $ \earlier -> do
+    ratios <- Whole.besideBefore tools (earlier </> "build/stages/stages") most
+    place "before" ratios
   when ("whole" `elem` parts) $
     Whole.besideInterpreter tools (folder </> "programs") (programs most) (2 * seconds)
       >>= place "whole"
@@ -58,7 +62,11 @@ run page folder options = do
     peers =
       Peers
         { ours = Peer "ours" (words (option "kernel" "kernel")),
-          keepers = [Peer "cavalier_contours" (words c) | Just c <- [lookup "cavalier" options]],
+          keepers =
+            [Peer "cavalier_contours" (words c) | Just c <- [lookup "cavalier" options]]
+              <> [ Peer "before" [earlier </> "build/kernel/kernel"]
+                   | Just earlier <- [lookup "before" options]
+                 ],
           chorders =
             [ \sagitta -> Peer title (words c <> [library, show sagitta])
               | Just c <- [lookup "chords" options],

@@ -3,12 +3,14 @@
 module Whole
   ( Tools (..),
     staged,
+    besideBefore,
     besideInterpreter,
   )
 where
 
 import Base.Decimal qualified as Decimal
 import Control.Monad (foldM, forM, forM_)
+import Data.List (sort, transpose)
 import Data.Text (Text)
 import Data.Text qualified as Text
 import Data.Text.IO qualified as Text
@@ -146,6 +148,64 @@ parsed out = do
     pair line = case line of
       [name, value] -> (name,) <$> readMaybe (Text.unpack value)
       _ -> Nothing
+
+-- The state before -------------------------------------------------------------------------------
+
+-- | The stages of this build in ratio to those of a build of an earlier state. In each of eleven
+-- turns the earlier one runs, then this one, then the earlier one again.
+--
+-- Each program has two rows of medians: this build in ratio to the earlier one, and the earlier one
+-- in ratio to itself with half the interquartile range of these ratios. A ratio that exceeds 1.03
+-- by more than this spread is bold.
+besideBefore :: Tools -> FilePath -> Int -> IO Text
+besideBefore tools before most =
+  Table.table (["program", "machine", "size", "build"] <> ratioNames) . concat
+    <$> sequence
+      [ rowsOf kind machine n
+        | kind <- [minBound ..],
+          machine <- ["lkp-01f", "iso6983"],
+          n <- takeWhile (<= most) [1000, 10000]
+      ]
+  where
+    ratioNames = ["parse", "check", "part", "path", "frames", "tape", "verify", "sum", "memory"]
+    rowsOf :: Kind -> Text -> Int -> IO [Table.Row]
+    rowsOf kind machine n = do
+      outcomes <- mapM (const (turn kind machine n)) [1 .. 11 :: Int]
+      let rows = case sequence outcomes of
+            Left why -> [["", Text.take 80 why]]
+            Right turns' -> ratioRows turns'
+          begin = [Programs.name kind, machine, Decimal.whole n]
+          table = map (begin <>) rows
+      mapM_ (Text.putStrLn . Text.unwords) table
+      hFlush stdout
+      pure table
+    turn kind machine n = do
+      a <- run before
+      b <- run (timer tools)
+      c <- run before
+      pure ((,,) <$> a <*> b <*> c)
+      where
+        run program =
+          (>>= parsed)
+            <$> Peer.command 300 [program, show kind, show n, Text.unpack machine]
+
+-- | The two rows of a program: the ratios of this build, and those of the earlier build to itself.
+-- Each turn holds the earlier build, this one, and the earlier one again.
+ratioRows :: [(Staged, Staged, Staged)] -> [Table.Row]
+ratioRows turns' = [" now" : map fst cells, "before" : map snd cells]
+  where
+    cells = map cell (transpose [(\(a, b, c) -> zip3 a b c) (figures t) | t <- turns'])
+    figures (a, b, c) = (numbers a, numbers b, numbers c)
+    numbers s = map snd (stages s) <> [total s, peak s]
+    cell values = (if now > 1.03 + spread then "**" <> shown now <> "**" else shown now, itself)
+      where
+        now = ratio [(b, (a + c) / 2) | (a, b, c) <- values]
+        own = sort [c / max 1e-9 a | (a, _, c) <- values]
+        spread = (quartile 3 own - quartile 1 own) / 2
+        itself = shown (Peer.middle own) <> " ± " <> shown spread
+    ratio pairs = Peer.middle [b / max 1e-9 a | (b, a) <- pairs]
+    quartile k values = sum (take 1 (drop (k * length values `div` 4) values))
+    shown = Decimal.fixed 2
 
 -- The interpreter ---------------------------------------------------------------------------------
 

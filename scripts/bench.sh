@@ -3,11 +3,15 @@
 # Its argument is the folder in which stack has built; everything else is written below build/bench,
 # but for the tables, which go to docs/performance.md.
 #
+# A second argument is the folder in which an earlier state was built: then the kernels and the stages
+# of both take turns, peers are left out, and the tables go to build/bench/before.md.
+#
 # PARTC_BENCH_MOST=10000 leaves larger inputs out; PARTC_BENCH_PARTS='kernel stages whole' chooses;
 # PARTC_BENCH_SECONDS is how long a stage's run may take to be expected.
 set -euo pipefail
 
 dist=$1
+before=${2:-}
 root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
 work=$root/build/bench
 page=$root/docs/performance.md
@@ -27,10 +31,19 @@ about() {
   if [[ -n $rs274 ]]; then printf 'LinuxCNC %s\n' "$(dpkg-query -W -f '${Version}' linuxcnc-uspace 2>/dev/null || echo 'of unknown version')"; fi
 }
 
-fetch_cavalier
-fetch_chords
-rs274=$(command -v rs274 || true)
-[[ -n $rs274 ]] || printf 'bench: rs274 is not installed; nothing stands beside the whole compile\n'
+cavalier= chords= rs274=
+if [[ -n $before ]]; then
+  page=$work/before.md
+  for table in machine times memory agreement chords differences before; do
+    printf '<!-- %s -->\n<!-- end of %s -->\n' "$table" "$table"
+  done >"$page"
+  PARTC_BENCH_PARTS=${PARTC_BENCH_PARTS:-kernel}
+else
+  fetch_cavalier
+  fetch_chords
+  rs274=$(command -v rs274 || true)
+  [[ -n $rs274 ]] || printf 'bench: rs274 is not installed, so the whole compile is timed without it\n'
+fi
 
 options=(
   "about=$(about)"
@@ -42,6 +55,7 @@ options=(
   "most=${PARTC_BENCH_MOST:-1000000}"
   "seconds=${PARTC_BENCH_SECONDS:-20}"
 )
+[[ -z $before ]] || options+=("before=$before")
 [[ -z $cavalier ]] || options+=("cavalier=$cavalier/offset")
 [[ -z $chords ]] || options+=("chords=$chords")
 [[ -z $rs274 ]] || options+=("rs274=$rs274")
