@@ -1,10 +1,10 @@
 #!/usr/bin/env bash
-# Fetches and builds the peers of the benchmark as far as they can be had, and runs it.
-# Its argument is the folder in which stack has built; everything else is written below build/bench,
-# but for the tables, which go to docs/performance.md.
+# Fetches and builds the available peers of the benchmark, and runs it. The argument is the folder in
+# which stack has built the benchmark. The tables are written into docs/performance.md, all other files
+# below build/bench.
 #
-# PARTC_BENCH_MOST=10000 leaves larger inputs out; PARTC_BENCH_PARTS='kernel stages whole' chooses;
-# PARTC_BENCH_SECONDS is how long a stage's run may take to be expected.
+# PARTC_BENCH_MOST=10000 leaves out larger inputs. PARTC_BENCH_PARTS='kernel stages whole' chooses the
+# parts. PARTC_BENCH_SECONDS is the largest expected time, in seconds, of a run of the stages.
 set -euo pipefail
 
 dist=$1
@@ -30,7 +30,7 @@ about() {
 fetch_cavalier
 fetch_chords
 rs274=$(command -v rs274 || true)
-[[ -n $rs274 ]] || printf 'bench: rs274 is not installed; nothing stands beside the whole compile\n'
+[[ -n $rs274 ]] || printf 'bench: rs274 is not installed; the whole compile is not compared with an interpreter\n'
 
 options=(
   "about=$(about)"
