@@ -1,11 +1,11 @@
-# partc: `make` alone lists what can be asked for.
+# The targets for building partc and working on it. `make` alone lists them.
 
 SHELL := /bin/bash
 .SHELLFLAGS := -eu -o pipefail -c
 .DEFAULT_GOAL := help
 MAKEFLAGS += --no-print-directory
 
-# Part programs speak Russian as well as English; a bare machine speaks neither.
+# Part programs contain Russian text. Without this setting a fresh system does not use UTF-8.
 export LC_ALL := C.UTF-8
 
 PREFIX ?= /usr/local
@@ -13,10 +13,11 @@ STACK ?= stack
 # Arguments for the test runner: make test TEST='--match Geometry'
 TEST ?=
 
-# Builds that differ in flags keep apart, so that none undoes another's work.
+# Builds with different flags have folders of their own, so that none overwrites the objects of another.
 CHECK := $(STACK) --work-dir .stack-work-check
 BENCH := $(STACK) --work-dir .stack-work-bench
-# Some tests, while one works: without optimisation a changed function compiles one module, not all that use it.
+# The build for `make test TEST=...`. Without optimisation, a changed function recompiles its module only,
+# not all modules that use it.
 QUICK := $(STACK) --work-dir .stack-work-quick
 
 TESTED := $(if $(TEST),$(QUICK),$(STACK))
@@ -25,7 +26,7 @@ UNOPTIMISED := $(if $(TEST),--fast)
 DEMO := flange
 MACHINE := lkp-01f
 
-# Ormolu 0.3 has to be told of this one; package.yaml turns it on for the compiler.
+# Ormolu 0.3 does not read package.yaml, which turns this extension on for the compiler.
 ORMOLU := ormolu -o -XImportQualifiedPost
 
 HS_FILES = $(shell find src app test bench -name '*.hs' 2>/dev/null | sort)
@@ -47,7 +48,7 @@ setup: ## install all Debian packages that are missing, and the commit hook
 	@bash scripts/setup.sh
 	@bash scripts/commit-hook.sh
 
-# What a target needs: needs-build, needs-test, ... install the groups of scripts/packages.txt.
+# needs-GROUP installs the packages of one group of scripts/packages.txt.
 needs-%:
 	@bash scripts/setup.sh $*
 
@@ -79,7 +80,7 @@ lint: needs-check ## run hlint over every Haskell file
 	$(call banner,lint)
 	@hlint --no-summary $(HS_FILES)
 
-commits: ## hold the subjects of commits to their rule
+commits: ## check the commit hook and the subjects of commits
 	$(call banner,commits)
 	@bash scripts/commits-try.sh
 	@bash scripts/commits.sh
@@ -98,7 +99,7 @@ pictures: needs-build needs-test ## draw the pictures of the documents anew from
 	$(call banner,pictures)
 	@PARTC_RECORD=1 $(STACK) --verbosity warn test --test-arguments "--match pictures"
 
-mutants: needs-build needs-test ## break the code once for every law and see the law fail
+mutants: needs-build needs-test ## put one bug into the code for every law; fail if the law does not notice it
 	$(call banner,mutants)
 	@bash scripts/mutants.sh $(MUTANTS)
 
@@ -128,7 +129,7 @@ dist: build needs-package ## make an archive that runs on a Debian 12 without Ha
 	$(call banner,dist)
 	@bash scripts/package.sh dist "$(PARTC)" $(PACKED)
 
-deb-try: build needs-package needs-try ## try both in a Debian 12 without Haskell; needs root
+deb-try: build needs-package needs-try ## install the package and the archive in a Debian 12 without Haskell; needs root
 	$(call banner,deb and dist)
 	@deb=$$(bash scripts/package.sh deb "$(PARTC)" $(PACKED)) && \
 	  archive=$$(bash scripts/package.sh dist "$(PARTC)" $(PACKED)) && \

@@ -1,4 +1,5 @@
--- | The contours of the benchmark, by family and size: closed, counter-clockwise, in mm.
+-- | The contours of the benchmark, by family and size. They are closed and counter-clockwise;
+-- coordinates are in mm.
 module Contours
   ( Family (..),
     name,
@@ -23,14 +24,16 @@ data Family
     Flange
   | -- | teeth on a ring, with sharp inner corners
     Comb
-  | -- | as 'Comb', with a chamfer in each root that the offset inverts
+  | -- | as 'Comb', with a chamfer in each root; the offset reverses the chamfers
     ChamferedComb
   | -- | a closed curve that fills a square: points near to one another are far apart along the
     -- curve
     Moore
-  | -- | noise smaller than the offset, a segment every mm: about 2.4 crossings for each segment
+  | -- | a circle with noise smaller than the offset, one segment for each mm: the raw offset has
+    -- about 2.4 self-intersections for each segment
     Star
-  | -- | noise on a circle of fixed size: the crossings grow with the square of the segments
+  | -- | as 'Star', on a circle of fixed size: the number of self-intersections grows with the
+    -- square of the number of segments
     FixedStar
   deriving stock (Eq, Show, Enum, Bounded)
 
@@ -52,7 +55,7 @@ sizes family = case family of
   FixedStar -> [1000, 10000, 100000]
   _ -> [1000, 10000, 100000, 1000000]
 
--- | The number of segments of a small contour.
+-- | The number of segments of the small contour that is offset before the measurement.
 small :: Family -> Int
 small family = case family of
   Moore -> 4 ^ (4 :: Int)
@@ -151,13 +154,14 @@ chamfered n i = case i `mod` 6 of
     a = pi / whole teeth
     along = leg / (r - 4)
 
--- | A circle with noise of an amplitude in mm, from the stream of a seed.
+-- | A vertex of a circle of @n@ vertices with radius @r@ and noise up to @amplitude@, both in mm.
 star :: Int -> Double -> Double -> Int -> Int -> Vertex
 star n r amplitude seed i = onCircle (r + amplitude * (2 * u - 1)) (2 * pi * whole i / whole n)
   where
     u = Noise.uniform (fromIntegral seed) (fromIntegral i)
 
--- | Moore's curve of 4^k vertices, 4 mm apart, each displaced by up to 0.7 mm.
+-- | A vertex of Moore's curve. The curve has @n@ vertices, a power of four; they are 4 mm apart,
+-- and each is displaced by up to 0.7 mm.
 moore :: Int -> Int -> Vertex
 moore n i = (4 * whole cx + noise (2 * i), 4 * whole cy + noise (2 * i + 1), 0)
   where
@@ -171,8 +175,8 @@ moore n i = (4 * whole cx + noise (2 * i), 4 * whole cy + noise (2 * i + 1), 0)
       _ -> (side + y, side - 1 - x)
     noise place = 0.7 * (2 * Noise.uniform 3 (fromIntegral place) - 1)
 
--- | Hilbert's curve through a grid whose side is a power of two: the cell at a step, from (0, 0) to
--- (side − 1, 0).
+-- | The cell at a step of Hilbert's curve through a grid. @side@ is a power of two; the curve leads
+-- from (0, 0) to (side − 1, 0).
 hilbert :: Int -> Int -> (Int, Int)
 hilbert side = go 1 0 0
   where

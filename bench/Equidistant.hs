@@ -13,8 +13,7 @@ import Offset.Kernel qualified as Kernel
 import Offset.Loop qualified as Loop
 
 -- | The offset of a closed counter-clockwise contour by a distance in mm, positive outwards; or the
--- reason why there is none. The offset is evaluated completely as soon as the answer is known to be
--- one.
+-- reason why there is none. An evaluated @Right@ contains a completely evaluated offset.
 offset :: Double -> FlatPolyarc -> Either String ReachableRegion
 offset distance source =
   either (Left . show) Right (Kernel.offset (Kernel.roundOffset side (Mm (abs distance))) [source])

@@ -22,11 +22,13 @@ import System.FilePath ((</>))
 import System.IO (hFlush, stdout)
 import Table qualified
 
--- | Our kernel; the peers that keep arcs; the peers that use chords only, by the sagitta in mm.
-data Peers = Peers {ours :: Peer, keepers :: [Peer], chorders :: [Double -> Peer]}
+-- | The compared programs: the kernel of partc, the peers that keep arcs, and the peers that use
+-- chords only, each as a function of the sagitta in mm.
+data Peers = Peers {ours :: Peer, arcPeers :: [Peer], chordPeers :: [Double -> Peer]}
 
--- | The outcomes for one contour and one distance: of ours and the keepers, then of the chorders
--- where they were run.
+-- | The outcomes for one contour and one distance. @exact@ are those of partc and of the peers with
+-- arcs. @chorded@ and @finer@ are those of the peers with chords, at the coarse and the fine
+-- sagitta; they are empty for contours for which these peers were not run.
 data Case = Case
   { family :: Family,
     segments :: Int,
@@ -41,8 +43,8 @@ coarse, fine :: Double
 coarse = 0.01
 fine = 0.001
 
--- | Runs all cases up to about @most@ segments, with their files in a folder. Gives the tables by
--- the names of their places in the page, and the violated expectations.
+-- | Runs all cases up to about @most@ segments, with their files in a folder. Returns the tables,
+-- each with the name of its markers in the page, and the violated expectations.
 compared :: FilePath -> Int -> Peers -> IO ([(Text, Text)], [Text])
 compared folder most peers = do
   createDirectoryIfMissing True folder
@@ -57,10 +59,10 @@ compared folder most peers = do
         ("agreement", agreement cases),
         ("chords", chordsOf peers cases)
       ],
-      concatMap (broken (length (keepers peers))) cases
+      concatMap (broken (length (arcPeers peers))) cases
     )
 
--- | All distances of one contour.
+-- | The cases of one contour, one for each distance.
 ofContour :: FilePath -> Peers -> Family -> Int -> IO [Case]
 ofContour folder peers family segments = do
   small <- written (Contours.small family)
@@ -72,7 +74,8 @@ ofContour folder peers family segments = do
       ContourFile.write file (Contours.contour family n)
       pure file
 
--- | One distance of one contour: the files are those of the small contour and of the measured one.
+-- | The case of one contour and one distance. The files contain the small contour for warming up
+-- and the measured one.
 ofDistance :: Peers -> Family -> Int -> FilePath -> FilePath -> Double -> IO Case
 ofDistance peers family segments small file distance = do
   Text.putStr
@@ -83,7 +86,7 @@ ofDistance peers family segments small file distance = do
           "segments:"
         ]
     )
-  exact <- Peer.interleaved rounds small file distance runs batches (ours peers : keepers peers)
+  exact <- Peer.interleaved rounds small file distance runs batches (ours peers : arcPeers peers)
   chorded <- if isBearable then withChords coarse few' few' 1 else pure []
   finer <- if isMiddling then withChords fine 1 1 0 else pure []
   Text.putStrLn
@@ -103,12 +106,12 @@ ofDistance peers family segments small file distance = do
         distance
         runs'
         batches'
-        (map ($ sagitta) (chorders peers))
+        (map ($ sagitta) (chordPeers peers))
     few' = if isSmall then 3 else 1
     isSmall = segments <= 2000
     isMiddling = segments > 2000 && segments <= 20000
     isLargest = segments > 200000 || (family == FixedStar && segments > 20000)
-    -- The chorders would need minutes for larger ones.
+    -- The peers with chords would need minutes for larger contours.
     isBearable = segments <= 200000 && (family /= FixedStar || segments <= 20000)
     (rounds, runs, batches)
       | isSmall = (5, 20, 5)
@@ -140,14 +143,14 @@ timesOf :: Peers -> [Case] -> Text
 timesOf peers cases =
   Table.table
     ( ["input", "segments", Peer.title (ours peers)]
-        <> map Peer.title (keepers peers)
-        <> map (Peer.title . ($ coarse)) (chorders peers)
-        <> ["ours / " <> Peer.title k | k <- keepers peers]
-        <> ["growth of " <> Peer.title p | p <- ours peers : keepers peers]
+        <> map Peer.title (arcPeers peers)
+        <> map (Peer.title . ($ coarse)) (chordPeers peers)
+        <> ["ours / " <> Peer.title k | k <- arcPeers peers]
+        <> ["growth of " <> Peer.title p | p <- ours peers : arcPeers peers]
     )
     (map (\c -> row c (before c)) cases)
   where
-    count = 1 + length (keepers peers)
+    count = 1 + length (arcPeers peers)
     before c =
       foldl
         (\found x -> if label x == label c && segments x < segments c then Just x else found)
@@ -157,7 +160,7 @@ timesOf peers cases =
       [label c, Decimal.whole (segments c)]
         <> [cell (Table.number . perSegment (segments c)) (Just o) | o <- exact c]
         <> [ cell (Table.number . perSegment (segments c)) (at i (chorded c))
-             | i <- [0 .. length (chorders peers) - 1]
+             | i <- [0 .. length (chordPeers peers) - 1]
            ]
         <> [maybe "–" Table.number (quotient (exact c) i) | i <- [1 .. count - 1]]
         <> [maybe "" growth (both i c earlier) | i <- [0 .. count - 1]]
@@ -175,18 +178,18 @@ memoryOf :: Peers -> [Case] -> Text
 memoryOf peers cases =
   Table.table
     ( ["input", "segments"]
-        <> map Peer.title (ours peers : keepers peers)
-        <> map (Peer.title . ($ coarse)) (chorders peers)
+        <> map Peer.title (ours peers : arcPeers peers)
+        <> map (Peer.title . ($ coarse)) (chordPeers peers)
     )
     [ [label c, Decimal.whole (segments c)]
         <> [cell (bytes c) (Just o) | o <- exact c]
-        <> [cell (bytes c) (at i (chorded c)) | i <- [0 .. length (chorders peers) - 1]]
+        <> [cell (bytes c) (at i (chorded c)) | i <- [0 .. length (chordPeers peers) - 1]]
       | c <- cases
     ]
   where
     bytes c o = Table.number (max 0 (memory o) / fromIntegral (segments c))
 
--- | The differences between ours and the first keeper.
+-- | The differences between the results of partc and of the first peer with arcs.
 agreement :: [Case] -> Text
 agreement cases =
   Table.table
@@ -242,21 +245,21 @@ scientific x
           <> "e"
           <> (if e < 0 then "−" <> Decimal.whole (-e) else Decimal.whole e)
 
--- | The mean distance of the chorders' boundaries from ours, in sagittas: the difference of the
--- areas divided by the length.
+-- | The mean distance of the boundaries with chords from that of partc, in sagittas: the difference
+-- of the areas divided by the length.
 chordsOf :: Peers -> [Case] -> Text
 chordsOf peers cases =
   Table.table
     ( ["input", "segments"]
         <> concat
           [ [Peer.title (p coarse) <> ", " <> s | s <- ["0.01 mm", "0.001 mm"]]
-            | p <- chorders peers
+            | p <- chordPeers peers
           ]
     )
     [ [label c, Decimal.whole (segments c)]
         <> concat
           [ [shown c coarse (at i (chorded c)), shown c fine (at i (finer c))]
-            | i <- [0 .. length (chorders peers) - 1]
+            | i <- [0 .. length (chordPeers peers) - 1]
           ]
       | c <- cases,
         not (null (finer c))

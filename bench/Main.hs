@@ -30,10 +30,11 @@ main = do
       run page folder [(name, drop 1 value) | o <- options, let (name, value) = break (== '=') o]
     _ -> die "bench PAGE FOLDER NAME=COMMAND…"
 
--- | The options: kernel, stages, partc, cost: required commands; cavalier, chords, rs274: optional
--- commands; parts: the parts of the benchmark to run; most: the largest number of segments and
--- elements; seconds: the longest time of a compiler run; about: lines on the machine; before: the
--- build folder of an earlier state, which takes turns with this one.
+-- | Runs the benchmark. The options are commands that are required (kernel, stages, partc, cost)
+-- and optional (cavalier, chords, rs274), and the following. parts: the parts of the benchmark to
+-- run. most: the largest number of segments and elements. seconds: the longest expected time of a
+-- run of the stages. about: lines about the machine. before: the build folder of an earlier state,
+-- which takes turns with this one.
 run :: FilePath -> FilePath -> [(String, String)] -> IO ()
 run page folder options = do
   place "machine" (Text.unlines ["- " <> l | l <- Text.lines (Text.pack (option "about" ""))])
@@ -62,12 +63,12 @@ run page folder options = do
     peers =
       Peers
         { ours = Peer "ours" (words (option "kernel" "kernel")),
-          keepers =
+          arcPeers =
             [Peer "cavalier_contours" (words c) | Just c <- [lookup "cavalier" options]]
               <> [ Peer "before" [earlier </> "build/kernel/kernel"]
                    | Just earlier <- [lookup "before" options]
                  ],
-          chorders =
+          chordPeers =
             [ \sagitta -> Peer title (words c <> [library, show sagitta])
               | Just c <- [lookup "chords" options],
                 (title, library) <- [("GEOS", "geos"), ("Clipper2", "clipper2")]

@@ -17,11 +17,13 @@ import System.Exit (ExitCode (..))
 import System.Process (readProcessWithExitCode)
 import Text.Read (readMaybe)
 
--- | The name of a program; its command line before the files, the distance, runs and batches.
+-- | A program that offsets contours: its name, and its command line without the last arguments,
+-- which are two files, the distance, and the numbers of runs and batches.
 data Peer = Peer {title :: Text, start :: [String]}
 
--- | The result: nanoseconds of each batch; area in mm², length in mm; numbers of loops, open
--- sections and vertices; bytes.
+-- | The result of a program. @times@ are the nanoseconds of one run, for each batch. @area@ (mm²)
+-- and @long@, the length (mm), are those of the offset; @loops@, @open@ and @vertices@ count its
+-- closed loops, open polyarcs and vertices. @memory@ is in bytes.
 data Outcome = Outcome
   { times :: [Double],
     area :: Double,
@@ -79,8 +81,8 @@ offset peer small file distance runs batches =
               Right Outcome {times = ts, area, long, loops, open, vertices, memory}
             _ -> Left ("what it printed is not understood: " <> Text.take 200 out)
 
--- | The output of a command; or the reason if it fails or takes longer than @seconds@. The first
--- line of its output gives the reason, the next ones only positions.
+-- | The output of a command; or the reason if it fails or takes longer than @seconds@. The reason
+-- of a failure is the first line that the command prints; further lines only give positions.
 command :: Int -> [String] -> IO (Either Text Text)
 command seconds wanted = do
   (status, out, err) <- readProcessWithExitCode "timeout" (show seconds : wanted) ""

@@ -30,13 +30,13 @@ data Kind
   | -- | closed arcs through the rows of a file of comma-separated values, 19 mm apart, with noise
     -- of 2 mm: each arc needs a frame of its own
     ArcsFile
-  | -- | a polyline through the rows of such a file, 3 mm apart, with noise of 0.5 mm, milled on its
-    -- line: each line needs a frame of its own
+  | -- | a polyline through the rows of a file, 3 mm apart, with noise of 0.5 mm, milled @on@: each
+    -- line needs a frame of its own
     LinesFile
-  | -- | as 'LinesFile', milled outside: inner corners that the cutter does not reach, and as many
-    -- outer corners, which it rounds on an arc
+  | -- | as 'LinesFile', milled @outside@: the cutter does not reach the inner corners, which are
+    -- half of all corners, and rounds the outer ones on an arc
     CornersFile
-  | -- | a hole at each row of such a file, 3 mm apart
+  | -- | a hole at each row of a file, 3 mm apart
     HolesFile
   deriving stock (Eq, Show, Read, Enum, Bounded)
 
@@ -53,12 +53,12 @@ name kind = case kind of
   CornersFile -> "corners, csv"
   HolesFile -> "holes, csv"
 
--- | The largest number of elements. Ten times as many would need more than a million frames, or
--- more space than a drawing has; programs written by hand are smaller.
+-- | The largest number of elements. With ten times as many, the program would need more than a
+-- million frames, or coordinates beyond the largest one; programs written by hand are smaller.
 most :: Kind -> Int
 most kind = if kind `elem` [Rows, Wavy, LinesFile] then 1000000 else 100000
 
--- | The text of a program, and the files that it reads.
+-- | The text of a program, and the files that it reads, by their names.
 data Written = Written {text :: Text, files :: [(FilePath, Text)]}
 
 -- | A program of @n@ elements, statements or rows.
@@ -97,7 +97,8 @@ written kind n = case kind of
         )
         []
 
--- | Elements on a circle. The parameter @half@ is half of the distance between them in mm.
+-- | A program whose elements lie on a circle. @half@ is half of the distance between neighbours in
+-- mm; the function writes an element from its x and y.
 ring :: Double -> Int -> (Text -> Text -> Text) -> Text
 ring half n element =
   header "ring" 10 (r + 20)

@@ -69,8 +69,8 @@ printed (o, d) = do
           ]
       )
 
--- | The seed; the file to write; the peer's program; the largest number of lines to print; the
--- judge's program and its arguments, or nothing.
+-- | The arguments of the program: the seed, the file to write, the peer's program, the largest
+-- number of contours to print, and the judge's program with its arguments (empty without a judge).
 data Task = Task
   { seed :: Word64,
     file :: FilePath,
@@ -79,11 +79,12 @@ data Task = Task
     judge :: [String]
   }
 
--- | The sums of an offset: area, length, closed loops, open sections.
+-- | The measures of an offset: area in mm², length in mm, numbers of closed loops and open
+-- polyarcs.
 data Sums = Sums {area :: Double, long :: Double, loops :: Int, open :: Int}
 
--- | The index of a contour; the kernel's answer, both answers of the peer, and the peer's answer
--- for a slightly larger offset.
+-- | All answers for one contour, with its index: that of the kernel, both of the peer, and the
+-- peer's answer for a slightly larger offset.
 data Answer = Answer
   { index :: Int,
     ours :: Either Text Sums,
@@ -92,8 +93,8 @@ data Answer = Answer
     larger :: Sums
   }
 
--- | The peer's answer for a slightly smaller offset, and the judge's answer for a slightly larger
--- one.
+-- | Further answers for a contour: the peer's for a slightly smaller offset, and the judge's for a
+-- slightly larger one.
 data Beside = Beside {smaller :: Sums, judged :: Maybe Sums}
 
 -- | The classes of differences.
@@ -173,7 +174,7 @@ judgedAnswers task those
   where
     judged = file task <> ".judged"
 
--- | The number of contours in each class, by their kind.
+-- | Prints the number of contours in each class, separately for the three kinds of contours.
 printClasses :: Int -> [(Class, Int)] -> IO ()
 printClasses count classes =
   forM_ [minBound ..] $ \c ->
@@ -183,14 +184,14 @@ printClasses count classes =
         putStrLn
           (name <> ": " <> show n <> " of " <> show ((count + 2 - kind) `div` 3) <> " " <> named c)
 
--- | The relative difference of slightly larger and smaller offsets; for a judge that uses chords, a
--- larger difference.
+-- | The shares of the distance by which slightly larger and smaller offsets differ: for the peer,
+-- and, larger, for a judge that uses chords.
 nudge, chordNudge :: Double
 nudge = 1e-8
 chordNudge = 1e-7
 
--- | Writes contours, with their offsets times a factor, to a file, and reads the answers of a
--- command.
+-- | The answers of a command for contours. Writes the contours to a file, with their offsets
+-- multiplied by a factor, and runs the command on this file.
 answersOf :: Task -> Double -> FilePath -> [String] -> [Int] -> IO [Sums]
 answersOf task factor to command those = do
   withBinaryFile to WriteMode $ \handle -> forM_ those $ \i -> do

@@ -1,5 +1,5 @@
--- | Small closed contours that do not cross themselves, by a seed and an index: a third with
--- integer vertices, a third with arcs, a third noisy. Each comes with an offset in mm.
+-- | Small closed contours that do not cross themselves, determined by a seed and an index. A third
+-- of them has integer vertices, a third has arcs, and a third has noise. Each has an offset in mm.
 module RandomContour
   ( contour,
   )

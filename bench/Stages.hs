@@ -118,7 +118,7 @@ stages machine Written {text, files} = do
     proof path program tape =
       readBack machine program tape >>= reported . Compile.prove machine path program
 
--- | Reads a tape that should hold the frames of a program.
+-- | The frames of a tape, which must be those of a program.
 readBack :: Machine -> Frame.FrameProgram -> Tape -> Either Text [Frame.Frame]
 readBack machine program tape =
   first
@@ -130,7 +130,8 @@ readBack machine program tape =
         tape
     )
 
--- | Measures a stage, whose output the number needs completely.
+-- | Runs a stage and prints its time. The function computes a number for which the whole output
+-- must be evaluated.
 stage :: String -> (a -> Int) -> IO (Either Text a) -> IO a
 stage title summary action = do
   begin <- getCPUTime

@@ -1,4 +1,4 @@
--- | Tables of a Markdown page, and their places in the page.
+-- | Tables of a Markdown page, and the markers between which they are written.
 module Table
   ( Row,
     table,
@@ -35,8 +35,8 @@ number x
 exponent :: (Int, Double) -> (Int, Double) -> Double
 exponent (n, t) (n', t') = logBase (fromIntegral n' / fromIntegral n) (t' / t)
 
--- | Puts a text between @<!-- NAME -->@ and @<!-- end of NAME -->@ of a page. The answer is false
--- if the page has no such place.
+-- | Replaces the text between @<!-- NAME -->@ and @<!-- end of NAME -->@ in a page. The result is
+-- False if the page lacks these markers.
 replace :: FilePath -> Text -> Text -> IO Bool
 replace file name text = do
   page <- Text.readFile file

@@ -23,8 +23,8 @@ import System.IO (hFlush, stdout)
 import Table qualified
 import Text.Read (readMaybe)
 
--- | The commands: the timer of the stages, partc, the timer of a command, the interpreter if it is
--- installed.
+-- | The commands that are run: the program that times the stages, partc, the program that times a
+-- command, and the interpreter if it is installed.
 data Tools = Tools
   { timer :: FilePath,
     partc :: FilePath,
@@ -49,8 +49,8 @@ staged tools most allowed =
 -- | A size and its runs, or the reason why there are none.
 type Size = (Int, Either Text [Staged])
 
--- | Runs all sizes in turn, so that a temporary slow-down of the machine affects all of them:
--- growth is computed from neighbouring measurements.
+-- | The rows of one kind of program on one machine. All sizes are run in turn, so that a temporary
+-- slow-down affects all of them: growth compares measurements that are close in time.
 ofKind :: Tools -> Int -> Double -> (Kind, Text) -> IO [Table.Row]
 ofKind tools most allowed (kind, machine) = do
   once <- foldM first [] (takeWhile (<= min most largest) [100, 1000, 10000, 100000, 1000000])
@@ -91,12 +91,13 @@ expectedTime before = case before of
   (_, Left _) : _ -> 1 / 0
   [] -> 0
 
--- | The number of runs of a size: at most about twelve seconds.
+-- | The number of runs of a size: 5, 3 or 1, but fewer if they would take more than about twelve
+-- seconds.
 turns :: Int -> Staged -> Int
 turns n s = min (if n <= 1000 then 5 else if n <= 100000 then 3 else 1) (ceiling (12000 / total s))
 
--- | The rows of a size: the first cells, the runs of a thousand elements for the growth, the size
--- and its medians.
+-- | The rows of a size, made from the first cells, the medians of 1,000 elements (for the growth),
+-- the size and its medians.
 sizeRows :: [Text] -> [(Int, Staged)] -> Int -> Either Text Staged -> [Table.Row]
 sizeRows start thousand n outcome = case outcome of
   Left why -> [start <> (if why == "–" then replicate 10 why else [Text.take 80 why])]
@@ -237,7 +238,8 @@ besideInterpreter tools folder programs allowed = do
 -- | Seconds and peak kilobytes of a command, or the reason of its failure.
 type Cost = Either Text (Double, Double)
 
--- | Runs both on one program. The answer is the row of the table, and whether partc failed.
+-- | Runs partc and the interpreter on one program. The result is True if partc failed, with the row
+-- of the table.
 compiledAndInterpreted :: Tools -> FilePath -> Double -> Kind -> Int -> IO (Bool, Table.Row)
 compiledAndInterpreted tools folder allowed kind n = do
   forM_ ((source, text) : [(folder </> name, t) | (name, t) <- files]) (uncurry Text.writeFile)

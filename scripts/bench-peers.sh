@@ -1,8 +1,9 @@
-# Read by the scripts of the benchmark: the peers of the kernel, from crates.io and PyPI.
-# Each function says what is missing and goes on. They want $root and $work and set
+# Functions for the scripts of the benchmark. They fetch the peers of the offset kernel from crates.io
+# and PyPI. If a peer cannot be fetched, they print the reason and continue. They use $root, the folder
+# of the sources, and $work, a folder for files of the benchmark. They set these variables:
 #   cavalier  the folder of the Rust programs, or nothing
-#   chords    the command of the libraries that know chords only, or nothing
-#   venv      where they are installed
+#   chords    the command that runs the libraries without arcs (GEOS, Clipper2), or nothing
+#   venv      the Python environment in which these libraries are installed
 
 cavalier=
 chords=

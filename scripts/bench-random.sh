@@ -1,7 +1,9 @@
 #!/usr/bin/env bash
-# bench-random.sh COUNT SEED [LIMIT]: offsets random contours with the kernel and with cavalier_contours, counts how many differ in
-# which way, and lists at most LIMIT on which the judges do not find the kernel right: cavalier_contours beside the offset, and
-# GEOS if it can be fetched. After `make bench`, or after stack has built the benchmark as make bench does.
+# bench-random.sh COUNT SEED [LIMIT]: offsets random contours with the kernel and with cavalier_contours,
+# and counts the differences of each class. Two judges decide which answer is right: cavalier_contours
+# with slightly larger and smaller offsets, and GEOS if it can be fetched. The script lists at most
+# LIMIT contours for which they do not find the kernel right. Run `make bench` before: it builds the
+# programs of the benchmark.
 set -euo pipefail
 
 root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)

@@ -1,13 +1,13 @@
 #!/usr/bin/env bash
-# Fetches and builds the peers of the benchmark as far as they can be had, and runs it.
-# Its argument is the folder in which stack has built; everything else is written below build/bench,
-# but for the tables, which go to docs/performance.md.
+# Fetches and builds the available peers of the benchmark, and runs it. The argument is the folder in
+# which stack has built the benchmark. The tables are written into docs/performance.md, all other files
+# below build/bench.
 #
-# A second argument is the folder in which an earlier state was built: then the kernels and the stages
-# of both take turns, peers are left out, and the tables go to build/bench/before.md.
+# A second argument is the folder in which an earlier state was built. Then the kernels and the stages
+# of both states take turns, there are no other peers, and the tables go to build/bench/before.md.
 #
-# PARTC_BENCH_MOST=10000 leaves larger inputs out; PARTC_BENCH_PARTS='kernel stages whole' chooses;
-# PARTC_BENCH_SECONDS is how long a stage's run may take to be expected.
+# PARTC_BENCH_MOST=10000 leaves out larger inputs. PARTC_BENCH_PARTS='kernel stages whole' chooses the
+# parts. PARTC_BENCH_SECONDS is the largest expected time, in seconds, of a run of the stages.
 set -euo pipefail
 
 dist=$1
@@ -42,7 +42,7 @@ else
   fetch_cavalier
   fetch_chords
   rs274=$(command -v rs274 || true)
-  [[ -n $rs274 ]] || printf 'bench: rs274 is not installed, so the whole compile is timed without it\n'
+  [[ -n $rs274 ]] || printf 'bench: rs274 is not installed; the whole compile is not compared with an interpreter\n'
 fi
 
 options=(

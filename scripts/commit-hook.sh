@@ -1,10 +1,10 @@
 #!/usr/bin/env bash
-# Installs the hook scripts/commit-msg where the sources are a git checkout. Leaves another hook alone.
+# Installs the hook scripts/commit-msg if the sources are a git checkout. Does not replace another hook.
 set -euo pipefail
 
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 top=$(git rev-parse --show-toplevel 2>/dev/null) || exit 0
-# The sources may lie inside the checkout of something else.
+# The sources may lie inside the checkout of another project; then no hook is installed.
 [[ $top -ef . ]] || exit 0
 if [[ -n $(git config core.hooksPath || true) ]]; then exit 0; fi
 
@@ -14,7 +14,7 @@ if [[ -e $hook ]] && ! grep -q 'scripts/commit-msg' "$hook"; then
   exit 0
 fi
 mkdir -p "$(dirname "$hook")"
-# Branches without the script commit as before.
+# On a branch without scripts/commit-msg the hook accepts every commit.
 cat >"$hook" <<'EOF'
 #!/bin/sh
 script=$(git rev-parse --show-toplevel)/scripts/commit-msg

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# Reads the subjects of commits, one on a line, and fails when one breaks the rule:
-# an order in at most 72 characters, its verb first (scripts/commit-verbs.txt), without a semicolon.
+# Reads the subjects of commits, one in each line, and fails if one breaks the rule: a subject is an
+# order of at most 72 characters that begins with a verb of scripts/commit-verbs.txt. It has no semicolon.
 set -euo pipefail
 
 verbs=$(dirname "${BASH_SOURCE[0]}")/commit-verbs.txt

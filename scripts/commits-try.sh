@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Shows that the commit hook refuses what it should and accepts the rest: in a repository made for it.
+# Tests the commit hook in a temporary repository: it accepts subjects that keep the rule, and refuses others.
 set -euo pipefail
 
 here=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
@@ -7,7 +7,7 @@ place=$(mktemp -d)
 trap 'rm -rf "$place"' EXIT
 export GIT_CONFIG_GLOBAL=/dev/null GIT_CONFIG_SYSTEM=/dev/null
 export GIT_AUTHOR_NAME=t GIT_AUTHOR_EMAIL=t@localhost GIT_COMMITTER_NAME=t GIT_COMMITTER_EMAIL=t@localhost
-# A hook or a rebase that runs this must not redirect it.
+# If a hook or a rebase runs this script, git has set these variables to another repository.
 unset GIT_DIR GIT_WORK_TREE GIT_INDEX_FILE
 
 wrong() {
@@ -44,14 +44,14 @@ refuses 'Compute exact intersections
 of all curves and lines, which without an empty line is still the subject'
 refuses 'Merge what belongs together; also more'
 
-# What git itself writes of a merge is let through.
+# The subject that git writes for a merge is accepted.
 git checkout -q -b 'a-branch-with-a-name-so-long-that-the-subject-of-its-merge-exceeds-seventy-two' HEAD~
 accepts 'Add a branch'
 git checkout -q main
 git merge -q --no-ff --no-edit '-' 2>/dev/null || wrong 'refuses a merge by git'
 bash scripts/commits.sh || wrong 'refuses commits that keep to the rule'
 
-# A commit made without the hook is found later.
+# commits.sh finds a commit that was made without the hook.
 git commit -q --no-verify --allow-empty -m 'Subjects without a verb'
 if bash scripts/commits.sh 2>/dev/null; then wrong 'overlooks a commit'; fi
 

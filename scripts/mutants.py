@@ -9,7 +9,7 @@
 A mutant is a text:
 
     law: the name of the test that has to fail
-    bug: what is wrong then
+    bug: what is wrong with it
     module: Geometry.Curve.PointSearch        (or  file: docs/language.md)
     definition: merged                        (a top-level name; none for a file)
     --- instead of
@@ -17,7 +17,7 @@ A mutant is a text:
     --- put
     the expression with the bug
 
-Expressions are compared token by token: neither line breaks nor comments matter.
+Expressions are compared token by token: line breaks and comments make no difference.
 """
 import glob
 import os
@@ -40,7 +40,7 @@ def tokens(text):
 
 
 class Unfit(Exception):
-    """A mutant that cannot be put in, and why."""
+    """The reason why a mutant does not apply to the sources."""
 
 
 def parse(name):
@@ -62,7 +62,7 @@ def path_of(fields):
 
 
 def extent(source, definition):
-    """The offsets at which a top-level definition begins and ends, its signature left out."""
+    """The offsets at which a top-level definition begins and ends, without its signature."""
     starts = [m for m in re.finditer(r"^(?=\S)(?!--|\{-)", source, re.M)]
     blocks = []
     for here, following in zip(starts, starts[1:] + [None]):
@@ -99,7 +99,7 @@ def place(source, fields, old):
 
 
 def mutated(source, fields, old, new):
-    """The source with the bug; further lines are indented as the first one is."""
+    """The source with the bug. All lines of the new expression get the indentation of its first line."""
     begin, end = place(source, fields, old)
     if "module" in fields:
         column = begin - (source.rfind("\n", 0, begin) + 1)

@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # Puts the bug of every test/mutants/*.mutant into a copy of the sources, one at a time, and runs the law
-# that has to notice it. Fails at once when a mutant no longer applies, and in the end when a law has
-# not noticed its bug. Names as arguments choose some of the mutants.
+# that has to notice it. Fails at once if a mutant does not apply to the sources. Fails at the end if a
+# law has not noticed its bug. Arguments are names of mutants; with arguments only these are tried.
 set -u
 top=$(cd "$(dirname "$0")/.." && pwd)
 copy=$top/build/mutants
@@ -11,12 +11,12 @@ mutants() { python3 "$top/scripts/mutants.py" "$@"; }
 mutants check "$@" || { echo "these mutants do not apply to the sources as they are"; exit 1; }
 
 mkdir -p "$copy"
-# Only files that differ are copied, whatever their times: the build compares times.
+# Only files with other contents are copied: a copy has a new time, and would be compiled again.
 (cd "$top" && git ls-files --cached --others --exclude-standard | while IFS= read -r f; do
   [ ! -f "$f" ] || cmp -s "$f" "$copy/$f" || cp --parents "$f" "$copy"
 done)
 cd "$copy" || exit 1
-# Files that were removed since are removed here too.
+# Files that the sources no longer have are removed from the copy.
 find app bench src test machines explain -type f | while IFS= read -r f; do [ -f "$top/$f" ] || rm -f "$f"; done
 
 chosen=("$@")

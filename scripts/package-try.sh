@@ -1,10 +1,10 @@
 #!/usr/bin/env bash
-# Installs the Debian package and unpacks the archive, each in a Debian 12 of its own without Haskell,
-# compiles an example there, and compares the tape with the one that the program makes here.
+# Tries the Debian package and the archive, each in a Debian 12 of its own without Haskell: installs or
+# unpacks it, compiles an example, and compares the tape with the one that PARTC makes on this system.
 #
 #   package-try.sh PARTC DEB ARCHIVE
 #
-# Needs root. The bare system is kept in build/try; PARTC_MIRROR names another mirror of Debian.
+# Needs root. The new Debian 12 is kept in build/try. PARTC_MIRROR names another mirror of Debian.
 set -euo pipefail
 
 partc=$1
@@ -33,7 +33,7 @@ fi
 
 "$partc" compile "$root/examples/flange.part" -o "$try/here.tape"
 
-# A copy of the bare system, for one trial. The archive's has none of the libraries that it brings along.
+# Makes a copy of the new Debian 12 for one trial. For the archive, the libraries that it contains are removed from the copy below.
 fresh() {
   rm -rf "$try/system"
   cp -a "$try/bare" "$try/system"
@@ -41,7 +41,8 @@ fresh() {
   cp "$root/examples/flange.part" "$try/system/root/"
 }
 
-# With a /proc of its own, which goes away with the command: the archive's program finds its libraries by it.
+# Runs a command inside the copy. The command has a /proc of its own, by which the archive's program finds
+# its libraries; it is unmounted when the command ends.
 inside() { unshare --pid --fork --mount-proc --root="$try/system" /usr/bin/env -i HOME=/root PATH="$path" "$@"; }
 
 compiles() {
@@ -62,7 +63,7 @@ inside dpkg -s partc | grep '^Depends:'
 contents=$(dpkg-deb -c "$deb")
 for file in share/man/man1/partc.1.gz share/bash-completion/completions/partc share/zsh/vendor-completions/_partc \
   share/fish/vendor_completions.d/partc.fish share/partc/machines/lkp-01f.machine share/partc/explain/E0101.md; do
-  # dpkg of a bare system may leave manual pages out; the package has them all the same.
+  # The contents of the package are examined, because the dpkg of a minimal system may not install manual pages.
   [[ $contents == *"./usr/$file"* ]] || fail "the package has no $file."
 done
 compiles "${deb##*/}"
@@ -70,7 +71,7 @@ compiles "${deb##*/}"
 fresh
 tar -C "$try/system/root" -xzf "$archive"
 folder=$(basename "$archive" .tar.gz)
-# The libraries that the archive brings along are taken from the system, so that the archive's own are used.
+# Remove from the system the libraries that the archive contains, so that those of the archive are used.
 for library in "$try/system/root/$folder/lib/partc"/*; do
   find "$try/system/usr/lib" "$try/system/lib" -name "${library##*/}*" -delete 2>/dev/null || true
 done

@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Packs the program that `make build` made.
+# Packs the program that `make build` has built.
 #
 #   package.sh deb PARTC DIR    DIR/partc_VERSION_ARCH.deb, for dpkg
 #   package.sh dist PARTC DIR   DIR/partc-VERSION-linux-ARCH.tar.gz, to be unpacked anywhere
@@ -17,14 +17,14 @@ mkdir -p "$out"
 out=$(cd "$out" && pwd)
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
-# Files say the time of the last change, so that the same sources give the same package.
+# All files get the time of the last commit, so that the same sources give the same package.
 SOURCE_DATE_EPOCH=${SOURCE_DATE_EPOCH:-$(git -C "$root" log -1 --format=%ct 2>/dev/null || date +%s)}
 export SOURCE_DATE_EPOCH
 
 put() { install -D -m 644 "$1" "$2"; }
 packed() { mkdir -p "$(dirname "$2")" && gzip -9nc "$1" >"$2" && chmod 644 "$2"; }
 
-# What both contain, below a folder that serves as /usr.
+# Copies the files that both the package and the archive contain into a folder, which corresponds to /usr.
 fill() {
   local usr=$1 file
   install -D -m 755 "$partc" "$usr/bin/partc"
@@ -32,7 +32,7 @@ fill() {
   packed "$root/docs/partc.1" "$usr/share/man/man1/partc.1.gz"
   mkdir -p "$usr/share/bash-completion/completions" "$usr/share/zsh/vendor-completions" "$usr/share/fish/vendor_completions.d"
   (
-    # The scripts name the program as it was called: by its name alone.
+    # The completion scripts contain the name by which partc was called, so it is called without a path.
     PATH=$usr/bin:$PATH
     partc --bash-completion-script partc >"$usr/share/bash-completion/completions/partc"
     partc --zsh-completion-script partc >"$usr/share/zsh/vendor-completions/_partc"
@@ -85,7 +85,7 @@ dist() {
   local name=partc-$version-linux-$arch tree library path
   tree=$work/$name
   fill "$tree"
-  # All shared libraries but those of the C library itself, which every system has.
+  # All shared libraries except those of the C library, which every system has.
   mkdir -p "$tree/lib/partc"
   ldd "$tree/bin/partc" | while read -r library _ path _; do
     case $library in

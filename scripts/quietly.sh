@@ -1,8 +1,8 @@
 #!/usr/bin/env bash
-# Runs a build and shows how far it is: the modules that GHC compiles, "[57 of 241] Geometry.Offset".
-# On a terminal each overwrites the one before; elsewhere every 20th and the last are printed.
-# Keeps the rest of the output to itself. When the command fails, shows all of it;
-# when it succeeds, the compiler's warnings.
+# Runs a build and shows its progress: the modules that GHC compiles, as "[57 of 241] Geometry.Offset".
+# On a terminal each of these lines overwrites the one before. Elsewhere every 20th and the last are
+# printed. All other output is hidden. If the command fails, all of its output is shown; if it succeeds,
+# only the compiler's warnings.
 set -uo pipefail
 
 log=$(mktemp)
@@ -10,8 +10,8 @@ trap 'rm -f "$log"' EXIT
 
 if [[ -t 1 ]]; then terminal=1; else terminal=0; fi
 
-# Debian's mawk would read a pipe in large portions; -W interactive makes it read lines.
-# Other awks warn of the option, so it goes to mawk alone.
+# Debian's mawk reads a pipe in large portions; with -W interactive it reads line by line.
+# Other versions of awk warn of this option, so only mawk gets it.
 awk=(awk)
 if awk -W version 2>&1 </dev/null | grep -q '^mawk'; then awk=(awk -W interactive); fi
 
@@ -37,7 +37,7 @@ status=${PIPESTATUS[0]}
 if ((status != 0)); then
   cat "$log"
 else
-  # A warning is a line that says so and the indented lines after it.
+  # A warning is a line with "warning:" and the indented lines after it.
   awk '/: warning:/ { shown = 1; print; next }
        shown && /^[[:space:]]/ { print; next }
        shown && /^[[:digit:]]* *\|/ { print; next }

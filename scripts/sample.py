@@ -1,11 +1,11 @@
 #!/usr/bin/env python3
-"""Draws passages of the project at random, to be read as a newcomer reads them.
+"""Chooses texts of the project at random. A reader who is new to the project then says which are clear.
 
     sample.py SEED [comments|definitions|passages|homes]
 
-Without a kind: 60 comments, 40 exported definitions and 20 passages of the documents.
-`homes` draws 20 exported definitions without the names of their modules: the reader says in which
-folder and module each would be sought; `sample.py SEED answers` gives the modules.
+Without a kind it prints 60 comments, 40 exported definitions and 20 passages of the documents. With
+`homes` it prints 20 exported definitions without their modules: the reader says in which folder and
+module they would look for each. `sample.py SEED answers` prints these modules.
 """
 import glob
 import os
@@ -64,7 +64,7 @@ def definitions():
 
 
 def passages():
-    """The paragraphs and list items of the documents, tables and blocks of code left out."""
+    """The paragraphs and list items of the documents, without tables and blocks of code."""
     found = []
     for path in [os.path.join(TOP, "README.md"), os.path.join(TOP, "CONTRIBUTING.md")] + sorted(
         glob.glob(os.path.join(TOP, "docs", "*.md"))

@@ -1,11 +1,11 @@
 #!/usr/bin/env bash
 # Installs the Debian packages of scripts/packages.txt that are missing.
-# Says nothing and touches nothing when all are there.
+# If none is missing, it prints nothing and changes nothing.
 #
 #   setup.sh build test    the packages of these groups
-#   setup.sh               those of build, test and check: all that a change needs
+#   setup.sh               the packages of build, test and check, which work on partc needs
 #
-# PARTC_NO_SETUP=1 skips it, for a system where the tools come from elsewhere.
+# With PARTC_NO_SETUP=1 it does nothing. Use this on a system whose compiler and libraries are not Debian's.
 set -euo pipefail
 
 here=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
@@ -42,7 +42,7 @@ if ! command -v dpkg-query >/dev/null || ! command -v apt-get >/dev/null; then
     "Install their counterparts (GHC 9.0.2) and run make again with PARTC_NO_SETUP=1."
 fi
 
-# dpkg-query fails when it does not know a name; such a name is simply missing.
+# dpkg-query fails if it does not know a name. Such a package counts as missing.
 declare -A have=()
 while read -r name status; do
   if [[ $status == installed ]]; then have[$name]=1; fi
@@ -80,7 +80,7 @@ apt() {
     apt-get -q -y -o DPkg::Lock::Timeout=300 "$@" </dev/null >>"$log" 2>&1
 }
 
-# A failed update need not matter: the packages may be known or cached already.
+# A failed update is ignored, because the packages may be known or cached already.
 apt update || true
 if ! apt install --no-install-recommends "${missing[@]}"; then
   cat "$log" >&2

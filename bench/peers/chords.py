@@ -1,13 +1,13 @@
 #!/usr/bin/env python3
-"""Offsets by libraries that know chords only: GEOS (through shapely) and Clipper2 (through pyclipr).
+"""Offsets by libraries without arcs: GEOS (through shapely) and Clipper2 (through pyclipr).
 
     chords.py LIBRARY SAGITTA SMALL FILE D RUNS BATCHES
 
-FILE holds little-endian doubles, x y bulge for each vertex of one closed contour. Arcs, of the contour and of the offset,
-become chords that leave them by SAGITTA mm at most; that is done before the clock starts. Prints for every batch the
-nanoseconds of processor time of one run, then what came out of the last one and how far the first one raised the peak
-of memory. Before that the contour of SMALL is offset a hundred times, so that the code, and what memory it keeps, are there
-by then. LIBRARY is geos or clipper2; `chords.py versions` prints what is installed.
+FILE contains one closed contour: little-endian doubles, x y bulge for each vertex. The arcs of the contour become chords with
+a sagitta of at most SAGITTA mm before the measurement starts; the libraries make such chords of the arcs of the offset. The
+program prints for every batch the nanoseconds of processor time of one run, then the result of the last run and the rise of
+peak memory in the first run. Before that it offsets the contour of SMALL a hundred times, so that the code and the memory
+that the library keeps are allocated. LIBRARY is geos or clipper2; `chords.py versions` prints the installed versions.
 """
 import math
 import sys
@@ -30,7 +30,7 @@ def chorded(vertices, sagitta):
     which = np.repeat(np.arange(len(at)), counts)
     part = np.arange(len(which)) - np.repeat(np.cumsum(counts) - counts, counts)
     turned = sweep[which] * part / counts[which]
-    # A point of the arc that has turned by so much: along the chord, and to the right of it.
+    # The point of the arc after the angle `turned`, as a multiple of the chord rotated by an angle.
     whole = np.where(curved, sweep, 1.0)[which]
     share = np.where(curved[which], np.sin(turned / 2) / np.sin(whole / 2), 0.0)
     angle = np.where(curved[which], (turned - whole) / 2, 0.0)
@@ -40,7 +40,7 @@ def chorded(vertices, sagitta):
 
 
 def step(radius, sagitta):
-    """The angle of a chord that leaves an arc by so much."""
+    """The angle that a chord with this sagitta subtends at the centre of an arc."""
     return 2 * np.arccos(np.maximum(0.0, 1 - sagitta / radius))
 
 
@@ -61,7 +61,7 @@ def geos(points, distance, sagitta):
 def clipper2(points, distance, sagitta):
     import pyclipr
 
-    # Its numbers are whole ones: here nanometres.
+    # Clipper2 computes with whole numbers: here nanometres.
     offsetter = pyclipr.ClipperOffset()
     offsetter.scaleFactor = 1_000_000
     offsetter.arcTolerance = sagitta * offsetter.scaleFactor
@@ -79,7 +79,7 @@ def clipper2(points, distance, sagitta):
 
 
 def memory(line):
-    """Kilobytes of a line of the process's status."""
+    """The kilobytes in a line of /proc/self/status."""
     with open("/proc/self/status", encoding="ascii") as status:
         return next((int(l.split()[1]) for l in status if l.startswith(line + ":")), 0)
 

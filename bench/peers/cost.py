@@ -1,12 +1,12 @@
 #!/usr/bin/env python3
-"""What a command costs: cost.py COMMAND… runs it with its output thrown away and prints the seconds of processor time
-that it took, in user and in system mode together, and the most kilobytes that it held. Its status is that of the command.
+"""The cost of a command: cost.py COMMAND… runs the command without its output, and prints the seconds of processor time in
+user and system mode together, and its peak memory in kilobytes. It fails if the command fails.
 """
 import resource
 import subprocess
 import sys
 
-# What was run to start this program counts as its children, too.
+# Processes that ran before, to start this program, count as its children too; their time is subtracted.
 before = resource.getrusage(resource.RUSAGE_CHILDREN)
 done = subprocess.run(sys.argv[1:], stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True)
 used = resource.getrusage(resource.RUSAGE_CHILDREN)

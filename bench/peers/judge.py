@@ -1,11 +1,12 @@
 #!/usr/bin/env python3
-"""The offsets of many small contours by GEOS, of which the corners' arcs become many fine chords.
+"""The offsets of many small contours by GEOS, with many short chords for each arc.
 
     judge.py FILE
 
-FILE holds one record after another, all numbers little-endian of eight bytes: how many vertices (an integer), the offset D in
-mm, then x y bulge for each vertex. Prints a line for each contour: the area of its offset, the length, the number of
-loops, and 0. D > 0 leads outwards. The chords leave an arc by less than 1e-7 of D on its inside.
+FILE contains one record for each contour, of little-endian numbers of eight bytes: the number of vertices (an integer), the
+offset D in mm, then x y bulge for each vertex. D > 0 is outwards. The program prints a line for each contour: the area of
+its offset, the length, the number of loops, and 0 open polyarcs. The chords of the offset lie inside its arcs, with a sagitta
+of less than 1e-7 of D.
 """
 import sys
 
@@ -13,9 +14,9 @@ import numpy as np
 import shapely
 from chords import chorded
 
-# A quarter of a turn.
+# The number of chords for a quarter of a turn.
 CHORDS = 4096
-# How far chords of the contour's own arcs leave them, in mm.
+# The sagitta of the chords of the contour's own arcs, in mm.
 SAGITTA = 1e-8
 
 

@@ -1,10 +1,10 @@
-//! What both programs need: contours from binary files, measures of results, the clock and the memory of the process.
+//! Functions of both programs: contours from binary files, measures of results, the time and the memory of the process.
 
 use cavalier_contours::polyline::{PlineCreation, PlineSource, PlineSourceMut, Polyline};
 use std::fs::{self, File};
 use std::io::{self, BufReader, ErrorKind, Read};
 
-/// One little-endian number of eight bytes; nothing at the end of the file.
+/// One little-endian number of eight bytes, or nothing at the end of the file.
 pub fn number(from: &mut impl Read) -> io::Result<Option<[u8; 8]>> {
     let mut bytes = [0; 8];
     match from.read_exact(&mut bytes) {
@@ -14,7 +14,7 @@ pub fn number(from: &mut impl Read) -> io::Result<Option<[u8; 8]>> {
     }
 }
 
-/// So many vertices, x, y and bulge each, as a closed polyline.
+/// A closed polyline of the given number of vertices, each with x, y and bulge.
 pub fn vertices(from: &mut impl Read, count: usize) -> io::Result<Polyline<f64>> {
     let mut polyline = Polyline::with_capacity(count, true);
     for _ in 0..count {
@@ -27,7 +27,7 @@ pub fn vertices(from: &mut impl Read, count: usize) -> io::Result<Polyline<f64>>
     Ok(polyline)
 }
 
-/// A file that holds one contour and nothing else.
+/// The contour of a file that contains nothing else.
 pub fn contour(path: &str) -> io::Result<Polyline<f64>> {
     let file = File::open(path)?;
     let count = file.metadata()?.len() as usize / 24;
@@ -78,14 +78,14 @@ pub fn processor() -> u64 {
     time.seconds as u64 * 1_000_000_000 + time.nanoseconds as u64
 }
 
-/// Kilobytes of a line of /proc/self/status.
+/// The kilobytes in a line of /proc/self/status.
 pub fn memory(line: &str) -> u64 {
     let status = fs::read_to_string("/proc/self/status").unwrap_or_default();
     let found = status.lines().find_map(|l| l.strip_prefix(line)?.strip_prefix(':'));
     found.and_then(|l| l.split_whitespace().next()?.parse().ok()).unwrap_or(0)
 }
 
-/// Let the peak of memory begin anew from what is held now, in kilobytes.
+/// Resets the peak memory of the process to the present memory, and returns it in kilobytes.
 pub fn forget_peak() -> u64 {
     let _ = fs::write("/proc/self/clear_refs", "5");
     memory("VmHWM")

@@ -1,8 +1,8 @@
-//! areas FILE [EPSILON]: the offsets of many small contours. FILE holds one record after another, all numbers little-endian of eight
-//! bytes: how many vertices (an integer), the offset D in mm, then x y bulge for each vertex. Prints a line for each
-//! contour: the area of its offset, the length, the number of closed loops, the number of open pieces. D > 0 leads outwards
-//! when the contour is counter-clockwise. EPSILON is the distance in mm below which two places count as one, 1e-5 unless given;
-//! ten times as much is what a part of the result may be too close to the contour.
+//! areas FILE [EPSILON]: the offsets of many small contours. FILE contains one record for each contour, of little-endian numbers
+//! of eight bytes: the number of vertices (an integer), the offset D in mm, then x y bulge for each vertex. D > 0 is outwards if
+//! the contour is counter-clockwise. The program prints a line for each contour: the area of its offset, the length, and the
+//! numbers of closed loops and of open polyarcs. EPSILON is the distance in mm below which two points count as one, by default
+//! 1e-5. The offset may be nearer to the contour than D by ten times EPSILON.
 
 use cavalier::{measures, number, vertices};
 use cavalier_contours::polyline::{PlineOffsetOptions, PlineSource};

@@ -1,7 +1,7 @@
 //! offset SMALL FILE D RUNS BATCHES: the offset of one closed contour by D mm (outwards when it is counter-clockwise), RUNS times
-//! in each batch. FILE holds little-endian doubles, x y bulge for each vertex. Prints for every batch the nanoseconds of
-//! processor time of one run, then what came out of the last one and how far the first one raised the peak of memory. Before
-//! that the contour of SMALL is offset a hundred times, so that the code, and what memory it keeps, are there by then.
+//! in each batch. FILE contains little-endian doubles, x y bulge for each vertex. The program prints for every batch the
+//! nanoseconds of processor time of one run, then the result of the last run and the rise of peak memory in the first run. Before
+//! that it offsets the contour of SMALL a hundred times, so that the code and the memory that the library keeps are allocated.
 
 use cavalier::{contour, forget_peak, measures, memory, processor};
 use cavalier_contours::polyline::PlineSource;
@@ -22,7 +22,7 @@ fn main() -> std::io::Result<()> {
     }
     let source = contour(file)?;
 
-    // A positive distance leads to the left there.
+    // In cavalier_contours a positive distance is to the left.
     let offset = || black_box(&source).parallel_offset(black_box(-distance));
     let before = forget_peak();
     let begin = processor();
