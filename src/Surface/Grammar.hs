@@ -62,7 +62,7 @@ statement_ = do
     Word word -> Parsec.customFailure (NoStatement word)
     _ -> Parsec.empty <?> "a statement"
 
--- | The rules for the rest of a statement by its keyword.
+-- | The keywords of statements, each with the rule for the text after it.
 statementForms :: Grammar p => [(Text, p Statement_)]
 statementForms =
   [ ("part", Part <$> name <*> Parsec.optional (onThisLine text')),
@@ -159,7 +159,7 @@ cutter =
     coneForm = "the rest of cone(diameter 20 mm, bevel 5 deg, height 30 mm)"
     bladeForm = "the rest of blade(diameter 20 mm, gear 70 mm)"
 
--- | A tolerance: to either side, or inside and outside.
+-- | A tolerance: one value for both sides of the curve, or one inside and one outside.
 accuracy :: Parser Accuracy
 accuracy =
   (keyword "inside" *> (Between <$> expr <* keyword "outside" <*> expr)) <|> (Within <$> expr)
@@ -208,7 +208,7 @@ line =
         <|> Parsec.hidden (located (Negate <$> (symbol "-" *> (number <|> misfit NotInRow))))
         <|> parens expr
 
--- | Fails because of the next token in a line of a table.
+-- | Fails at the next token, which does not belong in a line of a table.
 misfit :: (Token_ -> Problem) -> Parser a
 misfit problem =
   Parsec.lookAhead Parsec.anySingle >>= \t -> Parsec.customFailure (problem (shape t))
@@ -231,7 +231,8 @@ piece = do
   side <- located ((LeftSide <$ keyword "left") <|> (RightSide <$ keyword "right") <|> missingSide)
   Piece what base ciphers side <$> zeroOrMore (located joggle)
   where
-    -- Explains a missing side where the statement ends or a joggle follows.
+    -- Reports a missing side if the statement ends here, or if a joggle or another word for a side
+    -- follows.
     missingSide = do
       next <- remaining
       case next of
@@ -312,7 +313,7 @@ link =
     <|> (keyword "fillet" *> Parsec.optional (symbol "+") *> (Fillet <$> expr))
     <|> (keyword "chamfer" *> (Chamfer <$> expr))
 
--- | The rest of a machining statement: a contour, a side, and settings.
+-- | A machining statement after its keyword: a contour, a side, and settings.
 machining :: Text -> (Expr -> Located Side -> [Setting] -> Statement_) -> Parser Statement_
 machining word make =
   make <$> expr <*> located (Parsec.choice [s <$ keyword k | (k, s) <- sides]) <*> settings word
@@ -347,7 +348,7 @@ setting offered = do
             word `elem` offered
         ]
 
--- | The rules for the rest of a setting by its first word.
+-- | The first words of settings, each with the rule for the text after it.
 settingForms :: Grammar p => [(Text, p Setting_)]
 settingForms =
   [ ("approach", Approach <$> stops),
@@ -374,7 +375,7 @@ settingForms =
     ("rest", RestAllowed <$ keyword "allowed")
   ]
 
--- | Points with the pace of the motion to each.
+-- | One or more points, each with the pace of the motion to it.
 stops :: Parser (NonEmpty Stop)
 stops = stop `sepBy1` ","
   where
@@ -401,7 +402,7 @@ operand t = case shape t of
   Symbol "-" -> Just negative
   _ -> Nothing
 
--- | The rest of an expression after its first operand.
+-- | The whole expression that begins with an operand: parses the operators and operands after it.
 operated :: Grammar p => Expr -> p Expr
 operated first = do
   next <- remaining
@@ -451,7 +452,8 @@ negation = Parsec.hidden (located (Not <$> (keyword "not" *> nested negation))) 
 comparison :: Parser Expr
 comparison = range >>= compared
 
--- | At most one comparison: @a < b < c@ is not an expression.
+-- | The comparison that begins with a left operand; the operand alone if no comparison follows.
+-- Only one may follow: @a < b < c@ is not an expression.
 compared :: Grammar p => Expr -> p Expr
 compared left = (operators table >>= \op -> joined op left <$> range) <|> pure left
   where
@@ -461,7 +463,8 @@ compared left = (operators table >>= \op -> joined op left <$> range) <|> pure l
 range :: Parser Expr
 range = sum' >>= moreOfRange
 
--- | The rest of a range after its lower end: @..b by s@.
+-- | The range that begins with a lower end, after which @..b by s@ is parsed; the lower end alone
+-- if no @..@ follows.
 moreOfRange :: Grammar p => Expr -> p Expr
 moreOfRange low =
   ( Parsec.hidden (symbol "..")
@@ -493,7 +496,8 @@ operators table = Parsec.hidden (token "an operator" operatorOf)
       Symbol s -> lookup s table
       _ -> Nothing
 
--- | The operators and operands after a first operand, joined from left to right.
+-- | The expression of a first operand and the operators and operands after it, joined from left to
+-- right.
 chain :: Grammar p => p Operator -> p Expr -> Expr -> p Expr
 chain operator next = more
   where

@@ -1,6 +1,6 @@
 -- | The keywords of the language.
 --
--- Only reserved words are refused as names. Words that occur only where no name can (@depth@,
+-- Only reserved words are refused as names. Words that occur only where no name can occur (@depth@,
 -- @step@, @by@ …) are not reserved.
 module Surface.Keyword
   ( statements,
@@ -42,7 +42,8 @@ beginsItem word = word `elem` (["for", "if", "cw", "ccw"] <> settings)
       ["approach", "retract", "depth", "lead", "allowance", "corners", "climb", "conventional"]
         <> ["compensation", "start", "plunge", "peck", "islands", "rest"]
 
--- | The first words of the settings that are allowed in the block of a statement.
+-- | The first words of the settings that are allowed in the block of a statement with the given
+-- keyword.
 settingsOf :: Text -> [Text]
 settingsOf statement = case statement of
   "mill" ->

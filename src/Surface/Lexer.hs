@@ -24,11 +24,11 @@ import Surface.Token (Numeral (Numeral), Token (..), Token_ (..), Unit, unitName
 data Before = Before
   { -- | the offset of the next character
     at :: Int,
-    -- | the line has no token yet
+    -- | true before the first token of a line
     isLineStart :: Bool,
-    -- | the last token ends here
+    -- | true if the last token ends at this offset, without a space after it
     isTouching :: Bool,
-    -- | the last token was the keyword of a @machine@ statement
+    -- | true after the keyword of a @machine@ statement
     isMachineNext :: Bool
   }
 
@@ -40,13 +40,15 @@ tokens begin text =
   where
     before = Before {at = begin, isLineStart = True, isTouching = False, isMachineNext = False}
 
--- | The tokens as a lazy list, read in chunks.
+-- | The tokens of a text as a lazy list, read in chunks. @before@ is the state at the start of the
+-- text.
 tokensFrom :: Before -> Text -> [Token]
 tokensFrom before rest = case chunk chunkSize [] [] before rest of
   Chunk {ts, stopped, left} ->
     foldl (flip (:)) (if Text.null left then [] else tokensFrom stopped left) ts
 
--- | The comments after those found so far, of which the last one comes first.
+-- | The comments of a text, after the comments @found@ before it, which are given in reverse order.
+-- @before@ is the state at the start of the text.
 commentsFrom :: [Located Text] -> Before -> Text -> [Located Text]
 commentsFrom found before rest = case chunk chunkSize [] found before rest of
   Chunk {cs, stopped, left} -> if Text.null left then reverse cs else commentsFrom cs stopped left
@@ -55,10 +57,11 @@ commentsFrom found before rest = case chunk chunkSize [] found before rest of
 chunkSize :: Int
 chunkSize = 512
 
--- | Tokens and comments, the last ones first, and the text that remains.
+-- | Tokens and comments in reverse order, the text after them, and the state at its start.
 data Chunk = Chunk {ts :: [Token], cs :: [Located Text], stopped :: Before, left :: Text}
 
--- | Reads @count@ tokens and the comments between them.
+-- | Reads at most @count@ tokens and the comments between them. Adds them to the given tokens and
+-- comments, which are in reverse order.
 chunk :: Int -> [Token] -> [Located Text] -> Before -> Text -> Chunk
 chunk !count ts cs before rest = case Text.uncons rest of
   Just (c, after)
@@ -164,7 +167,7 @@ numeral rest = case Decimal.leading rest of
       let (written, more) = Text.span (\c -> isWordPart c || c == '.') rest
        in First (BadNumber written) (Text.length written) more
   where
-    -- A second decimal point, or letters that touch the number and are not a unit.
+    -- True for a second decimal point, and for letters that touch the number and are not a unit.
     isMalformed digits after unit = case Text.uncons after of
       Just ('.', more) -> Text.any (== '.') digits && not (begins (== '.') more)
       Just (c, _) -> isWordPart c && maybe True (\(UnitAfter _ gap _) -> gap > 0) unit
@@ -173,7 +176,7 @@ numeral rest = case Decimal.leading rest of
 -- | A unit after a number, the number of spaces before it, and its length in characters.
 data UnitAfter = UnitAfter Unit Int Int
 
--- | Reads a unit after any number of spaces.
+-- | Reads a unit at the start of a text, after any number of spaces.
 unitAfter :: Text -> Maybe UnitAfter
 unitAfter = go 0
   where

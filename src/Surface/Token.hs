@@ -18,9 +18,9 @@ import Data.Text qualified as Text
 data Token = Token
   { place :: Region,
     shape :: Token_,
-    -- | it is the first token of its line
+    -- | true for the first token of a line
     newLine :: Bool,
-    -- | nothing separates it from the token before it
+    -- | true if nothing separates the token from the token before it
     attached :: Bool
   }
   deriving stock (Eq, Ord, Show)
@@ -35,7 +35,7 @@ data Token_
     Text Text
   | -- | punctuation or an operator
     Symbol Text
-  | -- | a malformed number such as @1.2.3@, or one too large for a double
+  | -- | a malformed number such as @1.2.3@, or one with too many digits
     BadNumber Text
   | -- | a text without its closing quotation mark
     OpenText
