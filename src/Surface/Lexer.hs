@@ -1,5 +1,3 @@
-{-# LANGUAGE BangPatterns #-}
-
 -- | The lexer: tokens and comments from a text.
 --
 -- The lexer is total. Text that is not a token becomes one of the broken shapes of "Surface.Token",
@@ -63,9 +61,8 @@ data Chunk = Chunk {ts :: [Token], cs :: [Located Text], stopped :: Before, left
 -- | Reads at most @count@ tokens and the comments between them. Adds them to the given tokens and
 -- comments, which are in reverse order.
 chunk :: Int -> [Token] -> [Located Text] -> Before -> Text -> Chunk
-chunk !count ts cs before rest = case Text.uncons rest of
+chunk count ts cs before rest = case if count <= 0 then Nothing else Text.uncons rest of
   Just (c, after)
-    | count <= 0 -> Chunk {ts, cs, stopped = before, left = rest}
     | isLineEnd c ->
       let next =
             Before
@@ -79,10 +76,11 @@ chunk !count ts cs before rest = case Text.uncons rest of
     | c == '-' && begins (== '-') after ->
       let (text, more) = Text.break isLineEnd rest
           region = Region (at before) (at before + Text.length text)
-          !comment = Located region text
-       in chunk count ts (comment : cs) before {at = end region, isTouching = False} more
+          comment = Located region text
+          next = before {at = end region, isTouching = False}
+       in comment `seq` chunk count ts (comment : cs) next more
     | otherwise ->
-      case if isMachineNext before then machineName rest else token c after rest of
+      case if isMachineNext before then machineName rest else token c rest of
         First shape consumed more ->
           let region = Region (at before) (at before + consumed)
               next =
@@ -105,14 +103,13 @@ chunk !count ts cs before rest = case Text.uncons rest of
 -- | Tells if a text begins with a character that satisfies the predicate.
 begins :: (Char -> Bool) -> Text -> Bool
 begins holds rest = maybe False (holds . fst) (Text.uncons rest)
-{-# INLINE begins #-}
 
 -- | The first token of a text, its length in characters, and the text after it.
 data First = First Token_ Int {-# UNPACK #-} Text
 
--- | Reads the first token of a text, given its first character and the text after that.
-token :: Char -> Text -> Text -> First
-token c !after !rest
+-- | Reads the first token of a text, given its first character.
+token :: Char -> Text -> First
+token c rest
   | isDigit c = numeral rest
   | isWordStart c =
     let (word, more) = Text.span isWordPart rest in First (Word word) (Text.length word) more
@@ -125,11 +122,11 @@ token c !after !rest
     _
       | c `elem` (".<>!" :: String),
         two `elem` ["..", "<=", ">=", "!="] ->
-        First (Symbol two) 2 (Text.drop 1 after)
+        First (Symbol two) 2 (Text.drop 2 rest)
       | c `elem` ("{}[]=+*/<>" :: String) -> sign (Text.singleton c)
-      | otherwise -> First (Stray c) 1 after
+      | otherwise -> First (Stray c) 1 (Text.drop 1 rest)
   where
-    sign s = First (Symbol s) 1 after
+    sign s = First (Symbol s) 1 (Text.drop 1 rest)
     two = Text.take 2 rest
 
 -- | Reads the name of a machine, which may contain @.@ and @-@, or the quoted name of a file with a
@@ -138,7 +135,7 @@ machineName :: Text -> First
 machineName rest
   | "\"" `Text.isPrefixOf` rest = quoted rest
   | Text.null name =
-    maybe (First (Stray ' ') 1 rest) (\(c, after) -> token c after rest) (Text.uncons rest)
+    maybe (First (Stray ' ') 1 rest) (\(c, _) -> token c rest) (Text.uncons rest)
   | otherwise = First (Word name) (Text.length name) (Text.drop (Text.length name) rest)
   where
     name =
@@ -199,8 +196,7 @@ isLineEnd :: Char -> Bool
 isLineEnd c = c == '\n' || c == '\r'
 
 -- | Tells if a character is white space. ASCII characters, which are most, need no Unicode tables.
-isBlank ::
-  Char -> Bool
+isBlank :: Char -> Bool
 isBlank c = c == ' ' || (c < '!' || c > '~') && isSpace c
 
 isBlankInLine :: Char -> Bool
