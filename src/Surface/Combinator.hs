@@ -437,7 +437,6 @@ brokenStatement taken = do
         (foldr (Region.merge . Token.place) (firstRegion taken) taken)
         (uncurry Broken (keywordAndName (taken <> skipped)))
     )
-{-# INLINEABLE brokenStatement #-}
 
 -- | Skips the remaining tokens of a broken statement and gives them. @hasBlock@ tells if the
 -- statement has a block of statements, @isInBlock@ if it is inside a block itself; the closing
@@ -450,7 +449,6 @@ skipStatement hasBlock isInBlock open = do
       | not (isStatementEnd hasBlock isInBlock open t others) ->
         Parsec.anySingle *> ((t :) <$> skipStatement hasBlock isInBlock (open + braceBalance [t]))
     _ -> pure []
-{-# INLINEABLE skipStatement #-}
 
 -- | Tells if a broken statement ends before the token @t@, which the tokens @others@ follow. The
 -- first three parameters are those of 'skipStatement'.
@@ -522,7 +520,6 @@ brokenItem broken taken = do
     broken $ case (map shape taken, next) of
       ([Word "let"], Just Token {shape = Word what, place}) -> Just (Located place (Name what))
       _ -> Nothing
-{-# INLINEABLE brokenItem #-}
 
 -- | Skips the remaining tokens of a broken item with @open@ open braces. @isContinued@ tells if the
 -- last token is a comma, an operator or an opening bracket, so that the next line belongs to the
@@ -539,7 +536,6 @@ skipItem open isContinued = do
       | otherwise -> Parsec.anySingle *> skipItem (open + braceBalance [t]) (isUnfinished t)
   where
     isUnfinished t = shape t `elem` map Symbol [",", "(", "[", "{", "=", "+", "-", "*", "/"]
-{-# INLINEABLE skipItem #-}
 
 -- | Tells if a token is a keyword that begins a statement at the start of a line.
 beginsStatement :: Token -> Bool
