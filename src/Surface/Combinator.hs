@@ -55,6 +55,7 @@ import Data.Set qualified as Set
 import Data.Text (Text)
 import Data.Text qualified as Text
 import Data.Vector qualified as Vector
+import Report.Report (quote)
 import Surface.Error (Enclosure (..), Error, FoundText (..))
 import Surface.Error qualified as Error
 import Surface.Keyword qualified as Keyword
@@ -187,12 +188,12 @@ run parser finish tokens = (map (fromFailure (Vector.fromList tokens) finish) in
 
 -- | Parses a symbol and gives its region.
 symbol :: Grammar p => Text -> p Region
-symbol s = token ("‘" <> s <> "’") (\t -> if isSymbol s t then Just (Token.place t) else Nothing)
+symbol s = token (quote s) (\t -> if isSymbol s t then Just (Token.place t) else Nothing)
 {-# INLINE symbol #-}
 
 -- | Parses a keyword.
 keyword :: Grammar p => Text -> p ()
-keyword word = token ("‘" <> word <> "’") (\t -> if isWord word t then Just () else Nothing)
+keyword word = token (quote word) (\t -> if isWord word t then Just () else Nothing)
 {-# INLINE keyword #-}
 
 -- | Tells if a token is the given symbol.

@@ -22,6 +22,7 @@ import Data.List.NonEmpty qualified as NonEmpty
 import Data.Maybe qualified as Maybe
 import Data.Text (Text)
 import Data.Text qualified as Text
+import Report.Report (quote)
 import Surface.Combinator
 import Surface.Combinator.Fast (FastParser)
 import Surface.Combinator.Fast qualified as FastCombinator
@@ -343,7 +344,7 @@ setting offered = do
     Word word | Just rest <- lookup word settingForms -> keyword word *> rest
     _ ->
       Parsec.choice
-        [ (Parsec.empty <?> Text.unpack ("‘" <> word <> "’")) `asTypeOf` rest
+        [ (Parsec.empty <?> Text.unpack (quote word)) `asTypeOf` rest
           | (word, rest) <- settingForms,
             word `elem` offered
         ]
