@@ -33,6 +33,7 @@ import Data.Map.Strict (Map)
 import Data.Map.Strict qualified as Map
 import Data.Text (Text)
 import Data.Text qualified as Text
+import Surface.Keyword qualified as Keyword
 import Prelude hiding (lookup)
 
 -- | The parameters of a call and the type of its result.
@@ -383,14 +384,7 @@ formText builtin form = callText (name builtin) (map parameter (parameters form)
     parameter p = case label p of
       NoLabel -> title p
       Rank -> "first or last"
-      Word choice -> word choice <> " " <> title p
-    word choice = case choice of
-      Near -> "near"
-      ToLeft -> "left"
-      ToRight -> "right"
-      ToInside -> "inside"
-      ToOutside -> "outside"
-      WithinTolerance -> "within"
+      Word choice -> Keyword.selectorWord choice <> " " <> title p
 
 -- | Describes a function by its first forms, for editors.
 description :: Builtin -> Text

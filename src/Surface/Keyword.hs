@@ -8,6 +8,7 @@ module Surface.Keyword
     blocks,
     beginsItem,
     settingsOf,
+    selectorWord,
     isReserved,
     reservedWords,
   )
@@ -16,6 +17,7 @@ where
 import Data.Set (Set)
 import Data.Set qualified as Set
 import Data.Text (Text)
+import Surface.Syntax (Selector (..))
 import Surface.Token (unitName)
 
 -- | The keywords that begin a statement and nothing else.
@@ -67,6 +69,16 @@ settingsOf statement = case statement of
   where
     linkingMoves = ["approach", "retract", "lead in", "lead out"]
     passes = ["allowance", "corners"]
+
+-- | The word before an argument.
+selectorWord :: Selector -> Text
+selectorWord selector = case selector of
+  Near -> "near"
+  ToLeft -> "left"
+  ToRight -> "right"
+  ToInside -> "inside"
+  ToOutside -> "outside"
+  WithinTolerance -> "within"
 
 -- | Tells if a word is refused as a name.
 isReserved :: Text -> Bool

@@ -19,6 +19,7 @@ import Data.List.NonEmpty (NonEmpty (..))
 import Data.List.NonEmpty qualified as NonEmpty
 import Data.Text (Text)
 import Data.Text qualified as Text
+import Surface.Keyword qualified as Keyword
 import Surface.PrettyPrinter (Doc (..), Member (..))
 import Surface.PrettyPrinter qualified as PrettyPrinter
 import Surface.Syntax hiding (Statement_ (..))
@@ -218,18 +219,9 @@ argument comments a = case a of
   Given e -> (Region.region e, value comments e)
   Chosen (Located region choice) e ->
     ( Region (start region) (end (Region.region e)),
-      spaced [Text (choiceName choice), value comments e]
+      spaced [Text (Keyword.selectorWord choice), value comments e]
     )
   Ranked (Located region which) -> (region, Text (rankName which))
-
-choiceName :: Selector -> Text
-choiceName choice = case choice of
-  Near -> "near"
-  ToLeft -> "left"
-  ToRight -> "right"
-  ToInside -> "inside"
-  ToOutside -> "outside"
-  WithinTolerance -> "within"
 
 rankName :: Rank -> Text
 rankName which = case which of
