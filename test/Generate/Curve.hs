@@ -31,6 +31,7 @@ import Data.List (tails)
 import Data.List.NonEmpty (NonEmpty (..))
 import Data.List.NonEmpty qualified as NonEmpty
 import GHC.Exts qualified as Exts
+import Generate.Run qualified as Run
 import Geometry.Carrier qualified as Carrier
 import Geometry.Curve
   ( Curve,
@@ -176,16 +177,7 @@ toSegments = do
             (sweep, _, corner) = part
             after = if abs sweep < 0.2 then heading + corner else heading + sweep + corner
          in s :| if null rest then [] else NonEmpty.toList (segments (Segment.end s) after rest)
-    next p heading (sweep, l, _)
-      | abs sweep < 0.2 = Straight p (Vec.shift (Vec.polar (Mm l) (Rad heading)) p)
-      | otherwise =
-        let centre = Vec.shift (Vec.scale (l / sweep) (Vec.left (Vec.polar (Mm 1) (Rad heading)))) p
-         in Arc
-              { start = p,
-                end = Vec.shift (Vec.rotate (Rad sweep) (Vec.to centre p)) centre,
-                centre,
-                sweep = Rad sweep
-              }
+    next p heading (sweep, l, _) = Run.arcFrom p heading (if abs sweep < 0.2 then 0 else sweep) l
 
 -- | A line, a parabola tangent to it, and an arc tangent to the parabola. The rows of the curve are
 -- at random positions on them.

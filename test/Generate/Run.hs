@@ -7,6 +7,7 @@ module Generate.Run
     wave,
     oval,
     biarcs,
+    arcFrom,
     parts,
     elements,
     run,
