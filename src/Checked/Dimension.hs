@@ -27,7 +27,7 @@ import Data.Text (Text)
 import Data.Text qualified as Text
 import Prelude hiding (exponent)
 
--- | A generator of the group of dimensions. 'PointWeight' tells points from vectors: a point has
+-- | A generator of the group of dimensions. 'PointWeight' distinguishes points and vectors: a point has
 -- weight 1, a vector 0, and the difference of two points is a vector.
 data Atom = Length | Angle | Time | PointWeight | Unknown Int
   deriving stock (Eq, Ord, Show)
@@ -37,7 +37,7 @@ newtype Dimension = Dimension (Map Atom Int)
   deriving newtype (Eq)
   deriving stock (Show)
 
--- | The dimension of a plain number.
+-- | The dimension of a number that is not a quantity: all exponents are 0.
 none :: Dimension
 none = Dimension Map.empty
 

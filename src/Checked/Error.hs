@@ -402,7 +402,7 @@ traversalHint t = case t of
     Just "A contour is walked from its beginning to its end; the other way, write reversed(c)."
   _ -> Nothing
 
--- | Tells if a number consists of several digits of ciphers.
+-- | Tells if a number such as @24@ is the digits of several ciphers in one word.
 isSeveralCiphers :: Text -> Bool
 isSeveralCiphers digit = Text.length digit > 1 && Text.all (`elem` ['1', '2', '4', '6']) digit
 

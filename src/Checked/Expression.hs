@@ -61,7 +61,7 @@ type Typed = (Type, Deferred Checked.Expr)
 
 -- Wanted types
 
--- | Checks an expression that must have a type.
+-- | Checks an expression that must have the given type.
 expect :: TypingEnvironment -> Type -> Surface.Expr -> Infer (Deferred Checked.Expr)
 expect env wanted e = case (value e, wanted) of
   _ | isFast env, Just e' <- FastInference.literal wanted e -> pure (const e')
@@ -185,8 +185,8 @@ infer env located@(Located at e) = case e of
         \sol -> Located at (Checked.Each (inner' sol) (value counter) (list' sol))
       )
 
--- | A number as written. Without a unit its dimension follows from its use, and the number has the
--- default unit of that dimension.
+-- | Checks a number as written. Without a unit its dimension follows from its use, and the number
+-- has the default unit of that dimension.
 literal :: Region -> Double -> Maybe Unit -> Infer Typed
 literal at x unit = case unit of
   Just u ->
@@ -197,7 +197,7 @@ literal at x unit = case unit of
     unless (x == 0) (Inference.monomorphic d)
     pure (Type.Quantity d, \sol -> Located at (Checked.Number (x * Dimension.defaultUnit (sol d))))
 
--- | A pair of lengths at a region.
+-- | Checks two lengths and makes a pair of them at a region.
 pair :: TypingEnvironment -> Region -> Surface.Expr -> Surface.Expr -> Infer (Deferred Checked.Expr)
 pair env at x y = (Located at .) <$> pair' env x y
 
@@ -207,7 +207,7 @@ pair' env x y = do
   y' <- expect env Type.len y
   pure (\sol -> Checked.Pair (x' sol) (y' sol))
 
--- | A term with an operator.
+-- | Checks a term with a binary operator.
 binary ::
   TypingEnvironment ->
   Region ->

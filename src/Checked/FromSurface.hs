@@ -327,7 +327,7 @@ reportBuiltin :: Located Name -> Infer ()
 reportBuiltin (Located at name@(Name text)) =
   when (isBuiltin text) (Inference.mistake (NameTaken at name))
 
--- | Records the mention of a name in its own definition.
+-- | Records the mention of a name at its definition.
 mentionDefinition :: Located Name -> Inference.Meaning -> Infer ()
 mentionDefinition (Located at (Name text)) = Inference.mention at (Just at) text
 
@@ -388,7 +388,8 @@ spindle env spin = case spin of
     speed' <- traverse (expect env Type.spindleSpeed) speed
     pure (\sol -> Checked.Spinning sense (($ sol) <$> speed'))
 
--- | Checks an assertion: a comparison, an equation with an optional tolerance, or another truth.
+-- | Checks an assertion: a comparison, an equality with an optional tolerance, or another
+-- expression that is true or false.
 assertion ::
   TypingEnvironment ->
   Surface.Expr ->

@@ -119,8 +119,8 @@ columnsAndRows columns rows sol =
       [i | text <- ["x", "y"], (i, c) <- numbered, value (heading c) == Name text]
         <> [i | (i, c) <- numbered, isExtra c]
 
--- | The columns of a curve, which values along the curve may name; none for another type. 'Nothing'
--- if the columns are unknown, or if the term with this type is already reported as wrong.
+-- | The columns that values along a curve of the given type may name; none if it is not the type of
+-- a curve. 'Nothing' if the columns are unknown, or if the curve is already reported as wrong.
 columnsOf :: Type -> Infer (Maybe [(Text, Type)])
 columnsOf t = do
   t' <- Inference.resolved t

@@ -1,4 +1,4 @@
--- | The statements that a program needs, and their order.
+-- | The check that a program has the statements that it needs, in the right order.
 --
 -- A program begins with @part@. Settings of the whole program occur once and outside of blocks.
 -- A machining statement or a motion needs certain settings above it.

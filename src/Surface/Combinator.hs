@@ -291,8 +291,8 @@ enclosed open close inside = do
         _ -> Parsec.parseError failure
 {-# INLINEABLE enclosed #-}
 
--- | Parses items in braces. An item with a mistake is skipped. The function @broken@ makes its
--- replacement from the name that the item was to define, if there is one.
+-- | Parses items in braces. Reports name the block by @what@. An item with a mistake is skipped.
+-- The function @broken@ makes its replacement from the name that the item was to define, if any.
 block :: Grammar p => Enclosure -> (Maybe (Located Name) -> a) -> p a -> p [Located a]
 block what broken one = do
   opened <- symbol "{"
@@ -394,8 +394,9 @@ maxNesting = 500
 
 -- Recovery
 
--- | Runs a parser. If it fails, records the failure and gives the tokens read so far to @repair@,
--- which makes a replacement. At least one token is consumed in either case.
+-- | Runs a parser. If it fails, records the failure and gives the tokens consumed, at least one, to
+-- the function @repair@. The parser that this function makes skips further tokens and gives a
+-- replacement for the result.
 recovering :: Grammar p => ([Token] -> p a) -> p a -> p a
 recovering repair p = do
   begin <- Parsec.getOffset
@@ -484,7 +485,7 @@ beginsBlock ts = case map shape (take 1 ts) of
   [Word word] -> word `elem` "with" : Keyword.blocks
   _ -> False
 
--- | The number of opening braces less that of closing ones.
+-- | The number of opening braces minus the number of closing braces.
 braceBalance :: [Token] -> Int
 braceBalance = sum . map balance
   where

@@ -134,22 +134,22 @@ isBlankAbove source at =
 -- | Splits a printed line that ends with an empty block before its closing brace, if the source has
 -- a comment inside the block.
 splitEmptyBlock :: CommentPositions -> SourceLine -> [SourceLine]
-splitEmptyBlock positions anchor = case (reverse (shapes anchor), reverse (sources anchor)) of
+splitEmptyBlock positions sourceLine = case (shapesBackwards, sourcesBackwards) of
   (Symbol "}" : Symbol "{" : _, Just close : Just open : _)
     | isBetween positions (start (Token.place open)) (start (Token.place close)) ->
-      [ anchor
+      [ sourceLine
           { row =
-              (row anchor)
+              (row sourceLine)
                 { cells =
-                    WholeLine (Text.dropEnd 2 (Alignment.unaligned (row anchor)))
+                    WholeLine (Text.dropEnd 2 (Alignment.unaligned (row sourceLine)))
                 },
-            shapes = init (shapes anchor),
-            sources = init (sources anchor)
+            shapes = init (shapes sourceLine),
+            sources = init (sources sourceLine)
           },
         SourceLine
           { row =
               AlignedLine
-                { indent = indent (row anchor),
+                { indent = indent (row sourceLine),
                   cells = WholeLine "}",
                   isContinuation = False
                 },
@@ -157,7 +157,10 @@ splitEmptyBlock positions anchor = case (reverse (shapes anchor), reverse (sourc
             sources = [Just close]
           }
       ]
-  _ -> [anchor]
+  _ -> [sourceLine]
+  where
+    shapesBackwards = reverse (shapes sourceLine)
+    sourcesBackwards = reverse (sources sourceLine)
 
 -- Lines
 
@@ -180,10 +183,10 @@ entries source remarks rows = go (zip rows (extents rows)) remarks []
     -- The last argument has the comments that go above the next printed line.
     go left rest above = case left of
       [] -> map (ownLine 0) (above <> rest)
-      (anchor, extent) : more ->
+      (sourceLine, extent) : more ->
         let next = fst . snd <$> Maybe.listToMaybe more
             shares = shareOut extent next rest
-         in rowEntries source anchor (fst extent) above shares
+         in rowEntries source sourceLine (fst extent) above shares
               <> go more (later shares) (below shares)
 
 -- | The comments that are not placed yet, by their positions relative to one printed line.
@@ -217,25 +220,25 @@ shareOut (from, finish) next remarks = case (inside, trailingRemark) of
 -- | The lines of the output for one printed line: the comments above it, then the line itself. In
 -- the source it begins at offset @from@.
 rowEntries :: Source -> SourceLine -> Int -> [Remark] -> Shares -> [Entry]
-rowEntries source anchor from above shares =
+rowEntries source sourceLine from above shares =
   [own {hasGap = hasGap own && isStart} | own <- map (ownLine deep) (above <> early shares)]
     <> [ Entry {hasGap = isGapWanted && isFirst, line = Own deep (text r)}
          | (r, isFirst) <- zip (displaced shares) (True : repeat False)
        ]
     <> [ Entry
            { hasGap = isGapWanted && null (displaced shares),
-             line = Printed anchor (text <$> trailing shares)
+             line = Printed sourceLine (text <$> trailing shares)
            }
        ]
   where
-    deep = indent (row anchor) + (if SourceLine.isClosing anchor then 2 else 0)
-    isStart = not (isContinuation (row anchor))
+    deep = indent (row sourceLine) + (if SourceLine.isClosing sourceLine then 2 else 0)
+    isStart = not (isContinuation (row sourceLine))
     isGapWanted =
       isStart
-        && not (SourceLine.isClosing anchor)
+        && not (SourceLine.isClosing sourceLine)
         && isFirstOnLine
         && isBlankAbove source from
-    isFirstOnLine = case sources anchor of
+    isFirstOnLine = case sources sourceLine of
       Just t : _ -> Token.newLine t
       _ -> False
 
@@ -249,15 +252,15 @@ ownLine deep r = Entry {hasGap = isApart r, line = Own deep (text r)}
 extents :: [SourceLine] -> [(Int, Int)]
 extents = go 0
   where
-    go previousEnd anchors = case anchors of
+    go previousEnd sourceLines = case sourceLines of
       [] -> []
-      anchor : rest -> case map Token.place (Maybe.catMaybes (sources anchor)) of
+      sourceLine : rest -> case map Token.place (Maybe.catMaybes (sources sourceLine)) of
         [] -> (previousEnd, previousEnd) : go previousEnd rest
         first : more ->
-          let finish = end (last (first : beforeComma anchor more))
+          let finish = end (last (first : beforeComma sourceLine more))
            in (start first, finish) : go (end (last (first : more))) rest
-    beforeComma anchor regions =
-      if drop (length (shapes anchor) - 1) (shapes anchor) == [Symbol ","]
+    beforeComma sourceLine regions =
+      if drop (length (shapes sourceLine) - 1) (shapes sourceLine) == [Symbol ","]
         then take (length regions - 1) regions
         else regions
 
@@ -269,7 +272,7 @@ withoutLeadingGaps list = zipWith keep (Nothing : map Just list) list
       entry {hasGap = hasGap entry && maybe False (not . isBlockStart . line) before}
     isBlockStart content = case content of
       Own _ _ -> False
-      Printed anchor _ -> SourceLine.isOpening anchor
+      Printed sourceLine _ -> SourceLine.isOpening sourceLine
 
 -- | Renders the lines. Columns are aligned within each run of printed lines that no blank line and
 -- no comment line interrupts. Trailing comments are aligned too.
@@ -280,9 +283,9 @@ renderEntries list = withComments (go list)
       [] -> []
       Entry {hasGap, line = Own deep text} : rest ->
         blank hasGap <> [(Text.replicate deep " " <> text, Nothing)] <> go rest
-      Entry {hasGap, line = Printed anchor comment} : rest ->
+      Entry {hasGap, line = Printed sourceLine comment} : rest ->
         let (run, others) = span isJoined rest
-            together = (anchor, comment) : [(a, t) | Entry {line = Printed a t} <- run]
+            together = (sourceLine, comment) : [(a, t) | Entry {line = Printed a t} <- run]
          in blank hasGap
               <> zip (Alignment.render (map (row . fst) together)) (map snd together)
               <> go others

@@ -4,7 +4,7 @@
 --
 -- A mistake ends the statement or the item of a block that contains it. Parsing continues at the
 -- next one, so that one run finds all mistakes. The rules are written once, for the explaining
--- parser and for its fast twin.
+-- parser and for its fast twin. Each rule parses the construct that its comment names.
 module Surface.Grammar
   ( explainedProgram,
     fastProgram,

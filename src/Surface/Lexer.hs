@@ -1,7 +1,7 @@
 -- | The lexer: tokens and comments from a text.
 --
--- The lexer is total. Text that is not a token becomes one of the broken shapes of "Surface.Token",
--- which the parser reports.
+-- The lexer never fails. Text that is not a token becomes a 'BadNumber', an 'OpenText' or a 'Stray'
+-- character, which the parser reports.
 module Surface.Lexer
   ( tokens,
   )
@@ -19,7 +19,7 @@ import Data.Text qualified as Text
 import Surface.Token (Numeral (Numeral), Token (..), Token_ (..), Unit, unitName)
 
 -- | The state of the lexer between two tokens.
-data Before = Before
+data LexerState = LexerState
   { -- | the offset of the next character
     at :: Int,
     -- | true before the first token of a line
@@ -36,18 +36,18 @@ tokens :: Int -> Text -> ([Token], [Located Text])
 tokens begin text =
   (tokensFrom before text, if "--" `Text.isInfixOf` text then commentsFrom [] before text else [])
   where
-    before = Before {at = begin, isLineStart = True, isTouching = False, isMachineNext = False}
+    before = LexerState {at = begin, isLineStart = True, isTouching = False, isMachineNext = False}
 
 -- | The tokens of a text as a lazy list, read in chunks. @before@ is the state at the start of the
 -- text.
-tokensFrom :: Before -> Text -> [Token]
+tokensFrom :: LexerState -> Text -> [Token]
 tokensFrom before rest = case chunk chunkSize [] [] before rest of
   Chunk {ts, stopped, left} ->
     foldl (flip (:)) (if Text.null left then [] else tokensFrom stopped left) ts
 
 -- | The comments of a text, after the comments @found@ before it, which are given in reverse order.
 -- @before@ is the state at the start of the text.
-commentsFrom :: [Located Text] -> Before -> Text -> [Located Text]
+commentsFrom :: [Located Text] -> LexerState -> Text -> [Located Text]
 commentsFrom found before rest = case chunk chunkSize [] found before rest of
   Chunk {cs, stopped, left} -> if Text.null left then reverse cs else commentsFrom cs stopped left
 
@@ -56,16 +56,16 @@ chunkSize :: Int
 chunkSize = 512
 
 -- | Tokens and comments in reverse order, the text after them, and the state at its start.
-data Chunk = Chunk {ts :: [Token], cs :: [Located Text], stopped :: Before, left :: Text}
+data Chunk = Chunk {ts :: [Token], cs :: [Located Text], stopped :: LexerState, left :: Text}
 
 -- | Reads at most @count@ tokens and the comments between them. Adds them to the given tokens and
 -- comments, which are in reverse order.
-chunk :: Int -> [Token] -> [Located Text] -> Before -> Text -> Chunk
+chunk :: Int -> [Token] -> [Located Text] -> LexerState -> Text -> Chunk
 chunk count ts cs before rest = case if count <= 0 then Nothing else Text.uncons rest of
   Just (c, after)
     | isLineEnd c ->
       let next =
-            Before
+            LexerState
               { at = at before + 1,
                 isLineStart = True,
                 isTouching = False,
@@ -84,7 +84,7 @@ chunk count ts cs before rest = case if count <= 0 then Nothing else Text.uncons
         First shape consumed more ->
           let region = Region (at before) (at before + consumed)
               next =
-                Before
+                LexerState
                   { at = end region,
                     isLineStart = False,
                     isTouching = True,

@@ -34,7 +34,7 @@ import Text.Megaparsec (MonadParsec (..))
 import Text.Megaparsec qualified as Parsec
 
 -- | The state of the parser.
-data Ahead = Ahead
+data FastState = FastState
   { -- | the remaining tokens
     left :: [Token],
     -- | the number of tokens that may still be read
@@ -50,13 +50,13 @@ data Ahead = Ahead
 -- | A parser with continuations for success and failure. The failure continuation gets the 'room'
 -- at the mistake. If that is the room before the parser, no token was consumed, and an alternative
 -- is tried.
-newtype FastParser a = FastParser (forall r. Ahead -> (a -> Ahead -> r) -> (Int -> r) -> r)
+newtype FastParser a = FastParser (forall r. FastState -> (a -> FastState -> r) -> (Int -> r) -> r)
 
 -- | Runs a parser on at most @limit@ tokens. 'Nothing' if there are more, or if it fails.
 run :: Int -> FastParser a -> [Token] -> Maybe a
 run limit (FastParser p) ts =
   p
-    Ahead {left = ts, room = limit, ended = 0, open = 0, blocks = 0}
+    FastState {left = ts, room = limit, ended = 0, open = 0, blocks = 0}
     (\a _ -> Just a)
     (const Nothing)
 
@@ -143,7 +143,7 @@ instance MonadParsec Problem TokenStream FastParser where
      in ok () s {left = ts, room = negate stateOffset}
 
 -- | The state in megaparsec's form. The offset is the negated room, so it grows by 1 per token.
-stateOf :: Ahead -> Parsec.State TokenStream Problem
+stateOf :: FastState -> Parsec.State TokenStream Problem
 stateOf s =
   Parsec.State
     { Parsec.stateInput = TokenStream (left s),
@@ -200,7 +200,7 @@ instance Grammar FastParser where
   {-# INLINE modifyState #-}
 
 -- | The state in the form that the grammar uses. Without recovery there are no recorded failures.
-grammarStateOf :: Ahead -> ParserState
+grammarStateOf :: FastState -> ParserState
 grammarStateOf s =
   ParserState
     { failures = [],
