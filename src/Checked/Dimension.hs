@@ -27,8 +27,8 @@ import Data.Text (Text)
 import Data.Text qualified as Text
 import Prelude hiding (exponent)
 
--- | A generator of the group of dimensions. 'PointWeight' distinguishes points and vectors: a point has
--- weight 1, a vector 0, and the difference of two points is a vector.
+-- | A generator of the group of dimensions. 'PointWeight' distinguishes points and vectors: a point
+-- has weight 1, a vector 0, and the difference of two points is a vector.
 data Atom = Length | Angle | Time | PointWeight | Unknown Int
   deriving stock (Eq, Ord, Show)
 

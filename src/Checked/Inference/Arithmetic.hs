@@ -120,7 +120,7 @@ ratio d e = Dimension.times d (Dimension.power (-1) e)
 solvedAs :: Arithmetic -> Type -> Infer Bool
 solvedAs a t = True <$ equate (arithmeticRegion a) (outcome a) t
 
--- | Reports an operation that these operands do not have.
+-- | Reports that an operation is not defined for the given operands.
 undefinedFor :: Arithmetic -> UndefinedOperation -> [(Region, Type)] -> Infer Bool
 undefinedFor a operation operands = do
   mistakeOnce [arithmeticRegion a] (NoOperation (arithmeticRegion a) operation operands)

@@ -28,8 +28,8 @@ import Surface.Syntax qualified as Surface
 import Surface.Token (Numeral (..))
 
 -- | Checks a literal, or a pair of literals, against a wanted type. A literal without a unit gets
--- the default unit of the wanted dimension. 'Nothing' unless the dimension is known, a unit given
--- measures it, and the term is made of literals only.
+-- the default unit of the wanted dimension. The result is 'Nothing' if the term contains anything
+-- else, if the dimension is unknown, or if a unit belongs to another dimension.
 literal :: Type -> Surface.Expr -> Maybe Checked.Expr
 literal wanted (Located at e) = case (e, wanted) of
   (Surface.Literal (Numeral _ x) Nothing, Type.Quantity d)
