@@ -125,7 +125,7 @@ toReport err = case err of
       { label = "here",
         hints = case found of
           FoundToken (Symbol "=")
-            | "‘closed’" `elem` expected ->
+            | quote "closed" `elem` expected ->
               ["A contour has no such sign: contour name closed { … }"]
           FoundToken token
             | not (isWord expected) ->
@@ -177,7 +177,7 @@ toReport err = case err of
       { hints = headingAdvice token
       }
   NoSide region found ->
-    (at region "E0101" ("found " <> shown found <> expectation ["‘left’", "‘right’"]))
+    (at region "E0101" ("found " <> shown found <> expectation (map quote ["left", "right"])))
       { label = "here",
         hints =
           [ "Say on which side of its curve the piece lies, to the left or to the right of the \

@@ -218,7 +218,7 @@ argument :: CommentPositions -> Argument -> (Region, Doc)
 argument comments a = case a of
   Given e -> (Region.region e, value comments e)
   Chosen (Located region choice) e ->
-    ( Region (start region) (end (Region.region e)),
+    ( Region.span region (Region.region e),
       spaced [Text (Keyword.selectorWord choice), value comments e]
     )
   Ranked (Located region which) -> (region, Text (rankName which))
