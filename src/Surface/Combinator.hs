@@ -184,6 +184,10 @@ run parser finish tokens = (map (fromFailure (Vector.fromList tokens) finish) in
       Right a -> (Just a, [])
       Left bundle -> (Nothing, NonEmpty.toList (Parsec.bundleErrors bundle))
 
+-- The pragmas below let GHC specialise the combinators for the fast parser. Without them, the fast
+-- parser would call every operation of 'Grammar' by way of a dictionary. Functions that only run
+-- after a mistake need no pragma.
+
 -- Tokens
 
 -- | Parses a symbol and gives its region.
