@@ -83,9 +83,6 @@ tunedModules =
     ("Frame.Rounding", "per chord"),
     ("Tape.", "writing and reading, per row"),
     ("Surface.Combinator", "the parser, per token"),
-    ("Surface.Grammar", "the parser, per token"),
-    ("Surface.Parser", "the parser, per token"),
-    ("Surface.Lexer", "the lexer, per character"),
     ("Base.", "flat arrays and positions")
   ]
 

@@ -33,19 +33,21 @@ import Data.Map.Strict (Map)
 import Data.Map.Strict qualified as Map
 import Data.Text (Text)
 import Data.Text qualified as Text
+import Surface.Keyword qualified as Keyword
 import Prelude hiding (lookup)
 
 -- | The parameters of a call and the type of its result.
 data Form = Form {parameters :: [Parameter], result :: Type}
 
--- | A parameter. One with the label 'Rank' has neither name nor type.
+-- | A parameter: its label, its name for reports, and its type. A parameter with the label 'Rank'
+-- has neither name nor type.
 data Parameter = Parameter {label :: ArgumentLabel, title :: Text, type' :: Type}
 
 -- | The label of an argument: none, a word such as @near@, or a rank, @first@ or @last@.
 data ArgumentLabel = NoLabel | Word Selector | Rank
   deriving stock (Eq, Ord, Show)
 
--- | Unknowns for one call of a function.
+-- | The unknowns in the types of one call of a function: a dimension and a type.
 data Fresh = Fresh {dimension :: Dimension, anything :: Type}
 
 -- | Looks a built-in function or constant up by its name.
@@ -130,7 +132,8 @@ name builtin = case builtin of
 isConstant :: Builtin -> Bool
 isConstant builtin = builtin `elem` [Pi, Truth, Falsehood]
 
--- | The forms of a function. If the types of a call leave several, the first of them is chosen.
+-- | The forms of a function. If several forms fit a call at the end of its statement, the first of
+-- them is chosen.
 forms :: Fresh -> Builtin -> [Form]
 forms Fresh {dimension = d, anything} builtin = case builtin of
   Pi -> [Form [] Type.number]
@@ -344,8 +347,8 @@ unknownTemplate :: Fresh
 unknownTemplate =
   Fresh {dimension = Dimension.atom (Dimension.Unknown anyUnknown), anything = Variable anyUnknown}
 
--- | The forms of a function with @count@ parameters, all without labels. The flag tells if all
--- types of the form are known.
+-- | The forms of a function with @count@ parameters, all without labels. The flag of a form tells
+-- if its types contain no unknowns.
 unlabelled :: Builtin -> Int -> [(Form, Bool)]
 unlabelled builtin count = maybe [] (Map.findWithDefault [] count) (Lazy.lookup builtin byCount)
 
@@ -370,7 +373,7 @@ byCount =
 isOverloaded :: Builtin -> Bool
 isOverloaded builtin = not (null (drop 1 (forms unknownTemplate builtin)))
 
--- | A number that no unknown of type inference has.
+-- | A number that no unknown of type inference has: theirs are not negative.
 anyUnknown :: Int
 anyUnknown = -1
 
@@ -381,14 +384,7 @@ formText builtin form = callText (name builtin) (map parameter (parameters form)
     parameter p = case label p of
       NoLabel -> title p
       Rank -> "first or last"
-      Word choice -> word choice <> " " <> title p
-    word choice = case choice of
-      Near -> "near"
-      ToLeft -> "left"
-      ToRight -> "right"
-      ToInside -> "inside"
-      ToOutside -> "outside"
-      WithinTolerance -> "within"
+      Word choice -> Keyword.selectorWord choice <> " " <> title p
 
 -- | Describes a function by its first forms, for editors.
 description :: Builtin -> Text

@@ -50,8 +50,8 @@ item env (Located at i) = case i of
             (mapStrict ($ sol) link')
     pure (Located at . element)
 
--- | Checks the modifiers of an element of a type. Bevels of an element that is already reported as
--- wrong are skipped, since its columns are unknown.
+-- | Checks the modifiers of an element of the given type. A bevel is skipped if the element is
+-- already reported as wrong, because its columns are unknown.
 elementModifiers ::
   TypingEnvironment -> Type -> [Surface.Modifier] -> Infer [Deferred Checked.Modifier]
 elementModifiers env t modifiers
@@ -69,7 +69,7 @@ isBevel (Located _ m) = case m of
   Surface.Slow -> False
   Surface.ElementAllowance _ -> False
 
--- | Checks a modifier of an element with columns, which a bevel may name.
+-- | Checks a modifier of an element. A bevel may name the given columns.
 modifier ::
   TypingEnvironment -> [(Text, Type)] -> Surface.Modifier -> Infer (Deferred Checked.Modifier)
 modifier env columns (Located at m) = fmap (Located at .) $ case m of

@@ -1,7 +1,7 @@
 -- | Checked terms that need the solution of type inference for the whole program.
 --
--- Once the solution is known, every part of such a term is evaluated at once. A lazy remainder
--- would keep the state of inference alive.
+-- Once the solution is known, every part of such a term is evaluated. A thunk in it would keep the
+-- state of inference alive.
 module Checked.Deferred
   ( Deferred,
     resolveAll,
@@ -14,11 +14,12 @@ import Checked.Inference (Solution)
 -- | A term that depends on the solution of type inference.
 type Deferred a = Solution -> a
 
--- | Resolves a list of terms, each evaluated to its outermost constructor.
+-- | Applies a list of terms to the solution, and evaluates each result to its outermost
+-- constructor.
 resolveAll :: Solution -> [Deferred a] -> [a]
 resolveAll solution terms = let found = map ($ solution) terms in foldr seq found found
 
--- | Maps over an optional value and evaluates the result.
+-- | Applies a function to an optional value, and evaluates the result to its outermost constructor.
 mapStrict :: (a -> b) -> Maybe a -> Maybe b
 mapStrict f thing = case thing of
   Nothing -> Nothing

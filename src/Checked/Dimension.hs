@@ -27,8 +27,8 @@ import Data.Text (Text)
 import Data.Text qualified as Text
 import Prelude hiding (exponent)
 
--- | A generator of the group of dimensions. 'PointWeight' tells points from vectors: a point has
--- weight 1, a vector 0, and the difference of two points is a vector.
+-- | A generator of the group of dimensions. 'PointWeight' distinguishes points and vectors: a point
+-- has weight 1, a vector 0, and the difference of two points is a vector.
 data Atom = Length | Angle | Time | PointWeight | Unknown Int
   deriving stock (Eq, Ord, Show)
 
@@ -37,7 +37,7 @@ newtype Dimension = Dimension (Map Atom Int)
   deriving newtype (Eq)
   deriving stock (Show)
 
--- | The dimension of a plain number.
+-- | The dimension of a number that is not a quantity: all exponents are 0.
 none :: Dimension
 none = Dimension Map.empty
 
@@ -64,7 +64,7 @@ unknowns (Dimension m) = [n | Unknown n <- Map.keys m]
 isKnown :: Dimension -> Bool
 isKnown = null . unknowns
 
--- | Tells if a dimension has unknowns and all its exponents are even.
+-- | Tells if a dimension contains unknowns and all its exponents are even.
 isUnknownSquare :: Dimension -> Bool
 isUnknownSquare d@(Dimension m) = not (isKnown d) && all even (Map.elems m)
 
@@ -72,13 +72,16 @@ isUnknownSquare d@(Dimension m) = not (isKnown d) && all even (Map.elems m)
 data UnificationStep
   = Solved
   | Impossible
-  | -- | an unknown has this value; the equation that remains is solved by further steps
+  | -- | the number of an unknown and its value. If the value contains the fresh unknown, the
+    -- equation is not solved yet
     Replace Int Dimension
 
--- | Makes one step towards a dimension equal to 'none'. The number is that of a fresh unknown.
+-- | Makes one step towards the solution of the equation that a dimension is 'none'. @fresh@ is the
+-- number of an unknown that is not used yet.
 --
--- The unknown with the smallest exponent is eliminated. If its exponent does not divide the
--- others, the integer parts of the quotients are taken and a fresh unknown carries the rest.
+-- The unknown with the exponent of smallest absolute value is eliminated. If that exponent does not
+-- divide the other ones, the quotients are rounded down and the fresh unknown represents the
+-- remainders.
 solve :: Int -> Dimension -> UnificationStep
 solve fresh (Dimension m) = case pivot of
   Nothing -> if Map.null m then Solved else Impossible
@@ -93,7 +96,7 @@ solve fresh (Dimension m) = case pivot of
       candidates -> let (_, _, e, n) = minimum candidates in Just (n, e)
     rest n f = Dimension (Map.filter (/= 0) (fmap f (Map.delete (Unknown n) m)))
 
--- | Replaces an unknown by a dimension.
+-- | Replaces the unknown of a number by a dimension within another dimension.
 substitute :: Int -> Dimension -> Dimension -> Dimension
 substitute n d whole@(Dimension m) = case Map.lookup (Unknown n) m of
   Nothing -> whole
@@ -135,8 +138,8 @@ unitWord (Dimension m) = case (factors (> 0), factors (< 0)) of
       PointWeight -> "point"
       Unknown _ -> ""
 
--- | The factor from a number without a unit to mm, minutes and radians. Such numbers are in mm,
--- minutes and degrees.
+-- | The factor that turns a number without a unit into a quantity of a dimension. The number is in
+-- mm, minutes and degrees, the quantity in mm, minutes and radians.
 defaultUnit :: Dimension -> Double
 defaultUnit d = case exponent Angle d of
   0 -> 1

@@ -40,15 +40,17 @@ data Error
     DefinedTwice Region Name Region
   | -- | a definition of a built-in name
     NameTaken Region Name
-  | -- | a term of the wrong type: the wanted type, the found type, other regions that decided types
+  | -- | a term of the wrong type: the wanted type, the found type, and other regions that decided
+    -- these types
     Mismatch Region Type Type [(Region, Type)]
-  | -- | a sum or a comparison of different kinds: the operands, other regions that decided types
+  | -- | a sum, a difference or a comparison of operands that do not fit: the operands, and other
+    -- regions that decided their types
     Disagree Region Operator (Region, Type) (Region, Type) [(Region, Type)]
-  | -- | an operation that the operands do not have
+  | -- | an operation that is not defined for its operands
     NoOperation Region UndefinedOperation [(Region, Type)]
   | -- | a wrong number of arguments: the function, its parameters, the number given
     ArgumentCount Region Name [Text] Int
-  | -- | a call of a value; the region of its definition
+  | -- | a call of a value; the region of its definition unless it is built in
     NotAFunction Region Name (Maybe Region)
   | -- | a function without arguments: its name, its forms as calls
     FunctionAsValue Region Name [Text]
@@ -74,7 +76,7 @@ data Error
     NotInBlock Region Text
   | -- | a setting that the statement does not have: the setting, the statement, its settings
     ForeignSetting Region Text Text [Text]
-  | -- | a setting that occurs again in a block; the region of the first one
+  | -- | a setting that occurs again in a block; the region of the one before
     RepeatedSetting Region Text Region
   | -- | a tolerance after an assertion that is not an equality
     WithinWithoutEquality Region
@@ -400,7 +402,7 @@ traversalHint t = case t of
     Just "A contour is walked from its beginning to its end; the other way, write reversed(c)."
   _ -> Nothing
 
--- | Tells if a number consists of several digits of ciphers.
+-- | Tells if a number such as @24@ is the digits of several ciphers in one word.
 isSeveralCiphers :: Text -> Bool
 isSeveralCiphers digit = Text.length digit > 1 && Text.all (`elem` ['1', '2', '4', '6']) digit
 

@@ -47,20 +47,21 @@ import Surface.Keyword qualified as Keyword
 import Surface.Syntax qualified as Surface
 import Surface.Token (Numeral (..), Unit)
 
--- | The surroundings of an expression.
+-- | The facts about a program that the checking of its expressions needs.
 data TypingEnvironment = TypingEnvironment
-  { -- | all names that the program or the surrounding blocks define anywhere, with their regions
+  { -- | all names that the program or the blocks around the expression define, above or below it,
+    -- with the regions of their definitions
     definitions :: Map Name Region,
-    -- | literals are checked by "Checked.Inference.Fast", otherwise by full inference
+    -- | true if "Checked.Inference.Fast" checks literals, false if full inference does
     isFast :: Bool
   }
 
--- | A type with the term that has it.
+-- | The type of a term, and the term.
 type Typed = (Type, Deferred Checked.Expr)
 
 -- Wanted types
 
--- | Checks an expression that must have a type.
+-- | Checks an expression that must have the given type.
 expect :: TypingEnvironment -> Type -> Surface.Expr -> Infer (Deferred Checked.Expr)
 expect env wanted e = case (value e, wanted) of
   _ | isFast env, Just e' <- FastInference.literal wanted e -> pure (const e')
@@ -74,7 +75,7 @@ expect env wanted e = case (value e, wanted) of
 equal :: Region -> Type -> Type -> Infer ()
 equal at wanted t = void (isEqual at wanted t)
 
--- | 'equal' that also tells if the types agree.
+-- | As 'equal', but also tells if the types agree.
 isEqual :: Region -> Type -> Type -> Infer Bool
 isEqual at wanted t = do
   found <- Inference.resolved t
@@ -133,7 +134,7 @@ contourElement env sense e = case (sense, value e) of
       _ -> Inference.mistake (NotAnElement (region e) t')
     pure (t, e')
 
--- | The fast check of a call, if the environment allows it.
+-- | Checks a call by "Checked.Inference.Fast", if the environment allows that.
 fastCall :: TypingEnvironment -> Surface.Expr -> Infer (Maybe FastInference.FastCall)
 fastCall env e = if isFast env then FastInference.call (expect env) e else pure Nothing
 
@@ -184,8 +185,8 @@ infer env located@(Located at e) = case e of
         \sol -> Located at (Checked.Each (inner' sol) (value counter) (list' sol))
       )
 
--- | A number as written. Without a unit its dimension follows from its use, and the number has the
--- default unit of that dimension.
+-- | Checks a number as written. Without a unit its dimension follows from its use, and the number
+-- has the default unit of that dimension.
 literal :: Region -> Double -> Maybe Unit -> Infer Typed
 literal at x unit = case unit of
   Just u ->
@@ -196,7 +197,7 @@ literal at x unit = case unit of
     unless (x == 0) (Inference.monomorphic d)
     pure (Type.Quantity d, \sol -> Located at (Checked.Number (x * Dimension.defaultUnit (sol d))))
 
--- | A pair of lengths at a region.
+-- | Checks two lengths and makes a pair of them at a region.
 pair :: TypingEnvironment -> Region -> Surface.Expr -> Surface.Expr -> Infer (Deferred Checked.Expr)
 pair env at x y = (Located at .) <$> pair' env x y
 
@@ -206,7 +207,7 @@ pair' env x y = do
   y' <- expect env Type.len y
   pure (\sol -> Checked.Pair (x' sol) (y' sol))
 
--- | A term with an operator.
+-- | Checks a term with a binary operator.
 binary ::
   TypingEnvironment ->
   Region ->
@@ -226,9 +227,10 @@ binary env at op l r
     result <- operation at op (region l, lt) (region r, rt)
     pure (result, \sol -> Located at (Checked.Binary op (l' sol) (r' sol)))
 
--- | Makes a literal factor without a unit a plain number if the other factor has a known dimension:
--- twice an angle is an angle. A literal divisor is always a plain number. Beside a plain number a
--- literal may be anything: @20 * k@ can be a length, @4 * 4@ an area.
+-- | Makes a literal factor without a unit a number without a dimension, if the other factor has a
+-- known dimension: twice an angle is an angle. A literal divisor never has a dimension. If the
+-- other factor has no dimension, the literal may get any: @20 * k@ can be a length, @4 * 4@ an
+-- area.
 plainFactor :: Surface.Operator -> (Surface.Expr, Type) -> (Surface.Expr, Type) -> Infer ()
 plainFactor op (l, lt) (r, rt) = do
   lt' <- Inference.resolved lt
@@ -252,14 +254,15 @@ hasNoUnit (Located _ e) = case e of
   Surface.Binary _ l r -> hasNoUnit l && hasNoUnit r
   _ -> False
 
--- | Requires that an operation has a result; gives the type of the result.
+-- | Adds the constraint of an operation on two operands. Gives the type of its result.
 operation :: Region -> Surface.Operator -> (Region, Type) -> (Region, Type) -> Infer Type
 operation arithmeticRegion operator left right = do
   outcome <- Inference.freshType
   Inference.require (Operation Arithmetic {arithmeticRegion, operator, left, right, outcome})
   pure outcome
 
--- | A range: of plain numbers, or with a step of quantities of one dimension.
+-- | Checks a range. Without a step it consists of numbers without a dimension, with a step of
+-- quantities of any one dimension.
 range ::
   TypingEnvironment ->
   Region ->
@@ -292,7 +295,7 @@ isBuiltin = isJust . Builtin.lookup
 
 -- Names
 
--- | A name used as a value.
+-- | Checks a name that is used as a value.
 variable :: TypingEnvironment -> Region -> Name -> Infer Typed
 variable env at name@(Name text) = do
   binding <- Inference.find name
@@ -316,8 +319,8 @@ variable env at name@(Name text) = do
       Inference.mention at (Just definedAt) text (Inference.Valued t)
       pure (t, const (Located at (Checked.Variable name)))
 
--- | The error for a name without a meaning here: it is defined below, it is being defined, or it is
--- misspelt.
+-- | The error for a name that is not in scope: it is defined below, it is used in its own
+-- definition, or it is not defined at all.
 unknownName :: TypingEnvironment -> Region -> Name -> Infer Error
 unknownName env at name = do
   names <- Inference.namesInScope
@@ -332,7 +335,7 @@ unknownName env at name = do
 wrong :: Region -> Typed
 wrong at = (Type.Wrong, const (Located at (Checked.Number 0)))
 
--- | Reports a mistake and gives the substitute for its term.
+-- | Reports a mistake and gives a substitute for the wrong term.
 wrongTerm :: Region -> Error -> Infer Typed
 wrongTerm at e = wrong at <$ Inference.mistake e
 
@@ -352,7 +355,7 @@ data Call = Call
     written :: [Surface.Argument]
   }
 
--- | A call of a function of the program or of the language.
+-- | Checks a call of a function of the program or of the language.
 call :: TypingEnvironment -> Region -> Located Name -> NonEmpty Surface.Argument -> Infer Typed
 call env at callee@(Located nameRegion name@(Name text)) arguments = do
   binding <- Inference.find name
@@ -385,7 +388,7 @@ wrongCall env c e = wrong (callRegion c) <$ (checkArguments env c *> Inference.m
 checkArguments :: TypingEnvironment -> Call -> Infer ()
 checkArguments env c = mapM_ (infer env) (argumentValues c)
 
--- | A call of a function that the program defines.
+-- | Checks a call of a function that the program defines.
 functionCall :: TypingEnvironment -> Call -> [Text] -> Scheme -> Infer Typed
 functionCall env c parameters scheme = do
   (types, t, constraints) <- Inference.instantiate at scheme
@@ -404,8 +407,8 @@ functionCall env c parameters scheme = do
     at = callRegion c
     name = value (callee c)
 
--- | A call of a function of the language. A function with one form, or a form that its labels
--- single out, is checked at once; other calls become constraints.
+-- | Checks a call of a function of the language. If the function has one form, or the labels select
+-- one form, the arguments are checked against it. Other calls become constraints.
 builtinCall :: TypingEnvironment -> Call -> Checked.Builtin -> Infer Typed
 builtinCall env c builtin = do
   unknowns <- freshUnknowns
@@ -437,7 +440,7 @@ builtinCall env c builtin = do
     term values sol =
       Located at (Checked.Builtin builtin (withLabels (written c) (map ($ sol) values)))
 
--- | Requires that a call has a form; gives the type of its result.
+-- | Adds the constraint of an overloaded call. Gives the type of its result.
 overloadedCall :: Call -> Checked.Builtin -> [ArgumentLabel] -> [Type] -> Infer Type
 overloadedCall c builtin labels types = do
   callType <- Inference.freshType
@@ -453,8 +456,8 @@ overloadedCall c builtin labels types = do
     )
   pure callType
 
--- | The type of a call that the fast check has accepted. The type of an overloaded call was decided
--- by the call, which a later error can point at.
+-- | The type of a call that the fast check has accepted. The type of an overloaded call records the
+-- region of the call as the one that decided it, so that a later error can point there.
 fastCallType :: Region -> FastInference.FastCall -> Infer Type
 fastCallType at c
   | FastInference.isOverloaded c = Inference.freshDecided at (FastInference.resultType c)

@@ -84,8 +84,8 @@ isUndefinedName e = case e of
   UndefinedName {} -> True
   _ -> False
 
--- | The names that statements define, with the regions of the first definitions. Statements in
--- their blocks do not count.
+-- | The names that statements define, each with the region of its first definition. Definitions
+-- inside their blocks do not count.
 definedIn :: [Statement] -> Map Name Region
 definedIn statements =
   Map.fromListWith
@@ -106,7 +106,8 @@ definedName s = case s of
 
 -- Statements
 
--- | Checks a statement; 'Nothing' when it contains a mistake or leaves nothing to evaluate.
+-- | Checks a statement. Gives 'Nothing' if it contains a mistake or has no counterpart in the
+-- checked program.
 statement :: TypingEnvironment -> Statement -> Infer (Maybe (Deferred Checked.Statement))
 statement env (Located at s) = case s of
   Surface.Part n _ -> Nothing <$ mentionDefinition n (Inference.Described "the name of the part")
@@ -166,7 +167,7 @@ statement env (Located at s) = case s of
     done = fmap (fmap (Located at .))
     one = done . Inference.separately
 
--- | Statements of a block, whose definitions are known only there.
+-- | Checks the statements of a block. Their definitions are known only inside it.
 block :: TypingEnvironment -> [Statement] -> Infer [Deferred Checked.Statement]
 block env body = Inference.scoped (inBlock env body)
 
@@ -175,7 +176,7 @@ inBlock env body = catMaybes <$> mapM (statement inner) body
   where
     inner = env {definitions = Map.union (definedIn body) (definitions env)}
 
--- | A repetition of statements. The variable is poisoned if the list contains a mistake.
+-- | Checks a repetition of statements. Its variable is poisoned if the list contains a mistake.
 repeated ::
   TypingEnvironment ->
   Located Name ->
@@ -194,7 +195,7 @@ repeated env counter list body = do
 
 -- Definitions
 
--- | The definition of a value by the type and the term of its expression.
+-- | Checks the definition of a value. The given inference checks its expression.
 valueDefinition ::
   Located Name ->
   Infer (Type, Deferred Checked.Expr) ->
@@ -204,7 +205,7 @@ valueDefinition name inside = do
   d <- maybe (pure Dimension.none) (fmap Type.dimensionOf . Inference.resolved . fst) checked
   pure ((\(_, e) sol -> Checked.LetValue name (sol d) (e sol)) <$> checked)
 
--- | The definition of a function.
+-- | Checks the definition of a function.
 functionDefinition ::
   TypingEnvironment ->
   Located Name ->
@@ -216,7 +217,7 @@ functionDefinition env name parameters body = do
   let make (_, e) sol = Checked.LetFunction (value name) (fmap value parameters) (e sol)
   pure (make <$> checked)
 
--- | A function with its generalised type.
+-- | Checks a function and generalises its type.
 function ::
   TypingEnvironment ->
   Located Name ->
@@ -234,7 +235,7 @@ function env name parameters body = do
   where
     locals = NonEmpty.toList parameters
 
--- | Reports each name that occurs again in a list, once.
+-- | Reports each repetition of a name in a list. The report also points at the occurrence before.
 reportRepeated :: [Located Name] -> Infer ()
 reportRepeated names = case names of
   [] -> pure ()
@@ -244,7 +245,7 @@ reportRepeated names = case names of
       (take 1 (filter ((== value n) . value) rest))
     reportRepeated rest
 
--- | The definition of a contour.
+-- | Checks the definition of a contour.
 contourDefinition ::
   TypingEnvironment ->
   Located Name ->
@@ -255,7 +256,7 @@ contourDefinition env name closure items = do
   checked <- defining name (const (Value (region name) Type.Contour)) (mapM (item env) items)
   pure ((\items' sol -> Checked.Contour name closure (resolveAll sol items')) <$> checked)
 
--- | The definition of a table, whose file is already read.
+-- | Checks the definition of a table. If its lines come from a file, the file is already read.
 tableDefinition ::
   TypingEnvironment -> Located Name -> Surface.Lines -> Infer (Maybe (Deferred Checked.Statement_))
 tableDefinition env name written = do
@@ -266,7 +267,7 @@ tableDefinition env name written = do
       Surface.WrittenLines ls -> ls
       Surface.LinesFromFile _ -> []
 
--- | The definition of a piece.
+-- | Checks the definition of a piece.
 pieceDefinition ::
   TypingEnvironment ->
   Located Name ->
@@ -286,7 +287,7 @@ pieceDefinition env name e ciphers side joggles = do
         Checked.Piece name (e' sol) (resolveAll sol ciphers') side (resolveAll sol joggles')
   pure (make <$> checked)
 
--- | A curve through any table or points.
+-- | Checks an expression that must be a curve. Afterwards its columns are known.
 curve :: TypingEnvironment -> Surface.Expr -> Infer (Type, Deferred Checked.Expr)
 curve env e = do
   t <- Type.Curve <$> Inference.freshType
@@ -294,8 +295,9 @@ curve env e = do
   Inference.settle
   pure (t, e')
 
--- | Checks a definition and binds its name unless it is bound already. The name is poisoned if the
--- definition contains a mistake.
+-- | Checks a definition by the given inference and binds its name unless it is bound already. The
+-- function makes the binding from the result. The name is poisoned if the definition contains a
+-- mistake.
 defining :: Located Name -> (a -> Binding) -> Infer a -> Infer (Maybe a)
 defining name bindingOf inside = do
   checked <- Inference.separately (reportTaken name *> inside)
@@ -325,7 +327,7 @@ reportBuiltin :: Located Name -> Infer ()
 reportBuiltin (Located at name@(Name text)) =
   when (isBuiltin text) (Inference.mistake (NameTaken at name))
 
--- | Records the mention of a name in its own definition.
+-- | Records the mention of a name at its definition.
 mentionDefinition :: Located Name -> Inference.Meaning -> Infer ()
 mentionDefinition (Located at (Name text)) = Inference.mention at (Just at) text
 
@@ -339,7 +341,7 @@ meaningOf binding = case binding of
 
 -- Settings, motions and commands
 
--- | A machining statement on a contour.
+-- | Checks a machining statement with the given keyword, a contour, a side and settings.
 machining ::
   TypingEnvironment ->
   (Checked.Expr -> Located Surface.Side -> Checked.Settings -> Checked.Statement_) ->
@@ -386,7 +388,8 @@ spindle env spin = case spin of
     speed' <- traverse (expect env Type.spindleSpeed) speed
     pure (\sol -> Checked.Spinning sense (($ sol) <$> speed'))
 
--- | Checks an assertion: a comparison, an equation with an optional tolerance, or another truth.
+-- | Checks an assertion: a comparison, an equality with an optional tolerance, or another
+-- expression that is true or false.
 assertion ::
   TypingEnvironment ->
   Surface.Expr ->

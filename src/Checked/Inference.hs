@@ -78,9 +78,9 @@ separately infer = do
 
 -- Functions
 
--- | Generalises a function: the action gives the types of its parameters, the type of its result
--- and a further value. Unknowns of the function are quantified unless they are shared. Constraints
--- that its arguments may solve stay in the scheme.
+-- | Runs the inference of a function and generalises its type. The inference gives the types of the
+-- parameters, the type of the result and a further value. Unknowns of the function are quantified
+-- unless they are 'shared'. Constraints that its arguments may solve become part of the scheme.
 generalise :: Infer ([Type], Type, a) -> Infer (Scheme, a)
 generalise infer = do
   outer <- gets firstOwn
@@ -105,15 +105,16 @@ constraintTypes constraint = case constraint of
   Operation a -> [snd (left a), snd (right a), outcome a]
   Overloaded c -> callType c : map snd (arguments c)
 
--- | The unknowns in the present value of an unknown, as a type or as a dimension.
+-- | The undecided unknowns in the present value of an unknown. The number may be that of an unknown
+-- type or of an unknown dimension.
 unknownsIn :: InferenceState -> Int -> [Int]
 unknownsIn state n =
   Type.variables (resolve state (Variable n))
     <> Dimension.unknowns
       (resolveDimension (decisions state) (Dimension.atom (Dimension.Unknown n)))
 
--- | The constraints that cannot be solved yet, with equal ones merged. If more than
--- 'maxDeferred' remain, all are settled by defaults instead.
+-- | Solves pending constraints, merges equal ones among the others and gives them. If there are
+-- more than 'maxDeferred', all are settled by defaults instead.
 unsolved :: Infer [DeferredConstraint]
 unsolved = do
   waiting <- solvePending >>= mapM resolvedConstraint
@@ -143,7 +144,8 @@ resolvedConstraint constraint = case constraint of
     t <- resolved (callType c)
     pure (Overloaded c {arguments = types, callType = t})
 
--- | Merges equal operations on equal operands and unifies their results.
+-- | Merges equal operations on equal operands, and equal calls on equal arguments. Unifies the
+-- types of their results.
 mergeEqual :: [DeferredConstraint] -> Infer [DeferredConstraint]
 mergeEqual constraints = case constraints of
   [] -> pure []
@@ -170,8 +172,8 @@ constraintResult constraint = case constraint of
   Overloaded c -> (callRegion c, callType c)
 
 -- | Instantiates a scheme for a use at a region. Gives the types of the parameters and the result,
--- and an action that requires the scheme's constraints. The action runs after the arguments are
--- checked.
+-- and an action that adds the scheme's constraints. The caller runs the action after it has checked
+-- the arguments.
 instantiate :: Region -> Scheme -> Infer ([Type], Type, Infer ())
 instantiate use scheme = do
   renamed <- traverse (const freshNumber) (IntMap.fromSet id (quantified scheme))
@@ -186,7 +188,7 @@ instantiate use scheme = do
       mapM_ (require . atUse use inType) (deferred scheme)
     )
 
--- | A scheme's constraint at the region of a use, with its types instantiated.
+-- | A scheme's constraint with the region of a use. The function instantiates its types.
 atUse :: Region -> (Type -> Type) -> DeferredConstraint -> DeferredConstraint
 atUse use inType constraint = case constraint of
   Operation a ->
@@ -207,19 +209,20 @@ atUse use inType constraint = case constraint of
 
 -- Deferred constraints
 
--- | Adds a constraint: solves it now or lets it wait.
+-- | Adds a constraint: solves it if enough is known, else makes it pending.
 require :: DeferredConstraint -> Infer ()
 require constraint = do
   isSolved <- solve constraint
   unless isSolved (modify' (\s -> s {pending = constraint : pending s}))
 
--- | Solves a constraint if enough is known; 'False' when it has to wait.
+-- | Solves a constraint, or gives 'False' if too little is known yet.
 solve :: DeferredConstraint -> Infer Bool
 solve constraint = case constraint of
   Operation a -> solveArithmetic a
   Overloaded c -> solveCall c
 
--- | Solves waiting constraints until none changes. Removes the rest from the state and gives it.
+-- | Solves pending constraints until no further one can be solved. Removes the unsolved ones from
+-- the state and gives them, the oldest first.
 solvePending :: Infer [DeferredConstraint]
 solvePending = do
   waiting <- gets pending
@@ -232,8 +235,8 @@ solvePending = do
         then modify' (\s -> s {pending = reverse rest}) *> solvePending
         else pure rest
 
--- | Solves all waiting constraints. An operand that is still unknown becomes a quantity. An
--- overloaded call gets the first form that fits.
+-- | Solves all pending constraints. If too little is known, an unknown operand becomes a quantity,
+-- and an overloaded call gets the first form that fits.
 settle :: Infer ()
 settle = do
   waiting <- solvePending

@@ -1,7 +1,7 @@
 -- | The checking of tables, and of the ciphers and joggles of pieces.
 --
--- Cells and the values of ciphers may be numbers without units. Their dimensions follow from the
--- headings of the columns or from the use of the columns anywhere in the program.
+-- The cells of a table may be numbers without units. Their dimension follows from the heading of
+-- their column, or from the use of the column anywhere in the program.
 module Checked.Piece
   ( table,
     columnsOf,
@@ -37,7 +37,8 @@ import Surface.Token (Numeral (..))
 
 -- Columns
 
--- | A column of a table. The size is that of its unit, if the heading gives one.
+-- | A column of a table. The size of its unit is in mm or radians; it is 'Nothing' for a heading
+-- without a unit.
 data Column = Column {heading :: Located Name, kind :: Type, size :: Maybe Double}
 
 -- | Checks a table and gives its type. The first line must name the columns.
@@ -87,7 +88,7 @@ reportRepeated names = mapM_ report (zip [0 ..] names)
       [] -> pure ()
 
 -- | Reports a column with the name of a constant of the language. Both are written without
--- arguments, so a value along the curve could not tell them apart.
+-- arguments, so that a value along a curve could mean either of them.
 reportConstant :: Located Name -> Infer ()
 reportConstant (Located at name@(Name text)) =
   when
@@ -118,8 +119,8 @@ columnsAndRows columns rows sol =
       [i | text <- ["x", "y"], (i, c) <- numbered, value (heading c) == Name text]
         <> [i | (i, c) <- numbered, isExtra c]
 
--- | The columns of a curve or a table, which values along it may name; none for another type.
--- 'Nothing' for what is already reported as wrong.
+-- | The columns that values along a curve of the given type may name; none if it is not the type of
+-- a curve. 'Nothing' if the columns are unknown, or if the curve is already reported as wrong.
 columnsOf :: Type -> Infer (Maybe [(Text, Type)])
 columnsOf t = do
   t' <- Inference.resolved t
@@ -129,7 +130,8 @@ columnsOf t = do
     Type.Wrong -> Nothing
     _ -> Just []
 
--- | Runs an inference with columns as local names, which hide those of the program.
+-- | Runs an inference with columns as local names, which hide the names of the program. Mentions of
+-- the columns get the given region.
 withColumns :: Region -> [(Text, Type)] -> Infer a -> Infer a
 withColumns at columns = Inference.withLocals [(Located at (Name text), t) | (text, t) <- columns]
 
@@ -147,7 +149,7 @@ data Row
 -- | A cell: a number in the unit of its column, or another expression.
 data Cell = Literal Region Double | Written (Deferred Checked.Expr)
 
--- | Checks the rows of a table; gives the last one first.
+-- | Checks the rows of a table. Gives them in reverse order.
 rowsOf :: TypingEnvironment -> [Column] -> [Surface.TableLine] -> Infer [Row]
 rowsOf env columns = go 1 []
   where
@@ -198,7 +200,7 @@ cell env c e = case literalOf e of
       Surface.Negate inner -> negate <$> literalOf inner
       _ -> Nothing
 
--- | Reverses rows that are given the last one first, and joins neighbours that are all numbers.
+-- | Reverses rows, and joins neighbouring rows of numbers.
 joinRows :: [Row] -> [Row]
 joinRows = go []
   where
@@ -210,8 +212,8 @@ joinRows = go []
       Literals at xs : before -> literals done ((at, xs) : found) before
       _ -> go (Numbers (NumberTable.fromList found) : done) rows
 
--- | The cells of rows in a new order. Numbers are multiplied by the sizes of their columns' units,
--- which are given in the order as written.
+-- | The cells of rows with their columns in the given order. Numbers are multiplied by the sizes of
+-- their units, which are given in the order of the text.
 cellsOf :: [Int] -> [Double] -> Row -> Deferred Cells
 cellsOf order sizes rows sol = case rows of
   Numbers numbers -> inOrder numbers
@@ -246,8 +248,8 @@ cipher env known (Located at (Surface.Cipher (Located digitRegion digit) given))
   where
     columns = fromMaybe [] known
 
--- | The recalculation of a cipher by its digit and the number of its values; 'Nothing' when there
--- is none.
+-- | Checks the values of a cipher with a digit; 'Nothing' if no recalculation has this digit and
+-- this number of values.
 recalculation ::
   TypingEnvironment ->
   [(Text, Type)] ->
@@ -283,7 +285,7 @@ recalculation env columns digit values = case (digit, values) of
     between p q =
       (\p' q' sol -> (p' sol, q' sol)) <$> expect env Type.aPoint p <*> expect env Type.aPoint q
 
--- | Checks a length that holds for the whole piece, so that no column may occur in it.
+-- | Checks a length that is the same along the whole piece. No column may occur in it.
 constantLength ::
   TypingEnvironment -> [(Text, Type)] -> Text -> Surface.Expr -> Infer (Deferred Checked.Expr)
 constantLength env columns digit e =
@@ -291,7 +293,7 @@ constantLength env columns digit e =
     (r, n) : _ -> zero e <$ Inference.mistake (ColumnForWholePiece r digit n)
     [] -> expect env Type.len e
 
--- | Checks a value at every point of a curve, which may name its columns.
+-- | Checks a value of a type that may vary along a curve. It may name the columns of the curve.
 valueAlong ::
   TypingEnvironment -> [(Text, Type)] -> Type -> Surface.Expr -> Infer (Deferred Checked.Expr)
 valueAlong env columns t e = do
@@ -310,7 +312,8 @@ valueAlong env columns t e = do
 zero :: Surface.Expr -> Deferred Checked.Expr
 zero e = const (Located (region e) (Checked.Number 0))
 
--- | The names in an expression that it does not bind itself, without the names of functions called.
+-- | The names in an expression, with their regions, except those that the expression binds itself
+-- and those of the functions that it calls.
 freeNames :: Surface.Expr -> [(Region, Name)]
 freeNames (Located at e) = case e of
   Surface.Literal _ _ -> []

@@ -1,4 +1,4 @@
--- | The statements that a program needs, and their order.
+-- | The check that a program has the statements that it needs, in the right order.
 --
 -- A program begins with @part@. Settings of the whole program occur once and outside of blocks.
 -- A machining statement or a motion needs certain settings above it.
@@ -18,7 +18,7 @@ import Data.Text qualified as Text
 import Surface.Syntax (Statement)
 import Surface.Syntax qualified as Surface
 
--- | Gives the mistakes in the order of a program's statements, in the order of the text.
+-- | Checks the statements of a program. Gives the mistakes in the order of the text.
 check :: [Statement] -> [Error]
 check statements = partFirst statements <> go Map.empty (concatMap (flatten False) statements)
   where
@@ -34,7 +34,8 @@ partFirst statements = case statements of
   Located at _ : _ -> [NoPart at {end = start at}]
   [] -> [NoPart (Region 0 0)]
 
--- | A statement with those in its blocks. The flag tells if a statement is in a block.
+-- | A statement, or the statements in its blocks if it has blocks. The flags tell if a statement is
+-- in a block.
 flatten :: Bool -> Statement -> [(Bool, Statement)]
 flatten isInBlock s = case s of
   Located _ (Surface.Repeat _ _ body) -> concatMap (flatten True) body
@@ -46,7 +47,7 @@ flatten isInBlock s = case s of
 -- missing has no region.
 type Seen = Map RequiredSetting (Maybe Region)
 
--- | Checks one statement after those seen.
+-- | Checks one statement, given the settings seen above it and the flag of 'flatten'.
 step :: Seen -> (Bool, Statement) -> (Seen, [Error])
 step seen (isInBlock, Located at s) = (seen', misplaced <> missing <> repeated)
   where
@@ -74,15 +75,15 @@ isChange s = case s of
   Surface.Broken (Just "change") _ -> True
   _ -> False
 
--- | The relation of a statement to the settings.
+-- | The setting that a statement makes, and the settings that it needs.
 data Requirement = Requirement
-  { -- | characters of the keyword, which reports point at
+  { -- | the count of characters of the keyword, which reports point at
     keywordLength :: Int,
     -- | the setting that the statement makes
     given :: Maybe RequiredSetting,
-    -- | the settings that must be made above it
+    -- | the settings that must be made above the statement
     needed :: [RequiredSetting],
-    -- | it holds for the whole program and is not allowed in a block
+    -- | true if the statement applies to the whole program and is not allowed in a block
     isGlobal :: Bool
   }
 
@@ -137,7 +138,7 @@ settingByKeyword =
     ("from", FromSetting)
   ]
 
--- | The keyword of a statement that holds for the whole program.
+-- | The keyword of a statement that applies to the whole program.
 globalKeyword :: Surface.Statement_ -> Text
 globalKeyword s = case s of
   Surface.Part _ _ -> "part"

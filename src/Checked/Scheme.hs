@@ -1,4 +1,4 @@
--- | Meanings of names during type inference, and constraints that wait for more information.
+-- | The meanings of names during type inference, and constraints that cannot be solved yet.
 module Checked.Scheme
   ( Binding (..),
     Scheme (..),
@@ -29,11 +29,11 @@ data Binding
 
 -- | The polymorphic type of a function.
 data Scheme = Scheme
-  { -- | unknowns that are replaced by fresh ones at each use
+  { -- | the numbers of the unknowns that are replaced by fresh unknowns at each use
     quantified :: IntSet,
     parameters :: [Type],
     result :: Type,
-    -- | constraints of the body that only the arguments of a use can solve
+    -- | the constraints of the body that only the arguments of a call can solve
     deferred :: [DeferredConstraint]
   }
 
@@ -49,12 +49,14 @@ data Meaning
 -- | A constraint that can be solved only when more types are known.
 data DeferredConstraint = Operation Arithmetic | Overloaded OverloadedCall
 
--- | An operation whose operands may still be unknown.
+-- | An operation whose operands may have unknown types.
 data Arithmetic = Arithmetic
-  { -- | the whole operation
+  { -- | the region of the whole operation
     arithmeticRegion :: Region,
     operator :: Operator,
+    -- | the left operand
     left :: (Region, Type),
+    -- | the right operand
     right :: (Region, Type),
     -- | the type of the result
     outcome :: Type
@@ -62,11 +64,12 @@ data Arithmetic = Arithmetic
 
 -- | A call of a built-in function that has several forms.
 data OverloadedCall = OverloadedCall
-  { -- | the whole call
+  { -- | the region of the whole call
     callRegion :: Region,
     builtin :: Builtin,
+    -- | the labels of all arguments
     labels :: [ArgumentLabel],
-    -- | the arguments that have values, which @first@ and @last@ have not
+    -- | the arguments with values: all but @first@ and @last@
     arguments :: [(Region, Type)],
     -- | the type of the result
     callType :: Type

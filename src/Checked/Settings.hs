@@ -22,14 +22,15 @@ import Surface.Keyword qualified as Keyword
 import Surface.Syntax qualified as Surface
 
 -- | Checks the block of a statement with the given keyword. Each setting is allowed once, except
--- @approach@ and @retract@, whose stops follow one another.
+-- @approach@ and @retract@: the stops of several such settings are joined in their order.
 check :: TypingEnvironment -> Text -> [Surface.Setting] -> Infer (Deferred Settings)
 check env statement written = do
   mapM_ reportRepeated (zip (drop 1 (scanl (flip (:)) [] written)) written)
   changes <- mapM (setting env statement) written
   pure (\sol -> foldl (\settings change -> change sol settings) unset changes)
 
--- | Reports a setting that is among the earlier ones. The first list ends with the setting itself.
+-- | Reports a setting that occurs earlier in its block. The list contains the settings up to this
+-- one in reverse order, so that it begins with this one.
 reportRepeated :: ([Surface.Setting], Surface.Setting) -> Infer ()
 reportRepeated (upToHere, Located at s) =
   case [ r
@@ -40,7 +41,8 @@ reportRepeated (upToHere, Located at s) =
     before : _ -> Inference.mistake (RepeatedSetting at (subject s) before)
     [] -> pure ()
 
--- | Checks a setting, and that the statement allows it. Gives the change to the settings.
+-- | Checks a setting of the statement with the given keyword, and that this statement allows it.
+-- Gives a function that adds the setting to the settings before it.
 setting :: TypingEnvironment -> Text -> Surface.Setting -> Infer (Deferred (Settings -> Settings))
 setting env statement (Located at s) = do
   unless
@@ -123,7 +125,7 @@ unset =
       restAllowed = Nothing
     }
 
--- | The first words of a setting; empty for one that could not be read.
+-- | The first words of a setting; empty for a setting with a mistake.
 keyword :: Surface.Setting_ -> Text
 keyword s = case s of
   Surface.Approach _ -> "approach"
@@ -143,7 +145,7 @@ keyword s = case s of
   Surface.RestAllowed -> "rest"
   Surface.BrokenSetting -> ""
 
--- | The thing that a setting decides. A block may decide it once.
+-- | Names what a setting decides, for reports. A block may contain one setting with each name.
 subject :: Surface.Setting_ -> Text
 subject s = case s of
   Surface.CutBy _ -> "climb or conventional"

@@ -90,14 +90,14 @@ data Mention = Mention {place :: Region, definition :: Maybe Region, word :: Tex
 -- | A statement with its region.
 type Statement = Located Statement_
 
--- | A statement. Imports are resolved, so that none occurs.
+-- | A statement. Imports are replaced by the definitions of the imported files.
 data Statement_
   = Tool Cutter
   | Feed Expr
   | Tolerance Accuracy
   | Clearance Expr
   | From Expr
-  | -- | the name, the dimension of its quantities, the value
+  | -- | the name, the dimension of the value or of the quantities in it, the value
     LetValue (Located Name) Dimension Expr
   | LetFunction Name (NonEmpty Name) Expr
   | Table (Located Name) Columns
@@ -127,7 +127,7 @@ data Statement_
 data Columns = Columns [(Name, Dimension)] [Cells]
   deriving stock (Eq, Show)
 
--- | Several rows of numbers, or one row of other expressions with its region.
+-- | Several rows of numbers, or one row that contains other expressions, with its region.
 data Cells = Numbers {-# UNPACK #-} NumberTable | Written Region [Expr]
   deriving stock (Eq, Show)
 
@@ -163,13 +163,15 @@ data Cutter_
   = MillCutter Expr
   | DrillCutter Expr
   | TurningCutter Expr
-  | -- | a conical mill by its diameter, the bevel of its flank, and the height that it cuts
+  | -- | a conical mill by the diameter of its tip, the bevel of its flank, and the height of the
+    -- contour above the tip
     ConeCutter Expr Expr Expr
   | -- | a swivelling blade by its diameter and that of the gear wheel that swivels it
     BladeCutter Expr Expr
   deriving stock (Eq, Show)
 
--- | The tolerance of chords in mm: to either side, or inside and outside of the material.
+-- | The allowed distance between a curve and its chords in mm: the same on both sides, or one
+-- inside and one outside of the material.
 data Accuracy = Within Expr | Between Expr Expr
   deriving stock (Eq, Show)
 
@@ -179,29 +181,36 @@ data Spin = Spinning Sense (Maybe Expr) | SpindleStop
 
 -- | A condition that must be true.
 data Assertion
-  = Holds Expr
+  = -- | any other expression that is true or false
+    Holds Expr
   | -- | a comparison other than equality: the dimension of the operands, the region of the whole
+    -- comparison, the operator, the operands
     Compares Dimension Region Operator Expr Expr
-  | -- | an equality with an optional tolerance: the dimension of the operands
+  | -- | an equality: the dimension of the operands, the operands, the tolerance if there is one
     Agrees Dimension Expr Expr (Maybe Expr)
   deriving stock (Eq, Show)
 
--- | The settings in the block of a machining statement.
+-- | The settings in the block of a machining statement. Lengths are in mm, feeds in mm/min.
 data Settings = Settings
   { approach :: [Stop],
     retract :: [Stop],
     -- | the depth and the largest stepdown
     depth :: Maybe (Expr, Maybe Expr),
+    -- | the form of the lead-in, and the length of the line or the radius of the arc
     leadIn :: Maybe (LeadForm, Expr),
+    -- | as for 'leadIn'
     leadOut :: Maybe (LeadForm, Expr),
+    -- | the material that each pass leaves
     allowances :: Maybe (NonEmpty Expr),
     corners :: Corners,
     sense :: Maybe (Located CutSense),
     compensation :: Maybe (Located Compensation),
     startNear :: Maybe Expr,
+    -- | the feed downwards
     plunge :: Maybe Expr,
+    -- | the depth that is drilled between two retracts
     peck :: Maybe Expr,
-    -- | each a contour or a list of contours
+    -- | contours and lists of contours
     islands :: [Expr],
     -- | the region of the setting that allows rest material
     restAllowed :: Maybe Region
@@ -230,7 +239,7 @@ data Expr_
   | Each Expr Name Expr
   deriving stock (Eq, Show)
 
--- | An argument of a built-in function: a value, a value with a label, or a rank.
+-- | An argument of a built-in function: a value, a value after a word such as @near@, or a rank.
 data Argument = Given {-# UNPACK #-} Expr | Chosen Selector Expr | Ranked Rank
   deriving stock (Eq, Show)
 
@@ -323,13 +332,15 @@ data Modifier_ = ElementFeed Expr | Slow | ElementAllowance Expr | Bevel Expr
 -- | A link with its region.
 type Link = Located Link_
 
--- | The link between two elements of a contour.
+-- | The link between two elements of a contour, as in "Surface.Syntax".
 data Link_
   = Meet (Maybe Expr)
   | Smooth
   | Tangent
-  | Fillet {-# UNPACK #-} Expr
-  | Chamfer {-# UNPACK #-} Expr
+  | -- | the radius in mm, positive for a clockwise arc
+    Fillet {-# UNPACK #-} Expr
+  | -- | the distance of both ends from the intersection of the elements in mm
+    Chamfer {-# UNPACK #-} Expr
   deriving stock (Eq, Show)
 
 -- | The end of a motion and the pace to it.

@@ -29,7 +29,7 @@ import Surface.Token (Unit (..))
 data Type
   = -- | a number with a dimension
     Quantity Dimension
-  | -- | a pair of lengths: a point (weight 1) or a vector (weight 0)
+  | -- | a pair of lengths. The power of 'PointWeight' is 1 for a point and 0 for a vector
     Spatial Dimension
   | Circle
   | Line
@@ -147,7 +147,7 @@ isSquare t = case t of
   Quantity d -> Dimension.isUnknownSquare d
   _ -> False
 
--- | The dimension of a quantity or of the quantities in a list; of other types that of a number.
+-- | The dimension of a quantity or of the quantities in a list; 'Dimension.none' for other types.
 dimensionOf :: Type -> Dimension
 dimensionOf t = case t of
   Quantity d -> d
@@ -167,7 +167,7 @@ variables t = case t of
   Variable n -> [n]
   _ -> concatMap variables (components t)
 
--- | The types inside a type, one level down.
+-- | The types of which a type is directly composed.
 components :: Type -> [Type]
 components t = case t of
   ListOf a -> [a]
@@ -185,7 +185,7 @@ components t = case t of
   Variable _ -> []
   Wrong -> []
 
--- | Replaces all dimensions and all unknown types in a type.
+-- | Applies one function to all dimensions in a type, and another one to all unknown types.
 substitute :: (Dimension -> Dimension) -> (Int -> Type) -> Type -> Type
 substitute dimension unknown t = case t of
   Quantity d -> Quantity (dimension d)

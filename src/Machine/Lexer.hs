@@ -10,6 +10,7 @@ module Machine.Lexer
   )
 where
 
+import Base.Decimal (Leading (..))
 import Base.Decimal qualified as Decimal
 import Base.Region (Located (..), Region (..))
 import Data.Char (chr, digitToInt, isAlpha, isAlphaNum, isDigit, isHexDigit, isSpace)
@@ -98,18 +99,12 @@ word formula rest = case Text.uncons rest' of
 -- | Reads a number and its length. A number with a letter right after it is a mistake.
 numeral :: Text -> (Token_, Int)
 numeral rest
-  | Text.any isPart (Text.take 1 rest') = (BadNumber junk, Text.length junk)
-  | otherwise = case Decimal.parse digits of
-    Just v -> (Numeral digits v, Text.length digits)
-    Nothing -> (BadNumber digits, Text.length digits)
+  | Text.any isPart (Text.take 1 remainder) = (BadNumber junk, Text.length junk)
+  | otherwise = (maybe (BadNumber digits) (Numeral digits) parsed, consumed)
   where
-    whole = Text.takeWhile isDigit rest
-    fraction = case Text.uncons (Text.drop (Text.length whole) rest) of
-      Just ('.', more) | Text.any isDigit (Text.take 1 more) -> "." <> Text.takeWhile isDigit more
-      _ -> ""
-    digits = whole <> fraction
-    rest' = Text.drop (Text.length digits) rest
-    junk = digits <> Text.takeWhile (\c -> isPart c || c == '.') rest'
+    Leading {consumed, parsed, remainder} = Decimal.leading rest
+    digits = Text.take consumed rest
+    junk = digits <> Text.takeWhile (\c -> isPart c || c == '.') remainder
 
 -- | Reads a text, and its length with both quotation marks. The argument begins after the opening
 -- one.

@@ -1,4 +1,5 @@
--- | Lines of a printed program whose second cells are aligned in columns.
+-- | Lines of a printed program that have one or two cells. Second cells of neighbouring lines are
+-- aligned in a column.
 module Surface.Alignment
   ( AlignedLine (..),
     LineCells (..),
@@ -15,17 +16,19 @@ import Surface.PrettyPrinter (maxWidth)
 
 -- | One line of a printed program.
 data AlignedLine = AlignedLine
-  { indent :: Int,
+  { -- | the count of spaces before the line
+    indent :: Int,
     cells :: LineCells,
-    -- | it continues the statement or item of the line above
+    -- | true if the statement or item of the line above continues on this line
     isContinuation :: Bool
   }
   deriving stock (Eq, Show)
 
 -- | The text of a line.
 data LineCells
-  = WholeLine Text
-  | -- | two cells, the second aligned with those of the neighbouring lines
+  = -- | one cell
+    WholeLine Text
+  | -- | two cells, the second aligned with the second cells of the neighbouring lines
     LineCells AlignmentColumn Text Text
   deriving stock (Eq, Show)
 
@@ -47,7 +50,7 @@ unaligned row = case cells row of
   WholeLine text -> text
   LineCells column first second -> first <> separator column <> second
 
--- | The shortest separator of two cells.
+-- | The spaces between two cells of a line. Alignment adds further spaces before them.
 separator :: AlignmentColumn -> Text
 separator column = case column of
   Values -> " "
@@ -55,8 +58,9 @@ separator column = case column of
   Links -> "   "
   SettingValues -> " "
 
--- | Renders lines. The second cells of neighbours of one kind and indentation are aligned. Some
--- kinds allow lines without a second cell in between.
+-- | Renders lines. Neighbouring lines with the same column and the same indentation form a run,
+-- within which the second cells are aligned. A run of 'Links' or 'SettingValues' may contain lines
+-- with one cell.
 render :: [AlignedLine] -> [Text]
 render rows = case rows of
   [] -> []
@@ -66,14 +70,14 @@ render rows = case rows of
       let (run, others) = span (isAlignedWith row column) rest
        in align (row : run) <> render others
 
--- | Tells if a line continues a run of aligned lines that began with a line of the given column.
+-- | Tells if the line @row@ belongs to the run that the line @begin@ with the given column begins.
 isAlignedWith :: AlignedLine -> AlignmentColumn -> AlignedLine -> Bool
 isAlignedWith begin column row =
   indent row == indent begin && not (isContinuation row) && case cells row of
     WholeLine _ -> isSingleAllowed
     LineCells other _ _ -> other == column
   where
-    -- Links are optional, and some settings have no value.
+    -- An element may have no link, and a setting no value. A line with a brace ends the run.
     isSingleAllowed = case column of
       Values -> False
       Definitions -> False
@@ -81,7 +85,8 @@ isAlignedWith begin column row =
       SettingValues -> hasNoBlock
     hasNoBlock = not (Text.any (`elem` ("{}" :: String)) (unaligned row))
 
--- | Aligns the second cells of lines, unless a line would exceed 'maxWidth'.
+-- | Renders a run with aligned second cells, or without alignment if a line would exceed
+-- 'maxWidth'.
 align :: [AlignedLine] -> [Text]
 align run = if any isTooLong padded then map indented run else padded
   where

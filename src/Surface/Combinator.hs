@@ -55,6 +55,7 @@ import Data.Set qualified as Set
 import Data.Text (Text)
 import Data.Text qualified as Text
 import Data.Vector qualified as Vector
+import Report.Report (quote)
 import Surface.Error (Enclosure (..), Error, FoundText (..))
 import Surface.Error qualified as Error
 import Surface.Keyword qualified as Keyword
@@ -70,11 +71,11 @@ type Failure = ParseError TokenStream Problem
 
 -- | Failures that are more specific than an unexpected token.
 data Problem
-  = -- | an enclosure without its closing bracket: the region of the opening one
+  = -- | an enclosure without its closing bracket: the region of the opening bracket, the enclosure
     UnclosedBlock Region Enclosure
   | -- | a word that begins no statement
     NoStatement Text
-  | -- | a keyword where a name is defined
+  | -- | a reserved word where a statement should define a name
     NoName Text
   | -- | a token after a complete statement on the same line
     TextAfterStatement Token_
@@ -82,11 +83,11 @@ data Problem
     NotInRow Token_
   | -- | a token among the headings of a table that begins no heading
     NotInHeadings Token_
-  | -- | a piece without the side of its curve
+  | -- | a @piece@ statement that does not say on which side of its curve the piece lies
     NoSide
-  | -- | a statement in the block of another that holds none
+  | -- | a statement in a block that cannot contain statements: its keyword
     Misplaced Text
-  | -- | parentheses with more than three values
+  | -- | parentheses with more than three values: their region
     ManyCoordinates Region
   | -- | brackets nested deeper than 'maxNesting'
     TooDeep
@@ -96,36 +97,39 @@ data Problem
 data ParserState = ParserState
   { -- | the failures that the parser recovered from, the newest first
     failures :: [Failure],
-    -- | the offset after the last token
+    -- | the offset of the end of the last token consumed
     lastEnd :: Int,
-    -- | the number of open brackets
+    -- | the number of brackets and operands around the next token, as 'nested' counts them
     bracketDepth :: Int,
     -- | the number of statement blocks around the present statement
     blockDepth :: Int,
-    -- | the rest of the text is skipped after a failure
+    -- | true after the failure 'TooDeep': the parser skips all further tokens without a report
     hasGivenUp :: Bool
   }
 
--- | A value parsed from tokens that are nested at most two brackets deep, the number of these
--- tokens, and the remaining tokens.
+-- | A parsed value, the number of its tokens, and the tokens after them. The tokens are nested at
+-- most two levels deep, as 'nested' counts levels.
 data Consumed a = Consumed a Int [Token]
 
 -- | The operations from which the grammar is built.
 class MonadParsec Problem TokenStream p => Grammar p where
-  -- | Accepts a token for which the function gives a value. The label describes the expectation.
+  -- | Consumes the next token if the function gives a value for it. The text describes the expected
+  -- token in reports.
   token :: Text -> (Token -> Maybe a) -> p a
 
   -- | Repeats a parser until it fails without consuming a token.
   zeroOrMore :: p a -> p [a]
 
-  -- | Replaces a failure of a parser.
+  -- | Runs a parser. If it fails, the function makes from the failure a parser that runs instead.
+  -- The fast parser ignores the function.
   onFailure :: (ParseError TokenStream Problem -> p a) -> p a -> p a
 
-  -- | The remaining tokens.
+  -- | The tokens that are not consumed yet.
   remaining :: p [Token]
 
-  -- | Tries a function on the remaining tokens before the parser that would give the same result.
-  -- The explaining parser ignores the function.
+  -- | Applies a function to the remaining tokens, and runs the parser if the function gives
+  -- 'Nothing'. Otherwise the function gives the result that the parser would give. The explaining
+  -- parser ignores the function.
   fastPath :: ([Token] -> Maybe (Consumed Expr)) -> p Expr -> p Expr
 
   -- | Tells if the next token is a word, so that a keyword is possible. The explaining parser
@@ -157,8 +161,8 @@ instance Grammar (ParsecT Problem TokenStream (State ParserState)) where
   parserState = lift get
   modifyState f = lift (modify' f)
 
--- | Runs a parser on the tokens of a text that ends at offset @finish@. Gives the errors in order
--- and the output, if any.
+-- | Runs a parser on the tokens of a text that ends at offset @finish@. Gives the errors in the
+-- order of the text, and the output unless the parser failed without recovery.
 run :: Explaining a -> Int -> [Token] -> ([Error], Maybe a)
 run parser finish tokens = (map (fromFailure (Vector.fromList tokens) finish) inOrder, output)
   where
@@ -180,16 +184,20 @@ run parser finish tokens = (map (fromFailure (Vector.fromList tokens) finish) in
       Right a -> (Just a, [])
       Left bundle -> (Nothing, NonEmpty.toList (Parsec.bundleErrors bundle))
 
+-- The pragmas below let GHC specialise the combinators for the fast parser. Without them, the fast
+-- parser would call every operation of 'Grammar' by way of a dictionary. Functions that only run
+-- after a mistake need no pragma.
+
 -- Tokens
 
 -- | Parses a symbol and gives its region.
 symbol :: Grammar p => Text -> p Region
-symbol s = token ("‘" <> s <> "’") (\t -> if isSymbol s t then Just (Token.place t) else Nothing)
+symbol s = token (quote s) (\t -> if isSymbol s t then Just (Token.place t) else Nothing)
 {-# INLINE symbol #-}
 
 -- | Parses a keyword.
 keyword :: Grammar p => Text -> p ()
-keyword word = token ("‘" <> word <> "’") (\t -> if isWord word t then Just () else Nothing)
+keyword word = token (quote word) (\t -> if isWord word t then Just () else Nothing)
 {-# INLINE keyword #-}
 
 -- | Tells if a token is the given symbol.
@@ -203,7 +211,8 @@ isWord word t = case shape t of
   Word word' -> word' == word
   _ -> False
 
--- | Parses a name in its definition. A keyword on the same line is reported as such.
+-- | Parses the name that a statement defines. If the next token is a reserved word on the same
+-- line, the report names that word.
 name :: Grammar p => p (Located Name)
 name = do
   next <- remaining
@@ -223,7 +232,7 @@ usedName = token "a name" nameOf
       _ -> Nothing
 {-# INLINEABLE usedName #-}
 
--- | Runs a parser if the next token is on the line of the last one, else fails.
+-- | Runs a parser if the next token is on the same line as the last token consumed, else fails.
 onThisLine :: Grammar p => p a -> p a
 onThisLine p = do
   next <- remaining
@@ -244,7 +253,7 @@ endOfLine = do
     _ -> pure ()
 {-# INLINEABLE endOfLine #-}
 
--- | Adds the region from the first to the last token.
+-- | Runs a parser and adds the region of the tokens that it consumed.
 located :: Grammar p => p a -> p (Located a)
 located p = do
   input <- remaining
@@ -286,7 +295,8 @@ enclosed open close inside = do
         _ -> Parsec.parseError failure
 {-# INLINEABLE enclosed #-}
 
--- | Parses items in braces. An item with a mistake is skipped and replaced by a broken one.
+-- | Parses items in braces. Reports name the block by @what@. An item with a mistake is skipped.
+-- The function @broken@ makes its replacement from the name that the item was to define, if any.
 block :: Grammar p => Enclosure -> (Maybe (Located Name) -> a) -> p a -> p [Located a]
 block what broken one = do
   opened <- symbol "{"
@@ -296,6 +306,7 @@ block what broken one = do
   closing opened what "}"
   pure items
   where
+    -- Fails at the end of the items. If the closing brace is missing, a statement ends them.
     inside = do
       rest <- remaining
       case rest of
@@ -303,7 +314,7 @@ block what broken one = do
         t : _ | shape t == Symbol "}" -> Parsec.empty
         t : _ | beginsStatement t && not (closesBlock rest) -> Parsec.empty
         _ -> pure ()
-    -- Fails at a statement in a block that is closed further down.
+    -- Fails at a statement before the closing brace.
     strayStatement = do
       next <- remaining
       case next of
@@ -342,8 +353,8 @@ closesBlock = go (0 :: Int)
         Symbol "}" -> open == 0 || go (open - 1) rest
         _ -> go open rest
 
--- | Parses the closing bracket. If the program or the statement ends before it, the opening one is
--- reported as unclosed.
+-- | Parses the closing bracket of an enclosure. If the program or the statement ends before it, the
+-- opening bracket is reported as unclosed.
 closing :: Grammar p => Region -> Enclosure -> Text -> p ()
 closing opened what close = do
   ended <- atEnd
@@ -351,7 +362,7 @@ closing opened what close = do
   void (symbol close)
 {-# INLINEABLE closing #-}
 
--- | Tells if the text ends or a new line begins with something other than a closing bracket.
+-- | Tells if no token remains, or the next one begins a line and is not a closing bracket.
 isLineEnd :: Grammar p => p Bool
 isLineEnd = isEnd <$> remaining
   where
@@ -360,7 +371,7 @@ isLineEnd = isEnd <$> remaining
       t : _ -> newLine t && shape t `notElem` map Symbol [")", "]", "}"]
 {-# INLINEABLE isLineEnd #-}
 
--- | Tells if the program or the statement ends here.
+-- | Tells if no token remains, or the next one begins a statement.
 atEnd :: Grammar p => p Bool
 atEnd = maybe True beginsStatement . listToMaybe <$> remaining
 {-# INLINEABLE atEnd #-}
@@ -370,7 +381,7 @@ sepBy1 :: Grammar p => p a -> Text -> p (NonEmpty a)
 sepBy1 p separator = (:|) <$> p <*> zeroOrMore (symbol separator *> p)
 {-# INLINEABLE sepBy1 #-}
 
--- | Runs a parser one bracket deeper; fails beyond 'maxNesting'.
+-- | Runs a parser with a 'bracketDepth' that is greater by one; fails beyond 'maxNesting'.
 nested :: Grammar p => p a -> p a
 nested p = do
   open <- bracketDepth <$> parserState
@@ -381,14 +392,15 @@ nested p = do
   pure a
 {-# INLINEABLE nested #-}
 
--- | The largest number of brackets and operands inside one another.
+-- | The largest number of brackets and operands inside one another, a limit for 'bracketDepth'.
 maxNesting :: Int
 maxNesting = 500
 
 -- Recovery
 
--- | Runs a parser. If it fails, records the failure and gives the tokens read so far to @repair@,
--- which makes a replacement. At least one token is consumed in either case.
+-- | Runs a parser. If it fails, records the failure and gives the tokens consumed, at least one, to
+-- the function @repair@. The parser that this function makes skips further tokens and gives a
+-- replacement for the result.
 recovering :: Grammar p => ([Token] -> p a) -> p a -> p a
 recovering repair p = do
   begin <- Parsec.getOffset
@@ -398,7 +410,7 @@ recovering repair p = do
   where
     recover before begin input failure = do
       modifyState (\m -> if hasGivenUp m then m else recorded before failure m)
-      -- The text after brackets that are nested too deep is not worth reports.
+      -- After brackets that are nested too deep, the whole rest of the text is skipped.
       isEnough <- hasGivenUp <$> parserState
       when isEnough (void (Parsec.takeWhileP Nothing (const True)))
       now <- Parsec.getOffset
@@ -419,8 +431,9 @@ isTooDeep failure = case failure of
   FancyError _ problems -> Parsec.ErrorCustom TooDeep `Set.member` problems
   TrivialError {} -> False
 
--- | Skips to the line on which the next statement begins. Keeps the keyword of the broken
--- statement, or the keyword that its first word resembles, and the name that it was to define.
+-- | Replaces a statement with a mistake, whose tokens up to the mistake are given. Skips to the
+-- line on which the next statement begins. The replacement has the keyword of the broken statement,
+-- or the keyword that its first word resembles, and the name that it was to define.
 brokenStatement :: Grammar p => [Token] -> p Statement
 brokenStatement taken = do
   isInBlock <- (> 0) . blockDepth <$> parserState
@@ -430,10 +443,10 @@ brokenStatement taken = do
         (foldr (Region.merge . Token.place) (firstRegion taken) taken)
         (uncurry Broken (keywordAndName (taken <> skipped)))
     )
-{-# INLINEABLE brokenStatement #-}
 
--- | Skips the rest of a broken statement and gives the tokens skipped. The statement has @open@
--- open braces. The closing brace of the block around it is not skipped.
+-- | Skips the remaining tokens of a broken statement and gives them. @hasBlock@ tells if the
+-- statement has a block of statements, @isInBlock@ if it is inside a block itself; the closing
+-- brace of that block is not skipped. @open@ is the count of its braces that are still open.
 skipStatement :: Grammar p => Bool -> Bool -> Int -> p [Token]
 skipStatement hasBlock isInBlock open = do
   rest <- remaining
@@ -442,9 +455,9 @@ skipStatement hasBlock isInBlock open = do
       | not (isStatementEnd hasBlock isInBlock open t others) ->
         Parsec.anySingle *> ((t :) <$> skipStatement hasBlock isInBlock (open + braceBalance [t]))
     _ -> pure []
-{-# INLINEABLE skipStatement #-}
 
--- | Tells if a broken statement with @open@ open braces ends before a token.
+-- | Tells if a broken statement ends before the token @t@, which the tokens @others@ follow. The
+-- first three parameters are those of 'skipStatement'.
 isStatementEnd :: Bool -> Bool -> Int -> Token -> [Token] -> Bool
 isStatementEnd hasBlock isInBlock open t others =
   beginsStatement t && not isInOwnBlock
@@ -476,7 +489,7 @@ beginsBlock ts = case map shape (take 1 ts) of
   [Word word] -> word `elem` "with" : Keyword.blocks
   _ -> False
 
--- | The number of opening braces less that of closing ones.
+-- | The number of opening braces minus the number of closing braces.
 braceBalance :: [Token] -> Int
 braceBalance = sum . map balance
   where
@@ -485,7 +498,7 @@ braceBalance = sum . map balance
       Symbol "}" -> -1
       _ -> 0
 
--- | The keyword of a broken statement, possibly corrected, and the name that it defines.
+-- | The keyword of a broken statement, with its spelling corrected, and the name that it defines.
 keywordAndName :: [Token] -> (Maybe Text, Maybe (Located Name))
 keywordAndName ts = case map shape (take 2 ts) of
   [Word word, Word what]
@@ -502,9 +515,9 @@ firstRegion ts = case ts of
   t : _ -> Token.place t
   [] -> Region 0 0
 
--- | Skips to the next line of the block that is in no braces of the broken item, or to the end of
--- the block. A line that ends with a comma or an operator continues. Keeps the name that a
--- misplaced definition was to define.
+-- | Replaces an item with a mistake, whose tokens up to the mistake are given. Skips to the next
+-- line outside of the braces of the item, or to the end of its block. A line that ends with a comma
+-- or an operator continues. The replacement has the name that a misplaced @let@ was to define.
 brokenItem :: Grammar p => (Maybe (Located Name) -> a) -> [Token] -> p a
 brokenItem broken taken = do
   next <- Parsec.optional (Parsec.lookAhead Parsec.anySingle)
@@ -513,10 +526,10 @@ brokenItem broken taken = do
     broken $ case (map shape taken, next) of
       ([Word "let"], Just Token {shape = Word what, place}) -> Just (Located place (Name what))
       _ -> Nothing
-{-# INLINEABLE brokenItem #-}
 
--- | Skips the rest of a broken item with @open@ open braces. The flag tells if the last token asks
--- for a continuation.
+-- | Skips the remaining tokens of a broken item with @open@ open braces. @isContinued@ tells if the
+-- last token is a comma, an operator or an opening bracket, so that the next line belongs to the
+-- item.
 skipItem :: Grammar p => Int -> Bool -> p ()
 skipItem open isContinued = do
   next <- Parsec.optional (Parsec.lookAhead Parsec.anySingle)
@@ -529,7 +542,6 @@ skipItem open isContinued = do
       | otherwise -> Parsec.anySingle *> skipItem (open + braceBalance [t]) (isUnfinished t)
   where
     isUnfinished t = shape t `elem` map Symbol [",", "(", "[", "{", "=", "+", "-", "*", "/"]
-{-# INLINEABLE skipItem #-}
 
 -- | Tells if a token is a keyword that begins a statement at the start of a line.
 beginsStatement :: Token -> Bool
@@ -539,7 +551,7 @@ beginsStatement t = case shape t of
 
 -- Failures into errors
 
--- | The error of a failure, with the tokens around it.
+-- | The error for a failure. The tokens are those of the whole text, which ends at offset @finish@.
 fromFailure :: Vector.Vector Token -> Int -> Failure -> Error
 fromFailure ts finish failure = case failure of
   FancyError _ problems | Parsec.ErrorCustom problem : _ <- Set.toList problems -> case problem of

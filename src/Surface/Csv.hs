@@ -4,8 +4,9 @@
 -- each column. The separator is the comma, the semicolon or the tab, whichever the first line
 -- contains. If it is not the comma, numbers may have a decimal comma. Empty lines are ignored.
 --
--- Runs of plain rows are read into unboxed arrays. The other rows are read one by one with full
--- error messages.
+-- A row is plain if its cells are numbers without spaces, exponents and plus signs. Runs of plain
+-- rows are read into unboxed arrays. The other rows are read one by one, with an error for each
+-- wrong cell.
 module Surface.Csv
   ( table,
   )
@@ -55,8 +56,8 @@ table begin text = case filter (not . Text.all isSpace . value) (linesOf begin t
         (rowErrors, rows) = unzip (rowsFrom separator columns 1 rest)
      in (headingErrors <> concat rowErrors, first : rows)
 
--- | Reads rows, the first of which has the number @k@. The number of columns is unknown if the
--- headings are broken.
+-- | Reads the rows from row @k@ on, counted from 1. Gives the errors and the line for each run of
+-- plain rows and for each other row. @columns@ is 'Nothing' if the headings have mistakes.
 rowsFrom :: Char -> Maybe Int -> Int -> [Located Text] -> [([Error], TableLine)]
 rowsFrom separator columns k texts =
   [ ( [],
@@ -78,8 +79,8 @@ rowsFrom separator columns k texts =
 
 -- Plain rows
 
--- | Reads rows from the front as long as they are plain: @width@ numbers without spaces, exponents
--- and plus signs. Gives the remaining lines.
+-- | Reads the plain rows of @width@ numbers at the start of a list of rows. Gives their numbers and
+-- the rows after them.
 plainRows :: Char -> Int -> [Located Text] -> (NumberTable, [Located Text])
 plainRows separator width texts = runST $ do
   ends <- newPrimArray (2 * initialRoom)
@@ -88,10 +89,11 @@ plainRows separator width texts = runST $ do
   where
     initialRoom = 8
 
--- | Growing arrays of plain rows: the two offsets of each row, and its cells.
+-- | Growing arrays of plain rows: the offsets of the start and the end of each row, and its cells.
 data Rows s = Rows (MutablePrimArray s Int) (MutablePrimArray s Double)
 
--- | Fills arrays that hold @count@ rows and have room for @room@.
+-- | Adds plain rows to arrays that hold @count@ rows and have room for @room@. Doubles the arrays
+-- when they are full.
 fillRows ::
   Char -> Int -> Int -> Int -> Rows s -> [Located Text] -> ST s (NumberTable, [Located Text])
 fillRows separator width = go
@@ -118,7 +120,8 @@ fillRows separator width = go
       found <- unsafeFreezePrimArray cells
       pure (NumberTable {NumberTable.width, NumberTable.places, NumberTable.numbers = found}, texts)
 
--- | Writes @wanted@ numbers from an index on; 'False' if the text is not exactly these numbers.
+-- | Reads a row of @wanted@ numbers and writes them into an array from an index on. Gives 'False'
+-- if the row is not plain or has another number of cells.
 plainRow :: Char -> MutablePrimArray s Double -> Int -> Int -> Text -> ST s Bool
 plainRow separator cells = row
   where
@@ -136,7 +139,8 @@ plainRow separator cells = row
 
 -- Lines and cells
 
--- | The lines with their regions, without byte order marks.
+-- | The lines of a text that begins at a given offset, with their regions. A byte order mark
+-- separates lines.
 linesOf :: Int -> Text -> [Located Text]
 linesOf begin text = go begin text
   where
@@ -147,7 +151,8 @@ linesOf begin text = go begin text
          in Located (Region at (at + Text.length line)) line :
             go (at + Text.length line + 1) (Text.drop 1 after)
 
--- | The separator by the first line: a semicolon before a tab before a comma.
+-- | The separator of cells by the first line: a semicolon if the line contains one, else a tab if
+-- it contains one, else a comma.
 separatorOf :: Text -> Char
 separatorOf header
   | Text.any (== ';') header = ';'
@@ -162,8 +167,8 @@ cellsOf separator (Located (Region at _) line) = NonEmpty.zipWith trimmed starts
     parts = NonEmpty.fromList (Text.split (== separator) line)
     starts = NonEmpty.scanl (\a p -> a + Text.length p + 1) at (NonEmpty.toList parts)
 
--- | A cell without spaces and quotation marks, with the region of what is left. An empty cell keeps
--- the region of the whole part, which starts at an offset.
+-- | The content of a cell, without the spaces and quotation marks around it, and its region. The
+-- cell as written starts at offset @from@. An empty content has the region of the cell as written.
 trimmed :: Int -> Text -> Located Text
 trimmed from part
   | consumed == 0 = Located (Region from (from + Text.length part)) inside
@@ -175,7 +180,7 @@ trimmed from part
       Nothing -> stripped
     consumed = Text.length inside
     before = Text.length (Text.takeWhile isSpace part) + quoteWidth
-    -- The quotation mark and the spaces after it.
+    -- The length of the opening quotation mark and the spaces after it.
     quoteWidth
       | consumed == Text.length stripped = 0
       | otherwise = 1 + Text.length (Text.takeWhile isSpace (Text.drop 1 stripped))
@@ -211,8 +216,8 @@ isColumnName word =
 
 -- Other rows
 
--- | Reads a row with the number @k@, which counts from 1. Every column must have a cell if the
--- number of columns is known.
+-- | Reads row @k@, counted from 1, cell by cell. If the number of columns is known, every column
+-- must have a cell.
 fullRow :: Char -> Maybe Int -> Int -> Located Text -> ([Error], TableLine)
 fullRow separator columns k line = case partitionEithers (map (number separator) cells) of
   ([], _)

@@ -29,12 +29,12 @@ import Surface.Token (Token_ (..), columnUnits, describe, unitName)
 
 -- | A mistake with the region that a report points at, and the facts of the report.
 data Error
-  = -- | a token where others were expected, and its neighbours
+  = -- | an unexpected token: the text found, the expected tokens, the neighbours of the token
     Unexpected Region FoundText [Text] Neighbours
   | -- | an enclosure without its closing bracket: the region where that was expected, the opening
     -- bracket, the enclosure
     Unclosed Region Region Enclosure
-  | -- | a word that begins no statement; the keywords that do
+  | -- | a word that begins no statement; the keywords that begin one
     UnknownStatement Region Text [Text]
   | -- | a reserved word where a name is defined
     Reserved Region Text
@@ -44,7 +44,8 @@ data Error
     NotInRow Region Token_ Neighbours
   | -- | a token among the headings of a table that begins no heading
     NotInHeadings Region Token_ Neighbours
-  | -- | a piece without the side of its curve; the text found instead
+  | -- | a @piece@ statement that does not say on which side of its curve the piece lies; the text
+    -- found instead
     NoSide Region FoundText
   | -- | a statement in the braces of another: its keyword
     Misplaced Region Text
@@ -52,17 +53,17 @@ data Error
     TooDeep Region Int
   | -- | a program with more tokens than the limit
     TooLong Region Int
-  | -- | brackets with more than three values
+  | -- | parentheses with more than three values
     ManyCoordinates Region
   | -- | a file that cannot be imported: its name as written, the reason
     ImportMissing Region Text Text
-  | -- | imports inside one another beyond the limit: the name of the file as written
+  | -- | imports nested deeper than the limit: the name of the file as written, the limit
     ImportTooDeep Region Text Int
   | -- | an import of an input sheet: the name of the file as written
     ImportOfSheet Region Text
   | -- | a table file that cannot be read: its name as written, the reason
     LinesMissing Region Text Text
-  | -- | files that import one another, the first again at the end
+  | -- | files that import one another: each imports the next, and the last is the first again
     ImportCycle Region [Text]
   | -- | an empty table file
     EmptyTable Region
@@ -71,7 +72,7 @@ data Error
   | -- | a text in a file that is not a number
     BadCell Region Text
   | -- | a row of the wrong length in a file: its number from 1, the number of columns, the number
-    -- of cells. The flag tells if its commas may be decimal commas
+    -- of cells. The flag is true if its commas may be decimal commas
     CellCount Region Int Int Int Bool
   | -- | a command-line value for an unknown parameter; the parameters
     NoSuchParam Text [Text]
@@ -80,7 +81,8 @@ data Error
     BadAssignment Region Text Text Int
   deriving stock (Eq, Ord, Show)
 
--- | The token before, and the token after if nothing separates it.
+-- | The tokens on both sides of a mistake: the one before it, and the one after it if no space
+-- separates them.
 type Neighbours = (Maybe Token_, Maybe Token_)
 
 -- | The text at a region.
@@ -123,7 +125,7 @@ toReport err = case err of
       { label = "here",
         hints = case found of
           FoundToken (Symbol "=")
-            | "‘closed’" `elem` expected ->
+            | quote "closed" `elem` expected ->
               ["A contour has no such sign: contour name closed { … }"]
           FoundToken token
             | not (isWord expected) ->
@@ -175,7 +177,7 @@ toReport err = case err of
       { hints = headingAdvice token
       }
   NoSide region found ->
-    (at region "E0101" ("found " <> shown found <> expectation ["‘left’", "‘right’"]))
+    (at region "E0101" ("found " <> shown found <> expectation (map quote ["left", "right"])))
       { label = "here",
         hints =
           [ "Say on which side of its curve the piece lies, to the left or to the right of the \
@@ -316,7 +318,7 @@ meant token expected = case token of
   where
     words' = map (Text.dropAround (`elem` ("‘’" :: String))) expected
 
--- | Suggests the intention of a misplaced token by its neighbours.
+-- | Suggests what a misplaced token was meant to be, judged by its neighbours.
 advice :: Token_ -> Neighbours -> [Text]
 advice token neighbours = case (token, neighbours) of
   (Symbol ",", (Just (Number _ Nothing), Just (Number _ _))) ->
@@ -341,7 +343,7 @@ advice token neighbours = case (token, neighbours) of
       ]
   _ -> []
 
--- | Suggests the intention of a token that begins no cell of a row.
+-- | Suggests what to write instead of a token that begins no cell of a row.
 rowAdvice :: Token_ -> Neighbours -> [Text]
 rowAdvice token neighbours = case (token, neighbours) of
   (Symbol ",", (Just (Number _ Nothing), Just (Number _ _))) ->
@@ -359,7 +361,7 @@ rowAdvice token neighbours = case (token, neighbours) of
     spaces = "The values of a row stand one after another with spaces between them: 0 40"
     computed what = "What is no plain number stands in brackets: (" <> what <> ")."
 
--- | Suggests the intention of a token that begins no heading of a table.
+-- | Suggests what to write instead of a token that begins no heading of a table.
 headingAdvice :: Token_ -> [Text]
 headingAdvice token = case token of
   Symbol "/" -> [units]

@@ -1,9 +1,9 @@
 -- | The formatter: the canonical layout of a program text with its comments.
 --
--- The syntax tree is printed anew and comments are placed among the printed lines. A comment on a
--- line of its own stays above the text that it precedes, a trailing comment after the text that it
--- follows. A comment inside a text that is now printed on one line goes to the end of that line, or
--- above it if the end is taken.
+-- The syntax tree is printed anew and the comments are placed among the printed lines. A comment on
+-- a line of its own stays above the text that it precedes. A trailing comment, which follows other
+-- text on its line, stays after that text. A comment inside a text that is now printed on one line
+-- goes to the end of that line, or above it if the line ends with a comment already.
 module Surface.Formatter
   ( format,
     layout,
@@ -82,7 +82,8 @@ laidOut text program =
         (splitEmptyBlock positions)
         (SourceLine.withSources tokens (PrintProgram.rows positions (statements program)))
 
--- | Selects the offsets, given in order, that have a comma directly before or after them.
+-- | Selects the offsets of comments that have a comma as the token before or after them. Tokens and
+-- offsets are in the order of the text.
 offsetsAtCommas :: [Token] -> [Int] -> [Int]
 offsetsAtCommas = go False
   where
@@ -98,13 +99,14 @@ offsetsAtCommas = go False
 
 -- Comments
 
--- | A comment of the text.
+-- | A comment of the source.
 data Remark = Remark
-  { offset :: Int,
+  { -- | the offset of its start
+    offset :: Int,
     text :: Text,
-    -- | other text precedes it on its line
+    -- | true if other text precedes the comment on its line
     isTrailing :: Bool,
-    -- | it has a line of its own, and the line above is blank
+    -- | true if the comment has a line of its own, and the line above is blank
     isApart :: Bool
   }
   deriving stock (Eq, Show)
@@ -129,24 +131,25 @@ isBlankAbove source at =
   where
     Region.Position {Region.line} = Region.position source at
 
--- | Splits a row that ends with an empty block, if a comment is inside the block.
+-- | Splits a printed line that ends with an empty block before its closing brace, if the source has
+-- a comment inside the block.
 splitEmptyBlock :: CommentPositions -> SourceLine -> [SourceLine]
-splitEmptyBlock positions anchor = case (reverse (shapes anchor), reverse (sources anchor)) of
+splitEmptyBlock positions sourceLine = case (shapesBackwards, sourcesBackwards) of
   (Symbol "}" : Symbol "{" : _, Just close : Just open : _)
     | isBetween positions (start (Token.place open)) (start (Token.place close)) ->
-      [ anchor
+      [ sourceLine
           { row =
-              (row anchor)
+              (row sourceLine)
                 { cells =
-                    WholeLine (Text.dropEnd 2 (Alignment.unaligned (row anchor)))
+                    WholeLine (Text.dropEnd 2 (Alignment.unaligned (row sourceLine)))
                 },
-            shapes = init (shapes anchor),
-            sources = init (sources anchor)
+            shapes = init (shapes sourceLine),
+            sources = init (sources sourceLine)
           },
         SourceLine
           { row =
               AlignedLine
-                { indent = indent (row anchor),
+                { indent = indent (row sourceLine),
                   cells = WholeLine "}",
                   isContinuation = False
                 },
@@ -154,7 +157,10 @@ splitEmptyBlock positions anchor = case (reverse (shapes anchor), reverse (sourc
             sources = [Just close]
           }
       ]
-  _ -> [anchor]
+  _ -> [sourceLine]
+  where
+    shapesBackwards = reverse (shapes sourceLine)
+    sourcesBackwards = reverse (sources sourceLine)
 
 -- Lines
 
@@ -164,41 +170,41 @@ data Entry = Entry {hasGap :: Bool, line :: Content}
 
 -- | The content of a line.
 data Content
-  = -- | a comment with its indentation
+  = -- | a comment on a line of its own, with its indentation
     Own Int Text
-  | -- | a row with its trailing comment
+  | -- | a printed line with its trailing comment
     Printed SourceLine (Maybe Text)
   deriving stock (Eq, Show)
 
--- | Places comments among rows.
+-- | Places the comments of the source, in order, among the printed lines.
 entries :: Source -> [Remark] -> [SourceLine] -> [Entry]
 entries source remarks rows = go (zip rows (extents rows)) remarks []
   where
-    -- The last argument has the comments that go above the next row.
+    -- The last argument has the comments that go above the next printed line.
     go left rest above = case left of
       [] -> map (ownLine 0) (above <> rest)
-      (anchor, extent) : more ->
+      (sourceLine, extent) : more ->
         let next = fst . snd <$> Maybe.listToMaybe more
             shares = shareOut extent next rest
-         in rowEntries source anchor (fst extent) above shares
+         in rowEntries source sourceLine (fst extent) above shares
               <> go more (later shares) (below shares)
 
--- | The comments from a row on, by the line that they go to.
+-- | The comments that are not placed yet, by their positions relative to one printed line.
 data Shares = Shares
-  { -- | above the row
+  { -- | before the line in the source: printed above it
     early :: [Remark],
-    -- | above the row, although they were inside it
+    -- | inside the line in the source, but printed above it
     displaced :: [Remark],
-    -- | at the end of the row
+    -- | printed at the end of the line
     trailing :: Maybe Remark,
-    -- | between the row and the next one
+    -- | printed between the line and the next one
     below :: [Remark],
-    -- | after the offset at which the next row begins
+    -- | after the start of the next line in the source: not placed yet
     later :: [Remark]
   }
 
--- | Shares comments out between a row of an extent and the rows after it, of which the next begins
--- at an offset.
+-- | Divides comments by their positions relative to a printed line. In the source, the line has the
+-- given first and last offset, and the next printed line begins at offset @next@.
 shareOut :: (Int, Int) -> Maybe Int -> [Remark] -> Shares
 shareOut (from, finish) next remarks = case (inside, trailingRemark) of
   ([r], Nothing) | isTrailing r -> Shares {early, displaced = [], trailing = Just r, below, later}
@@ -211,27 +217,28 @@ shareOut (from, finish) next remarks = case (inside, trailingRemark) of
       r : rs | isTrailing r -> (Just r, rs)
       _ -> (Nothing, after)
 
--- | The lines of a row that begins at an offset: the comments above it, and the row itself.
+-- | The lines of the output for one printed line: the comments above it, then the line itself. In
+-- the source it begins at offset @from@.
 rowEntries :: Source -> SourceLine -> Int -> [Remark] -> Shares -> [Entry]
-rowEntries source anchor from above shares =
+rowEntries source sourceLine from above shares =
   [own {hasGap = hasGap own && isStart} | own <- map (ownLine deep) (above <> early shares)]
     <> [ Entry {hasGap = isGapWanted && isFirst, line = Own deep (text r)}
          | (r, isFirst) <- zip (displaced shares) (True : repeat False)
        ]
     <> [ Entry
            { hasGap = isGapWanted && null (displaced shares),
-             line = Printed anchor (text <$> trailing shares)
+             line = Printed sourceLine (text <$> trailing shares)
            }
        ]
   where
-    deep = indent (row anchor) + (if SourceLine.isClosing anchor then 2 else 0)
-    isStart = not (isContinuation (row anchor))
+    deep = indent (row sourceLine) + (if SourceLine.isClosing sourceLine then 2 else 0)
+    isStart = not (isContinuation (row sourceLine))
     isGapWanted =
       isStart
-        && not (SourceLine.isClosing anchor)
+        && not (SourceLine.isClosing sourceLine)
         && isFirstOnLine
         && isBlankAbove source from
-    isFirstOnLine = case sources anchor of
+    isFirstOnLine = case sources sourceLine of
       Just t : _ -> Token.newLine t
       _ -> False
 
@@ -239,25 +246,25 @@ rowEntries source anchor from above shares =
 ownLine :: Int -> Remark -> Entry
 ownLine deep r = Entry {hasGap = isApart r, line = Own deep (text r)}
 
--- | The first and the last offset of each row in the source. A row without tokens in the source is
--- at the end of the row before it. A comma at the end of a row does not count, so that a comment
--- before the comma is at the end of the row.
+-- | The first and the last offset of each printed line in the source. A line without tokens in the
+-- source is at the end of the line before it. A comma at the end of a line does not count, so that
+-- a comment before the comma is a trailing one.
 extents :: [SourceLine] -> [(Int, Int)]
 extents = go 0
   where
-    go previousEnd anchors = case anchors of
+    go previousEnd sourceLines = case sourceLines of
       [] -> []
-      anchor : rest -> case map Token.place (Maybe.catMaybes (sources anchor)) of
+      sourceLine : rest -> case map Token.place (Maybe.catMaybes (sources sourceLine)) of
         [] -> (previousEnd, previousEnd) : go previousEnd rest
         first : more ->
-          let finish = end (last (first : beforeComma anchor more))
+          let finish = end (last (first : beforeComma sourceLine more))
            in (start first, finish) : go (end (last (first : more))) rest
-    beforeComma anchor regions =
-      if drop (length (shapes anchor) - 1) (shapes anchor) == [Symbol ","]
+    beforeComma sourceLine regions =
+      if drop (length (shapes sourceLine) - 1) (shapes sourceLine) == [Symbol ","]
         then take (length regions - 1) regions
         else regions
 
--- | Removes blank lines at the beginning of the text and of blocks.
+-- | Removes the blank lines at the beginning of the text and at the beginning of each block.
 withoutLeadingGaps :: [Entry] -> [Entry]
 withoutLeadingGaps list = zipWith keep (Nothing : map Just list) list
   where
@@ -265,10 +272,10 @@ withoutLeadingGaps list = zipWith keep (Nothing : map Just list) list
       entry {hasGap = hasGap entry && maybe False (not . isBlockStart . line) before}
     isBlockStart content = case content of
       Own _ _ -> False
-      Printed anchor _ -> SourceLine.isOpening anchor
+      Printed sourceLine _ -> SourceLine.isOpening sourceLine
 
--- | Renders the lines. Columns are aligned in runs of rows without gaps and comments between them,
--- and so are trailing comments.
+-- | Renders the lines. Columns are aligned within each run of printed lines that no blank line and
+-- no comment line interrupts. Trailing comments are aligned too.
 renderEntries :: [Entry] -> [Text]
 renderEntries list = withComments (go list)
   where
@@ -276,9 +283,9 @@ renderEntries list = withComments (go list)
       [] -> []
       Entry {hasGap, line = Own deep text} : rest ->
         blank hasGap <> [(Text.replicate deep " " <> text, Nothing)] <> go rest
-      Entry {hasGap, line = Printed anchor comment} : rest ->
+      Entry {hasGap, line = Printed sourceLine comment} : rest ->
         let (run, others) = span isJoined rest
-            together = (anchor, comment) : [(a, t) | Entry {line = Printed a t} <- run]
+            together = (sourceLine, comment) : [(a, t) | Entry {line = Printed a t} <- run]
          in blank hasGap
               <> zip (Alignment.render (map (row . fst) together)) (map snd together)
               <> go others
@@ -299,6 +306,6 @@ withComments list = case list of
      in [Text.justifyLeft column ' ' line <> Maybe.fromMaybe "" comment | (line, comment) <- run]
           <> withComments others
 
--- | The column of trailing comments, from 0, unless the lines before them are longer.
+-- | The column of trailing comments, counted from 0. After longer lines they begin further right.
 commentColumn :: Int
 commentColumn = 39

@@ -4,7 +4,7 @@
 --
 -- A mistake ends the statement or the item of a block that contains it. Parsing continues at the
 -- next one, so that one run finds all mistakes. The rules are written once, for the explaining
--- parser and for its fast twin.
+-- parser and for its fast twin. Each rule parses the construct that its comment names.
 module Surface.Grammar
   ( explainedProgram,
     fastProgram,
@@ -22,6 +22,7 @@ import Data.List.NonEmpty qualified as NonEmpty
 import Data.Maybe qualified as Maybe
 import Data.Text (Text)
 import Data.Text qualified as Text
+import Report.Report (quote)
 import Surface.Combinator
 import Surface.Combinator.Fast (FastParser)
 import Surface.Combinator.Fast qualified as FastCombinator
@@ -62,7 +63,7 @@ statement_ = do
     Word word -> Parsec.customFailure (NoStatement word)
     _ -> Parsec.empty <?> "a statement"
 
--- | The rules for the rest of a statement by its keyword.
+-- | The keywords of statements, each with the rule for the text after it.
 statementForms :: Grammar p => [(Text, p Statement_)]
 statementForms =
   [ ("part", Part <$> name <*> Parsec.optional (onThisLine text')),
@@ -159,7 +160,7 @@ cutter =
     coneForm = "the rest of cone(diameter 20 mm, bevel 5 deg, height 30 mm)"
     bladeForm = "the rest of blade(diameter 20 mm, gear 70 mm)"
 
--- | A tolerance: to either side, or inside and outside.
+-- | A tolerance: one value for both sides of the curve, or one inside and one outside.
 accuracy :: Parser Accuracy
 accuracy =
   (keyword "inside" *> (Between <$> expr <* keyword "outside" <*> expr)) <|> (Within <$> expr)
@@ -208,7 +209,7 @@ line =
         <|> Parsec.hidden (located (Negate <$> (symbol "-" *> (number <|> misfit NotInRow))))
         <|> parens expr
 
--- | Fails because of the next token in a line of a table.
+-- | Fails at the next token, which does not belong in a line of a table.
 misfit :: (Token_ -> Problem) -> Parser a
 misfit problem =
   Parsec.lookAhead Parsec.anySingle >>= \t -> Parsec.customFailure (problem (shape t))
@@ -231,7 +232,8 @@ piece = do
   side <- located ((LeftSide <$ keyword "left") <|> (RightSide <$ keyword "right") <|> missingSide)
   Piece what base ciphers side <$> zeroOrMore (located joggle)
   where
-    -- Explains a missing side where the statement ends or a joggle follows.
+    -- Reports a missing side if the statement ends here, or if a joggle or another word for a side
+    -- follows.
     missingSide = do
       next <- remaining
       case next of
@@ -312,7 +314,7 @@ link =
     <|> (keyword "fillet" *> Parsec.optional (symbol "+") *> (Fillet <$> expr))
     <|> (keyword "chamfer" *> (Chamfer <$> expr))
 
--- | The rest of a machining statement: a contour, a side, and settings.
+-- | A machining statement after its keyword: a contour, a side, and settings.
 machining :: Text -> (Expr -> Located Side -> [Setting] -> Statement_) -> Parser Statement_
 machining word make =
   make <$> expr <*> located (Parsec.choice [s <$ keyword k | (k, s) <- sides]) <*> settings word
@@ -342,12 +344,12 @@ setting offered = do
     Word word | Just rest <- lookup word settingForms -> keyword word *> rest
     _ ->
       Parsec.choice
-        [ (Parsec.empty <?> Text.unpack ("‘" <> word <> "’")) `asTypeOf` rest
+        [ (Parsec.empty <?> Text.unpack (quote word)) `asTypeOf` rest
           | (word, rest) <- settingForms,
             word `elem` offered
         ]
 
--- | The rules for the rest of a setting by its first word.
+-- | The first words of settings, each with the rule for the text after it.
 settingForms :: Grammar p => [(Text, p Setting_)]
 settingForms =
   [ ("approach", Approach <$> stops),
@@ -374,7 +376,7 @@ settingForms =
     ("rest", RestAllowed <$ keyword "allowed")
   ]
 
--- | Points with the pace of the motion to each.
+-- | One or more points, each with the pace of the motion to it.
 stops :: Parser (NonEmpty Stop)
 stops = stop `sepBy1` ","
   where
@@ -401,7 +403,7 @@ operand t = case shape t of
   Symbol "-" -> Just negative
   _ -> Nothing
 
--- | The rest of an expression after its first operand.
+-- | The whole expression that begins with an operand: parses the operators and operands after it.
 operated :: Grammar p => Expr -> p Expr
 operated first = do
   next <- remaining
@@ -451,7 +453,8 @@ negation = Parsec.hidden (located (Not <$> (keyword "not" *> nested negation))) 
 comparison :: Parser Expr
 comparison = range >>= compared
 
--- | At most one comparison: @a < b < c@ is not an expression.
+-- | The comparison that begins with a left operand; the operand alone if no comparison follows.
+-- Only one may follow: @a < b < c@ is not an expression.
 compared :: Grammar p => Expr -> p Expr
 compared left = (operators table >>= \op -> joined op left <$> range) <|> pure left
   where
@@ -461,7 +464,8 @@ compared left = (operators table >>= \op -> joined op left <$> range) <|> pure l
 range :: Parser Expr
 range = sum' >>= moreOfRange
 
--- | The rest of a range after its lower end: @..b by s@.
+-- | The range that begins with a lower end, after which @..b by s@ is parsed; the lower end alone
+-- if no @..@ follows.
 moreOfRange :: Grammar p => Expr -> p Expr
 moreOfRange low =
   ( Parsec.hidden (symbol "..")
@@ -493,7 +497,8 @@ operators table = Parsec.hidden (token "an operator" operatorOf)
       Symbol s -> lookup s table
       _ -> Nothing
 
--- | The operators and operands after a first operand, joined from left to right.
+-- | The expression of a first operand and the operators and operands after it, joined from left to
+-- right.
 chain :: Grammar p => p Operator -> p Expr -> Expr -> p Expr
 chain operator next = more
   where

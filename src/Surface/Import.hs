@@ -36,11 +36,11 @@ import System.FilePath
 data Reader m = Reader
   { -- | the text of a file, or the reason why it cannot be read
     contents :: FilePath -> m (Either Text Text),
-    -- | one name for all paths to the same file
+    -- | the same result for all paths that lead to the same file
     identity :: FilePath -> m FilePath
   }
 
--- | A reader for files that have one path each.
+-- | A reader that treats files with different paths as different files.
 byName :: Monad m => (FilePath -> m (Either Text Text)) -> Reader m
 byName contents = Reader {contents, identity = pure}
 
@@ -54,14 +54,15 @@ data ImportedProgram = ImportedProgram
     imports :: [(Region, Text)]
   }
 
--- | The state between two files.
+-- | The results after some of the files are read.
 data Progress = Progress
-  { texts :: Source,
+  { -- | the texts of the files read
+    texts :: Source,
     -- | the identities of the programs read
     seen :: Set FilePath,
-    -- | the newest first
+    -- | the mistakes, the newest first
     found :: [Error],
-    -- | the newest first
+    -- | the regions of imports and of table files, with the paths that they name, the newest first
     named :: [(Region, Text)]
   }
 
@@ -96,9 +97,9 @@ load reader path text = do
             imports = reverse (named progress)
           }
 
--- | The files between the program and the present file.
+-- | The present file, and the files through which the program imports it.
 data Chain = Chain
-  { -- | identities and paths, the present file first
+  { -- | the identity and the path of each file, the present file first, the program last
     open :: [(FilePath, FilePath)],
     -- | the path of the present file
     file :: FilePath
@@ -139,7 +140,7 @@ replaceImports reader chain = fmap concat . mapM replace
           ]
       _ -> pure [s]
 
--- | Records the name of a file that the present file names, and gives its path.
+-- | Records that the present file names another file at a region, and gives the path of that file.
 namedPath :: Monad m => Chain -> Region -> Text -> StateT Progress m FilePath
 namedPath chain at name = do
   let path = simplified (takeDirectory (file chain) </> Text.unpack name)
@@ -208,8 +209,8 @@ tableLines reader at path name = do
           }
       pure (if null errors then Just rows else Nothing)
 
--- | Records an error of an import and leaves a broken statement in its place. Checking then excuses
--- the names that the import would have defined.
+-- | Records an error of an import and gives a broken statement instead of the imported definitions.
+-- Checking then does not report the names that the import would have defined.
 failed :: Monad m => Region -> Error -> StateT Progress m [Statement]
 failed at e =
   [Located at (Broken (Just "import") Nothing)] <$ modify' (\p -> p {found = e : found p})
@@ -232,7 +233,7 @@ isDefinition (Located _ s) = case s of
   Broken (Just "import") _ -> True
   _ -> False
 
--- | A path without detours, so that a file has one path.
+-- | A path without @.@, and without @..@ after the name of a folder, so that a file has one path.
 simplified :: FilePath -> FilePath
 simplified path = if null parts then "." else joinPath parts
   where

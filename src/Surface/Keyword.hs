@@ -1,6 +1,6 @@
 -- | The keywords of the language.
 --
--- Only reserved words are refused as names. Words that occur only where no name can (@depth@,
+-- Only reserved words are refused as names. Words that occur only where no name can occur (@depth@,
 -- @step@, @by@ …) are not reserved.
 module Surface.Keyword
   ( statements,
@@ -8,6 +8,7 @@ module Surface.Keyword
     blocks,
     beginsItem,
     settingsOf,
+    selectorWord,
     isReserved,
     reservedWords,
   )
@@ -16,6 +17,7 @@ where
 import Data.Set (Set)
 import Data.Set qualified as Set
 import Data.Text (Text)
+import Surface.Syntax (Selector (..))
 import Surface.Token (unitName)
 
 -- | The keywords that begin a statement and nothing else.
@@ -42,7 +44,8 @@ beginsItem word = word `elem` (["for", "if", "cw", "ccw"] <> settings)
       ["approach", "retract", "depth", "lead", "allowance", "corners", "climb", "conventional"]
         <> ["compensation", "start", "plunge", "peck", "islands", "rest"]
 
--- | The first words of the settings that are allowed in the block of a statement.
+-- | The first words of the settings that are allowed in the block of a statement with the given
+-- keyword.
 settingsOf :: Text -> [Text]
 settingsOf statement = case statement of
   "mill" ->
@@ -66,6 +69,16 @@ settingsOf statement = case statement of
   where
     linkingMoves = ["approach", "retract", "lead in", "lead out"]
     passes = ["allowance", "corners"]
+
+-- | The word before an argument.
+selectorWord :: Selector -> Text
+selectorWord selector = case selector of
+  Near -> "near"
+  ToLeft -> "left"
+  ToRight -> "right"
+  ToInside -> "inside"
+  ToOutside -> "outside"
+  WithinTolerance -> "within"
 
 -- | Tells if a word is refused as a name.
 isReserved :: Text -> Bool

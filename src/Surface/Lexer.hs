@@ -1,9 +1,7 @@
-{-# LANGUAGE BangPatterns #-}
-
 -- | The lexer: tokens and comments from a text.
 --
--- The lexer is total. Text that is not a token becomes one of the broken shapes of "Surface.Token",
--- which the parser reports.
+-- The lexer never fails. Text that is not a token becomes a 'BadNumber', an 'OpenText' or a 'Stray'
+-- character, which the parser reports.
 module Surface.Lexer
   ( tokens,
   )
@@ -21,14 +19,14 @@ import Data.Text qualified as Text
 import Surface.Token (Numeral (Numeral), Token (..), Token_ (..), Unit, unitName)
 
 -- | The state of the lexer between two tokens.
-data Before = Before
+data LexerState = LexerState
   { -- | the offset of the next character
     at :: Int,
-    -- | the line has no token yet
+    -- | true before the first token of a line
     isLineStart :: Bool,
-    -- | the last token ends here
+    -- | true if the last token ends at this offset, without a space after it
     isTouching :: Bool,
-    -- | the last token was the keyword of a @machine@ statement
+    -- | true after the keyword of a @machine@ statement
     isMachineNext :: Bool
   }
 
@@ -38,16 +36,18 @@ tokens :: Int -> Text -> ([Token], [Located Text])
 tokens begin text =
   (tokensFrom before text, if "--" `Text.isInfixOf` text then commentsFrom [] before text else [])
   where
-    before = Before {at = begin, isLineStart = True, isTouching = False, isMachineNext = False}
+    before = LexerState {at = begin, isLineStart = True, isTouching = False, isMachineNext = False}
 
--- | The tokens as a lazy list, read in chunks.
-tokensFrom :: Before -> Text -> [Token]
+-- | The tokens of a text as a lazy list, read in chunks. @before@ is the state at the start of the
+-- text.
+tokensFrom :: LexerState -> Text -> [Token]
 tokensFrom before rest = case chunk chunkSize [] [] before rest of
   Chunk {ts, stopped, left} ->
     foldl (flip (:)) (if Text.null left then [] else tokensFrom stopped left) ts
 
--- | The comments after those found so far, of which the last one comes first.
-commentsFrom :: [Located Text] -> Before -> Text -> [Located Text]
+-- | The comments of a text, after the comments @found@ before it, which are given in reverse order.
+-- @before@ is the state at the start of the text.
+commentsFrom :: [Located Text] -> LexerState -> Text -> [Located Text]
 commentsFrom found before rest = case chunk chunkSize [] found before rest of
   Chunk {cs, stopped, left} -> if Text.null left then reverse cs else commentsFrom cs stopped left
 
@@ -55,17 +55,17 @@ commentsFrom found before rest = case chunk chunkSize [] found before rest of
 chunkSize :: Int
 chunkSize = 512
 
--- | Tokens and comments, the last ones first, and the text that remains.
-data Chunk = Chunk {ts :: [Token], cs :: [Located Text], stopped :: Before, left :: Text}
+-- | Tokens and comments in reverse order, the text after them, and the state at its start.
+data Chunk = Chunk {ts :: [Token], cs :: [Located Text], stopped :: LexerState, left :: Text}
 
--- | Reads @count@ tokens and the comments between them.
-chunk :: Int -> [Token] -> [Located Text] -> Before -> Text -> Chunk
-chunk !count ts cs before rest = case Text.uncons rest of
+-- | Reads at most @count@ tokens and the comments between them. Adds them to the given tokens and
+-- comments, which are in reverse order.
+chunk :: Int -> [Token] -> [Located Text] -> LexerState -> Text -> Chunk
+chunk count ts cs before rest = case if count <= 0 then Nothing else Text.uncons rest of
   Just (c, after)
-    | count <= 0 -> Chunk {ts, cs, stopped = before, left = rest}
     | isLineEnd c ->
       let next =
-            Before
+            LexerState
               { at = at before + 1,
                 isLineStart = True,
                 isTouching = False,
@@ -76,14 +76,15 @@ chunk !count ts cs before rest = case Text.uncons rest of
     | c == '-' && begins (== '-') after ->
       let (text, more) = Text.break isLineEnd rest
           region = Region (at before) (at before + Text.length text)
-          !comment = Located region text
-       in chunk count ts (comment : cs) before {at = end region, isTouching = False} more
+          comment = Located region text
+          next = before {at = end region, isTouching = False}
+       in comment `seq` chunk count ts (comment : cs) next more
     | otherwise ->
-      case if isMachineNext before then machineName rest else token c after rest of
+      case if isMachineNext before then machineName rest else token c rest of
         First shape consumed more ->
           let region = Region (at before) (at before + consumed)
               next =
-                Before
+                LexerState
                   { at = end region,
                     isLineStart = False,
                     isTouching = True,
@@ -102,14 +103,13 @@ chunk !count ts cs before rest = case Text.uncons rest of
 -- | Tells if a text begins with a character that satisfies the predicate.
 begins :: (Char -> Bool) -> Text -> Bool
 begins holds rest = maybe False (holds . fst) (Text.uncons rest)
-{-# INLINE begins #-}
 
 -- | The first token of a text, its length in characters, and the text after it.
 data First = First Token_ Int {-# UNPACK #-} Text
 
--- | Reads the first token of a text, given its first character and the text after that.
-token :: Char -> Text -> Text -> First
-token c !after !rest
+-- | Reads the first token of a text, given its first character.
+token :: Char -> Text -> First
+token c rest
   | isDigit c = numeral rest
   | isWordStart c =
     let (word, more) = Text.span isWordPart rest in First (Word word) (Text.length word) more
@@ -122,11 +122,11 @@ token c !after !rest
     _
       | c `elem` (".<>!" :: String),
         two `elem` ["..", "<=", ">=", "!="] ->
-        First (Symbol two) 2 (Text.drop 1 after)
+        First (Symbol two) 2 (Text.drop 2 rest)
       | c `elem` ("{}[]=+*/<>" :: String) -> sign (Text.singleton c)
-      | otherwise -> First (Stray c) 1 after
+      | otherwise -> First (Stray c) 1 (Text.drop 1 rest)
   where
-    sign s = First (Symbol s) 1 after
+    sign s = First (Symbol s) 1 (Text.drop 1 rest)
     two = Text.take 2 rest
 
 -- | Reads the name of a machine, which may contain @.@ and @-@, or the quoted name of a file with a
@@ -135,7 +135,7 @@ machineName :: Text -> First
 machineName rest
   | "\"" `Text.isPrefixOf` rest = quoted rest
   | Text.null name =
-    maybe (First (Stray ' ') 1 rest) (\(c, after) -> token c after rest) (Text.uncons rest)
+    maybe (First (Stray ' ') 1 rest) (\(c, _) -> token c rest) (Text.uncons rest)
   | otherwise = First (Word name) (Text.length name) (Text.drop (Text.length name) rest)
   where
     name =
@@ -164,7 +164,7 @@ numeral rest = case Decimal.leading rest of
       let (written, more) = Text.span (\c -> isWordPart c || c == '.') rest
        in First (BadNumber written) (Text.length written) more
   where
-    -- A second decimal point, or letters that touch the number and are not a unit.
+    -- True for a second decimal point, and for letters that touch the number and are not a unit.
     isMalformed digits after unit = case Text.uncons after of
       Just ('.', more) -> Text.any (== '.') digits && not (begins (== '.') more)
       Just (c, _) -> isWordPart c && maybe True (\(UnitAfter _ gap _) -> gap > 0) unit
@@ -173,7 +173,7 @@ numeral rest = case Decimal.leading rest of
 -- | A unit after a number, the number of spaces before it, and its length in characters.
 data UnitAfter = UnitAfter Unit Int Int
 
--- | Reads a unit after any number of spaces.
+-- | Reads a unit at the start of a text, after any number of spaces.
 unitAfter :: Text -> Maybe UnitAfter
 unitAfter = go 0
   where
@@ -196,8 +196,7 @@ isLineEnd :: Char -> Bool
 isLineEnd c = c == '\n' || c == '\r'
 
 -- | Tells if a character is white space. ASCII characters, which are most, need no Unicode tables.
-isBlank ::
-  Char -> Bool
+isBlank :: Char -> Bool
 isBlank c = c == ' ' || (c < '!' || c > '~') && isSpace c
 
 isBlankInLine :: Char -> Bool

@@ -14,27 +14,22 @@ import Data.Maybe qualified as Maybe
 import Data.Text (Text)
 import Data.Text qualified as Text
 import Surface.Combinator (run)
-import Surface.Combinator.Fast qualified as FastCombinator
 import Surface.Error (Error)
 import Surface.Error qualified as Error
 import Surface.Grammar qualified as Grammar
 import Surface.Lexer qualified as Lexer
+import Surface.Parser.Fast qualified as FastParser
 import Surface.Syntax
 import Surface.Token qualified as Token
 
 -- | Parses a program whose text begins at an offset. The output holds all statements without
 -- mistakes; there is none if the text is too long.
 parse :: Int -> Text -> Result w Error Program
-parse begin text = maybe (parseExplained begin text) (Result [] [] . Just) (parseFast begin text)
-
--- | Parses a program without mistakes by "Surface.Combinator.Fast". Its tokens are produced on
--- demand and not kept.
-parseFast :: Int -> Text -> Maybe Program
-parseFast begin text = case Lexer.tokens begin text of
-  (tokens, comments) ->
-    (\statements -> Program {statements, comments})
-      <$> FastCombinator.run maxTokens Grammar.fastProgram tokens
-{-# NOINLINE parseFast #-}
+parse begin text =
+  maybe
+    (parseExplained begin text)
+    (Result [] [] . Just)
+    (FastParser.parse maxTokens begin text)
 
 -- | 'parse' by the explaining parser alone, which gives the same result. Tests compare the two.
 parseExplained :: Int -> Text -> Result w Error Program
@@ -50,7 +45,6 @@ parseExplained begin text = case drop maxTokens tokens of
   where
     (tokens, comments) = Lexer.tokens begin text
     (errors, parsed) = run Grammar.explainedProgram (begin + Text.length text) tokens
-{-# NOINLINE parseExplained #-}
 
 -- | The largest number of tokens in a program.
 maxTokens :: Int

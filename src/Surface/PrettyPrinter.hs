@@ -1,7 +1,7 @@
--- | A pretty-printer for documents that know where they may be broken.
+-- | A pretty-printer for documents with possible line breaks.
 --
 -- A document is printed on one line if it fits. Otherwise its outermost brackets and series are
--- broken first. Documents that must stay on one line are joined by 'Beside'.
+-- broken first. 'Beside' joins documents without a possible line break between them.
 module Surface.PrettyPrinter
   ( Doc (..),
     Member (..),
@@ -21,10 +21,11 @@ data Doc
     Text Text
   | -- | documents next to one another, without a break between them
     Beside [Doc]
-  | -- | members with a space or a line break between them; further lines are indented by four
+  | -- | members with a space or a line break between them. Lines after the first are indented by
+    -- four characters
     Series [Member]
-  | -- | an opening bracket, members and a closing bracket; broken, the members are on lines of
-    -- their own, indented by two. The flag forces the break
+  | -- | an opening bracket, members and a closing bracket. If broken, the members are on lines of
+    -- their own, indented by two characters. The flag forces the break
     Brackets Bool Text [Member] Text
   deriving stock (Eq, Show)
 
@@ -59,9 +60,10 @@ render from doc = map line (reverse (now pen : done pen))
 
 -- | The output so far.
 data Pen = Pen
-  { -- | complete lines with their indentations, the last one first, and their texts likewise
+  { -- | the complete lines, the last one first: the indentation of each, and its texts in reverse
+    -- order
     done :: [(Int, [Text])],
-    -- | the line that is being written
+    -- | the line that is being written, in the form of a complete line
     now :: (Int, [Text]),
     -- | the column of the next character, from 0
     column :: Int
@@ -74,8 +76,8 @@ put t pen =
 newLine :: Int -> Pen -> Pen
 newLine indent pen = Pen {done = now pen : done pen, now = (indent, []), column = indent}
 
--- | Writes a document. New lines are indented by @indent@. On its last line, @trailing@ characters
--- must fit after the document.
+-- | Writes a document. New lines are indented by @indent@. The last line keeps room for @trailing@
+-- characters after the document.
 write :: Int -> Int -> Doc -> Pen -> Pen
 write indent trailing doc pen
   | fits (maxWidth - column pen - trailing) doc = foldl (flip put) pen (unbroken doc)
@@ -88,7 +90,8 @@ write indent trailing doc pen
       let inside = fill (indent + 2) 0 members (newLine (indent + 2) (put open pen))
        in put close (newLine indent inside)
 
--- | The number of characters after each document up to the next possible line break.
+-- | The number of characters between the end of each document and the next possible line break. The
+-- last document has @trailing@ characters after it.
 widthsAfter :: Int -> [Doc] -> [Int]
 widthsAfter trailing = drop 1 . scanr step trailing
   where
@@ -96,7 +99,8 @@ widthsAfter trailing = drop 1 . scanr step trailing
       Text t -> Text.length t + after
       _ -> Text.length (firstText doc)
 
--- | Writes members with as many on each line as fit.
+-- | Writes as many members on each line as fit. The parameters @indent@ and @trailing@ are those of
+-- 'write'.
 fill :: Int -> Int -> [Member] -> Pen -> Pen
 fill indent trailing members = case members of
   [] -> id
@@ -114,8 +118,8 @@ fill indent trailing members = case members of
 fits :: Int -> Doc -> Bool
 fits room doc = maybe False (>= 0) (roomAfter doc room)
 
--- | The room that a document leaves, or 'Nothing' once it is exceeded. Reads no more of the
--- document than fits.
+-- | The number of characters, out of @room@, that remain after an unbroken document. Gives
+-- 'Nothing' as soon as the room is exceeded or a break is forced.
 roomAfter :: Doc -> Int -> Maybe Int
 roomAfter doc room
   | room < 0 = Nothing

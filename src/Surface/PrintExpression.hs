@@ -19,13 +19,14 @@ import Data.List.NonEmpty (NonEmpty (..))
 import Data.List.NonEmpty qualified as NonEmpty
 import Data.Text (Text)
 import Data.Text qualified as Text
+import Surface.Keyword qualified as Keyword
 import Surface.PrettyPrinter (Doc (..), Member (..))
 import Surface.PrettyPrinter qualified as PrettyPrinter
 import Surface.Syntax hiding (Statement_ (..))
 import Surface.Token (unitName)
 
--- | The positions of comments in the source: 'isBetween' tells if any comment lies between two
--- offsets, 'isAtComma' if one of these is next to a comma.
+-- | The positions of comments in the source. 'isBetween' tells if a comment begins between two
+-- offsets. 'isAtComma' tells if a comment next to a comma begins between two offsets.
 data CommentPositions = CommentPositions
   { isBetween :: Int -> Int -> Bool,
     isAtComma :: Int -> Int -> Bool
@@ -50,12 +51,12 @@ data Precedence
   | Primary
   deriving stock (Eq, Ord)
 
--- | An expression without a demand on its precedence.
+-- | The document of an expression that needs no parentheses whatever its precedence is.
 value :: CommentPositions -> Expr -> Doc
 value comments = operand comments Loose
 
--- | An element of a contour. Parentheses keep it apart from the element on the line before if it
--- begins with a minus or with @by@.
+-- | The document of a contour element. An element that begins with a minus or with @by@ is put in
+-- parentheses, because it would otherwise continue the expression on the line before.
 element :: CommentPositions -> Expr -> Doc
 element comments e = if isContinuation (PrettyPrinter.firstText doc) then bracketed doc else doc
   where
@@ -63,7 +64,8 @@ element comments e = if isContinuation (PrettyPrinter.firstText doc) then bracke
     isContinuation text =
       "-" `Text.isPrefixOf` text || Text.takeWhile (\c -> isAlphaNum c || c == '_') text == "by"
 
--- | Documents with their regions, separated by commas; broken where a comment is.
+-- | Documents, each with its region in the source, separated by commas. A document begins a new
+-- line if the source has a comment next to the comma before it.
 list :: CommentPositions -> NonEmpty (Region, Doc) -> NonEmpty Member
 list comments things = NonEmpty.zipWith piece (NonEmpty.zip before things) commas
   where
@@ -86,6 +88,7 @@ spaced docs = Beside (drop 1 (concatMap (\d -> [Text " ", d]) docs))
 bracketed :: Doc -> Doc
 bracketed doc = Beside [Text "(", doc, Text ")"]
 
+-- | The document of an operand, in parentheses if its precedence is lower than @asked@.
 operand :: CommentPositions -> Precedence -> Expr -> Doc
 operand comments asked e = if precedence (Region.value e) < asked then bracketed doc else doc
   where
@@ -184,7 +187,7 @@ callDocument comments region open es =
     (NonEmpty.toList (list comments (fmap (\x -> (Region.region x, value comments x)) es)))
     ")"
 
--- | A chain of operators of one precedence: @a@, @+ b@, @- c@.
+-- | The members for an expression with operators of precedence @rank@: @a@, @+ b@, @- c@.
 chain :: CommentPositions -> Precedence -> Expr -> [Member]
 chain comments rank = reverse . go
   where
@@ -215,19 +218,10 @@ argument :: CommentPositions -> Argument -> (Region, Doc)
 argument comments a = case a of
   Given e -> (Region.region e, value comments e)
   Chosen (Located region choice) e ->
-    ( Region (start region) (end (Region.region e)),
-      spaced [Text (choiceName choice), value comments e]
+    ( Region.span region (Region.region e),
+      spaced [Text (Keyword.selectorWord choice), value comments e]
     )
   Ranked (Located region which) -> (region, Text (rankName which))
-
-choiceName :: Selector -> Text
-choiceName choice = case choice of
-  Near -> "near"
-  ToLeft -> "left"
-  ToRight -> "right"
-  ToInside -> "inside"
-  ToOutside -> "outside"
-  WithinTolerance -> "within"
 
 rankName :: Rank -> Text
 rankName which = case which of

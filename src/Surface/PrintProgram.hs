@@ -37,7 +37,7 @@ rows comments = concatMap (statement comments 0)
 
 -- Rows
 
--- | The lines of one document; all but the first are continuations.
+-- | The lines of one document. All lines but the first are continuations.
 whole :: Int -> Doc -> [AlignedLine]
 whole indent doc = case PrettyPrinter.render indent doc of
   [] -> []
@@ -49,7 +49,8 @@ whole indent doc = case PrettyPrinter.render indent doc of
       } :
     map continued more
 
--- | A line of two cells if both fit on it, else the lines of the joined document.
+-- | One line of two cells if both documents fit on it. Otherwise the lines of both documents,
+-- joined without alignment.
 cells' :: AlignmentColumn -> Int -> Doc -> Doc -> [AlignedLine]
 cells' column indent first second =
   case (PrettyPrinter.render indent first, PrettyPrinter.render indent second, alone) of
@@ -249,8 +250,8 @@ data ChoicePrinter a = ChoicePrinter
     onlyChoice :: [a] -> Maybe (Choice a)
   }
 
--- | The lines of a choice: @if c { … } else if d { … } else { … }@. The document is that before the
--- condition.
+-- | The lines of a choice: @if c { … } else if d { … } else { … }@. The document @before@ precedes
+-- the condition: @if@ or @} else if@.
 alternatives :: ChoicePrinter a -> Int -> Doc -> Choice a -> [AlignedLine]
 alternatives printer indent before (Choice condition yes no) = case (no, onlyChoice printer no) of
   ([], _) -> braces indent begin (block yes)

@@ -40,8 +40,9 @@ distribute rows tokens = case (rows, tokens) of
         distribute more others
   _ -> []
 
--- | Matches each printed token with a token of the source. The search ends at the first token that
--- is not optional, so that one missing token does not displace the rest.
+-- | Matches each printed token with a token of the source. The search for one of them ends at the
+-- first token of the source that is not optional. So one missing token does not spoil the matches
+-- after it.
 match :: [Token] -> [Token_] -> [Maybe Token]
 match source printed = case printed of
   [] -> []

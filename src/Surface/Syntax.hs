@@ -140,21 +140,23 @@ data Cutter_
     DrillCutter Expr
   | -- | @turn(nose r)@
     TurningCutter Expr
-  | -- | @cone(diameter d, bevel a, height h)@: a conical mill with the bevel of its flank
+  | -- | @cone(diameter d, bevel a, height h)@: a conical mill by the diameter of its tip, the bevel
+    -- of its flank, and the height of the contour above the tip
     ConeCutter Expr Expr Expr
-  | -- | @blade(diameter d, gear e)@: a swivelling blade with its gear wheel
+  | -- | @blade(diameter d, gear e)@: a swivelling blade by its diameter and that of the gear wheel
+    -- that swivels it
     BladeCutter Expr Expr
   deriving stock (Eq, Show)
 
--- | The tolerance of chords.
+-- | The allowed distance between a curve and its chords.
 data Accuracy
-  = -- | to either side of the curve
+  = -- | the same on both sides of the curve
     Within Expr
-  | -- | inside and outside of the material
+  | -- | inside of the material, outside of the material
     Between Expr Expr
   deriving stock (Eq, Show)
 
--- | The pace of a motion to stops that name none: that of @rapid@ and of @move@.
+-- | The pace of a @rapid@ or a @move@ statement to those stops that do not name one.
 data DefaultPace = RapidMotion | FeedMotion
   deriving stock (Eq, Show, Enum, Bounded)
 
@@ -208,9 +210,11 @@ data Operator
   | Or
   deriving stock (Eq, Show, Enum, Bounded)
 
--- | An argument of a call. Words choose one of several geometric solutions.
+-- | An argument of a call. A word before a value, or a rank, chooses one of several geometric
+-- solutions.
 data Argument
-  = Given {-# UNPACK #-} Expr
+  = -- | a value alone
+    Given {-# UNPACK #-} Expr
   | -- | @near p@, @left l@, @inside c@ …
     Chosen (Located Selector) Expr
   | -- | @first@ and @last@
@@ -273,7 +277,7 @@ data Joggle_ = Joggle {from :: Expr, to :: Expr, depth :: Expr, radius :: Expr}
 data Rank = First | Last
   deriving stock (Eq, Ord, Show, Enum, Bounded)
 
--- | Contours are open or closed.
+-- | The two kinds of contours.
 data Closure = Open | Closed
   deriving stock (Eq, Show, Enum, Bounded)
 
@@ -316,13 +320,14 @@ type Link = Located Link_
 
 -- | The link between an element and the next one.
 data Link_
-  = -- | their intersection, the one nearest to a point if that is given
+  = -- | the elements meet at their intersection: the one nearest to a point if that is given
     Meet (Maybe Expr)
   | Smooth
   | Tangent
-  | -- | the radius, positive for a clockwise arc, negative for a counter-clockwise one
+  | -- | an arc by its radius, positive for a clockwise arc, negative for a counter-clockwise one
     Fillet {-# UNPACK #-} Expr
-  | Chamfer {-# UNPACK #-} Expr
+  | -- | a line by the distance of each of its ends from the intersection of the elements
+    Chamfer {-# UNPACK #-} Expr
   deriving stock (Eq, Show)
 
 -- | The side of a contour on which the cutter moves.
@@ -370,7 +375,7 @@ data Lead = LeadIn | LeadOut
 data LeadForm = LeadLine | LeadArc
   deriving stock (Eq, Show, Enum, Bounded)
 
--- | The toolpath around an outer corner.
+-- | The form of the toolpath around an outer corner.
 data Corners = Round | Sharp
   deriving stock (Eq, Show, Enum, Bounded)
 
@@ -378,7 +383,7 @@ data Corners = Round | Sharp
 data CutSense = Climb | Conventional
   deriving stock (Eq, Show, Enum, Bounded)
 
--- | The side that computes the offset of the toolpath: the compiler, or the control by cutter
+-- | Says what computes the offset of the toolpath: the compiler, or the control by cutter
 -- compensation.
 data Compensation = ByCompiler | ByController
   deriving stock (Eq, Show, Enum, Bounded)
@@ -389,7 +394,7 @@ data Stop = Stop {point :: Expr, pace :: Pace}
 
 -- | The pace of a motion.
 data Pace
-  = -- | that of the statement, which is the present feed or rapid
+  = -- | the default of the statement: rapid in a @rapid@ statement, else the present feed
     Cutting
   | Rapid
   | AtFeed Expr

@@ -13,14 +13,15 @@ where
 import Base.Region (Region)
 import Data.Text (Text)
 import Data.Text qualified as Text
+import Report.Report (quote)
 
 -- | A token with its region and its separation from the token before it.
 data Token = Token
   { place :: Region,
     shape :: Token_,
-    -- | it is the first token of its line
+    -- | true for the first token of a line
     newLine :: Bool,
-    -- | nothing separates it from the token before it
+    -- | true if nothing separates the token from the token before it
     attached :: Bool
   }
   deriving stock (Eq, Ord, Show)
@@ -35,7 +36,7 @@ data Token_
     Text Text
   | -- | punctuation or an operator
     Symbol Text
-  | -- | a malformed number such as @1.2.3@, or one too large for a double
+  | -- | a malformed number such as @1.2.3@, or one with too many digits
     BadNumber Text
   | -- | a text without its closing quotation mark
     OpenText
@@ -82,12 +83,12 @@ columnUnits = [Millimetre, Centimetre, Metre, Inch, Degree, Radian]
 -- | Describes a token in the words of a report; long ones are shortened to 60 characters.
 describe :: Token_ -> Text
 describe token = case token of
-  Word text -> "‘" <> short text <> "’"
+  Word text -> quote text
   Number value _ -> "the number " <> short (digits value)
   Text _ -> "a text"
-  Symbol text -> "‘" <> text <> "’"
-  BadNumber text -> "‘" <> short text <> "’"
+  Symbol text -> quote text
+  BadNumber text -> quote text
   OpenText -> "a text without an end"
-  Stray c -> "the character ‘" <> Text.singleton c <> "’"
+  Stray c -> "the character " <> quote (Text.singleton c)
   where
     short text = if Text.length text > 60 then Text.take 57 text <> "…" else text

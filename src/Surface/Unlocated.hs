@@ -1,6 +1,7 @@
--- | Syntax trees without regions, for the comparison of two texts.
+-- | Syntax trees whose regions are all replaced by one.
 module Surface.Unlocated
   ( statements,
+    expressionAt,
   )
 where
 
@@ -10,12 +11,13 @@ import Base.Region (Located (Located), Region (..))
 import Data.List.NonEmpty qualified as NonEmpty
 import Surface.Syntax hiding (statements)
 
--- | Replaces all regions in statements by one. Rows of numbers from files become rows of literals.
+-- | Statements without regions, for the comparison of two texts: all regions are replaced by one.
+-- Rows of numbers from files become rows of literals.
 statements :: [Statement] -> [Statement]
 statements = map (unlocated statement)
 
 expr :: Expr -> Expr
-expr = unlocated expression
+expr = expressionAt nowhere
 
 -- | Replaces the region of a node and applies a function to its content.
 unlocated :: (a -> a) -> Located a -> Located a
@@ -100,26 +102,28 @@ cutter c = case c of
   ConeCutter d a h -> ConeCutter (expr d) (expr a) (expr h)
   BladeCutter d g -> BladeCutter (expr d) (expr g)
 
-expression :: Expr_ -> Expr_
-expression e = case e of
+-- | An expression with all regions replaced by one.
+expressionAt :: Region -> Expr -> Expr
+expressionAt at (Located _ e) = Located at $ case e of
   Literal number unit -> Literal number unit
   Variable name -> Variable name
-  Call name arguments -> Call (here name) (fmap argument arguments)
-  Negate a -> Negate (expr a)
-  Not a -> Not (expr a)
-  Binary operator a b -> Binary operator (expr a) (expr b)
-  Range a b step -> Range (expr a) (expr b) (fmap expr step)
-  If condition a b -> If (expr condition) (expr a) (expr b)
-  Pair a b -> Pair (expr a) (expr b)
-  Triple a b c -> Triple (expr a) (expr b) (expr c)
-  List es -> List (map expr es)
-  Each a name from -> Each (expr a) (here name) (expr from)
-
-argument :: Argument -> Argument
-argument a = case a of
-  Given e -> Given (expr e)
-  Chosen choice e -> Chosen (here choice) (expr e)
-  Ranked which -> Ranked (here which)
+  Call name arguments -> Call (moved name) (fmap argument arguments)
+  Negate a -> Negate (again a)
+  Not a -> Not (again a)
+  Binary operator a b -> Binary operator (again a) (again b)
+  Range a b step -> Range (again a) (again b) (fmap again step)
+  If condition a b -> If (again condition) (again a) (again b)
+  Pair a b -> Pair (again a) (again b)
+  Triple a b c -> Triple (again a) (again b) (again c)
+  List es -> List (map again es)
+  Each a name from -> Each (again a) (moved name) (again from)
+  where
+    again = expressionAt at
+    moved (Located _ a) = Located at a
+    argument a = case a of
+      Given x -> Given (again x)
+      Chosen choice x -> Chosen (moved choice) (again x)
+      Ranked which -> Ranked (moved which)
 
 item :: Item_ -> Item_
 item i = case i of

@@ -1,5 +1,5 @@
--- | Frames with arcs by a simple method, and their deviation from a contour by sampling. Both serve
--- to test the verification, independently of the compiler's frames and of its distances.
+-- | Frames with arcs by a simple method, and their deviation from a contour by sampling. The tests
+-- of the verification use both, because they do not depend on the code that is tested.
 module Generate.Arcs
   ( quantise,
     Deviation (..),
@@ -35,8 +35,8 @@ import Test.QuickCheck
 import Toolpath.Toolpath (Move, Toolpath)
 import Toolpath.Toolpath qualified as Toolpath
 
--- | The frames of a toolpath on a machine with arcs: without braking and without commands. Every
--- number must fit the machine's words.
+-- | The frames of a toolpath on a machine with arcs, without braking and without commands. Every
+-- number of the frames must fit the machine's words.
 quantise :: Machine -> Toolpath -> FrameProgram
 quantise machine path =
   FrameProgram begin (go begin (concat (zipWith block [0 ..] (Toolpath.blocks path))))
@@ -80,12 +80,13 @@ quantise machine path =
             ]
               <> go (at + sum (map increment fs)) rest
 
+-- | A position, given by its point in the plane and its height, rounded to whole pulses.
 rounded :: Machine -> (Point, Mm) -> Pulses3
 rounded machine (p, Mm z) = Pulses3 (on X (Vec.x p)) (on Y (Vec.y p)) (on Z z)
   where
     on axis v = let Mm step = Machine.resolutionOf machine axis in Pulses (round (v / step))
 
--- | The frames of one move, from the present position.
+-- | The frames of one move, from the given position.
 framesOf :: Machine -> Pulses3 -> Move -> [Frame]
 framesOf machine at m = case Toolpath.segment m of
   s@Arc {} -> snd (foldl next (at, []) (inQuadrants s))
@@ -138,8 +139,9 @@ quarters s = case s of
             if b < 1 then fst (Segment.cutAt b s) else s
        in if a > 0 then snd (Segment.cutAt (a / b) upTo) else upTo
 
--- | The frames of an arc: one if a centre of whole pulses keeps it within one pulse, otherwise
--- those of its halves.
+-- | The frames of an arc at the height @z@, from the position @at@. One frame is enough if, with a
+-- centre in whole pulses, it deviates from the arc by at most one pulse. Otherwise the arc is
+-- halved.
 arcFrames :: Machine -> FeedCode -> Mm -> Pulses3 -> Segment -> [Frame]
 arcFrames machine code z at s = case (Segment.sagitta s, candidates) of
   (Mm sagitta, _) | sagitta < pulse / 2 -> straight code at end
@@ -175,9 +177,9 @@ arcFrames machine code z at s = case (Segment.sagitta s, candidates) of
           first = arcFrames machine code z at a
        in first <> arcFrames machine code z (at + sum (map increment first)) b
 
--- | The largest distance of a frame from an arc, in mm. A control may use the radius of the
--- beginning or of the end: both count, at points along the arc. A frame that became a full circle
--- has an immense distance.
+-- | The largest distance between a frame's arc and the intended arc, at sample points, in mm. A
+-- control may use the radius at the start or at the end of the frame, so both are sampled. A frame
+-- whose sweep differs by more than 1 rad has the distance 1e9.
 arcDeviation :: Machine -> Pulses3 -> Segment -> Frame -> Double
 arcDeviation machine at s f =
   maximum
@@ -200,7 +202,7 @@ arcDeviation machine at s f =
     Rad sweep = Segment.sweep (Frame.segment machine at f)
     Rad begin = Vec.angle (Vec.to c (Frame.position machine at))
 
--- | The radii of an arc at its beginning and at its end, in mm.
+-- | The distances of a frame's start and end from the centre of its arc, in mm.
 arcRadii :: Machine -> Pulses3 -> Frame -> (Double, Double)
 arcRadii machine at f =
   ( between (Frame.position machine at) c,
@@ -216,8 +218,8 @@ between p q = let Mm d = Vec.distance p q in d
 data Deviation = Deviation {deepestGouge :: Double, largestExcess :: Double}
   deriving stock (Show)
 
--- | The deviation of frames from a contour, for a cutter of this radius in mm, by dense points on
--- both. The position is that before the first frame. An arc keeps the radius of its beginning.
+-- | The deviation of frames from a contour for a cutter of the given radius in mm, by sample points
+-- on both. The frames start at the position @begin@. Each arc has the radius at its start.
 deviation :: Machine -> Pulses3 -> [Frame] -> [Segment] -> Double -> Deviation
 deviation machine begin frames contour radius =
   Deviation
@@ -238,14 +240,14 @@ dense apart s = [Segment.at (fromIntegral k / fromIntegral n) s | k <- [0 .. n]]
     Mm l = Segment.length s
     n = max 1 (ceiling (l / apart)) :: Int
 
--- | One change of some frames, with its description.
+-- | Frames with one random mistake, and a description of the mistake.
 change :: [Frame] -> Gen (String, [Frame])
 change frames = do
   n <- choose (0, length frames - 1)
   d <- Pulses <$> elements [1, -1, 2, -2, 3, -3, 100, -100]
   let f = frames !! n
       with f' = take n frames <> [f'] <> drop (n + 1) frames
-      -- If @isCompensated@, the next frame goes back by the same amount.
+      -- If @isCompensated@, the next frame has the opposite change of its increment.
       changed isCompensated f' = case drop (n + 1) frames of
         g : rest
           | isCompensated ->

@@ -30,7 +30,8 @@ import Toolpath.FromPart qualified as FromPart
 import Toolpath.Toolpath (Toolpath)
 import Toolpath.Toolpath qualified as Toolpath
 
--- | A contour with an approach from the free side of its beginning, and a retract.
+-- | A milling job with an approach and a retract on the free side of its contour, and the offset
+-- problem of which it is made.
 cases :: Gen (Case, Milling)
 cases = do
   drawn <- oneof [Generate.closedCase, Generate.openCase, Generate.smoothCase]
@@ -45,7 +46,7 @@ cases = do
     Just (begin, finish) ->
       let Mm r = radius c
           free = if side c == LeftOf then -1 else 1
-          -- Backwards along the first move, turned to the free side.
+          -- Behind the start of the first move, rotated to the free side.
           from =
             Vec.shift
               ( Vec.scale
@@ -67,8 +68,8 @@ cases = do
   where
     stop p = Part.Stop (Located nowhere p) Nothing Part.Rapid
 
--- | The case with a cutter whose radius is smaller by @less@ mm than the smallest concave arc, if
--- such a cutter fits.
+-- | A case with a cutter that is only slightly smaller than the smallest concave arc: its radius is
+-- smaller by @less@ mm. If no such cutter fits, the case is unchanged.
 snug :: Case -> Double -> Case
 snug c less =
   case sort
@@ -84,7 +85,7 @@ snug c less =
         c {radius = Mm r, pieces}
     _ -> c
 
--- | The first and the last move of the cutter beside a contour, leads included.
+-- | The first and the last segment of the cutter's path along a contour, including the leads.
 firstAndLast :: Milling -> Maybe (Segment, Segment)
 firstAndLast job = case blocksOf (beginning job) job of
   Just (Toolpath.Cutting {Toolpath.approach, Toolpath.cut, Toolpath.retract} : _) ->
@@ -101,15 +102,15 @@ firstAndLast job = case blocksOf (beginning job) job of
           )
   _ -> Nothing
 
--- | The blocks of the toolpath of a milling job. The cutter begins at the point.
+-- | The blocks of the toolpath of a milling job, from the point at which the cutter starts.
 blocksOf :: Point -> Milling -> Maybe [Toolpath.Block]
 blocksOf at job = Toolpath.blocks <$> path at job
 
--- | The toolpath of a milling job. The cutter begins at the point.
+-- | The toolpath of a milling job, from the point at which the cutter starts.
 path :: Point -> Milling -> Maybe Toolpath
 path at job = Result.output (FromPart.toToolpath (Generate.partOf at (Mill (Located nowhere job))))
 
--- | The beginning of the contour.
+-- | The point at which the contour of a milling job begins.
 beginning :: Milling -> Point
 beginning job = Segment.start (Part.segment (NonEmpty.head (Part.elements (Part.contour job))))
 

@@ -1,5 +1,5 @@
--- | Random curves and shifts: open and closed, gentle and reversing, with vertical tangents, with
--- few points and with many.
+-- | Random curves and shifts of curves. The curves are open or closed, with slow or sharp changes
+-- of direction, with vertical tangents, with few or many points.
 module Generate.Curve
   ( Table (..),
     anyCurve,
@@ -31,6 +31,7 @@ import Data.List (tails)
 import Data.List.NonEmpty (NonEmpty (..))
 import Data.List.NonEmpty qualified as NonEmpty
 import GHC.Exts qualified as Exts
+import Generate.Run qualified as Run
 import Geometry.Carrier qualified as Carrier
 import Geometry.Curve
   ( Curve,
@@ -55,6 +56,7 @@ import Test.QuickCheck
 data Table = Table EndCondition [Point]
   deriving stock (Eq, Show)
 
+-- | The result of a computation that must succeed.
 ok :: Show e => Either e a -> a
 ok = either (error . show) id
 
@@ -69,7 +71,7 @@ smooth = oneof [gentle, ring, ok . splineOf <$> winding]
 splineOf :: Table -> Either Curve.CurveFault Curve
 splineOf (Table ends points) = Curve.spline ends (Exts.fromList points)
 
--- | An open spline with few points or many, that turns by less than a right angle.
+-- | An open spline with 2 to 60 points. The directions of its chords differ by less than 1 rad.
 gentle :: Gen Curve
 gentle = do
   n <- frequency [(1, choose (2, 3)), (3, choose (4, 12)), (2, choose (30, 60))]
@@ -78,8 +80,8 @@ gentle = do
   Table ends points <- fromTurns begin turns
   pure (ok (splineOf (Table ends points)))
 
--- | Points with arbitrary turns: their curve may reverse, cross itself, or be vertical. Some tables
--- have given directions at the ends.
+-- | Points with arbitrary changes of direction. Their curve may reverse in x, intersect itself, or
+-- be vertical. Some tables have given directions at the ends.
 winding :: Gen Table
 winding = do
   n <- choose (2, 20)
@@ -87,7 +89,7 @@ winding = do
   turns <- vectorOf n (oneof [choose (-0.8, 0.8), elements [0, pi / 2]])
   fromTurns begin turns
 
--- | A table from a first direction and the turn at each point, in rad.
+-- | A table of points from the first direction and the change of direction at each point, in rad.
 fromTurns :: Double -> [Double] -> Gen Table
 fromTurns begin turns = do
   steps <- vectorOf (length turns) (choose (8, 20))
@@ -103,7 +105,7 @@ fromTurns begin turns = do
       ]
   pure (Table ends points)
 
--- | A spline through a few arbitrary points. It may reverse within a span.
+-- | A spline through a few arbitrary points. Its direction may reverse within one span.
 zigzag :: Gen Curve
 zigzag = do
   ends <- elements [Natural, Periodic]
@@ -113,7 +115,7 @@ zigzag = do
       and [Vec.distance p q > Mm 5 | p : rest <- tails ps, q <- rest]
   pure (ok (splineOf (Table ends points)))
 
--- | A closed spline round a centre.
+-- | A closed spline around a centre.
 ring :: Gen Curve
 ring = ok . splineOf <$> closedRing
 
@@ -133,7 +135,7 @@ closedRing = do
       points = map point [0 .. n - 1 :: Int]
   pure (Table Periodic (points <> [p | repeated, p <- take 1 points]))
 
--- | A polyline. It may reverse at a point.
+-- | A polyline, open or closed. Its direction may reverse at a point.
 polyline :: Gen Curve
 polyline = do
   n <- choose (1, 8)
@@ -175,19 +177,10 @@ toSegments = do
             (sweep, _, corner) = part
             after = if abs sweep < 0.2 then heading + corner else heading + sweep + corner
          in s :| if null rest then [] else NonEmpty.toList (segments (Segment.end s) after rest)
-    next p heading (sweep, l, _)
-      | abs sweep < 0.2 = Straight p (Vec.shift (Vec.polar (Mm l) (Rad heading)) p)
-      | otherwise =
-        let centre = Vec.shift (Vec.scale (l / sweep) (Vec.left (Vec.polar (Mm 1) (Rad heading)))) p
-         in Arc
-              { start = p,
-                end = Vec.shift (Vec.rotate (Rad sweep) (Vec.to centre p)) centre,
-                centre,
-                sweep = Rad sweep
-              }
+    next p heading (sweep, l, _) = Run.arcFrom p heading (if abs sweep < 0.2 then 0 else sweep) l
 
--- | A line, a parabola tangent to it and an arc tangent to the parabola, with rows anywhere on
--- them.
+-- | A line, a parabola tangent to it, and an arc tangent to the parabola. The rows of the curve are
+-- at random positions on them.
 pieces :: Gen Curve
 pieces = do
   a <- choose (-0.02, 0.02)
@@ -214,14 +207,15 @@ pieces = do
         )
     )
 
--- | A parameter as a share of the curve's domain. It may be at a row or an end.
+-- | A parameter of a curve as a fraction of its domain, from 0 to 1. It may be at a row or an end.
 parameter :: Gen Double
 parameter = frequency [(8, choose (0, 1)), (1, elements [0, 1, 0.5])]
 
+-- | The parameter of a curve at a fraction of its domain.
 parameterOf :: Curve -> Double -> Double
 parameterOf curve share = share * Curve.domain curve
 
--- | The largest curvature at many points, in 1/mm.
+-- | The largest absolute curvature at 12 points of each span, in 1/mm.
 tightest :: Curve -> Double
 tightest curve =
   maximum
@@ -232,7 +226,7 @@ tightest curve =
   where
     bs = Curve.breaks curve
 
--- | A column of a curve: slowly changing values between @low@ and @high@.
+-- | A column of a curve: values between @low@ and @high@ that change slowly from row to row.
 columnOf :: Curve -> Double -> Double -> Gen Curve.Column
 columnOf curve low high = do
   middle <- choose (low, high)
@@ -247,7 +241,7 @@ columnOf curve low high = do
           else middle + 0.5 * wave * sin (phase + turns * fromIntegral k)
   pure (Curve.column curve (Exts.fromList (map value [0 .. n - 1])))
 
--- | A distance of any kind, at most @reach@ mm.
+-- | A shift distance of any kind, at most @reach@ mm.
 distance :: Double -> Curve -> Gen Distance
 distance reach curve =
   oneof
@@ -292,7 +286,7 @@ distance reach curve =
             )
         )
 
--- | A shift of a curve, well within its radius of curvature.
+-- | A curve, shifted by a distance that is well below its radius of curvature.
 shifts :: Curve -> Gen Curve
 shifts curve = do
   side <- elements [LeftOf, RightOf]
@@ -301,7 +295,7 @@ shifts curve = do
   pure
     (case Curve.firstCusp s of Nothing -> s; Just _ -> Curve.shifted side (Constant (Mm 0)) curve)
 
--- | A curve with at most @most@ shifts.
+-- | A curve that is shifted up to @most@ times.
 layered :: Int -> Gen Curve -> Gen Curve
 layered most gen = do
   curve <- gen
@@ -311,7 +305,7 @@ layered most gen = do
     go :: Int -> Curve -> Gen Curve
     go n curve = if n <= 0 then pure curve else shifts curve >>= go (n - 1)
 
--- | A product of motions, reflections and scalings.
+-- | A product of up to four transformations: a translation, a rotation, a reflection, a scaling.
 similarity :: Gen Transformation
 similarity = do
   v <- Vec.vec <$> choose (-50, 50) <*> choose (-50, 50)

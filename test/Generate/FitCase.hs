@@ -29,40 +29,47 @@ import Geometry.Vec (Point, Vec)
 import Geometry.Vec qualified as Vec
 import Test.QuickCheck
 
--- | A curve and the tolerance in mm of the arcs that approximate it.
+-- | A curve, and the tolerance in mm for the arcs that approximate it.
 data FitCase = FitCase Curve Double
   deriving stock (Show)
 
--- | Curves in mm, with the parameters at which spans meet.
+-- | A curve. Lengths are in mm. The lists of numbers are the parameters at which spans end.
 data Curve
-  = -- | amplitude; wavelength divided by 2π
+  = -- | a sine: its amplitude, and its wavelength divided by 2π
     Sine Double Double [Double]
-  | -- | half axes
+  | -- | an ellipse by its semi-axes in x and y
     Ellipse Double Double [Double]
-  | Lissajous Double Double [Double]
-  | -- | factor of the fourth power
+  | -- | the Lissajous curve x = a·cos 3u, y = b·sin 2u, by a and b
+    Lissajous Double Double [Double]
+  | -- | a polynomial of degree four, by the factor of the fourth power
     Quartic Double [Double]
-  | -- | closed or not, and nodes: point, angle of the direction, change of the angle at the node,
-    -- and the speeds before and after
+  | -- | cubic spans between nodes. The flag tells if the curve is closed
     Cubic Bool [Node]
-  | -- | lines and arcs in tangent contact: lengths and curvatures
+  | -- | lines and arcs, each tangent to the next: their lengths, and their curvatures in 1/mm
     Bends [(Double, Double)]
-  | -- | nearly a cusp: the speed at its tip
+  | -- | a curve that is nearly a cusp: the derivative at its tip, in mm
     Cusp Double [Double]
   deriving stock (Show)
 
+-- | A node between cubic spans: the point, the angle of the arriving direction in rad, the change
+-- of the angle at the node, and the lengths of the derivatives before and after the node, as
+-- multiples of the chord.
 type Node = (Point, Double, Double, Double, Double)
 
+-- | A curve of any kind but 'Cusp', with a tolerance from 1 µm to 1 mm.
 fitCase :: Gen FitCase
 fitCase = FitCase <$> curve 1 <*> ((10 **) <$> choose (-3, 0))
 
+-- | A large sine with the tolerance 0.01 µm, whose approximation needs many arcs.
 large :: Gen FitCase
 large =
   FitCase <$> (Sine <$> choose (100, 1000) <*> choose (300, 800) <*> spanEnds 12) <*> pure 1e-5
 
+-- | A curve that is nearly a cusp.
 nearCusp :: Gen FitCase
 nearCusp = FitCase <$> (Cusp <$> choose (0.05, 3) <*> spanEnds 3) <*> ((10 **) <$> choose (-2, 0))
 
+-- | An open curve of at most two cubic spans without corners.
 smoothCubic :: Gen FitCase
 smoothCubic = FitCase <$> (short <$> cubic 1) <*> ((10 **) <$> choose (-3, -1.5))
   where
@@ -70,6 +77,7 @@ smoothCubic = FitCase <$> (short <$> cubic 1) <*> ((10 **) <$> choose (-3, -1.5)
       Cubic _ nodes -> Cubic False [(p, a, 0, v, w) | (p, a, _, v, w) <- take 3 nodes]
       _ -> c
 
+-- | A curve of any kind but 'Cusp', with lengths in proportion to @size@ mm.
 curve :: Double -> Gen Curve
 curve size =
   oneof
@@ -92,15 +100,15 @@ curve size =
       cubic size
     ]
 
--- | Ends of the spans: the last at a given parameter; some spans are far shorter than others.
+-- | Parameters at which spans end, the last one at @end@. Some spans are much shorter than others.
 spanEnds :: Double -> Gen [Double]
 spanEnds end = do
   inner <- resize 5 (listOf (choose (0.01, 0.99)))
   tiny <- elements [[], [0.3, 0.30001, 0.3001]]
   pure (map (* end) (sort (inner <> tiny)) <> [end])
 
--- | Cubic spans between random points: smooth, with corners, or with kinks too small to count;
--- often closed.
+-- | Cubic spans between random points, often closed. At a node the curve is smooth, or has a
+-- corner, or has a kink that is smaller than any corner.
 cubic :: Double -> Gen Curve
 cubic size = do
   n <- choose (2, 6)
@@ -122,25 +130,28 @@ isClosed c = case c of
   Bends _ -> False
   Cusp _ _ -> False
 
--- | Jumps of direction inside the curve.
+-- | The changes of direction at the nodes inside a curve, in rad.
 jumps :: Curve -> [Double]
 jumps c = case c of
   Cubic closed nodes ->
     [j | (_, _, j, _, _) <- drop 1 (if closed then nodes else take (length nodes - 1) nodes)]
   _ -> []
 
+-- | The number of corners: changes of direction by more than 0.01 rad.
 corners :: Curve -> Int
 corners c = length (filter ((> 0.01) . abs) (jumps c))
 
+-- | True of a curve with changes of direction that are too small for corners.
 hasKinks :: Curve -> Bool
 hasKinks c = any (\j -> j /= 0 && abs j < 0.01) (jumps c)
 
--- | True if x both rises and falls.
+-- | True of a curve along which x both increases and decreases.
 reversesInX :: Curve -> Bool
 reversesInX c = or (zipWith (<=) xs (drop 1 xs)) && or (zipWith (>) xs (drop 1 xs))
   where
     xs = map Vec.x (samples 50 (parametricCurve c))
 
+-- | The curve in the form that arc fitting takes.
 parametricCurve :: Curve -> ParametricCurve
 parametricCurve c = case c of
   Sine a w bs -> analytic bs (\u -> Vec.point (w * u) (a * sin u)) (\u -> Vec.vec w (a * cos u))
@@ -202,7 +213,8 @@ parametricCurve c = case c of
           breaks = fromMaybe (1 :| []) (NonEmpty.nonEmpty bs)
         }
 
--- | Cubic span between two nodes: point and derivative.
+-- | The point and the derivative of the cubic Hermite span between two nodes, at a parameter from
+-- 0 to 1.
 hermite :: (Node, Node) -> Double -> (Point, Vec)
 hermite ((p, a, jump, _, out), (q, b, _, into, _)) f =
   (Vec.shift (combined h10 h01 h11) p, combined g10 g01 g11)
@@ -215,9 +227,11 @@ hermite ((p, a, jump, _, out), (q, b, _, into, _)) f =
     (h10, h01, h11) = (f * (1 - f) * (1 - f), f * f * (3 - 2 * f), f * f * (f - 1))
     (g10, g01, g11) = ((1 - f) * (1 - 3 * f), 6 * f * (1 - f), f * (3 * f - 2))
 
+-- | The points of a curve at 'parameters'.
 samples :: Int -> ParametricCurve -> [Point]
 samples n t = map (place t) (parameters n t)
 
+-- | The parameters that divide the domain of a curve into @n@ equal parts, with both ends.
 parameters :: Int -> ParametricCurve -> [Double]
 parameters n t =
   [begin t + (NonEmpty.last (breaks t) - begin t) * fromIntegral k / fromIntegral n | k <- [0 .. n]]

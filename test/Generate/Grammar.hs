@@ -27,7 +27,7 @@ newtype Grammar = Grammar (Map Text Rule)
 
 -- | The right-hand side of a rule.
 data Rule
-  = -- | a word or sign in quotation marks
+  = -- | a word or symbol in quotation marks
     Literal Text
   | -- | another rule, or a terminal of the lexer
     Named Text
@@ -47,7 +47,7 @@ terminals = ["name", "number", "text", "machine-name"]
 fromText :: Text -> Grammar
 fromText = Grammar . Map.fromList . rules . marks
 
--- | The tokens of a grammar.
+-- | The tokens of a grammar: words, symbols, and literals, each with its opening quotation mark.
 marks :: Text -> [Text]
 marks text = case Text.uncons (Text.stripStart text) of
   Nothing -> []
@@ -98,7 +98,7 @@ sequence' rs = case rs of
   [r] -> r
   _ -> Sequence rs
 
--- | Names without a rule, and rules without a use.
+-- | Names that are used but have no rule, and rules and terminals that are not used.
 loose :: Grammar -> [Text]
 loose (Grammar known) =
   (used \\ (Map.keys known <> terminals)) <> ((Map.keys known <> terminals) \\ ("program" : used))
@@ -112,7 +112,7 @@ loose (Grammar known) =
       Many r -> names r
       Optional r -> names r
 
--- | The words and signs in quotation marks.
+-- | The words and symbols in quotation marks.
 literals :: Grammar -> [Text]
 literals (Grammar known) = sort (Set.toList (Set.fromList (concatMap inside (Map.elems known))))
   where
@@ -126,7 +126,7 @@ literals (Grammar known) = sort (Set.toList (Set.fromList (concatMap inside (Map
 
 -- Sentences
 
--- | An element of a sentence: a word or sign, the end of a line, no space.
+-- | An element of a sentence: a word or symbol, the end of a line, or the absence of a space.
 data Mark = Written Text | LineEnd | Touching
   deriving stock (Eq, Show)
 
@@ -152,13 +152,14 @@ sentence (Grammar known) = choose (16, 44) >>= \fuel -> spaced <$> derive fuel (
       Named "machine-name" -> word ["lkp-01f", "2.5-ax"]
       Named name ->
         around name (derive (below name fuel) (Map.findWithDefault (Sequence []) name known))
-    -- The nesting of blocks and values is limited, so that sentences are finite.
+    -- The fuel bounds the depth of a derivation: rules whose height exceeds it are avoided. Blocks
+    -- and expressions use up much of it.
     below name fuel
       | name `elem` ["items", "statements"] = fuel - 9
       | name == "expr" = min 32 fuel - 6
       | otherwise = fuel - 1
     word texts = (\text -> [Written text]) <$> elements texts
-    -- Several statements and items, but few operators, so that sentences are finite.
+    -- There are several statements and items, but few operators, so that sentences stay short.
     times r = case r of
       Named name | name `elem` ["statement", "item", "setting"] -> choose (0, 3 :: Int)
       _ -> frequency [(10, pure 0), (2, pure 1), (1, pure 2)]
@@ -168,10 +169,10 @@ sentence (Grammar known) = choose (16, 44) >>= \fuel -> spaced <$> derive fuel (
       "arguments" -> (Touching :) <$> marked
       "values" -> (Touching :) <$> marked
       "parameters" -> (Touching :) <$> marked
-      -- The manual asks for brackets here.
+      -- An item that begins with a minus would continue the line before it.
       "item" -> marked `suchThat` ((/= [Written "-"]) . take 1)
       _ -> marked
-    -- The alternatives that fit the fuel, or else the shallowest ones.
+    -- The alternatives whose height is at most the fuel, or else those of least height.
     affordable fuel rs = case filter ((<= fuel) . height) rs of
       [] -> [r | r <- rs, height r == minimum (map height rs)]
       some -> some
@@ -179,7 +180,7 @@ sentence (Grammar known) = choose (16, 44) >>= \fuel -> spaced <$> derive fuel (
     heights = settle (fmap (const 1000) known)
     settle now = let new = fmap (heightIn now) known in if new == now then now else settle new
 
--- | The depth of the shallowest sentence of a rule, in rules.
+-- | The height of a rule: the least number of named rules inside one another in a derivation.
 heightIn :: Map Text Int -> Rule -> Int
 heightIn heights rule = case rule of
   Literal _ -> 0
@@ -189,6 +190,7 @@ heightIn heights rule = case rule of
   Many _ -> 0
   Optional _ -> 0
 
+-- | The text of a sentence.
 spaced :: [Mark] -> Text
 spaced written = case written of
   [] -> "\n"
@@ -199,7 +201,7 @@ spaced written = case written of
 
 -- Recognition
 
--- | Are the tokens a sentence? The ends of lines are ignored.
+-- | Tells if tokens are a sentence of a grammar. Line ends are ignored.
 recognises :: Grammar -> [Token] -> Bool
 recognises (Grammar known) tokens = Set.member finish (ends 0 (Named "program"))
   where
@@ -228,12 +230,13 @@ recognises (Grammar known) tokens = Set.member finish (ends 0 (Named "program"))
          in closure r (Set.union seen new) new
     unions = Set.unions :: [Set Int] -> Set Int
 
--- | A token as the grammar has it: a number and its unit are two tokens.
+-- | The tokens of the grammar for a token of the lexer: a number and its unit are two tokens.
 parts :: Token_ -> [Token_]
 parts token = case token of
   Number n (Just unit) -> [Number n Nothing, Word (unitName unit)]
   _ -> [token]
 
+-- | Tells if a token is the terminal of the given name.
 terminal :: Text -> Token_ -> Bool
 terminal name token = case (name, token) of
   ("name", Word word) -> not (Keyword.isReserved word)

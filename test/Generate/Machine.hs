@@ -1,8 +1,8 @@
 -- | Random machines within the limits of machine descriptions, and random frames for them.
 --
--- A layout is readable only if a reader knows at every row what may follow. So words that may be
--- missing have different first symbols; a number of unknown length is followed by something other
--- than a digit; and if blank rows between frames are skipped, a frame begins with a hole.
+-- A layout is readable only if every row of the tape has one meaning. So words that may be missing
+-- have different first symbols. A number of unknown length is followed by something other than a
+-- digit. If blank rows between frames are skipped, the first row of a frame has a hole.
 module Generate.Machine (machine, frames) where
 
 import Base.PulseVector (Pulses2 (..), Pulses3 (..))
@@ -27,17 +27,22 @@ import Test.QuickCheck
 machine :: Gen Machine
 machine = oneof [withFixedRows, lettered, printed]
 
--- | The properties that all kinds of machines share.
+-- | The properties of a machine that do not depend on the kind of its layout.
 data Shared = Shared
   { used :: [Axis],
+    -- | the motion codes, if the layout has a word for them
     motions :: Maybe MotionCodes,
     arcKind :: Arcs,
+    -- | axis words hold increments or positions
     how :: AxisMeasure,
     feedTable :: FeedCodes,
+    -- | the number of digits of a feed code
     feedDigits :: Int,
+    -- | a machine with these properties, whose layout and tape code are placeholders
     bottom :: Machine
   }
 
+-- | Random properties that fit one another.
 shared :: Gen Shared
 shared = do
   used <- shuffle =<< elements [[X, Y], [X, Y, Z], [X], [Z, Y]]
@@ -72,7 +77,7 @@ shared = do
   let bottom = blankMachine (NonEmpty.fromList forms) arcKind how feedTable
   pure Shared {used, motions, arcKind, how, feedTable, feedDigits, bottom}
 
--- | A machine without a code and with a layout to replace.
+-- | A machine with the given properties, whose layout and tape code are placeholders.
 blankMachine :: NonEmpty.NonEmpty AxisForm -> Arcs -> AxisMeasure -> FeedCodes -> Machine
 blankMachine forms arcKind how feedTable =
   Machine
@@ -130,8 +135,8 @@ feedCodes n = oneof [Direct 1 <$> choose (1, most), list, formula]
 
 -- Digits in fixed rows ----------------------------------------------------------------------------
 
--- | Every frame has the same words, without addresses. Signs, commands and marks are in the service
--- track.
+-- | A machine whose frames all have the same words, without addresses. Holes in the service track
+-- encode signs, commands and marks.
 withFixedRows :: Gen Machine
 withFixedRows = do
   s <- shared
@@ -176,7 +181,7 @@ withFixedRows = do
             }
       }
 
--- | The words of such a layout, in any order.
+-- | The words of a layout without addresses, in random order.
 fixedWords :: Shared -> Gen [Word']
 fixedWords s = do
   axisDigits <- choose (2, 6)
@@ -221,6 +226,7 @@ fixedWords s = do
           service = take n (sv <> repeat NoHole)
         }
 
+-- | A tape with a count of tracks. The text is the mark that may occur before and after the frames.
 mediumOf :: Int -> Spare -> Text -> Gen Medium
 mediumOf tracks spare mark = do
   leader <- choose (0, 30)
@@ -243,8 +249,8 @@ mediumOf tracks spare mark = do
 
 -- Letters -----------------------------------------------------------------------------------------
 
--- | Words with letters, which have one track more than the digits; an end of frame; a check digit
--- of any modulus.
+-- | A machine whose words have letters as addresses. Letters use one track more than digits. A
+-- frame may end with an end-of-frame symbol and may have a check digit of any modulus.
 lettered :: Gen Machine
 lettered = do
   s <- shared
@@ -296,7 +302,7 @@ lettered = do
         a : b : c : d : _ -> Priority a b c d
         _ -> Priority 5 6 1 2
 
--- | Words with addresses. Some of them are present only when needed.
+-- | Words with addresses, in random order. Some of them are present only in some frames.
 addressed :: Shared -> [Text] -> Gen Sign -> Gen [Word']
 addressed s addresses signs = do
   sg <- signs
@@ -343,7 +349,7 @@ addressed s addresses signs = do
 
 -- Text --------------------------------------------------------------------------------------------
 
--- | Characters with or without parity, on tape or as a text.
+-- | A machine whose frames are written in ASCII, with or without parity, on tape or as a text file.
 printed :: Gen Machine
 printed = do
   s <- shared
@@ -409,12 +415,13 @@ frames m = do
         f <- frame m feeds' at
         (f :) <$> go (n - 1) feeds' (at + increment f)
 
+-- | A feed code of a machine.
 feedOf :: Machine -> Gen FeedCode
 feedOf m = case codes (feeds m) of
   Direct a b -> FeedCode <$> choose (a, b)
   Listed table -> elements (Map.keys table)
 
--- | A frame from a position, at one of these feeds.
+-- | A frame that starts at a position and has one of the given feeds.
 frame :: Machine -> [FeedCode] -> Pulses3 -> Gen Frame
 frame m feeds' at = do
   f <-
@@ -475,7 +482,8 @@ frameAt m speed' = do
 parts :: Pulses3 -> [Pulses]
 parts (Pulses3 x y z) = [x, y, z]
 
--- | An increment within the capacity of the words. It may be along one axis only, or small.
+-- | The increment of a move from a position, within the capacity of the words. The increment along
+-- an axis may be 0, small, or as large as possible.
 move :: Machine -> Pulses3 -> Gen Pulses3
 move m (Pulses3 x y z) = Pulses3 <$> along X x <*> along Y y <*> along Z z
   where
@@ -493,7 +501,8 @@ move m (Pulses3 x y z) = Pulses3 <$> along X x <*> along Y y <*> along Z z
             (1, elements [low, high])
           ]
 
--- | An arc within the capacity of the words, in one quadrant or arbitrary.
+-- | An arc from a position, within the capacity of the words: its sense, its increment, and its
+-- centre relative to its start. It lies in one quadrant if the machine requires that.
 arc :: Machine -> Pulses3 -> Gen (Sense, Pulses3, Pulses2)
 arc m at = case arcs m of
   Arcs {quadrants = True} -> do

@@ -1,5 +1,6 @@
--- | Random problems for offsets, with degenerate ones: unions of cells with touching corners and
--- spikes, polygons with integer vertices, arcs from tiny to almost full circles, noise.
+-- | Random offset problems, some of them degenerate: unions of cells with touching corners and
+-- spikes, polygons with integer vertices, arcs from tiny ones to almost full circles, polygons with
+-- random vertices.
 module Generate.Outline
   ( Case (..),
     Family (..),
@@ -28,36 +29,40 @@ import Geometry.FlatPolyarc qualified as FlatPolyarc
 import Geometry.Polyarc (Ends (..))
 import Test.QuickCheck
 
--- | An offset problem.
+-- | An offset problem: polyarcs and the distance of their offset.
 data Case = Case
   { family :: Family,
     outlines :: [FlatPolyarc],
     side :: Side,
+    -- | the distance of the offset in mm
     radius :: Double,
-    -- | additional distances from the segments, repeated in turn; empty means none
+    -- | additional distances of the segments in turn, in mm; the list is repeated, and empty for
+    -- none
     extras :: [Double],
-    -- | the winding number of the free region
+    -- | the winding number of the region in which the cutter may move
     free :: Int,
-    -- | the polyarcs are known not to cross themselves
+    -- | true if the polyarcs are known to have no self-intersections
     sound :: Bool
   }
   deriving stock (Eq, Show)
 
--- | The kind of a problem.
+-- | The kind of a problem: a union of cells, a polygon with integer vertices, polyarcs with arcs, a
+-- polygon with random vertices.
 data Family = Cells | Lattice | Arcs | Noise
   deriving stock (Eq, Show, Enum, Bounded)
 
--- | x, y, bulge.
+-- | The vertex of a polyarc: x and y in mm, and the bulge of the segment after it.
 type Vertex = (Double, Double, Double)
 
+-- | The closed polyarc through vertices.
 loop :: [Vertex] -> FlatPolyarc
 loop = FlatPolyarc.fromVertices Closed
 
--- | Closed polyarcs: a third with integer vertices, a third with arcs, a third noisy.
+-- | A problem with closed polyarcs: with integer vertices, with arcs, or with random vertices.
 problem :: Gen Case
 problem = oneof [onIntegers, withArcs, noisy] >>= eitherSense >>= somewhere
 
--- | One open polyarc: a part of a closed one.
+-- | A problem with one open polyarc, which is a part of a closed one.
 open :: Gen Case
 open = do
   c <- problem
@@ -70,7 +75,7 @@ open = do
         if FlatPolyarc.length o' > Mm 1e-9 then pure c {outlines = [o'], free = 0} else open
     _ -> open
 
--- | A problem with additional distances from some segments.
+-- | A problem with additional distances for some segments.
 uneven :: Gen Case
 uneven = do
   c <- oneof [problem, open]
@@ -78,7 +83,7 @@ uneven = do
   es <- replicateM k (elements [0, 0, 0.5, 0.1, 1.3])
   pure c {extras = map (* radius c) es}
 
--- | A problem in either sense.
+-- | A problem, sometimes with reversed polyarcs, so that the free region is on the other side.
 eitherSense :: Case -> Gen Case
 eitherSense c =
   elements
@@ -108,7 +113,8 @@ somewhere c = do
         extras = map (size *) (extras c)
       }
 
--- | A polyarc, scaled, rotated and translated.
+-- | A polyarc, scaled by a factor, rotated by an angle in rad about the origin, and translated by a
+-- vector in mm.
 turned :: Double -> Double -> (Double, Double) -> FlatPolyarc -> FlatPolyarc
 turned factor angle (mx, my) o =
   FlatPolyarc.fromVertices
@@ -153,6 +159,8 @@ cells = do
     [] -> pure [[(0, 0), (1, 0), (1, 1), (0, 1)]]
     _ -> pure (traced joined (Set.fromList (map fst chosen)))
 
+-- | The boundary of a union of cells, given by their lower left corners. If @joined@, the loop
+-- continues on the other cell where only corners touch, otherwise it stays on its cell.
 traced :: Bool -> Set (Int, Int) -> [[(Int, Int)]]
 traced joined filled = loopsOf (Map.fromListWith (<>) [(a, [b]) | (a, b) <- Set.toList edges])
   where
@@ -182,7 +190,7 @@ traced joined filled = loopsOf (Map.fromListWith (<>) [(a, [b]) | (a, b) <- Set.
           [] -> (reverse seen, left)
           [r] -> go (q : seen) q r (leave q r left)
           rs -> let r = best p q rs in go (q : seen) q r (leave q r left)
-    -- At a shared corner of two cells, the boundary continues on the other cell or stays.
+    -- The next vertex at a corner at which only two cells touch.
     best (px, py) (qx, qy) rs =
       case [ r
              | r@(rx, ry) <- rs,
@@ -194,7 +202,8 @@ traced joined filled = loopsOf (Map.fromListWith (<>) [(a, [b]) | (a, b) <- Set.
           r : _ -> r
           [] -> (qx, qy)
 
--- | Corners rounded, chamfered or scalloped; spikes, repeated vertices, vertices on straight lines.
+-- | A polygon with random changes: rounded, chamfered or concave corners, spikes, repeated
+-- vertices, vertices on straight lines.
 decorated :: [(Int, Int)] -> Gen [Vertex]
 decorated vs = do
   style <- frequency [(3, pure 0), (1, pure 1), (1, pure 2), (1, pure 3), (1, pure (4 :: Int))]
@@ -248,8 +257,7 @@ integerPolygon = do
     then pure [(x, y, 0) | (x, y) <- counterClockwise polygon]
     else integerPolygon
 
--- | Is the polygon simple? Edges that are not neighbours do not touch, and neighbours do not fold
--- back.
+-- | Tells if a polygon is simple: only neighbouring edges touch, and none reverses the edge before.
 isSimple :: [(Double, Double)] -> Bool
 isSimple ps =
   and
@@ -278,6 +286,7 @@ isSimple ps =
     fair (a, b) (_, d) =
       orient a b d /= 0 || (fst b - fst a) * (fst d - fst b) + (snd b - snd a) * (snd d - snd b) > 0
 
+-- | Twice the signed area of a triangle, positive if its points are in counter-clockwise order.
 orient :: (Double, Double) -> (Double, Double) -> (Double, Double) -> Double
 orient (ax, ay) (bx, by) (cx, cy) = (bx - ax) * (cy - ay) - (by - ay) * (cx - ax)
 
@@ -287,8 +296,8 @@ counterClockwise ps =
     then ps
     else reverse ps
 
--- | Exchanges two edges that cross for two that do not, until none cross, in at most @rounds@
--- rounds.
+-- | Replaces two edges that intersect by two that do not, until no edges intersect, at most
+-- @rounds@ times.
 untangled :: Int -> [(Double, Double)] -> [(Double, Double)]
 untangled rounds ps
   | rounds <= 0 = ps
@@ -329,7 +338,10 @@ withArcs = do
         sound
       }
 
--- | A star-shaped polygon with some edges replaced by arcs. It may cross itself.
+-- | A star-shaped polygon with some edges replaced by arcs. It may have self-intersections.
+--
+-- This and the next functions give three results: the polyarc is known to be free of
+-- self-intersections, its vertices, and radii for which its offset is degenerate.
 bent :: Gen (Bool, [Vertex], [Double])
 bent = do
   ps <- starred
@@ -345,7 +357,7 @@ bent = do
           (1, elements [3, -3])
         ]
 
--- | A polygon with every corner rounded by a tangent arc.
+-- | A polygon whose corners are rounded by tangent arcs.
 rounded :: Gen (Bool, [Vertex], [Double])
 rounded = do
   ps <- oneof [starred, map (\(x, y, _) -> (x, y)) <$> integerPolygon]
@@ -396,7 +408,7 @@ round' = do
           )
     ]
 
--- | A circle with a channel that may be as narrow as the cutter.
+-- | A circle with a channel to its outside that may be as narrow as the cutter.
 keyhole :: Gen (Bool, [Vertex], [Double])
 keyhole = do
   r <- elements [1, 2]
@@ -467,6 +479,8 @@ starred = do
         let t = 2 * pi * (fromIntegral i + j) / fromIntegral n
     ]
 
+-- | A simple polygon whose vertices are random points in a random order, made simple by
+-- 'untangled'.
 tangled :: Gen [(Double, Double)]
 tangled = do
   n <- choose (3, 14)
@@ -482,7 +496,7 @@ convex = do
   r <- choose (1, 10)
   pure [(r * cos t, r * sin t, 0) | t <- angles]
 
--- | A simple polygon in general position.
+-- | A polygon without self-intersections whose vertices are random.
 simple :: Gen FlatPolyarc
 simple = do
   ps <- oneof [starred, tangled]

@@ -35,8 +35,8 @@ import Toolpath.FromPart qualified as FromPart
 import Toolpath.Pocket (Loop, PocketRoom (..))
 import Toolpath.Toolpath (Toolpath)
 
--- | Loops with the free space on their left (the wall, then the islands), the cutter's radius, the
--- allowance, the stepover.
+-- | A pocket: its wall and its islands as loops with the free space on their left, the cutter's
+-- radius, the allowance, the stepover.
 data Pocket = Pocket {loops :: NonEmpty Loop, cutter :: Mm, left :: Mm, step :: Mm}
   deriving stock (Show)
 
@@ -55,7 +55,7 @@ rectangle = do
   let ps = [Vec.point 0 0, Vec.point w 0, Vec.point w h, Vec.point 0 h]
   sized' (NonEmpty.fromList (zipWith Straight ps (drop 1 ps <> take 1 ps)) :| [])
 
--- | A pocket with these loops, and a random cutter.
+-- | A pocket with the given loops, and a random cutter.
 sized' :: NonEmpty Loop -> Gen Pocket
 sized' loops = do
   r <- choose (2, 9)
@@ -63,7 +63,8 @@ sized' loops = do
   left <- oneof [pure 0, choose (0, 1)]
   pure Pocket {loops, cutter = Mm r, left = Mm left, step = Mm (r * s)}
 
--- | Adds an island, if it has room.
+-- | Adds a random island inside the outline, if it is more than 1 mm away from the outline and from
+-- the islands before.
 island :: Loop -> [Loop] -> Gen [Loop]
 island outline before = do
   p <- Vec.point <$> choose (l, right) <*> choose (bottom, top)
@@ -98,8 +99,8 @@ island outline before = do
   where
     BoundingBox l bottom right top = foldr1 BoundingBox.union (fmap BoundingBox.ofSegment outline)
 
--- | The pocketing of a pocket 1.5 mm deep, with the spindle clockwise. The list contains the
--- additional allowances of earlier passes.
+-- | The pocketing of a pocket, 1.5 mm deep, with a clockwise spindle. There is an earlier pass for
+-- each length of the list; its allowance is larger than that of the last pass by this length.
 pocketing :: [Mm] -> Pocket -> Pocketing
 pocketing before p =
   Pocketing
@@ -153,7 +154,7 @@ toolpathOf p =
 here :: a -> Located a
 here = Located (Region 0 0)
 
--- | The room of the cutter's centre, with the simple offset.
+-- | The room of the cutter's centre, with offsets by 'insetOf'.
 roomOf :: Pocket -> PocketRoom
 roomOf p =
   PocketRoom
@@ -165,8 +166,9 @@ roomOf p =
       isReversed = False
     }
 
--- | The offset loops at a distance on the left: moves all segments, rounds all corners, divides
--- them where they meet, keeps the sections that are nowhere too near to the walls, and joins them.
+-- | The offset loops at a distance on the left of walls. Moves all segments, rounds all corners,
+-- divides the segments where they intersect, keeps the parts that are not too near to the walls,
+-- and joins them.
 insetOf :: [Loop] -> Mm -> [Loop]
 insetOf walls d@(Mm d') =
   joined [section | (i, s) <- numbered, section <- divided (others i) s, isAdmissible section]
@@ -235,7 +237,7 @@ divided others s =
             ]
         )
 
--- | Joins segments whose ends coincide to loops.
+-- | Joins segments whose ends coincide into loops.
 joined :: [Segment] -> [Loop]
 joined segments = case segments of
   [] -> []

@@ -24,7 +24,7 @@ import Surface.Syntax hiding (statements)
 import Surface.Token (Token (..), Token_ (..), columnUnits)
 import Test.QuickCheck
 
--- | A program that the parser can give, without errors. All its regions are equal.
+-- | A program without mistakes, as the parser could give it, except that all its regions are equal.
 program :: Gen Program
 program =
   sized $ \n -> (`Program` []) <$> some' (min 8 (1 + n `div` 6)) (statement (min 4 (n `div` 12)))
@@ -35,9 +35,11 @@ here = Located (Region 0 0)
 at :: Functor f => f a -> f (Located a)
 at = fmap here
 
+-- | A list of at most @most@ values.
 some' :: Int -> Gen a -> Gen [a]
 some' most one = choose (0, most) >>= \k -> vectorOf k one
 
+-- | A list of one to @most + 1@ values.
 nonEmpty :: Int -> Gen a -> Gen (NonEmpty a)
 nonEmpty most one = (:|) <$> one <*> some' most one
 
@@ -47,7 +49,7 @@ maybe' one = oneof [pure Nothing, Just <$> one]
 every :: (Enum a, Bounded a) => Gen a
 every = elements [minBound .. maxBound]
 
--- | A name. It may be a word of the language that is not reserved.
+-- | A name. It may be a keyword that is not reserved.
 name :: Gen Name
 name = Name <$> frequency [(4, elements plainNames), (2, elements softWords), (1, made)]
   where
@@ -69,7 +71,7 @@ plainNames =
     "a_rather_long_name_for_a_thing"
   ]
 
--- | Words of the language that are names elsewhere.
+-- | Keywords that are not reserved, and names that begin like a keyword.
 softWords :: [Text]
 softWords =
   [ "by",
@@ -127,6 +129,8 @@ title = Text.pack <$> listOf (elements "ab Фл-.,(){}'\t%0")
 
 -- Statements
 
+-- | A statement. The number bounds the nesting of its blocks and expressions; the functions below
+-- have the same parameter.
 statement :: Int -> Gen Statement
 statement n = at (frequency ([(1, s) | s <- simple] <> [(3, s) | n > 0, s <- deep]))
   where
@@ -280,8 +284,8 @@ expr n =
 
 -- Layouts
 
--- | The text of a program with random comments, blank lines, indentation and line breaks, where
--- they have no meaning.
+-- | A program text with the same tokens and random comments, blank lines, indentation and line
+-- breaks, where they have no meaning.
 respaced :: Text -> Gen Text
 respaced text = do
   end' <- elements ["\n", "\r\n", "\r"]
@@ -295,7 +299,7 @@ respaced text = do
     spaced (inTable, t, next) =
       (written text t <>) <$> maybe newLines (if inTable then inLine t else between t) next
 
--- | For each token: is it in the braces of a table, where line breaks have a meaning?
+-- | Tells for each token if it is inside the braces of a table, where line breaks have a meaning.
 inTables :: [Token] -> [Bool]
 inTables = go False
   where
@@ -307,13 +311,13 @@ inTables = go False
       _ : rest -> inside : go inside rest
       [] -> []
 
--- | Random space between two tokens of a table.
+-- | Random white space between two tokens of a table.
 inLine :: Token -> Token -> Gen Text
 inLine _ u
   | newLine u = (<> "  ") <$> newLines
   | otherwise = pure (if attached u then "" else " ")
 
--- | Random space between two tokens.
+-- | Random white space between two tokens outside of tables.
 between :: Token -> Token -> Gen Text
 between t u
   | newLine u && begins u = (<>) <$> newLines <*> indentation
@@ -328,26 +332,28 @@ between t u
   where
     indentation = elements ["", "  ", "\t", "        "]
 
--- | The end of a line, and lines with blanks and comments.
+-- | A line end, sometimes after a comment, and sometimes blank lines and comment lines after it.
 newLines :: Gen Text
 newLines = do
   ending <- frequency [(3, pure ""), (2, elements ["  ", " -- behind", " --", "\t-- ещё один  "])]
   more <- frequency [(3, pure []), (1, ownLines)]
   pure (ending <> "\n" <> Text.concat more)
 
+-- | Blank lines and comment lines.
 ownLines :: Gen [Text]
 ownLines = some' 4 (elements ["\n", "   \n", "-- own line\n", "    -- own, set in\n", "--x\n"])
 
+-- | A token as it is written in a text.
 written :: Text -> Token -> Text
 written text t = Text.take (end (place t) - start (place t)) (Text.drop (start (place t)) text)
 
--- | Must this token begin a line?
+-- | Tells if a token may begin a statement, so that its line break must be kept.
 begins :: Token -> Bool
 begins t = case shape t of
   Word word -> word `elem` Keyword.statements <> Keyword.softStatements <> Keyword.blocks
   _ -> False
 
--- | Must the space between two tokens stay as it is?
+-- | Tells if the white space between two tokens must be kept.
 glued :: Token -> Token -> Bool
 glued t u = case (shape t, shape u) of
   (Word _, Symbol "(") -> True
@@ -359,7 +365,7 @@ glued t u = case (shape t, shape u) of
 
 -- Constructors
 
--- | The names of the constructors in a program.
+-- | The names of all constructors in the syntax tree of a program.
 constructors :: Program -> Set Text
 constructors =
   Set.fromList

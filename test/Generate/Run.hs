@@ -1,5 +1,5 @@
--- | Random chains of arcs that represent one curve: open ones with reversals and vertical tangents,
--- closed ones with waves, and divided lines and arcs.
+-- | Random polyarcs that represent one smooth curve: open ones with reversals and vertical
+-- tangents, closed ones with waves, and divided lines and arcs.
 module Generate.Run
   ( open,
     bent,
@@ -7,6 +7,7 @@ module Generate.Run
     wave,
     oval,
     biarcs,
+    arcFrom,
     parts,
     elements,
     run,
@@ -34,7 +35,7 @@ import Test.QuickCheck hiding (elements)
 import Test.QuickCheck qualified as QuickCheck
 import Toolpath.Toolpath (Manner (Manner), Move (Move))
 
--- | A smooth chain of few or many arcs and lines, from tight to nearly straight.
+-- | A smooth open polyarc of few or many arcs and lines, from strongly curved to nearly straight.
 open :: Gen [Segment]
 open = do
   count <- oneof [choose (1, 6), choose (20, 120)]
@@ -54,7 +55,7 @@ open = do
             s = arcFrom p heading turned l
         (s :) <$> go (count - 1) reach (Segment.end s) (heading + turned) bend'
 
--- | A smooth chain of arcs and lines with these lengths in mm and curvatures in 1/mm.
+-- | A smooth polyarc whose segments have the given lengths in mm and curvatures in 1/mm.
 bent :: [(Double, Double)] -> [Segment]
 bent = go (Vec.point 0 0) 0
   where
@@ -65,7 +66,8 @@ bent = go (Vec.point 0 0) 0
               arcFrom p heading (bend * l) l
          in s : go (Segment.end s) (heading + bend * l) more
 
--- | An arc or a line from a point in a direction, with this sweep and length.
+-- | The arc or line from a point with a first direction and a sweep, both in rad, and a length in
+-- mm.
 arcFrom :: Point -> Double -> Double -> Double -> Segment
 arcFrom p heading turned l
   | abs turned < 1e-9 = Straight p (Vec.shift (Vec.polar (Mm l) (Rad heading)) p)
@@ -79,8 +81,8 @@ arcFrom p heading turned l
   where
     centre = Vec.shift (Vec.scale (l / turned) (Vec.left (Vec.polar (Mm 1) (Rad heading)))) p
 
--- | A closed smooth curve as biarcs: a circle with waves. Some are small, with arcs no longer than
--- a tolerance.
+-- | A closed smooth curve as biarcs: a circle with waves. Some curves are small and consist of arcs
+-- that are not longer than a usual tolerance.
 closed :: Gen [Segment]
 closed = do
   (r, count) <-
@@ -158,13 +160,14 @@ parts n s
   | n <= 1 = [s]
   | otherwise = let (a, b) = Segment.cutAt (1 / fromIntegral n) s in a : parts (n - 1) b
 
--- | Chains as the elements of a contour. All arcs of a chain but the first continue its curve.
+-- | The elements of a contour that consists of several curves, each given as segments. All segments
+-- of a curve but the first are marked as its continuation.
 elements :: [[Segment]] -> [Element]
 elements =
   concatMap
     (zipWith (\k s -> Element s (Region 0 0) Part.plainFinish (k > 0) True Nothing) [0 :: Int ..])
 
--- | A chain as the moves of one curve, at the height 0.
+-- | The rapid moves along the segments of one curve, at height 0.
 run :: [Segment] -> NonEmpty Move
 run =
   NonEmpty.fromList
@@ -172,8 +175,9 @@ run =
       (\k s -> Move s (Manner (Mm 0, Mm 0) Part.Rapid False) (Region 0 0) (k > 0))
       [0 :: Int ..]
 
--- | A closed curve with a cutter that fits on one of its sides. Toolpaths shorter than the braking
--- distance (1.6 mm) or narrower than a tolerance are excluded: the laws do not hold for them.
+-- | A closed curve with a cutter that fits on one of its sides. Toolpaths narrower than 2 mm are
+-- excluded: the laws do not hold for paths shorter than the braking distance of 1.6 mm or narrower
+-- than a tolerance.
 curveCase :: Gen Case
 curveCase = do
   chain <- closed

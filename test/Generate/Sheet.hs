@@ -1,4 +1,4 @@
--- | Random input sheets, with arbitrary curves.
+-- | Random input sheets.
 module Generate.Sheet
   ( sheet,
     cut,
@@ -12,7 +12,8 @@ import Data.List.NonEmpty qualified as NonEmpty
 import Sheet.Sheet
 import Test.QuickCheck hiding (tolerance)
 
--- | An input sheet that the reader can give. All its regions are equal.
+-- | An input sheet with arbitrary curves, as its reader could give it, except that all its regions
+-- are equal.
 sheet :: Gen Sheet
 sheet = do
   general <- generalData
@@ -26,8 +27,8 @@ sheet = do
   where
     stopped ps = NonEmpty.fromList (NonEmpty.init ps <> [(NonEmpty.last ps) {feed = here 0}])
 
--- | An input sheet that can be milled: the cutter's centre is on the pieces, which are far from one
--- another and nearly straight, with distances small in comparison.
+-- | An input sheet that can be milled. The cutter's centre moves on the pieces themselves. The
+-- pieces are nearly straight, far from one another, and shifted by small distances.
 cut :: Gen Sheet
 cut = do
   s <- sheet
@@ -60,7 +61,7 @@ cut = do
     plain a b = Waypoint {x = here a, y = here b, z = here 0, feed = here 60}
     onePoint f = (\a b -> (plain a b) {feed = here f}) <$> choose (-500, 500) <*> choose (-500, 500)
 
--- | A nearly straight piece in a strip of its own.
+-- | A nearly straight piece, in the strip of the drawing that has the given number.
 gentle :: Int -> Gen Piece
 gentle strip = do
   digits <- resize 3 (listOf (elements [minBound .. maxBound]))
@@ -137,7 +138,8 @@ generalData = do
   where
     whole = here . fromIntegral <$> choose (0, 999999999 :: Int)
 
--- | Waypoints. The last one has a feed for pieces, so it is not rapid.
+-- | Waypoints. The pair has the least and the largest count of points before the last one. The feed
+-- of the last point applies to the pieces after it, so it is not the rapid feed.
 waypoints :: (Int, Int) -> Gen (NonEmpty Waypoint)
 waypoints range = do
   before <-
@@ -185,7 +187,7 @@ piece = do
         <*> if steep
           then Just <$> (Surface <$> coordinate <*> coordinate)
           else pure Nothing
-    -- The sign of the first distance before the points is that of the side.
+    -- The sign of the first constant or growing distance only says the side, so it is positive.
     normal list = case break isGiven list of
       (before, Growing a b : rest) -> before <> (Growing (fmap abs a) b : rest)
       (before, Constant a : rest) -> before <> (Constant (fmap abs a) : rest)
@@ -196,6 +198,7 @@ piece = do
       Bevelled -> False
       Pointwise _ -> False
 
+-- | The recalculation with a digit, for a piece of @n@ points. The generator gives its distances.
 recalculation :: Int -> Gen Double -> Digit -> Gen Recalculation
 recalculation n size digit = case digit of
   One -> Growing <$> one <*> one

@@ -26,23 +26,23 @@ spec :: Spec
 spec = do
   describe "printing" . modifyMaxSuccess (const 300) $ do
     -- The bug: a missing bracket, a forgotten word, a line break that ends a statement too early.
-    prop "print, then parse: the same tree" $
+    prop "parsing a printed program gives the same tree" $
       forAllShow Generate.program shown $ \p ->
         tree (PrintProgram.program p) === Just (Unlocated.statements (statements p))
     -- The bug: a construct that the random programs never contain, so that no law tests it.
-    it "the random programs contain every constructor of the syntax" $ do
+    it "random programs contain every constructor of the syntax" $ do
       source <- (<>) <$> readText "src/Surface/Syntax.hs" <*> readText "src/Surface/Token.hs"
       programs <- generate (vectorOf 600 (resize 60 Generate.program))
       let contained = Set.unions (map Generate.constructors programs)
       declared source \\ Set.toList contained `shouldBe` []
   describe "layout" . modifyMaxSuccess (const 300) $ do
     -- The bug: a comment that moves at each formatting, columns that depend on the old spaces.
-    prop "a text that is laid out stays as it is" $
+    prop "formatting twice is formatting once" $
       forAllShow written Text.unpack $ \text ->
         let new = Formatter.layout text in (new >>= Formatter.layout) === new
     -- The bug: a comment that is lost, doubled or moved past another; a dropped bracket that was
     -- needed.
-    prop "the tree and the comments stay" $
+    prop "formatting keeps the tree and the comments" $
       forAllShow written Text.unpack $ \text ->
         let new = Formatter.layout text
          in counterexample (maybe "not read" Text.unpack new) $
@@ -54,13 +54,13 @@ spec = do
                       (Text.replace "\r\n" "\n" (Text.dropWhile (== '\xFEFF') text))
                   )
     -- The bug: traces of the old layout in the new one.
-    prop "the layout of a text without comments and blank lines is what printing its tree gives" $
+    prop "formatting a printed program does not change it" $
       forAllShow Generate.program shown $ \p ->
         Formatter.layout (PrintProgram.program p) === Just (PrintProgram.program p)
     -- The bug: repeated blank lines, trailing spaces, line ends of other systems.
     prop
-      "no two blank lines in a row, none at an end, no spaces at the end of a line, no CR, no mark \
-      \of the byte order"
+      "a formatted text has no two blank lines in a row, none at the beginning or the end, no \
+      \spaces at the end of a line, no carriage return, and no byte order mark"
       $ forAllShow written Text.unpack $ \text ->
         let new = maybe [] Text.lines (Formatter.layout text)
          in conjoin
@@ -69,29 +69,31 @@ spec = do
                 counterexample
                   "blank lines"
                   (and (zipWith (\a b -> not (Text.null a && Text.null b)) new (drop 1 new))),
-                counterexample "an end" (not (any Text.null (take 1 new <> take 1 (reverse new))))
+                counterexample
+                  "the first or the last line"
+                  (not (any Text.null (take 1 new <> take 1 (reverse new))))
               ]
-    it "a text with mistakes has none" $
+    it "a text with mistakes is not formatted" $
       Formatter.format "part x\nlet a = (1,\n" `shouldBe` Nothing
     it "an empty text stays empty" $
       Formatter.format "\n \n" `shouldBe` Just ""
   describe "programs of this project" $ do
     examples <- runIO (sort . filter ((== ".part") . takeExtension) <$> filesBelow "examples")
     forM_ examples $ \file ->
-      it (file <> " is laid out") $ do
+      it (file <> " is formatted already") $ do
         text <- readText file
         Formatter.format text `shouldBe` Just text
     programs <- runIO (sort . filter ((== ".part") . takeExtension) <$> filesBelow "test/programs")
     forM_ programs $ \file ->
-      it (file <> " keeps its meaning") (readText file >>= keeps)
+      it ("formatting keeps the tree of " <> file) (readText file >>= keeps)
     documents <-
       runIO (("README.md" :) . sort . filter ((== ".md") . takeExtension) <$> filesBelow "docs")
     forM_ documents $ \file -> do
       blocks <- runIO (fences <$> readText file)
       forM_ (zip [1 :: Int ..] blocks) $ \(n, text) ->
-        it (file <> ": program " <> show n <> " keeps its meaning") (keeps text)
+        it ("formatting keeps the tree of program " <> show n <> " in " <> file) (keeps text)
   describe "comments" $ do
-    it "in lists break them; elsewhere they go behind the line, or above it" $
+    it "break a list into lines; elsewhere they move to the end of their line, or above it" $
       Formatter.format
         "let a = [1, -- one\n -- above\n 2 ] -- end\nlet b = (1 -- c\n + 2)\nlet c = 1 + -- d\n 2 \
         \-- e\n"
@@ -107,7 +109,7 @@ spec = do
                 "let c = 1 + 2                          -- e"
               ]
           )
-    it "open empty blocks, and stand in them" $
+    it "stay inside an empty block, whose braces are put on two lines" $
       Formatter.format "contour a closed { -- nothing\n-- yet\n}"
         `shouldBe` Just "contour a closed {                     -- nothing\n  -- yet\n}\n"
   where
@@ -120,14 +122,14 @@ written = Generate.program >>= Generate.respaced . PrintProgram.program
 tree :: Text -> Maybe [Statement]
 tree = fmap fst . meaning
 
--- | The content of a text without regions: its statements and its comments.
+-- | The statements of a text without their regions, and its comments; 'Nothing' if it has mistakes.
 meaning :: Text -> Maybe ([Statement], [Text])
 meaning text = fmap content (Result.ifSound (Parser.parse 0 text :: Result.Result () Error Program))
   where
     content p = (Unlocated.statements (statements p), map (Text.stripEnd . value) (comments p))
 
--- | Demands that formatting keeps the content of a text, and that a text with mistakes has no
--- layout.
+-- | Expects that formatting a text keeps its statements and comments, and that formatting it twice
+-- is formatting it once. A text with mistakes must not be formatted.
 keeps :: Text -> Expectation
 keeps text = case meaning text of
   Nothing -> Formatter.layout text `shouldBe` Nothing
@@ -140,7 +142,8 @@ keeps text = case meaning text of
 fences :: Text -> [Text]
 fences text = [fst (Text.breakOn "```" rest) | rest <- drop 1 (Text.splitOn "```part\n" text)]
 
--- | The constructors that a module declares in the style of this project, without broken nodes.
+-- | The constructors that are declared in the source of a module, which is formatted in the style
+-- of this project. Broken nodes and the shapes of tokens are left out.
 declared :: Text -> [Text]
 declared source =
   Set.toList

@@ -24,27 +24,27 @@ spec = do
   let grammar = Grammar.fromText (Text.unlines (block "```ebnf" (Text.lines manual)))
   -- The bug: a rule that is used but not defined, or defined but not used; a grammar that is not
   -- read to its end.
-  it "is whole" $
+  it "defines every rule that it uses, and uses every rule that it defines" $
     Grammar.loose grammar `shouldBe` []
-  describe "in the manual" . modifyMaxSuccess (const 300) $ do
+  describe "of the manual" . modifyMaxSuccess (const 300) $ do
     -- The bug: a rule of the manual that the parser does not have, or has in another form.
-    prop "every sentence of it is read without a mistake" $
+    prop "the parser accepts every sentence of the grammar" $
       forAllShow (Grammar.sentence grammar) Text.unpack $ \text ->
         map
           (Report.title . Error.toReport)
           (Result.errors (Parser.parse 0 text :: Result.Result () Error Program))
           === []
     -- The bug: a rule that no sentence uses.
-    it "every word of it occurs in some sentence" $ do
+    it "every literal of the grammar occurs in a random sentence" $ do
       texts <- generate (vectorOf 6000 (Grammar.sentence grammar))
       let used = concatMap Text.words texts
       filter (`notElem` used) (Grammar.literals grammar) `shouldBe` []
     -- The bug: a construct of the parser that the manual lacks.
-    prop "every program is a sentence of it" $
+    prop "every random program is a sentence of the grammar" $
       forAllShow Generate.program (Text.unpack . PrintProgram.program) $ \p ->
         Grammar.recognises grammar (fst (Lexer.tokens 0 (PrintProgram.program p)))
     -- The bug: a recogniser that accepts everything.
-    it "rejects texts that are not sentences" $
+    it "the recogniser rejects texts that are not sentences" $
       map
         (Grammar.recognises grammar . fst . Lexer.tokens 0)
         [ "let a = 1",
@@ -56,7 +56,7 @@ spec = do
           "aux (1, 2, 3, 4)"
         ]
         `shouldBe` [True, False, False, False, False, True, False]
-  it "the manual lists the words that cannot be names" $
+  it "the manual lists the reserved words" $
     concatMap
       Text.words
       ( takeWhile

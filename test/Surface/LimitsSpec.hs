@@ -1,4 +1,4 @@
--- | Extreme texts end with one report for each cause.
+-- | Extreme texts give few reports, with regions inside the text.
 module Surface.LimitsSpec (spec) where
 
 import Base.Region qualified as Region
@@ -16,7 +16,7 @@ import Test.QuickCheck
 
 spec :: Spec
 spec = do
-  describe "brackets nested a hundred thousand deep are one mistake" $
+  describe "nesting a hundred thousand deep gives one report" $
     mapM_
       nested
       [ ( "parentheses",
@@ -32,22 +32,20 @@ spec = do
         ("negations", "part p\nlet a = " <> Text.replicate 100000 "not " <> "true")
       ]
   describe "a line of ten million characters" $ do
-    it "of one word is one mistake" $
+    it "with one word gives one report" $
       codes ("part p " <> Text.replicate 10000000 "x") `shouldBe` ["E0108"]
-    it "of many is too long" $
+    it "with many tokens is too long" $
       codes ("part p\nlet a = 1" <> Text.replicate 5000000 "+1") `shouldBe` ["E0116"]
-    it "of a comment is none" $
+    it "with one comment gives no report" $
       codes ("part p --" <> Text.replicate 10000000 "x") `shouldBe` []
-  it "random characters end with reports inside the text" $
+  it "random words and characters give reports, all with regions inside the text" $
     withMaxSuccess 300 . property $
       forAllShow noise Text.unpack $ \text ->
         let places = [r | Report.Report {Report.place = InSource r} <- reports text]
          in all (\r -> Region.start r >= 0 && Region.end r <= Text.length text + 1) places
               .&&. not (null (reports text))
-  it
-    "the same program with other line ends and a mark of the byte order has its mistakes at the \
-    \same places"
-    $ property $
+  it "the lines and columns of reports do not depend on the kind of line ends" $
+    property $
       forAllShow noise Text.unpack $ \text ->
         let unix = Text.replace "\r" "" text
             placed t =
@@ -71,7 +69,7 @@ reports text = Result.errors (Compile.analyse [] (LoadedProgram.fromText "p.part
 codes :: Text -> [Text]
 codes text = [c | ReportCode c <- map Report.code (reports text)]
 
--- | Lines of words, signs and characters in random order.
+-- | A text of words, symbols, arbitrary characters and line ends in random order.
 noise :: Gen Text
 noise =
   Text.concat

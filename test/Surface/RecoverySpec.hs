@@ -22,6 +22,7 @@ spec =
           (Result.errors (Parser.parse 0 (Text.unlines text) :: Result.Result () Error Program))
           `shouldBe` [title]
 
+-- | Descriptions, the lines of texts with one mistake each, and the titles of the reports.
 cases :: [(String, [Text], Text)]
 cases =
   [ ( "before settings of two words",
@@ -40,7 +41,7 @@ cases =
       ["if f(a, ) {", "  aux 1", "} else {", "  aux 2", "}", "aux 3"],
       "found ‘)’, expected a value or ‘if’"
     ),
-    ( "before a line that goes on with a word of the language",
+    ( "before a line that continues with a reserved word",
       ["assert (1 2) and", "  not a", "aux 3"],
       "found the number 2, expected ‘)’ or ‘,’"
     )

@@ -14,7 +14,7 @@ import Checked.Syntax (Operator (..))
 import Checked.Type (Type (..))
 import Checked.Type qualified as Type
 
--- | Solves an operation if its operands are known well enough; 'False' when it has to wait.
+-- | Solves an operation, or gives 'False' if too little is known of its operands yet.
 solveArithmetic :: Arithmetic -> Infer Bool
 solveArithmetic a = do
   l <- resolved (snd (left a))
@@ -79,7 +79,7 @@ product' a l r = case (l, r) of
   (Quantity _, Variable _) -> pure False
   (Variable _, Variable _) -> pure False
   _
-    -- A minus is the product with −1, whose region is that of the whole term.
+    -- A minus sign is typed as a product with −1, which has the region of the whole term.
     | leftRegion == arithmeticRegion a ->
       undefinedFor a UndefinedNegation [(rightRegion, r)]
     | otherwise -> undefinedFor a UndefinedProduct [(leftRegion, l), (rightRegion, r)]
@@ -101,7 +101,8 @@ quotient a l r = case (l, r) of
     leftRegion = fst (left a)
     rightRegion = fst (right a)
 
--- | Types a vector that a number multiplies or divides.
+-- | Types a vector that is multiplied or divided by a number. The arguments after the operation are
+-- the number and the vector.
 scaledVector :: Arithmetic -> (Region, Type) -> (Region, Type) -> Infer Bool
 scaledVector a (numberRegion, factor) (vectorRegion, vector) = do
   isNumber <- unify numberRegion factor Type.number
@@ -119,7 +120,7 @@ ratio d e = Dimension.times d (Dimension.power (-1) e)
 solvedAs :: Arithmetic -> Type -> Infer Bool
 solvedAs a t = True <$ equate (arithmeticRegion a) (outcome a) t
 
--- | Reports an operation that these operands do not have.
+-- | Reports that an operation is not defined for the given operands.
 undefinedFor :: Arithmetic -> UndefinedOperation -> [(Region, Type)] -> Infer Bool
 undefinedFor a operation operands = do
   mistakeOnce [arithmeticRegion a] (NoOperation (arithmeticRegion a) operation operands)

@@ -1,8 +1,8 @@
 -- | The fast twin of type inference for literals and for calls on literals.
 --
--- Most terms of a large program are numbers, points and calls on them, with types that are known
--- at sight. This module checks them without unknowns. It gives the terms, types and errors that
--- "Checked.Expression" gives by full inference, and declines every term of which it is not sure.
+-- Most terms of a large program are numbers, points and calls on them. Their types are visible from
+-- their syntax. This module checks them without unknowns. It gives the terms, types and errors that
+-- "Checked.Expression" gives by full inference, and leaves all other terms to it.
 module Checked.Inference.Fast
   ( literal,
     FastCall (..),
@@ -28,8 +28,8 @@ import Surface.Syntax qualified as Surface
 import Surface.Token (Numeral (..))
 
 -- | Checks a literal, or a pair of literals, against a wanted type. A literal without a unit gets
--- the default unit of the wanted dimension. 'Nothing' unless the dimension is known, a unit given
--- measures it, and the term is made of literals only.
+-- the default unit of the wanted dimension. The result is 'Nothing' if the term contains anything
+-- else, if the dimension is unknown, or if a unit belongs to another dimension.
 literal :: Type -> Surface.Expr -> Maybe Checked.Expr
 literal wanted (Located at e) = case (e, wanted) of
   (Surface.Literal (Numeral _ x) Nothing, Type.Quantity d)
@@ -52,17 +52,17 @@ literal wanted (Located at e) = case (e, wanted) of
     -- Evaluated at once: a thunk would keep the syntax tree alive.
     here found = Just $! Located at found
 
--- | A call with a type that is known at sight.
+-- | A call that was checked without full inference.
 data FastCall = FastCall
   { resultType :: Type,
-    -- | the function has other forms
+    -- | true if the function has several forms
     isOverloaded :: Bool,
     checkedCall :: Deferred Checked.Expr
   }
 
--- | Checks a call of a built-in function on literals and pairs, if they fit exactly one form
--- without labels, and all types of that form are known. Pairs that contain other terms are
--- checked by the given function.
+-- | Checks a call of a built-in function on literals and pairs. They must fit exactly one form
+-- without labels, and all types of that form must be known; otherwise the result is 'Nothing'. The
+-- given function checks pairs that contain other terms.
 call ::
   (Type -> Surface.Expr -> Infer (Deferred Checked.Expr)) ->
   Surface.Expr ->
@@ -103,7 +103,8 @@ call expect (Located at e) = case e of
       Surface.Chosen _ _ -> Nothing
       Surface.Ranked _ -> Nothing
 
--- | Checks arguments against a form and builds the call from them, at once if all are literals.
+-- | Checks arguments against a form and builds the call from them. If all are literals, the call is
+-- evaluated at once.
 onForm ::
   (Type -> Surface.Expr -> Infer (Deferred Checked.Expr)) ->
   ([Checked.Argument] -> Checked.Expr) ->
@@ -120,8 +121,8 @@ onForm expect build form es = case zipWithM literalArgument types es of
       Just x' -> Just $! Checked.Given x'
       Nothing -> Nothing
 
--- | The type of a literal as far as its syntax shows it: a quantity, with its dimension if a unit
--- is given, or a pair.
+-- | The information on a literal's type in its syntax: the literal is a quantity, with a dimension
+-- if it has a unit, or a pair.
 data Shape = Quantity (Maybe Dimension) | Pair
 
 shapeOf :: Surface.Expr -> Maybe Shape
@@ -131,7 +132,7 @@ shapeOf (Located _ e) = case e of
   Surface.Pair _ _ -> Just Pair
   _ -> Nothing
 
--- | Tells if a term of a shape may have a type.
+-- | Tells if a term with a shape can have a type.
 fits :: Shape -> Type -> Bool
 fits shape t = case (shape, t) of
   (_, Type.Variable _) -> True

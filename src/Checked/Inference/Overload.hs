@@ -1,7 +1,7 @@
 -- | The choice among the forms of an overloaded built-in function.
 --
--- A form is chosen by the number of the arguments, their labels, and their types as far as they
--- are known. A call waits until one form is left.
+-- A form is chosen by the number of the arguments, by their labels, and by those of their types
+-- that are known. A call is a deferred constraint until exactly one form fits.
 module Checked.Inference.Overload
   ( solveCall,
     chooseFirst,
@@ -20,7 +20,8 @@ import Control.Monad (unless)
 import Data.Containers.ListUtils (nubOrd)
 import Data.Maybe (mapMaybe)
 
--- | Solves a call if at most one form fits; 'False' when several do.
+-- | Solves a call by the only form that fits, or reports that none fits. Gives 'False' if several
+-- forms fit.
 solveCall :: OverloadedCall -> Infer Bool
 solveCall call = do
   candidates <- fittingForms call
@@ -37,14 +38,15 @@ solveCall call = do
 chooseFirst :: OverloadedCall -> Infer ()
 chooseFirst call = fittingForms call >>= mapM_ (chooseForm call) . take 1
 
--- | Gives the arguments and the result of a call the types of a form.
+-- | Unifies the types of the arguments and of the result of a call with those of a form.
 chooseForm :: OverloadedCall -> Form -> Infer ()
 chooseForm call form = do
   mapM_ (\((region, t), p) -> equate region p t) (zip (arguments call) (parameterTypes form))
   equate (callRegion call) (callType call) (Builtin.result form)
 
--- | Reports a call that fits no form. If a form differs in one argument only, and both types of
--- that argument are quantities or both spatial, the argument is blamed, otherwise the whole call.
+-- | Reports a call that fits no form. The report points at one argument if a form differs in that
+-- argument only, and both its types are quantities or both are spatial. Otherwise it points at the
+-- whole call.
 reportMisfit :: OverloadedCall -> [Type] -> Infer ()
 reportMisfit call types = case mapMaybe (oneMisfit call types) (formsByLabels call) of
   (region, wanted, written, found) : _ -> do
@@ -65,8 +67,9 @@ reportMisfit call types = case mapMaybe (oneMisfit call types) (formsByLabels ca
           length (Builtin.parameters f) == length (labels call)
       ]
 
--- | Finds the only argument that does not fit a form, if its type is of the wanted kind: its
--- region, the wanted type, its type as written and as resolved.
+-- | Finds the only argument that does not fit a form. Its type and the wanted type must both be
+-- quantities or both be spatial. Gives its region, the wanted type, its unresolved and its resolved
+-- type.
 oneMisfit :: OverloadedCall -> [Type] -> Form -> Maybe (Region, Type, Type, Type)
 oneMisfit call types form =
   case [ (region, wanted, written, found)
@@ -82,7 +85,7 @@ oneMisfit call types form =
       (Spatial _, Spatial _) -> True
       _ -> False
 
--- | The types of a form's parameters that have values.
+-- | The types of those parameters of a form that take values: all but the ranks.
 parameterTypes :: Form -> [Type]
 parameterTypes form = map Builtin.type' (filter ((/= Rank) . label) (Builtin.parameters form))
 
@@ -90,12 +93,13 @@ parameterTypes form = map Builtin.type' (filter ((/= Rank) . label) (Builtin.par
 formsByLabels :: OverloadedCall -> [Form]
 formsByLabels call = Builtin.labelled plainUnknowns (builtin call) (labels call)
 
--- | A substitute for unknowns where forms are only shown or compared.
+-- | Known types in the positions of unknowns, for forms that are only shown or compared.
 plainUnknowns :: Fresh
 plainUnknowns = Fresh {dimension = Dimension.none, anything = Wrong}
 
--- | The forms that fit a call as far as its types are known. The use of the result narrows the
--- choice only while some form remains, so that it is never blamed for wrong arguments.
+-- | The forms that fit the types of a call that are known. First the arguments select forms, then
+-- the use of the result. A use that fits no form is ignored here, so that no report blames the
+-- arguments for it.
 fittingForms :: OverloadedCall -> Infer [Form]
 fittingForms call = do
   types <- traverse (resolved . snd) (arguments call)

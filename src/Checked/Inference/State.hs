@@ -1,8 +1,8 @@
 -- | The state of type inference: unknowns and decisions about them, names in scope, errors.
 --
 -- Types are unified as in Hindley–Milner inference. Dimensions are unified as elements of a
--- commutative group ("Checked.Dimension"). This module solves equations only. Constraints that
--- wait for more information belong to "Checked.Inference".
+-- commutative group ("Checked.Dimension"). This module solves equations only.
+-- "Checked.Inference" solves deferred constraints.
 module Checked.Inference.State
   ( Infer,
     Solution,
@@ -71,24 +71,28 @@ type Infer = State InferenceState
 -- | The final values of the unknown dimensions.
 type Solution = Dimension -> Dimension
 
--- | Everything that inference knows at one moment.
+-- | The state between two steps of inference.
 data InferenceState = InferenceState
-  { nextUnknown :: Int,
+  { -- | the number for the next new unknown
+    nextUnknown :: Int,
+    -- | the values of the decided unknowns, by their numbers
     decisions :: IntMap Decision,
     -- | unknowns with smaller numbers belong to definitions outside the present function
     firstOwn :: Int,
-    -- | unknowns of the present function that must not be generalised
+    -- | unknowns of the present function that must not be generalised, because they have one value
+    -- in all uses of it
     shared :: IntSet,
-    -- | constraints that wait, the newest first
+    -- | constraints that are not solved yet, the newest first
     pending :: [DeferredConstraint],
-    -- | the mentions of names: where, where defined, the word, its meaning
+    -- | the mentions of names: the region, that of the definition, the word, its meaning
     mentioned :: [(Region, Maybe Region, Text, Meaning)],
     -- | the newest first
     errors :: [Error],
-    -- | the present statement contains a mistake or depends on one
+    -- | true if the present statement contains a mistake or depends on one
     isTainted :: Bool,
-    -- | regions that decided an unknown which does not fit elsewhere; each is reported once
+    -- | the regions that the reports of 'mistakeOnce' point at
     blamed :: Set Region,
+    -- | the names in scope, with their meanings
     scope :: Map Name Binding
   }
 
@@ -142,8 +146,8 @@ describe state meaning = case meaning of
 mistake :: Error -> Infer ()
 mistake e = modify' (\s -> s {errors = e : errors s, isTainted = True})
 
--- | Records a mistake that the given regions caused. If one of them is already blamed, the mistake
--- is a consequence of the earlier one and only taints the statement.
+-- | Records a mistake that the given regions caused. If an earlier mistake was recorded for one of
+-- them, the new one is its consequence and only taints the statement.
 mistakeOnce :: [Region] -> Error -> Infer ()
 mistakeOnce regions e = do
   before <- gets blamed
@@ -168,7 +172,7 @@ namesInScope = gets (Map.keys . scope)
 define :: Name -> Binding -> Infer ()
 define name binding = modify' (\s -> s {scope = Map.insert name binding (scope s)})
 
--- | Restores the scope after an inference, so that its definitions are known only inside.
+-- | Runs an inference and then restores the scope, so that its definitions are known only inside.
 scoped :: Infer a -> Infer a
 scoped infer = do
   before <- gets scope
@@ -205,7 +209,7 @@ freshType = Variable <$> freshNumber
 freshDimension :: Infer Dimension
 freshDimension = Dimension.atom . Dimension.Unknown <$> freshNumber
 
--- | A new unknown type that the given region has already decided.
+-- | A new unknown that is decided already: its value is a type, decided at the given region.
 freshDecided :: Region -> Type -> Infer Type
 freshDecided region t = do
   n <- freshNumber
@@ -221,11 +225,11 @@ monomorphic :: Dimension -> Infer ()
 monomorphic d =
   modify' (\s -> s {shared = IntSet.union (IntSet.fromList (Dimension.unknowns d)) (shared s)})
 
--- | A type with all unknowns replaced that are decided so far.
+-- | A type in which all decided unknowns are replaced by their values.
 resolved :: Type -> Infer Type
 resolved t = gets (`resolve` t)
 
--- | 'resolved' in a given state.
+-- | As 'resolved', but for a given state.
 resolve :: InferenceState -> Type -> Type
 resolve state t = Type.substitute (resolveDimension (decisions state)) unknown t
   where
@@ -234,7 +238,7 @@ resolve state t = Type.substitute (resolveDimension (decisions state)) unknown t
       Just (DimensionAt _ _) -> Variable n
       Nothing -> Variable n
 
--- | A dimension with all unknowns replaced that are decided.
+-- | A dimension in which all decided unknowns are replaced by their values.
 resolveDimension :: IntMap Decision -> Dimension -> Dimension
 resolveDimension decided d =
   case [(n, b) | n <- Dimension.unknowns d, Just (DimensionAt _ b) <- [IntMap.lookup n decided]] of
@@ -242,7 +246,7 @@ resolveDimension decided d =
     replacements ->
       resolveDimension decided (foldl (\d' (n, b) -> Dimension.substitute n b d') d replacements)
 
--- | The first region that decided an unknown of a type, in the type's written form.
+-- | The first region that decided an unknown of an unresolved type.
 decidedAt :: Type -> Infer (Maybe Region)
 decidedAt t = gets (\s -> listToMaybe (ofType (decisions s) t))
   where
@@ -263,8 +267,8 @@ decidedAt t = gets (\s -> listToMaybe (ofType (decisions s) t))
           | n <- Dimension.unknowns d
         ]
 
--- | Regions outside the given terms that decided their types. A term is its region, its type as
--- written, and its type as resolved.
+-- | Regions outside of terms that decided the types of these terms, with the types. Each term is
+-- given by its region, its unresolved type and its resolved type.
 decidedElsewhere :: [(Region, Type, Type)] -> Infer [(Region, Type)]
 decidedElsewhere terms = concat <$> traverse ofTerm terms
   where
@@ -317,15 +321,16 @@ unifyDimensions region a b = go (Dimension.times a (Dimension.power (-1) b))
           share n (Dimension.unknowns e)
           go quotient'
 
--- | Extends 'shared' to the unknowns in the value of a shared or outer unknown.
+-- | Makes the given unknowns 'shared' if the unknown @n@, in whose value they are, is shared or
+-- belongs to an outer definition.
 share :: Int -> [Int] -> Infer ()
 share n others = do
   s <- get
   when (n < firstOwn s || IntSet.member n (shared s)) $
     put s {shared = IntSet.union (IntSet.fromList others) (shared s)}
 
--- | Unifies the type that a term is used as with the type that it turned out to have; reports a
--- mistake when they differ.
+-- | Unifies the type @wanted@ that the context of a term requires with the type @found@ of the
+-- term. Reports a mistake if they differ.
 equate :: Region -> Type -> Type -> Infer ()
 equate region wanted found = do
   wanted' <- resolved wanted
@@ -334,7 +339,7 @@ equate region wanted found = do
   same <- unify region wanted found
   unless same (mistakeOnce (region : map fst elsewhere) (Mismatch region wanted' found' elsewhere))
 
--- | Tells if two types may turn out equal, without deciding anything.
+-- | Tells if two types can become equal when more unknowns are decided. Decides none itself.
 isCompatible :: Type -> Type -> Bool
 isCompatible found wanted = case (found, wanted) of
   _ | found `elem` [Wrong, wanted] || wanted == Wrong -> True

@@ -5,7 +5,7 @@
 
 -- | The fast twin of the explaining parser, for programs without a mistake.
 --
--- It runs through the tokens in continuation-passing style and stops at the first mistake without a
+-- The parser is written in continuation-passing style and stops at the first mistake without a
 -- report. For correct programs it gives the same output as the parser of "Surface.Combinator".
 module Surface.Combinator.Fast
   ( FastParser,
@@ -34,32 +34,33 @@ import Text.Megaparsec (MonadParsec (..))
 import Text.Megaparsec qualified as Parsec
 
 -- | The state of the parser.
-data Ahead = Ahead
+data FastState = FastState
   { -- | the remaining tokens
     left :: [Token],
     -- | the number of tokens that may still be read
     room :: Int,
-    -- | the offset after the last token
+    -- | the offset of the end of the last token consumed
     ended :: Int,
-    -- | the number of open brackets
+    -- | the number of brackets and operands around the next token
     open :: Int,
     -- | the number of statement blocks around the present statement
     blocks :: Int
   }
 
--- | A parser with continuations for success and failure. The failure continuation gets the room at
--- the mistake. An alternative is tried only if the mistake is where the first one began.
-newtype FastParser a = FastParser (forall r. Ahead -> (a -> Ahead -> r) -> (Int -> r) -> r)
+-- | A parser with continuations for success and failure. The failure continuation gets the 'room'
+-- at the mistake. If that is the room before the parser, no token was consumed, and an alternative
+-- is tried.
+newtype FastParser a = FastParser (forall r. FastState -> (a -> FastState -> r) -> (Int -> r) -> r)
 
 -- | Runs a parser on at most @limit@ tokens. 'Nothing' if there are more, or if it fails.
 run :: Int -> FastParser a -> [Token] -> Maybe a
 run limit (FastParser p) ts =
   p
-    Ahead {left = ts, room = limit, ended = 0, open = 0, blocks = 0}
+    FastState {left = ts, room = limit, ended = 0, open = 0, blocks = 0}
     (\a _ -> Just a)
     (const Nothing)
 
--- | The room of a failure after which no alternative is tried.
+-- | The value for the failure continuation that stops the parser: no alternative is tried.
 final :: Int
 final = minBound
 
@@ -141,8 +142,8 @@ instance MonadParsec Problem TokenStream FastParser where
           f (stateOf s)
      in ok () s {left = ts, room = negate stateOffset}
 
--- | The state in megaparsec's form.
-stateOf :: Ahead -> Parsec.State TokenStream Problem
+-- | The state in megaparsec's form. The offset is the negated room, so it grows by 1 per token.
+stateOf :: FastState -> Parsec.State TokenStream Problem
 stateOf s =
   Parsec.State
     { Parsec.stateInput = TokenStream (left s),
@@ -198,8 +199,8 @@ instance Grammar FastParser where
       )
   {-# INLINE modifyState #-}
 
--- | The state in the form of the grammar, which this parser needs only in part.
-grammarStateOf :: Ahead -> ParserState
+-- | The state in the form that the grammar uses. Without recovery there are no recorded failures.
+grammarStateOf :: FastState -> ParserState
 grammarStateOf s =
   ParserState
     { failures = [],
@@ -210,7 +211,8 @@ grammarStateOf s =
     }
 {-# INLINE grammarStateOf #-}
 
--- | A constant position: lines and columns are not counted.
+-- | The position that megaparsec requires. It is always the same: lines and columns are not
+-- counted.
 nowhere :: [Token] -> Parsec.PosState TokenStream
 nowhere ts =
   Parsec.PosState
@@ -223,7 +225,8 @@ nowhere ts =
 
 -- Points
 
--- | Parses a pair of numbers in parentheses, the form of most points, without the combinators.
+-- | Parses a pair of numbers in parentheses without the combinators; 'Nothing' for other tokens.
+-- Most points have this form.
 plainPair :: [Token] -> Maybe (Consumed Expr)
 plainPair ts = case ts of
   opening : inside

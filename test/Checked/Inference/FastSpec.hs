@@ -29,16 +29,16 @@ spec :: Spec
 spec = describe "literals checked fast and by full inference" $ do
   files <- runIO (concat <$> mapM partFiles ["examples", "test/programs"])
   texts <- runIO (filter ((< 20000) . Text.length) <$> mapM readText files)
-  it "the part programs of this project are the same by both" $
+  it "both give the same program and the same reports for the part programs of this project" $
     forM_ files $ \file -> do
       text <- readText file
       (file, fast text) `shouldBe` (file, full text)
   modifyMaxSuccess (const 400) $ do
     -- The bug: a unit that the fast check does not compare, a default unit that differs, a mistake
     -- that one of the two overlooks.
-    prop "a program with other literals and names is the same by both" $
+    prop "both give the same program and the same reports after literals are exchanged" $
       forAllShow (elements texts >>= exchanged 3) Text.unpack agrees
-    prop "a random program is the same by both" $
+    prop "both give the same program and the same reports for a random program" $
       forAllShow (PrintProgram.program <$> Generate.program) Text.unpack agrees
   where
     agrees text = fast text === full text
@@ -49,8 +49,8 @@ spec = describe "literals checked fast and by full inference" $ do
 partFiles :: FilePath -> IO [FilePath]
 partFiles folder = sort . filter ((== ".part") . takeExtension) <$> filesBelow folder
 
--- | The reports of a text and its checked program, as text without the numbers of unknowns, in
--- which the two checks differ. Statements that cannot be parsed count as broken.
+-- | The reports and the checked program of a text, as one text. The numbers of unknowns are left
+-- out, because the two checks number them differently.
 checkedBy :: (Surface.Program -> Result () Error Checked.Program) -> Text -> Text
 checkedBy check text = case output parsed of
   Nothing -> ""
@@ -63,7 +63,7 @@ checkedBy check text = case output parsed of
       let (first, others) = splitAt 1 (Text.splitOn "Unknown " (Text.pack shown))
        in Text.concat (first <> map (Text.dropWhile isDigit) others)
 
--- | A text with @count@ numbers and minus signs exchanged for other literals and names.
+-- | A text in which @count@ numbers and minus signs are replaced by other literals and names.
 exchanged :: Int -> Text -> Gen Text
 exchanged count text
   | count <= 0 || null candidates = pure text

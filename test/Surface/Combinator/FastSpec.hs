@@ -17,17 +17,18 @@ spec :: Spec
 spec = describe "one grammar, two parsers" . modifyMaxSuccess (const 500) $ do
   -- The bug: a region, a value or a comment that the fast parser loses; a program without a mistake
   -- that it rejects.
-  prop "a program is the same by both" $
+  prop "both give the same tree for a program without mistakes" $
     forAllShow (PrintProgram.program <$> Generate.program) Text.unpack $ \text ->
       both text .&&. null (errors (parse text))
   -- The bug: a mistake that the fast parser accepts, or reads as something else.
-  prop "a program with a few mistakes has the same ones by both" $
+  prop "both give the same tree and the same mistakes for a damaged program" $
     forAllShow (Generate.program >>= damaged 3 . PrintProgram.program) Text.unpack both
   where
     both text = parse text === Parser.parseExplained 0 text
     parse text = Parser.parse 0 text :: Result () Error Program
 
--- | A text with @count@ pieces replaced by signs and words.
+-- | A text in which @count@ substrings of at most four characters are replaced by symbols and
+-- words.
 damaged :: Int -> Text -> Gen Text
 damaged count text
   | count <= 0 = pure text

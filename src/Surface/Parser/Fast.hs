@@ -1,0 +1,23 @@
+-- | The fast twin of the parser, for programs without a mistake.
+module Surface.Parser.Fast
+  ( parse,
+  )
+where
+
+import Data.Text (Text)
+import Surface.Combinator.Fast qualified as FastCombinator
+import Surface.Grammar qualified as Grammar
+import Surface.Lexer qualified as Lexer
+import Surface.Syntax
+
+-- | Parses a program of at most @limit@ tokens whose text begins at an offset. 'Nothing' if the
+-- program has more tokens or a mistake.
+--
+-- The tokens are produced on demand and not kept. Therefore the function is never inlined: together
+-- with the explaining parser, GHC would make the tokens once for both parsers and keep all of them.
+parse :: Int -> Int -> Text -> Maybe Program
+parse limit begin text = case Lexer.tokens begin text of
+  (tokens, comments) ->
+    (\statements -> Program {statements, comments})
+      <$> FastCombinator.run limit Grammar.fastProgram tokens
+{-# NOINLINE parse #-}
