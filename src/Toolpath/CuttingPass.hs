@@ -41,27 +41,34 @@ import Toolpath.Swivel qualified as Swivel
 import Toolpath.Toolpath (Block (..), Manner (Manner), Move (Move), Pass (..))
 import Toolpath.Toolpath qualified as Toolpath
 
--- | A pass along a contour, or along one path of several where the cutter does not reach
--- everything. The path is not kept here, so that its segments are released as moves are made.
+-- | A pass along a contour, or along one of several paths beside a contour that the cutter does not
+-- reach everywhere. The path itself is no field, so that the collector frees its segments while
+-- moves are made from them.
 data CuttingPass = CuttingPass
-  { -- | number of the milling statement, as it is carried out, from 0
+  { -- | number of the milling statement in the order of execution, from 0
     statement :: Int,
     milled :: Located Milling,
-    -- | side of the direction of travel; nothing when the centre moves on the contour
+    -- | side of the contour, in the direction of travel, on which the cutter moves; Nothing when
+    -- its centre moves on the contour
     cutterSide :: Maybe Carrier.Side,
     -- | the elements of the contour by their numbers
     numbered :: Vector Part.Element,
+    -- | true for the first path of the statement's first pass
     isFirst :: Bool,
+    -- | true for the last path of the statement's last pass
     isLast :: Bool,
     -- | position of the cutter before the pass
     from :: SpacePoint,
     -- | material that the pass leaves
     allowance :: Mm,
+    -- | height of the pass
     level :: Mm,
+    -- | parts of the contour that the cutter does not reach
     restMaterial :: [Equidistant.UnreachedPart]
   }
 
--- | The block of a pass along a path.
+-- | The block of a pass along a path, which is the offset of the contour or a part of it. Fails
+-- when a blade or a control with cutter compensation cannot make the pass.
 block :: CuttingPass -> NonEmpty OffsetSegment -> Either Error Block
 block p path = do
   swivels <- Swivel.axis word milling (cutterSide p) path
@@ -122,11 +129,12 @@ block p path = do
 wordOf :: CuttingPass -> Region
 wordOf = keyword . region . milled
 
--- | The heights of a pass at the start and the end of each move, without a blade.
+-- | The heights at the start and the end of each move of a pass without a blade: both are the
+-- height of the pass.
 levels :: CuttingPass -> (Mm, Mm)
 levels p = (plus (level p) (Mm 0), plus (level p) (Mm 0))
 
--- | The pass for the moves before and after it.
+-- | The facts of a pass that its linking moves depend on.
 visit :: CuttingPass -> Visit
 visit p =
   Visit
@@ -137,7 +145,8 @@ visit p =
       LinkingMove.from = from p
     }
 
--- | The moves along the contour, given the heights of a blade's axis above its middle position.
+-- | The moves along the contour, one for each segment of the path. The second argument gives, for
+-- each segment, the heights of a blade's axis above its middle position; Nothing without a blade.
 cutMoves ::
   CuttingPass ->
   Maybe (NonEmpty (Mm, Mm)) ->
@@ -159,8 +168,8 @@ cutMoves p swivels path =
         let m = moveAlong (isContinued previous piece) h piece
          in m `seq` (m : following (piece :| more) higher)
       _ -> []
-    -- A feed of its own holds on the element, not around its corners; nor does the cutter slow down
-    -- there.
+    -- The feed of an element and its braking apply to the segment along it, not to the arc round
+    -- the corner after it.
     moveAlong continues zs piece = case Equidistant.origin piece of
       Equidistant.Along i ->
         let finish = Part.finish (numbered p Vector.! i)
@@ -175,14 +184,15 @@ cutMoves p swivels path =
         )
         (Part.origin (numbered p Vector.! i))
         continues
-    -- After an arc in which the cutter does not move there may be a corner.
+    -- The offset of a concave arc may vanish, so that segments of elements that are no neighbours
+    -- meet at a corner.
     isContinued previous piece = case (Equidistant.origin previous, Equidistant.origin piece) of
       (Equidistant.Along i, Equidistant.Along j) ->
         j == i + 1 && Part.continues (numbered p Vector.! j)
       _ -> False
 
--- | The lead-in and the lead-out, given the first and the last segment of the path, and whether the
--- path ends with the arc about a corner.
+-- | The lead-in and the lead-out. The flag is true when a control does the compensation and the
+-- path ends with the arc round a corner; the segments are the first and the last one of the path.
 leads :: CuttingPass -> Bool -> Segment -> Segment -> ([Move], [Move])
 leads p around firstSegment lastSegment = (leadIn, leadOut)
   where
@@ -200,12 +210,14 @@ leads p around firstSegment lastSegment = (leadIn, leadOut)
       (Segment.end lastSegment) of
       [] | around -> Compensation.overrun (wordOf p) milling firstSegment
       moves -> moves
-    -- A cutter that fills a concave arc does not move in it; then the contour gives the direction.
+    -- In a concave arc of its own radius the centre does not move, and the segment has no length.
+    -- Then the contour gives the direction.
     directionOf :: (Segment -> Vec.Vec) -> Segment -> Part.Element -> Vec.Vec
     directionOf direction s e =
       direction (if Segment.length s > Tolerance.coincident then s else Part.segment e)
 
--- | The distance of the cutter's centre from the contour when nothing is left.
+-- | The distance of the cutter's centre from the contour without an allowance: 0 on the contour,
+-- else the radius.
 touchedRadius :: Milling -> Mm
 touchedRadius milling = case value (Part.side milling) of
   On -> Mm 0

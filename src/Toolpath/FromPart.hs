@@ -1,11 +1,11 @@
 {-# LANGUAGE BangPatterns #-}
 
--- | From the part to the toolpath: the equidistant of every contour to be machined, pass by pass,
--- with approaches and retracts, holes, and the moves between them.
+-- | From the part to the toolpath: the offset of every contour to be machined, pass by pass, with
+-- approaches and retracts, holes, and the linking moves between them.
 --
--- A milling statement becomes one block for each pass. The pass itself is made by
--- "Toolpath.CuttingPass", pockets by "Toolpath.PocketMove", holes by "Toolpath.DrillMove". A path
--- that cuts a contour where it should not is refused ("Toolpath.Intrusion").
+-- A milling statement becomes one block for each pass. "Toolpath.CuttingPass" makes the moves of a
+-- pass, "Toolpath.PocketMove" those of a pocket, "Toolpath.DrillMove" those of holes. A toolpath
+-- that cuts a contour where the program does not allow it is refused ("Toolpath.Intrusion").
 module Toolpath.FromPart
   ( toToolpath,
     leadingSide,
@@ -52,9 +52,9 @@ import Toolpath.Toolpath (Block (..), Toolpath (Toolpath))
 import Toolpath.Toolpath qualified as Toolpath
 import Toolpath.Warning qualified as Warning
 
--- | Computes the toolpath of a part. There is none when an operation has none, or when there are
--- operations but the start is unknown, which is reported already. A part that is only drawn has a
--- path without moves.
+-- | Computes the toolpath of a part. There is no toolpath when an operation fails. Nor is there one
+-- when the part has operations but no start, which an earlier compiler pass reports. A part
+-- without operations has a toolpath without moves.
 toToolpath :: Part -> Result Warning Error Toolpath
 toToolpath part = case (Part.start part, Part.operations part) of
   (Nothing, []) ->
@@ -63,7 +63,7 @@ toToolpath part = case (Part.start part, Part.operations part) of
       []
       (Just (Toolpath (Located (Region 0 0) (SpacePoint (Vec.point 0 0) (Mm 0))) [] False))
   (Nothing, _) -> Result [] [] Nothing
-  -- Nothing of an operation is kept after its blocks.
+  -- The operations are consumed one by one, so that each can be freed after its blocks are made.
   (Just begin, operations) | !tool <- maybe (Mm 0) Part.cutterRadius (Part.firstCutter part) ->
     case collect 0 tool (value begin) operations of
       ([], blocks) ->
@@ -75,7 +75,7 @@ toToolpath part = case (Part.start part, Part.operations part) of
               (Just path)
       (errors, _) -> Result [] errors Nothing
 
--- | Whether the part is turned on a lathe: a statement turns, or there is a turning tool.
+-- | True if the part is turned on a lathe: a statement turns, or there is a turning tool.
 turns :: Part -> Bool
 turns part = or [isTurning c | Just c <- [Part.firstCutter part]] || any asks (Part.operations part)
   where
@@ -85,8 +85,8 @@ turns part = or [isTurning c | Just c <- [Part.firstCutter part]] || any asks (P
       _ -> False
     isTurning c = Part.kind c == Part.TurningCutter
 
--- | The warnings of rest material beside milled contours. The rest material that one cutter leaves
--- at a statement that is carried out several times is one warning.
+-- | The warnings about rest material beside contours. A statement that is executed several times
+-- with the same cutter and allowance gets one warning.
 restWarnings :: Toolpath -> [Warning]
 restWarnings path =
   [ LeavesRestMaterial word tool (concatMap (map fst . NonEmpty.toList . positions) (r : more))
@@ -102,8 +102,9 @@ restWarnings path =
             ]
         )
 
--- | The blocks of operations in order, from the number of the next milling statement, the radius of
--- the tool, and its position. An operation without a path leaves the tool where it was.
+-- | The blocks of operations in order, and the errors of those that fail. The arguments are the
+-- number of the next milling or pocket statement, the radius of the tool, and its position. An
+-- operation that fails does not move the tool.
 collect :: Int -> Mm -> SpacePoint -> [Operation] -> ([Error], [Block])
 collect number tool at operations = case operations of
   [] -> ([], [])
@@ -120,7 +121,7 @@ collect number tool at operations = case operations of
         Command (Located _ (Part.ChangeTool _ c)) -> Part.cutterRadius c
         _ -> tool
 
--- | The blocks of one operation.
+-- | The blocks of one operation, with the arguments of 'collect'.
 blocksOf :: Int -> Mm -> SpacePoint -> Operation -> Either Error [Block]
 blocksOf number tool at operation = case operation of
   Travel stops -> Right [Travelling tool (LinkingMove.straightMoves at (NonEmpty.toList stops))]
@@ -138,7 +139,8 @@ blocksOf number tool at operation = case operation of
   where
     -- The contour as written is not needed any more; it takes much memory.
     withoutLegs milling = milling {contour = (contour milling) {Part.writtenElements = []}}
-    -- Without depth the cutter stays at the height of its last approach point.
+    -- A statement without a depth mills at the height of its last approach point that has one, or
+    -- else at the current height.
     heightOf milling =
       fromMaybe (height at) (listToMaybe (mapMaybe Part.level (reverse (Part.approach milling))))
     passesOf milling =
@@ -147,7 +149,9 @@ blocksOf number tool at operation = case operation of
           z <- if null (Part.levels milling) then [heightOf milling] else Part.levels milling
       ]
 
--- | The blocks of all passes of a milling statement, given by allowance and height.
+-- | The blocks of all passes of a milling statement. The arguments are the number of the statement,
+-- the position of the cutter before it, the statement, the cutter's side, and the allowance and
+-- height of each pass.
 passBlocks ::
   Int ->
   SpacePoint ->
@@ -158,7 +162,8 @@ passBlocks ::
 passBlocks number at job side passes =
   reverse . snd <$> foldM pass (at, []) (zip [1 ..] passes)
   where
-    -- One array for all passes: the elements are many, and lie far apart in memory.
+    -- All passes share one array. A contour may have many elements, which as a list are scattered
+    -- over memory.
     numbered =
       let es = elements (contour (value job))
        in Vector.fromListN (NonEmpty.length es) (NonEmpty.toList es)
@@ -185,8 +190,9 @@ passBlocks number at job side passes =
             Right (LinkingMove.endPosition from (Toolpath.moves b), b : done)
       foldM cut before (zip [1 :: Int ..] (NonEmpty.toList paths))
 
--- | The paths of the cutter beside a contour, or on it without a side, with an allowance; and the
--- rest material where it is allowed.
+-- | The paths of the cutter's centre beside a contour, or on it when there is no side, with an
+-- allowance. There are several paths only where rest material is allowed and occurs; the second
+-- result is that rest material.
 along ::
   Located Milling ->
   Maybe Carrier.Side ->
@@ -221,12 +227,12 @@ along (Located region milling) side numbered allowance = case side of
         { Equidistant.sharp = Part.corners milling == Part.Sharp,
           Equidistant.extra
         }
-    -- Mostly no element has an allowance of its own; then none is examined again.
+    -- Mostly no element has an allowance of its own, and then the allowances are not looked up.
     extra
-      | plain = const (Mm 0)
+      | hasNoAllowances = const (Mm 0)
       | otherwise = allowanceOf . (numbered Vector.!)
-    !plain = all ((== Mm 0) . allowanceOf) numbered
+    !hasNoAllowances = all ((== Mm 0) . allowanceOf) numbered
     allowanceOf = Part.allowance . Part.finish
     refusal = OffsetRefusal.refusal region (RestMaterial.toolOf milling allowance) numbered
--- Inlined, the contour would be shared by all passes and kept as long.
+-- If this were inlined, all passes would share the polyarc of the contour and keep it in memory.
 {-# NOINLINE along #-}

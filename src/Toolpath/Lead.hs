@@ -1,4 +1,4 @@
--- | Lead-in and lead-out: the moves onto the path beside a contour and off it.
+-- | Lead-in and lead-out: the moves onto the offset of a contour and off it.
 module Toolpath.Lead
   ( Which (..),
     lead,
@@ -17,12 +17,15 @@ import Part.Part (Milling (feed))
 import Part.Part qualified as Part
 import Toolpath.Toolpath (Manner (Manner), Move (Move))
 
+-- | The lead-in or the lead-out.
 data Which = In | Out
   deriving stock (Eq)
 
--- | The move onto the path at its start, or off it at its end, given the direction of the path
--- there: a straight line, or a quarter of a circle that curves away from the material. It has no
--- height yet. The region is that of the statement's keyword.
+-- | The lead-in at the start of a path, or the lead-out at its end; empty if the program asks for
+-- none. It is a straight line in the direction of the path, or a quarter of a circle that curves
+-- away from the material. Without a side the circle is on the left. The region is that of the
+-- statement's keyword; the vector and the point are the unit direction and the end of the path.
+-- The heights of the move are 0; the caller sets them.
 lead :: Region -> Milling -> Maybe Carrier.Side -> Which -> Vec.Vec -> Point -> [Move]
 lead keyword milling side which direction p =
   case if which == In then Part.leadIn milling else Part.leadOut milling of
@@ -39,7 +42,7 @@ lead keyword milling side which direction p =
     outwards = if which == In then -1 else 1
     oriented onto off = if which == In then onto else off
     move s = Move s (Manner (Mm 0, Mm 0) (Part.At (feed milling)) False) keyword False
-    -- The side that is free of material, +1 for the left.
+    -- +1 if the side free of material is the left one, -1 if it is the right one.
     free = case side of
       Just Carrier.RightOf -> -1
       Just Carrier.LeftOf -> 1
