@@ -1,18 +1,18 @@
 -- | Input for a control with cutter compensation (@G41@, @G42@).
 --
--- The control receives the edge of the part and computes the offset itself. It then makes the same
--- moves as the toolpath, provided that the edge is right and contains nothing that the control
--- refuses. The behaviour of controls was measured on LinuxCNC 2.9:
+-- The control receives the edge of the part and computes the offset itself. If it does not refuse
+-- the edge, it makes the moves of the toolpath. The behaviour of controls was measured on LinuxCNC
+-- 2.9:
 --
--- * The first move under compensation is a straight line from the current centre to the point where
--- the offsets of the programmed line and of the next element intersect. So the programmed line must
--- be the tangent from the current centre to the cutter at its first position on the toolpath. The
--- next element begins where it intersects that line.
+-- * The first move under compensation is programmed as a straight line. The control moves the
+-- centre to the point where the offsets of that line and of the next element intersect. So the
+-- programmed line must be a tangent to the cutter at the cutter's first position on the toolpath.
+-- The next element begins where that element, extended if necessary, intersects the tangent.
 --
 -- * At outer corners the control moves on arcs. It makes the arc at the last corner of a closed
 -- contour only when another move follows.
 --
--- * After the end of the contour it moves straight from the end of the offset to the next
+-- * After the end of the contour the control moves straight from the end of the offset to the next
 -- programmed point.
 module Toolpath.Compensation
   ( PassMoves (..),
@@ -41,19 +41,21 @@ import Toolpath.Tolerance qualified as Tolerance
 import Toolpath.Toolpath (Manner (..), Move (..), Sent (Sent), withoutBraking)
 import Toolpath.Toolpath qualified as Toolpath
 
--- | The moves of the centre in one pass: approach, lead-in, moves along the contour, lead-out,
--- retract.
+-- | The moves of the cutter's centre in one pass, part by part.
 data PassMoves = PassMoves
-  { before :: [Move],
+  { -- | the approach
+    before :: [Move],
     leadIn :: [Move],
+    -- | the moves along the contour
     cut :: NonEmpty Move,
     leadOut :: [Move],
+    -- | the retract
     behind :: [Move]
   }
 
--- | The input for a control that does the cutter compensation, or the reason why that is
--- impossible. The region is the statement's first word. The result is Nothing when the program
--- does not ask for it.
+-- | The input for a control that does the cutter compensation, or the reason why a control cannot
+-- make the pass. Nothing when the program does not ask for compensation by the control. The region
+-- is the statement's first word.
 compensationInput :: Region -> Milling -> Maybe Side -> PassMoves -> Either Error (Maybe Sent)
 compensationInput keyword milling side passMoves = case Part.controlCompensation milling of
   Nothing -> Right Nothing
@@ -76,7 +78,8 @@ compensationInput keyword milling side passMoves = case Part.controlCompensation
             }
       )
 
--- | Refuses requests that the edge of the part cannot express.
+-- | Refuses requests that the edge of the part cannot express: a blade, sharp corners, allowances.
+-- The region is the program's request for compensation by the control.
 checkRequest :: Region -> Milling -> Either Error ()
 checkRequest requested milling
   | Just _ <- Part.gear milling = refused Swivelling
@@ -88,7 +91,8 @@ checkRequest requested milling
   where
     refused = Left . NotForControl requested
 
--- | Refuses elements and leads that a control cannot follow.
+-- | Refuses elements and leads that a control cannot follow. The regions are the statement's first
+-- word, and the program's request for compensation by the control.
 checkElements :: Region -> Region -> Milling -> Side -> PassMoves -> Either Error ()
 checkElements keyword requested milling side passMoves =
   mapM_ (checkLength keyword requested) elements
@@ -110,8 +114,8 @@ checkElements keyword requested milling side passMoves =
         (\old -> Left (TightForControl keyword requested (fmap element i) old radius))
         (tooTight radius side s)
     -- A control ignores a very slight corner. When such a corner turns away from the cutter, the
-    -- centre leaves too early on the following arc. Rounding of the end of the segment before the
-    -- arc has the same effect.
+    -- centre enters the following arc too early. Rounding of the end of the segment before the arc
+    -- has the same effect.
     checkArcStart (i, a) (_, b) =
       let Rad deflection = Vec.signedAngle (Segment.endDirection a) (Segment.startDirection b)
           needed = neededBefore (Mm r) side (Rad (max 0 (-(deflection * sideSign side)))) b
@@ -130,7 +134,7 @@ checkElements keyword requested milling side passMoves =
     Rad smooth = Tolerance.smoothAngle
     element = elementAt milling
 
--- | Refuses an element shorter than a control accepts.
+-- | Refuses an element shorter than 'Tolerance.controlLength'.
 checkLength :: Region -> Region -> Element -> Either Error ()
 checkLength keyword requested e =
   when
@@ -139,8 +143,9 @@ checkLength keyword requested e =
   where
     l = Segment.length (Part.segment e)
 
--- | Refuses a corner that a control ignores although its cut would be too deep, and a corner at
--- which the contour almost reverses. The corner follows element @i@.
+-- | Refuses a corner so slight that a control ignores it, if the control would then cut too deep.
+-- Refuses also a corner at which the contour almost reverses. The arguments of the triple are the
+-- number of the element before the corner, and the segments of both elements at the corner.
 checkCorner :: Region -> Milling -> (Int, Segment, Segment) -> Either Error ()
 checkCorner requested milling (i, a, b) =
   when
@@ -162,15 +167,16 @@ isIgnored deflection = abs deflection < least
   where
     Rad least = Tolerance.controlBend
 
--- | The element with a number; the number after the last element is the first one's.
+-- | The element with a number from 0; the number after the last one is that of the first element.
 elementAt :: Milling -> Int -> Element
 elementAt milling i = elements NonEmpty.!! (i `mod` length elements)
   where
     elements = Part.elements (Part.contour milling)
 
--- | The least length of a line, or the least radius of an arc, before an arc that turns away from
--- it by an angle. It keeps the centre's additional sweep around the arc within the limit of
--- LinuxCNC. It is infinite when no length suffices.
+-- | The least 'referenceLength' of the segment before a segment that begins with a change of
+-- direction @away@ from the cutter. Before an arc this length keeps the additional sweep of the
+-- centre's arc within 'Tolerance.controlTurn'. It is 0 before a line, and infinite when no length
+-- suffices.
 neededBefore :: Mm -> Side -> Rad -> Segment -> Mm
 neededBefore (Mm r) side (Rad away) s = case s of
   Straight _ _ -> Mm 0
@@ -184,14 +190,15 @@ neededBefore (Mm r) side (Rad away) s = case s of
       Mm rounding = Tolerance.controlRounding
       Rad most = Tolerance.controlTurn
 
--- | The quantity that decides how much rounding changes the direction at a segment's end: the
--- length of a line, the radius of an arc.
+-- | The length of a line or the radius of an arc. The larger it is, the less a rounded end changes
+-- the direction of the segment there.
 referenceLength :: Segment -> Mm
 referenceLength s = case s of
   Straight a b -> Vec.distance a b
   Arc {start, centre} -> Segment.radius centre start
 
--- | The radius of a concave arc in which the cutter has no room to roll; Nothing when it has.
+-- | The radius of a concave arc in which the cutter, of the given radius, has no room to roll.
+-- Nothing for any other segment.
 tooTight :: Mm -> Side -> Segment -> Maybe Mm
 tooTight radius side s = case s of
   Straight _ _ -> Nothing
@@ -210,8 +217,8 @@ sideSign side = case side of
 
 -- The edge
 
--- | The edge of the part in the direction of travel, with the curves that the cutter touches
--- during the leads.
+-- | The edge of the part in the direction of travel, as moves: the line or arc that the cutter
+-- touches during the lead-in, the elements of the contour, and that of the lead-out.
 programmed :: Milling -> Side -> PassMoves -> NonEmpty Move
 programmed milling side PassMoves {leadIn, cut, leadOut} = case map lead leadIn of
   [] -> elements `followedBy` map lead leadOut
@@ -233,7 +240,8 @@ programmed milling side PassMoves {leadIn, cut, leadOut} = case map lead leadIn 
         }
     followedBy (e :| es) more = e :| es <> more
 
--- | The curve that a cutter touches when its centre moves along a segment.
+-- | The line or arc that a cutter of this radius touches on the given side of the edge while its
+-- centre moves along a segment.
 touchedCurve :: Mm -> Side -> Segment -> Segment
 touchedCurve (Mm r) side s = case s of
   Straight a b ->
@@ -246,7 +254,8 @@ touchedCurve (Mm r) side s = case s of
         moved p = Vec.shift (Vec.scale (new / old) (Vec.to centre p)) centre
      in Arc {start = moved start, end = moved end, centre, sweep}
 
--- | True when a control does the compensation and the closed toolpath ends at an outer corner.
+-- | True when a control does the compensation and the path ends with the arc round an outer corner,
+-- as a path round a closed contour may.
 endsAtOuterCorner :: Milling -> NonEmpty Equidistant.OffsetSegment -> Bool
 endsAtOuterCorner milling offsetSegments = case Part.controlCompensation milling of
   Nothing -> False
@@ -254,8 +263,9 @@ endsAtOuterCorner milling offsetSegments = case Part.controlCompensation milling
     Equidistant.Around _ -> True
     Equidistant.Along _ -> False
 
--- | A short move along the first element after such a contour. A control makes the arc round the
--- last corner only when another move follows.
+-- | A move of at most 1 mm along the first segment of a closed path, to be made once more after the
+-- path's end. A control makes the arc round the last corner only when another move follows. Empty
+-- when the segment has no length. The region is the statement's first word.
 overrun :: Region -> Milling -> Segment -> [Move]
 overrun keyword milling first =
   [ Move
@@ -272,8 +282,9 @@ overrun keyword milling first =
 -- Approach and retract
 
 -- | The moves before compensation begins, the straight move on which it begins, and the edge from
--- the end of that move. A long approach is divided, because near the contour its direction
--- certainly differs from that of the edge.
+-- the end of that move. The last move of the approach must be straight and level. If it
+-- is longer than three radii, it is divided at two radii from its end. Compensation begins on the
+-- second part, whose direction certainly differs from that of the edge.
 entering ::
   Region ->
   Region ->
@@ -295,8 +306,8 @@ entering keyword requested milling side passMoves edge = case reverse passMoves 
   where
     radius@(Mm r) = Part.radius milling
     first = NonEmpty.head edge
-    -- The point where the tangent from @on@ to the cutter at its first position intersects the line
-    -- of the first element.
+    -- The point where the tangent from @on@ to the cutter at its first position @to'@ intersects
+    -- the tangent to the first element at its beginning.
     entryPoint m on to' = do
       let Mm d = Vec.distance on to'
           ahead = Segment.startDirection (segment first)
@@ -315,7 +326,7 @@ entering keyword requested milling side passMoves edge = case reverse passMoves 
         (l <= plus radius Tolerance.controlMargin)
         (Left (ShortForControl (origin m) requested True l radius))
       Right begin
-    -- Before an arc the line is an additional element, which must not be too short for a control.
+    -- Before an arc the edge gets an additional line, which must not be too short for a control.
     leastOntoArc = case segment first of
       Straight _ _ -> 0
       arc@Arc {} ->
@@ -333,7 +344,9 @@ entering keyword requested milling side passMoves edge = case reverse passMoves 
 furthestTurn :: Double
 furthestTurn = 35 / 36 * pi
 
--- | The straight move on which compensation ends, and the moves after it.
+-- | The straight move on which compensation ends, and the moves after it. The arguments are the
+-- statement's first word, the request for compensation, the statement, the last move of the edge,
+-- and the retract, whose first move must be straight and level.
 leaving :: Region -> Region -> Milling -> Move -> [Move] -> Either Error (Move, [Move])
 leaving keyword requested milling final passMoves = case passMoves of
   m@Move {segment = Straight _ to', manner = Manner {between = (z, z')}} : later | z == z' -> do

@@ -1,4 +1,5 @@
--- | The passes of a pocket as moves: plunge, loops from the inside outwards, retract.
+-- | The moves of a pocket: for each pass the plunge, the loops from the inside outwards, and the
+-- retract.
 module Toolpath.PocketMove
   ( blocks,
   )
@@ -45,8 +46,10 @@ import Toolpath.Toolpath (Block (..), Manner (Manner), Move (Move), Pass (..))
 import Toolpath.Toolpath qualified as Toolpath
 
 -- | The passes of a pocket statement: all depths for the first allowance, then all depths for the
--- next. The first argument is the statement's number; the position is that of the cutter before
--- the pocket.
+-- next one. The first argument is the statement's number in the order of execution, from 0; the
+-- position is that of the cutter before the pocket. Fails when the cutter does not fit, when it
+-- would have to rise in a pocket without a depth, and when an element has a larger allowance than
+-- the last pass.
 blocks :: Int -> SpacePoint -> Located Pocketing -> Either Error [Block]
 blocks number at (Located region given) = do
   for_
@@ -96,13 +99,13 @@ blocks number at (Located region given) = do
               }
       Right (LinkingMove.endPosition position (Toolpath.moves b), b : done)
 
--- | The plunge position of the cutter, if the program gives it.
+-- | The plunge position of the cutter, which is the last approach point if the program gives one.
 lastApproach :: Milling -> Maybe Point
 lastApproach milling = value . Part.place <$> listToMaybe (reverse (Part.approach milling))
 
--- | The moves before, in and after a pass. @clear@ is the clearance height, if the cutter may be
--- lifted; the pair is the allowance at the walls and the height of the pass. @sectionsFrom@ gives
--- the sections for a plunge position.
+-- | The moves before, in and after a pass. @travelHeight@ is the clearance height; Nothing if the
+-- pocket has no depth, so that the cutter cannot be lifted. The pair is the allowance at the walls
+-- and the height of the pass. @sectionsFrom@ gives the sections for a plunge position.
 passOf ::
   Visit ->
   Maybe Mm ->
@@ -151,7 +154,8 @@ passOf visit travelHeight (left, z) sectionsFrom = do
       (Nothing, Just p) | LinkingMove.isFirst visit -> Just p
       (Nothing, _) -> Just currentPoint
 
--- | The moves of a section at a height; a section over a wall is at the clearance height.
+-- | The moves of a section of a pass at the height @z@. A lifted link rises to the clearance height
+-- @travelHeight@, passes over the wall and plunges again.
 moves :: Region -> Milling -> Mm -> Maybe Mm -> PocketMove -> [Move]
 moves word milling z travelHeight section = case section of
   LiftedLink p q
@@ -170,7 +174,8 @@ moves word milling z travelHeight section = case section of
       | s <- Pocket.segments section
     ]
 
--- | For each allowance, the sections as a function of the plunge position.
+-- | For each allowance, the sections of its passes as a function of the plunge position. The passes
+-- with the first allowance clear the floor, the others finish the walls.
 sectionsFor :: Pocketing -> NonEmpty (Maybe Point -> [PocketMove])
 sectionsFor pocket =
   (\from -> Pocket.clear (room first) step from)
@@ -214,7 +219,7 @@ oriented pocket =
         then c
         else Part.reversedContour c
 
--- | The elements of the outer contour, then those of the islands in order.
+-- | The elements of all walls: those of the outer contour, then those of the islands in order.
 elementsOf :: Pocketing -> Vector Element
 elementsOf pocket =
   Vector.fromList
@@ -222,8 +227,9 @@ elementsOf pocket =
 
 -- Rest material
 
--- | The parts of the walls that remain unreached after the last pass, by the elements of the
--- outer contour and the islands in order. Refuses them unless the program allows rest material.
+-- | The parts of the walls that the cutter does not reach in the last pass. Their element numbers
+-- are indices of 'elementsOf'. If the program does not allow rest material, such a part is an
+-- error.
 restAtWalls :: Region -> Pocketing -> Either Error [Equidistant.UnreachedPart]
 restAtWalls word pocket = case (Part.rest milling, found) of
   (Part.Refused, o : _) -> Left (OffsetRefusal.refusal word tool (elementsOf pocket) o)
@@ -262,8 +268,8 @@ restAtWalls word pocket = case (Part.rest milling, found) of
         ]
     gaps = gapsBetween r (map Part.polyarcOf contours)
 
--- | The narrowest point between each two contours between which a circle of this radius does not
--- pass.
+-- | One obstacle for each pair of contours between which a circle of this radius does not pass: the
+-- narrowest point between the two. Element numbers count the elements of all contours in order.
 gapsBetween :: Mm -> [Polyarc.Polyarc] -> [Equidistant.Obstacle]
 gapsBetween r contours =
   [ Equidistant.Obstacle

@@ -2,11 +2,11 @@
 -- it.
 --
 -- Let @r@ be the cutter's radius. Let passes run at the distances @c@ and @c + s@ from the walls,
--- with @r < s ≤ 2·r@. The edge of the area that the outer pass sweeps lies between them, at @c +
--- r@. A point between the edge and the inner pass has a distance of at most @s − r ≤ r@ from the
--- edge. Where the inner pass is parallel to the edge at the distance @s − r@, it sweeps all points
--- between the two. Elsewhere the edge has a corner or a nook that the inner pass does not enter.
--- There the cutter follows the edge itself.
+-- with @r < s ≤ 2·r@. Between them, at @c + r@, lies the edge of the area that the outer pass
+-- sweeps. A point between the edge and the inner pass has a distance of at most @s − r ≤ r@ from
+-- the edge. Where the inner pass is parallel to the edge at the distance @s − r@, it sweeps all
+-- points between the two. Elsewhere the edge has a corner or a nook that the inner pass does not
+-- enter. There the cutter follows the edge itself.
 module Toolpath.StepoverResidue
   ( Residue (..),
     none,
@@ -44,10 +44,9 @@ data Residue = Residue
 none :: Residue
 none = Residue Map.empty []
 
--- | The residue between the edge of the area swept by the outer pass and the inner pass. The
--- arguments are the cutter's radius, the distance of the inner pass from the edge, which is at most
--- the radius, the loops of the edge and those of the inner pass. All loops have the free space on
--- their left.
+-- | The residue between the inner pass @passes@ and the edge @edges@ of the area that the outer
+-- pass sweeps. The inner pass is at the distance @apart@ from the edge, at most the cutter's
+-- radius. All loops have the free space on their left.
 between :: Mm -> Mm -> [NonEmpty Segment] -> [NonEmpty Segment] -> Residue
 between radius apart edges passes = foldr (gather . gapsOf) none edges
   where
