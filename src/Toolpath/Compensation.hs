@@ -344,9 +344,9 @@ entering keyword requested milling side passMoves edge = case reverse passMoves 
 furthestTurn :: Double
 furthestTurn = 35 / 36 * pi
 
--- | The straight move on which compensation ends, and the moves after it. The arguments are the
--- statement's first word, the request for compensation, the statement, the last move of the edge,
--- and the retract, whose first move must be straight and level.
+-- | The straight move on which compensation ends, and the moves after it. The regions are the
+-- statement's first word and the request for compensation. @final@ is the last move of the edge.
+-- The first move of the retract @passMoves@ must be straight and level.
 leaving :: Region -> Region -> Milling -> Move -> [Move] -> Either Error (Move, [Move])
 leaving keyword requested milling final passMoves = case passMoves of
   m@Move {segment = Straight _ to', manner = Manner {between = (z, z')}} : later | z == z' -> do

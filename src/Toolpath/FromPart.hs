@@ -149,9 +149,9 @@ blocksOf number tool at operation = case operation of
           z <- if null (Part.levels milling) then [heightOf milling] else Part.levels milling
       ]
 
--- | The blocks of all passes of a milling statement. The arguments are the number of the statement,
--- the position of the cutter before it, the statement, the cutter's side, and the allowance and
--- height of each pass.
+-- | The blocks of all passes of a milling statement, whose number is the first argument. The
+-- position is that of the cutter before the statement. Each pass is given by its allowance and its
+-- height.
 passBlocks ::
   Int ->
   SpacePoint ->

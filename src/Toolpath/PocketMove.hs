@@ -47,9 +47,9 @@ import Toolpath.Toolpath qualified as Toolpath
 
 -- | The passes of a pocket statement: all depths for the first allowance, then all depths for the
 -- next one. The first argument is the statement's number in the order of execution, from 0; the
--- position is that of the cutter before the pocket. Fails when the cutter does not fit, when it
--- would have to rise in a pocket without a depth, and when an element has a larger allowance than
--- the last pass.
+-- position is that of the cutter before the pocket. Refuses pockets into which the cutter does
+-- not fit, and pockets without a depth in which it would have to rise. Refuses also elements that
+-- have a larger allowance than the last pass.
 blocks :: Int -> SpacePoint -> Located Pocketing -> Either Error [Block]
 blocks number at (Located region given) = do
   for_

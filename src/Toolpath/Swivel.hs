@@ -3,8 +3,8 @@
 -- The axis turns the blade to the bevel @μ@ of the surface through a wheel of the diameter @D2@.
 -- Its height is @z = ∓π·μ°·D2/360@: minus if the blade is on the right in the direction of travel,
 -- plus if it is on the left (Kolsanova, section 3). The tool itself does not move in height. On an
--- element without a bevel, the bevel changes linearly with the arc length, from that of the element
--- before it to that of the element after it.
+-- element without a bevel, the bevel changes linearly with the arc length. It leads from the bevel
+-- of the element before to that of the element after.
 module Toolpath.Swivel
   ( axis,
     highest,
