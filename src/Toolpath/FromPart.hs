@@ -130,7 +130,7 @@ blocksOf number tool at operation = case operation of
   Pocket job -> PocketMove.blocks number at job
   Mill (Located region given) -> do
     possible region given
-    milling <- withoutLegs <$> oriented region given
+    milling <- withoutWrittenElements <$> oriented region given
     if null (Part.levels milling) && heightOf milling > Mm 0
       then Left (CutsAir (keyword region) (heightOf milling))
       else do
@@ -138,7 +138,8 @@ blocksOf number tool at operation = case operation of
         passBlocks number at (Located region milling) side (passesOf milling)
   where
     -- The contour as written is not needed any more; it takes much memory.
-    withoutLegs milling = milling {contour = (contour milling) {Part.writtenElements = []}}
+    withoutWrittenElements milling =
+      milling {contour = (contour milling) {Part.writtenElements = []}}
     -- A statement without a depth mills at the height of its last approach point that has one, or
     -- else at the current height.
     heightOf milling =

@@ -149,11 +149,11 @@ data Progress = Progress
 
 -- | The sections of all loops with the linking moves between them, from the plunge position.
 along :: PocketRoom -> Maybe Point -> [PocketTree] -> [PocketMove]
-along room from nests = reverse (sections (visitAll Progress {current = from, sections = []} nests))
+along room from trees = reverse (sections (visitAll Progress {current = from, sections = []} trees))
   where
     link = linked room
-    visitAll progress ns = inTurn visit (entrance . innermost) progress ns
-    visit progress n = case (current inside, rings n) of
+    visitAll progress regions = inTurn visit (entrance . innermost) progress regions
+    visit progress tree = case (current inside, rings tree) of
       -- The first loop after a region is the nearest of those that bound the region around it: no
       -- wall lies between.
       (Just p, rs) ->
@@ -162,7 +162,7 @@ along room from nests = reverse (sections (visitAll Progress {current = from, se
          in inTurn enter entrance (enter inside r) others
       (Nothing, rs) -> inTurn enter entrance inside (NonEmpty.toList rs)
       where
-        inside = visitAll progress (inner n)
+        inside = visitAll progress (inner tree)
     enter progress r =
       let r' = maybe r (enteredNear r) (current progress)
           linking = maybe [] (`link` entrance r') (current progress)
@@ -199,8 +199,8 @@ takeOut measure things = (chosen, [a | (i, a) <- numbered, i /= number])
 
 -- | The loop that is cut first in a region.
 innermost :: PocketTree -> Ring
-innermost n = case inner n of
-  [] -> NonEmpty.head (rings n)
+innermost tree = case inner tree of
+  [] -> NonEmpty.head (rings tree)
   first : _ -> innermost first
 
 -- | The point at which a loop begins and ends.

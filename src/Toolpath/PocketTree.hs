@@ -121,7 +121,7 @@ grouped c loops trips inside = mapMaybe part (Map.toList members)
     innerOf =
       Map.fromListWith
         (flip (<>))
-        [(maybe 0 outerOf (firstHit index Nothing (beginning nest)), [nest]) | nest <- inside]
+        [(maybe 0 outerOf (firstHit index Nothing (beginning tree)), [tree]) | tree <- inside]
     part (n, found) =
       ( \some ->
           PocketTree {rings = fmap (ring c trips) some, inner = Map.findWithDefault [] n innerOf}
@@ -130,7 +130,7 @@ grouped c loops trips inside = mapMaybe part (Map.toList members)
 
 -- | The first point of a region's first ring.
 beginning :: PocketTree -> Point
-beginning nest = Segment.start (segment (NonEmpty.head (ringSegments (NonEmpty.head (rings nest)))))
+beginning tree = Segment.start (segment (NonEmpty.head (ringSegments (NonEmpty.head (rings tree)))))
 
 -- | The rightmost point of a loop.
 rightmost :: Loop -> Point
