@@ -131,7 +131,8 @@ builtInMachines = do
   it
     "have auxiliary commands up to 7 on lkp-01f and 99 on Контур-3П-68 (catches a command that no \
     \frame can contain)"
-    $ [capacity' m "aux" | Just m <- map found ["lkp-01f", "kontur-3p"]] `shouldBe` [Just 7, Just 99]
+    $ [capacity' m "aux" | Just m <- map found ["lkp-01f", "kontur-3p"]]
+      `shouldBe` [Just 7, Just 99]
   where
     found = BuiltIn.find . MachineName
     rows :: Text -> String -> [Word8]
