@@ -255,7 +255,6 @@ longFunctions =
           "Offset.SegmentIntersection.neighbours",
           "Offset.Trimming.joinSlices",
           "Offset.WindingNumber.extreme",
-          "Toolpath.Compensation.entering",
           "Toolpath.PocketMove.blocks"
         ]
 

@@ -27,11 +27,13 @@ import Base.Region (Region)
 import Control.Monad (when, zipWithM_)
 import Data.List.NonEmpty (NonEmpty (..))
 import Data.List.NonEmpty qualified as NonEmpty
-import Geometry.Carrier (Side (..))
+import Geometry.Carrier (Side)
+import Geometry.Carrier qualified as Carrier
 import Geometry.Polyarc qualified as Polyarc
 import Geometry.Segment (Segment (..))
 import Geometry.Segment qualified as Segment
 import Geometry.Tolerance qualified as Tolerance
+import Geometry.Vec (Point)
 import Geometry.Vec qualified as Vec
 import Offset.Equidistant qualified as Equidistant
 import Part.Part (Element, Milling)
@@ -118,7 +120,7 @@ checkElements keyword requested milling side passMoves =
     -- has the same effect.
     checkArcStart (i, a) (_, b) =
       let Rad deflection = Vec.signedAngle (Segment.endDirection a) (Segment.startDirection b)
-          needed = neededBefore (Mm r) side (Rad (max 0 (-(deflection * sideSign side)))) b
+          needed = neededBefore (Mm r) side (Rad (max 0 (-(deflection * Carrier.sideSign side)))) b
        in if not (isIgnored deflection) || needed <= referenceLength a
             then Right ()
             else Left $ case i of
@@ -184,7 +186,7 @@ neededBefore (Mm r) side (Rad away) s = case s of
     | left > 0 -> Mm (r * rounding / left)
     | otherwise -> Mm (1 / 0)
     where
-      left = most * (old - signum angle * sideSign side * r - least) - r * away
+      left = most * (old - signum angle * Carrier.sideSign side * r - least) - r * away
       Mm old = Segment.radius centre start
       Mm least = Tolerance.controlArc
       Mm rounding = Tolerance.controlRounding
@@ -203,17 +205,11 @@ tooTight :: Mm -> Side -> Segment -> Maybe Mm
 tooTight radius side s = case s of
   Straight _ _ -> Nothing
   Arc {start, centre, sweep = Rad angle}
-    | signum angle == sideSign side,
+    | signum angle == Carrier.sideSign side,
       old <- Segment.radius centre start,
       old < plus radius Tolerance.controlArc ->
       Just old
     | otherwise -> Nothing
-
--- | +1 when the cutter is on the left.
-sideSign :: Side -> Double
-sideSign side = case side of
-  LeftOf -> 1
-  RightOf -> -1
 
 -- The edge
 
@@ -246,11 +242,11 @@ touchedCurve :: Mm -> Side -> Segment -> Segment
 touchedCurve (Mm r) side s = case s of
   Straight a b ->
     let n =
-          Vec.scale (-sideSign side * r) (Vec.left (Vec.unit (Vec.to a b)))
+          Vec.scale (-Carrier.sideSign side * r) (Vec.left (Vec.unit (Vec.to a b)))
      in Straight (Vec.shift n a) (Vec.shift n b)
   Arc {start, end, centre, sweep = sweep@(Rad angle)} ->
     let Mm old = Segment.radius centre start
-        new = if signum angle == sideSign side then old + r else old - r
+        new = if signum angle == Carrier.sideSign side then old + r else old - r
         moved p = Vec.shift (Vec.scale (new / old) (Vec.to centre p)) centre
      in Arc {start = moved start, end = moved end, centre, sweep}
 
@@ -282,9 +278,9 @@ overrun keyword milling first =
 -- Approach and retract
 
 -- | The moves before compensation begins, the straight move on which it begins, and the edge from
--- the end of that move. The last move of the approach must be straight and level. If it
--- is longer than three radii, it is divided at two radii from its end. Compensation begins on the
--- second part, whose direction certainly differs from that of the edge.
+-- the end of that move. The last move of the approach must be straight and level. If it is longer
+-- than three radii, it is divided at two radii from its end. Compensation begins on the second
+-- part, whose direction certainly differs from that of the edge.
 entering ::
   Region ->
   Region ->
@@ -299,45 +295,60 @@ entering keyword requested milling side passMoves edge = case reverse passMoves 
       Vec.distance from to' > Tolerance.coincident -> do
       let whole@(Mm long) = Vec.distance from to'
           on = if whole > times 3 radius then Vec.interpolate (1 - 2 * r / long) from to' else from
-      begin <- entryPoint m on to'
-      let straight = [(withoutBraking m) {segment = Straight from on} | on /= from]
-      Right (reverse earlier <> straight, m {segment = Straight on begin}, beginningAt begin)
+          onwards = m {segment = Straight on to'}
+          straight = [(withoutBraking m) {segment = Straight from on} | on /= from]
+      begin <- entryPoint requested milling side onwards (segment (NonEmpty.head edge))
+      Right (reverse earlier <> straight, m {segment = Straight on begin}, beginningAt begin edge)
   _ -> Left (ShortForControl keyword requested True (Mm 0) radius)
   where
     radius@(Mm r) = Part.radius milling
-    first = NonEmpty.head edge
-    -- The point where the tangent from @on@ to the cutter at its first position @to'@ intersects
-    -- the tangent to the first element at its beginning.
-    entryPoint m on to' = do
-      let Mm d = Vec.distance on to'
-          ahead = Segment.startDirection (segment first)
-          tangent =
-            Vec.rotate (Rad (-sideSign side * asin (min 1 (r / d)))) (Vec.unit (Vec.to on to'))
-          Rad deflection = Vec.signedAngle tangent ahead
-          bend = sideSign side * deflection
-          begin = Vec.shift (Vec.scale (-r * tan (bend / 2)) ahead) (Segment.start (segment first))
-          Rad least = Tolerance.controlBend
-      when (d <= r) (Left (ShortForControl (origin m) requested True (Mm d) radius))
-      when
-        (bend < max (2 * least) leastOntoArc || bend > furthestTurn)
-        (Left (WrongWayForControl (origin m) requested to'))
-      let l = Vec.distance on begin
-      when
-        (l <= plus radius Tolerance.controlMargin)
-        (Left (ShortForControl (origin m) requested True l radius))
-      Right begin
-    -- Before an arc the edge gets an additional line, which must not be too short for a control.
-    leastOntoArc = case segment first of
-      Straight _ _ -> 0
-      arc@Arc {} ->
-        let Mm l =
-              max Tolerance.controlLength (neededBefore radius side (Rad 0) arc)
-         in 2 * atan2 l r
-    beginningAt begin = case segment first of
-      Straight _ b -> first {segment = Straight begin b} :| NonEmpty.tail edge
-      Arc {start} ->
-        (withoutBraking first) {segment = Straight begin start, continues = False}
-          :| NonEmpty.toList edge
+
+-- | The end of the straight move on which compensation begins. A tangent to the cutter at the end
+-- of the approach leads from the beginning of the approach to this point. It is where the tangent
+-- intersects the line through the beginning of the first element in that element's direction.
+-- Refuses an approach that is too short, or from a direction that a control does not accept.
+entryPoint :: Region -> Milling -> Side -> Move -> Segment -> Either Error Point
+entryPoint requested milling side approach first = do
+  when (d <= r) (tooShort (Mm d))
+  when
+    (bend < max (2 * least) (leastOntoArc radius side first) || bend > furthestTurn)
+    (Left (WrongWayForControl (origin approach) requested finish))
+  when (l <= plus radius Tolerance.controlMargin) (tooShort l)
+  Right begin
+  where
+    radius@(Mm r) = Part.radius milling
+    on = Segment.start (segment approach)
+    finish = Segment.end (segment approach)
+    Mm d = Vec.distance on finish
+    ahead = Segment.startDirection first
+    tangent =
+      Vec.rotate
+        (Rad (-Carrier.sideSign side * asin (min 1 (r / d))))
+        (Vec.unit (Vec.to on finish))
+    Rad deflection = Vec.signedAngle tangent ahead
+    bend = Carrier.sideSign side * deflection
+    begin = Vec.shift (Vec.scale (-r * tan (bend / 2)) ahead) (Segment.start first)
+    Rad least = Tolerance.controlBend
+    l = Vec.distance on begin
+    tooShort distance = Left (ShortForControl (origin approach) requested True distance radius)
+
+-- | The least change of direction, in radians, from the approach onto the first element. Before an
+-- arc the edge gets an additional line, which must not be too short for a control. It is 0 for a
+-- first element that is straight.
+leastOntoArc :: Mm -> Side -> Segment -> Double
+leastOntoArc radius@(Mm r) side first = case first of
+  Straight _ _ -> 0
+  Arc {} -> 2 * atan2 l r
+    where
+      Mm l = max Tolerance.controlLength (neededBefore radius side (Rad 0) first)
+
+-- | The edge with a new beginning. A straight first element begins there; before an arc there is an
+-- additional line.
+beginningAt :: Point -> NonEmpty Move -> NonEmpty Move
+beginningAt begin (first :| others) = case segment first of
+  Straight _ b -> first {segment = Straight begin b} :| others
+  Arc {start} ->
+    (withoutBraking first) {segment = Straight begin start, continues = False} :| first : others
 
 -- | The largest change of direction from the approach to the first element: 175°. At this angle
 -- the first element is extended backwards by 23 radii.
