@@ -254,8 +254,7 @@ longFunctions =
           "Offset.SegmentIntersection.lineArc",
           "Offset.SegmentIntersection.neighbours",
           "Offset.Trimming.joinSlices",
-          "Offset.WindingNumber.extreme",
-          "Toolpath.PocketMove.blocks"
+          "Offset.WindingNumber.extreme"
         ]
 
 -- | Definitions with many parameters.

@@ -7,7 +7,7 @@ where
 
 import Base.Quantity (Mm (..), minus, plus, times)
 import Base.Region (Located (..), Region)
-import Control.Monad (when)
+import Control.Monad (foldM, when)
 import Data.Foldable (for_, toList)
 import Data.List (find)
 import Data.List.NonEmpty (NonEmpty (..))
@@ -53,31 +53,22 @@ import Toolpath.Toolpath qualified as Toolpath
 blocks :: Int -> SpacePoint -> Located Pocketing -> Either Error [Block]
 blocks number at (Located region given) = do
   for_
-    (find ((> NonEmpty.last allowances) . Part.allowance . Part.finish) elements)
+    (find ((> NonEmpty.last (Part.allowances milling)) . Part.allowance . Part.finish) elements)
     (Left . KeepsMore word)
-  when (isNothing depth && currentHeight > Mm 0) (Left (CutsAir word currentHeight))
+  when
+    (isNothing (clearanceAndLevels milling) && currentHeight > Mm 0)
+    (Left (CutsAir word currentHeight))
   rests <- restAtWalls word pocket
-  reverse . snd <$> foldl (pass rests) (Right (at, [])) (zip [1 ..] passes)
+  reverse . snd <$> foldM (addPass rests) (at, []) (zip [1 ..] passes)
   where
     word = LinkingMove.keyword 6 region
     pocket = oriented given
     milling = wall pocket
     elements = elementsOf pocket
-    allowances = Part.allowances milling
     currentHeight =
       fromMaybe (height at) (listToMaybe (mapMaybe Part.level (reverse (Part.approach milling))))
-    depth = case (Part.levels milling, Part.clearance milling) of
-      (first : more, Just travelHeight) -> Just (travelHeight, first :| more)
-      _ -> Nothing
-    -- With depth, all passes of one allowance have the same sections at every depth.
-    passes =
-      [ (a, case depth of Just _ -> const down; Nothing -> sections, z)
-        | (a, sections) <- NonEmpty.toList (NonEmpty.zip allowances (sectionsFor pocket)),
-          let down = sections (lastApproach milling),
-          z <- maybe [currentHeight] (NonEmpty.toList . snd) depth
-      ]
-    pass rests before (k, (left, sections, z)) = do
-      (position, done) <- before
+    passes = passesOf pocket currentHeight
+    addPass rests (position, done) (k, pass) = do
       let visit =
             Visit
               { LinkingMove.word,
@@ -86,18 +77,72 @@ blocks number at (Located region given) = do
                 LinkingMove.isLast = k == length passes,
                 LinkingMove.from = position
               }
-          numbered = Pass {number, reach = plus (Part.radius milling) left, left, atHeight = z}
-      (approach, cleared, retract) <- passOf visit (fst <$> depth) (left, z) sections
-      let b =
-            Clearing
-              { pocket = Located region pocket,
-                pass = numbered,
-                approach,
-                cleared,
-                retract,
-                rests = if left == NonEmpty.last allowances then rests else []
-              }
+      b <- blockOf number (Located region pocket) rests visit pass
       Right (LinkingMove.endPosition position (Toolpath.moves b), b : done)
+
+-- | One pass of a pocket before its moves are computed.
+data PocketPass = PocketPass
+  { -- | allowance at the walls
+    allowance :: Mm,
+    -- | height of the pass
+    level :: Mm,
+    -- | the sections of the pass, given the plunge position if it is known
+    sectionsFrom :: Maybe Point -> [PocketMove]
+  }
+
+-- | All passes of a pocket: all depths for the first allowance, then all depths for the next one.
+-- The height is that of the passes of a pocket without a depth.
+passesOf :: Pocketing -> Mm -> [PocketPass]
+passesOf pocket currentHeight = concat (NonEmpty.zipWith withAllowance allowances sections)
+  where
+    milling = wall pocket
+    allowances = Part.allowances milling
+    sections = sectionsFor pocket
+    withAllowance allowance sectionsFrom = case clearanceAndLevels milling of
+      Nothing -> [PocketPass {allowance, level = currentHeight, sectionsFrom}]
+      -- At every depth the cutter plunges at the same point, and the sections are the same.
+      Just (_, levels) ->
+        let down = sectionsFrom (lastApproach milling)
+         in [ PocketPass {allowance, level, sectionsFrom = const down}
+              | level <- NonEmpty.toList levels
+            ]
+
+-- | The clearance height and the heights of the passes. Nothing for a pocket without a depth, in
+-- which the cutter cannot be lifted.
+clearanceAndLevels :: Milling -> Maybe (Mm, NonEmpty Mm)
+clearanceAndLevels milling = case (Part.levels milling, Part.clearance milling) of
+  (first : more, Just clearanceHeight) -> Just (clearanceHeight, first :| more)
+  _ -> Nothing
+
+-- | The block of a pass, given the number of the statement and the parts of the walls that remain
+-- unreached after the last pass.
+blockOf ::
+  Int ->
+  Located Pocketing ->
+  [Equidistant.UnreachedPart] ->
+  Visit ->
+  PocketPass ->
+  Either Error Block
+blockOf number job rests visit PocketPass {allowance, level, sectionsFrom} = do
+  (approach, cleared, retract) <-
+    passOf visit (fst <$> clearanceAndLevels milling) (allowance, level) sectionsFrom
+  Right
+    Clearing
+      { pocket = job,
+        pass =
+          Pass
+            { number,
+              reach = plus (Part.radius milling) allowance,
+              left = allowance,
+              atHeight = level
+            },
+        approach,
+        cleared,
+        retract,
+        rests = if allowance == NonEmpty.last (Part.allowances milling) then rests else []
+      }
+  where
+    milling = wall (value job)
 
 -- | The plunge position of the cutter, which is the last approach point if the program gives one.
 lastApproach :: Milling -> Maybe Point
