@@ -27,6 +27,7 @@ import Base.Region (Region)
 import Control.Monad (when, zipWithM_)
 import Data.List.NonEmpty (NonEmpty (..))
 import Data.List.NonEmpty qualified as NonEmpty
+import Data.Maybe (fromMaybe)
 import Geometry.Carrier (Side)
 import Geometry.Carrier qualified as Carrier
 import Geometry.Polyarc qualified as Polyarc
@@ -236,19 +237,11 @@ programmed milling side PassMoves {leadIn, cut, leadOut} = case map lead leadIn 
         }
     followedBy (e :| es) more = e :| es <> more
 
--- | The line or arc that a cutter of this radius touches on the given side of the edge while its
--- centre moves along a segment.
+-- | The line or arc that a cutter of this radius touches while its centre moves along a segment. The
+-- cutter is on the given side of that line or arc. A segment without a length is its own result.
 touchedCurve :: Mm -> Side -> Segment -> Segment
-touchedCurve (Mm r) side s = case s of
-  Straight a b ->
-    let n =
-          Vec.scale (-Carrier.sideSign side * r) (Vec.left (Vec.unit (Vec.to a b)))
-     in Straight (Vec.shift n a) (Vec.shift n b)
-  Arc {start, end, centre, sweep = sweep@(Rad angle)} ->
-    let Mm old = Segment.radius centre start
-        new = if signum angle == Carrier.sideSign side then old + r else old - r
-        moved p = Vec.shift (Vec.scale (new / old) (Vec.to centre p)) centre
-     in Arc {start = moved start, end = moved end, centre, sweep}
+touchedCurve radius side s =
+  fromMaybe s (Segment.offset (Carrier.oppositeSide side) radius s)
 
 -- | True when a control does the compensation and the path ends with the arc round an outer corner,
 -- as a path round a closed contour may.

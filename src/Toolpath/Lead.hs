@@ -7,7 +7,7 @@ where
 
 import Base.Quantity (Mm (..))
 import Base.Region (Region)
-import Geometry.Carrier (Sense (..))
+import Data.Maybe (fromMaybe)
 import Geometry.Carrier qualified as Carrier
 import Geometry.Segment (Segment (Straight))
 import Geometry.Segment qualified as Segment
@@ -34,16 +34,12 @@ lead keyword milling side which direction p =
       let q = Vec.shift (Vec.scale (outwards * l) direction) p
        in [move (oriented (Straight q p) (Straight p q))]
     Just (Part.LeadArc, Mm r) ->
-      let centre = Vec.shift (Vec.scale (free * r) (Vec.left direction)) p
+      let centre = Carrier.beside freeSide (Mm r) direction p
           q = Vec.shift (Vec.scale (outwards * r) direction) centre
-          sense = if free > 0 then CounterClockwise else Clockwise
+          sense = Carrier.senseTowards freeSide
        in [move (oriented (Segment.arc sense centre q p) (Segment.arc sense centre p q))]
   where
     outwards = if which == In then -1 else 1
     oriented onto off = if which == In then onto else off
     move s = Move s (Manner (Mm 0, Mm 0) (Part.At (feed milling)) False) keyword False
-    -- +1 if the side free of material is the left one, -1 if it is the right one.
-    free = case side of
-      Just Carrier.RightOf -> -1
-      Just Carrier.LeftOf -> 1
-      Nothing -> 1 :: Double
+    freeSide = fromMaybe Carrier.LeftOf side

@@ -20,6 +20,7 @@ import Data.List.NonEmpty (NonEmpty (..))
 import Data.List.NonEmpty qualified as NonEmpty
 import Data.Map.Strict (Map)
 import Data.Map.Strict qualified as Map
+import Geometry.Carrier qualified as Carrier
 import Geometry.Distance qualified as Distance
 import Geometry.Index.BoundingBox qualified as BoundingBox
 import Geometry.Index.BoxTree (BoxTree)
@@ -70,7 +71,7 @@ between radius apart edges passes = foldr (gather . gapsOf) none edges
         [ ((n, i), s')
           | (n, loop) <- zip [0 ..] passes,
             (i, s) <- zip [0 ..] (NonEmpty.toList loop),
-            Just s' <- [outwards apart s]
+            Just s' <- [Segment.offset Carrier.RightOf apart s]
         ]
     gapsOf edge = gapsIn edge (concatMap (divided index) (NonEmpty.toList edge))
 
@@ -138,23 +139,6 @@ furthest p s = case s of
     | otherwise -> max (Vec.distance p a) (Vec.distance p b)
     where
       opposite = Vec.shift (Vec.to p centre) centre
-
--- | A segment moved to its right. Nothing when an arc's radius would vanish.
-outwards :: Mm -> Segment -> Maybe Segment
-outwards (Mm d) s = case s of
-  Straight a b
-    | a == b -> Nothing
-    | otherwise ->
-      let n =
-            Vec.scale (-d) (Vec.left (Vec.unit (Vec.to a b)))
-       in Just (Straight (Vec.shift n a) (Vec.shift n b))
-  Arc {start = a, end = b, centre, sweep = sweep@(Rad w)} ->
-    let Mm r = Segment.radius centre a
-        r' = r + signum w * d
-        moved p = Vec.shift (Vec.scale (r' / r) (Vec.to centre p)) centre
-     in if r > 0 && r' > 0
-          then Just Arc {start = moved a, end = moved b, centre, sweep}
-          else Nothing
 
 -- | Divides a segment of the edge into the parts beside segments of inner passes and the free parts
 -- between them. The index contains the segments of the inner passes, each moved onto the edge.

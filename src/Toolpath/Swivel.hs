@@ -19,7 +19,8 @@ import Data.List.NonEmpty qualified as NonEmpty
 import Data.Maybe (isJust, isNothing)
 import Data.Vector (Vector)
 import Data.Vector qualified as Vector
-import Geometry.Carrier (Side (..))
+import Geometry.Carrier (Side)
+import Geometry.Carrier qualified as Carrier
 import Geometry.Segment qualified as Segment
 import Offset.Equidistant (OffsetSegment (..))
 import Offset.Equidistant qualified as Equidistant
@@ -41,15 +42,12 @@ axis region milling side offsetSegments = case Part.gear milling of
   Nothing -> Right Nothing
   Just gear -> do
     elementBevels <- maybe (Left (NoBevel region)) Right (bevels (Part.contour milling))
-    sign <- maybe (Left (BladeOnContour region)) (Right . signOf) side
+    sign <- maybe (Left (BladeOnContour region)) (Right . Carrier.sideSign) side
     checkJoints region elements elementBevels offsetSegments
     let heightsOf (a, b) = (height sign gear a, height sign gear b)
     Right (Just (fmap heightsOf (angles elementBevels offsetSegments)))
   where
     elements = Vector.fromList (NonEmpty.toList (Part.elements (Part.contour milling)))
-    signOf s = case s of
-      LeftOf -> 1
-      RightOf -> -1
     height sign (Mm gear) angle = Mm (sign * angle * gear / 2)
 
 -- | The largest distance of the axis from its middle position along the contour of a statement, in
