@@ -224,10 +224,6 @@ longFunctions =
           "Surface.PrintProgram.statement"
         ]
       <> because
-        "names the parts of one record, one after the other"
-        [ "Toolpath.CuttingPass.block"
-        ]
-      <> because
         "one computation whose local functions share its arrays and numbers; not yet split"
         [ "Frame.Chording.sectorAt",
           "Geometry.ArcFitting.Biarc.Fast.between",

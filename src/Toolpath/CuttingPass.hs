@@ -73,38 +73,12 @@ block :: CuttingPass -> NonEmpty OffsetSegment -> Either Error Block
 block p path = do
   swivels <- Swivel.axis word milling (cutterSide p) path
   let cut = cutMoves p swivels path
-      !around = Compensation.endsAtOuterCorner milling path
+      !endsAtCorner = Compensation.endsAtOuterCorner milling path
       -- From here on only the moves are needed.
       !firstSegment = Toolpath.segment (NonEmpty.head cut)
       !lastSegment = Toolpath.segment (NonEmpty.last cut)
-      (leadIn, leadOut) = leads p around firstSegment lastSegment
-      begin = maybe (Segment.start firstSegment) Segment.start (segmentOf (listToMaybe leadIn))
-      finish =
-        maybe (Segment.end lastSegment) Segment.end (segmentOf (listToMaybe (reverse leadOut)))
-      segmentOf = fmap Toolpath.segment
-      -- The axis of a blade is higher or lower.
-      (inZ, outZ) = case swivels of
-        Nothing -> levels p
-        Just hs ->
-          (plus (level p) (fst (NonEmpty.head hs)), plus (level p) (snd (NonEmpty.last hs)))
-      (before, after) = case (Part.levels milling, Part.clearance milling) of
-        (_ : _, Just travelHeight) ->
-          LinkingMove.withDepth (visit p) travelHeight (inZ, outZ) begin finish
-        _ -> LinkingMove.withoutDepth (visit p) (level p) (inZ, outZ) begin finish
-      inwards = map (Toolpath.atHeights (inZ, inZ)) leadIn
-      outwards = map (Toolpath.atHeights (outZ, outZ)) leadOut
-  sent <-
-    Compensation.compensationInput
-      word
-      milling
-      (cutterSide p)
-      PassMoves
-        { Compensation.before,
-          Compensation.leadIn = inwards,
-          Compensation.cut,
-          Compensation.leadOut = outwards,
-          Compensation.behind = after
-        }
+      passMoves = allMoves p swivels cut endsAtCorner firstSegment lastSegment
+  sent <- Compensation.compensationInput word milling (cutterSide p) passMoves
   Right
     Cutting
       { job = milled p,
@@ -115,15 +89,47 @@ block p path = do
               left = allowance p,
               atHeight = level p
             },
-        approach = before <> inwards,
+        approach = Compensation.before passMoves <> Compensation.leadIn passMoves,
         cut,
-        retract = outwards <> after,
+        retract = Compensation.leadOut passMoves <> Compensation.behind passMoves,
         rests = restMaterial p,
         sent
       }
   where
     milling = value (milled p)
     word = wordOf p
+
+-- | All moves of a pass. The arguments are the pass, the heights of a blade's axis as for
+-- 'cutMoves', the moves along the contour, and the arguments of 'leads'.
+allMoves ::
+  CuttingPass ->
+  Maybe (NonEmpty (Mm, Mm)) ->
+  NonEmpty Move ->
+  Bool ->
+  Segment ->
+  Segment ->
+  PassMoves
+allMoves p swivels cut endsAtCorner firstSegment lastSegment =
+  PassMoves
+    { Compensation.before,
+      Compensation.leadIn = map (Toolpath.atHeights (inZ, inZ)) leadIn,
+      Compensation.cut,
+      Compensation.leadOut = map (Toolpath.atHeights (outZ, outZ)) leadOut,
+      Compensation.behind
+    }
+  where
+    milling = value (milled p)
+    (leadIn, leadOut) = leads p endsAtCorner firstSegment lastSegment
+    begin = Segment.start (maybe firstSegment Toolpath.segment (listToMaybe leadIn))
+    finish = Segment.end (maybe lastSegment Toolpath.segment (listToMaybe (reverse leadOut)))
+    -- The axis of a blade is higher or lower than the pass.
+    (inZ, outZ) = case swivels of
+      Nothing -> levels p
+      Just hs -> (plus (level p) (fst (NonEmpty.head hs)), plus (level p) (snd (NonEmpty.last hs)))
+    (before, behind) = case (Part.levels milling, Part.clearance milling) of
+      (_ : _, Just travelHeight) ->
+        LinkingMove.withDepth (visit p) travelHeight (inZ, outZ) begin finish
+      _ -> LinkingMove.withoutDepth (visit p) (level p) (inZ, outZ) begin finish
 
 -- | The keyword of the pass's statement.
 wordOf :: CuttingPass -> Region
