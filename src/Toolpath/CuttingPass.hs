@@ -1,5 +1,3 @@
-{-# LANGUAGE BangPatterns #-}
-
 -- | One pass along a contour: the moves on the equidistant, the leads, and the moves to and from
 -- them.
 module Toolpath.CuttingPass
@@ -73,11 +71,35 @@ block :: CuttingPass -> NonEmpty OffsetSegment -> Either Error Block
 block p path = do
   swivels <- Swivel.axis word milling (cutterSide p) path
   let cut = cutMoves p swivels path
-      !endsAtCorner = Compensation.endsAtOuterCorner milling path
-      -- From here on only the moves are needed.
-      !firstSegment = Toolpath.segment (NonEmpty.head cut)
-      !lastSegment = Toolpath.segment (NonEmpty.last cut)
-      passMoves = allMoves p swivels cut endsAtCorner firstSegment lastSegment
+  blockOf p swivels cut (pathEnds milling path cut)
+  where
+    milling = value (milled p)
+    word = wordOf p
+
+-- | The ends of the path of a pass. The fields are strict. Once they are computed, the moves along
+-- the path exist, and the path itself is not needed any more.
+data PathEnds = PathEnds
+  { -- | true when a control does the compensation and the path ends with the arc round a corner
+    endsAtCorner :: Bool,
+    firstSegment :: Segment,
+    lastSegment :: Segment
+  }
+
+-- | The ends of a path, given the moves along it.
+pathEnds :: Milling -> NonEmpty OffsetSegment -> NonEmpty Move -> PathEnds
+pathEnds milling path cut =
+  PathEnds
+    { endsAtCorner = Compensation.endsAtOuterCorner milling path,
+      firstSegment = Toolpath.segment (NonEmpty.head cut),
+      lastSegment = Toolpath.segment (NonEmpty.last cut)
+    }
+
+-- | The block of a pass, given the heights of a blade's axis as for 'cutMoves', the moves along the
+-- contour and the ends of the path. The ends are computed before the block, which has no reference
+-- to the path.
+blockOf ::
+  CuttingPass -> Maybe (NonEmpty (Mm, Mm)) -> NonEmpty Move -> PathEnds -> Either Error Block
+blockOf p swivels cut ends@PathEnds {} = do
   sent <- Compensation.compensationInput word milling (cutterSide p) passMoves
   Right
     Cutting
@@ -98,18 +120,12 @@ block p path = do
   where
     milling = value (milled p)
     word = wordOf p
+    passMoves = allMoves p swivels cut ends
 
 -- | All moves of a pass. The arguments are the pass, the heights of a blade's axis as for
--- 'cutMoves', the moves along the contour, and the arguments of 'leads'.
-allMoves ::
-  CuttingPass ->
-  Maybe (NonEmpty (Mm, Mm)) ->
-  NonEmpty Move ->
-  Bool ->
-  Segment ->
-  Segment ->
-  PassMoves
-allMoves p swivels cut endsAtCorner firstSegment lastSegment =
+-- 'cutMoves', the moves along the contour, and the ends of the path.
+allMoves :: CuttingPass -> Maybe (NonEmpty (Mm, Mm)) -> NonEmpty Move -> PathEnds -> PassMoves
+allMoves p swivels cut ends =
   PassMoves
     { Compensation.before,
       Compensation.leadIn = map (Toolpath.atHeights (inZ, inZ)) leadIn,
@@ -119,9 +135,9 @@ allMoves p swivels cut endsAtCorner firstSegment lastSegment =
     }
   where
     milling = value (milled p)
-    (leadIn, leadOut) = leads p endsAtCorner firstSegment lastSegment
-    begin = Segment.start (maybe firstSegment Toolpath.segment (listToMaybe leadIn))
-    finish = Segment.end (maybe lastSegment Toolpath.segment (listToMaybe (reverse leadOut)))
+    (leadIn, leadOut) = leads p ends
+    begin = Segment.start (maybe (firstSegment ends) Toolpath.segment (listToMaybe leadIn))
+    finish = Segment.end (maybe (lastSegment ends) Toolpath.segment (listToMaybe (reverse leadOut)))
     -- The axis of a blade is higher or lower than the pass.
     (inZ, outZ) = case swivels of
       Nothing -> levels p
@@ -197,10 +213,9 @@ cutMoves p swivels path =
         j == i + 1 && Part.continues (numbered p Vector.! j)
       _ -> False
 
--- | The lead-in and the lead-out. The flag is true when a control does the compensation and the
--- path ends with the arc round a corner; the segments are the first and the last one of the path.
-leads :: CuttingPass -> Bool -> Segment -> Segment -> ([Move], [Move])
-leads p around firstSegment lastSegment = (leadIn, leadOut)
+-- | The lead-in and the lead-out at the ends of the path.
+leads :: CuttingPass -> PathEnds -> ([Move], [Move])
+leads p PathEnds {endsAtCorner, firstSegment, lastSegment} = (leadIn, leadOut)
   where
     milling = value (milled p)
     lead = Lead.lead (wordOf p) milling (cutterSide p)
@@ -214,7 +229,7 @@ leads p around firstSegment lastSegment = (leadIn, leadOut)
       Lead.Out
       (directionOf Segment.endDirection lastSegment (NonEmpty.last written))
       (Segment.end lastSegment) of
-      [] | around -> Compensation.overrun (wordOf p) milling firstSegment
+      [] | endsAtCorner -> Compensation.overrun (wordOf p) milling firstSegment
       moves -> moves
     -- In a concave arc of its own radius the centre does not move, and the segment has no length.
     -- Then the contour gives the direction.
