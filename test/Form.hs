@@ -97,7 +97,6 @@ strictModules =
     "Frame.Frame",
     "Frame.FromToolpath",
     "Frame.InstructionCheck",
-    "Toolpath.FromPart",
     "Toolpath.Toolpath",
     "Verify.Edge",
     "Verify.FrameRule",
