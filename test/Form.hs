@@ -97,7 +97,6 @@ strictModules =
     "Frame.Frame",
     "Frame.FromToolpath",
     "Frame.InstructionCheck",
-    "Toolpath.Toolpath",
     "Verify.Edge",
     "Verify.FrameRule",
     "Verify.MillingJob",

@@ -1,5 +1,3 @@
-{-# LANGUAGE BangPatterns #-}
-
 -- | The toolpath: the exact path of the cutter's centre in mm, before any rounding to pulses, with
 -- the requested feed of every move.
 module Toolpath.Toolpath
@@ -172,11 +170,14 @@ moves block = case block of
 passNumbers :: [Block] -> [Int]
 passNumbers = go 0
   where
-    -- Lazy in the list: a block is not held in memory until the next one is demanded.
+    -- Examines a block before its number is returned. Until the next number is demanded, the list
+    -- then has no reference to the block, and the block can be freed.
     go :: Int -> [Block] -> [Int]
     go n bs = case bs of
       [] -> [n]
-      b : more -> let !next = if isPass b then n + 1 else n in n : go next more
+      b : more
+        | isPass b -> n : go (n + 1) more
+        | otherwise -> n : go n more
     isPass b = case b of
       Cutting {} -> True
       Clearing {} -> True
@@ -223,15 +224,13 @@ withoutCuts path = foldr seq () abridged `seq` path {blocks = abridged}
     abridged = map shortened (blocks path)
     shortened block = case block of
       Cutting {job = Located _ milling, cut}
-        | isNothing (Part.gear milling) ->
-          let !ends =
-                endsOf cut
-           in block {cut = ends}
+        | isNothing (Part.gear milling) -> block {cut = endsOf cut}
       Cutting {} -> block
-      Clearing {cleared} -> let !ends = endsOf cleared in block {cleared = ends}
+      Clearing {cleared} -> block {cleared = endsOf cleared}
       Travelling _ _ -> block
       Holing _ _ -> block
       Commanding _ -> block
     endsOf cutMoves = case cutMoves of
       _ :| [] -> cutMoves
-      first :| _ -> let !final = NonEmpty.last cutMoves in first :| [final]
+      -- The last move is computed here, so that the result has no reference to the others.
+      first :| _ -> let final = NonEmpty.last cutMoves in final `seq` (first :| [final])
