@@ -94,9 +94,6 @@ strictModules =
     "Frame.Frame",
     "Frame.FromToolpath",
     "Frame.InstructionCheck",
-    "Toolpath.CuttingPass",
-    "Toolpath.FromPart",
-    "Toolpath.Toolpath",
     "Verify.Edge",
     "Verify.FrameRule",
     "Verify.MillingJob",
@@ -221,10 +218,6 @@ longFunctions =
           "Surface.PrintProgram.statement"
         ]
       <> because
-        "names the parts of one record, one after the other"
-        [ "Toolpath.CuttingPass.block"
-        ]
-      <> because
         "one computation whose local functions share its arrays and numbers; not yet split"
         [ "Frame.Chording.sectorAt",
           "Geometry.ArcFitting.Biarc.Fast.between",
@@ -251,9 +244,7 @@ longFunctions =
           "Offset.SegmentIntersection.lineArc",
           "Offset.SegmentIntersection.neighbours",
           "Offset.Trimming.joinSlices",
-          "Offset.WindingNumber.extreme",
-          "Toolpath.Compensation.entering",
-          "Toolpath.PocketMove.blocks"
+          "Offset.WindingNumber.extreme"
         ]
 
 -- | Definitions with many parameters.

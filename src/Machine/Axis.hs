@@ -11,7 +11,7 @@ where
 import Base.Quantity (Mm (..))
 import Data.Text (Text)
 
--- | Direction of motion, as ISO 841 names it.
+-- | Axis of motion, with its name in ISO 841.
 data Axis = X | Y | Z
   deriving stock (Eq, Ord, Show, Enum, Bounded)
 
@@ -20,11 +20,12 @@ data AxisForm = AxisForm
   { axis :: Axis,
     -- | resolution: length of one pulse
     resolution :: Mm,
-    -- | true if the axis of the machine points against that of the part
+    -- | true if the positive direction of the machine is the negative one of the part
     reversed :: Bool,
-    -- | true if the axis points the other way when the machine is set up for turning
+    -- | true if that direction is the opposite one when the machine is set up for turning
     reversedOnLathe :: Bool,
-    -- | true if the machine is known to move this axis; a frame may have a word for it in any case
+    -- | true if the machine is known to move this axis. If it is not, frames may still have a word
+    -- for the axis
     isDriven :: Bool
   }
   deriving stock (Eq, Show)
@@ -32,7 +33,7 @@ data AxisForm = AxisForm
 -- | Arcs that one frame can describe. All arcs lie in the plane of x and y.
 data Arcs
   = NoArcs
-  | -- | @quadrants@ is true if an arc must end where it crosses the axes through its centre.
+  | -- | @quadrants@ is true if one frame can describe an arc within one quadrant only.
     -- @fullCircle@ is true if one frame can describe a full circle.
     Arcs {quadrants :: Bool, fullCircle :: Bool}
   deriving stock (Eq, Show)

@@ -1,5 +1,5 @@
--- | The built-in machines: the descriptions in the folder @machines/@. Each is read when it is
--- first used.
+-- | The built-in machines, which the files in the folder @machines/@ describe. A description is
+-- read when its machine is first used.
 module Machine.BuiltIn
   ( names,
     find,
@@ -46,7 +46,8 @@ builtIn =
       let name = MachineName n
   ]
 
--- | Reads a file. A mistake in a built-in description is a bug of the program.
+-- | Reads a file of this name and contents. A mistake in a built-in description is a bug of the
+-- program, and ends it.
 machineIn :: MachineName -> ByteString -> (Text, Machine)
 machineIn (MachineName name) bytes = (content, machine)
   where

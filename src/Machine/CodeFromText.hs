@@ -62,8 +62,8 @@ single f args = case args of
   [a] -> f a
   _ -> Nothing
 
--- | Least and largest number of tracks in a pattern. The highest track may be left out, because it
--- is often the service track or the parity track.
+-- | Least and largest number of digits in a pattern of holes. The highest track may be left out,
+-- because it is often the service track or the parity track.
 data Width = Width {least :: Int, most :: Int}
 
 -- | Reads the symbols, each with its region.
@@ -101,7 +101,7 @@ charOf s = case value (key s) of
       [c] -> Just c
       _ -> Nothing
 
--- | Reports symbols that are given before; the title is for the report.
+-- | Reports symbols that an earlier line contains. The report calls them by the title.
 repetitions :: Text -> [(Char, Region)] -> [Error]
 repetitions title given =
   [ Twice r (title <> "‘" <> Text.singleton c <> "’") first
@@ -155,8 +155,8 @@ weightsFrom s = do
             (\k -> [(c, Located (region (key e)) k)]) <$> n
         _ -> malformed ["X = 7", "digits"] e
 
--- | Checks the rows against each other and against the parity track, the service track and the rows
--- to skip. The first argument is the number of tracks.
+-- | Checks that no two symbols have the same holes, that the parity track and the service track are
+-- free, and that no symbol is a row to skip. The first argument is the number of tracks.
 check :: Int -> DescriptionSection -> TapeCode -> Map Char (Located Word8) -> [Error]
 check tracks section made located =
   equalRows <> parityFaults <> serviceFaults <> sharedTrack <> skippedSymbols

@@ -34,8 +34,8 @@ import Machine.Machine qualified as Machine
 import Machine.Section
 import Machine.Syntax
 
--- | The words of all commands. Each word is listed once more with its region and with the name of
--- the command event that it is for.
+-- | The numbers for all commands. 'eventWords' lists them once more, each with its region and the
+-- key of its event, such as @coolant-on@.
 data CommandContext = CommandContext
   { allWords :: CommandWords,
     eventWords :: [(Text, Located CommandWord)]
@@ -84,7 +84,7 @@ commands s = do
       <* allowKeys (simpleEvents <> ["compensation", "finish"]) [] section
   pure CommandContext {allWords = commandWords events, eventWords = withEvents events}
 
--- | The words by themselves.
+-- | The words of all commands without their regions.
 commandWords :: Events -> CommandWords
 commandWords events = case map (map value) (simple events) of
   [clockwise, counterClockwise, stop, on', off', tool', aux] ->
@@ -223,7 +223,8 @@ givesZero v = case v of
   Argument -> False
   Diameter -> False
 
--- | Reports numbers above the largest one of a word, and whole numbers in a word with decimals.
+-- | Reports numbers that exceed @most@, the largest one of the command, and whole numbers in a word
+-- with decimals.
 sizeFaults :: Machine -> Region -> CommandName -> Int -> CommandValue -> [Error]
 sizeFaults machine r name most v = case v of
   Fixed k -> tooLarge [k] <> decimalsFault
@@ -239,7 +240,7 @@ sizeFaults machine r name most v = case v of
           decimals (form w) > 0
       ]
 
--- | Reports a value that the event does not have.
+-- | Reports a kind of value that the event does not allow, such as a diameter for a tool change.
 eventFaults :: Region -> Text -> CommandValue -> [Error]
 eventFaults r event v = case v of
   Fixed _ -> []

@@ -1,4 +1,4 @@
--- | The numbers that a frame contains for each command of a program.
+-- | The numbers that frames contain for each command of a part program.
 module Machine.Commands
   ( CommandWords (..),
     CommandWord (..),
@@ -12,7 +12,8 @@ import Data.List.NonEmpty (NonEmpty (..))
 import Data.Map.Strict (Map)
 import Machine.FrameLayout (CommandName)
 
--- | Words for each command; empty if the tape cannot give the command.
+-- | Numbers that a frame contains for each command; an empty list if the tape cannot give the
+-- command.
 data CommandWords = CommandWords
   { spindleClockwise :: [CommandWord],
     spindleCounterClockwise :: [CommandWord],
@@ -22,23 +23,25 @@ data CommandWords = CommandWords
     toolChange :: [CommandWord],
     auxiliary :: [CommandWord],
     compensation :: Maybe CompensationCommands,
-    -- | words of the last frames of a program, which contain nothing else; one list per frame
+    -- | numbers in the last frames of a program, one list for each frame; these frames contain
+    -- nothing else
     finish :: [NonEmpty CommandWord]
   }
   deriving stock (Eq, Show)
 
--- | Number in the word or the service bits of a command.
+-- | One number: the name of the word or the service bits that contain it, and its source.
 data CommandWord = CommandWord {commandName :: CommandName, value :: CommandValue}
   deriving stock (Eq, Show)
 
 -- | Source of a command's number.
 data CommandValue
-  = Fixed Int
-  | -- | number that the program gives: of a tool, of an auxiliary command, or the spindle speed in
-    -- revolutions per minute
+  = -- | this number
+    Fixed Int
+  | -- | The number that the program gives: of a tool, of an auxiliary command, or the spindle speed
+    -- in revolutions per minute.
     Argument
-  | -- | Number of the step with the nearest spindle speed, in revolutions per minute. The lower
-    -- step if two are equally near.
+  | -- | The number of the step whose spindle speed, in revolutions per minute, is nearest to the
+    -- one that the program gives. If two steps are equally near, it is the lower number.
     Step (Map Int Double)
   | -- | diameter of the cutter, in mm
     Diameter

@@ -1,5 +1,5 @@
--- | Checks the words of a frame against the machine: each thing that the machine needs has one
--- word, and no word is for a thing that the machine lacks.
+-- | Checks the words of a frame against the machine: each value that the machine needs has exactly
+-- one word, and no word is for a value that the machine lacks.
 module Machine.Completeness
   ( check,
   )
@@ -15,8 +15,8 @@ import Machine.Axis (axisName)
 import Machine.Error (Error (..), FrameFault (..), ServiceFault (..))
 import Machine.Machine
 
--- | Lists the mistakes. The arguments are the machine, its axes, the regions of its arcs and feeds,
--- and the items of its frame.
+-- | Lists the mistakes. The arguments are the machine, its axes, the regions of the sections on
+-- arcs and on feeds, and the items of its frame.
 check :: Machine -> [Located AxisForm] -> Region -> Region -> [(Region, LayoutItem)] -> [Error]
 check machine locatedAxes arcsRegion feedsRegion locatedItems =
   concat
@@ -65,11 +65,11 @@ wordFaults machine (r, w) = case content w of
               n `elem` take k ns || n >= 10 ^ digits (form w)
           ]
 
--- | Relative difference up to which two pulses count as equal.
+-- | Largest relative difference between two pulses that count as equal.
 pulseTolerance :: Double
 pulseTolerance = 1e-9
 
--- | Reports words with the same content as an earlier word.
+-- | Reports words that have the content of an earlier word.
 duplicates :: [(Region, Word')] -> [Error]
 duplicates locatedWords =
   [ BadFrame r (TwoWords (contentName (content w)) first)
@@ -81,7 +81,8 @@ duplicates locatedWords =
       (Motion _, Motion _) -> True
       _ -> a == b
 
--- | Reports words and axes that a machine with arcs lacks.
+-- | Reports words and axes that a machine with arcs needs but lacks. The region is that of the
+-- section on arcs.
 arcFaults :: Machine -> Region -> [Error]
 arcFaults machine r = case arcs machine of
   NoArcs -> []
@@ -97,8 +98,8 @@ arcFaults machine r = case arcs machine of
       Motion MotionCodes {clockwise = Just _, counterClockwise = Just _} -> True
       _ -> False
 
--- | A bit of a command, in the word with this region.
-data BitPlace = BitPlace
+-- | A bit of a command, and the word beside whose digits it is.
+data LocatedBit = LocatedBit
   { wordRegion :: Region,
     command :: CommandName,
     bit :: Int,
@@ -106,9 +107,9 @@ data BitPlace = BitPlace
     isOptional :: Bool
   }
 
--- | Checks the service bits. Each bit of a command occurs once; bits are numbered without a gap;
--- each is in a word that every frame contains; and a command with bits has no word. There is at
--- most one braking hole.
+-- | Checks the holes in the service track. Each bit of a command occurs once, in a word that every
+-- frame contains. The bits of a command are numbered without a gap. A command with bits has no word
+-- of its own. There is at most one braking hole.
 bitFaults :: [(Region, Word')] -> [Error]
 bitFaults locatedWords =
   concat
@@ -130,7 +131,7 @@ bitFaults locatedWords =
     ]
   where
     bits =
-      [ BitPlace {wordRegion = r, command = c, bit = k, isOptional = presence w /= Always}
+      [ LocatedBit {wordRegion = r, command = c, bit = k, isOptional = presence w /= Always}
         | (r, w) <- locatedWords,
           CommandBit c k <- service (form w)
       ]
@@ -146,7 +147,8 @@ bitFaults locatedWords =
     commandText (CommandName n) = n
     bitText b = commandText (command b) <> ":" <> Decimal.whole (bit b)
 
--- | True if the weights of the digits have every remainder, so that each sum has a check digit.
+-- | True if the weights of the digits have every remainder modulo this number, so that there is a
+-- check digit for each sum.
 hasAllRemainders :: TapeCode -> Int -> Bool
 hasAllRemainders c modulus =
   length (nub [Map.findWithDefault 0 d (weights c) `mod` modulus | d <- ['0' .. '9']]) == modulus

@@ -51,14 +51,20 @@ data Error
     Unmarked Region Int
   | -- | number out of range: its name, the lowest and the highest value
     OutOfRange Region Text Text Text
-  | BadHoles Region HoleFault
+  | -- | mistake in the holes of a row
+    BadHoles Region HoleFault
   | -- | characters that the code lacks, and the name of the part that needs them
     NotInCode Region Text [Char]
-  | NotDecodable Region DecodingFault
-  | BadService Region ServiceFault
-  | BadFrame Region FrameFault
-  | BadTable Region TableFault
-  | BadCommand Region CommandFault
+  | -- | frames that cannot be decoded uniquely
+    NotDecodable Region DecodingFault
+  | -- | mistake in the holes beside the digits of a word
+    BadService Region ServiceFault
+  | -- | conflict between the words of the frame and the machine
+    BadFrame Region FrameFault
+  | -- | mistake in a table of codes
+    BadTable Region TableFault
+  | -- | mistake in the numbers of a command
+    BadCommand Region CommandFault
   deriving stock (Eq, Ord, Show)
 
 -- | Mistake in the holes of a row.
@@ -66,9 +72,9 @@ data HoleFault
   = -- | pattern with another number of digits than the tape has tracks: the number of tracks, and
     -- the least number of digits
     WrongWidth Int Int
-  | -- | hole in the parity track, which is this one
+  | -- | hole in the parity track, which has this number
     InParityTrack Int
-  | -- | hole of a digit, sign or point in the service track, which is this one
+  | -- | hole of a digit, sign or point in the service track, which has this number
     InServiceTrack Int
   | -- | same holes as another symbol: that symbol and its region
     SameHoles Text Region
@@ -84,12 +90,12 @@ data HoleFault
 data DecodingFault
   = -- | optional word without an address
     NoAddress
-  | -- | address of another word, and the region of that word
+  | -- | address that an earlier word has too, and the region of that word
     SameAddress Text Region
   | -- | address or separator that begins like a number
     LikeNumber Text
   | -- | symbols that are a prefix of others which may follow at the same point: the prefix, the
-    -- longer symbols, and the region of the other item
+    -- longer symbols, and the region of the item that has the other symbols
     Prefix Text Text Region
   | -- | number without fixed length before an item that may begin with a digit
     NumberRunsOn Region
@@ -121,7 +127,7 @@ data ServiceFault
     BitGap Text
   | -- | bits of a command in a word that not every frame contains
     OptionalBits Text
-  | -- | no hole for braking, although the machine brakes by such frames
+  | -- | no hole that marks braking, although the machine brakes in frames with such a hole
     NoBrakingHole
   deriving stock (Eq, Ord, Show)
 
@@ -145,7 +151,7 @@ data FrameFault
     NoCheckDigit Int
   | -- | word of an axis without a sign
     NoSign Text
-  | -- | braking to a feed in mm/min, although the codes are frequencies
+  | -- | braking to a feed in mm/min, although the values of the codes are in pulses per second
     BrakedFrequencies
   deriving stock (Eq, Ord, Show)
 
@@ -170,7 +176,7 @@ data CommandFault
     UnknownCommandName Text [Text]
   | -- | number that does not fit, and the largest one that does
     NumberTooLarge Int Int
-  | -- | kind of value that the event does not allow: the kind, the event
+  | -- | kind of value that the event does not allow: the name of the kind, the key of the event
     NoSuchValue Text Text
   | -- | whole number in a word with decimals
     InDecimals

@@ -30,7 +30,8 @@ import Machine.Section
 import Machine.Syntax
 
 -- | Reads the lines of a table, such as @1 = 15@ and @0..40 = 10 * 10^(n/20)@. Each line gives the
--- values of a code or of a range of codes, as a formula in the code @n@. Values are above 0.
+-- values of a code or of a range of codes, as a formula in the code @n@. A value must be above 0
+-- and below 10^9.
 table :: DescriptionSection -> Result w Error (Map Int Double)
 table section = do
   given <- concat . catMaybes <$> traverse (attempt . tableLine) (entries section)
@@ -67,7 +68,7 @@ codesOf e = case value (key e) of
   Range a b -> Just (a, b)
   _ -> Nothing
 
--- | Reports codes that an earlier line has; one report for each line.
+-- | Reports codes that an earlier line contains; one report for each line.
 repetitions :: [(Int, Region, Double)] -> [Error]
 repetitions given =
   withoutRuns
@@ -78,7 +79,7 @@ repetitions given =
       e : rest -> e : withoutRuns (dropWhile (== e) rest)
       [] -> []
 
--- | Largest number of codes in a line.
+-- | Largest number of codes that one line may contain.
 longestRange :: Int
 longestRange = 10000
 

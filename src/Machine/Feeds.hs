@@ -31,7 +31,7 @@ data Feeds = Feeds
   }
   deriving stock (Eq, Show)
 
--- | Unit of the values that codes give.
+-- | Unit of the values of the codes.
 data FeedMeasure
   = -- | mm/min along the path
     AlongPath
@@ -49,30 +49,32 @@ data FeedCodes
 
 -- | Choice of the code for a feed between the values of two codes.
 data Rule
-  = -- | code of the largest value that does not exceed the feed
+  = -- | the code of the largest value that does not exceed the feed
     NotAbove
-  | -- | code of the nearest value; the lower code if two are equally near
+  | -- | the code of the nearest value; the lower code if two are equally near
     Nearest
   deriving stock (Eq, Show)
 
 -- | Code of rapid moves.
 data RapidCode
-  = -- | code of the highest value
+  = -- | the code of the highest value
     Highest
-  | ByCode FeedCode
+  | -- | this code
+    ByCode FeedCode
   deriving stock (Eq, Show)
 
 -- | Result of the choice of a code.
 data FeedChoice
-  = -- | the code, and the value that it gives
+  = -- | the code, and its value
     Given FeedCode Double
-  | -- | The feed is out of range; the arguments are the lowest and the highest value.
+  | -- | The feed is outside the range of the codes; the arguments are the lowest and the highest
+    -- value.
     NoSuchFeed Double Double
   deriving stock (Eq, Show)
 
 -- Braking -----------------------------------------------------------------------------------------
 
--- | Slowing down from a feed.
+-- | Slowing down from one feed to a lower one.
 data Braking = Braking
   { -- | deceleration in mm/s²
     deceleration :: Double,
@@ -80,13 +82,13 @@ data Braking = Braking
   }
   deriving stock (Eq, Show)
 
--- | Part of the work that the program has to do.
+-- | The party that brakes, the control or the program on the tape.
 data BrakingForm
   = -- | The control slows down by itself.
     ByControl
   | -- | The program slows down, in a frame at the lowest feed.
     SlowFrames
-  | -- | The program marks frames before every lower feed with a 'BrakingHole'. At the end of the
-    -- program it slows down to this feed.
+  | -- | The control slows down in frames that the program marks with a 'BrakingHole'. The program
+    -- marks frames before every lower feed; before its end it brakes to this feed.
     BrakedFrames Feed
   deriving stock (Eq, Show)

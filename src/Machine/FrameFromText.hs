@@ -32,8 +32,8 @@ import Machine.Machine qualified as Machine
 import Machine.Section
 import Machine.Syntax
 
--- | A layout with the regions of its items and of its separator. If the description has no
--- separator, its region is that of the frame.
+-- | A layout with the regions of its items and of its separator. Without a separator in the
+-- description, the region is that of the section.
 data LocatedLayout = LocatedLayout
   { layout :: Layout,
     locatedItems :: NonEmpty (Region, LayoutItem),
@@ -225,8 +225,8 @@ holesFrom args = if null args then Nothing else pure <$> traverse (hole . value)
       Dash -> Just NoHole
       _ -> Nothing
 
--- | Lists the mistakes in the holes beside the digits. The flag is true if the description gives
--- holes.
+-- | Lists the mistakes in the holes beside the digits of a word. The first argument is that of
+-- 'frame'; the flag is true if the description gives holes.
 holeFaults :: Maybe Bool -> Region -> Bool -> NumberForm -> [Error]
 holeFaults hasService r isGiven f
   | not isGiven = []
@@ -238,7 +238,7 @@ holeFaults hasService r isGiven f
   where
     holes = service f
 
--- | Kinds of content that differ in the forms that suit them.
+-- | Kinds of content. Each allows other forms of the number.
 data ContentKind = AxisOrCentre | CommandNumber | OtherNumber
   deriving stock (Eq)
 
@@ -251,7 +251,7 @@ kindOf c = case c of
   Motion _ -> OtherNumber
   FeedWord -> OtherNumber
 
--- | Lists the properties of a word that do not suit its content.
+-- | Lists the properties of a word that are impossible for its content.
 unsuited :: Region -> Word' -> [Error]
 unsuited r w =
   map

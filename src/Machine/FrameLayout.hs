@@ -1,7 +1,7 @@
 -- | The layout of a frame: its words, literal symbols and check digit, in order.
 --
--- Writer and reader of tapes both follow the layout. A machine with fixed fields has words without
--- addresses.
+-- The writer and the reader of tapes both follow the layout. The words of a machine with fixed
+-- fields have no addresses.
 module Machine.FrameLayout
   ( Layout (..),
     AxisMeasure (..),
@@ -27,7 +27,7 @@ import Machine.Axis (Axis, axisName)
 data Layout = Layout
   { items :: NonEmpty LayoutItem,
     measure :: AxisMeasure,
-    -- | symbols between two words
+    -- | symbols between two words of a frame
     separator :: Text
   }
   deriving stock (Eq, Show)
@@ -59,14 +59,18 @@ data Word' = Word'
 
 -- | Meaning of a word's number.
 data Content
-  = -- | number of the frame, from 1, modulo the capacity of the digits
+  = -- | number of the frame, counted from 1; of larger numbers, only the last digits
     FrameNumber
-  | Motion MotionCodes
-  | Along Axis
-  | -- | centre of an arc, relative to the start of the arc
+  | -- | kind of motion, as one of these codes
+    Motion MotionCodes
+  | -- | increment or position of an axis, in pulses
+    Along Axis
+  | -- | centre of an arc along this axis, relative to the start of the arc, in pulses
     Centre Axis
-  | FeedWord
-  | Command CommandName
+  | -- | code of the feed
+    FeedWord
+  | -- | number of a command
+    Command CommandName
   deriving stock (Eq, Show)
 
 -- | Codes of the kinds of motion; 'Nothing' for a kind that the machine lacks.
@@ -96,15 +100,16 @@ data NumberForm = NumberForm
 data Sign
   = -- | no sign; the number is never negative
     Unsigned
-  | -- | a hole in the service track, 'MinusHole'
+  | -- | a hole in the service track, 'MinusHole', for a negative number
     ServiceSign
   | -- | a minus before a negative number
     MinusSign
   | -- | plus or minus before every number
     EitherSign
-  | -- | A digit before the number. It gives the direction, and says if this is the leading axis.
-    -- The digits mean: leading forwards, leading backwards, following forwards, following
-    -- backwards. Of several axes with most pulses, the first one leads.
+  | -- | One of four digits before the number. It says whether the number is negative, and whether
+    -- this is the leading axis, which is the one with most pulses. The four digits are for: leading
+    -- and positive, leading and negative, not leading and positive, not leading and negative. If
+    -- several axes have most pulses, the first one leads.
     Priority Int Int Int Int
   deriving stock (Eq, Show)
 
@@ -112,7 +117,7 @@ data Sign
 data Service
   = -- | The number is negative.
     MinusHole
-  | -- | Bit of a command's number, counted from the lowest.
+  | -- | The bit of a command's number with this index is 1; the lowest bit has index 0.
     CommandBit CommandName Int
   | -- | The row always has a hole.
     Marker
@@ -135,7 +140,7 @@ data Presence
     WhenChanged
   deriving stock (Eq, Show)
 
--- | Name of the word or the service bits that hold a command.
+-- | Name that a description gives to the word or the service bits for a command.
 newtype CommandName = CommandName Text
   deriving newtype (Eq, Ord)
   deriving stock (Show)

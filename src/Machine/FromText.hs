@@ -2,8 +2,8 @@
 --
 -- 1. "Machine.Parser" parses the text into statements.
 -- 2. Each section is read by itself. A mistake in one section does not hide those in another.
--- 3. The sections are checked against each other: the words of the frame against axes, code, feeds
---    and commands. This step needs all sections.
+-- 3. The words of the frame are checked against axes, code, feeds and commands. This step needs all
+--    sections.
 --
 -- Each step reports all mistakes that it finds. A description with a mistake gives no machine.
 module Machine.FromText
@@ -56,7 +56,7 @@ machineFrom text ss = marked *> machine
     markOfMachine = case heading of
       s : _ -> mark s
       [] -> Nothing
-    -- A broken line of the machine may have a mark that holds for all values.
+    -- If the line of the machine could not be read, it may have a mark for all values.
     marked =
       Result.failing (if any broken heading then [] else Provenance.unmarked markOfMachine body) ()
     machine =
@@ -102,8 +102,8 @@ sections whole =
     >>= crossChecked
   where
     tape = required "tape" "tape { tracks 8 … }" (located tapeFrom) whole
-    -- The number of tracks is read by itself, so that the code can be checked even if there is a
-    -- mistake in another line of the tape.
+    -- The number of tracks is read by itself. So the code can be checked even if another line of
+    -- the section @tape@ contains a mistake.
     trackCount = output (required "tape" "" tracksFrom whole)
     codeSection =
       required "code" "code \"ISO\" { … }" (located (CodeFromText.code trackCount)) whole
@@ -136,8 +136,8 @@ crossChecked s = Result.failing faults s
         ]
     feedCapacity = (\w -> 10 ^ digits (form w) - 1) <$> wordFor machine FeedWord
 
--- | Checks a machine that brakes by marked frames: a hole has to mark them, and feeds have to be in
--- mm/min.
+-- | Checks a machine that brakes in marked frames: the frame must have a hole for the mark, and
+-- feeds must be in mm/min. The region is that of the section @braking@.
 brakedFrameFaults :: Machine -> Region -> [Error]
 brakedFrameFaults machine brakingRegion = case brakingForm (braking machine) of
   ByControl -> []
@@ -180,7 +180,7 @@ nameFrom = withArguments ["machine my-mill \"The mill in hall 3\""] heading
         && Text.all (\c -> isAlphaNum c || c `elem` ("-." :: String)) n
         && not ("--" `Text.isInfixOf` n)
 
--- | Reads the number of tracks only.
+-- | Reads the number of tracks from the section @tape@, and nothing else.
 tracksFrom :: Statement -> Result w Error Int
 tracksFrom s =
   withBlock [] "" noArguments s >>= required "tracks" "tracks 8" (countFrom "tracks" 1 8) . snd

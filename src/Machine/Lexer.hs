@@ -1,7 +1,7 @@
 -- | Splits the text of a description into tokens.
 --
--- The lexer is total. Characters that form no token become a token for a mistake, which the parser
--- reports.
+-- The lexer never fails. It turns characters that form no token into a token for a mistake, which
+-- the parser reports.
 module Machine.Lexer
   ( Token,
     Token_ (..),
@@ -24,8 +24,10 @@ type Token = Located Token_
 
 -- | Tokens of a description; the last four constructors are mistakes.
 data Token_
-  = Name Text
-  | Text Text
+  = -- | word without quotation marks
+    Name Text
+  | -- | text in quotation marks, without them
+    Text Text
   | -- | digits as written, and their value
     Numeral Text Double
   | -- | bracket, operator of a formula, @..@ or @:@
@@ -37,7 +39,8 @@ data Token_
     OpenText
   | -- | unknown escape sequence in a text
     BadEscape Text
-  | BadNumber Text
+  | -- | number with a letter right after it, or with too many digits
+    BadNumber Text
   deriving stock (Eq, Show)
 
 -- | Names a token in a report.
@@ -74,7 +77,8 @@ tokensFrom formula at rest = case Text.uncons rest of
        in Located (Region at (at + size)) t :
           tokensFrom (formula || t == Sign "=") (at + size) (Text.drop size rest)
 
--- | Reads the first token of a text, which begins with the character, and its length.
+-- | Reads the first token of a text, and its length. The flag is true within a formula; the
+-- character is the first one of the text.
 token :: Bool -> Char -> Text -> (Token_, Int)
 token formula c rest
   | Just unit <- find (`Text.isPrefixOf` rest) ["mm/min", "mm/s2"] = (Name unit, Text.length unit)
@@ -106,8 +110,8 @@ numeral rest
     digits = Text.take consumed rest
     junk = digits <> Text.takeWhile (\c -> isPart c || c == '.') remainder
 
--- | Reads a text, and its length with both quotation marks. The argument begins after the opening
--- one.
+-- | Reads a text in quotation marks, and its length with both marks. The argument begins after the
+-- opening mark.
 quoted :: Text -> (Token_, Int)
 quoted = charactersOf "" 1
   where

@@ -1,9 +1,10 @@
--- | A controller and its tape, as data. No module outside this folder knows a machine by its name;
--- inside, machines are text files.
+-- | A controller and its tape, as data. No module contains the name of a machine; machines are
+-- described in text files.
 --
 -- A tape is a sequence of rows; a 'TapeCode' gives the symbol of each row. A frame is a sequence of
--- symbols; a 'Layout' divides it into words, literal symbols and a check digit. Machines with fixed
--- fields on a tape of five tracks, with letters or with ASCII differ in these data only.
+-- symbols; a 'Layout' divides it into words, literal symbols and a check digit. One machine has
+-- fixed fields on a tape of five tracks, another one words in ASCII; they differ in these data
+-- only.
 --
 -- This module defines the record 'Machine' and the queries over it. The types of its parts are
 -- defined in the modules that it re-exports.
@@ -125,7 +126,7 @@ import Machine.FrameLayout
   )
 import Machine.TapeCode (Medium (..), Spare (..), TapeCode (..))
 
--- | Name by which a part program chooses a machine.
+-- | Name by which a part program or a command line chooses a machine.
 newtype MachineName = MachineName Text
   deriving newtype (Eq, Ord)
   deriving stock (Show)
@@ -143,6 +144,7 @@ data Machine = Machine
     braking :: Braking,
     commandWords :: CommandWords,
     limits :: Limits,
+    -- | all values of the description, for the list of their provenance
     describedValues :: [DescribedValue]
   }
   deriving stock (Eq, Show)
@@ -160,22 +162,22 @@ data DescribedValue = DescribedValue Provenance Text
 
 -- | Origin of a value.
 data Provenance
-  = -- | printed in the source
+  = -- | The historical source prints this value.
     Sourced
-  | -- | printed in the source, but the source contradicts itself
+  | -- | The source prints another value, which contradicts the rest of the source.
     Corrected
-  | -- | absent from the source, and chosen for this compiler
+  | -- | The source prints no value; this one was chosen for the compiler.
     Reconstructed
   deriving stock (Eq, Show)
 
 -- The axes ----------------------------------------------------------------------------------------
 
--- | Properties of an axis; 'Nothing' if the machine lacks it.
+-- | Properties of an axis; 'Nothing' if the machine lacks the axis.
 axisForm :: Machine -> Axis -> Maybe AxisForm
 axisForm machine a = among a (NonEmpty.toList (axes machine))
 
--- | Resolution in the plane of x and y: the larger of the two pulses. A machine with neither axis
--- has the resolution of z.
+-- | Resolution in the plane of x and y: the larger of the two pulses. For a machine with neither of
+-- these axes it is the resolution of z.
 planeResolution :: Machine -> Mm
 planeResolution machine = if inPlane > Mm 0 then inPlane else largestStep (const True)
   where
@@ -183,7 +185,7 @@ planeResolution machine = if inPlane > Mm 0 then inPlane else largestStep (const
     largestStep chosen =
       foldl' max (Mm 0) [resolution f | f <- NonEmpty.toList (axes machine), chosen (axis f)]
 
--- | Resolution of an axis. An axis that the machine lacks has the resolution of the plane.
+-- | Resolution of an axis; 'planeResolution' for an axis that the machine lacks.
 resolutionOf :: Machine -> Axis -> Mm
 resolutionOf machine a = case axes machine of
   first :| others
@@ -199,7 +201,8 @@ forTurning :: Machine -> Machine
 forTurning machine =
   machine {axes = fmap (\f -> f {reversed = reversed f /= reversedOnLathe f}) (axes machine)}
 
--- | True if the left side in the part is the right side for the machine.
+-- | True if the machine's axes mirror the part, so that the left side of a contour is the right
+-- side for the machine.
 isMirrored :: Machine -> Bool
 isMirrored machine = isReversed X /= isReversed Y
   where
@@ -211,7 +214,7 @@ isMirrored machine = isReversed X /= isReversed Y
 wordsOf :: Machine -> [Word']
 wordsOf machine = [w | AWord w <- NonEmpty.toList (items (layout machine))]
 
--- | First word with the wanted content.
+-- | First word of a frame with the wanted content; 'Nothing' if the frame has no such word.
 wordFor :: Machine -> Content -> Maybe Word'
 wordFor machine wanted = case items (layout machine) of
   first :| others -> firstWord wanted (first : others)
@@ -222,11 +225,11 @@ firstWord wanted ws = case ws of
   AWord w : _ | content w == wanted -> Just w
   _ : others -> firstWord wanted others
 
--- | Largest number of pulses in the word of an axis; 0 if the frame lacks the word.
+-- | Largest number of pulses that the word of an axis can hold; 0 if the frame lacks the word.
 capacity :: Machine -> Axis -> Pulses
 capacity machine a = maybe 0 (Pulses . capacityOf . form) (wordFor machine (Along a))
 
--- | Largest number that fits every centre word; 0 if the frame has none.
+-- | Largest number of pulses that every centre word can hold; 0 if the frame has no centre word.
 centreCapacity :: Machine -> Pulses
 centreCapacity machine = if least == maxBound then 0 else Pulses least
   where
@@ -248,8 +251,8 @@ commandDecimals :: Machine -> CommandName -> Int
 commandDecimals machine command =
   maximum (0 : [decimals (form w) | w <- wordsOf machine, content w == Command command])
 
--- | True if a frame can give this number of a command. If every frame contains the word or the
--- bits, the number 0 means that no command is given.
+-- | True if a frame can give a command with this number. The number 0 needs a word that not every
+-- frame contains. In a word or in bits that every frame contains, 0 means that there is no command.
 canEncode :: Machine -> CommandName -> Int -> Bool
 canEncode machine command v = case commandCapacity machine command of
   Nothing -> False
@@ -266,7 +269,8 @@ canEncode machine command v = case commandCapacity machine command of
       WhenNeeded -> True
       WhenChanged -> True
 
--- | True if rapid moves are a kind of motion rather than a feed.
+-- | True if a rapid move is a kind of motion with a code of its own, and not a motion at the
+-- highest feed.
 hasRapidMotion :: Machine -> Bool
 hasRapidMotion machine = any hasRapidCode (items (layout machine))
   where
@@ -276,8 +280,8 @@ hasRapidMotion machine = any hasRapidCode (items (layout machine))
 
 -- Feeds -------------------------------------------------------------------------------------------
 
--- | Chooses the code for a value in the unit of the machine's codes, mm/min or pulses per second. A
--- value may lie outside the range of the codes by 'feedTolerance' only.
+-- | Chooses the code for a feed in the unit of 'FeedMeasure', mm/min or pulses per second. The
+-- result is 'NoSuchFeed' if the feed is outside 'feedRange' by more than 'feedTolerance'.
 choose :: Machine -> Double -> FeedChoice
 choose machine wanted
   | wanted < low - feedTolerance low || wanted > high + feedTolerance high = NoSuchFeed low high
@@ -300,8 +304,8 @@ choose machine wanted
       [] -> (FeedCode 0, 0)
       e : es -> foldl (\best x -> if key x < key best then x else best) e es
 
--- | Largest difference between values that count as equal: a relative error of 1e-9, and an
--- absolute one below 1.
+-- | Largest difference from a value at which another one counts as equal: 1e-9 of the value, and
+-- 1e-9 for values below 1.
 feedTolerance :: Double -> Double
 feedTolerance v = 1e-9 * max 1 (abs v)
 
@@ -319,7 +323,7 @@ feedRange machine = case codes (feeds machine) of
     [] -> (0, 0)
     vs -> (minimum vs, maximum vs)
 
--- | Code of rapid moves, for a machine whose rapid moves are a feed.
+-- | Feed code of rapid moves, for a machine without a motion code for them.
 rapidCode :: Machine -> FeedCode
 rapidCode machine = case rapidFeed (feeds machine) of
   ByCode c -> c
@@ -329,7 +333,8 @@ rapidCode machine = case rapidFeed (feeds machine) of
 slowest :: Machine -> (FeedCode, Double)
 slowest machine = let (v, c) = extreme minimum machine in (c, v)
 
--- | Selects a code by its value with 'minimum' or 'maximum'.
+-- | The code with the lowest or the highest value, and that value. The first argument is 'minimum'
+-- or 'maximum'. For an empty table, code and value are 0.
 extreme :: ([(Double, FeedCode)] -> (Double, FeedCode)) -> Machine -> (Double, FeedCode)
 extreme select machine = case codes (feeds machine) of
   Direct a b -> select [(fromIntegral n, FeedCode n) | n <- [a, b]]

@@ -18,7 +18,7 @@ import Machine.Lexer (Token, Token_ (..), describe, tokens)
 import Machine.Machine (Provenance (..))
 import Machine.Syntax
 
--- | Result of the parser.
+-- | Statements of a description, and the mistakes that the parser has found.
 data Parsed = Parsed
   { statements :: [Statement],
     mistakes :: [Error],
@@ -69,8 +69,9 @@ statement depth ts = case argument ts of
         (extra, afterExtra) = toLineEnd afterBlock
      in ([line {block = inner}], faults <> es <> unexpectedIn extra, afterExtra)
 
--- | Parses the rest of a line after its key, up to its end or a brace: arguments, formula and mark.
--- Returns the statement without its block, and at most one error.
+-- | Parses the rest of a line after its key, up to the end of the line or a brace: arguments,
+-- formula and mark. Returns the statement without its block, at most one error, and the remaining
+-- tokens.
 lineOf :: Argument -> [Token] -> (Statement, [Error], [Token])
 lineOf first ts = (line, faults, afterLine)
   where
@@ -94,13 +95,13 @@ lineOf first ts = (line, faults, afterLine)
           broken = not (null faults)
         }
 
--- | Reports the first of the tokens that a line has after its end.
+-- | Reports the first of the tokens that follow a complete statement on its line.
 unexpectedIn :: [Token] -> [Error]
 unexpectedIn extra =
   [Unexpected (region t) (describe (value t)) "the end of the line" | t <- take 1 extra]
 
--- | Parses arguments up to the end of the line, a brace, a formula or a mark. Any other token that
--- is no argument is an error.
+-- | Parses arguments up to the end of the line, a brace, a formula or a mark. If an argument is
+-- expected and the next token begins none, that is an error.
 argumentsOf :: [Token] -> ([Argument], [Error], [Token])
 argumentsOf ts = case ts of
   [] -> ([], [], [])
@@ -138,7 +139,7 @@ argument ts = case ts of
         then Just (Text.foldl' (\n d -> 10 * n + digitToInt d) 0 s)
         else Nothing
 
--- | Parses the formula after @=@. Its region ends with the last token that belongs to it.
+-- | Parses @=@ and the formula after it, if there is one. The region is that of both.
 formulaOf :: [Token] -> (Maybe (Located Formula), [Error], [Token])
 formulaOf ts = case ts of
   Located r (Sign "=") : rest -> case sums rest of
@@ -195,7 +196,7 @@ chain next operators a ts = case ts of
     chain next operators (Binary o a b) after
   _ -> Right (a, ts)
 
--- | Parses the mark at the end of a line, with the place where the value is printed.
+-- | Parses the mark at the end of a line, and the text that says where the source prints the value.
 markOf :: [Token] -> (Maybe (Located Mark), [Token])
 markOf ts = case ts of
   Located r (Name w) : Located r' (Text s) : rest
@@ -207,8 +208,8 @@ markOf ts = case ts of
 marks :: [(Text, Provenance)]
 marks = [("sourced", Sourced), ("corrected", Corrected), ("reconstructed", Reconstructed)]
 
--- | Parses the block after a line, if there is one. A block that is nested too deeply ends the
--- parse.
+-- | Parses the block after a line, if there is one. The parser stops at a block that is nested too
+-- deeply.
 blockOf :: Int -> [Token] -> (Maybe [Statement], [Error], [Token])
 blockOf depth ts = case ts of
   Located r (Sign "{") : rest
@@ -218,7 +219,7 @@ blockOf depth ts = case ts of
       (ss, es, after) -> (Just ss, es <> [Unclosed r], after)
   _ -> (Nothing, [], ts)
 
--- | Largest depth of nested blocks.
+-- | Largest depth to which blocks may be nested.
 deepest :: Int
 deepest = 16
 

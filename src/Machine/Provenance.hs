@@ -1,5 +1,5 @@
--- | The provenance of each value of a description. A mark is written on the line of the value, on a
--- block around it, or on the line of the machine; the innermost mark holds.
+-- | The provenance of each value of a description. A mark is written on the line of the value, on
+-- the line before a block around it, or on the line of the machine; the innermost mark is valid.
 module Machine.Provenance
   ( describedValues,
     unmarked,
@@ -16,7 +16,7 @@ import Machine.Machine (DescribedValue (..), Provenance)
 import Machine.Syntax
 
 -- | Lists the values of a description, one for each line that describes something. Each value is a
--- sentence: the sections around the line, the line as written, and the place where it is printed.
+-- sentence: the sections around the line, the line as written, and where the source prints it.
 -- The arguments are the text, the mark of the machine and the statements.
 describedValues :: Text -> Maybe (Located Mark) -> [Statement] -> [DescribedValue]
 describedValues text ofMachine = concatMap (valuesIn [] (provenanceOf =<< ofMachine))
@@ -45,8 +45,9 @@ unmarked ofMachine sections = case ofMachine of
       | isJust (mark s) || broken s = []
       | otherwise = [extent s | isDescriptive s] <> concatMap unmarkedLines (inner s)
 
--- | True if the line itself describes a value. The heading of a section does not, except that of a
--- word: it states that the frame contains the word here.
+-- | True if the line itself describes a value. A line with a block does not, with three exceptions:
+-- a word, because the line says that the frame contains the word at this position; the number of a
+-- command; and a line with a mark.
 isDescriptive :: Statement -> Bool
 isDescriptive s =
   isNothing (block s) || keyWord s `elem` [Just "word", Just "set"] || isJust (mark s)

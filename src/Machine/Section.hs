@@ -1,7 +1,7 @@
 -- | Access to the statements of a section by their keys, and to the arguments of a statement.
 --
--- A reader of a line returns 'Nothing' if it does not accept the arguments, and a failed result if
--- it has reported a mistake in them.
+-- A function that reads arguments returns 'Nothing' if they do not have the form that it accepts.
+-- It returns a failed result if they have that form but contain a mistake.
 module Machine.Section
   ( DescriptionSection (..),
 
@@ -43,7 +43,7 @@ import Machine.Syntax
 data DescriptionSection = DescriptionSection
   { -- | name in reports, such as @the tape@
     sectionName :: Text,
-    -- | region of a report that something is missing
+    -- | region of the report if a key is missing
     sectionRegion :: Region,
     entries :: [Statement]
   }
@@ -148,13 +148,14 @@ keyText s = case value (key s) of
 attempt :: Result w e a -> Result w e (Maybe a)
 attempt r = r {output = Just (output r)}
 
--- | Failure without a report, for a mistake that has one.
+-- | A failure without an error, for a mistake that is reported already.
 alreadyReported :: Result w e a
 alreadyReported = Result [] [] Nothing
 
 -- Numbers -----------------------------------------------------------------------------------------
 
--- | Reads a whole number from @low@ to @high@; the name is for the report.
+-- | Reads a whole number from @low@ to @high@. The report of a number out of range calls it by the
+-- name.
 wholeIn :: Text -> Int -> Int -> Argument -> Maybe (Result w Error Int)
 wholeIn name low high a = case value a of
   Number t v
@@ -164,7 +165,8 @@ wholeIn name low high a = case value a of
     | otherwise -> Just (pure (round v))
   _ -> Nothing
 
--- | Reads a number with a unit, from 'leastQuantity' to @high@; the name is for the report.
+-- | Reads a number and its unit, from 'leastQuantity' to @high@. The report of a number out of
+-- range calls it by the name.
 quantityIn :: Text -> Text -> Double -> Argument -> Argument -> Maybe (Result w Error Double)
 quantityIn name unit high a b = case (value a, value b) of
   (Number _ v, Word u)

@@ -1,7 +1,7 @@
 -- | The syntax tree of a machine description: statements with their arguments, marks and blocks.
 --
--- The tree knows nothing of machines. "Machine.Parser" builds it; the sections are read from it by
--- "Machine.FromText" and the modules that it calls.
+-- The tree does not depend on the keys that descriptions use. "Machine.Parser" builds it;
+-- "Machine.FromText" and the modules that it calls read the sections of a description from it.
 module Machine.Syntax
   ( Statement (..),
     Argument,
@@ -20,7 +20,7 @@ import Data.Text (Text)
 import Data.Text qualified as Text
 import Machine.Machine (Provenance)
 
--- | One line, together with the statements of its block.
+-- | One line: its key, then arguments, a formula and a mark; and the block in braces after it.
 data Statement = Statement
   { key :: Argument,
     arguments :: [Argument],
@@ -30,7 +30,7 @@ data Statement = Statement
     block :: Maybe [Statement],
     -- | region from the key to the end of the last argument or of the formula
     extent :: Region,
-    -- | true if a part of the line could not be read; this is reported already
+    -- | true if a part of the line could not be read, which the parser has reported
     broken :: Bool
   }
   deriving stock (Eq, Show)
@@ -53,12 +53,12 @@ data Argument_
     Dash
   deriving stock (Eq, Show)
 
--- | Provenance of a value, and the place in the document that the value comes from.
+-- | Provenance of a value, and the text that says where the source prints it, if there is one.
 data Mark = Mark Provenance (Maybe Text)
   deriving stock (Eq, Show)
 
--- | Formula in the variable @n@. A constant keeps its digits as written, because it may be a
--- pattern of holes.
+-- | Formula in the variable @n@. A constant has its digits as written besides its value, because
+-- the digits may be a pattern of holes.
 data Formula
   = Constant Text Double
   | Variable
@@ -70,7 +70,7 @@ data Formula
 data Operator = Add | Subtract | Multiply | Divide | Power
   deriving stock (Eq, Show)
 
--- | The key if it is a word.
+-- | The key of a line if it is a word.
 keyWord :: Statement -> Maybe Text
 keyWord s = case value (key s) of
   Word w -> Just w

@@ -1,4 +1,4 @@
--- | The medium that frames are punched on, and the code that gives each symbol its row of holes.
+-- | The medium on which frames are punched, and the code: the row of holes for each symbol.
 module Machine.TapeCode
   ( Medium (..),
     Spare (..),
@@ -11,7 +11,7 @@ import Data.Map.Strict (Map)
 import Data.Text (Text)
 import Data.Word (Word8)
 
--- | Physical form of a tape, and all that it contains besides frames.
+-- | Physical form of a tape, and what it contains besides frames.
 data Medium = Medium
   { -- | number of tracks, 1 to 8; bit k−1 of a row is track k
     tracks :: Int,
@@ -35,10 +35,10 @@ data Medium = Medium
 
 -- | Treatment of blank rows between frames by a tape reader.
 data Spare
-  = -- | The tape has exactly the number of blank rows that the medium demands.
+  = -- | The reader counts the blank rows. Their number must be exactly that of 'Medium'.
     Counted
-  | -- | The tape has at least the number of blank rows that the medium demands. The reader skips
-    -- the rows in 'skips' wherever they are.
+  | -- | The reader skips blank rows, and the rows in 'skips' wherever they are. The number of blank
+    -- rows must be at least that of 'Medium'.
     Skipped
   deriving stock (Eq, Show)
 
@@ -50,11 +50,11 @@ data TapeCode = TapeCode
     symbols :: Map Char Word8,
     -- | contribution of a symbol to the check sum of a frame; 0 for symbols that are not listed
     weights :: Map Char Int,
-    -- | parity track, which makes the number of holes in every row even
+    -- | number of the parity track, which makes the number of holes in every row even
     evenTrack :: Maybe Int,
-    -- | track that holds signs and marks beside the digits
+    -- | number of the track that contains signs and marks beside the digits
     serviceTrack :: Maybe Int,
-    -- | rows that a reader skips: blank rows and erased rows
+    -- | rows that a reader skips, such as erased rows, which have all holes
     skips :: [Word8]
   }
   deriving stock (Eq, Show)

@@ -1,8 +1,12 @@
 -- | Checks that the frames of a layout can be decoded uniquely, symbol by symbol.
 --
--- The conditions are sufficient for a reader that tries the items in their order. No address begins
--- like a number. No address is a prefix of symbols that may follow at the same point. A number
--- without fixed length ends before a symbol that is no digit. Every frame contains some item.
+-- The reader tries the items of the layout in their order. For this reader four conditions are
+-- sufficient:
+--
+-- * No address begins like a number.
+-- * No address is a prefix of other symbols that may follow at the same position.
+-- * A number without fixed length ends before a symbol that is no digit.
+-- * At least one item occurs in every frame.
 module Machine.UniqueDecoding
   ( check,
   )
@@ -25,8 +29,8 @@ import Machine.Machine
 -- | Item of a frame with its region.
 type LocatedItem = (Region, LayoutItem)
 
--- | Lists the mistakes. The arguments are the medium and its region, the code, the items, and the
--- separator with its region.
+-- | Lists the mistakes. The arguments are the medium and the region of its section, the code, the
+-- items, and the separator with its region.
 check :: Medium -> Region -> TapeCode -> NonEmpty LocatedItem -> (Region, Text) -> [Error]
 check medium tapeRegion tapeCode located locatedSeparator =
   concat
@@ -100,8 +104,8 @@ addressFaults (r, i) = case i of
 beginsLikeNumber :: Text -> Bool
 beginsLikeNumber t = Text.any (\c -> isDigit c || c `elem` ("+-." :: String)) (Text.take 1 t)
 
--- | Reports addresses that are equal, or that are a prefix of other symbols; at most one report for
--- each item.
+-- | Reports an address that an earlier word has too, and an address that is a prefix of symbols at
+-- the same position or the reverse. There is at most one report for each item.
 prefixFaults :: [LocatedItem] -> [Error]
 prefixFaults items' =
   concat
@@ -125,7 +129,7 @@ pairFaults (r, a) (r', b) = case (a, b) of
   (Literal t, AWord v) | isOptional b -> commonPrefix r r' (address v) t
   _ -> []
 
--- | Reports symbols of an optional word and of a literal if one of the two is a prefix of the
+-- | Reports the address of an optional word and the symbols of a literal if one is a prefix of the
 -- other. The first region is that of the literal.
 commonPrefix :: Region -> Region -> Text -> Text -> [Error]
 commonPrefix literalRegion wordRegion ofWord ofLiteral
@@ -148,8 +152,8 @@ numberMayBegin w rest = case content w of
       | padded (form w) = Text.justifyRight (digits (form w)) '0' (Decimal.whole n)
       | otherwise = Decimal.whole n
 
--- | An item with those that may come directly after it, up to the first one that every frame
--- contains.
+-- | An item, and the items that may come directly after it. The last of these is the first one that
+-- every frame contains.
 data Successors = Successors
   { item :: LocatedItem,
     next :: [Successor]
@@ -229,7 +233,7 @@ firstItems items' =
   let (optional, fixed) = span (isOptional . snd) items'
    in optional <> take 1 fixed
 
--- | Reports skipped blank rows if a frame may begin with one.
+-- | Reports a frame that may begin with a blank row, although the reader skips blank rows.
 blankStart :: Medium -> TapeCode -> [LocatedItem] -> [Error]
 blankStart medium tapeCode items' = case spare medium of
   Counted -> []

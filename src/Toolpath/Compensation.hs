@@ -1,18 +1,18 @@
 -- | Input for a control with cutter compensation (@G41@, @G42@).
 --
--- The control receives the edge of the part and computes the offset itself. It then makes the same
--- moves as the toolpath, provided that the edge is right and contains nothing that the control
--- refuses. The behaviour of controls was measured on LinuxCNC 2.9:
+-- The control receives the edge of the part and computes the offset itself. If it does not refuse
+-- the edge, it makes the moves of the toolpath. The behaviour of controls was measured on LinuxCNC
+-- 2.9:
 --
--- * The first move under compensation is a straight line from the current centre to the point where
--- the offsets of the programmed line and of the next element intersect. So the programmed line must
--- be the tangent from the current centre to the cutter at its first position on the toolpath. The
--- next element begins where it intersects that line.
+-- * The first move under compensation is programmed as a straight line. The control moves the
+-- centre to the point where the offsets of that line and of the next element intersect. So the
+-- programmed line must be a tangent to the cutter at the cutter's first position on the toolpath.
+-- The next element begins where that element, extended if necessary, intersects the tangent.
 --
 -- * At outer corners the control moves on arcs. It makes the arc at the last corner of a closed
 -- contour only when another move follows.
 --
--- * After the end of the contour it moves straight from the end of the offset to the next
+-- * After the end of the contour the control moves straight from the end of the offset to the next
 -- programmed point.
 module Toolpath.Compensation
   ( PassMoves (..),
@@ -27,11 +27,14 @@ import Base.Region (Region)
 import Control.Monad (when, zipWithM_)
 import Data.List.NonEmpty (NonEmpty (..))
 import Data.List.NonEmpty qualified as NonEmpty
-import Geometry.Carrier (Side (..))
+import Data.Maybe (fromMaybe)
+import Geometry.Carrier (Side)
+import Geometry.Carrier qualified as Carrier
 import Geometry.Polyarc qualified as Polyarc
 import Geometry.Segment (Segment (..))
 import Geometry.Segment qualified as Segment
 import Geometry.Tolerance qualified as Tolerance
+import Geometry.Vec (Point)
 import Geometry.Vec qualified as Vec
 import Offset.Equidistant qualified as Equidistant
 import Part.Part (Element, Milling)
@@ -41,19 +44,21 @@ import Toolpath.Tolerance qualified as Tolerance
 import Toolpath.Toolpath (Manner (..), Move (..), Sent (Sent), withoutBraking)
 import Toolpath.Toolpath qualified as Toolpath
 
--- | The moves of the centre in one pass: approach, lead-in, moves along the contour, lead-out,
--- retract.
+-- | The moves of the cutter's centre in one pass, part by part.
 data PassMoves = PassMoves
-  { before :: [Move],
+  { -- | the approach
+    before :: [Move],
     leadIn :: [Move],
+    -- | the moves along the contour
     cut :: NonEmpty Move,
     leadOut :: [Move],
+    -- | the retract
     behind :: [Move]
   }
 
--- | The input for a control that does the cutter compensation, or the reason why that is
--- impossible. The region is the statement's first word. The result is Nothing when the program
--- does not ask for it.
+-- | The input for a control that does the cutter compensation, or the reason why a control cannot
+-- make the pass. Nothing when the program does not ask for compensation by the control. The region
+-- is the statement's first word.
 compensationInput :: Region -> Milling -> Maybe Side -> PassMoves -> Either Error (Maybe Sent)
 compensationInput keyword milling side passMoves = case Part.controlCompensation milling of
   Nothing -> Right Nothing
@@ -76,7 +81,8 @@ compensationInput keyword milling side passMoves = case Part.controlCompensation
             }
       )
 
--- | Refuses requests that the edge of the part cannot express.
+-- | Refuses requests that the edge of the part cannot express: a blade, sharp corners, allowances.
+-- The region is the program's request for compensation by the control.
 checkRequest :: Region -> Milling -> Either Error ()
 checkRequest requested milling
   | Just _ <- Part.gear milling = refused Swivelling
@@ -88,7 +94,8 @@ checkRequest requested milling
   where
     refused = Left . NotForControl requested
 
--- | Refuses elements and leads that a control cannot follow.
+-- | Refuses elements and leads that a control cannot follow. The regions are the statement's first
+-- word, and the program's request for compensation by the control.
 checkElements :: Region -> Region -> Milling -> Side -> PassMoves -> Either Error ()
 checkElements keyword requested milling side passMoves =
   mapM_ (checkLength keyword requested) elements
@@ -110,11 +117,11 @@ checkElements keyword requested milling side passMoves =
         (\old -> Left (TightForControl keyword requested (fmap element i) old radius))
         (tooTight radius side s)
     -- A control ignores a very slight corner. When such a corner turns away from the cutter, the
-    -- centre leaves too early on the following arc. Rounding of the end of the segment before the
-    -- arc has the same effect.
+    -- centre enters the following arc too early. Rounding of the end of the segment before the arc
+    -- has the same effect.
     checkArcStart (i, a) (_, b) =
       let Rad deflection = Vec.signedAngle (Segment.endDirection a) (Segment.startDirection b)
-          needed = neededBefore (Mm r) side (Rad (max 0 (-(deflection * sideSign side)))) b
+          needed = neededBefore (Mm r) side (Rad (max 0 (-(deflection * Carrier.sideSign side)))) b
        in if not (isIgnored deflection) || needed <= referenceLength a
             then Right ()
             else Left $ case i of
@@ -130,7 +137,7 @@ checkElements keyword requested milling side passMoves =
     Rad smooth = Tolerance.smoothAngle
     element = elementAt milling
 
--- | Refuses an element shorter than a control accepts.
+-- | Refuses an element shorter than 'Tolerance.controlLength'.
 checkLength :: Region -> Region -> Element -> Either Error ()
 checkLength keyword requested e =
   when
@@ -139,8 +146,9 @@ checkLength keyword requested e =
   where
     l = Segment.length (Part.segment e)
 
--- | Refuses a corner that a control ignores although its cut would be too deep, and a corner at
--- which the contour almost reverses. The corner follows element @i@.
+-- | Refuses a corner so slight that a control ignores it, if the control would then cut too deep.
+-- Refuses also a corner at which the contour almost reverses. The arguments of the triple are the
+-- number of the element before the corner, and the segments of both elements at the corner.
 checkCorner :: Region -> Milling -> (Int, Segment, Segment) -> Either Error ()
 checkCorner requested milling (i, a, b) =
   when
@@ -162,15 +170,16 @@ isIgnored deflection = abs deflection < least
   where
     Rad least = Tolerance.controlBend
 
--- | The element with a number; the number after the last element is the first one's.
+-- | The element with a number from 0; the number after the last one is that of the first element.
 elementAt :: Milling -> Int -> Element
 elementAt milling i = elements NonEmpty.!! (i `mod` length elements)
   where
     elements = Part.elements (Part.contour milling)
 
--- | The least length of a line, or the least radius of an arc, before an arc that turns away from
--- it by an angle. It keeps the centre's additional sweep around the arc within the limit of
--- LinuxCNC. It is infinite when no length suffices.
+-- | The least 'referenceLength' of the segment before a segment that begins with a change of
+-- direction @away@ from the cutter. Before an arc this length keeps the additional sweep of the
+-- centre's arc within 'Tolerance.controlTurn'. It is 0 before a line, and infinite when no length
+-- suffices.
 neededBefore :: Mm -> Side -> Rad -> Segment -> Mm
 neededBefore (Mm r) side (Rad away) s = case s of
   Straight _ _ -> Mm 0
@@ -178,40 +187,35 @@ neededBefore (Mm r) side (Rad away) s = case s of
     | left > 0 -> Mm (r * rounding / left)
     | otherwise -> Mm (1 / 0)
     where
-      left = most * (old - signum angle * sideSign side * r - least) - r * away
+      left = most * (old - signum angle * Carrier.sideSign side * r - least) - r * away
       Mm old = Segment.radius centre start
       Mm least = Tolerance.controlArc
       Mm rounding = Tolerance.controlRounding
       Rad most = Tolerance.controlTurn
 
--- | The quantity that decides how much rounding changes the direction at a segment's end: the
--- length of a line, the radius of an arc.
+-- | The length of a line or the radius of an arc. The larger it is, the less a rounded end changes
+-- the direction of the segment there.
 referenceLength :: Segment -> Mm
 referenceLength s = case s of
   Straight a b -> Vec.distance a b
   Arc {start, centre} -> Segment.radius centre start
 
--- | The radius of a concave arc in which the cutter has no room to roll; Nothing when it has.
+-- | The radius of a concave arc in which the cutter, of the given radius, has no room to roll.
+-- Nothing for any other segment.
 tooTight :: Mm -> Side -> Segment -> Maybe Mm
 tooTight radius side s = case s of
   Straight _ _ -> Nothing
   Arc {start, centre, sweep = Rad angle}
-    | signum angle == sideSign side,
+    | signum angle == Carrier.sideSign side,
       old <- Segment.radius centre start,
       old < plus radius Tolerance.controlArc ->
       Just old
     | otherwise -> Nothing
 
--- | +1 when the cutter is on the left.
-sideSign :: Side -> Double
-sideSign side = case side of
-  LeftOf -> 1
-  RightOf -> -1
-
 -- The edge
 
--- | The edge of the part in the direction of travel, with the curves that the cutter touches
--- during the leads.
+-- | The edge of the part in the direction of travel, as moves: the line or arc that the cutter
+-- touches during the lead-in, the elements of the contour, and that of the lead-out.
 programmed :: Milling -> Side -> PassMoves -> NonEmpty Move
 programmed milling side PassMoves {leadIn, cut, leadOut} = case map lead leadIn of
   [] -> elements `followedBy` map lead leadOut
@@ -233,20 +237,14 @@ programmed milling side PassMoves {leadIn, cut, leadOut} = case map lead leadIn 
         }
     followedBy (e :| es) more = e :| es <> more
 
--- | The curve that a cutter touches when its centre moves along a segment.
+-- | The line or arc that a cutter of this radius touches while its centre moves along a segment. The
+-- cutter is on the given side of that line or arc. A segment without a length is its own result.
 touchedCurve :: Mm -> Side -> Segment -> Segment
-touchedCurve (Mm r) side s = case s of
-  Straight a b ->
-    let n =
-          Vec.scale (-sideSign side * r) (Vec.left (Vec.unit (Vec.to a b)))
-     in Straight (Vec.shift n a) (Vec.shift n b)
-  Arc {start, end, centre, sweep = sweep@(Rad angle)} ->
-    let Mm old = Segment.radius centre start
-        new = if signum angle == sideSign side then old + r else old - r
-        moved p = Vec.shift (Vec.scale (new / old) (Vec.to centre p)) centre
-     in Arc {start = moved start, end = moved end, centre, sweep}
+touchedCurve radius side s =
+  fromMaybe s (Segment.offset (Carrier.oppositeSide side) radius s)
 
--- | True when a control does the compensation and the closed toolpath ends at an outer corner.
+-- | True when a control does the compensation and the path ends with the arc round an outer corner,
+-- as a path round a closed contour may.
 endsAtOuterCorner :: Milling -> NonEmpty Equidistant.OffsetSegment -> Bool
 endsAtOuterCorner milling offsetSegments = case Part.controlCompensation milling of
   Nothing -> False
@@ -254,8 +252,9 @@ endsAtOuterCorner milling offsetSegments = case Part.controlCompensation milling
     Equidistant.Around _ -> True
     Equidistant.Along _ -> False
 
--- | A short move along the first element after such a contour. A control makes the arc round the
--- last corner only when another move follows.
+-- | A move of at most 1 mm along the first segment of a closed path, to be made once more after the
+-- path's end. A control makes the arc round the last corner only when another move follows. Empty
+-- when the segment has no length. The region is the statement's first word.
 overrun :: Region -> Milling -> Segment -> [Move]
 overrun keyword milling first =
   [ Move
@@ -272,8 +271,9 @@ overrun keyword milling first =
 -- Approach and retract
 
 -- | The moves before compensation begins, the straight move on which it begins, and the edge from
--- the end of that move. A long approach is divided, because near the contour its direction
--- certainly differs from that of the edge.
+-- the end of that move. The last move of the approach must be straight and level. If it is longer
+-- than three radii, it is divided at two radii from its end. Compensation begins on the second
+-- part, whose direction certainly differs from that of the edge.
 entering ::
   Region ->
   Region ->
@@ -288,52 +288,69 @@ entering keyword requested milling side passMoves edge = case reverse passMoves 
       Vec.distance from to' > Tolerance.coincident -> do
       let whole@(Mm long) = Vec.distance from to'
           on = if whole > times 3 radius then Vec.interpolate (1 - 2 * r / long) from to' else from
-      begin <- entryPoint m on to'
-      let straight = [(withoutBraking m) {segment = Straight from on} | on /= from]
-      Right (reverse earlier <> straight, m {segment = Straight on begin}, beginningAt begin)
+          onwards = m {segment = Straight on to'}
+          straight = [(withoutBraking m) {segment = Straight from on} | on /= from]
+      begin <- entryPoint requested milling side onwards (segment (NonEmpty.head edge))
+      Right (reverse earlier <> straight, m {segment = Straight on begin}, beginningAt begin edge)
   _ -> Left (ShortForControl keyword requested True (Mm 0) radius)
   where
     radius@(Mm r) = Part.radius milling
-    first = NonEmpty.head edge
-    -- The point where the tangent from @on@ to the cutter at its first position intersects the line
-    -- of the first element.
-    entryPoint m on to' = do
-      let Mm d = Vec.distance on to'
-          ahead = Segment.startDirection (segment first)
-          tangent =
-            Vec.rotate (Rad (-sideSign side * asin (min 1 (r / d)))) (Vec.unit (Vec.to on to'))
-          Rad deflection = Vec.signedAngle tangent ahead
-          bend = sideSign side * deflection
-          begin = Vec.shift (Vec.scale (-r * tan (bend / 2)) ahead) (Segment.start (segment first))
-          Rad least = Tolerance.controlBend
-      when (d <= r) (Left (ShortForControl (origin m) requested True (Mm d) radius))
-      when
-        (bend < max (2 * least) leastOntoArc || bend > furthestTurn)
-        (Left (WrongWayForControl (origin m) requested to'))
-      let l = Vec.distance on begin
-      when
-        (l <= plus radius Tolerance.controlMargin)
-        (Left (ShortForControl (origin m) requested True l radius))
-      Right begin
-    -- Before an arc the line is an additional element, which must not be too short for a control.
-    leastOntoArc = case segment first of
-      Straight _ _ -> 0
-      arc@Arc {} ->
-        let Mm l =
-              max Tolerance.controlLength (neededBefore radius side (Rad 0) arc)
-         in 2 * atan2 l r
-    beginningAt begin = case segment first of
-      Straight _ b -> first {segment = Straight begin b} :| NonEmpty.tail edge
-      Arc {start} ->
-        (withoutBraking first) {segment = Straight begin start, continues = False}
-          :| NonEmpty.toList edge
+
+-- | The end of the straight move on which compensation begins. A tangent to the cutter at the end
+-- of the approach leads from the beginning of the approach to this point. It is where the tangent
+-- intersects the line through the beginning of the first element in that element's direction.
+-- Refuses an approach that is too short, or from a direction that a control does not accept.
+entryPoint :: Region -> Milling -> Side -> Move -> Segment -> Either Error Point
+entryPoint requested milling side approach first = do
+  when (d <= r) (tooShort (Mm d))
+  when
+    (bend < max (2 * least) (leastOntoArc radius side first) || bend > furthestTurn)
+    (Left (WrongWayForControl (origin approach) requested finish))
+  when (l <= plus radius Tolerance.controlMargin) (tooShort l)
+  Right begin
+  where
+    radius@(Mm r) = Part.radius milling
+    on = Segment.start (segment approach)
+    finish = Segment.end (segment approach)
+    Mm d = Vec.distance on finish
+    ahead = Segment.startDirection first
+    tangent =
+      Vec.rotate
+        (Rad (-Carrier.sideSign side * asin (min 1 (r / d))))
+        (Vec.unit (Vec.to on finish))
+    Rad deflection = Vec.signedAngle tangent ahead
+    bend = Carrier.sideSign side * deflection
+    begin = Vec.shift (Vec.scale (-r * tan (bend / 2)) ahead) (Segment.start first)
+    Rad least = Tolerance.controlBend
+    l = Vec.distance on begin
+    tooShort distance = Left (ShortForControl (origin approach) requested True distance radius)
+
+-- | The least change of direction, in radians, from the approach onto the first element. Before an
+-- arc the edge gets an additional line, which must not be too short for a control. It is 0 for a
+-- first element that is straight.
+leastOntoArc :: Mm -> Side -> Segment -> Double
+leastOntoArc radius@(Mm r) side first = case first of
+  Straight _ _ -> 0
+  Arc {} -> 2 * atan2 l r
+    where
+      Mm l = max Tolerance.controlLength (neededBefore radius side (Rad 0) first)
+
+-- | The edge with a new beginning. A straight first element begins there; before an arc there is an
+-- additional line.
+beginningAt :: Point -> NonEmpty Move -> NonEmpty Move
+beginningAt begin (first :| others) = case segment first of
+  Straight _ b -> first {segment = Straight begin b} :| others
+  Arc {start} ->
+    (withoutBraking first) {segment = Straight begin start, continues = False} :| first : others
 
 -- | The largest change of direction from the approach to the first element: 175°. At this angle
 -- the first element is extended backwards by 23 radii.
 furthestTurn :: Double
 furthestTurn = 35 / 36 * pi
 
--- | The straight move on which compensation ends, and the moves after it.
+-- | The straight move on which compensation ends, and the moves after it. The regions are the
+-- statement's first word and the request for compensation. @final@ is the last move of the edge.
+-- The first move of the retract @passMoves@ must be straight and level.
 leaving :: Region -> Region -> Milling -> Move -> [Move] -> Either Error (Move, [Move])
 leaving keyword requested milling final passMoves = case passMoves of
   m@Move {segment = Straight _ to', manner = Manner {between = (z, z')}} : later | z == z' -> do

@@ -1,5 +1,3 @@
-{-# LANGUAGE BangPatterns #-}
-
 -- | One pass along a contour: the moves on the equidistant, the leads, and the moves to and from
 -- them.
 module Toolpath.CuttingPass
@@ -41,63 +39,68 @@ import Toolpath.Swivel qualified as Swivel
 import Toolpath.Toolpath (Block (..), Manner (Manner), Move (Move), Pass (..))
 import Toolpath.Toolpath qualified as Toolpath
 
--- | A pass along a contour, or along one path of several where the cutter does not reach
--- everything. The path is not kept here, so that its segments are released as moves are made.
+-- | A pass along a contour, or along one of several paths beside a contour that the cutter does not
+-- reach everywhere. The path itself is no field, so that the collector frees its segments while
+-- moves are made from them.
 data CuttingPass = CuttingPass
-  { -- | number of the milling statement, as it is carried out, from 0
+  { -- | number of the milling statement in the order of execution, from 0
     statement :: Int,
     milled :: Located Milling,
-    -- | side of the direction of travel; nothing when the centre moves on the contour
+    -- | side of the contour, in the direction of travel, on which the cutter moves; Nothing when
+    -- its centre moves on the contour
     cutterSide :: Maybe Carrier.Side,
     -- | the elements of the contour by their numbers
     numbered :: Vector Part.Element,
+    -- | true for the first path of the statement's first pass
     isFirst :: Bool,
+    -- | true for the last path of the statement's last pass
     isLast :: Bool,
     -- | position of the cutter before the pass
     from :: SpacePoint,
     -- | material that the pass leaves
     allowance :: Mm,
+    -- | height of the pass
     level :: Mm,
+    -- | parts of the contour that the cutter does not reach
     restMaterial :: [Equidistant.UnreachedPart]
   }
 
--- | The block of a pass along a path.
+-- | The block of a pass along a path, which is the offset of the contour or a part of it. Fails
+-- when a blade or a control with cutter compensation cannot make the pass.
 block :: CuttingPass -> NonEmpty OffsetSegment -> Either Error Block
 block p path = do
   swivels <- Swivel.axis word milling (cutterSide p) path
   let cut = cutMoves p swivels path
-      !around = Compensation.endsAtOuterCorner milling path
-      -- From here on only the moves are needed.
-      !firstSegment = Toolpath.segment (NonEmpty.head cut)
-      !lastSegment = Toolpath.segment (NonEmpty.last cut)
-      (leadIn, leadOut) = leads p around firstSegment lastSegment
-      begin = maybe (Segment.start firstSegment) Segment.start (segmentOf (listToMaybe leadIn))
-      finish =
-        maybe (Segment.end lastSegment) Segment.end (segmentOf (listToMaybe (reverse leadOut)))
-      segmentOf = fmap Toolpath.segment
-      -- The axis of a blade is higher or lower.
-      (inZ, outZ) = case swivels of
-        Nothing -> levels p
-        Just hs ->
-          (plus (level p) (fst (NonEmpty.head hs)), plus (level p) (snd (NonEmpty.last hs)))
-      (before, after) = case (Part.levels milling, Part.clearance milling) of
-        (_ : _, Just travelHeight) ->
-          LinkingMove.withDepth (visit p) travelHeight (inZ, outZ) begin finish
-        _ -> LinkingMove.withoutDepth (visit p) (level p) (inZ, outZ) begin finish
-      inwards = map (Toolpath.atHeights (inZ, inZ)) leadIn
-      outwards = map (Toolpath.atHeights (outZ, outZ)) leadOut
-  sent <-
-    Compensation.compensationInput
-      word
-      milling
-      (cutterSide p)
-      PassMoves
-        { Compensation.before,
-          Compensation.leadIn = inwards,
-          Compensation.cut,
-          Compensation.leadOut = outwards,
-          Compensation.behind = after
-        }
+  blockOf p swivels cut (pathEnds milling path cut)
+  where
+    milling = value (milled p)
+    word = wordOf p
+
+-- | The ends of the path of a pass. The fields are strict. Once they are computed, the moves along
+-- the path exist, and the path itself is not needed any more.
+data PathEnds = PathEnds
+  { -- | true when a control does the compensation and the path ends with the arc round a corner
+    endsAtCorner :: Bool,
+    firstSegment :: Segment,
+    lastSegment :: Segment
+  }
+
+-- | The ends of a path, given the moves along it.
+pathEnds :: Milling -> NonEmpty OffsetSegment -> NonEmpty Move -> PathEnds
+pathEnds milling path cut =
+  PathEnds
+    { endsAtCorner = Compensation.endsAtOuterCorner milling path,
+      firstSegment = Toolpath.segment (NonEmpty.head cut),
+      lastSegment = Toolpath.segment (NonEmpty.last cut)
+    }
+
+-- | The block of a pass, given the heights of a blade's axis as for 'cutMoves', the moves along the
+-- contour and the ends of the path. The ends are computed before the block, which has no reference
+-- to the path.
+blockOf ::
+  CuttingPass -> Maybe (NonEmpty (Mm, Mm)) -> NonEmpty Move -> PathEnds -> Either Error Block
+blockOf p swivels cut ends@PathEnds {} = do
+  sent <- Compensation.compensationInput word milling (cutterSide p) passMoves
   Right
     Cutting
       { job = milled p,
@@ -108,25 +111,52 @@ block p path = do
               left = allowance p,
               atHeight = level p
             },
-        approach = before <> inwards,
+        approach = Compensation.before passMoves <> Compensation.leadIn passMoves,
         cut,
-        retract = outwards <> after,
+        retract = Compensation.leadOut passMoves <> Compensation.behind passMoves,
         rests = restMaterial p,
         sent
       }
   where
     milling = value (milled p)
     word = wordOf p
+    passMoves = allMoves p swivels cut ends
+
+-- | All moves of a pass. The arguments are the pass, the heights of a blade's axis as for
+-- 'cutMoves', the moves along the contour, and the ends of the path.
+allMoves :: CuttingPass -> Maybe (NonEmpty (Mm, Mm)) -> NonEmpty Move -> PathEnds -> PassMoves
+allMoves p swivels cut ends =
+  PassMoves
+    { Compensation.before,
+      Compensation.leadIn = map (Toolpath.atHeights (inZ, inZ)) leadIn,
+      Compensation.cut,
+      Compensation.leadOut = map (Toolpath.atHeights (outZ, outZ)) leadOut,
+      Compensation.behind
+    }
+  where
+    milling = value (milled p)
+    (leadIn, leadOut) = leads p ends
+    begin = Segment.start (maybe (firstSegment ends) Toolpath.segment (listToMaybe leadIn))
+    finish = Segment.end (maybe (lastSegment ends) Toolpath.segment (listToMaybe (reverse leadOut)))
+    -- The axis of a blade is higher or lower than the pass.
+    (inZ, outZ) = case swivels of
+      Nothing -> levels p
+      Just hs -> (plus (level p) (fst (NonEmpty.head hs)), plus (level p) (snd (NonEmpty.last hs)))
+    (before, behind) = case (Part.levels milling, Part.clearance milling) of
+      (_ : _, Just travelHeight) ->
+        LinkingMove.withDepth (visit p) travelHeight (inZ, outZ) begin finish
+      _ -> LinkingMove.withoutDepth (visit p) (level p) (inZ, outZ) begin finish
 
 -- | The keyword of the pass's statement.
 wordOf :: CuttingPass -> Region
 wordOf = keyword . region . milled
 
--- | The heights of a pass at the start and the end of each move, without a blade.
+-- | The heights at the start and the end of each move of a pass without a blade: both are the
+-- height of the pass.
 levels :: CuttingPass -> (Mm, Mm)
 levels p = (plus (level p) (Mm 0), plus (level p) (Mm 0))
 
--- | The pass for the moves before and after it.
+-- | The facts of a pass that its linking moves depend on.
 visit :: CuttingPass -> Visit
 visit p =
   Visit
@@ -137,7 +167,8 @@ visit p =
       LinkingMove.from = from p
     }
 
--- | The moves along the contour, given the heights of a blade's axis above its middle position.
+-- | The moves along the contour, one for each segment of the path. The second argument gives, for
+-- each segment, the heights of a blade's axis above its middle position; Nothing without a blade.
 cutMoves ::
   CuttingPass ->
   Maybe (NonEmpty (Mm, Mm)) ->
@@ -159,8 +190,8 @@ cutMoves p swivels path =
         let m = moveAlong (isContinued previous piece) h piece
          in m `seq` (m : following (piece :| more) higher)
       _ -> []
-    -- A feed of its own holds on the element, not around its corners; nor does the cutter slow down
-    -- there.
+    -- The feed of an element and its braking apply to the segment along it, not to the arc round
+    -- the corner after it.
     moveAlong continues zs piece = case Equidistant.origin piece of
       Equidistant.Along i ->
         let finish = Part.finish (numbered p Vector.! i)
@@ -175,16 +206,16 @@ cutMoves p swivels path =
         )
         (Part.origin (numbered p Vector.! i))
         continues
-    -- After an arc in which the cutter does not move there may be a corner.
+    -- The offset of a concave arc may vanish, so that segments of elements that are no neighbours
+    -- meet at a corner.
     isContinued previous piece = case (Equidistant.origin previous, Equidistant.origin piece) of
       (Equidistant.Along i, Equidistant.Along j) ->
         j == i + 1 && Part.continues (numbered p Vector.! j)
       _ -> False
 
--- | The lead-in and the lead-out, given the first and the last segment of the path, and whether the
--- path ends with the arc about a corner.
-leads :: CuttingPass -> Bool -> Segment -> Segment -> ([Move], [Move])
-leads p around firstSegment lastSegment = (leadIn, leadOut)
+-- | The lead-in and the lead-out at the ends of the path.
+leads :: CuttingPass -> PathEnds -> ([Move], [Move])
+leads p PathEnds {endsAtCorner, firstSegment, lastSegment} = (leadIn, leadOut)
   where
     milling = value (milled p)
     lead = Lead.lead (wordOf p) milling (cutterSide p)
@@ -198,14 +229,16 @@ leads p around firstSegment lastSegment = (leadIn, leadOut)
       Lead.Out
       (directionOf Segment.endDirection lastSegment (NonEmpty.last written))
       (Segment.end lastSegment) of
-      [] | around -> Compensation.overrun (wordOf p) milling firstSegment
+      [] | endsAtCorner -> Compensation.overrun (wordOf p) milling firstSegment
       moves -> moves
-    -- A cutter that fills a concave arc does not move in it; then the contour gives the direction.
+    -- In a concave arc of its own radius the centre does not move, and the segment has no length.
+    -- Then the contour gives the direction.
     directionOf :: (Segment -> Vec.Vec) -> Segment -> Part.Element -> Vec.Vec
     directionOf direction s e =
       direction (if Segment.length s > Tolerance.coincident then s else Part.segment e)
 
--- | The distance of the cutter's centre from the contour when nothing is left.
+-- | The distance of the cutter's centre from the contour without an allowance: 0 on the contour,
+-- else the radius.
 touchedRadius :: Milling -> Mm
 touchedRadius milling = case value (Part.side milling) of
   On -> Mm 0

@@ -1,4 +1,5 @@
--- | The moves of drilling: rapid over each hole, down at the feed, up in rapid.
+-- | The moves of drilling. At each hole a rapid move ends above it; the drill goes down at the feed
+-- and up again in rapid.
 module Toolpath.DrillMove
   ( moves,
   )
@@ -14,8 +15,8 @@ import Part.Part qualified as Part
 import Toolpath.LinkingMove qualified as LinkingMove
 import Toolpath.Toolpath (Manner (Manner), Move (Move))
 
--- | The moves of a drilling statement, from the tool's position before it. The tool rises to the
--- clearance height first if it is below.
+-- | The moves of a drilling statement, from the tool's position before it. A tool below the
+-- clearance height rises to that height first.
 moves :: SpacePoint -> Located Drilling -> [Move]
 moves at (Located region d) =
   LinkingMove.rise at clear (LinkingMove.keyword 4 region)
@@ -40,7 +41,9 @@ moves at (Located region d) =
             <> [((from, z), Part.At (Part.drillFeed d)), ((z, clear), Part.Rapid)]
     depths = depthsOf d
 
--- | The heights to which a drill goes down, in order: equal pecks, none deeper than is asked.
+-- | The heights at which the pecks of a hole end, in order. All pecks have the same depth, at most
+-- the one that the program gives; but there are at most 10000 pecks. Without pecking the only
+-- height is that of the bottom.
 depthsOf :: Drilling -> [Mm]
 depthsOf d = case Part.peckDepth d of
   Nothing -> [Part.bottom d]
@@ -49,6 +52,6 @@ depthsOf d = case Part.peckDepth d of
         count = max 1 (min 10000 (ceiling (-bottom / most - Tolerance.equal))) :: Int
      in [Mm (bottom * fromIntegral k / fromIntegral count) | k <- [1 .. count]]
 
--- | The distance above the last depth at which a drill's rapid move down ends.
+-- | The distance between the end of one peck and the end of the rapid move down to the next one.
 peckGap :: Mm
 peckGap = Mm 0.5

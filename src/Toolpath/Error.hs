@@ -29,8 +29,11 @@ import Report.Report (Label (..), Report (..))
 import Toolpath.Tolerance qualified as Tolerance
 import Toolpath.WarningReport
 
+-- | Reasons why there is no toolpath. The first region is that of the report, which is mostly the
+-- statement's first word.
 data Error
-  = -- | @outside@ or @inside@ at an open contour
+  = -- | @outside@ or @inside@ at an open contour: the side as written, the contour's name, the
+    -- contour
     SideOfOpen Region Side Name Region
   | -- | a concave radius smaller than the cutter's: the statement, the cutter, the arc and its
     -- radius, the largest radius that fits
@@ -38,7 +41,8 @@ data Error
   | -- | an inner corner: the statement, the cutter, both elements, the corner, the largest radius
     -- that fits
     InnerCorner Region Tool Element Element Point (Maybe Mm)
-  | -- | on its pass along the first element the cutter cuts the second one
+  | -- | in its pass along the first element the cutter would cut the second one: the position of
+    -- the centre, the largest radius that fits
     Collision Region Tool Element Element Point (Maybe Mm)
   | -- | a move that cuts into an element: the statement, the move, the element, the depth of the
     -- cut, its kind, the position of the centre
@@ -49,68 +53,82 @@ data Error
   | -- | milling one contour cuts into another: the statement, the element being milled, the
     -- element cut, the depth of the cut, the position of the centre
     MillsAnother Region Region Element Mm Point
-  | -- | milling without a depth while the cutter is at this height above the part
+  | -- | milling without a depth at this height above the part, where the cutter cuts nothing
     CutsAir Region Mm
   | -- | a closed contour to be turned: the statement, the contour's name, the contour
     TurnsClosed Region Name Region
-  | -- | climb or conventional milling where the cutter has no side
+  | -- | climb or conventional milling where the cutter's centre moves on the contour: the word in
+    -- the program, the statement
     SenseOnContour Region Region
-  | -- | climb or conventional milling that contradicts the side
+  | -- | climb or conventional milling that contradicts the side: the word in the program, the side
     SenseAgainstSide Region Region
   | -- | a turned profile that goes below the axis of the spindle: the statement, the element
     BelowAxis Region Element
-  | -- | an allowance where the cutter has no side: the statement, or the contour's element that
-    -- has the allowance
+  | -- | an allowance where the cutter's centre moves on the contour
     AllowanceOnContour Region
-  | -- | a blade along a contour without a bevel on any element
+  | -- | a blade along a contour on which no element has a bevel
     NoBevel Region
-  | -- | a blade on the contour itself
+  | -- | a blade that has no side of the contour, because @on@ is asked for
     BladeOnContour Region
-  | -- | two elements with a smooth joint and different bevels, in radians
+  | -- | two elements that meet smoothly but with different bevels, in radians
     BevelJumps Region Element Element Double Double
   | -- | cutter compensation by the control, with a request that its input cannot express
     NotForControl Region Unsupported
   | -- | an approach or retract too short for a control: the move, the region that asks for cutter
-    -- compensation, True for an approach, its length, the cutter's radius
+    -- compensation, True for an approach, its length, the cutter's radius. The length is 0 if there
+    -- is no straight and level move
     ShortForControl Region Region Bool Mm Mm
   | -- | an approach from a direction that a control does not accept: the move, the region that asks
     -- for cutter compensation, the end of the approach
     WrongWayForControl Region Region Point
-  | -- | a concave arc of this radius that a control cannot follow; a lead has no element
+  | -- | a concave arc that a control cannot follow: the statement, the region that asks for cutter
+    -- compensation, the element (Nothing for a lead), the radius of the arc, the cutter's radius
     TightForControl Region Region (Maybe Element) Mm Mm
-  | -- | a line of this length, or an arc of this radius, that is too short for a control, and the
-    -- least length or radius; a lead has no element
+  | -- | an element that is too short for a control: the statement, the region that asks for cutter
+    -- compensation, the element (Nothing for a lead), the length of the line or the radius of the
+    -- arc, the least length or radius
     TinyForControl Region Region (Maybe Element) Mm Mm
-  | -- | a slight corner that a control ignores: the change of direction, the depth of the
-    -- control's cut
+  | -- | a slight corner that a control ignores: the region that asks for cutter compensation, both
+    -- elements, the change of direction, the depth of the control's cut into the part
     SlightForControl Region Element Element Rad Mm
-  | -- | a corner at which the contour almost reverses, which a control refuses: the change of
-    -- direction
+  | -- | a corner at which the contour almost reverses, which a control refuses: the region that
+    -- asks for cutter compensation, both elements, the change of direction
     BackForControl Region Element Element Rad
   | -- | no toolpath clears the pocket: the statement's first word, the outer contour, the
     -- allowance of the pass
     NoPathInPocket Region Contour Mm
-  | -- | no toolpath along a contour with rest material allowed
+  | -- | no toolpath along a contour although rest material is allowed: the statement, the contour,
+    -- the allowance of the pass
     NoPathAlong Region Contour Mm
   | -- | a pocket without a depth in which the cutter must be lifted: the statement's first word,
     -- the beginning and the end of that move
     HasToRise Region Point Point
-  | -- | an element of a pocket's walls with a larger allowance than the pocket: the statement's
-    -- first word
+  | -- | an element of a pocket's walls whose own allowance exceeds that of the pocket's last pass
     KeepsMore Region Element
   deriving stock (Eq, Show)
 
 -- | The kinds of intrusion of a move.
 data Intrusion
-  = CutsContour
-  | -- | the move crosses the contour itself
+  = -- | the cutter cuts into the part, and its centre stays on one side of the contour
+    CutsContour
+  | -- | the path of the centre touches or crosses the contour
     Crossing
-  | -- | the move cuts into the allowance on the contour
+  | -- | the cutter cuts into the allowance on the contour
     CutsAllowance
   deriving stock (Eq, Show)
 
 -- | Requests that the input of a control with cutter compensation cannot express.
-data Unsupported = OnContour | Swivelling | SharpCorners | LeavingMaterial | Unreached
+data Unsupported
+  = -- | the cutter's centre moves on the contour
+    OnContour
+  | -- | a blade swivels
+    Swivelling
+  | -- | sharp outer corners instead of arcs
+    SharpCorners
+  | -- | an allowance
+    LeavingMaterial
+  | -- | rest material: parts of the contour that the cutter does not reach
+    Unreached
   deriving stock (Eq, Show)
 
 -- | The report of an error.

@@ -1,11 +1,9 @@
-{-# LANGUAGE BangPatterns #-}
-
--- | From the part to the toolpath: the equidistant of every contour to be machined, pass by pass,
--- with approaches and retracts, holes, and the moves between them.
+-- | From the part to the toolpath: the offset of every contour to be machined, pass by pass, with
+-- approaches and retracts, holes, and the linking moves between them.
 --
--- A milling statement becomes one block for each pass. The pass itself is made by
--- "Toolpath.CuttingPass", pockets by "Toolpath.PocketMove", holes by "Toolpath.DrillMove". A path
--- that cuts a contour where it should not is refused ("Toolpath.Intrusion").
+-- A milling statement becomes one block for each pass. "Toolpath.CuttingPass" makes the moves of a
+-- pass, "Toolpath.PocketMove" those of a pocket, "Toolpath.DrillMove" those of holes. A toolpath
+-- that cuts a contour where the program does not allow it is refused ("Toolpath.Intrusion").
 module Toolpath.FromPart
   ( toToolpath,
     leadingSide,
@@ -13,23 +11,22 @@ module Toolpath.FromPart
   )
 where
 
-import Base.Quantity (Mm (..), plus)
+import Base.Quantity (Mm (..))
 import Base.Region (Located (..), Region (..))
 import Base.Result (Result (..))
 import Control.Monad (foldM)
 import Data.Bifunctor (first)
+import Data.List (tails)
 import Data.List.NonEmpty (NonEmpty (..))
 import Data.List.NonEmpty qualified as NonEmpty
 import Data.Map.Strict qualified as Map
 import Data.Maybe (fromMaybe, listToMaybe, mapMaybe)
-import Data.Vector (Vector)
 import Data.Vector qualified as Vector
 import Geometry.Carrier qualified as Carrier
 import Geometry.Vec qualified as Vec
-import Offset.Equidistant qualified as Equidistant
 import Part.Part
   ( Contour (elements),
-    Milling (contour, radius),
+    Milling (contour),
     Operation (..),
     Part,
     SpacePoint (..),
@@ -39,12 +36,12 @@ import Part.Part qualified as Part
 import Toolpath.CuttingPass (CuttingPass (CuttingPass), touchedRadius)
 import Toolpath.CuttingPass qualified as CuttingPass
 import Toolpath.DrillMove qualified as DrillMove
-import Toolpath.Error (Error (..), Unsupported (..), Warning (..))
+import Toolpath.Error (Error (..), Warning (..))
 import Toolpath.Error qualified as Error
 import Toolpath.Intrusion qualified as Intrusion
 import Toolpath.LinkingMove qualified as LinkingMove
 import Toolpath.MillingSide (keyword, leadingSide, oriented, possible)
-import Toolpath.OffsetRefusal qualified as OffsetRefusal
+import Toolpath.OffsetPath qualified as OffsetPath
 import Toolpath.PocketMove qualified as PocketMove
 import Toolpath.RestMaterial (Remaining (Remaining, positions, tool, word))
 import Toolpath.RestMaterial qualified as RestMaterial
@@ -52,9 +49,9 @@ import Toolpath.Toolpath (Block (..), Toolpath (Toolpath))
 import Toolpath.Toolpath qualified as Toolpath
 import Toolpath.Warning qualified as Warning
 
--- | Computes the toolpath of a part. There is none when an operation has none, or when there are
--- operations but the start is unknown, which is reported already. A part that is only drawn has a
--- path without moves.
+-- | Computes the toolpath of a part. There is no toolpath when an operation fails. Nor is there one
+-- when the part has operations but no start, which an earlier compiler pass reports. A part
+-- without operations has a toolpath without moves.
 toToolpath :: Part -> Result Warning Error Toolpath
 toToolpath part = case (Part.start part, Part.operations part) of
   (Nothing, []) ->
@@ -63,9 +60,8 @@ toToolpath part = case (Part.start part, Part.operations part) of
       []
       (Just (Toolpath (Located (Region 0 0) (SpacePoint (Vec.point 0 0) (Mm 0))) [] False))
   (Nothing, _) -> Result [] [] Nothing
-  -- Nothing of an operation is kept after its blocks.
-  (Just begin, operations) | !tool <- maybe (Mm 0) Part.cutterRadius (Part.firstCutter part) ->
-    case collect 0 tool (value begin) operations of
+  (Just begin, operations) ->
+    case collect (firstState part (value begin)) operations of
       ([], blocks) ->
         let path = Toolpath begin blocks (turns part)
             wrong = Intrusion.intrusions path
@@ -75,7 +71,7 @@ toToolpath part = case (Part.start part, Part.operations part) of
               (Just path)
       (errors, _) -> Result [] errors Nothing
 
--- | Whether the part is turned on a lathe: a statement turns, or there is a turning tool.
+-- | True if the part is turned on a lathe: a statement turns, or there is a turning tool.
 turns :: Part -> Bool
 turns part = or [isTurning c | Just c <- [Part.firstCutter part]] || any asks (Part.operations part)
   where
@@ -85,8 +81,8 @@ turns part = or [isTurning c | Just c <- [Part.firstCutter part]] || any asks (P
       _ -> False
     isTurning c = Part.kind c == Part.TurningCutter
 
--- | The warnings of rest material beside milled contours. The rest material that one cutter leaves
--- at a statement that is carried out several times is one warning.
+-- | The warnings about rest material beside contours. A statement that is executed several times
+-- with the same cutter and allowance gets one warning.
 restWarnings :: Toolpath -> [Warning]
 restWarnings path =
   [ LeavesRestMaterial word tool (concatMap (map fst . NonEmpty.toList . positions) (r : more))
@@ -102,34 +98,60 @@ restWarnings path =
             ]
         )
 
--- | The blocks of operations in order, from the number of the next milling statement, the radius of
--- the tool, and its position. An operation without a path leaves the tool where it was.
-collect :: Int -> Mm -> SpacePoint -> [Operation] -> ([Error], [Block])
-collect number tool at operations = case operations of
-  [] -> ([], [])
-  o : rest -> case blocksOf number tool at o of
-    Left e -> first (e :) (collect next tool' at rest)
-    Right bs ->
-      (bs <>) <$> collect next tool' (LinkingMove.endPosition at (concatMap Toolpath.moves bs)) rest
-    where
-      !next = case o of
+-- | The state between two operations. The fields are strict, so that a state has no reference to
+-- the operations before it.
+data State = State
+  { -- | number of the next milling or pocket statement, from 0
+    number :: Int,
+    -- | radius of the tool in the spindle
+    toolRadius :: Mm,
+    -- | position of the tool
+    at :: SpacePoint
+  }
+
+-- | The state before the first operation, given the start. Without a cutter the radius is 0.
+firstState :: Part -> SpacePoint -> State
+firstState part begin =
+  State
+    { number = 0,
+      toolRadius = maybe (Mm 0) Part.cutterRadius (Part.firstCutter part),
+      at = begin
+    }
+
+-- | The state after an operation, given its blocks. An operation that fails has no blocks, and does
+-- not move the tool.
+stateAfter :: Operation -> [Block] -> State -> State
+stateAfter operation bs State {number, toolRadius, at} =
+  State
+    { number = case operation of
         Mill _ -> number + 1
         Pocket _ -> number + 1
-        _ -> number
-      !tool' = case o of
+        _ -> number,
+      toolRadius = case operation of
         Command (Located _ (Part.ChangeTool _ c)) -> Part.cutterRadius c
-        _ -> tool
+        _ -> toolRadius,
+      at = LinkingMove.endPosition at (concatMap Toolpath.moves bs)
+    }
+
+-- | The blocks of operations in order, and the errors of those that fail.
+collect :: State -> [Operation] -> ([Error], [Block])
+collect state operations = case operations of
+  [] -> ([], [])
+  o : rest -> case blocksOf state o of
+    Left e -> first (e :) (collect (stateAfter o [] state) rest)
+    Right bs -> (bs <>) <$> collect (stateAfter o bs state) rest
 
 -- | The blocks of one operation.
-blocksOf :: Int -> Mm -> SpacePoint -> Operation -> Either Error [Block]
-blocksOf number tool at operation = case operation of
-  Travel stops -> Right [Travelling tool (LinkingMove.straightMoves at (NonEmpty.toList stops))]
+blocksOf :: State -> Operation -> Either Error [Block]
+blocksOf State {number, toolRadius, at} operation = case operation of
+  Travel stops ->
+    Right [Travelling toolRadius (LinkingMove.straightMoves at (NonEmpty.toList stops))]
   Command c -> Right [Commanding c]
   Drill d -> Right [Holing d (DrillMove.moves at d)]
   Pocket job -> PocketMove.blocks number at job
   Mill (Located region given) -> do
     possible region given
-    milling <- withoutLegs <$> oriented region given
+    milling <- withoutWrittenElements <$> oriented region given
     if null (Part.levels milling) && heightOf milling > Mm 0
       then Left (CutsAir (keyword region) (heightOf milling))
       else do
@@ -137,8 +159,10 @@ blocksOf number tool at operation = case operation of
         passBlocks number at (Located region milling) side (passesOf milling)
   where
     -- The contour as written is not needed any more; it takes much memory.
-    withoutLegs milling = milling {contour = (contour milling) {Part.writtenElements = []}}
-    -- Without depth the cutter stays at the height of its last approach point.
+    withoutWrittenElements milling =
+      milling {contour = (contour milling) {Part.writtenElements = []}}
+    -- A statement without a depth mills at the height of its last approach point that has one, or
+    -- else at the current height.
     heightOf milling =
       fromMaybe (height at) (listToMaybe (mapMaybe Part.level (reverse (Part.approach milling))))
     passesOf milling =
@@ -147,7 +171,9 @@ blocksOf number tool at operation = case operation of
           z <- if null (Part.levels milling) then [heightOf milling] else Part.levels milling
       ]
 
--- | The blocks of all passes of a milling statement, given by allowance and height.
+-- | The blocks of all passes of a milling statement, whose number is the first argument. The
+-- position is that of the cutter before the statement. Each pass is given by its allowance and its
+-- height.
 passBlocks ::
   Int ->
   SpacePoint ->
@@ -156,17 +182,17 @@ passBlocks ::
   [(Mm, Mm)] ->
   Either Error [Block]
 passBlocks number at job side passes =
-  reverse . snd <$> foldM pass (at, []) (zip [1 ..] passes)
+  reverse . snd <$> foldM pass (at, []) (zip [1 :: Int ..] passes)
   where
-    -- One array for all passes: the elements are many, and lie far apart in memory.
+    -- All passes share one array. A contour may have many elements, which as a list are scattered
+    -- over memory.
     numbered =
       let es = elements (contour (value job))
        in Vector.fromListN (NonEmpty.length es) (NonEmpty.toList es)
     count = length passes
     pass before (k, (allowance, level)) = do
-      (paths, rests) <- along job side numbered allowance
-      let !pathCount = length paths
-          cut (from, done) (n, path) = do
+      (paths, rests) <- OffsetPath.paths job side numbered allowance
+      let cut (from, done) (isFirstPath, isLastPath, path) = do
             b <-
               CuttingPass.block
                 CuttingPass
@@ -174,59 +200,18 @@ passBlocks number at job side passes =
                     CuttingPass.milled = job,
                     CuttingPass.cutterSide = side,
                     CuttingPass.numbered,
-                    CuttingPass.isFirst = k == 1 && n == 1,
-                    CuttingPass.isLast = k == count && n == pathCount,
+                    CuttingPass.isFirst = k == 1 && isFirstPath,
+                    CuttingPass.isLast = k == count && isLastPath,
                     CuttingPass.from,
                     CuttingPass.allowance,
                     CuttingPass.level,
-                    CuttingPass.restMaterial = if n == 1 then rests else []
+                    CuttingPass.restMaterial = if isFirstPath then rests else []
                   }
                 path
             Right (LinkingMove.endPosition from (Toolpath.moves b), b : done)
-      foldM cut before (zip [1 :: Int ..] (NonEmpty.toList paths))
+      foldM cut before (withEnds paths)
 
--- | The paths of the cutter beside a contour, or on it without a side, with an allowance; and the
--- rest material where it is allowed.
-along ::
-  Located Milling ->
-  Maybe Carrier.Side ->
-  Vector Part.Element ->
-  Mm ->
-  Either Error (NonEmpty (NonEmpty Equidistant.OffsetSegment), [Equidistant.UnreachedPart])
-along (Located region milling) side numbered allowance = case side of
-  Nothing ->
-    Right
-      ( NonEmpty.zipWith
-          (\i e -> Equidistant.OffsetSegment (Equidistant.Along i) (Part.segment e))
-          (0 :| [1 ..])
-          (elements (contour milling))
-          :| [],
-        []
-      )
-  Just s -> case (Equidistant.styled style s r polyarcOf, Part.rest milling) of
-    (Right pieces, _) -> Right (pieces :| [], [])
-    (Left _, Part.Allowed)
-      | Just elementFinish <- Part.controlCompensation milling ->
-        Left (NotForControl elementFinish Unreached)
-    (Left o, Part.Allowed) -> case Equidistant.reachableFitting style s r polyarcOf of
-      ([], _) -> Left (NoPathAlong (keyword region) (contour milling) allowance)
-      (_, []) -> Left (refusal o)
-      (p : ps, rests) -> Right (fmap Equidistant.pieces (p :| ps), rests)
-    (Left o, Part.Refused) -> Left (refusal o)
-  where
-    polyarcOf = Part.polyarcOf (contour milling)
-    r = plus (radius milling) allowance
-    style =
-      Equidistant.CornerStyle
-        { Equidistant.sharp = Part.corners milling == Part.Sharp,
-          Equidistant.extra
-        }
-    -- Mostly no element has an allowance of its own; then none is examined again.
-    extra
-      | plain = const (Mm 0)
-      | otherwise = allowanceOf . (numbered Vector.!)
-    !plain = all ((== Mm 0) . allowanceOf) numbered
-    allowanceOf = Part.allowance . Part.finish
-    refusal = OffsetRefusal.refusal region (RestMaterial.toolOf milling allowance) numbered
--- Inlined, the contour would be shared by all passes and kept as long.
-{-# NOINLINE along #-}
+-- | Each item with two flags: true for the first one, and true for the last one.
+withEnds :: NonEmpty a -> [(Bool, Bool, a)]
+withEnds (item :| others) =
+  zip3 (True : repeat False) (map null (tails others)) (item : others)

@@ -1,5 +1,5 @@
--- | The loops that bound the region of a pocket that the cutter's centre can reach, computed by
--- the offset kernel.
+-- | The loops around the region of a pocket that the cutter's centre can reach. The offset kernel
+-- computes them.
 module Toolpath.Inset
   ( oriented,
     inset,
@@ -33,8 +33,8 @@ oriented outer islands = orient (> 0) outer :| map (orient (< 0)) islands
     orient wanted c = if wanted (Polyarc.signedArea c) then c else Polyarc.reverse c
 
 -- | The loops at a distance to the left of an outer contour and islands. The contours must be
--- oriented, simple and disjoint. They are converted once for all distances. There are no loops
--- when the contours intersect.
+-- oriented as by 'oriented', and free of self-intersections. There are no loops when the contours
+-- intersect each other. Applied to the contours only, it converts them once for all distances.
 inset :: NonEmpty Polyarc -> Mm -> [Loop]
 inset contours@(outer :| _) = loopsAt
   where
@@ -50,9 +50,9 @@ inset contours@(outer :| _) = loopsAt
         Left (Kernel.SelfIntersecting _ _) -> []
         Left Kernel.WrongNesting -> []
 
--- | The loops at a distance, including passes down slots of exactly twice that width. In such a
--- slot the centre has only a line and no area. The loop at a distance smaller by
--- 'Tolerance.clearance' replaces it.
+-- | The loops at a distance, including loops along slots whose width is exactly twice the distance.
+-- In such a slot the centre can move on a line only, and a function such as 'inset' gives no loop
+-- there. Then the loops at a distance that is smaller by 'Tolerance.clearance' are returned.
 insetWithSlots :: (Mm -> [Loop]) -> Mm -> [Loop]
 insetWithSlots loopsAt distance
   | minus (totalLength smaller) (totalLength own) > Tolerance.ignoredSlot = smaller
@@ -62,9 +62,9 @@ insetWithSlots loopsAt distance
     smaller = loopsAt (minus distance Tolerance.clearance)
     totalLength loops = total [Segment.length s | loop <- loops, s <- NonEmpty.toList loop]
 
--- | The inner offset of loops by a distance. From loop to loop the kernel has less work than from
--- the walls to each loop. The result is Nothing when the kernel cannot decide, as when loops
--- touch.
+-- | The loops at a distance to the left of loops that 'inset' gave. This is less work for the
+-- kernel than to compute them from the walls. Nothing when the kernel cannot decide, for instance
+-- because loops touch.
 insetOfLoops :: [Loop] -> Mm -> Maybe [Loop]
 insetOfLoops loops distance@(Mm d)
   | 2 * d >= min (r - l) (t - b) = Just []

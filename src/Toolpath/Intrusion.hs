@@ -1,8 +1,8 @@
--- | Moves that cut into a machined contour where they should not.
+-- | Moves that cut into a machined contour where the program does not allow it.
 --
--- This checks approaches, retracts and linking moves against all contours, and cuts against the
--- contours of other statements. "Offset.Equidistant" keeps cuts along the contour itself clear of
--- it. A move wholly above the top of the part cuts nothing.
+-- Approaches, retracts and linking moves are checked against all contours. Cuts are checked against
+-- the contours of other statements only; that they do not gouge their own contour is the task of
+-- "Offset.Equidistant". A move wholly above the top of the part cuts nothing.
 module Toolpath.Intrusion
   ( intrusions,
   )
@@ -40,8 +40,8 @@ import Toolpath.Swivel qualified as Swivel
 import Toolpath.Toolpath (Block (..), Move, Pass (..), Toolpath)
 import Toolpath.Toolpath qualified as Toolpath
 
--- | The moves of a path that cut into a contour deeper than its tolerance. For each position in the
--- program only the worst one is listed.
+-- | One error for each region of the program whose moves cut into a contour deeper than its
+-- tolerance: the deepest of these cuts.
 intrusions :: Toolpath -> [Error]
 intrusions path = worst (concatMap (intrusionsOfBlock machined) (Toolpath.blocks path))
   where
@@ -56,7 +56,7 @@ intrusions path = worst (concatMap (intrusionsOfBlock machined) (Toolpath.blocks
       MillsAnother at _ _ _ _ -> at
       _ -> Region 0 0
 
--- | The sort key of an intrusion: the deepest one is the least.
+-- | A sort key: minus the depth of an intrusion in mm, so that the deepest one is the least.
 depth :: Error -> Double
 depth e = case e of
   CutsPart _ _ _ (Mm d) _ _ -> -d
@@ -67,29 +67,34 @@ depth e = case e of
 -- | All machined contours of a program.
 data Machined = Machined
   { index :: BoxTree Wall,
-    -- | the largest height at which a tool still cuts, in mm
+    -- | the largest height at which a tool still cuts
     top :: Mm,
-    -- | the number of every milling statement that has walls
+    -- | the numbers of all milling and pocket statements that have a contour to machine
     statements :: [Int]
   }
 
--- | The contours of one milling statement, by its number. A bounding box holds several elements:
--- one for each element would take more memory than the elements, and few are asked for.
+-- | The contours of one milling or pocket statement.
 data Wall = Wall
-  { statement :: Int,
+  { -- | number of the statement
+    statement :: Int,
     milling :: Milling,
+    -- | one bounding box for each 'groupSize' consecutive elements. The list at a box begins with
+    -- these elements, and contains the rest of the contour too. A box for each element would take
+    -- more memory than the element, and few boxes are ever examined
     groups :: BoxTree (NonEmpty Part.Element)
   }
 
--- | The number of elements in one bounding box.
+-- | The largest number of elements in one bounding box.
 groupSize :: Int
 groupSize = 16
 
+-- | Collects the machined contours. The passes of a statement have the same contours, and the first
+-- pass represents them.
 machinedOf :: [Block] -> Machined
 machinedOf blocks =
   Machined
     { index = BoxTree.index (BoxTree.boundingBox . groups) walls,
-      -- The axis of a blade may be above the top of the part while the blade is in it.
+      -- The axis of a blade may be above the top of the part, at 0, while the blade cuts.
       top = maximum (Mm 0 : [Swivel.highest milling | Wall {milling} <- walls]),
       statements = map statement walls
     }
@@ -110,7 +115,8 @@ machinedOf blocks =
         (BoundingBox.ofSegment (Part.segment e))
         (take (groupSize - 1) es)
 
--- | The number of the statement of a pass, its settings, and the contours that it machines.
+-- | For a pass: the number of its statement, the statement, and the contours that it machines.
+-- Nothing for other blocks, and when the centre of the cutter moves on the contour.
 contoursOf :: Block -> Maybe (Int, Milling, [Contour])
 contoursOf b = case b of
   Cutting {job = Located _ milling, pass}
@@ -122,16 +128,17 @@ contoursOf b = case b of
   Holing _ _ -> Nothing
   Commanding _ -> Nothing
 
--- | A tool in the moves of one statement.
+-- | A tool, and the contours from which it has to keep its distance.
 data Intruder = Intruder
   { -- | radius of the tool
     tool :: Mm,
-    -- | the number of the statement whose contour is not checked, since the moves are cuts along it
+    -- | number of the statement whose contour is not checked, because the moves are cuts along it
     own :: Maybe Int,
-    -- | the number of a statement, and the material that it leaves on its contour in the end
+    -- | number of a statement, and its smallest allowance, which the moves must not cut either
     leaving :: Maybe (Int, Mm)
   }
 
+-- | The intrusions of the moves of a block.
 intrusionsOfBlock :: Machined -> Block -> [Error]
 intrusionsOfBlock machined b = case b of
   Commanding _ -> []
@@ -160,9 +167,9 @@ intrusionsOfBlock machined b = case b of
             )
   where
     found = intrusionsOfMove machined
-    -- Where nothing else is machined, the cuts along a contour meet nothing else.
+    -- If no other statement has a contour, cuts along this one need no check.
     isAlone n = all (== n) (statements machined)
-    -- A cut along another contour is no move that could be chosen otherwise.
+    -- For a cut, the report names the element along which the cutter moves, instead of the move.
     asMilling word e = case e of
       CutsPart milled _ element deep _ p -> MillsAnother word milled element deep p
       _ -> e
@@ -170,22 +177,22 @@ intrusionsOfBlock machined b = case b of
       CutsPart at move element deep _ _ -> HoleCuts at (Segment.end move) element deep
       _ -> e
 
--- | The deepest intrusion of a move into each statement's contours. A contour that is milled
--- several times is listed once.
+-- | The deepest intrusion of a move into the contours of each statement. Intrusions of several
+-- statements at the same point are listed once, because they mill the same contour.
 intrusionsOfMove :: Machined -> Intruder -> Move -> [Error]
 intrusionsOfMove machined intruder m
   | fst (Toolpath.heights m) > top machined && snd (Toolpath.heights m) > top machined = []
   | otherwise =
     nubBy
       isSamePoint
-      (map deviationLimits (groupBy ((==) `on` fst) (sortOn fst (hits machined intruder m))))
+      (map deepest (groupBy ((==) `on` fst) (sortOn fst (hits machined intruder m))))
   where
     isSamePoint e f = case (e, f) of
       (CutsPart _ _ _ _ _ p, CutsPart _ _ _ _ _ q) -> Vec.isNear p q
       _ -> False
-    deviationLimits errors = minimumBy (comparing depth) (map snd errors)
+    deepest errors = minimumBy (comparing depth) (map snd errors)
 
--- | All elements that a move cuts into, with the numbers of their statements.
+-- | The intrusions of a move into all elements near it, with the numbers of their statements.
 hits :: Machined -> Intruder -> Move -> [(Int, Error)]
 hits machined Intruder {tool, own, leaving} m =
   [ (statement wall, e)
@@ -205,8 +212,8 @@ hits machined Intruder {tool, own, leaving} m =
       Just (leaver, left) | statement wall == leaver -> plus tool left
       _ -> tool
 
--- | The intrusion of a move into an element, given the tool's radius and the distance that its
--- centre has to keep.
+-- | The intrusion of a move into an element. The arguments are the tool's radius, the distance that
+-- its centre has to keep from the element, the statement of the element, the move and the element.
 hit :: Mm -> Mm -> Milling -> Move -> Part.Element -> Maybe Error
 hit tool kept milling m element
   | plus d allowed < kept || d <= Tolerance.coincident && goesThrough allowed path wall =
@@ -230,8 +237,8 @@ hit tool kept milling m element
       | plus d allowed < tool = CutsContour
       | otherwise = CutsAllowance
 
--- | Whether a segment leads from one side of a wall to the other, by more than an allowed distance
--- on both sides. The tip of a pointed tool cuts nothing beside it.
+-- | True if a segment @path@ leads from one side of the segment @wall@ to the other, and further
+-- than @allowed@ on both sides. The check is for pointed tools, whose radius is 0.
 goesThrough :: Mm -> Segment -> Segment -> Bool
 goesThrough allowed path wall = case wall of
   Straight a b ->

@@ -1,4 +1,4 @@
--- | Lead-in and lead-out: the moves onto the path beside a contour and off it.
+-- | Lead-in and lead-out: the moves onto the offset of a contour and off it.
 module Toolpath.Lead
   ( Which (..),
     lead,
@@ -7,7 +7,7 @@ where
 
 import Base.Quantity (Mm (..))
 import Base.Region (Region)
-import Geometry.Carrier (Sense (..))
+import Data.Maybe (fromMaybe)
 import Geometry.Carrier qualified as Carrier
 import Geometry.Segment (Segment (Straight))
 import Geometry.Segment qualified as Segment
@@ -17,12 +17,15 @@ import Part.Part (Milling (feed))
 import Part.Part qualified as Part
 import Toolpath.Toolpath (Manner (Manner), Move (Move))
 
+-- | The lead-in or the lead-out.
 data Which = In | Out
   deriving stock (Eq)
 
--- | The move onto the path at its start, or off it at its end, given the direction of the path
--- there: a straight line, or a quarter of a circle that curves away from the material. It has no
--- height yet. The region is that of the statement's keyword.
+-- | The lead-in at the start of a path, or the lead-out at its end; empty if the program asks for
+-- none. It is a straight line in the direction of the path, or a quarter of a circle that curves
+-- away from the material. Without a side the circle is on the left. The region is that of the
+-- statement's keyword; the vector and the point are the unit direction and the end of the path.
+-- The heights of the move are 0; the caller sets them.
 lead :: Region -> Milling -> Maybe Carrier.Side -> Which -> Vec.Vec -> Point -> [Move]
 lead keyword milling side which direction p =
   case if which == In then Part.leadIn milling else Part.leadOut milling of
@@ -31,16 +34,12 @@ lead keyword milling side which direction p =
       let q = Vec.shift (Vec.scale (outwards * l) direction) p
        in [move (oriented (Straight q p) (Straight p q))]
     Just (Part.LeadArc, Mm r) ->
-      let centre = Vec.shift (Vec.scale (free * r) (Vec.left direction)) p
+      let centre = Carrier.beside freeSide (Mm r) direction p
           q = Vec.shift (Vec.scale (outwards * r) direction) centre
-          sense = if free > 0 then CounterClockwise else Clockwise
+          sense = Carrier.senseTowards freeSide
        in [move (oriented (Segment.arc sense centre q p) (Segment.arc sense centre p q))]
   where
     outwards = if which == In then -1 else 1
     oriented onto off = if which == In then onto else off
     move s = Move s (Manner (Mm 0, Mm 0) (Part.At (feed milling)) False) keyword False
-    -- The side that is free of material, +1 for the left.
-    free = case side of
-      Just Carrier.RightOf -> -1
-      Just Carrier.LeftOf -> 1
-      Nothing -> 1 :: Double
+    freeSide = fromMaybe Carrier.LeftOf side

@@ -1,4 +1,5 @@
--- | Linking moves: from the current position to the beginning of a pass, and from its end.
+-- | Linking moves: those from the current position to the beginning of a pass, and those that leave
+-- its end.
 module Toolpath.LinkingMove
   ( Visit (..),
     withDepth,
@@ -22,18 +23,22 @@ import Part.Part qualified as Part
 import Toolpath.Toolpath (Manner (Manner), Move (Move))
 import Toolpath.Toolpath qualified as Toolpath
 
--- | One pass of a statement: the statement's first word, the milling parameters, flags for the
--- first and the last pass, and the position of the cutter before the pass.
+-- | One pass of a statement, as its linking moves need it.
 data Visit = Visit
-  { word :: Region,
+  { -- | region of the statement's first word
+    word :: Region,
     milling :: Milling,
+    -- | true for the first pass of the statement
     isFirst :: Bool,
+    -- | true for the last pass of the statement
     isLast :: Bool,
+    -- | position of the cutter before the pass
     from :: SpacePoint
   }
 
--- | The linking moves before and after a pass without depth, at the cutter's current height @z@.
--- The heights in the pair are those at the beginning and at the end of the pass.
+-- | The linking moves before and after a pass of a statement without a depth. The cutter stays at
+-- its current height @z@. The pair gives the heights at the beginning and at the end of the pass,
+-- which differ from @z@ for a blade only; the points are the beginning and the end of the pass.
 withoutDepth :: Visit -> Mm -> (Mm, Mm) -> Point -> Point -> ([Move], [Move])
 withoutDepth Visit {word, milling, isFirst, isLast, from} z (inZ, outZ) begin finish =
   ( before
@@ -51,7 +56,7 @@ withoutDepth Visit {word, milling, isFirst, isLast, from} z (inZ, outZ) begin fi
         then straightMoves (SpacePoint finish outZ) (upright (Part.retract milling))
         else []
     isOpen = Part.ends (Part.contour milling) == Part.Open
-    -- A blade is turned upright on the retract.
+    -- On the first move of the retract, a blade swivels back to its upright position.
     upright stops = case stops of
       s : more
         | Nothing <- Part.level s,
@@ -59,9 +64,10 @@ withoutDepth Visit {word, milling, isFirst, isLast, from} z (inZ, outZ) begin fi
           s {Part.level = Just z} : more
       _ -> stops
 
--- | The linking moves before and after a pass with depth. At the clearance height the cutter
--- moves to the last approach point, or to the beginning of the pass, and plunges there. It
--- rises again at the first retract point, unless that point has its own height.
+-- | The linking moves before and after a pass of a statement with a depth. At the clearance height
+-- @clear@ the cutter moves to the last approach point, or to the beginning of the pass if there is
+-- none, and plunges there. It rises again at the first retract point, unless that point has a
+-- height of its own. The pair and the points are those of 'withoutDepth'.
 withDepth :: Visit -> Mm -> (Mm, Mm) -> Point -> Point -> ([Move], [Move])
 withDepth Visit {word, milling, isFirst, isLast, from} clear (inZ, outZ) begin finish =
   ( up
@@ -100,19 +106,21 @@ withDepth Visit {word, milling, isFirst, isLast, from} clear (inZ, outZ) begin f
         else []
     lastOf xs = take 1 (reverse xs)
 
--- | A move straight down to a height at the plunge feed; none at that height already.
+-- | A vertical move to a height at the plunge feed; none if the cutter is at that height.
 plunge :: Region -> Milling -> SpacePoint -> Mm -> [Move]
 plunge word milling (SpacePoint p z) target =
   [Move (Straight p p) (Manner (z, target) (Part.At feedDown) False) word False | z /= target]
   where
     feedDown = fromMaybe (feed milling) (Part.plunge milling)
 
--- | A rapid move straight up to a height, if the cutter is below it.
+-- | A rapid move straight up to a height; none if the cutter is not below it. The region is the
+-- origin of the move.
 rise :: SpacePoint -> Mm -> Region -> [Move]
 rise (SpacePoint p z) clear word =
   [Move (Straight p p) (Manner (z, clear) Part.Rapid False) word False | z < clear]
 
--- | Straight moves from stop to stop. A stop at the current position needs no move.
+-- | Straight moves from a position to each stop in turn. A stop without a height keeps the current
+-- one. A stop at the current position needs no move.
 straightMoves :: SpacePoint -> [Stop] -> [Move]
 straightMoves at stops = case stops of
   [] -> []
@@ -124,13 +132,13 @@ straightMoves at stops = case stops of
     where
       z = fromMaybe (height at) level
 
--- | The position after moves that begin at a position.
+-- | The end of the last move; the given position if there are no moves.
 endPosition :: SpacePoint -> [Move] -> SpacePoint
 endPosition from ms = case ms of
   [] -> from
   [m] -> SpacePoint (Segment.end (Toolpath.segment m)) (snd (Toolpath.heights m))
   _ : more -> endPosition from more
 
--- | The region of a statement's first word, which has @letters@ letters.
+-- | Shortens the region of a statement to its first word, which has @letters@ letters.
 keyword :: Int -> Region -> Region
 keyword letters r = r {end = start r + letters}

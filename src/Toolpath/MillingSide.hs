@@ -1,6 +1,6 @@
 -- | The side of a contour on which the cutter moves, and the direction of travel.
 --
--- Refuses statements that make no sense on their contour.
+-- Refuses statements that are impossible on their contour, such as @outside@ on an open one.
 module Toolpath.MillingSide
   ( leadingSide,
     possible,
@@ -28,9 +28,10 @@ import Part.Part qualified as Part
 import Toolpath.Error (Error (..))
 import Toolpath.LinkingMove qualified as LinkingMove
 
--- | The side of the direction of travel on which the cutter is; nothing when its centre moves on
--- the contour. A profile that is turned outside lies between the tool and the spindle's axis,
--- @y = 0@.
+-- | The side of the contour, in the direction of travel, on which the cutter moves; Nothing when
+-- its centre moves on the contour. A profile that is turned outside lies between the tool and the
+-- spindle's axis, @y = 0@. Refuses @outside@ and @inside@ for open contours that are milled, and
+-- closed contours that are turned.
 leadingSide :: Milling -> Either Error (Maybe Carrier.Side)
 leadingSide milling = case (value (side milling), Part.ends (contour milling)) of
   (_, Part.Closed)
@@ -57,8 +58,8 @@ leadingSide milling = case (value (side milling), Part.ends (contour milling)) o
         >= Vec.x (Segment.start (Part.segment (NonEmpty.head (elements (contour milling)))))
     name = Part.contourName (contour milling)
 
--- | Refuses a profile below the spindle's axis, and an allowance when the centre of the cutter
--- moves on the contour.
+-- | Refuses a turned profile that goes below the spindle's axis, and an allowance when the centre
+-- of the cutter moves on the contour. The region is the statement.
 possible :: Region -> Milling -> Either Error ()
 possible region milling
   | e : _ <-
@@ -84,8 +85,10 @@ possible region milling
           Vec.y centre - r
       _ -> min (Vec.y (Segment.start s)) (Vec.y (Segment.end s))
 
--- | Reverses the contour where climb or conventional milling asks for it. With a spindle that
--- turns clockwise, climb milling has the material on the right of the direction of travel.
+-- | Reverses the contour if the program asks for climb or conventional milling and the contour has
+-- the wrong sense for it. With a spindle that turns clockwise, climb milling has the material on
+-- the right of the direction of travel. Refuses the request when the cutter's centre moves on the
+-- contour, and when it contradicts the side @left@ or @right@.
 oriented :: Region -> Milling -> Either Error Milling
 oriented region milling = case Part.sense milling of
   Nothing -> Right milling
@@ -103,6 +106,6 @@ oriented region milling = case Part.sense milling of
   where
     region' (Located r _) = r
 
--- | The keyword of a statement that mills or turns.
+-- | Shortens the region of a statement to its keyword, @mill@ or @turn@.
 keyword :: Region -> Region
 keyword = LinkingMove.keyword 4

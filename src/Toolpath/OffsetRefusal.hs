@@ -20,8 +20,8 @@ import Part.Part qualified as Part
 import Toolpath.Error (Error (ConcaveRadius), RestPosition (..), Tool (leaves))
 import Toolpath.Error qualified as Error
 
--- | The error for an obstacle. The region is the statement's first word; the elements are indexed
--- by their numbers.
+-- | The error for an obstacle. The region is the statement's first word; the index of an element in
+-- the vector is its number in the obstacle.
 refusal :: Region -> Tool -> Vector Element -> Obstacle -> Error
 refusal region tool elements (Obstacle cause largest) = case cause of
   Concave i old -> ConcaveRadius region tool (elements ! i) old (fitting tool largest)
@@ -30,7 +30,8 @@ refusal region tool elements (Obstacle cause largest) = case cause of
   Collision i j p ->
     Error.Collision region tool (elements ! i) (elements ! j) p (fitting tool largest)
 
--- | The rest material, one entry for each unreached part of the contour.
+-- | The rest material, one entry for each unreached part of the contour. The index of an element in
+-- the vector is its number in the unreached parts.
 restPositions ::
   Functor f =>
   Tool ->
@@ -43,17 +44,17 @@ restPositions tool elements = fmap restPosition
       InnerCorner i j p -> InCorner (elements ! i) (elements ! j) p
       Concave i old -> InConcaveArc (elements ! i) old (largest' rest)
       Collision i j _ -> case onlyCorner i j of
-        -- At a corner between arcs of a curve and another element. No round cutter reaches into a
-        -- corner, though a smaller one comes closer.
+        -- The two elements are arcs of curves that meet at a corner. No round cutter reaches into
+        -- a corner, though a smaller one comes closer.
         Just (a, b) | isCorner rest a b -> InCorner a b (Segment.start (Part.segment b))
         _ -> Between (elements ! i) (elements ! j) (Equidistant.cutterCentre rest) (largest' rest)
     largest' rest = fitting tool (largest (Equidistant.stop rest))
-    -- The numbers of elements that do not continue a curve, and the count of these before each
-    -- element and before the end.
+    -- The numbers of the elements that do not continue a curve; then, for each element, the count
+    -- of such elements before it, and at last the count of all of them.
     corners = Vector.findIndices (not . Part.continues) elements
     cornersBefore = Vector.scanl' (\n e -> if Part.continues e then n else n + 1) 0 elements
-    -- The two elements at the corner between elements i and j, if there is exactly one corner
-    -- between them. The path may cross the contour's end.
+    -- The two elements that meet at the corner between elements i and j, if there is exactly one
+    -- corner between them. From i to j the path may cross the contour's end.
     onlyCorner i j =
       let from = cornersBefore ! (i + 1)
           around = if j < i then Vector.length corners else 0
@@ -74,14 +75,15 @@ restPositions tool elements = fmap restPosition
               )
               > smooth
 
--- | The radius of the largest cutter: the largest radius that fits, less the allowance.
+-- | The radius of the largest cutter that fits: the largest distance of the centre from the contour
+-- that is possible, less the allowance. Nothing when that is not positive.
 fitting :: Tool -> Maybe Mm -> Maybe Mm
 fitting tool largest = do
   l <- largest
   let d = minus l (leaves tool)
   if d > Mm 0 then Just d else Nothing
 
--- | Adds an offset to the element numbers of an obstacle.
+-- | Adds @n@ to the element numbers of an obstacle.
 renumbered :: Int -> Obstacle -> Obstacle
 renumbered n (Obstacle cause largest) = Obstacle (moved cause) largest
   where

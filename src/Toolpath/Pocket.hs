@@ -1,15 +1,15 @@
 -- | The toolpath of a pocket: loops at increasing distances from the walls, cut from the
 -- innermost outwards, and the linking moves between them.
 --
--- The cutter sweeps every point of the floor that it can reach. A point between two loops has a
--- distance of at most the stepover from the outer loop, along the shortest line to its nearest
--- wall. A stepover of at most the radius therefore leaves nothing, not even in the middle, where
--- the last loop shrinks to nothing. Residue of a wider stepover is cleared by detours
+-- The cutter sweeps every point of the floor that it can reach. Take a point between two loops, and
+-- the shortest line from it to its nearest wall. On that line, the outer loop is at most the
+-- stepover away. A stepover of at most the radius therefore leaves nothing, not even in the middle,
+-- where the last loop shrinks to nothing. A wider stepover leaves residue, which detours clear
 -- ("Toolpath.StepoverResidue"). A point nearer to a wall than the outermost loop is within one
 -- radius of a position of the centre on that loop.
 --
--- The order is from the inside outwards, because the cutter then plunges where it has room. The
--- material still to be cut lies on one side of every later pass, and the walls are cut last.
+-- The loops are cut from the inside outwards, because the cutter then plunges where it has room. On
+-- every later loop the remaining material lies on one side, and the walls are cut last.
 module Toolpath.Pocket
   ( PocketRoom (..),
     Loop,
@@ -49,21 +49,22 @@ data PocketRoom = PocketRoom
     -- | the loops that bound the region inside the outer contour and outside the islands, at the
     -- given distance from both; the free space is on their left
     offsetBy :: Mm -> [Loop],
-    -- | the inner offset of such loops by a distance, where that is simpler
+    -- | the loops at a distance to the left of such loops; Nothing when they have to be computed
+    -- from the walls
     insetOfLoops :: [Loop] -> Mm -> Maybe [Loop],
-    -- | of the cutter
+    -- | the cutter's radius
     radius :: Mm,
     -- | the allowance at the walls
     leaves :: Mm,
-    -- | traverse every loop with the free space on its right
+    -- | true if the cutter traverses every loop with the free space on its right
     isReversed :: Bool
   }
 
 -- | A section of the toolpath. Each begins where the one before it ends.
 data PocketMove
-  = -- | along a loop or a part of one, with its distance from the walls
+  = -- | along a loop or a part of one; the distance is that of the loop from the walls
     AlongLoop Mm (NonEmpty Segment)
-  | -- | a detour to stepover residue, no nearer to the walls than the loops
+  | -- | a detour that clears stepover residue, no nearer to the walls than the loops
     Detour (NonEmpty Segment)
   | -- | straight to the next loop, with no wall between
     DirectLink Segment
@@ -71,8 +72,9 @@ data PocketMove
     LiftedLink Point Point
   deriving stock (Eq, Show)
 
--- | Clears a pocket with a stepover, greater than 0 and at most the diameter. The point is the
--- cutter's plunge position, if it is known. The result is empty when the cutter fits nowhere.
+-- | The sections that clear a pocket with the stepover @step@, which is above 0 and at most the
+-- cutter's diameter. The point is the cutter's plunge position, if it is known. The result is empty
+-- when the cutter fits nowhere.
 clear :: PocketRoom -> Mm -> Maybe Point -> [PocketMove]
 clear room step from =
   along
@@ -93,8 +95,9 @@ clear room step from =
       plus step (halfOf (foldr1 BoundingBox.union (fmap BoundingBox.ofSegment (walls room))))
     halfOf (BoundingBox l b r t) = Mm (min (r - l) (t - b) / 2)
 
--- | Finishes the walls of a pocket that was cleared with the larger allowance @before@. The
--- distance between passes is at most the stepover and at most the radius.
+-- | The sections that finish the walls of a pocket after it was cleared with the larger allowance
+-- @before@. The distance between loops is at most the stepover @step@ and at most the radius. The
+-- point is the cutter's plunge position, if it is known.
 finishWalls :: PocketRoom -> Mm -> Mm -> Maybe Point -> [PocketMove]
 finishWalls room step before from =
   along
@@ -118,7 +121,8 @@ nearest' room = plus (radius room) (leaves room)
 
 -- Linking moves
 
--- | The linking move between two points: none, a straight move, or a move over a wall.
+-- | The linking move between two points: none if they coincide, a straight move if the cutter keeps
+-- its distance from all walls, else a move over the wall.
 linked :: PocketRoom -> Point -> Point -> [PocketMove]
 linked room = link
   where
@@ -135,25 +139,30 @@ linked room = link
 
 -- Order of the loops
 
--- | The current position of the cutter, if it is known, and the sections so far, the last one
--- first.
-data Progress = Progress {current :: Maybe Point, sections :: [PocketMove]}
+-- | The state during the choice of the order.
+data Progress = Progress
+  { -- | current position of the cutter, if it is known
+    current :: Maybe Point,
+    -- | sections so far, the last one first
+    sections :: [PocketMove]
+  }
 
--- | The sections of all loops with the linking moves between them.
+-- | The sections of all loops with the linking moves between them, from the plunge position.
 along :: PocketRoom -> Maybe Point -> [PocketTree] -> [PocketMove]
-along room from nests = reverse (sections (visitAll Progress {current = from, sections = []} nests))
+along room from trees = reverse (sections (visitAll Progress {current = from, sections = []} trees))
   where
     link = linked room
-    visitAll progress ns = inTurn visit (entrance . innermost) progress ns
-    visit progress n = case (current inside, rings n) of
-      -- No wall separates a region from its nearest enclosing loop.
+    visitAll progress regions = inTurn visit (entrance . innermost) progress regions
+    visit progress tree = case (current inside, rings tree) of
+      -- The first loop after a region is the nearest of those that bound the region around it: no
+      -- wall lies between.
       (Just p, rs) ->
         let (r, others) =
               takeOut (distanceFrom p) rs
          in inTurn enter entrance (enter inside r) others
       (Nothing, rs) -> inTurn enter entrance inside (NonEmpty.toList rs)
       where
-        inside = visitAll progress (inner n)
+        inside = visitAll progress (inner tree)
     enter progress r =
       let r' = maybe r (enteredNear r) (current progress)
           linking = maybe [] (`link` entrance r') (current progress)
@@ -162,8 +171,8 @@ along room from nests = reverse (sections (visitAll Progress {current = from, se
               sections = reverse (linking <> roundOf (isReversed room) r') <> sections progress
             }
 
--- | Visits items one after the other, always the one nearest to the cutter. With more than @many@
--- items it keeps their order, which is the order of the walls.
+-- | Visits items one after the other, always the one whose position is nearest to the cutter. While
+-- more than @many@ items remain, it takes them in their order, which is the order of the walls.
 inTurn :: (Progress -> a -> Progress) -> (a -> Point) -> Progress -> [a] -> Progress
 inTurn visit position progress things = case (things, current progress) of
   ([], _) -> progress
@@ -176,7 +185,7 @@ inTurn visit position progress things = case (things, current progress) of
   where
     many = 100
 
--- | The first item with the least measure, and the others.
+-- | The first item with the least measure, and the other items in their order.
 takeOut :: (a -> Mm) -> NonEmpty a -> (a, [a])
 takeOut measure things = (chosen, [a | (i, a) <- numbered, i /= number])
   where
@@ -188,13 +197,13 @@ takeOut measure things = (chosen, [a | (i, a) <- numbered, i /= number])
 
 -- Loops
 
--- | The loop of a region that is cut first.
+-- | The loop that is cut first in a region.
 innermost :: PocketTree -> Ring
-innermost n = case inner n of
-  [] -> NonEmpty.head (rings n)
+innermost tree = case inner tree of
+  [] -> NonEmpty.head (rings tree)
   first : _ -> innermost first
 
--- | The point at which a loop is entered.
+-- | The point at which a loop begins and ends.
 entrance :: Ring -> Point
 entrance r = Segment.start (segment (NonEmpty.head (ringSegments r)))
 
@@ -225,10 +234,10 @@ enteredNear r p = case NonEmpty.nonEmpty begun of
           foot = snd (Distance.nearest p (segment s))
       (_, []) -> list
 
--- | A loop with its detours.
+-- | The sections along a loop with its detours, in the opposite direction if the flag is true.
 roundOf :: Bool -> Ring -> [PocketMove]
-roundOf isTurned r
-  | isTurned = map reverseSection (reverse parts)
+roundOf isBackwards r
+  | isBackwards = map reverseSection (reverse parts)
   | otherwise = parts
   where
     parts = go [] (NonEmpty.toList (ringSegments r))
@@ -263,7 +272,7 @@ endPoint section = case section of
   Detour ss -> Segment.end (NonEmpty.last ss)
   DirectLink s -> Segment.end s
 
--- | The segments along which a section cuts.
+-- | The segments along which a section cuts; none for a lifted link.
 segments :: PocketMove -> [Segment]
 segments section = case section of
   LiftedLink _ _ -> []

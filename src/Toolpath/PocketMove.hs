@@ -1,4 +1,5 @@
--- | The passes of a pocket as moves: plunge, loops from the inside outwards, retract.
+-- | The moves of a pocket: for each pass the plunge, the loops from the inside outwards, and the
+-- retract.
 module Toolpath.PocketMove
   ( blocks,
   )
@@ -6,7 +7,7 @@ where
 
 import Base.Quantity (Mm (..), minus, plus, times)
 import Base.Region (Located (..), Region)
-import Control.Monad (when)
+import Control.Monad (foldM, when)
 import Data.Foldable (for_, toList)
 import Data.List (find)
 import Data.List.NonEmpty (NonEmpty (..))
@@ -45,36 +46,29 @@ import Toolpath.Toolpath (Block (..), Manner (Manner), Move (Move), Pass (..))
 import Toolpath.Toolpath qualified as Toolpath
 
 -- | The passes of a pocket statement: all depths for the first allowance, then all depths for the
--- next. The first argument is the statement's number; the position is that of the cutter before
--- the pocket.
+-- next one. The first argument is the statement's number in the order of execution, from 0; the
+-- position is that of the cutter before the pocket. Refuses pockets into which the cutter does
+-- not fit, and pockets without a depth in which it would have to rise. Refuses also elements that
+-- have a larger allowance than the last pass.
 blocks :: Int -> SpacePoint -> Located Pocketing -> Either Error [Block]
 blocks number at (Located region given) = do
   for_
-    (find ((> NonEmpty.last allowances) . Part.allowance . Part.finish) elements)
+    (find ((> NonEmpty.last (Part.allowances milling)) . Part.allowance . Part.finish) elements)
     (Left . KeepsMore word)
-  when (isNothing depth && currentHeight > Mm 0) (Left (CutsAir word currentHeight))
+  when
+    (isNothing (clearanceAndLevels milling) && currentHeight > Mm 0)
+    (Left (CutsAir word currentHeight))
   rests <- restAtWalls word pocket
-  reverse . snd <$> foldl (pass rests) (Right (at, [])) (zip [1 ..] passes)
+  reverse . snd <$> foldM (addPass rests) (at, []) (zip [1 ..] passes)
   where
     word = LinkingMove.keyword 6 region
     pocket = oriented given
     milling = wall pocket
     elements = elementsOf pocket
-    allowances = Part.allowances milling
     currentHeight =
       fromMaybe (height at) (listToMaybe (mapMaybe Part.level (reverse (Part.approach milling))))
-    depth = case (Part.levels milling, Part.clearance milling) of
-      (first : more, Just travelHeight) -> Just (travelHeight, first :| more)
-      _ -> Nothing
-    -- With depth, all passes of one allowance have the same sections at every depth.
-    passes =
-      [ (a, case depth of Just _ -> const down; Nothing -> sections, z)
-        | (a, sections) <- NonEmpty.toList (NonEmpty.zip allowances (sectionsFor pocket)),
-          let down = sections (lastApproach milling),
-          z <- maybe [currentHeight] (NonEmpty.toList . snd) depth
-      ]
-    pass rests before (k, (left, sections, z)) = do
-      (position, done) <- before
+    passes = passesOf pocket currentHeight
+    addPass rests (position, done) (k, pass) = do
       let visit =
             Visit
               { LinkingMove.word,
@@ -83,26 +77,80 @@ blocks number at (Located region given) = do
                 LinkingMove.isLast = k == length passes,
                 LinkingMove.from = position
               }
-          numbered = Pass {number, reach = plus (Part.radius milling) left, left, atHeight = z}
-      (approach, cleared, retract) <- passOf visit (fst <$> depth) (left, z) sections
-      let b =
-            Clearing
-              { pocket = Located region pocket,
-                pass = numbered,
-                approach,
-                cleared,
-                retract,
-                rests = if left == NonEmpty.last allowances then rests else []
-              }
+      b <- blockOf number (Located region pocket) rests visit pass
       Right (LinkingMove.endPosition position (Toolpath.moves b), b : done)
 
--- | The plunge position of the cutter, if the program gives it.
+-- | One pass of a pocket before its moves are computed.
+data PocketPass = PocketPass
+  { -- | allowance at the walls
+    allowance :: Mm,
+    -- | height of the pass
+    level :: Mm,
+    -- | the sections of the pass, given the plunge position if it is known
+    sectionsFrom :: Maybe Point -> [PocketMove]
+  }
+
+-- | All passes of a pocket: all depths for the first allowance, then all depths for the next one.
+-- The height is that of the passes of a pocket without a depth.
+passesOf :: Pocketing -> Mm -> [PocketPass]
+passesOf pocket currentHeight = concat (NonEmpty.zipWith withAllowance allowances sections)
+  where
+    milling = wall pocket
+    allowances = Part.allowances milling
+    sections = sectionsFor pocket
+    withAllowance allowance sectionsFrom = case clearanceAndLevels milling of
+      Nothing -> [PocketPass {allowance, level = currentHeight, sectionsFrom}]
+      -- At every depth the cutter plunges at the same point, and the sections are the same.
+      Just (_, levels) ->
+        let down = sectionsFrom (lastApproach milling)
+         in [ PocketPass {allowance, level, sectionsFrom = const down}
+              | level <- NonEmpty.toList levels
+            ]
+
+-- | The clearance height and the heights of the passes. Nothing for a pocket without a depth, in
+-- which the cutter cannot be lifted.
+clearanceAndLevels :: Milling -> Maybe (Mm, NonEmpty Mm)
+clearanceAndLevels milling = case (Part.levels milling, Part.clearance milling) of
+  (first : more, Just clearanceHeight) -> Just (clearanceHeight, first :| more)
+  _ -> Nothing
+
+-- | The block of a pass, given the number of the statement and the parts of the walls that remain
+-- unreached after the last pass.
+blockOf ::
+  Int ->
+  Located Pocketing ->
+  [Equidistant.UnreachedPart] ->
+  Visit ->
+  PocketPass ->
+  Either Error Block
+blockOf number job rests visit PocketPass {allowance, level, sectionsFrom} = do
+  (approach, cleared, retract) <-
+    passOf visit (fst <$> clearanceAndLevels milling) (allowance, level) sectionsFrom
+  Right
+    Clearing
+      { pocket = job,
+        pass =
+          Pass
+            { number,
+              reach = plus (Part.radius milling) allowance,
+              left = allowance,
+              atHeight = level
+            },
+        approach,
+        cleared,
+        retract,
+        rests = if allowance == NonEmpty.last (Part.allowances milling) then rests else []
+      }
+  where
+    milling = wall (value job)
+
+-- | The plunge position of the cutter, which is the last approach point if the program gives one.
 lastApproach :: Milling -> Maybe Point
 lastApproach milling = value . Part.place <$> listToMaybe (reverse (Part.approach milling))
 
--- | The moves before, in and after a pass. @clear@ is the clearance height, if the cutter may be
--- lifted; the pair is the allowance at the walls and the height of the pass. @sectionsFrom@ gives
--- the sections for a plunge position.
+-- | The moves before, in and after a pass. @travelHeight@ is the clearance height; Nothing if the
+-- pocket has no depth, so that the cutter cannot be lifted. The pair is the allowance at the walls
+-- and the height of the pass. @sectionsFrom@ gives the sections for a plunge position.
 passOf ::
   Visit ->
   Maybe Mm ->
@@ -151,7 +199,8 @@ passOf visit travelHeight (left, z) sectionsFrom = do
       (Nothing, Just p) | LinkingMove.isFirst visit -> Just p
       (Nothing, _) -> Just currentPoint
 
--- | The moves of a section at a height; a section over a wall is at the clearance height.
+-- | The moves of a section of a pass at the height @z@. A lifted link rises to the clearance height
+-- @travelHeight@, passes over the wall and plunges again.
 moves :: Region -> Milling -> Mm -> Maybe Mm -> PocketMove -> [Move]
 moves word milling z travelHeight section = case section of
   LiftedLink p q
@@ -170,7 +219,8 @@ moves word milling z travelHeight section = case section of
       | s <- Pocket.segments section
     ]
 
--- | For each allowance, the sections as a function of the plunge position.
+-- | For each allowance, the sections of its passes as a function of the plunge position. The passes
+-- with the first allowance clear the floor, the others finish the walls.
 sectionsFor :: Pocketing -> NonEmpty (Maybe Point -> [PocketMove])
 sectionsFor pocket =
   (\from -> Pocket.clear (room first) step from)
@@ -214,7 +264,7 @@ oriented pocket =
         then c
         else Part.reversedContour c
 
--- | The elements of the outer contour, then those of the islands in order.
+-- | The elements of all walls: those of the outer contour, then those of the islands in order.
 elementsOf :: Pocketing -> Vector Element
 elementsOf pocket =
   Vector.fromList
@@ -222,8 +272,9 @@ elementsOf pocket =
 
 -- Rest material
 
--- | The parts of the walls that remain unreached after the last pass, by the elements of the
--- outer contour and the islands in order. Refuses them unless the program allows rest material.
+-- | The parts of the walls that the cutter does not reach in the last pass. Their element numbers
+-- are indices of 'elementsOf'. If the program does not allow rest material, such a part is an
+-- error.
 restAtWalls :: Region -> Pocketing -> Either Error [Equidistant.UnreachedPart]
 restAtWalls word pocket = case (Part.rest milling, found) of
   (Part.Refused, o : _) -> Left (OffsetRefusal.refusal word tool (elementsOf pocket) o)
@@ -262,8 +313,8 @@ restAtWalls word pocket = case (Part.rest milling, found) of
         ]
     gaps = gapsBetween r (map Part.polyarcOf contours)
 
--- | The narrowest point between each two contours between which a circle of this radius does not
--- pass.
+-- | One obstacle for each pair of contours between which a circle of this radius does not pass: the
+-- narrowest point between the two. Element numbers count the elements of all contours in order.
 gapsBetween :: Mm -> [Polyarc.Polyarc] -> [Equidistant.Obstacle]
 gapsBetween r contours =
   [ Equidistant.Obstacle

@@ -35,21 +35,25 @@ import Toolpath.StepoverResidue qualified as StepoverResidue
 -- | A closed chain of segments with the free space on their left.
 type Loop = NonEmpty Segment
 
--- | One connected region at its distance: the rings that bound it, the outer one and those round
--- islands, and the regions inside it at the next distance.
-data PocketTree = PocketTree {rings :: NonEmpty Ring, inner :: [PocketTree]}
+-- | One connected region that the cutter's centre can reach at some distance from the walls.
+data PocketTree = PocketTree
+  { -- | loops that bound the region: the outer one, and those round islands
+    rings :: NonEmpty Ring,
+    -- | regions inside this one, at the next distance
+    inner :: [PocketTree]
+  }
 
--- | A loop, and its distance from the walls.
+-- | A loop with its detours, and its distance from the walls.
 data Ring = Ring {wallDistance :: Mm, ringSegments :: NonEmpty RingSegment}
 
--- | A segment of a loop, and detours that begin and end at its end.
+-- | A segment of a loop, and the detours that begin and end at the end of the segment.
 data RingSegment = RingSegment {segment :: Segment, detours :: [NonEmpty Segment]}
 
 -- | The passes at increasing distances from the walls, up to the first distance without loops.
--- The first function gives the loops at a distance from the walls; the second one the inner
--- offset of loops, if it is known. Where the distances differ by more than the cutter's radius,
--- residue between the passes is cleared by detours. Residue inside the last of finitely many
--- distances is not examined.
+-- @offsetBy@ gives the loops at a distance from the walls. @further@ gives the loops at a distance
+-- inside other loops, or Nothing when they have to be computed from the walls. Where two distances
+-- differ by more than the cutter's radius, detours clear the residue between the passes. Inside the
+-- pass at the last distance of the list, nothing is cleared.
 passTrees :: (Mm -> [Loop]) -> ([Loop] -> Mm -> Maybe [Loop]) -> Mm -> [Mm] -> [PocketTree]
 passTrees offsetBy further radius distances = case distances of
   [] -> []
@@ -75,7 +79,8 @@ passTrees offsetBy further radius distances = case distances of
         StepoverResidue.between radius (minus (minus next c) radius) (inwards c loops radius) loops'
     leaf c loop = PocketTree {rings = ring c Map.empty (0, loop) :| [], inner = []}
 
--- | A ring of the loop with number @n@, with the detours that begin at its segments.
+-- | The ring of the loop with number @n@. The key of a detour is the number of the loop and of the
+-- segment at whose end the detour begins.
 ring :: Mm -> Map (Int, Int) [NonEmpty Segment] -> (Int, Loop) -> Ring
 ring wallDistance trips (n, loop) =
   Ring
@@ -87,8 +92,8 @@ ring wallDistance trips (n, loop) =
           loop
     }
 
--- | Groups the loops of one distance by the regions that they bound, and assigns the inner
--- regions to them.
+-- | Groups the loops of one distance by the regions that they bound, and puts each inner region
+-- into the region that contains it.
 grouped :: Mm -> [Loop] -> Map (Int, Int) [NonEmpty Segment] -> [PocketTree] -> [PocketTree]
 grouped c loops trips inside = mapMaybe part (Map.toList members)
   where
@@ -98,9 +103,10 @@ grouped c loops trips inside = mapMaybe part (Map.toList members)
         (BoundingBox.ofSegment . snd)
         [(n, s) | (n, loop) <- numbered, s <- NonEmpty.toList loop]
     (outers, holes) = partition (isOuter . snd) numbered
-    -- The outer loop of the region that each loop bounds. A horizontal ray from the rightmost point
-    -- of a loop round an island crosses that region, and then meets another loop that bounds it.
-    -- That loop extends at least as far to the right, so loops are processed from right to left.
+    -- For each loop, the outer loop of the region that it bounds. From the rightmost point of a
+    -- loop round an island, a horizontal ray to the right crosses that region, and then meets
+    -- another loop that bounds it. That loop extends further to the right. So it is processed
+    -- earlier, because loops are processed from right to left.
     outer =
       foldl
         around
@@ -115,7 +121,7 @@ grouped c loops trips inside = mapMaybe part (Map.toList members)
     innerOf =
       Map.fromListWith
         (flip (<>))
-        [(maybe 0 outerOf (firstHit index Nothing (beginning nest)), [nest]) | nest <- inside]
+        [(maybe 0 outerOf (firstHit index Nothing (beginning tree)), [tree]) | tree <- inside]
     part (n, found) =
       ( \some ->
           PocketTree {rings = fmap (ring c trips) some, inner = Map.findWithDefault [] n innerOf}
@@ -124,7 +130,7 @@ grouped c loops trips inside = mapMaybe part (Map.toList members)
 
 -- | The first point of a region's first ring.
 beginning :: PocketTree -> Point
-beginning nest = Segment.start (segment (NonEmpty.head (ringSegments (NonEmpty.head (rings nest)))))
+beginning tree = Segment.start (segment (NonEmpty.head (ringSegments (NonEmpty.head (rings tree)))))
 
 -- | The rightmost point of a loop.
 rightmost :: Loop -> Point
@@ -141,7 +147,8 @@ rightmost loop =
             furthest = Vec.shift (Vec.vec r 0) centre
          in a : [furthest | Segment.hasFootOf s furthest]
 
--- | The first loop that a horizontal ray from a point to the right meets, except the loop @own@.
+-- | The number of the first loop that a horizontal ray from a point to the right meets. The loop
+-- @own@ is ignored.
 firstHit :: BoxTree (Int, Segment) -> Maybe Int -> Point -> Maybe Int
 firstHit index own p = snd <$> foldl nearer Nothing hits
   where

@@ -1,4 +1,4 @@
--- | Rest material: the parts of a contour that the cutter does not reach.
+-- | Rest material: the parts of a contour that the cutter does not reach, for each statement.
 module Toolpath.RestMaterial
   ( Remaining (..),
     ofPath,
@@ -22,14 +22,15 @@ import Toolpath.OffsetRefusal qualified as OffsetRefusal
 import Toolpath.Toolpath (Block (..), Pass (..), Toolpath)
 import Toolpath.Toolpath qualified as Toolpath
 
--- | Rest material at the contours of one statement after its last pass: the statement's first
--- word, the cutter, the contours in order, the unreached parts, and the distance of the
--- cutter's centre from the contour.
+-- | Rest material at the contours of one statement after its last pass.
 data Remaining = Remaining
-  { word :: Region,
+  { -- | region of the statement's first word
+    word :: Region,
     tool :: Tool,
+    -- | the contour; of a pocket, the outer contour and the islands
     walls :: NonEmpty Contour,
     positions :: NonEmpty (RestPosition, UnreachedPart),
+    -- | distance of the cutter's centre from the contours in the last pass
     offsetDistance :: Mm
   }
 
@@ -66,7 +67,7 @@ remaining word milling islands pass rests =
     walls = Part.contour milling :| islands
     elements = Vector.fromList (concatMap (NonEmpty.toList . Part.elements) walls)
 
--- | The cutter, with the allowance that it leaves.
+-- | The cutter of a statement, with the allowance that a pass leaves.
 toolOf :: Milling -> Mm -> Tool
 toolOf milling allowance =
   Tool {work = Part.work milling, radius = Part.radius milling, leaves = allowance}

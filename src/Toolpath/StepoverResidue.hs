@@ -1,11 +1,12 @@
 -- | Residue between passes whose distance exceeds the cutter's radius, and the detours that clear
 -- it.
 --
--- Let passes run at the distances @c@ and @c + s@ from the walls, with @r < s ≤ 2·r@. The edge of
--- the area swept by the outer pass runs between them, at @c + r@. A point further in has a distance
--- of at most @s − r ≤ r@ from the edge. Where the inner pass is parallel to the edge at the
--- distance @s − r@, it sweeps all points between the two. Elsewhere the edge has a corner or a nook
--- that the inner pass does not enter. There the cutter follows the edge itself.
+-- Let @r@ be the cutter's radius. Let passes run at the distances @c@ and @c + s@ from the walls,
+-- with @r < s ≤ 2·r@. Between them, at @c + r@, lies the edge of the area that the outer pass
+-- sweeps. A point between the edge and the inner pass has a distance of at most @s − r ≤ r@ from
+-- the edge. Where the inner pass is parallel to the edge at the distance @s − r@, it sweeps all
+-- points between the two. Elsewhere the edge has a corner or a nook that the inner pass does not
+-- enter. There the cutter follows the edge itself.
 module Toolpath.StepoverResidue
   ( Residue (..),
     none,
@@ -19,6 +20,7 @@ import Data.List.NonEmpty (NonEmpty (..))
 import Data.List.NonEmpty qualified as NonEmpty
 import Data.Map.Strict (Map)
 import Data.Map.Strict qualified as Map
+import Geometry.Carrier qualified as Carrier
 import Geometry.Distance qualified as Distance
 import Geometry.Index.BoundingBox qualified as BoundingBox
 import Geometry.Index.BoxTree (BoxTree)
@@ -30,10 +32,12 @@ import Geometry.Vec (Point)
 import Geometry.Vec qualified as Vec
 import Offset.Tolerance qualified as Tolerance
 
--- | Detours, and loops of the edge that no inner pass reaches. The key of a detour is the number
--- of the inner loop and the number of the segment at whose end it begins and ends, both from 0.
+-- | The additional paths that clear residue.
 data Residue = Residue
-  { detours :: Map (Int, Int) [NonEmpty Segment],
+  { -- | detours from the inner pass; the key is the number of a loop of that pass, and of the
+    -- segment at whose end the detour begins and ends, both from 0
+    detours :: Map (Int, Int) [NonEmpty Segment],
+    -- | loops of the edge that no inner pass reaches
     isolated :: [NonEmpty Segment]
   }
 
@@ -41,9 +45,9 @@ data Residue = Residue
 none :: Residue
 none = Residue Map.empty []
 
--- | The residue between the edge of the swept area and the inner pass at the distance @apart@
--- from it. All loops have the free space on their left. @radius@ is the cutter's, and @apart@
--- is at most the radius.
+-- | The residue between the inner pass @passes@ and the edge @edges@ of the area that the outer
+-- pass sweeps. The inner pass is at the distance @apart@ from the edge, at most the cutter's
+-- radius. All loops have the free space on their left.
 between :: Mm -> Mm -> [NonEmpty Segment] -> [NonEmpty Segment] -> Residue
 between radius apart edges passes = foldr (gather . gapsOf) none edges
   where
@@ -67,21 +71,23 @@ between radius apart edges passes = foldr (gather . gapsOf) none edges
         [ ((n, i), s')
           | (n, loop) <- zip [0 ..] passes,
             (i, s) <- zip [0 ..] (NonEmpty.toList loop),
-            Just s' <- [outwards apart s]
+            Just s' <- [Segment.offset Carrier.RightOf apart s]
         ]
     gapsOf edge = gapsIn edge (concatMap (divided index) (NonEmpty.toList edge))
 
 -- | The count of a loop's segments, and the end of each segment by its number.
 data Ends = Ends Int (Map Int Point)
 
--- | A part of the edge: one that runs beside a segment of an inner pass, or a free one.
+-- | A part of the edge: one that runs beside a segment of an inner pass, given by the numbers of
+-- loop and segment, or a free one.
 data EdgePart = Beside (Int, Int) | Free Segment
 
--- | Consecutive free parts, with the segments of the inner passes before and after them.
+-- | Consecutive free parts of the edge. The pairs are the segments of an inner pass beside which
+-- the edge runs before and after them.
 data Gap = Gap (Int, Int) (NonEmpty Segment) (Int, Int)
 
--- | The gaps of a loop of the edge. Nothing when there are none; the whole loop when no inner
--- pass runs beside it.
+-- | The gaps in a loop of the edge, given the loop and its parts in order. Nothing when there are
+-- none; the whole loop when no inner pass runs beside it.
 gapsIn :: NonEmpty Segment -> [EdgePart] -> Maybe (Either (NonEmpty Segment) [Gap])
 gapsIn edge marks = case break isBeside marks of
   (_, []) -> Just (Left edge)
@@ -101,9 +107,10 @@ gapsIn edge marks = case break isBeside marks of
       | total (map Segment.length ss) <= Tolerance.clearance = Nothing
       | otherwise = NonEmpty.nonEmpty (filter ((> Tolerance.coincident) . Segment.length) ss)
 
--- | The detour along a gap, from the end of a segment of an inner pass and back to it. A gap that
--- begins and ends at the same corner of the inner pass needs no detour when it lies entirely
--- within the cutter's radius of that corner.
+-- | The detour along a gap: from the end of the inner pass's segment before the gap, along the gap,
+-- and back to that end. If the segment after the gap is the next one, both meet at a corner of the
+-- inner pass. Then no detour is needed when the whole gap lies within the cutter's radius of that
+-- corner.
 detourAlong :: Mm -> Map Int Ends -> Gap -> Maybe ((Int, Int), NonEmpty Segment)
 detourAlong radius ends (Gap owner@(loop, i) free next) = do
   Ends count corners <- Map.lookup loop ends
@@ -133,24 +140,8 @@ furthest p s = case s of
     where
       opposite = Vec.shift (Vec.to p centre) centre
 
--- | A segment moved to its right. Nothing when an arc's radius would vanish.
-outwards :: Mm -> Segment -> Maybe Segment
-outwards (Mm d) s = case s of
-  Straight a b
-    | a == b -> Nothing
-    | otherwise ->
-      let n =
-            Vec.scale (-d) (Vec.left (Vec.unit (Vec.to a b)))
-       in Just (Straight (Vec.shift n a) (Vec.shift n b))
-  Arc {start = a, end = b, centre, sweep = sweep@(Rad w)} ->
-    let Mm r = Segment.radius centre a
-        r' = r + signum w * d
-        moved p = Vec.shift (Vec.scale (r' / r) (Vec.to centre p)) centre
-     in if r > 0 && r' > 0
-          then Just Arc {start = moved a, end = moved b, centre, sweep}
-          else Nothing
-
--- | Divides a segment of the edge into parts.
+-- | Divides a segment of the edge into the parts beside segments of inner passes and the free parts
+-- between them. The index contains the segments of the inner passes, each moved onto the edge.
 divided :: BoxTree ((Int, Int), Segment) -> Segment -> [EdgePart]
 divided index s =
   partsFrom
@@ -176,8 +167,8 @@ divided index s =
               fst (Segment.cutAt b s)
          in if a <= 0 then front else snd (Segment.cutAt (a / b) front)
 
--- | The parts of a segment, as fractions of its length, on which another segment of the same
--- direction coincides with it.
+-- | The parts of the first segment that coincide with the second one and have its direction, each
+-- as two fractions of the first segment's length.
 covered :: Segment -> Segment -> [(Double, Double)]
 covered s other = filter coincides (filter (uncurry (<)) (map clip ranges))
   where

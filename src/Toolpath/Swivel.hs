@@ -1,10 +1,10 @@
 -- | The height of a swivelling blade's axis along a contour.
 --
--- The axis turns the blade to the bevel of the surface through a wheel of the diameter D2: @z =
--- ∓π·μ°·D2/360@, minus on the right of the direction of travel, plus on the left (Kolsanova,
--- section 3). The tool itself does not move in height. On an element without a bevel, the bevel
--- changes linearly with the arc length, from that of the element before it to that of the element
--- after it.
+-- The axis turns the blade to the bevel @μ@ of the surface through a wheel of the diameter @D2@.
+-- Its height is @z = ∓π·μ°·D2/360@: minus if the blade is on the right in the direction of travel,
+-- plus if it is on the left (Kolsanova, section 3). The tool itself does not move in height. On an
+-- element without a bevel, the bevel changes linearly with the arc length. It leads from the bevel
+-- of the element before to that of the element after.
 module Toolpath.Swivel
   ( axis,
     highest,
@@ -19,7 +19,8 @@ import Data.List.NonEmpty qualified as NonEmpty
 import Data.Maybe (isJust, isNothing)
 import Data.Vector (Vector)
 import Data.Vector qualified as Vector
-import Geometry.Carrier (Side (..))
+import Geometry.Carrier (Side)
+import Geometry.Carrier qualified as Carrier
 import Geometry.Segment qualified as Segment
 import Offset.Equidistant (OffsetSegment (..))
 import Offset.Equidistant qualified as Equidistant
@@ -28,7 +29,9 @@ import Part.Part qualified as Part
 import Toolpath.Error (Error (..))
 
 -- | The heights of the axis above its middle position, in mm, at the beginning and at the end of
--- every segment of an offset. Nothing for a tool that does not swivel.
+-- every segment of an offset. Nothing for a tool that does not swivel. Refuses a contour on which
+-- no element has a bevel, a blade without a side, and a jump of the bevel. The region is the
+-- statement's keyword.
 axis ::
   Region ->
   Milling ->
@@ -39,18 +42,16 @@ axis region milling side offsetSegments = case Part.gear milling of
   Nothing -> Right Nothing
   Just gear -> do
     elementBevels <- maybe (Left (NoBevel region)) Right (bevels (Part.contour milling))
-    sign <- maybe (Left (BladeOnContour region)) (Right . signOf) side
+    sign <- maybe (Left (BladeOnContour region)) (Right . Carrier.sideSign) side
     checkJoints region elements elementBevels offsetSegments
     let heightsOf (a, b) = (height sign gear a, height sign gear b)
     Right (Just (fmap heightsOf (angles elementBevels offsetSegments)))
   where
     elements = Vector.fromList (NonEmpty.toList (Part.elements (Part.contour milling)))
-    signOf s = case s of
-      LeftOf -> 1
-      RightOf -> -1
     height sign (Mm gear) angle = Mm (sign * angle * gear / 2)
 
--- | The largest distance of the axis from its middle position along a contour, in mm.
+-- | The largest distance of the axis from its middle position along the contour of a statement, in
+-- mm; 0 for a tool that does not swivel.
 highest :: Milling -> Mm
 highest milling =
   Mm
@@ -71,7 +72,8 @@ bevels :: Contour -> Maybe (Vector (Double, Double))
 bevels contour = case span (isNothing . Part.bevel) list of
   (_, []) -> Nothing
   (open, known)
-    -- A closed contour is interpolated across its beginning.
+    -- In a closed contour, elements without a bevel may lie on both sides of its beginning. They
+    -- are interpolated together.
     | Part.ends contour == Closed ->
       let (after, before) =
             splitAt (length known) (filled Nothing (known <> open <> take 1 known))
@@ -94,14 +96,15 @@ bevels contour = case span (isNothing . Part.bevel) list of
       (Nothing, Nothing) -> map (const (0, 0)) open
     lengthOf s = let Mm l = Segment.length s in l
 
--- | The beginning and the end of each length within their sum, as fractions from 0 to 1.
+-- | The positions, from 0 to 1, at which consecutive parts of these lengths begin and end in the
+-- whole that they make up.
 shares :: [Double] -> [(Double, Double)]
 shares ls = zip marks (drop 1 marks)
   where
     marks = scanl (\s l -> s + l / sum ls) 0 ls
 
--- | The bevels along the segments of an offset. On the arc round a corner the bevel changes from
--- that of one element to that of the next.
+-- | The bevels at the beginning and the end of each segment of an offset, in radians. On the arc
+-- round a corner the bevel changes linearly from that of one element to that of the next.
 angles :: Vector (Double, Double) -> NonEmpty OffsetSegment -> NonEmpty (Double, Double)
 angles elementBevels offsetSegments =
   NonEmpty.fromList
@@ -146,6 +149,6 @@ checkJoints region elements elementBevels offsetSegments =
             )
       _ -> Right ()
 
--- | Bevels that differ by at most this, in radians, are equal.
+-- | Largest difference between bevels that count as equal, in radians.
 bevelTolerance :: Double
 bevelTolerance = 1e-6

@@ -1,9 +1,9 @@
 -- | The tolerances of toolpaths: the smallest cutter that is suggested, and what a modern control
 -- needs for cutter compensation.
 --
--- A control rounds the program to its pulses, and then computes the offset. The tolerances keep the
--- rounded program away from what a control refuses or offsets differently; LinuxCNC's interpreter
--- is the model.
+-- A control rounds the program to its pulses, and then computes the offset. With these tolerances
+-- the rounded program contains nothing that a control refuses, or offsets in another way than the
+-- exact one. The model of a control is LinuxCNC's interpreter.
 module Toolpath.Tolerance
   ( smallestCutter,
 
@@ -24,19 +24,19 @@ import Base.Quantity (Mm (..), Rad (..))
 smallestCutter :: Mm
 smallestCutter = Mm 0.05
 
--- | The margin by which a length must exceed the cutter's radius so that it does so after rounding
--- to pulses.
+-- | The margin by which the first and the last straight move under compensation must exceed the
+-- cutter's radius. With it they exceed the radius after rounding to pulses too.
 controlMargin :: Mm
 controlMargin = Mm 0.01
 
--- | The smallest radius of the arc on which the centre rolls along the inside of an arc. On a
--- smaller one, rounding to pulses may add more than 'controlTurn' to the sweep: of 1500 arcs of
--- 0.06 mm LinuxCNC refuses none, of those of 0.05 mm one.
+-- | The smallest radius of the arc that the centre makes inside a concave arc. On a smaller one,
+-- rounding to pulses may add more than 'controlTurn' to the sweep. In a test with 1500 arcs of each
+-- radius, LinuxCNC refused none at 0.06 mm and one at 0.05 mm.
 controlArc :: Mm
 controlArc = Mm 0.08
 
--- | The largest amount by which the sweep of the centre's arc may exceed the programmed one.
--- LinuxCNC refuses an arc that exceeds it by more.
+-- | The largest amount by which the sweep of the centre's arc may exceed that of the programmed
+-- arc. LinuxCNC refuses an arc with a larger one.
 controlTurn :: Rad
 controlTurn = Rad 0.0254
 
@@ -45,16 +45,16 @@ controlTurn = Rad 0.0254
 controlRounding :: Mm
 controlRounding = Mm 1.5e-3
 
--- | The smallest length of an element. Rounded to pulses, a shorter one might seem to turn towards
--- the cutter.
+-- | The smallest length of an element. Rounding to pulses may turn a shorter one towards the
+-- cutter.
 controlLength :: Mm
 controlLength = Mm 0.05
 
--- | The largest angle of a corner that LinuxCNC treats as none, so that it joins the offsets
--- directly. A lead-in must turn by at least twice this angle.
+-- | The change of direction below which LinuxCNC ignores a corner and joins the offsets directly.
+-- From the approach to the edge the direction must change by at least twice this angle.
 controlBend :: Rad
 controlBend = Rad 0.05
 
--- | The largest gouge of a control at a corner that it treats as none.
+-- | The largest depth that a control may cut into the part at a corner that it ignores.
 controlCut :: Mm
 controlCut = Mm 2e-3

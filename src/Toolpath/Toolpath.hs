@@ -1,7 +1,5 @@
-{-# LANGUAGE BangPatterns #-}
-
--- | The toolpath: the path of the cutter's centre, exact, in mm, with the requested feed of every
--- move.
+-- | The toolpath: the exact path of the cutter's centre in mm, before any rounding to pulses, with
+-- the requested feed of every move.
 module Toolpath.Toolpath
   ( Toolpath (..),
     Block (..),
@@ -36,81 +34,94 @@ import Offset.Equidistant qualified as Equidistant
 import Part.Part (Command, Drilling, Milling, Pace, Pocketing, SpacePoint (..))
 import Part.Part qualified as Part
 
--- | The start of the cutter, and the blocks in order.
+-- | The cutter's starting position, and the blocks in the order of execution.
 data Toolpath = Toolpath
   { start :: Located SpacePoint,
     blocks :: [Block],
-    -- | the part turns in a lathe
+    -- | true if the part is turned on a lathe
     isTurned :: Bool
   }
   deriving stock (Eq, Show)
 
--- | The moves of one statement, or of one pass of it.
+-- | The moves of one statement, or of one of its passes.
 data Block
-  = -- | with a cutter of this radius
+  = -- | moves from point to point, as the program lists them, with a tool of this radius
     Travelling Mm [Move]
-  | Cutting
+  | -- | one pass along a contour; where the cutter does not reach all of the contour, each of the
+    -- paths beside it is a block
+    Cutting
       { job :: Located Milling,
         pass :: Pass,
         approach :: [Move],
-        -- | along the contour
+        -- | moves along the contour
         cut :: NonEmpty Move,
         retract :: [Move],
-        -- | parts of the contour that the cutter does not reach; only in the first cut of the
-        -- pass
+        -- | parts of the contour that the cutter does not reach; of several blocks of one pass,
+        -- only the first one lists them
         rests :: [Equidistant.UnreachedPart],
-        -- | the input for a control that does the cutter compensation
+        -- | input for a control that does the cutter compensation; Nothing if the program does not
+        -- ask for that
         sent :: Maybe Sent
       }
-  | -- | one pass of a pocket; its outer contour and islands are oriented in the cutter's
-    -- direction of travel
+  | -- | one pass of a pocket; the contours of @pocket@ are oriented in the direction of travel
     Clearing
       { pocket :: Located Pocketing,
         pass :: Pass,
         approach :: [Move],
-        -- | along loops, and from each to the next
+        -- | moves along loops, and from each loop to the next
         cleared :: NonEmpty Move,
         retract :: [Move],
-        -- | parts of the walls that remain unreached, by the elements of the outer contour and
-        -- the islands in order
+        -- | parts of the walls that the cutter does not reach; their element numbers count the
+        -- elements of the outer contour, then those of the islands in order
         rests :: [Equidistant.UnreachedPart]
       }
-  | Holing (Located Drilling) [Move]
-  | Commanding (Located Command)
+  | -- | the holes of a drilling statement
+    Holing (Located Drilling) [Move]
+  | -- | a command to the machine, such as a tool change
+    Commanding (Located Command)
   deriving stock (Eq, Show)
 
--- | One pass along a contour or in a pocket: the number of the milling statement in order of
--- execution, from 0; the distance of the cutter's centre from the contour; the allowance that
--- the pass leaves; the height.
-data Pass = Pass {number :: Int, reach :: Mm, left :: Mm, atHeight :: Mm}
+-- | One pass along a contour or in a pocket.
+data Pass = Pass
+  { -- | number of the milling or pocket statement in the order of execution, from 0
+    number :: Int,
+    -- | distance of the cutter's centre from the contour; in a pocket, of the outermost loop
+    reach :: Mm,
+    -- | allowance that the pass leaves on the contour
+    left :: Mm,
+    -- | height of the pass; the top of the part is 0
+    atHeight :: Mm
+  }
   deriving stock (Eq, Show)
 
--- | The input for a control that does the cutter compensation: the edge of the part. From it the
--- control computes the moves of the pass. Their ends agree with the toolpath except where
--- compensation begins.
+-- | The input for a control that does the cutter compensation. The control computes the moves of
+-- the pass from the edge of the part. They end where the moves of the toolpath end, except the
+-- move on which compensation begins.
 data Sent = Sent
   { -- | moves of the cutter's centre until compensation begins
     before :: [Move],
+    -- | side of the edge, in the direction of travel, on which the cutter moves
     side :: Side,
-    -- | straight, from the current centre to the beginning of the edge
+    -- | straight move from the current centre to the beginning of the edge
     entry :: Move,
-    -- | in the direction of travel: the lead-in, the elements of the contour, the lead-out. At
-    -- outer corners the control moves on arcs
+    -- | moves along the edge in the direction of travel: the lead-in, the elements of the contour,
+    -- the lead-out. The arcs round outer corners are missing, because the control inserts them
     edge :: NonEmpty Move,
-    -- | straight, from the end of the edge to the centre's position after compensation ends
+    -- | straight move from the end of the edge to the centre's position without compensation
     exit :: Move,
-    -- | moves of the centre after that
+    -- | moves of the centre after the exit
     behind :: [Move]
   }
   deriving stock (Eq, Show)
 
--- | One move, in the plane and in height, and the region of the program that asks for it. A
--- vertical move has a segment of length 0.
+-- | One move of the cutter's centre. A vertical move has a segment of length 0.
 data Move = Move
-  { segment :: Segment,
+  { -- | path in the plane
+    segment :: Segment,
     manner :: Manner,
+    -- | region of the program that asks for the move
     origin :: Region,
-    -- | it continues the curve of the move before, without a corner
+    -- | true if the move continues the curve of the previous move, without a corner
     continues :: Bool
   }
   deriving stock (Eq, Show)
@@ -120,7 +131,7 @@ data Manner = Manner
   { -- | the heights at the beginning and at the end of the move
     between :: (Mm, Mm),
     at :: Pace,
-    -- | slow down at the end
+    -- | true if the cutter slows down at the end of the move
     isBraking :: Bool
   }
   deriving stock (Eq, Show)
@@ -137,7 +148,7 @@ pace = at . manner
 isBraked :: Move -> Bool
 isBraked = isBraking . manner
 
--- | Changes the heights of a move.
+-- | Replaces the heights of a move at its beginning and at its end.
 atHeights :: (Mm, Mm) -> Move -> Move
 atHeights zs m = m {manner = (manner m) {between = zs}}
 
@@ -154,15 +165,19 @@ moves block = case block of
   Holing _ ms -> ms
   Commanding _ -> []
 
--- | The count of passes, along contours and in pockets, before each block, and at last the total.
+-- | For each block, the count of passes in the blocks before it; at the end of the list, the count
+-- of all passes. A pass is one along a contour or one in a pocket.
 passNumbers :: [Block] -> [Int]
 passNumbers = go 0
   where
-    -- Lazy in the list: a block is not held in memory until the next one is demanded.
+    -- Examines a block before its number is returned. Until the next number is demanded, the list
+    -- then has no reference to the block, and the block can be freed.
     go :: Int -> [Block] -> [Int]
     go n bs = case bs of
       [] -> [n]
-      b : more -> let !next = if isPass b then n + 1 else n in n : go next more
+      b : more
+        | isPass b -> n : go (n + 1) more
+        | otherwise -> n : go n more
     isPass b = case b of
       Cutting {} -> True
       Clearing {} -> True
@@ -170,8 +185,8 @@ passNumbers = go 0
       Holing _ _ -> False
       Commanding _ -> False
 
--- | Groups moves that follow one curve: every move of a group except the first continues the one
--- before.
+-- | Groups consecutive moves that follow one curve. Every move of a group except the first
+-- continues the previous move.
 curveRuns :: [Move] -> [NonEmpty Move]
 curveRuns ms = case ms of
   [] -> []
@@ -179,20 +194,21 @@ curveRuns ms = case ms of
   m : rest@(following : _) | not (continues following) -> (m :| []) : curveRuns rest
   m : rest -> let (along, others) = span continues rest in (m :| along) : curveRuns others
 
--- | True when a group follows a curve that is approximated by arcs, and not a single line or arc.
+-- | True when a group of 'curveRuns' follows a curve that is approximated by arcs, and not a single
+-- line or arc.
 isCurve :: NonEmpty Move -> Bool
 isCurve run = case run of
   m :| [] -> continues m
   _ -> True
 
--- | True when the cutter keeps the height at which it starts.
+-- | True when all moves are at the height of the start.
 isFlat :: Toolpath -> Bool
 isFlat path = all (\m -> heights m == (z, z)) (concatMap moves (blocks path))
   where
     z = height' (start path)
     height' (Located _ (SpacePoint _ h)) = h
 
--- | The final position of the cutter.
+-- | The final position of the cutter; the start if there are no moves.
 end :: Toolpath -> SpacePoint
 end path =
   foldl
@@ -200,24 +216,21 @@ end path =
     (value (start path))
     (concatMap moves (blocks path))
 
--- | Reduces each cut along a contour or in a pocket to its first and last move. A large toolpath
--- then needs little memory where the moves between are not needed. The height of such a cut is
--- constant; the cuts of a blade are kept whole, because theirs varies.
+-- | Reduces the cut of each pass to its first and last move, so that a large toolpath needs little
+-- memory. The cuts of a blade stay whole, because their heights vary between the ends.
 withoutCuts :: Toolpath -> Toolpath
 withoutCuts path = foldr seq () abridged `seq` path {blocks = abridged}
   where
     abridged = map shortened (blocks path)
     shortened block = case block of
       Cutting {job = Located _ milling, cut}
-        | isNothing (Part.gear milling) ->
-          let !ends =
-                endsOf cut
-           in block {cut = ends}
+        | isNothing (Part.gear milling) -> block {cut = endsOf cut}
       Cutting {} -> block
-      Clearing {cleared} -> let !ends = endsOf cleared in block {cleared = ends}
+      Clearing {cleared} -> block {cleared = endsOf cleared}
       Travelling _ _ -> block
       Holing _ _ -> block
       Commanding _ -> block
     endsOf cutMoves = case cutMoves of
       _ :| [] -> cutMoves
-      first :| _ -> let !final = NonEmpty.last cutMoves in first :| [final]
+      -- The last move is computed here, so that the result has no reference to the others.
+      first :| _ -> let final = NonEmpty.last cutMoves in final `seq` (first :| [final])

@@ -26,18 +26,19 @@ import Toolpath.Error (Warning (..))
 import Toolpath.Toolpath (Block (..), Toolpath)
 import Toolpath.Toolpath qualified as Toolpath
 
--- | All warnings about a toolpath: rapid moves through the part, then tool changes without a
--- spindle start.
+-- | All warnings about a toolpath: first rapid moves through the part, then tool changes after
+-- which the spindle is not started again.
 warnings :: Toolpath -> [Warning]
 warnings path = throughPart path <> stoppedSpindles path
 
--- | A closed contour; @isMaterial@ says that the program puts material inside it.
+-- | A closed contour. @isMaterial@ is true if the part is inside it, and false if the part is
+-- outside.
 data Body = Body {named :: Part.Contour, outline :: Polyarc.Polyarc, isMaterial :: Bool}
 
--- | Rapid horizontal moves below the top of the part, inside a contour that contains material; at
--- most one for each stop. The innermost contour around the move decides. When the whole
--- toolpath has one height, that height counts as below the top. A move that crosses a contour
--- is an error and is reported elsewhere, so its midpoint represents the whole move.
+-- | Rapid moves in the plane, below the top of the part, inside a contour that contains material;
+-- at most one for each stop. The innermost contour around the move decides. When the whole toolpath
+-- has one height, that height counts as below the top. A move that crosses a contour is an error
+-- ("Toolpath.Intrusion"). So a move lies inside the contours that contain its midpoint.
 throughPart :: Toolpath -> [Warning]
 throughPart path =
   [ RapidThroughPart region (Toolpath.segment m) (Part.contourName (named body))
@@ -80,7 +81,7 @@ throughPart path =
       Clearing {pass} -> [Toolpath.number pass]
       _ -> []
 
--- | The contours of a pass with the side of their material.
+-- | The closed contours of a pass whose side of the material is known; Nothing if there are none.
 bodiesOf :: Block -> Maybe (NonEmpty.NonEmpty Body)
 bodiesOf b = case b of
   Cutting {job = Located _ milling} -> NonEmpty.nonEmpty (bodyOf milling)
@@ -96,15 +97,15 @@ bodiesOf b = case b of
           )
   _ -> Nothing
 
--- | The contour of a milling statement with the side of its material. Nothing is known of open
--- contours, except turned ones.
+-- | The contour of a milling statement with the side of its material. Empty for an open contour,
+-- except for a profile turned outside, which the axis of the spindle closes.
 bodyOf :: Milling -> [Body]
 bodyOf milling = case (Part.ends contour, value (Part.side milling)) of
   (Part.Closed, Outside) -> [whole True]
   (Part.Closed, Inside) -> [whole False]
   (Part.Closed, LeftSide) -> [whole (not isCounterClockwise)]
   (Part.Closed, RightSide) -> [whole isCounterClockwise]
-  -- A turned part extends to the axis of the spindle.
+  -- A turned part extends from its profile to the axis of the spindle.
   (Part.Open, Outside)
     | Part.work milling == Turned ->
       [ Body
@@ -149,9 +150,10 @@ stoppedSpindles path = if Toolpath.isTurned path then [] else go Resting (Toolpa
       (Part.ChangeTool _ _, Turning) -> Stopped at
       _ -> spindle
 
+-- | The state of the spindle while the blocks are executed.
 data Spindle
-  = -- | or unknown
+  = -- | switched off, or never switched on by the program; needs no warning
     Resting
   | Turning
-  | -- | for a tool change
+  | -- | stopped by the tool change in this region
     Stopped Region

@@ -1,7 +1,7 @@
 {-# OPTIONS_GHC -O0 #-}
 
--- | Warnings about toolpaths with the texts of their reports, and texts for tools and shapes that
--- all reports of this folder share.
+-- | Warnings about toolpaths with the texts of their reports, and the texts for tools and elements
+-- that all reports of this folder share.
 module Toolpath.WarningReport
   ( Warning (..),
     RestPosition (..),
@@ -30,7 +30,7 @@ import Part.Part (Element (..), Work (..))
 import Report.Report (Label (..), Report (..), ReportCode, ReportPlace (..), report)
 import Report.Report qualified as Report
 
--- | A cutter at work: the kind of work, its radius, and its allowance.
+-- | A cutter at work: the kind of work, the cutter's radius, and the allowance that it leaves.
 data Tool = Tool {work :: Work, radius :: Mm, leaves :: Mm}
   deriving stock (Eq, Show)
 
@@ -44,14 +44,16 @@ data Warning
     SpindleAtRest Region
   deriving stock (Eq, Show)
 
--- | Rest material at a position the cutter does not reach. The radius of the largest cutter that
--- would reach it is lazy, because it is needed for reports only.
+-- | Rest material at a position that the cutter does not reach. The last field of two constructors
+-- is the radius of the largest cutter that would reach it; Nothing if none would. That field is
+-- lazy, because only reports need it.
 data RestPosition
   = -- | in a corner between two elements
     InCorner Element Element Point
   | -- | in a concave arc of this radius
     InConcaveArc Element Mm ~(Maybe Mm)
-  | -- | beyond the position of the centre at which the cutter touches two elements
+  | -- | between two elements; the point is the position of the centre at which the cutter touches
+    -- both
     Between Element Element Point ~(Maybe Mm)
   deriving stock (Eq, Show)
 
@@ -131,8 +133,8 @@ restPositionText tool s = case s of
       <> ". "
       <> largestFit tool largest
 
--- | The diameter of a cutter, or the radius of a nose, for a radius that fits, rounded down to
--- 0.001 mm.
+-- | The text for the largest cutter of this radius: the diameter of a cutter or the radius of a
+-- nose, rounded down to 0.001 mm.
 fittingSize :: Tool -> Mm -> Text
 fittingSize tool r = case work tool of
   Milled -> down (times 2 r)
@@ -155,7 +157,7 @@ workVerb tool = case work tool of
   Milled -> "milled"
   Turned -> "turned"
 
--- | The text for an element: its kind, its size, its points.
+-- | The text for an element: a line with its ends, an arc with radius and centre, or a curve.
 shape :: Element -> Text
 shape element = case segment element of
   Straight _ _ | ofCurve element -> "the curve"

@@ -1,4 +1,4 @@
--- | Tests of machine descriptions: the built-in ones, wrong ones, and random ones.
+-- | Tests of machine descriptions: the built-in ones, descriptions with mistakes, and random ones.
 module Machine.FromTextSpec (spec) where
 
 import Base.Quantity (Feed (..), Mm (..))
@@ -32,7 +32,7 @@ import Test.QuickCheck hiding (Fixed, Result)
 
 spec :: Spec
 spec = do
-  describe "the machines that partc has" builtInMachines
+  describe "the built-in machines" builtInMachines
   describe "wrong descriptions give their reports, and no machine" $ do
     files <-
       runIO (sort . filter ((== ".machine") . takeExtension) <$> filesBelow "test/machines/bad")
@@ -48,13 +48,14 @@ spec = do
               | r <- Report.sorted (map Error.toReport (errors outcome))
             ]
         )
-    it "every kind of report has a description (a code that nothing raises is dead)" $ do
+    it "every report code occurs for one of them (catches a code that nothing raises)" $ do
       reports <- Text.concat <$> traverse (readText . (-<.> "report")) files
       let isRaised c = ("[E" <> Text.pack (show c) <> "]") `Text.isInfixOf` reports
       filter (not . isRaised) [1001 .. 1014 :: Int] `shouldBe` []
   describe "the guide docs/new-machine.md" $
     it
-      "holds examples/machines/fm-8.machine, and that is a machine (a guide that nobody can follow)"
+      "contains examples/machines/fm-8.machine, which describes a machine (catches a guide that \
+      \nobody can follow)"
       $ do
         text <- readText "examples/machines/fm-8.machine"
         guide <- readText "docs/new-machine.md"
@@ -72,8 +73,10 @@ titleOf = Report.title . Error.toReport
 
 builtInMachines :: Spec
 builtInMachines = do
-  it "read without a report, each under the name of its file (a machine that stops the program)" $
-    forM_ BuiltIn.names $ \n -> do
+  it
+    "are read without a report, each under the name of its file (catches a machine whose mistake \
+    \stops the program)"
+    $ forM_ BuiltIn.names $ \n -> do
       fmap (map titleOf . errors . reading) (BuiltIn.text n) `shouldBe` Just []
       fmap name (BuiltIn.find n) `shouldBe` Just n
   it "are these eight" $
@@ -87,31 +90,31 @@ builtInMachines = do
                    "lkp-01f",
                    "n55"
                  ]
-  it "list the origin of their values: more than 30 each (a value without its history)" $
+  it "list the provenance of more than 30 values each (catches values without provenance)" $
     forM_ BuiltIn.machines $ \m -> length (describedValues m) `shouldSatisfy` (> 30)
-  it "5121 is Table 6 of the Ural paper (a digit punched as another)" $
+  it "punch the digits of code 5121 as in Table 6 of Ural (catches a digit punched as another)" $
     forM_ ["lkp-01f", "lki-u"] $ \n ->
       rows n "0123456789" `shouldBe` [0x0, 0x1, 0x5, 0x6, 0x7, 0x8, 0x9, 0xA, 0xB, 0xF]
   it
-    "БЦК-5 is that of the course: a letter is its number and a hole in track 5 (a letter read as \
-    \another)"
+    "punch a letter of БЦК-5 as its number and a hole in track 5, as the NC course says (catches a \
+    \letter read as another)"
     $ do
       rows "kontur-3p" "0123456789" `shouldBe` [0 .. 9]
       rows "kontur-3p" "НЕДТКПШСВЯ" `shouldBe` [16 .. 25]
       fmap (\m -> map (`Map.lookup` weights (code m)) "НЕДТКПШСВЯ") (found "kontur-3p")
         `shouldBe` Just (map Just [0 .. 9])
-  it "ISO-7bit has the holes that the course prints for X, 3 and + (a wrong parity)" $
+  it "punch X, 3 and + of ISO-7bit as the NC course prints them (catches a wrong parity)" $
     map (holesOf "n55") "X3+" `shouldBe` [[4, 5, 7, 8], [1, 2, 5, 6], [1, 2, 4, 6]]
-  it "frames of lkp-01f have four digits of x, four of y, three of z and one of speed" $
+  it "give the frames of lkp-01f four digits of x, four of y, three of z and one of the feed" $
     fmap (\m -> [(contentName (content w), digits (form w)) | w <- wordsOf m]) (found "lkp-01f")
       `shouldBe` Just [("x", 4), ("y", 4), ("z", 3), ("feed", 1)]
-  it "lkp-01f is not known to move z, and Контур-2П has none" $
+  it "move z on Контур-3П-68, but not on lkp-01f and Контур-2П" $
     map (fmap drivenAxes . found) ["lkp-01f", "kontur-2p", "kontur-3p"]
       `shouldBe` [Just [X, Y], Just [X, Y], Just [X, Y, Z]]
-  it "pulses are those of the table of machines (a part of another size)" $
+  it "have these resolutions in the plane, in mm (catches a part of the wrong size)" $
     [fmap (\m -> let Mm p = planeResolution m in p) (BuiltIn.find n) | n <- BuiltIn.names]
       `shouldBe` map Just [0.001, 0.01, 0.01, 0.02, 0.02, 0.01, 0.02, 0.01]
-  it "feeds are those of the tables (another feed than asked)" $ do
+  it "have the feeds of their tables (catches a feed other than the requested one)" $ do
     fmap (`valueOf` FeedCode 5) (found "lkp-01f") `shouldBe` Just (Just 60)
     fmap (`valueOf` FeedCode 20) (found "lki-fm") `shouldBe` Just (Just 100)
     map (\k -> fmap (`valueOf` FeedCode k) (found "kontur-3p")) [27, 32, 33, 43]
@@ -120,13 +123,16 @@ builtInMachines = do
     fmap (\m -> choose' m (20 / 60 / 0.01)) (found "kontur-3p")
       `shouldBe` Just (Given (FeedCode 32) 33.4)
     fmap feedRange (found "lki-un") `shouldBe` Just (1, 999)
-  it "the check of Контур makes 9Д56000П27Ш08Н add to 50, as the course says" $
+  it "weigh 9Д56000П27Ш08Н as 50 on Контур-3П-68, as the NC course says" $
     fmap
       (\m -> sum [Map.findWithDefault 0 c (weights (code m)) | c <- "9Д56000П27Ш08Н"])
       (found "kontur-3p")
       `shouldBe` Just 50
-  it "the word of auxiliary commands holds 7 and 99 (a command that no frame holds)" $
-    [capacity' m "aux" | Just m <- map found ["lkp-01f", "kontur-3p"]] `shouldBe` [Just 7, Just 99]
+  it
+    "have auxiliary commands up to 7 on lkp-01f and 99 on Контур-3П-68 (catches a command that no \
+    \frame can contain)"
+    $ [capacity' m "aux" | Just m <- map found ["lkp-01f", "kontur-3p"]]
+      `shouldBe` [Just 7, Just 99]
   where
     found = BuiltIn.find . MachineName
     rows :: Text -> String -> [Word8]
@@ -147,18 +153,20 @@ builtInMachines = do
 laws :: Spec
 laws = do
   whole <- runIO (traverse readText ["examples/machines/fm-8.machine", "machines/lkp-01f.machine"])
-  it "what is written is read again as the same machine (a field that the language cannot say)" $
-    forAll (furnished . describable =<< machine) $ \m ->
+  it
+    "a machine that is written as a description is read as the same machine (catches a field that \
+    \the language cannot express)"
+    $ forAll (furnished . describable =<< machine) $ \m ->
       let outcome = reading (toText m)
        in counterexample
             (Text.unpack (toText m <> "\n" <> Text.unlines (map titleOf (errors outcome))))
             $ fmap (\read' -> read' {describedValues = []}) (Result.ifSound outcome)
               === Just m {describedValues = []}
   it
-    "no text stops the reader, and what it says lies in the text (an exception, a report beside \
-    \the file)"
+    "no text makes the reader crash, and every report lies within the text (catches an exception, \
+    \a report outside of the file)"
     $ forAll (mutilated =<< elements whole) isSound
-  it "each missing line is reported (a value made up)" $ do
+  it "each missing line is reported (catches a value that is invented)" $ do
     text <- readText "machines/lki-un.machine"
     let ls = Text.lines text
         needed =
@@ -185,8 +193,8 @@ laws = do
 provenanceLaws :: Spec
 provenanceLaws = do
   it
-    "every fact keeps its mark, and the line's own comes before that around it (history made nicer \
-    \than it is)"
+    "every value keeps its mark, and the mark of a line overrides that of the block around it \
+    \(catches a provenance that is better than the truth)"
     $ do
       values <- valuesOf <$> readText "examples/machines/fm-8.machine"
       take 2 (filter (Text.isInfixOf "axis z" . snd) values)
@@ -198,15 +206,18 @@ provenanceLaws = do
                    ]
       lookup Corrected (filter (Text.isInfixOf "25 = " . snd) values)
         `shouldBe` Just "feeds: table: 25 = 420 — manual, page 10: 42, between 300 and 600"
-  it "the mark on a word comes before that on the frame (history made nicer than it is)" $ do
-    values <- valuesOf <$> readText "machines/kontur-3p.machine"
-    filter (isPresenceOfWord . snd) values
-      `shouldBe` [ (Sourced, "frame: word \"Е\" along x: when needed"),
-                   (Reconstructed, "frame: word \"Т\" along z: when needed"),
-                   ( Reconstructed,
-                     "frame: word \"П\" feed: when moving — П stands in the frames of the example"
-                   )
-                 ]
+  it
+    "the mark of a word overrides that of the frame (catches a provenance that is better than the \
+    \truth)"
+    $ do
+      values <- valuesOf <$> readText "machines/kontur-3p.machine"
+      filter (isPresenceOfWord . snd) values
+        `shouldBe` [ (Sourced, "frame: word \"Е\" along x: when needed"),
+                     (Reconstructed, "frame: word \"Т\" along z: when needed"),
+                     ( Reconstructed,
+                       "frame: word \"П\" feed: when moving — П stands in the frames of the example"
+                     )
+                   ]
   where
     valuesOf text =
       [ (mark, fact)
@@ -232,8 +243,8 @@ mutilated text = do
       pure (Text.take k t <> c <> Text.drop (k + deleted) t)
     keywordsAndEscapes = ["reconstructed", "word", "\\"]
 
--- | Gives a machine a random title, braking and limits, and random commands for the words that it
--- has.
+-- | Replaces the title, the braking, the limits, the choice of feeds and the commands of a machine
+-- by random ones that its frame can express.
 furnished :: Machine -> Gen Machine
 furnished m = do
   heading <- elements ["", "a \"mill\" \\ with words", "Фрезерный станок"]
@@ -244,7 +255,7 @@ furnished m = do
   measured <- elements [AlongPath, LeadingAxis]
   rounding <- elements [NotAbove, Nearest]
   rapid' <- elements [Highest, ByCode (fst (slowest m))]
-  orders' <- commandsFor m
+  commands' <- commandsFor m
   let hasBrakingHole = BrakingHole `elem` concatMap (service . form) (wordsOf m)
       canBrakeByFrames = hasBrakingHole && measured == AlongPath
   pure
@@ -253,7 +264,7 @@ furnished m = do
         braking = Braking a (if canBrakeByFrames then brakingForm' else ByControl),
         limits = Limits contours,
         feeds = (feeds m) {feedMeasure = measured, rule = rounding, rapidFeed = rapid'},
-        commandWords = orders'
+        commandWords = commands'
       }
 
 -- | Random commands for the words and bits of a machine.
@@ -304,7 +315,8 @@ compensationBy m n =
     (CommandWord (CommandName n) Diameter)
     (CommandWord (CommandName n) (Fixed (leastNumber m n)))
 
--- | A random number for the word of a command.
+-- | A random value for the word of a command: a number, the program's argument, or a table of
+-- steps.
 commandWord :: Machine -> Text -> Gen CommandWord
 commandWord m n = do
   k <- choose (leastNumber m n, mostNumber m n)
@@ -318,7 +330,8 @@ fixedWord m n
   | otherwise =
     Just . CommandWord (CommandName n) . Fixed <$> choose (leastNumber m n, mostNumber m n)
 
--- | Least number of a command. In a word of every frame, 0 means that no command is given.
+-- | Least number of a command: 1 if the word or the bits are in every frame, because 0 then means
+-- that no command is given; else 0.
 leastNumber :: Machine -> Text -> Int
 leastNumber m n = if canEncode m (CommandName n) 0 then 0 else 1
 
@@ -326,9 +339,9 @@ leastNumber m n = if canEncode m (CommandName n) 0 then 0 else 1
 mostNumber :: Machine -> Text -> Int
 mostNumber m n = fromMaybe 0 (commandCapacity m (CommandName n))
 
--- | Changes a random machine into one that a description can express. An axis has the resolution of
--- the last decimal of its word. A feed word is in frames with a new feed, and a command word in
--- frames that give the command.
+-- | Changes a random machine into one that a description can express. An axis gets the resolution
+-- of the last decimal of its word. A feed word that is not in every frame is in frames with a new
+-- feed; a command word, in frames that give the command.
 describable :: Machine -> Machine
 describable m =
   m {axes = fmap pulsed (axes m), layout = (layout m) {items = fmap fitting (items (layout m))}}

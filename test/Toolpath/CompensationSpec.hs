@@ -1,7 +1,8 @@
--- | The law of cutter compensation by the control: from its input the control makes the verified
+-- | The law of cutter compensation by the control: from its input, a control makes the moves of the
 -- toolpath.
 --
--- The model of the control follows LinuxCNC move by move and shares no code with the offset.
+-- The model of the control follows LinuxCNC move by move. It shares no code with the computation of
+-- offsets.
 module Toolpath.CompensationSpec (spec) where
 
 import Base.Quantity (Mm (..), Rad (..))
@@ -27,9 +28,9 @@ spec :: Spec
 spec =
   describe "a control" $ do
     it
-      "makes of the edge that it is sent the path that is proven (catches an edge that does not \
-      \begin where the control meets it, a lead of the wrong radius, a last corner that is not \
-      \gone round)"
+      "makes the moves of the toolpath from the edge that it receives (catches an edge that does \
+      \not begin on the tangent from the approach, a lead of the wrong radius, a last outer corner \
+      \without its arc)"
       $ property $
         forAll cases $ \(c, job) -> case sentOf job of
           Nothing -> property Discard
@@ -46,8 +47,8 @@ spec =
                   (show (made, proven, side c))
                   (length made === length proven .&&. conjoin (zipWith same made proven))
     it
-      "gets a straight way in that is longer than the cutter's radius (catches one measured from \
-      \the path)"
+      "gets a straight approach that is longer than the cutter's radius (catches an approach that \
+      \is measured too long)"
       $ property $
         forAll ((,) <$> cases <*> choose (0.1, 3)) $ \((_, job), share) ->
           case sentOf (nearer share job) of
@@ -57,6 +58,7 @@ spec =
                     Segment.length (Toolpath.segment (Toolpath.entry sent))
                in counterexample (show (l, r)) (l > r)
 
+-- | Two segments agree at four of their points.
 same :: Segment -> Segment -> Property
 same a b =
   conjoin
@@ -68,7 +70,8 @@ same a b =
 
 -- The control
 
--- | The moves of the cutter's centre that a control makes of an edge, in order.
+-- | The moves of the cutter's centre that a control makes from its input, from the entry to the
+-- exit. The number is the cutter's radius in mm.
 control :: Double -> Sent -> [Segment]
 control r sent = onto : go entered (NonEmpty.toList edges)
   where
@@ -135,7 +138,8 @@ unbroken = foldr join [] . filter long
 
 -- Milling statements
 
--- | A milling statement whose approach begins at a distance of @share@ radii from the contour.
+-- | Moves the start of a statement's approach to a distance of @share@ radii from the first point
+-- of the toolpath.
 nearer :: Double -> Milling -> Milling
 nearer share job =
   case ( firstAndLast
@@ -158,8 +162,8 @@ nearer share job =
             }
     _ -> job
 
--- | The radius, the control's input, and the verified moves. Nothing where the control would
--- refuse the input.
+-- | The cutter's radius in mm, the control's input, and the moves of the toolpath. Nothing if the
+-- compiler refuses the statement because a control would refuse the input.
 sentOf :: Milling -> Maybe (Double, Sent, [Toolpath.Move])
 sentOf job =
   case blocksOf

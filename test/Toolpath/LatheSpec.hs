@@ -17,14 +17,14 @@ import Test.Hspec
 spec :: Spec
 spec =
   it
-    "moves towards the axis are positive on Контур, with a profile to be turned and without \
-    \(catches a lathe that is known by its profiles only)"
+    "moves towards the spindle's axis are positive on Контур-3П-68, also without a turned profile \
+    \(catches a lathe that is recognised by turned profiles only)"
     $ do
       moves <- readText "test/programs/turn/good/facing-by-moves.part"
       profile <- readText "test/programs/turn/good/outside.part"
       concat <$> traverse depthOf [moves, profile] `shouldReturn` [1000, 2400]
   where
-    -- The first increment in y on the tape, as the control reads it.
+    -- The first increment in y on the tape of a program, in pulses.
     depthOf text = do
       punched <- punchedFrom text
       pure

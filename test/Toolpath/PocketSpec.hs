@@ -1,4 +1,5 @@
--- | Toolpaths of pockets.
+-- | Laws of the toolpaths of pockets: the passes sweep the whole floor, cut into no wall, and
+-- follow one another in a sensible order.
 module Toolpath.PocketSpec (spec) where
 
 import Base.Quantity (Mm (..), Rad (..), plus)
@@ -29,22 +30,23 @@ spec :: Spec
 spec = modifyMaxSuccess (const 60) $ do
   describe "the passes in a pocket" $ do
     prop
-      "sweep every place that the cutter can reach (catches corners, nooks and middles left \
-      \between passes)"
+      "sweep every point of the floor that the cutter can reach (catches residue in corners, in \
+      \nooks and in the middle)"
       $ forAll Generate.pocket $ \p ->
         let sections =
               cleared p
          in forAllBlind (floorPoints p sections) $ \ps -> conjoin (map (swept p sections) ps)
-    prop "cut into no wall (catches a link straight through an island)" $
+    prop "keep their distance from all walls (catches a link straight through an island)" $
       forAll Generate.pocket $ \p ->
         conjoin [deepEnough p s | s <- concatMap Pocket.segments (cleared p)]
-    prop "begin where the one before ends (catches a loop entered elsewhere than it is begun)" $
+    prop "begin where the previous section ends (catches a loop that loses its first part)" $
       forAll Generate.pocket $ \p ->
         let sections =
               cleared p
          in conjoin (zipWith joined sections (drop 1 sections))
     prop
-      "go with the free space on the left, or all the other way (catches a trip that is not turned)"
+      "keep the free space on the left, or all of them on the right (catches a detour that is not \
+      \reversed)"
       $ forAll Generate.pocket $ \p ->
         let sections = cleared p
             back = Pocket.clear (Generate.roomOf p) {isReversed = True} (step p) Nothing
@@ -52,16 +54,17 @@ spec = modifyMaxSuccess (const 60) $ do
               .&&. counterexample
                 (show (area sections, area back))
                 (abs (area sections + area back) <= 1e-6 * abs (area sections))
-    prop "of a rectangle come nearer and nearer to the wall (catches passes from the outside in)" $
+    prop "come ever nearer to the wall of a rectangle (catches passes from the outside in)" $
       forAll Generate.rectangle $ \p ->
         let ds =
               [d | AlongLoop d _ <- cleared p]
          in ds === reverse (sorted ds)
     prop
-      "of a rectangle are linked by ways no longer than the step (catches a loop entered anywhere)"
+      "have links no longer than the stepover in a rectangle (catches a loop that is entered at an \
+      \arbitrary point)"
       $ forAll Generate.rectangle $ \p ->
-        [section | section <- cleared p, isOver section || isLong p section] === []
-    prop "come behind those that lie in them (catches the first part of two left for the end)" $
+        [section | section <- cleared p, isLifted section || isLong p section] === []
+    prop "come after those that they enclose (catches an inner region left for the end)" $
       forAll (Generate.pocket `suchThat` (null . NonEmpty.tail . loops)) $ \p ->
         let rounds = [(d, ss) | AlongLoop d ss <- cleared p]
          in [ (d, d')
@@ -72,30 +75,31 @@ spec = modifyMaxSuccess (const 60) $ do
                 WindingNumber.about (Segment.start s) ss /= 0
             ]
               === []
-    it "take trips aside and lifts now and then" $ do
-      ways <- map cleared <$> generate (vectorOf 100 Generate.pocket)
-      [length (filter (any isAside) ways) > 5, length (filter (any isOver) ways) > 5]
+    it "contain detours in some pockets, and lifted links in some" $ do
+      pockets <- map cleared <$> generate (vectorOf 100 Generate.pocket)
+      [length (filter (any isDetour) pockets) > 5, length (filter (any isLifted) pockets) > 5]
         `shouldBe` [True, True]
-    it "begin at the place given" $
+    it "begin at the given plunge position" $
       fmap
         Pocket.startPoint
         (take 1 (Pocket.clear (Generate.roomOf plain) (Mm 5) (Just (Vec.point 30 20))))
         `shouldBe` [Vec.point 30 20]
-    it "of a pocket into which the cutter does not fit are none" $
+    it "are missing if the cutter does not fit into the pocket" $
       Pocket.clear (Generate.roomOf plain {cutter = Mm 21}) (Mm 5) Nothing `shouldBe` []
-  describe "the passes by the kernel" $ do
+  describe "the passes made of loops of the kernel" $ do
     prop
-      "sweep every place that the cutter can reach (catches a loop that the kernel and the passes \
-      \see differently)"
+      "sweep every point of the floor that the cutter can reach (catches a loop whose free space \
+      \the passes put on the wrong side)"
       $ forAll Generate.pocket $ \p ->
         let sections =
               byKernel p
          in forAllBlind (floorPoints p sections) $ \ps -> conjoin (map (swept p sections) ps)
-    prop "cut into no wall (catches walls with the free space on the wrong side)" $
-      forAll Generate.pocket $ \p ->
+    prop
+      "keep their distance from all walls (catches walls with the free space on the wrong side)"
+      $ forAll Generate.pocket $ \p ->
         conjoin [deepEnough p s | s <- concatMap Pocket.segments (byKernel p)]
   describe "the passes along the walls" $
-    prop "sweep what was left at them (catches a pass too few)" $
+    prop "sweep the allowance of the first passes (catches a pass too few)" $
       forAll Generate.pocket $ \p -> forAll (choose (0, 6)) $ \more ->
         let room = Generate.roomOf p
             rough = Pocket.clear room {leaves = plus (left p) (Mm more)} (step p) Nothing
@@ -109,10 +113,13 @@ spec = modifyMaxSuccess (const 60) $ do
        in NonEmpty.fromList (zipWith Segment.Straight ps (drop 1 ps <> take 1 ps))
     sorted = foldr insert []
     insert x xs = let (a, b) = span (< x) xs in a <> [x] <> b
-    -- The signed area that the passes enclose, counter-clockwise positive.
-    area sections = sum [part s | section <- sections, isPass section, s <- Pocket.segments section]
-    part s = Vec.cross (Vec.to origin (Segment.start s)) (Vec.to origin (Segment.end s)) / 2 + bow s
-    bow s = case s of
+    -- The sum of the areas that all passes enclose, counter-clockwise positive.
+    area sections =
+      sum [areaUnder s | section <- sections, isPass section, s <- Pocket.segments section]
+    areaUnder s =
+      Vec.cross (Vec.to origin (Segment.start s)) (Vec.to origin (Segment.end s)) / 2
+        + beyondChord s
+    beyondChord s = case s of
       Segment.Straight _ _ -> 0
       Segment.Arc {Segment.start = a, Segment.centre, Segment.sweep = Rad w} ->
         let Mm r =
@@ -128,13 +135,15 @@ isPass section = case section of
   DirectLink _ -> False
   LiftedLink _ _ -> False
 
-isAside :: PocketMove -> Bool
-isAside section = isPass section && null [() | AlongLoop _ _ <- [section]]
+isDetour :: PocketMove -> Bool
+isDetour section = isPass section && null [() | AlongLoop _ _ <- [section]]
 
+-- | True for a straight link longer than the stepover.
 isLong :: Pocket -> PocketMove -> Bool
 isLong p section = or [Segment.length s > plus (step p) (Mm 1e-6) | DirectLink s <- [section]]
 
--- | Like 'cleared', with walls of any sense and loops made by the kernel.
+-- | The sections that clear a pocket, with loops of the offset kernel. The walls are given to it in
+-- the opposite sense, so that it has to orient them.
 byKernel :: Pocket -> [PocketMove]
 byKernel p =
   Pocket.clear
@@ -147,21 +156,23 @@ byKernel p =
   where
     outline :| islands = fmap (Polyarc.reverse . Polyarc Closed) (loops p)
 
+-- | The sections that clear a pocket, with the simple and slow offset of "Generate.Pocket".
 cleared :: Pocket -> [PocketMove]
 cleared p = Pocket.clear (Generate.roomOf p) (step p) Nothing
 
-isOver :: PocketMove -> Bool
-isOver section = case section of
+isLifted :: PocketMove -> Bool
+isLifted section = case section of
   LiftedLink _ _ -> True
   AlongLoop _ _ -> False
   Detour _ -> False
   DirectLink _ -> False
 
+-- | The first section ends where the second one begins.
 joined :: PocketMove -> PocketMove -> Property
 joined a b =
   counterexample (show (a, b)) (Vec.distance (Pocket.endPoint a) (Pocket.startPoint b) <= Mm 1e-5)
 
--- | The cutter's centre keeps its distance from the walls.
+-- | On a segment the cutter's centre keeps its distance from the walls.
 deepEnough :: Pocket -> Segment -> Property
 deepEnough p s =
   conjoin
@@ -172,8 +183,8 @@ deepEnough p s =
   where
     nearest = plus (cutter p) (left p)
 
--- | Points all over the pocket, and some near the ends of segments, where passes change
--- direction.
+-- | Random points in the bounding box of the pocket, and some near the ends of segments, where
+-- passes change direction.
 floorPoints :: Pocket -> [PocketMove] -> Gen [Point]
 floorPoints p sections =
   (<>) <$> vectorOf 150 anywhere <*> (if null ends then pure [] else vectorOf 300 beside)
@@ -187,7 +198,7 @@ floorPoints p sections =
       (\q d a -> Vec.shift (Vec.polar (Mm d) (Rad a)) q)
         <$> elements ends <*> choose (0, far) <*> choose (0, 2 * pi)
 
--- | True when a point is unreachable or swept.
+-- | The cutter sweeps a point, or cannot reach it.
 swept :: Pocket -> [PocketMove] -> Point -> Property
 swept p sections q =
   counterexample

@@ -1,0 +1,69 @@
+-- | The paths of the cutter's centre beside a contour: its offset, or the parts of the offset that
+-- the cutter can follow where rest material is allowed.
+--
+-- This is a module of its own so that the passes of a statement do not share the polyarc of their
+-- contour, which would stay in memory from the first pass to the last one.
+module Toolpath.OffsetPath
+  ( paths,
+  )
+where
+
+import Base.Quantity (Mm (..), plus)
+import Base.Region (Located (..))
+import Data.List.NonEmpty (NonEmpty (..))
+import Data.List.NonEmpty qualified as NonEmpty
+import Data.Vector (Vector)
+import Data.Vector qualified as Vector
+import Geometry.Carrier qualified as Carrier
+import Offset.Equidistant qualified as Equidistant
+import Part.Part (Contour (elements), Milling (contour, radius))
+import Part.Part qualified as Part
+import Toolpath.Error (Error (..), Unsupported (..))
+import Toolpath.MillingSide (keyword)
+import Toolpath.OffsetRefusal qualified as OffsetRefusal
+import Toolpath.RestMaterial qualified as RestMaterial
+
+-- | The paths of the cutter's centre beside a contour, or on it when there is no side, with an
+-- allowance. There are several paths only where rest material is allowed and occurs; the second
+-- result is that rest material.
+paths ::
+  Located Milling ->
+  Maybe Carrier.Side ->
+  Vector Part.Element ->
+  Mm ->
+  Either Error (NonEmpty (NonEmpty Equidistant.OffsetSegment), [Equidistant.UnreachedPart])
+paths (Located region milling) side numbered allowance = case side of
+  Nothing ->
+    Right
+      ( NonEmpty.zipWith
+          (\i e -> Equidistant.OffsetSegment (Equidistant.Along i) (Part.segment e))
+          (0 :| [1 ..])
+          (elements (contour milling))
+          :| [],
+        []
+      )
+  Just s -> case (Equidistant.styled style s r polyarcOf, Part.rest milling) of
+    (Right pieces, _) -> Right (pieces :| [], [])
+    (Left _, Part.Allowed)
+      | Just elementFinish <- Part.controlCompensation milling ->
+        Left (NotForControl elementFinish Unreached)
+    (Left o, Part.Allowed) -> case Equidistant.reachableFitting style s r polyarcOf of
+      ([], _) -> Left (NoPathAlong (keyword region) (contour milling) allowance)
+      (_, []) -> Left (refusal o)
+      (p : ps, rests) -> Right (fmap Equidistant.pieces (p :| ps), rests)
+    (Left o, Part.Refused) -> Left (refusal o)
+  where
+    polyarcOf = Part.polyarcOf (contour milling)
+    r = plus (radius milling) allowance
+    style =
+      Equidistant.CornerStyle
+        { Equidistant.sharp = Part.corners milling == Part.Sharp,
+          Equidistant.extra
+        }
+    -- Mostly no element has an allowance of its own, and then the allowances are not looked up.
+    extra
+      | hasNoAllowances = const (Mm 0)
+      | otherwise = allowanceOf . (numbered Vector.!)
+    hasNoAllowances = all ((== Mm 0) . allowanceOf) numbered
+    allowanceOf = Part.allowance . Part.finish
+    refusal = OffsetRefusal.refusal region (RestMaterial.toolOf milling allowance) numbered
