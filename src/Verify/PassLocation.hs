@@ -40,16 +40,16 @@ import Verify.PassFrames (FrameRange (..))
 import Verify.PassSearch qualified as PassSearch
 import Verify.Requirement qualified as Requirement
 
--- | Knowledge for the search.
+-- | Facts that guide the search.
 data Guide = Guide
   { machine :: Machine,
     -- | the cutter stays at its first height, so heights are not compared
     isFlat :: Bool,
-    -- | last frame of a pass by its number, if it is known from the program's own frames
+    -- | last planned frame of a pass by its number; nothing if the tape has another number of
+    -- frames
     lastFrameOf :: Int -> Maybe Int,
-    -- | frames of a cut by the number of its pass, if they are known from the program's own
-    -- frames. They decide
-    -- between passes that lie within the tolerance of one another.
+    -- | planned frames of a cut by the number of its pass; nothing if the tape has other frames.
+    -- They decide between passes that lie within the tolerance of one another
     cutFramesOf :: Int -> Maybe FrameRange
   }
 
@@ -107,14 +107,14 @@ afterPass pass reading = case lastOf (PassSearch.motionsOf (found pass)) of
         lastPass = Just pass
       }
 
--- | State after a frame.
+-- | State after the frame with a number.
 afterFrame :: Int -> Reading -> Reading
 afterFrame final reading =
   reading {at = maybe (at reading) Motion.endPosition (lastOf done), rest = later}
   where
     (done, later) = span ((<= final) . number) (rest reading)
 
--- | Locate one cut.
+-- | Locate one cut after the motions that were searched before.
 locateCut :: Guide -> Reading -> Cut -> MillingPass
 locateCut guide reading cut =
   MillingPass {job, passNumber, level, found = PassSearch.find job startsAt searched}
@@ -138,7 +138,7 @@ locateCut guide reading cut =
       Just (FrameRange a b) ->
         takeWhile ((<= b) . number) (dropWhile ((< a - 1) . number) (rest reading))
 
--- | Demand of the part for a cut.
+-- | Requirements of the part for a cut.
 jobOf :: Machine -> Region -> Milling -> Cut -> BoxTree Edge -> MillingJob
 jobOf machine statement milling cut edges =
   MillingJob
@@ -165,8 +165,8 @@ jobOf machine statement milling cut edges =
         (uncurry max (Deviation.allowedDeviation (Edge.isCurved edges) milling))
         (Machine.planeResolution machine)
 
--- | Tests for each block whether it is one of several cuts of its pass. A pass is only divided
--- where rest material is allowed.
+-- | List with an entry for each block: true of one of several cuts of a pass. A pass is only
+-- divided into cuts where rest material is allowed.
 arePartial :: [Block] -> [Bool]
 arePartial blocks =
   zipWith3
@@ -185,8 +185,9 @@ arePartial blocks =
             Just (number, left, atHeight)
       _ -> Nothing
 
--- | Position of the centre at the end of a contour under cutter compensation: square beside the end
--- of the last element. On a closed contour, the control may or may not count the last corner.
+-- | Position of the centre at the end of a contour under cutter compensation: beside the end of the
+-- last element, square to it. Nothing without compensation. On a closed contour, the control may or
+-- may not treat the joint with the first element as a corner.
 exitByControl :: Milling -> Maybe Side -> Mm -> Maybe Point
 exitByControl milling side (Mm reach) = case (Part.controlCompensation milling, side) of
   (Just _, Just s) ->
@@ -202,8 +203,9 @@ exitByControl milling side (Mm reach) = case (Part.controlCompensation milling, 
       LeftOf -> 1
       RightOf -> -1
 
--- | Uncertainty of that position. Rounding to pulses changes the direction of the last move, most
--- if it has the smallest length that a control is sent.
+-- | Uncertainty in mm of the position of 'exitByControl'; 0 without compensation. Rounding to
+-- pulses changes the direction of the last element, by the most if it is as short as
+-- 'Tolerance.controlLength'.
 exitUncertainty :: Machine -> Milling -> Mm -> Mm
 exitUncertainty machine milling reach = case Part.controlCompensation milling of
   Just _ -> times (2 * pulse / shortest) reach
@@ -212,17 +214,18 @@ exitUncertainty machine milling reach = case Part.controlCompensation milling of
     Mm pulse = Machine.planeResolution machine
     Mm shortest = Tolerance.controlLength
 
--- | Largest distance of the centre from a contour, for the largest allowance of its elements. At a
--- sharp corner the toolpath goes up to twice as far.
+-- | Largest distance of the centre from a contour. @allowance@ is the largest allowance of its
+-- elements. At a sharp corner the toolpath goes up to twice as far.
 largestReach :: Milling -> Mm -> Mm -> Mm
 largestReach milling allowance reach
   | Part.corners milling == Part.Sharp = times 2 (plus reach allowance)
   | otherwise = plus reach allowance
 
--- | Tests for each pass whether it is the first one along its contour.
+-- | List with an entry for each pass: true of the first pass of its statement.
 areFirst :: [MillingPass] -> [Bool]
 areFirst passes =
   zipWith (/=) (map (Just . passNumber) passes) (Nothing : map (Just . passNumber) passes)
 
+-- | Last element of a list, if there is one.
 lastOf :: [a] -> Maybe a
 lastOf = foldl' (\_ a -> Just a) Nothing

@@ -1,13 +1,13 @@
--- | Deviation of one pass of a pocket, by distances alone: no motion cuts into the walls, and
--- nothing that the cutter can reach is left.
+-- | Comparison of a tape with one pass of a pocket, by distances alone. It shows that no motion
+-- cuts into the walls, and that no material remains that the cutter can reach.
 --
 -- Let A be the set of all positions of the cutter's centre that keep the cutter's radius and the
 -- allowance from the walls. The cutter can reach all points within its radius of A. Two things are
 -- shown at each depth:
 --
--- * Rim: each point of the border of A has a motion close by. So the walls are cut wherever a
---   cutter touches them. A reachable point outside of A is within the radius of the border, so it
---   is cleared as well; this includes the corners.
+-- * Rim: each point of the border of A has a motion within the allowed excess. So the walls are cut
+--   wherever a cutter touches them. A reachable point outside of A is within the radius of the
+--   border, so it is cleared as well; this includes the corners.
 -- * Floor: each point of A is within the radius of a motion; see "Verify.PocketFloor".
 module Verify.PocketDeviation
   ( examine,
@@ -44,9 +44,9 @@ import Verify.PocketFloor qualified as PocketFloor
 import Verify.Proof (ContourProof (ContourProof), Finding (..), Witness (Witness))
 import Verify.Proof qualified as Proof
 
--- | Compare the tape with one pass of a pocket. The predicate selects the motions of the pass. In
--- the first pass of the pocket, all motions near it are examined for gouges; in the others, only
--- those of the pass.
+-- | Compare the tape with one pass of a pocket. The predicate is true of the motions of this pass.
+-- The flag is true of the first pass of the pocket: then all motions near the pocket are examined
+-- for gouges, otherwise only those of the pass.
 examine ::
   MotionSet ->
   (CutterMotion -> Bool) ->
@@ -86,7 +86,8 @@ examine set isOwn pocket isFirst pass = (contourProof, findings)
         <> [Excess first (fromMaybe first worst) allowedExcess | first : _ <- [tooMuch]]
         <> (if null tooMuch then floorFindings pocket pass allowedExcess clearing else [])
 
--- | Finding for a position in the final pass that is not cleared.
+-- | Finding for a position on the floor that the final pass leaves uncleared. None for an earlier
+-- pass.
 floorFindings :: Pocket -> ClearingPass -> Mm -> [CutterMotion] -> [Finding]
 floorFindings pocket pass allowedExcess clearing =
   [ NotCleared (statement pocket) (level pass) p
@@ -100,8 +101,8 @@ floorFindings pocket pass allowedExcess clearing =
           )
   ]
 
--- | Allowed gouge and excess: the tolerance and one pulse; for the excess also the spare room of
--- the rim.
+-- | Allowed gouge and allowed excess of a pocket: the tolerance plus one pulse. The excess also
+-- includes 'Pocket.spareRoom', by which the rim is further from the walls.
 allowedIn :: MotionSet -> Pocket -> (Mm, Mm)
 allowedIn set pocket =
   (plus inside pulse, plus (plus (max inside outside) pulse) Pocket.spareRoom)
@@ -110,9 +111,9 @@ allowedIn set pocket =
     (inside, outside) = Deviation.allowedDeviation isCurved (milling pocket)
     isCurved = any Part.continues (Part.elements (Part.contour (milling pocket)))
 
--- | Motions at the height of a pass with a cutter that is large enough. If one of them starts in
--- the bounding box of the pocket, only those around the box are taken: none further away is the
--- nearest one of any point of the pocket.
+-- | Motions that clear the floor in a pass: those at its height, with a cutter at least as large as
+-- that of the pocket. If one of them starts in the bounding box of the pocket, motions further from
+-- the box than its diagonal are left out, because they are not the nearest ones of any point in it.
 clearingMotions :: MotionSet -> Pocket -> ClearingPass -> [CutterMotion]
 clearingMotions set pocket pass
   | any (startsInBounds . segment) around = around
@@ -130,7 +131,7 @@ clearingMotions set pocket pass
     diagonal (BoundingBox left bottom right top) =
       Mm (Vec.norm (Vec.vec (right - left) (top - bottom)))
 
--- | Deepest gouge of some motions into the walls of a pocket.
+-- | Deepest gouge of some motions into the walls of a pocket, if there is one.
 deepestGouge :: (CutterMotion -> KeepOut) -> Pocket -> [CutterMotion] -> Maybe Witness
 deepestGouge keepOut pocket = foldl' orDeeper Nothing
   where
@@ -143,15 +144,16 @@ deepestGouge keepOut pocket = foldl' orDeeper Nothing
         (BoundingBox.inflate (searchRadius (keepOut m)) (Motion.box m))
         (walls pocket)
 
--- | First gouge into the walls of a pocket that is deeper than allowed.
+-- | First gouge into the walls of a pocket that is deeper than allowed, in the order of the
+-- motions.
 firstGouge :: (CutterMotion -> KeepOut) -> Pocket -> Mm -> [CutterMotion] -> Maybe Witness
 firstGouge keepOut pocket allowed motions =
   find
     ((> allowed) . Proof.amount)
     (mapMaybe (\m -> Gouge.gougeOf (keepOut m) (walls pocket) m) motions)
 
--- | Distances of the rim from the motions. A distance within the allowance is only given if it is
--- larger than all before it.
+-- | Excess on the parts of a rim: the largest distance of each part from the motions. An excess
+-- within the allowance is only listed if it is larger than all before it.
 unreached :: Mm -> BoxTree CutterMotion -> [(Element, Segment)] -> [Witness]
 unreached allowance motions = go (Mm 0)
   where

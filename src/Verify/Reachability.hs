@@ -23,8 +23,8 @@ import Geometry.Tolerance qualified as Tolerance
 import Geometry.Vec qualified as Vec
 import Offset.Tolerance qualified as Tolerance
 
--- | Distance that the centre keeps from some segments of a contour: the cutter's radius and the
--- allowances.
+-- | Segments of a contour, with the distance that the cutter's centre keeps from all of them: its
+-- radius plus their allowance.
 data KeptDistance = KeptDistance {distanceKept :: Mm, segments :: BoxTree Segment}
 
 -- | Interval of a segment, as fractions of its length.
@@ -32,9 +32,10 @@ type Interval = (Double, Double)
 
 -- Elements ----------------------------------------------------------------------------------------
 
--- | Parts of an element that a cutter touches with its centre at a distance on a side. All segments
--- of the contour are given by the distances kept from them. A segment with a larger distance only
--- counts on its normals: beside its ends the toolpath steps back to the smaller distance.
+-- | Parts of an element that a cutter touches with its centre at a distance from the element, on a
+-- side of it. @others@ are all segments of the contour, by the distance kept from them. A segment
+-- with a larger distance only counts for centres on its normals: beside its ends the toolpath steps
+-- back to the smaller distance.
 parts :: Side -> Mm -> [KeptDistance] -> Segment -> [Segment]
 parts side distance others element = case beside side distance element of
   Nothing -> []
@@ -44,7 +45,8 @@ parts side distance others element = case beside side distance element of
         b - a > Tolerance.negligibleShare
     ]
 
--- | Intervals in which no other segment is too near to the centres of the cutter.
+-- | Parts of the intervals @free@ in which no segment with this kept distance is too near to the
+-- centre of the cutter. @centres@ is the path of the centre along the element.
 freeOf :: Side -> Mm -> Segment -> Segment -> [Interval] -> KeptDistance -> [Interval]
 freeOf side distance element centres free (KeptDistance kept others) =
   case compare kept distance of
@@ -58,12 +60,13 @@ freeOf side distance element centres free (KeptDistance kept others) =
       BoundingBox.union (BoundingBox.ofSegment element) (BoundingBox.ofSegment centres)
     common xs ys = [(max a c, min b d) | (a, b) <- xs, (c, d) <- ys, max a c < min b d]
 
--- | Distance with half of the clearance that the toolpath allows where the cutter just fits.
+-- | Distance that counts as kept: less by half of 'Tolerance.clearance', with which the toolpath is
+-- allowed where the cutter just fits.
 roomy :: Mm -> Mm
 roomy d = minus d (times 0.5 Tolerance.clearance)
 
--- | Parts of an interval whose centres are on this side of all other segments. A segment with a
--- smaller distance might lie between the element and the centre.
+-- | Parts of an interval in which no other segment lies between the element and the centre. Only a
+-- segment with a smaller distance can lie there.
 onThisSide :: Segment -> Segment -> [Segment] -> Interval -> [Interval]
 onThisSide element centres near (a, b) =
   [ (from, to)
@@ -85,8 +88,9 @@ onThisSide element centres near (a, b) =
             (\p -> Vec.distance foot p > Tolerance.clearance)
             (Distance.intersections (Straight foot (Segment.at t centres)) s)
 
--- | Parts of an interval of centres that are on no normal of a segment with a larger distance, or
--- far enough from it.
+-- | Parts of an interval in which each centre keeps the distance @kept@ from all segments on whose
+-- normals it lies. @near@ are segments with this distance, which is larger than that of the
+-- element.
 withoutNormals :: Side -> Mm -> [Segment] -> Segment -> Interval -> [Interval]
 withoutNormals side kept near centres (a, b) =
   [ (from, to)
@@ -118,9 +122,10 @@ dividedAt marks (a, b) = zip (a : inside) (inside <> [b])
 
 -- Pockets -----------------------------------------------------------------------------------------
 
--- | Border of all positions of the centre at a distance or more from closed contours, on a side of
--- them: offsets of the segments and arcs round outer corners, without the parts that are too near
--- to a segment. Each comes with the number of its segment among all.
+-- | Border of the region of all centres on a side of closed contours and at a distance or more from
+-- them. It consists of offsets of the segments and of arcs round outer corners, without those parts
+-- that are too near to a segment. Each comes with the number of its segment, counted from 0 over
+-- all contours. @segments@ are the same segments in a tree.
 rim :: Side -> Mm -> BoxTree Segment -> [[Segment]] -> [(Int, Segment)]
 rim side distance segments contours =
   concatMap free (concat (zipWith around (scanl (+) 0 (map length contours)) contours))
@@ -155,12 +160,12 @@ part s a b
   | b >= 1 = snd (Segment.cutAt a s)
   | otherwise = snd (Segment.cutAt (a / b) (fst (Segment.cutAt b s)))
 
--- | Smallest angle of a corner that gets an arc round it, in radians.
+-- | Smallest change of direction, in radians, at a corner that gets an arc round it.
 smallestTurn :: Double
 smallestTurn = 1e-9
 
--- | Arc of the centre round the corner at the end of a segment, if the corner turns away from the
--- cutter.
+-- | Path of the centre round the corner between two segments: an arc about the corner, if the
+-- contour turns away from the cutter there.
 outerCorner :: Side -> Mm -> Segment -> Segment -> Maybe Segment
 outerCorner side (Mm d) s next
   | leftward side * t < negate smallestTurn =

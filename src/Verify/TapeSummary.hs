@@ -1,6 +1,7 @@
 {-# LANGUAGE BangPatterns #-}
 
--- | Summary of the frames of a tape, computed in one traversal because they are many.
+-- | Summary of the frames of a tape. It is computed in one traversal, because a tape may have many
+-- frames.
 module Verify.TapeSummary
   ( TapeSummary (..),
     summarize,
@@ -13,20 +14,23 @@ import Control.Applicative ((<|>))
 import Frame.Frame (Frame (..))
 import Frame.Frame qualified as Frame
 
--- | Summary of a tape.
+-- | Summary of a tape. Frames are numbered from 1.
 data TapeSummary = TapeSummary
   { -- | number of frames
     count :: Int,
+    -- | position after the last frame
     endPosition :: Pulses3,
-    -- | largest increment of each axis, without its sign
+    -- | largest increment in one frame, along each axis, without its sign
     largestIncrement :: Pulses3,
-    -- | number of the first frame that ends at another height than the start
+    -- | number of the first frame that ends at another height than that of the start position
     firstRisen :: Maybe Int,
-    -- | number of the first frame that differs from the program's own
+    -- | number of the first frame that differs from the planned frame with this number, or exists
+    -- on one side only
     firstDifference :: Maybe Int
   }
 
--- | Summarize the frames of a tape from a start position, compared with the program's own frames.
+-- | Summarize the frames of a tape that begins at a start position. The planned frames are those
+-- that the compiler made for the program.
 summarize :: Pulses3 -> [Frame.PlannedFrame] -> [Frame] -> TapeSummary
 summarize begin@(Pulses3 _ _ startHeight) = go (TapeSummary 0 begin 0 Nothing Nothing)
   where
@@ -42,16 +46,16 @@ summarize begin@(Pulses3 _ _ startHeight) = go (TapeSummary 0 begin 0 Nothing No
       p : _ -> Frame.frame p == f
       [] -> False
 
--- | Summary with one more frame; the height at the start of the tape is given, and whether the
--- frame is the program's own.
+-- | Summary with one more frame. @startHeight@ is the height of the start position; @isPlanned@ is
+-- true of a frame that equals the planned one.
 withFrame :: Pulses -> Bool -> Frame -> TapeSummary -> TapeSummary
-withFrame startHeight isOwn f summary =
+withFrame startHeight isPlanned f summary =
   TapeSummary
     { count = number,
       endPosition = Pulses3 (x + dx) (y + dy) height,
       largestIncrement = Pulses3 (max a (abs dx)) (max b (abs dy)) (max c (abs dz)),
       firstRisen = firstRisen summary <|> if height == startHeight then Nothing else Just number,
-      firstDifference = firstDifference summary <|> if isOwn then Nothing else Just number
+      firstDifference = firstDifference summary <|> if isPlanned then Nothing else Just number
     }
   where
     number = count summary + 1
