@@ -1,9 +1,9 @@
 -- | Model of cutter compensation (G41, G42) in the control: the path of the cutter's centre while
--- the frames describe the edge of the part. The model follows LinuxCNC, whose results were
--- measured. Without compensation, the centre goes as the frames say.
+-- the frames describe the edge of the part. The model follows LinuxCNC; a test compares the paths
+-- of both. Without compensation, the centre moves as the frames say.
 --
--- * Entry: the first motion goes straight from the present position of the centre to the end of
---   the programmed motion, shifted sideways by the cutter's radius.
+-- * Entry: the first motion goes straight from the present position of the centre to the end of the
+--   programmed motion, shifted sideways by the cutter's radius.
 -- * Contour: each later motion is the offset of the programmed one; an arc keeps its centre. At a
 --   corner that turns away from the cutter, the centre goes round the corner on an arc. At a corner
 --   that turns towards the cutter, both offsets end at their intersection. At a corner of less than
@@ -42,8 +42,9 @@ import Machine.Machine (CommandValue (..), CommandWord (..), CompensationCommand
 import Machine.Machine qualified as Machine
 import Toolpath.Tolerance qualified as Tolerance
 
--- | Programmed motion and the path of the cutter's centre in it, in the plane: the arc round the
--- corner before it, if there is one, then the offset. A vertical motion has a path without length.
+-- | Programmed motion, and the path of the cutter's centre during it in the plane. The path is the
+-- offset of the motion; an arc round the corner before it may come first. A vertical motion has a
+-- path without length.
 data Moved = Moved {programmed :: Motion, centrePath :: NonEmpty Segment}
   deriving stock (Eq, Show)
 
@@ -67,28 +68,30 @@ data CompensationError
     NotSwitchedOff Int
   deriving stock (Eq, Show)
 
--- | Active compensation: 1 for a cutter on the left, -1 for one on the right; its radius in mm.
+-- | Side and radius of the cutter: 1 if it is on the left of the programmed motion, -1 if it is on
+-- the right; the radius in mm.
 data Offset = Offset {leftward :: Double, radius :: Double}
 
--- | State of the control between two frames.
+-- | State of the control between two frames. 'Entering' and 'Leaving' wait for the next motion;
+-- 'Active' is compensation after its entry.
 data Mode
   = Off
   | Entering Offset
   | Active
   | Leaving
 
--- | Role of a motion: without compensation, the entry, along the contour, the exit.
+-- | Part of a motion in the compensation: none, the entry, along the contour, the exit.
 data Role = Uncompensated | Entry Offset | Contour | Exit
 
 -- Frames in order ---------------------------------------------------------------------------------
 
--- | Run frames from a position. The function gives the cutter's radius in a frame, by its number;
--- it is used if the tape does not say the diameter.
+-- | Run frames from a start position. The function gives the cutter's radius in the frame with a
+-- number, counted from 1. It is used for a frame that switches compensation on without a diameter.
 run :: Machine -> (Int -> Mm) -> Pulses3 -> [Frame] -> ([Moved], [CompensationError])
 run = runWith (:)
 
--- | Fold the motions of 'run' from the right. Without compensation the list of motions is never
--- held.
+-- | Fold the motions of 'run' from the right. Without compensation, the list of motions is never in
+-- memory as a whole.
 runWith ::
   (Moved -> [a] -> [a]) ->
   Machine ->
@@ -137,6 +140,7 @@ withRoles machine commands toolAt begin frames = (final, tagged)
       Active -> (Active, Contour)
       Leaving -> (Off, Exit)
 
+-- | Test that compensation is switched on and not yet released.
 isOn :: Mode -> Bool
 isOn mode = case mode of
   Off -> False
@@ -144,7 +148,7 @@ isOn mode = case mode of
   Entering _ -> True
   Active -> True
 
--- | Mode after the commands of a frame, before its motion, and the errors of these commands.
+-- | Mode after the commands of frame @n@ and before its motion, and the errors of these commands.
 switched ::
   Machine ->
   CompensationCommands ->
@@ -188,7 +192,7 @@ switched machine commands toolAt mode n f =
 uncompensated :: Machine -> Motion -> Moved
 uncompensated machine m = Moved m (Motion.segment machine m :| [])
 
--- | Paths of motions from the present position of the centre.
+-- | Paths of the centre in motions, from its present position.
 pathsFrom :: Machine -> Point -> [(Role, Motion)] -> [(Moved, [CompensationError])]
 pathsFrom machine at motions = case motions of
   [] -> []
@@ -212,7 +216,7 @@ pathsFrom machine at motions = case motions of
       Entry _ -> False
       Exit -> False
 
--- | Paths of the entry motion and of all motions up to the release.
+-- | Paths of the entry motion and of all motions up to the release, from the present position.
 compensatedSection ::
   Machine ->
   Offset ->
@@ -230,16 +234,18 @@ compensatedSection machine k at (entry :| contour) =
       [ArcEntry (number entry) | isArc edge]
         <> [ShortEntry (number entry) long (Mm (radius k)) | long <= Mm (radius k)]
 
+-- | Position of the centre at the end of a motion.
 endOf :: Moved -> Point
 endOf m = let first :| others = centrePath m in Segment.end (foldl (\_ s -> s) first others)
 
+-- | Test that a segment is an arc.
 isArc :: Segment -> Bool
 isArc s = case s of
   Straight _ _ -> False
   Arc {} -> True
 
--- | Offset paths of programmed edges, from the present position of the centre. An arc round the
--- corner before the first edge is given if it is still to be traversed.
+-- | Offset paths of programmed motions with their segments, from the present position of the
+-- centre. @corner@ is the arc round the corner before the first of them, if there is one.
 offsetPaths ::
   Offset ->
   Point ->
@@ -260,8 +266,8 @@ offsetPaths k at corner motions = case motions of
        in (Moved m (maybe (path :| []) (:| [path]) corner), offsetErrors k m edge path joint) :
           offsetPaths k finish corner' rest
 
--- | Errors of one offset: an arc in which the cutter does not fit; a path that goes back, winds
--- round or does not meet the next one.
+-- | Errors of one offset: an arc in which the cutter does not fit; a path that goes backwards,
+-- whose sweep grows too much, or that does not meet the next one.
 offsetErrors :: Offset -> Motion -> Segment -> Segment -> Maybe Joint -> [CompensationError]
 offsetErrors k m edge path joint =
   tight <> [CornerNotReached (number m) | isBackwards || winds path edge || isApart]
@@ -286,7 +292,7 @@ isVertical s = case s of
   Straight a b -> a == b
   Arc {} -> False
 
--- | Path from one point to another with the shape of an edge; an arc keeps its centre.
+-- | Path from @a@ to @b@ with the shape of a programmed segment; an arc keeps its centre.
 along :: Point -> Point -> Segment -> Segment
 along a b edge = case edge of
   Straight _ _ -> Straight a b
@@ -295,7 +301,7 @@ along a b edge = case edge of
       Arc {start = a, end = b, centre, sweep = whole}
     | otherwise -> Segment.arc (if angle > 0 then CounterClockwise else Clockwise) centre a b
 
--- | Test that a straight path goes against its edge, by more than rounding.
+-- | Test that a straight path goes against its programmed segment, by more than rounding.
 goesBack :: Segment -> Segment -> Bool
 goesBack path edge = case edge of
   Straight _ _ ->
@@ -305,8 +311,8 @@ goesBack path edge = case edge of
   where
     Mm slack = Tolerance.coincident
 
--- | Test that an arc has a larger sweep than its edge. An arc that was shortened to less than
--- nothing goes almost all the way round.
+-- | Test that an arc has a larger sweep than its programmed segment. The sweep of an arc that would
+-- have to be shorter than nothing is almost a full circle.
 winds :: Segment -> Segment -> Bool
 winds path edge = case (path, edge) of
   (Arc {sweep = Rad a}, Arc {sweep = Rad b}) -> Rad (abs a - abs b) > Tolerance.controlTurn
@@ -314,14 +320,15 @@ winds path edge = case (path, edge) of
 
 -- Corners -----------------------------------------------------------------------------------------
 
--- | Transition from one offset to the next.
+-- | Transition from the offset of one segment to that of the next: a corner that counts as none, an
+-- arc round the corner, an intersection of both offsets, none because they do not meet.
 data Joint
   = Smooth
   | Around Segment
   | Intersection Point
   | NoMeeting
 
--- | Transition between two edges that follow each other.
+-- | Transition between the offsets of two programmed segments that follow each other.
 jointOf :: Offset -> Segment -> Segment -> Joint
 jointOf k a b
   | abs turned < least = Smooth
@@ -343,7 +350,7 @@ jointOf k a b
     Rad least = Tolerance.controlBend
     corner = Segment.end a
 
--- | End and start of an edge, shifted sideways by the cutter's radius.
+-- | End and start of a programmed segment, shifted sideways by the cutter's radius.
 offsetEnd, offsetStart :: Offset -> Segment -> Point
 offsetEnd k s =
   Vec.shift (Vec.scale (leftward k * radius k) (Vec.left (Segment.endDirection s))) (Segment.end s)
@@ -352,7 +359,7 @@ offsetStart k s =
     (Vec.scale (leftward k * radius k) (Vec.left (Segment.startDirection s)))
     (Segment.start s)
 
--- | Intersections of the offset carriers of two edges.
+-- | Intersections of the carriers on which the offsets of two programmed segments lie.
 meetings :: Offset -> Segment -> Segment -> [Point]
 meetings k a b = points $ case (lineA, lineB) of
   (Just l, Just m) -> Intersection.lines l m

@@ -1,6 +1,5 @@
--- | Deviation of one pass along a contour: the three comparisons of the proof, gouge, excess and
--- side, and the order of travel. The tape is compared with the part; the toolpath only says which
--- pass is meant.
+-- | Comparison of a tape with one pass along a contour: gouge, excess and side, and the order of
+-- travel. The toolpath only says which pass is meant.
 module Verify.Deviation
   ( MillingPass (..),
     examine,
@@ -55,8 +54,8 @@ data MillingPass = MillingPass
 -- | Allowed deviations into the material and out of it, with one pulse.
 data Allowed = Allowed {allowedGouge :: Mm, allowedExcess :: Mm}
 
--- | Compare the tape with a contour. In the first pass along the contour, all motions near it are
--- examined for gouges; in the others, only those of the pass.
+-- | Compare the tape with a contour. @isFirst@ is true of the first pass along the contour: then
+-- all motions near it are examined for gouges, otherwise only those of the pass.
 examine :: MotionSet -> Bool -> MillingPass -> (ContourProof, [Finding])
 examine set isFirst pass = (contourProof, if null findings then orderFindings pass else findings)
   where
@@ -100,8 +99,8 @@ examine set isFirst pass = (contourProof, if null findings then orderFindings pa
            ]
         <> maybeToList (wrongSide scan)
 
--- | Allowed deviations of a job. A cutter on the contour itself has no side: both are the larger
--- one then.
+-- | Allowed deviations of a job. Without a side, for a cutter that runs on the contour, the larger
+-- of the two allowed chord errors counts in both directions.
 allowedOf :: MotionSet -> MillingJob -> Allowed
 allowedOf set job
   | isNothing (side job) = Allowed (plus larger pulse) (plus larger pulse)
@@ -111,8 +110,9 @@ allowedOf set job
     larger = max inside outside
     pulse = Machine.planeResolution (MotionSet.machine set)
 
--- | Allowed chord errors of a tape, into the material and out of it. A curve is replaced by arcs
--- that deviate by up to 'Tolerance.curve' themselves; the tape has to be closer to them by that.
+-- | Allowed chord errors of a tape in mm, into the material and out of it. The arcs that replace a
+-- curve may deviate from it by 'Tolerance.curve'; on a curve, the allowed errors are smaller by
+-- that.
 allowedDeviation :: Bool -> Milling -> (Mm, Mm)
 allowedDeviation isCurved milling
   | isCurved = (less inside, less outside)
@@ -121,7 +121,7 @@ allowedDeviation isCurved milling
     (inside, outside) = Part.deviationLimits (Part.tolerance milling)
     less d = max (Mm 0) (minus d Tolerance.curve)
 
--- | Fault in the order of travel, if nothing else is wrong with the contour.
+-- | Finding for a contour that is not followed from its start to its end.
 orderFindings :: MillingPass -> [Finding]
 orderFindings MillingPass {job, found} = case found of
   Complete {} -> []
@@ -133,6 +133,7 @@ orderFindings MillingPass {job, found} = case found of
     ]
   Missing -> [Proof.NeverBegun (statement job)]
 
+-- | Test that the statement allows rest material.
 allowsRest :: MillingJob -> Bool
 allowsRest job = Part.rest (milling job) == Part.Allowed
 
@@ -154,8 +155,9 @@ boxOf milling =
     BoundingBox.union
     (fmap (BoundingBox.ofSegment . Part.segment) (Part.elements (Part.contour milling)))
 
--- | Distance that a motion keeps: a motion along the contour keeps that of the pass with the
--- allowances of the elements, any other one the radius of its cutter.
+-- | Distance that a motion keeps from the elements. A motion along the contour keeps the distance
+-- of the pass, with the allowances of the elements. Any other motion keeps the radius of its
+-- cutter.
 keepOutOf :: MotionSet -> MillingJob -> [CutterMotion] -> CutterMotion -> KeepOut
 keepOutOf set job along = \m ->
   let tool = MotionSet.toolOf set m
@@ -173,14 +175,15 @@ keepOutOf set job along = \m ->
     ownFrames = IntSet.fromDistinctAscList (ascending (map number along))
     largestAllowance = max (Mm 0) (Edge.largestAllowance (edges job))
 
--- | Sorted numbers, each once.
+-- | Sorted list of numbers without its repetitions.
 ascending :: [Int] -> [Int]
 ascending ns = case ns of
   a : b : more | a == b -> ascending (b : more)
   a : more -> a : ascending more
   [] -> []
 
--- | Gouges of a tool without radius. No distance shows them.
+-- | Gouges of a tool without radius, by an examination of their own: the distance of such a tool
+-- from the contour shows none. Empty for a tool with a radius.
 piercedBy :: MillingJob -> Mm -> [CutterMotion] -> [Witness]
 piercedBy job allowed motions =
   [ w
@@ -193,9 +196,9 @@ piercedBy job allowed motions =
 
 -- Excess ------------------------------------------------------------------------------------------
 
--- | Excess on the elements of a contour. If rest material is allowed, all motions at the height
--- count; they are the same for all cuts of a pass, so only the first cut is examined. The array has
--- the upper bounds of the scan.
+-- | Excess on the elements of a contour. If rest material is allowed, all motions at the height of
+-- the pass count. They are the same for all cuts of the pass, so only the first cut is examined.
+-- The array has the upper bounds of the scan.
 missedOn :: MotionSet -> Bool -> MillingPass -> Mm -> PrimArray Double -> [Witness]
 missedOn set isFirst MillingPass {job, level, found} allowed bounds
   | allowsRest job && not isFirst = []
@@ -232,7 +235,7 @@ touchableParts job kept distance e = case (Part.rest (milling job), side job) of
     ]
   _ -> [e]
 
--- | Elements in groups with one allowance.
+-- | Elements in groups of equal allowance.
 byAllowance :: [Edge] -> [(Mm, [Edge])]
 byAllowance es = case es of
   e : others | all ((== ownAllowance e) . ownAllowance) others -> [(ownAllowance e, es)]

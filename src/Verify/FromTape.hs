@@ -86,7 +86,7 @@ data Subject = Subject
     -- | motions of the cutter's centre on the tape
     motions :: ~[CutterMotion],
     -- | motions of the cutter's centre in the planned frames
-    ownMotions :: ~[CutterMotion],
+    plannedMotions :: ~[CutterMotion],
     -- | bounding-box tree of the motions on the tape
     motionIndex :: ~(BoxTree CutterMotion),
     compensationErrors :: ~[Compensation.CompensationError],
@@ -137,7 +137,7 @@ subjectOf machine path program frames =
       summary = TapeSummary.summarize (Frame.start program) (Frame.plannedFrames program) frames,
       tools,
       motions,
-      ownMotions =
+      plannedMotions =
         Swivel.levelled machine path (fst (run (map Frame.frame (Frame.plannedFrames program)))),
       motionIndex = BoxTree.index Motion.box motions,
       compensationErrors,
@@ -287,7 +287,7 @@ otherFindings subject@Subject {machine, path, program, frames} passes =
     begin = Frame.start program
     foreign'
       | isFlat subject || not (isDifferent subject) = []
-      | otherwise = ForeignCut.foreignCuts machine path (ownMotions subject) (motions subject)
+      | otherwise = ForeignCut.foreignCuts machine path (plannedMotions subject) (motions subject)
 
 -- | Findings for pockets whose depths are not cut in order.
 pocketOrder :: Subject -> [Finding]

@@ -55,16 +55,17 @@ data Guide = Guide
 
 -- | State of the search: the position and height of the centre, the motions after it, the last
 -- pass.
-data Reading = Reading
+data SearchState = SearchState
   { at :: (Point, Mm),
-    rest :: [CutterMotion],
+    remaining :: [CutterMotion],
     lastPass :: Maybe MillingPass
   }
 
--- | Cut of the toolpath: the number of its pass among all passes, whether it is one of several cuts
--- of the pass, the statement, the pass, the moves.
+-- | Cut of the toolpath along a contour. A pass around rest material has several.
 data Cut = Cut
-  { passIndex :: Int,
+  { -- | number of its pass among all passes of the toolpath
+    passIndex :: Int,
+    -- | true of one of several cuts of a pass
     isPartial :: Bool,
     statementAt :: Located Milling,
     plannedPass :: Toolpath.Pass,
@@ -74,16 +75,18 @@ data Cut = Cut
 -- | Locate the passes along contours on a tape, from a start position and height.
 locate :: Guide -> (Point, Mm) -> [CutterMotion] -> [Block] -> [MillingPass]
 locate guide begin motions blocks =
-  go (Reading begin motions Nothing) (zip3 (Toolpath.passNumbers blocks) (arePartial blocks) blocks)
+  go
+    (SearchState begin motions Nothing)
+    (zip3 (Toolpath.passNumbers blocks) (arePartial blocks) blocks)
   where
-    go reading numbered = case numbered of
+    go state numbered = case numbered of
       [] -> []
       (passIndex, isPartial, block) : more -> case block of
         Toolpath.Cutting {Toolpath.job, Toolpath.pass, Toolpath.cut} ->
           let found =
                 locateCut
                   guide
-                  reading
+                  state
                   Cut
                     { passIndex,
                       isPartial,
@@ -91,52 +94,52 @@ locate guide begin motions blocks =
                       plannedPass = pass,
                       cutMoves = cut
                     }
-           in found : go (afterPass found reading) more
+           in found : go (afterPass found state) more
         Toolpath.Clearing {}
-          | Just final <- lastFrameOf guide passIndex -> go (afterFrame final reading) more
-        _ -> go reading more
+          | Just final <- lastFrameOf guide passIndex -> go (afterFrame final state) more
+        _ -> go state more
 
 -- | State after a located pass.
-afterPass :: MillingPass -> Reading -> Reading
-afterPass pass reading = case lastOf (PassSearch.motionsOf (found pass)) of
-  Nothing -> reading {lastPass = Just pass}
+afterPass :: MillingPass -> SearchState -> SearchState
+afterPass pass state = case lastOf (PassSearch.motionsOf (found pass)) of
+  Nothing -> state {lastPass = Just pass}
   Just final ->
-    Reading
+    SearchState
       { at = Motion.endPosition final,
-        rest = drop 1 (dropWhile (not . Motion.isSame final) (rest reading)),
+        remaining = drop 1 (dropWhile (not . Motion.isSame final) (remaining state)),
         lastPass = Just pass
       }
 
 -- | State after the frame with a number.
-afterFrame :: Int -> Reading -> Reading
-afterFrame final reading =
-  reading {at = maybe (at reading) Motion.endPosition (lastOf done), rest = later}
+afterFrame :: Int -> SearchState -> SearchState
+afterFrame final state =
+  state {at = maybe (at state) Motion.endPosition (lastOf done), remaining = later}
   where
-    (done, later) = span ((<= final) . number) (rest reading)
+    (done, later) = span ((<= final) . number) (remaining state)
 
 -- | Locate one cut after the motions that were searched before.
-locateCut :: Guide -> Reading -> Cut -> MillingPass
-locateCut guide reading cut =
+locateCut :: Guide -> SearchState -> Cut -> MillingPass
+locateCut guide state cut =
   MillingPass {job, passNumber, level, found = PassSearch.find job startsAt searched}
   where
     Located statement milling = statementAt cut
     Toolpath.Pass {Toolpath.number = passNumber, Toolpath.atHeight = level} = plannedPass cut
     job = jobOf (machine guide) statement milling cut edges
     -- All cuts of a statement have its elements in common.
-    edges = case lastPass reading of
+    edges = case lastPass state of
       Just MillingPass {job = MillingJob {edges = same}, passNumber = m} | m == passNumber -> same
       _ -> Edge.edgesOf (Part.contour milling)
     startsAt
-      | isFlat guide || MotionSet.isSameHeight (machine guide) level (snd (at reading)) =
-        Just (fst (at reading))
+      | isFlat guide || MotionSet.isSameHeight (machine guide) level (snd (at state)) =
+        Just (fst (at state))
       | otherwise = Nothing
     searched
-      | isFlat guide = ownMotions
-      | otherwise = filter (MotionSet.isAtHeight (machine guide) level) ownMotions
-    ownMotions = case cutFramesOf guide (passIndex cut) of
-      Nothing -> rest reading
+      | isFlat guide = candidates
+      | otherwise = filter (MotionSet.isAtHeight (machine guide) level) candidates
+    candidates = case cutFramesOf guide (passIndex cut) of
+      Nothing -> remaining state
       Just (FrameRange a b) ->
-        takeWhile ((<= b) . number) (dropWhile ((< a - 1) . number) (rest reading))
+        takeWhile ((<= b) . number) (dropWhile ((< a - 1) . number) (remaining state))
 
 -- | Requirements of the part for a cut.
 jobOf :: Machine -> Region -> Milling -> Cut -> BoxTree Edge -> MillingJob
