@@ -95,7 +95,7 @@ spec = do
 lkp01f :: Machine
 lkp01f = Machines.named "lkp-01f"
 
--- | Law of the toolpath and the frames of a milling, from a start point.
+-- | Law of the toolpath and the planned frames of a milling, from a start point.
 punched :: Testable p => Point -> Milling -> (Toolpath -> FrameProgram -> p) -> Property
 punched begin job holds =
   case Toolpath.toToolpath (Generate.partOf begin (Part.Mill (Located (Region 0 0) job))) of
