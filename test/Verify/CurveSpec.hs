@@ -40,11 +40,11 @@ spec = do
     $ property $
       forAll (Generate.smoothCase >>= \c -> (c,) <$> vectorOf 60 (choose (1, 40))) $ \(c, counts) ->
         let job = (Generate.job c) {Part.tolerance = Part.OnPath (Mm 0.02)}
-         in punched (Generate.begin c) job $ \_ plain ->
+         in punched (Generate.begin c) job $ \_ undivided ->
               punched (Generate.begin c) (inParts counts job) $ \path program ->
-                counterexample (show (frameCount plain, frameCount program)) $
+                counterexample (show (frameCount undivided, frameCount program)) $
                   proven path program
-                    .&&. abs (frameCount plain - frameCount program)
+                    .&&. abs (frameCount undivided - frameCount program)
                       <= length (Part.elements (Part.contour job))
   it
     "backwards, a curve is not followed (catches a curve that is not measured as a whole)"

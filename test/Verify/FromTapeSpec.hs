@@ -218,7 +218,11 @@ spec = do
             Nothing -> discard
             Just program ->
               let p =
-                    Verify.prove lkp01f toolpath program (map Frame.frame (Frame.plannedFrames program))
+                    Verify.prove
+                      lkp01f
+                      toolpath
+                      program
+                      (map Frame.frame (Frame.plannedFrames program))
                in findings p
                     === []
                       .&&. conjoin

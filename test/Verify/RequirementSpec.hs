@@ -76,7 +76,8 @@ spec = do
                           program
                           (map Frame.frame (Frame.plannedFrames program))
                       )
-                  larger = withJobs (\m -> m {Part.radius = Mm (Generate.radiusOf c + 0.2)}) toolpath
+                  withLarger m = m {Part.radius = Mm (Generate.radiusOf c + 0.2)}
+                  larger = withJobs withLarger toolpath
                in prove (withReach (Mm 0) toolpath) === []
                     .&&. counterexample "a larger cutter" (any isGouge (prove larger))
   where
