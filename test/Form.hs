@@ -99,12 +99,7 @@ strictModules =
     "Frame.InstructionCheck",
     "Toolpath.CuttingPass",
     "Toolpath.FromPart",
-    "Toolpath.Toolpath",
-    "Verify.Edge",
-    "Verify.FrameRule",
-    "Verify.MillingJob",
-    "Verify.PassSearch",
-    "Verify.TapeSummary"
+    "Toolpath.Toolpath"
   ]
 
 -- | True of a module that may have a tuning pragma.

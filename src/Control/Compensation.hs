@@ -30,13 +30,13 @@ import Data.Maybe (isJust, listToMaybe)
 import Data.Ord (comparing)
 import Frame.Frame (Frame)
 import Frame.Frame qualified as Frame
-import Geometry.Carrier (Circle (Circle), Line (Line), Sense (..))
-import Geometry.Construction.Intersection (Intersection (..))
+import Geometry.Carrier (Carrier (..), Circle (Circle), Line (Line), Side (..))
+import Geometry.Carrier qualified as Carrier
 import Geometry.Construction.Intersection qualified as Intersection
 import Geometry.Segment (Segment (..))
 import Geometry.Segment qualified as Segment
 import Geometry.Tolerance qualified as Tolerance
-import Geometry.Vec (Point)
+import Geometry.Vec (Point, Vec)
 import Geometry.Vec qualified as Vec
 import Machine.Machine (CommandValue (..), CommandWord (..), CompensationCommands (..), Machine)
 import Machine.Machine qualified as Machine
@@ -50,9 +50,10 @@ data Moved = Moved {programmed :: Motion, centrePath :: NonEmpty Segment}
 
 -- | Reason why a control stops, with the number of the frame.
 data CompensationError
-  = -- | The first motion is no longer than the cutter's radius: its length, the radius.
+  = -- | The first motion after compensation is switched on is no longer than the cutter's radius:
+    -- its length, the radius.
     ShortEntry Int Mm Mm
-  | -- | The first motion is an arc.
+  | -- | The first motion after compensation is switched on is an arc.
     ArcEntry Int
   | -- | The first motion after the release is an arc.
     ArcExit Int
@@ -68,20 +69,31 @@ data CompensationError
     NotSwitchedOff Int
   deriving stock (Eq, Show)
 
--- | Side and radius of the cutter: 1 if it is on the left of the programmed motion, -1 if it is on
--- the right; the radius in mm.
-data Offset = Offset {leftward :: Double, radius :: Double}
+-- | Compensation that is on: the side of the cutter, in the direction of the programmed motion, and
+-- its radius.
+data Offset = Offset {side :: Side, radius :: Mm}
 
--- | State of the control between two frames. 'Entering' and 'Leaving' wait for the next motion;
--- 'Active' is compensation after its entry.
+-- | State of the control between two frames.
 data Mode
-  = Off
-  | Entering Offset
-  | Active
-  | Leaving
+  = -- | compensation is off
+    Off
+  | -- | switched on; the next motion is the entry
+    Entering Offset
+  | -- | on, after the entry
+    Active
+  | -- | released; the next motion is the exit
+    Leaving
 
--- | Part of a motion in the compensation: none, the entry, along the contour, the exit.
-data Role = Uncompensated | Entry Offset | Contour | Exit
+-- | Compensation of one motion.
+data Role
+  = -- | none
+    Uncompensated
+  | -- | the first motion after compensation is switched on
+    Entry Offset
+  | -- | a later motion, up to the release
+    Contour
+  | -- | the first motion after the release
+    Exit
 
 -- Frames in order ---------------------------------------------------------------------------------
 
@@ -165,8 +177,8 @@ switched machine commands toolAt mode n f =
   where
     change = Machine.toolChange (Machine.commandWords machine)
     on =
-      [ Offset side (radiusFor o)
-        | (side, o) <- [(1, compensateLeft commands), (-1, compensateRight commands)],
+      [ Offset s (radiusFor o)
+        | (s, o) <- [(LeftOf, compensateLeft commands), (RightOf, compensateRight commands)],
           isGiven o
       ]
     isReleased = isGiven (cancelCompensation commands)
@@ -177,14 +189,14 @@ switched machine commands toolAt mode n f =
       (Active, []) | isReleased -> (Leaving, False)
       (Entering _, []) | isReleased -> (Off, False)
       (_, []) -> (mode, False)
-    facing k = if Machine.isMirrored machine then k {leftward = negate (leftward k)} else k
+    facing k = if Machine.isMirrored machine then k {side = Carrier.oppositeSide (side k)} else k
     isGiven o = case (value o, lookup (commandName o) (Frame.commands f)) of
       (Fixed v, Just w) -> v == w
       (_, found) -> isJust found
     radiusFor o = case (value o, lookup (commandName o) (Frame.commands f)) of
       (Diameter, Just w) ->
-        fromIntegral w / 10 ^ Machine.commandDecimals machine (commandName o) / 2
-      _ -> let Mm r = toolAt n in r
+        Mm (fromIntegral w / 10 ^ Machine.commandDecimals machine (commandName o) / 2)
+      _ -> toolAt n
 
 -- Paths of the centre -----------------------------------------------------------------------------
 
@@ -232,7 +244,7 @@ compensatedSection machine k at (entry :| contour) =
     long = Vec.distance (Segment.start edge) (Segment.end edge)
     entryErrors =
       [ArcEntry (number entry) | isArc edge]
-        <> [ShortEntry (number entry) long (Mm (radius k)) | long <= Mm (radius k)]
+        <> [ShortEntry (number entry) long (radius k) | long <= radius k]
 
 -- | Position of the centre at the end of a motion.
 endOf :: Moved -> Point
@@ -280,10 +292,10 @@ offsetErrors k m edge path joint =
       _ -> False
     tight = case edge of
       Arc {start, centre, sweep = Rad a}
-        | Mm r <- Segment.radius centre start,
-          signum a == leftward k,
+        | r <- Segment.radius centre start,
+          signum a == Carrier.sideSign (side k),
           r <= radius k ->
-          [TightArc (number m) (Mm r) (Mm (radius k))]
+          [TightArc (number m) r (radius k)]
       _ -> []
 
 -- | Test that a motion has no length in the plane.
@@ -296,10 +308,10 @@ isVertical s = case s of
 along :: Point -> Point -> Segment -> Segment
 along a b edge = case edge of
   Straight _ _ -> Straight a b
-  Arc {centre, sweep = whole@(Rad angle)}
+  Arc {centre, sweep = whole}
     | Vec.isNear (Segment.start edge) (Segment.end edge) ->
       Arc {start = a, end = b, centre, sweep = whole}
-    | otherwise -> Segment.arc (if angle > 0 then CounterClockwise else Clockwise) centre a b
+    | otherwise -> Segment.arc (Carrier.senseOf whole) centre a b
 
 -- | Test that a straight path goes against its programmed segment, by more than rounding.
 goesBack :: Segment -> Segment -> Bool
@@ -320,13 +332,16 @@ winds path edge = case (path, edge) of
 
 -- Corners -----------------------------------------------------------------------------------------
 
--- | Transition from the offset of one segment to that of the next: a corner that counts as none, an
--- arc round the corner, an intersection of both offsets, none because they do not meet.
+-- | Transition from the offset of one segment to that of the next.
 data Joint
-  = Smooth
-  | Around Segment
-  | Intersection Point
-  | NoMeeting
+  = -- | the corner is so slight that it counts as none
+    Smooth
+  | -- | the centre goes round the corner on an arc
+    Around Segment
+  | -- | both offsets end at a common point
+    Intersection Point
+  | -- | the offsets do not meet
+    NoMeeting
 
 -- | Transition between the offsets of two programmed segments that follow each other.
 jointOf :: Offset -> Segment -> Segment -> Joint
@@ -334,14 +349,9 @@ jointOf k a b
   | abs turned < least = Smooth
   -- A sharp tip counts as a corner towards the cutter on both sides.
   | abs turned > pi - least = NoMeeting
-  | turned * leftward k < 0 =
+  | turned * Carrier.sideSign (side k) < 0 =
     Around
-      ( Segment.arc
-          (if leftward k > 0 then Clockwise else CounterClockwise)
-          corner
-          (offsetEnd k a)
-          (offsetStart k b)
-      )
+      (Segment.arc (Carrier.senseAwayFrom (side k)) corner (offsetEnd k a) (offsetStart k b))
   | otherwise = case meetings k a b of
     [] -> NoMeeting
     ps -> Intersection (minimumBy (comparing (Vec.distance corner)) ps)
@@ -352,34 +362,18 @@ jointOf k a b
 
 -- | End and start of a programmed segment, shifted sideways by the cutter's radius.
 offsetEnd, offsetStart :: Offset -> Segment -> Point
-offsetEnd k s =
-  Vec.shift (Vec.scale (leftward k * radius k) (Vec.left (Segment.endDirection s))) (Segment.end s)
-offsetStart k s =
-  Vec.shift
-    (Vec.scale (leftward k * radius k) (Vec.left (Segment.startDirection s)))
-    (Segment.start s)
+offsetEnd k s = Carrier.beside (side k) (radius k) (Segment.endDirection s) (Segment.end s)
+offsetStart k s = Carrier.beside (side k) (radius k) (Segment.startDirection s) (Segment.start s)
 
 -- | Intersections of the carriers on which the offsets of two programmed segments lie.
 meetings :: Offset -> Segment -> Segment -> [Point]
-meetings k a b = points $ case (lineA, lineB) of
-  (Just l, Just m) -> Intersection.lines l m
-  (Just l, Nothing) -> Intersection.lineCircle l circleB
-  (Nothing, Just m) -> Intersection.lineCircle m circleA
-  (Nothing, Nothing) -> Intersection.circles circleA circleB
-  where
-    lineA = offsetLine a (offsetEnd k a) (Segment.endDirection a)
-    lineB = offsetLine b (offsetStart k b) (Segment.startDirection b)
-    circleA = offsetCircle a (offsetEnd k a)
-    circleB = offsetCircle b (offsetStart k b)
-    offsetLine s p direction = case s of
-      Straight _ _ -> Just (Line p (Vec.shift direction p))
-      Arc {} -> Nothing
-    offsetCircle s p = case s of
-      Arc {centre} -> Circle centre (Vec.distance centre p)
-      Straight _ _ -> Circle p (Mm 0)
-    points intersection = case intersection of
-      Apart _ -> []
-      Touching p -> [p]
-      CrossingOnce p -> [p]
-      Crossing p q -> [p, q]
-      Same -> []
+meetings k a b =
+  Intersection.common
+    (carrierThrough (offsetEnd k a) (Segment.endDirection a) a)
+    (carrierThrough (offsetStart k b) (Segment.startDirection b) b)
+
+-- | Carrier of a segment's offset, by a point of the offset and its direction there.
+carrierThrough :: Point -> Vec -> Segment -> Carrier
+carrierThrough p direction s = case s of
+  Straight _ _ -> LineCarrier (Line p (Vec.shift direction p))
+  Arc {centre} -> CircleCarrier (Circle centre (Vec.distance centre p))

@@ -154,7 +154,4 @@ uncertaintyOn job s = case s of
   where
     Mm a = allowance job
     Mm r = reach job
-    isInside angle = case side job of
-      Just Carrier.LeftOf -> angle > 0
-      Just Carrier.RightOf -> angle < 0
-      Nothing -> False
+    isInside angle = maybe False (\s' -> Carrier.sideSign s' * angle > 0) (side job)

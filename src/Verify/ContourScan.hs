@@ -61,11 +61,11 @@ scan ::
 scan job keepOutOf allowedExcess keepingOut along = runST $ do
   bounds <- PrimArray.newPrimArray (BoxTree.size (edges job))
   PrimArray.setPrimArray bounds 0 (PrimArray.sizeofMutablePrimArray bounds) (1 / 0)
-  let go result outside within = case (outside, within) of
+  let go result toKeepOut toFollow = case (toKeepOut, toFollow) of
         (v : vs, m : ms) -> case inOrder (motion v) m of
           EQ -> following (keptOut result v) v >>= \result' -> go result' vs ms
-          LT -> go (keptOut result v) vs within
-          GT -> following result (viewOf m) >>= \result' -> go result' outside ms
+          LT -> go (keptOut result v) vs toFollow
+          GT -> following result (viewOf m) >>= \result' -> go result' toKeepOut ms
         (v : vs, []) -> go (keptOut result v) vs []
         ([], ms) -> foldM following result (views ms)
       following result v = do

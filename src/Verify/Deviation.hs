@@ -3,6 +3,9 @@
 module Verify.Deviation
   ( MillingPass (..),
     examine,
+    gougeFindings,
+    excessFindings,
+    motionsAlong,
     allowedDeviation,
   )
 where
@@ -60,44 +63,61 @@ examine :: MotionSet -> Bool -> MillingPass -> (ContourProof, [Finding])
 examine set isFirst pass = (contourProof, if null findings then orderFindings pass else findings)
   where
     MillingPass {job, found} = pass
-    allowed = allowedOf set job
-    along = case found of
-      Complete _ ms -> ms
-      Incomplete _ ms -> ms
-      Missing -> []
+    Allowed {allowedGouge, allowedExcess} = allowedOf set job
+    along = motionsAlong found
     keepingOut = motionsKeepingOut set isFirst job along
     keepOut = keepOutOf set job along
-    (scan, bounds) = ContourScan.scan job keepOut (allowedExcess allowed) keepingOut along
-    pierced = piercedBy job (allowedGouge allowed) keepingOut
+    (scan, bounds) = ContourScan.scan job keepOut allowedExcess keepingOut along
+    -- Gouges
+    pierced = piercedBy job allowedGouge keepingOut
     gouges = mapMaybe (\m -> Gouge.gougeOf (keepOut m) (edges job) m) keepingOut <> pierced
     deepest = foldl (\best w -> Just (Proof.deeper best w)) (gouge scan) pierced
-    missed = missedOn set isFirst pass (allowedExcess allowed) bounds
+    -- Excess
     strayed = reverse (strays scan)
-    worst = Proof.deepest (missed <> strayed)
+    missed = missedOn set isFirst pass allowedExcess bounds
+    largest = Proof.deepest (missed <> strayed)
+    isTooMuch w = Proof.amount w > allowedExcess
+    tooMuch
+      -- The tip of a pointed tool is at distance 0 where it crosses the contour. That distance does
+      -- not show how much material remains, so no excess is reported then.
+      | any ((> allowedGouge) . Proof.amount) pierced = []
+      | otherwise = filter isTooMuch strayed <> sortOn Proof.frame (filter isTooMuch missed)
+    -- Result
     contourProof =
       ContourProof
         { Proof.contour = Part.contourName (Part.contour (milling job)),
           Proof.gouge = deepest,
-          Proof.excess = worst,
-          Proof.allowedGouge = allowedGouge allowed,
-          Proof.allowedExcess = allowedExcess allowed
+          Proof.excess = largest,
+          Proof.allowedGouge,
+          Proof.allowedExcess
         }
-    isTooDeep w = Proof.amount w > allowedGouge allowed
-    isTooMuch w = Proof.amount w > allowedExcess allowed
     findings =
-      [ Gouge first w (allowedGouge allowed)
-        | Just w <- [deepest],
-          isTooDeep w,
-          first : _ <- [filter isTooDeep gouges]
-      ]
-        -- The tip of a pointed tool is at distance 0 where it crosses the contour. That distance
-        -- does not show how much material remains, so no excess is reported then.
-        <> [ Excess first (fromMaybe first worst) (allowedExcess allowed)
-             | not (any isTooDeep pierced),
-               first : _ <-
-                 [filter isTooMuch strayed <> sortOn Proof.frame (filter isTooMuch missed)]
-           ]
+      gougeFindings allowedGouge gouges deepest
+        <> excessFindings allowedExcess tooMuch largest
         <> maybeToList (wrongSide scan)
+
+-- | Finding for gouges deeper than allowed, if there are any. It has the first of them in the list,
+-- and the deepest one.
+gougeFindings :: Mm -> [Witness] -> Maybe Witness -> [Finding]
+gougeFindings allowed gouges deepest =
+  [ Gouge first worst allowed
+    | Just worst <- [deepest],
+      Proof.amount worst > allowed,
+      first : _ <- [filter ((> allowed) . Proof.amount) gouges]
+  ]
+
+-- | Finding for an excess larger than allowed, if there is one. The list has all that are too
+-- large; the finding has the first of them, and the largest one.
+excessFindings :: Mm -> [Witness] -> Maybe Witness -> [Finding]
+excessFindings allowed tooMuch largest =
+  [Excess first (fromMaybe first largest) allowed | first : _ <- [tooMuch]]
+
+-- | Motions along the contour, without the arrival at its start.
+motionsAlong :: FoundPass -> [CutterMotion]
+motionsAlong found = case found of
+  Complete _ along -> along
+  Incomplete _ along -> along
+  Missing -> []
 
 -- | Allowed deviations of a job. Without a side, for a cutter that runs on the contour, the larger
 -- of the two allowed chord errors counts in both directions.

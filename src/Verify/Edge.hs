@@ -1,5 +1,3 @@
-{-# LANGUAGE BangPatterns #-}
-
 -- | Elements of the contours that a tape is compared with, in a bounding-box tree, together with
 -- the numbers that every comparison needs.
 module Verify.Edge
@@ -14,6 +12,7 @@ module Verify.Edge
 where
 
 import Base.Quantity (Mm (..))
+import Data.List (foldl')
 import Data.List.NonEmpty qualified as NonEmpty
 import Geometry.Distance qualified as Distance
 import Geometry.Distance.Fast qualified as FastDistance
@@ -81,24 +80,21 @@ isCurved = BoxTree.foldl' (\is e -> is || continues e) False
 largestAllowance :: BoxTree Edge -> Mm
 largestAllowance = BoxTree.foldl' (\most e -> max most (ownAllowance e)) (Mm (-1 / 0))
 
--- | Distance from a point to the nearest of some elements, or the limit if none is nearer. The
--- parameters are the limit in mm, the elements, and the coordinates of the point.
-leastDistance :: Double -> [Edge] -> Double -> Double -> Double
+-- | Distance in mm from a point to the nearest of some elements, or the limit if none is nearer.
+leastDistance :: Double -> [Edge] -> Point -> Double
 leastDistance = leastExcess (const (Mm 0))
 
 -- | Least value of distance minus allowance for a point and some elements, or the limit if none has
 -- less; all in mm.
-leastExcess :: (Edge -> Mm) -> Double -> [Edge] -> Double -> Double -> Double
-leastExcess allowanceOf limit near !x !y = go limit near
+leastExcess :: (Edge -> Mm) -> Double -> [Edge] -> Point -> Double
+leastExcess allowanceOf limit near p = foldl' lesser limit near
   where
-    go !d es = case es of
-      [] -> d
-      e : more
-        | Mm a <- allowanceOf e,
-          far <- min limit (d + a),
-          FastDistance.mayLieWithin far (long e) (shape e) x y ->
-          go (min d (FastDistance.distance (shape e) x y - a)) more
-        | otherwise -> go d more
+    lesser least e
+      | Mm a <- allowanceOf e,
+        far <- min limit (least + a),
+        FastDistance.mayLieWithin far (long e) (shape e) (Vec.x p) (Vec.y p) =
+        min least (FastDistance.distance (shape e) (Vec.x p) (Vec.y p) - a)
+      | otherwise = least
 
 -- | Signed distance of a point from a contour in mm: positive on the left of the direction of
 -- travel. @foot@ is the point of the contour nearest to it. At a corner, the signed distances from

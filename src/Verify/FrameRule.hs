@@ -1,5 +1,3 @@
-{-# LANGUAGE BangPatterns #-}
-
 -- | Rules for the frames of a tape that do not depend on the shape of the part: the control accepts
 -- every frame, and the commands are those of the program.
 module Verify.FrameRule
@@ -25,14 +23,21 @@ import Verify.Proof (Finding (..), Refusal (..))
 -- | Findings for frames that the control refuses, on a tape that begins at a start position: frames
 -- that break a rule of the machine, and impossible arcs.
 refused :: Machine -> Pulses3 -> [Frame] -> [Finding]
-refused machine = go 1
+refused machine begin = go (Start 1 begin)
   where
-    go :: Int -> Pulses3 -> [Frame] -> [Finding]
-    go !n !at frames = case frames of
+    go :: Start -> [Frame] -> [Finding]
+    go start@(Start n at) frames = case frames of
       [] -> []
       f : more -> case refusals machine n at f of
-        [] -> go (n + 1) (at + Frame.increment f) more
-        reasons -> map Refused reasons <> go (n + 1) (at + Frame.increment f) more
+        [] -> go (startAfter f start) more
+        reasons -> map Refused reasons <> go (startAfter f start) more
+
+-- | Number of a frame, counted from 1, and the position at which it starts.
+data Start = Start Int Pulses3
+
+-- | Number and start position of the frame after another one.
+startAfter :: Frame -> Start -> Start
+startAfter f (Start n at) = Start (n + 1) (at + Frame.increment f)
 
 -- | Reasons to refuse one frame, by its number and its start position.
 refusals :: Machine -> Int -> Pulses3 -> Frame -> [Refusal]

@@ -60,7 +60,6 @@ import Verify.PassFrames (FrameRange (..))
 import Verify.PassFrames qualified as PassFrames
 import Verify.PassLocation (Guide (Guide))
 import Verify.PassLocation qualified as PassLocation
-import Verify.PassSearch (FoundPass (..))
 import Verify.PassSearch qualified as PassSearch
 import Verify.Pocket (ClearingPass, Pocket)
 import Verify.Pocket qualified as Pocket
@@ -218,17 +217,11 @@ motionSetOf subject passes =
   where
     toolOf = toolIn subject passes
     nearby box
-      | asksOften =
-        BoxTree.within (BoundingBox.inflate largestTool box) (motionIndex subject)
-      | otherwise = motions subject
-    asksOften =
-      not
-        ( null
-            ( drop
-                1
-                (filter id (PassLocation.areFirst passes) <> map (const True) (pockets subject))
-            )
-        )
+      | isAskedOnce = motions subject
+      | otherwise = BoxTree.within (BoundingBox.inflate largestTool box) (motionIndex subject)
+    isAskedOnce = null (drop 1 queries)
+    -- The first pass along each contour asks for motions, and each pocket.
+    queries = [() | True <- PassLocation.areFirst passes] <> map (const ()) (pockets subject)
     largestTool = foldl' (\most m -> max most (toolOf m)) (Mm 0) (motions subject)
 
 -- | Radius of the cutter in a motion: that of the planned frame if the tape has as many frames as
@@ -238,19 +231,17 @@ toolIn subject passes
   | hasSameCount subject = SpindleTool.toolInFrame (tools subject) . number
   | otherwise = SpindleTool.supposedTool uses smallest . number
   where
-    uses =
-      [ use (radiusOf p) first ms
-        | p <- passes,
-          first : ms <- [PassSearch.motionsOf (found p)]
-      ]
-        <> inPockets
-    inPockets =
-      [ use (Part.radius (Pocket.milling pocket)) first ms
-        | (pocket, _, first : ms) <- pocketVisits subject
-      ]
-    use radius first ms = Use (number first) (number (foldl' (\_ m -> m) first ms)) radius
+    uses = concatMap useAlong passes <> concatMap useIn (pocketVisits subject)
+    useAlong pass = useOf (radiusOf pass) (PassSearch.motionsOf (found pass))
+    useIn (pocket, _, visit) = useOf (Part.radius (Pocket.milling pocket)) visit
     radiusOf = Part.radius . milling . job
     smallest = if null passes then Mm 0 else minimum (map radiusOf passes)
+
+-- | Use of a cutter with a radius in the motions of a pass; none without motions.
+useOf :: Mm -> [CutterMotion] -> [Use]
+useOf radius pass = case pass of
+  [] -> []
+  first : later -> [Use (number first) (number (foldl' (\_ m -> m) first later)) radius]
 
 -- | Motions in each pass of each pocket, found by their positions. For a tape on which the frames
 -- of the passes are unknown.
@@ -299,16 +290,21 @@ pocketOrder subject =
   ]
   where
     motionsFor k
-      | hasSameCount subject = IntMap.findWithDefault [] k ownTo
+      | hasSameCount subject = IntMap.findWithDefault [] k byPocket
       | otherwise = motions subject
-    -- Motions in the frames of each pocket, by its number from 0.
-    ownTo :: IntMap [CutterMotion]
-    ownTo = foldr insert IntMap.empty (motions subject)
+    byPocket = motionsByPocket subject
+
+-- | Motions in the planned frames of each pocket, by the number of the pocket from 0.
+motionsByPocket :: Subject -> IntMap [CutterMotion]
+motionsByPocket subject = foldr insert IntMap.empty (motions subject)
+  where
     insert m known =
       maybe known (\k -> IntMap.insertWith (<>) k [m] known) (pocketAt (number m))
+    -- Pocket in whose frames a frame is.
     pocketAt n = case IntMap.lookupLE n pocketFrames of
       Just (_, (b, k)) | n <= b -> Just k
       _ -> Nothing
+    -- Last frame of each pass of a pocket and the number of the pocket, by the first frame.
     pocketFrames =
       IntMap.fromList
         [ (a, (b, k))
@@ -332,16 +328,11 @@ feedFindings subject@Subject {program, frames} passes
 
 -- | Findings for feeds along a contour. Vertical motions at its start and its end are left out.
 contourFeeds :: Subject -> MillingPass -> [Finding]
-contourFeeds subject pass = case found pass of
-  Complete _ along -> findingsOn along
-  Incomplete _ along -> findingsOn along
-  Missing -> []
-  where
-    findingsOn along =
-      Feed.alongContour
-        (machine subject)
-        (job pass)
-        (programmed subject (filter (not . Motion.isVertical) along))
+contourFeeds subject pass =
+  Feed.alongContour
+    (machine subject)
+    (job pass)
+    (programmed subject (filter (not . Motion.isVertical) (Deviation.motionsAlong (found pass))))
 
 -- | Findings for feeds in a pass of a pocket, without its linking moves.
 pocketFeeds :: Subject -> (Pocket, ClearingPass, [CutterMotion]) -> [Finding]

@@ -1,5 +1,3 @@
-{-# LANGUAGE BangPatterns #-}
-
 -- | Cut along a contour as the part demands it, and the contact between the cutter and the elements
 -- of the contour.
 --
@@ -22,6 +20,7 @@ where
 
 import Base.Quantity (Mm (..), plus)
 import Base.Region (Region)
+import Data.List (foldl')
 import Data.List.NonEmpty qualified as NonEmpty
 import Geometry.Carrier qualified as Carrier
 import Geometry.Distance.Fast qualified as FastDistance
@@ -110,21 +109,38 @@ contacts job near p = reverse (foldContacts job near p (\found n s -> (n, s) : f
 -- far, the number of the element and the arc length. If the point has no foot on an arc, the
 -- contact is at the nearer end of the arc.
 foldContacts :: MillingJob -> [Edge] -> Point -> (b -> Int -> Double -> b) -> b -> b
-foldContacts job near p with = go near
+foldContacts job near p with b = foldl' withContact b near
   where
-    go es b = case es of
-      [] -> b
-      e : more
-        | far <- farthest e,
-          FastDistance.mayLieWithin far (long e) (shape e) x y,
-          FastDistance.distance (shape e) x y <= far ->
-          let b' = with b (rank e) (startsAt e + FastDistance.footOn (shape e) x y * long e)
-           in b' `seq` go more b'
-        | otherwise -> go more b
-    !x = Vec.x p
-    !y = Vec.y p
-    !(Mm most) = contactLimit job
-    !(Mm a) = allowance job
-    -- The cutter touches an element with an allowance from further away.
-    !least = Edge.leastExcess ownAllowance most near x y
-    farthest e = let Mm l = ownAllowance e in min most (least + l + 2 * a)
+    withContact found e
+      | far <- farthestContact touch e,
+        FastDistance.mayLieWithin far (long e) (shape e) (Vec.x p) (Vec.y p),
+        FastDistance.distance (shape e) (Vec.x p) (Vec.y p) <= far =
+        with found (rank e) (startsAt e + contactOn e * long e)
+      | otherwise = found
+    contactOn e = FastDistance.footOn (shape e) (Vec.x p) (Vec.y p)
+    touch = touchAt job near p
+
+-- | Lengths in mm that decide which elements a cutter touches from one position of its centre.
+data Touch = Touch
+  { -- | 'contactLimit' of the job
+    limit :: Double,
+    -- | least value of distance minus allowance over all elements
+    leastExcess :: Double,
+    -- | by how much the distances of two elements may differ if the cutter touches both
+    spread :: Double
+  }
+
+-- | Touch of a cutter with its centre at a point.
+touchAt :: MillingJob -> [Edge] -> Point -> Touch
+touchAt job near p =
+  Touch {limit, leastExcess = Edge.leastExcess ownAllowance limit near p, spread = 2 * deviation}
+  where
+    Mm limit = contactLimit job
+    Mm deviation = allowance job
+
+-- | Largest distance in mm from an element to the centre of a cutter that touches it. It is larger
+-- for an element with an allowance.
+farthestContact :: Touch -> Edge -> Double
+farthestContact touch e = min (limit touch) (leastExcess touch + own + spread touch)
+  where
+    Mm own = ownAllowance e

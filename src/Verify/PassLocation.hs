@@ -16,11 +16,11 @@ import Data.List (foldl')
 import Data.List.NonEmpty (NonEmpty)
 import Data.List.NonEmpty qualified as NonEmpty
 import Data.Maybe (fromMaybe, isJust)
-import Geometry.Carrier (Side (..))
+import Geometry.Carrier (Side)
+import Geometry.Carrier qualified as Carrier
 import Geometry.Index.BoxTree (BoxTree)
 import Geometry.Segment qualified as Segment
 import Geometry.Vec (Point)
-import Geometry.Vec qualified as Vec
 import Machine.Machine (Machine)
 import Machine.Machine qualified as Machine
 import Part.Part (Milling)
@@ -192,19 +192,12 @@ arePartial blocks =
 -- last element, square to it. Nothing without compensation. On a closed contour, the control may or
 -- may not treat the joint with the first element as a corner.
 exitByControl :: Milling -> Maybe Side -> Mm -> Maybe Point
-exitByControl milling side (Mm reach) = case (Part.controlCompensation milling, side) of
+exitByControl milling side reach = case (Part.controlCompensation milling, side) of
   (Just _, Just s) ->
-    Just
-      ( Vec.shift
-          (Vec.scale (sign s * reach) (Vec.left (Segment.endDirection final)))
-          (Segment.end final)
-      )
+    Just (Carrier.beside s reach (Segment.endDirection final) (Segment.end final))
   _ -> Nothing
   where
     final = Part.segment (NonEmpty.last (Part.elements (Part.contour milling)))
-    sign s = case s of
-      LeftOf -> 1
-      RightOf -> -1
 
 -- | Uncertainty in mm of the position of 'exitByControl'; 0 without compensation. Rounding to
 -- pulses changes the direction of the last element, by the most if it is as short as

@@ -1,5 +1,3 @@
-{-# LANGUAGE BangPatterns #-}
-
 -- | Search for one cut along a contour on the tape: the motions that go along the contour from its
 -- start to its end, in the direction of travel.
 --
@@ -176,24 +174,20 @@ countFollowing job measure motions =
 -- motion. The result is the number of motions up to the end of the cut, with those before.
 follow :: MillingJob -> Measure -> Progress -> [CutterMotion] -> [[Edge]] -> Maybe Int
 follow job measure progress motions near
-  | isAtExit job (position progress)
-      && travelled progress + furthest ahead >= contourLength measure - slack measure =
+  | hasArrived =
     -- If the cutter does not touch the elements between two contacts, the contour only comes close
     -- to its own end there. Then it is followed on, if that is possible.
     if areNeighbours job ahead then ended else onwards <|> ended
   | otherwise = onwards
   where
     ahead = contactsAhead job measure progress
-    furthest contacts = maximum (0 : map fst contacts)
-    ended =
-      Just
-        ( count progress
-            + length
-              ( takeWhile
-                  (\m -> endsAtExit job m && not (isFullCircle m))
-                  (drop (length (latest progress)) (unbroken (latest progress <> motions)))
-              )
-        )
+    furthest = maximum (0 : map fst ahead)
+    hasArrived =
+      isAtExit job (position progress)
+        && travelled progress + furthest >= contourLength measure - slack measure
+    ended = Just (count progress + length (takeWhile staysAtExit later))
+    later = drop (length (latest progress)) (unbroken (latest progress <> motions))
+    staysAtExit m = endsAtExit job m && not (isFullCircle m)
     onwards = case (motions, near) of
       (m : rest, edges' : others)
         | Just travelled' <- afterMotion job measure edges' m (travelled progress) ->
@@ -213,22 +207,20 @@ follow job measure progress motions near
 -- | Arc length of the contact point after a motion; nothing if the cutter leaves the contour or
 -- goes back on it.
 afterMotion :: MillingJob -> Measure -> [Edge] -> CutterMotion -> Double -> Maybe Double
-afterMotion job measure near m = go 1
+afterMotion job measure near m = go . Sample 1
   where
-    n = Motion.sampleCount m
-    go :: Int -> Double -> Maybe Double
-    go !k !arcLength
-      | k > n = Just arcLength
+    count = Motion.sampleCount m
+    go :: Sample -> Maybe Double
+    go (Sample k arcLength)
+      | k > count = Just arcLength
       | isInfinite step = Nothing
-      | otherwise = go (k + 1) (arcLength + step)
+      | otherwise = go (Sample (k + 1) (arcLength + step))
       where
-        step =
-          smallestStep
-            job
-            measure
-            near
-            arcLength
-            (Segment.at (fromIntegral k / fromIntegral n) (segment m))
+        step = smallestStep job measure near arcLength (Segment.at (fraction k) (segment m))
+    fraction k = fromIntegral k / fromIntegral count
+
+-- | Sample of a motion, counted from 1, and the arc length of the contact point before it, in mm.
+data Sample = Sample Int Double
 
 -- | Smallest step along the contour to one of the contact points; ∞ if there is none.
 smallestStep :: MillingJob -> Measure -> [Edge] -> Double -> Point -> Double

@@ -15,8 +15,8 @@ module Verify.PocketDeviation
 where
 
 import Base.Quantity (Mm (..), plus)
-import Data.List (find, foldl', minimumBy, sortOn)
-import Data.Maybe (fromMaybe, mapMaybe, maybeToList)
+import Data.List (foldl', minimumBy, sortOn)
+import Data.Maybe (mapMaybe, maybeToList)
 import Data.Ord (comparing)
 import Geometry.Distance.Fast qualified as FastDistance
 import Geometry.Index.BoundingBox (BoundingBox (BoundingBox))
@@ -41,7 +41,7 @@ import Verify.MotionSet qualified as MotionSet
 import Verify.Pocket (ClearingPass (..), Pocket (..))
 import Verify.Pocket qualified as Pocket
 import Verify.PocketFloor qualified as PocketFloor
-import Verify.Proof (ContourProof (ContourProof), Finding (..), Witness (Witness))
+import Verify.Proof (ContourProof (ContourProof), Finding (NotCleared), Witness (Witness))
 import Verify.Proof qualified as Proof
 
 -- | Compare the tape with one pass of a pocket. The predicate is true of the motions of this pass.
@@ -54,36 +54,36 @@ examine ::
   Bool ->
   ClearingPass ->
   (ContourProof, [Finding])
-examine set isOwn pocket isFirst pass = (contourProof, findings)
+examine set isInPass pocket isFirst pass = (contourProof, findings)
   where
     (allowedGouge, allowedExcess) = allowedIn set pocket
-    clearing = clearingMotions set pocket pass
+    -- Gouges
     examined =
       filter
-        (\m -> MotionSet.isBelowTop m && (isFirst || isOwn m))
+        (\m -> MotionSet.isBelowTop m && (isFirst || isInPass m))
         (MotionSet.nearby set (BoundingBox.inflate (reach pass) (bounds pocket)))
-    keepOut m = Gouge.constantKeepOut (if isOwn m then reach pass else MotionSet.toolOf set m)
+    keepOut m = Gouge.constantKeepOut (if isInPass m then reach pass else MotionSet.toolOf set m)
+    gouges = mapMaybe (\m -> Gouge.gougeOf (keepOut m) (walls pocket) m) examined
     deepest = deepestGouge keepOut pocket examined
+    -- Excess
+    clearing = clearingMotions set pocket pass
     missed
       | isFinal pass = unreached allowedExcess (BoxTree.index Motion.box clearing) (rim pocket)
       | otherwise = []
-    worst = Proof.deepest missed
+    largest = Proof.deepest missed
     tooMuch = sortOn Proof.frame (filter ((> allowedExcess) . Proof.amount) missed)
+    -- Result
     contourProof =
       ContourProof
         { Proof.contour = Part.contourName (Part.contour (milling pocket)),
           Proof.gouge = deepest,
-          Proof.excess = worst,
+          Proof.excess = largest,
           Proof.allowedGouge,
           Proof.allowedExcess
         }
     findings =
-      [ Gouge first w allowedGouge
-        | Just w <- [deepest],
-          Proof.amount w > allowedGouge,
-          Just first <- [firstGouge keepOut pocket allowedGouge examined]
-      ]
-        <> [Excess first (fromMaybe first worst) allowedExcess | first : _ <- [tooMuch]]
+      Deviation.gougeFindings allowedGouge gouges deepest
+        <> Deviation.excessFindings allowedExcess tooMuch largest
         <> (if null tooMuch then floorFindings pocket pass allowedExcess clearing else [])
 
 -- | Finding for a position on the floor that the final pass leaves uncleared. None for an earlier
@@ -143,14 +143,6 @@ deepestGouge keepOut pocket = foldl' orDeeper Nothing
       BoxTree.within
         (BoundingBox.inflate (searchRadius (keepOut m)) (Motion.box m))
         (walls pocket)
-
--- | First gouge into the walls of a pocket that is deeper than allowed, in the order of the
--- motions.
-firstGouge :: (CutterMotion -> KeepOut) -> Pocket -> Mm -> [CutterMotion] -> Maybe Witness
-firstGouge keepOut pocket allowed motions =
-  find
-    ((> allowed) . Proof.amount)
-    (mapMaybe (\m -> Gouge.gougeOf (keepOut m) (walls pocket) m) motions)
 
 -- | Excess on the parts of a rim: the largest distance of each part from the motions. An excess
 -- within the allowance is only listed if it is larger than all before it.

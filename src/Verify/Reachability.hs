@@ -12,7 +12,8 @@ where
 
 import Base.Quantity (Mm (..), Rad (..), minus, times)
 import Data.List (foldl', sort)
-import Geometry.Carrier (Side (..))
+import Geometry.Carrier (Side)
+import Geometry.Carrier qualified as Carrier
 import Geometry.Distance qualified as Distance
 import Geometry.Index.BoundingBox qualified as BoundingBox
 import Geometry.Index.BoxTree (BoxTree)
@@ -37,7 +38,7 @@ type Interval = (Double, Double)
 -- with a larger distance only counts for centres on its normals: beside its ends the toolpath steps
 -- back to the smaller distance.
 parts :: Side -> Mm -> [KeptDistance] -> Segment -> [Segment]
-parts side distance others element = case beside side distance element of
+parts side distance others element = case Segment.offset side distance element of
   Nothing -> []
   Just centres ->
     [ part element a b
@@ -105,7 +106,7 @@ withoutNormals side kept near centres (a, b) =
           p <- Distance.intersections centres border
       ]
     -- Border of the region of too near centres: the offset, and the normals at both ends.
-    bordersOf s = case beside side kept s of
+    bordersOf s = case Segment.offset side kept s of
       Nothing -> []
       Just offset ->
         [ offset,
@@ -128,18 +129,16 @@ dividedAt marks (a, b) = zip (a : inside) (inside <> [b])
 -- all contours. @segments@ are the same segments in a tree.
 rim :: Side -> Mm -> BoxTree Segment -> [[Segment]] -> [(Int, Segment)]
 rim side distance segments contours =
-  concatMap free (concat (zipWith around (scanl (+) 0 (map length contours)) contours))
+  concatMap free (concat (zipWith around firstNumbers contours))
   where
+    firstNumbers = scanl (+) 0 (map length contours)
     around first contour =
-      concat
-        ( zipWith3
-            ( \i s next ->
-                [(i, c) | Just c <- [beside side distance s] <> [outerCorner side distance s next]]
-            )
-            [first ..]
-            contour
-            (drop 1 contour <> take 1 contour)
-        )
+      concat (zipWith3 offsets [first ..] contour (drop 1 contour <> take 1 contour))
+    offsets i s next =
+      [ (i, c)
+        | Just c <- [Segment.offset side distance s, outerCorner side distance s next]
+      ]
+    -- Parts of an offset that are not too near to any segment.
     free (i, s) =
       [ (i, part s a b)
         | (a, b) <-
@@ -167,8 +166,8 @@ smallestTurn = 1e-9
 -- | Path of the centre round the corner between two segments: an arc about the corner, if the
 -- contour turns away from the cutter there.
 outerCorner :: Side -> Mm -> Segment -> Segment -> Maybe Segment
-outerCorner side (Mm d) s next
-  | leftward side * t < negate smallestTurn =
+outerCorner side distance s next
+  | Carrier.sideSign side * t < negate smallestTurn =
     Just
       Arc
         { start = off (Segment.endDirection s),
@@ -180,29 +179,4 @@ outerCorner side (Mm d) s next
   where
     turned@(Rad t) = Vec.signedAngle (Segment.endDirection s) (Segment.startDirection next)
     centre = Segment.end s
-    off direction =
-      Vec.shift (Vec.scale (leftward side * d) (Vec.left (Vec.unit direction))) centre
-
--- | Offset of one segment; nothing if the segment has no length, or if the cutter does not fit
--- inside an arc.
-beside :: Side -> Mm -> Segment -> Maybe Segment
-beside side (Mm d) segment = case segment of
-  Straight a b
-    | a == b -> Nothing
-    | otherwise ->
-      let n = Vec.scale (leftward side * d) (Vec.left (Vec.unit (Vec.to a b)))
-       in Just (Straight (Vec.shift n a) (Vec.shift n b))
-  Arc {start, end, centre, sweep = sweep@(Rad s)}
-    | r <= 0 || offsetRadius <= 0 -> Nothing
-    | otherwise -> Just Arc {start = moved start, end = moved end, centre, sweep}
-    where
-      Mm r = Segment.radius centre start
-      -- The centre of a counter-clockwise arc is on its left.
-      offsetRadius = if signum s == leftward side then r - d else r + d
-      moved p = Vec.shift (Vec.scale (offsetRadius / r) (Vec.to centre p)) centre
-
--- | Sign of an offset: 1 to the left, -1 to the right.
-leftward :: Side -> Double
-leftward side = case side of
-  LeftOf -> 1
-  RightOf -> -1
+    off direction = Carrier.beside side distance (Vec.unit direction) centre

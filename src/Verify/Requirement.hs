@@ -39,7 +39,7 @@ cutterSide milling = case value (Part.side milling) of
   Part.LeftSide -> Just Carrier.LeftOf
   Part.RightSide -> Just Carrier.RightOf
   Part.Inside -> interior
-  Part.Outside -> fmap opposite interior
+  Part.Outside -> fmap Carrier.oppositeSide interior
   where
     contour = Part.contour milling
     interior = case (Part.ends contour, Part.work milling) of
@@ -52,11 +52,6 @@ cutterSide milling = case value (Part.side milling) of
       (Part.Open, Part.Milled) -> Nothing
     start = Segment.start (Part.segment (NonEmpty.head (Part.elements contour)))
     end = Segment.end (Part.segment (NonEmpty.last (Part.elements contour)))
-
-opposite :: Carrier.Side -> Carrier.Side
-opposite side = case side of
-  Carrier.LeftOf -> Carrier.RightOf
-  Carrier.RightOf -> Carrier.LeftOf
 
 isCounterClockwise :: Contour -> Bool
 isCounterClockwise contour = Polyarc.areaOf Part.segment (Part.elements contour) > 0

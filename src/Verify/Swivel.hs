@@ -15,7 +15,7 @@ import Data.List.NonEmpty qualified as NonEmpty
 import Data.Maybe (fromMaybe)
 import Data.Vector (Vector)
 import Data.Vector qualified as Vector
-import Geometry.Carrier (Side (..))
+import Geometry.Carrier qualified as Carrier
 import Geometry.Distance qualified as Distance
 import Geometry.Index.BoundingBox qualified as BoundingBox
 import Geometry.Index.BoxTree (BoxTree)
@@ -83,10 +83,7 @@ bladePass milling Toolpath.Pass {Toolpath.left, Toolpath.atHeight} =
   where
     contour = Part.contour milling
     height bevel = plus atHeight (times (sign * bevel / 2) (fromMaybe (Mm 0) (Part.gear milling)))
-    sign = case Requirement.cutterSide milling of
-      Just RightOf -> -1
-      Just LeftOf -> 1
-      Nothing -> 1
+    sign = maybe 1 Carrier.sideSign (Requirement.cutterSide milling)
 
 -- | Bring a motion to the height of a pass, if the axis has the right height at all its samples.
 levelledIn :: Machine -> BladePass -> CutterMotion -> CutterMotion
@@ -158,9 +155,5 @@ heightUncertainty machine pass i s p = case axisHeights pass Vector.!? i of
 -- constant beyond the ends of the element.
 axisAt :: BladePass -> Int -> Segment -> Point -> Maybe Mm
 axisAt pass i s p =
-  (\(from, to) -> plus from (times fraction (minus to from))) <$> axisHeights pass Vector.!? i
-  where
-    fraction
-      | Segment.hasFootOf s p = max 0 (min 1 (Segment.fraction s p))
-      | Vec.distance p (Segment.start s) <= Vec.distance p (Segment.end s) = 0
-      | otherwise = 1
+  (\(from, to) -> plus from (times (Distance.nearestFraction p s) (minus to from)))
+    <$> axisHeights pass Vector.!? i

@@ -51,7 +51,7 @@ mayBeWrong job demanded close around p =
     (x, y) = (Vec.x p, Vec.y p)
     Mm a = allowance job
     Mm limit = MillingJob.contactLimit job
-    leastOf es = Edge.leastDistance (1 / 0) es x y
+    leastOf es = Edge.leastDistance (1 / 0) es p
     (near, least)
       | ofClose + FastDistance.unsure <= limit = (close, ofClose)
       | otherwise = (around, leastOf around)

@@ -134,9 +134,10 @@ spec = do
       \2 pulses, but no other arcs"
       $ [(what, refusals uncut f) | (what, expected, f) <- arcs, refusals uncut f /= expected]
         `shouldBe` []
-    it "are all arcs on a machine without arcs, and arcs that leave their quadrant where a \
-       \machine forbids it" $
-      do
+    it
+      "are all arcs on a machine without arcs, and arcs that leave their quadrant where a \
+      \machine forbids it"
+      $ do
         [refusals (quick "lki-fm") f | f <- [quarter, half, long]]
           `shouldBe` [[], ["motion"], ["motion"]]
         refusals (quick "lkp-01f") quarter `shouldBe` ["motion"]
