@@ -93,12 +93,7 @@ strictModules =
   [ "Cli.Subcommand",
     "Frame.Frame",
     "Frame.FromToolpath",
-    "Frame.InstructionCheck",
-    "Verify.Edge",
-    "Verify.FrameRule",
-    "Verify.MillingJob",
-    "Verify.PassSearch",
-    "Verify.TapeSummary"
+    "Frame.InstructionCheck"
   ]
 
 -- | True of a module that may have a tuning pragma.

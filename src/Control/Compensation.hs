@@ -1,9 +1,9 @@
 -- | Model of cutter compensation (G41, G42) in the control: the path of the cutter's centre while
--- the frames describe the edge of the part. The model follows LinuxCNC, whose results were
--- measured. Without compensation, the centre goes as the frames say.
+-- the frames describe the edge of the part. The model follows LinuxCNC; a test compares the paths
+-- of both. Without compensation, the centre moves as the frames say.
 --
--- * Entry: the first motion goes straight from the present position of the centre to the end of
---   the programmed motion, shifted sideways by the cutter's radius.
+-- * Entry: the first motion goes straight from the present position of the centre to the end of the
+--   programmed motion, shifted sideways by the cutter's radius.
 -- * Contour: each later motion is the offset of the programmed one; an arc keeps its centre. At a
 --   corner that turns away from the cutter, the centre goes round the corner on an arc. At a corner
 --   that turns towards the cutter, both offsets end at their intersection. At a corner of less than
@@ -30,28 +30,30 @@ import Data.Maybe (isJust, listToMaybe)
 import Data.Ord (comparing)
 import Frame.Frame (Frame)
 import Frame.Frame qualified as Frame
-import Geometry.Carrier (Circle (Circle), Line (Line), Sense (..))
-import Geometry.Construction.Intersection (Intersection (..))
+import Geometry.Carrier (Carrier (..), Circle (Circle), Line (Line), Side (..))
+import Geometry.Carrier qualified as Carrier
 import Geometry.Construction.Intersection qualified as Intersection
 import Geometry.Segment (Segment (..))
 import Geometry.Segment qualified as Segment
 import Geometry.Tolerance qualified as Tolerance
-import Geometry.Vec (Point)
+import Geometry.Vec (Point, Vec)
 import Geometry.Vec qualified as Vec
 import Machine.Machine (CommandValue (..), CommandWord (..), CompensationCommands (..), Machine)
 import Machine.Machine qualified as Machine
 import Toolpath.Tolerance qualified as Tolerance
 
--- | Programmed motion and the path of the cutter's centre in it, in the plane: the arc round the
--- corner before it, if there is one, then the offset. A vertical motion has a path without length.
+-- | Programmed motion, and the path of the cutter's centre during it in the plane. The path is the
+-- offset of the motion; an arc round the corner before it may come first. A vertical motion has a
+-- path without length.
 data Moved = Moved {programmed :: Motion, centrePath :: NonEmpty Segment}
   deriving stock (Eq, Show)
 
 -- | Reason why a control stops, with the number of the frame.
 data CompensationError
-  = -- | The first motion is no longer than the cutter's radius: its length, the radius.
+  = -- | The first motion after compensation is switched on is no longer than the cutter's radius:
+    -- its length, the radius.
     ShortEntry Int Mm Mm
-  | -- | The first motion is an arc.
+  | -- | The first motion after compensation is switched on is an arc.
     ArcEntry Int
   | -- | The first motion after the release is an arc.
     ArcExit Int
@@ -67,28 +69,41 @@ data CompensationError
     NotSwitchedOff Int
   deriving stock (Eq, Show)
 
--- | Active compensation: 1 for a cutter on the left, -1 for one on the right; its radius in mm.
-data Offset = Offset {leftward :: Double, radius :: Double}
+-- | Compensation that is on: the side of the cutter, in the direction of the programmed motion, and
+-- its radius.
+data Offset = Offset {side :: Side, radius :: Mm}
 
 -- | State of the control between two frames.
 data Mode
-  = Off
-  | Entering Offset
-  | Active
-  | Leaving
+  = -- | compensation is off
+    Off
+  | -- | switched on; the next motion is the entry
+    Entering Offset
+  | -- | on, after the entry
+    Active
+  | -- | released; the next motion is the exit
+    Leaving
 
--- | Role of a motion: without compensation, the entry, along the contour, the exit.
-data Role = Uncompensated | Entry Offset | Contour | Exit
+-- | Compensation of one motion.
+data Role
+  = -- | none
+    Uncompensated
+  | -- | the first motion after compensation is switched on
+    Entry Offset
+  | -- | a later motion, up to the release
+    Contour
+  | -- | the first motion after the release
+    Exit
 
 -- Frames in order ---------------------------------------------------------------------------------
 
--- | Run frames from a position. The function gives the cutter's radius in a frame, by its number;
--- it is used if the tape does not say the diameter.
+-- | Run frames from a start position. The function gives the cutter's radius in the frame with a
+-- number, counted from 1. It is used for a frame that switches compensation on without a diameter.
 run :: Machine -> (Int -> Mm) -> Pulses3 -> [Frame] -> ([Moved], [CompensationError])
 run = runWith (:)
 
--- | Fold the motions of 'run' from the right. Without compensation the list of motions is never
--- held.
+-- | Fold the motions of 'run' from the right. Without compensation, the list of motions is never in
+-- memory as a whole.
 runWith ::
   (Moved -> [a] -> [a]) ->
   Machine ->
@@ -137,6 +152,7 @@ withRoles machine commands toolAt begin frames = (final, tagged)
       Active -> (Active, Contour)
       Leaving -> (Off, Exit)
 
+-- | Test that compensation is switched on and not yet released.
 isOn :: Mode -> Bool
 isOn mode = case mode of
   Off -> False
@@ -144,7 +160,7 @@ isOn mode = case mode of
   Entering _ -> True
   Active -> True
 
--- | Mode after the commands of a frame, before its motion, and the errors of these commands.
+-- | Mode after the commands of frame @n@ and before its motion, and the errors of these commands.
 switched ::
   Machine ->
   CompensationCommands ->
@@ -161,8 +177,8 @@ switched machine commands toolAt mode n f =
   where
     change = Machine.toolChange (Machine.commandWords machine)
     on =
-      [ Offset side (radiusFor o)
-        | (side, o) <- [(1, compensateLeft commands), (-1, compensateRight commands)],
+      [ Offset s (radiusFor o)
+        | (s, o) <- [(LeftOf, compensateLeft commands), (RightOf, compensateRight commands)],
           isGiven o
       ]
     isReleased = isGiven (cancelCompensation commands)
@@ -173,14 +189,14 @@ switched machine commands toolAt mode n f =
       (Active, []) | isReleased -> (Leaving, False)
       (Entering _, []) | isReleased -> (Off, False)
       (_, []) -> (mode, False)
-    facing k = if Machine.isMirrored machine then k {leftward = negate (leftward k)} else k
+    facing k = if Machine.isMirrored machine then k {side = Carrier.oppositeSide (side k)} else k
     isGiven o = case (value o, lookup (commandName o) (Frame.commands f)) of
       (Fixed v, Just w) -> v == w
       (_, found) -> isJust found
     radiusFor o = case (value o, lookup (commandName o) (Frame.commands f)) of
       (Diameter, Just w) ->
-        fromIntegral w / 10 ^ Machine.commandDecimals machine (commandName o) / 2
-      _ -> let Mm r = toolAt n in r
+        Mm (fromIntegral w / 10 ^ Machine.commandDecimals machine (commandName o) / 2)
+      _ -> toolAt n
 
 -- Paths of the centre -----------------------------------------------------------------------------
 
@@ -188,7 +204,7 @@ switched machine commands toolAt mode n f =
 uncompensated :: Machine -> Motion -> Moved
 uncompensated machine m = Moved m (Motion.segment machine m :| [])
 
--- | Paths of motions from the present position of the centre.
+-- | Paths of the centre in motions, from its present position.
 pathsFrom :: Machine -> Point -> [(Role, Motion)] -> [(Moved, [CompensationError])]
 pathsFrom machine at motions = case motions of
   [] -> []
@@ -212,7 +228,7 @@ pathsFrom machine at motions = case motions of
       Entry _ -> False
       Exit -> False
 
--- | Paths of the entry motion and of all motions up to the release.
+-- | Paths of the entry motion and of all motions up to the release, from the present position.
 compensatedSection ::
   Machine ->
   Offset ->
@@ -228,18 +244,20 @@ compensatedSection machine k at (entry :| contour) =
     long = Vec.distance (Segment.start edge) (Segment.end edge)
     entryErrors =
       [ArcEntry (number entry) | isArc edge]
-        <> [ShortEntry (number entry) long (Mm (radius k)) | long <= Mm (radius k)]
+        <> [ShortEntry (number entry) long (radius k) | long <= radius k]
 
+-- | Position of the centre at the end of a motion.
 endOf :: Moved -> Point
 endOf m = let first :| others = centrePath m in Segment.end (foldl (\_ s -> s) first others)
 
+-- | Test that a segment is an arc.
 isArc :: Segment -> Bool
 isArc s = case s of
   Straight _ _ -> False
   Arc {} -> True
 
--- | Offset paths of programmed edges, from the present position of the centre. An arc round the
--- corner before the first edge is given if it is still to be traversed.
+-- | Offset paths of programmed motions with their segments, from the present position of the
+-- centre. @corner@ is the arc round the corner before the first of them, if there is one.
 offsetPaths ::
   Offset ->
   Point ->
@@ -260,8 +278,8 @@ offsetPaths k at corner motions = case motions of
        in (Moved m (maybe (path :| []) (:| [path]) corner), offsetErrors k m edge path joint) :
           offsetPaths k finish corner' rest
 
--- | Errors of one offset: an arc in which the cutter does not fit; a path that goes back, winds
--- round or does not meet the next one.
+-- | Errors of one offset: an arc in which the cutter does not fit; a path that goes backwards,
+-- whose sweep grows too much, or that does not meet the next one.
 offsetErrors :: Offset -> Motion -> Segment -> Segment -> Maybe Joint -> [CompensationError]
 offsetErrors k m edge path joint =
   tight <> [CornerNotReached (number m) | isBackwards || winds path edge || isApart]
@@ -274,10 +292,10 @@ offsetErrors k m edge path joint =
       _ -> False
     tight = case edge of
       Arc {start, centre, sweep = Rad a}
-        | Mm r <- Segment.radius centre start,
-          signum a == leftward k,
+        | r <- Segment.radius centre start,
+          signum a == Carrier.sideSign (side k),
           r <= radius k ->
-          [TightArc (number m) (Mm r) (Mm (radius k))]
+          [TightArc (number m) r (radius k)]
       _ -> []
 
 -- | Test that a motion has no length in the plane.
@@ -286,16 +304,16 @@ isVertical s = case s of
   Straight a b -> a == b
   Arc {} -> False
 
--- | Path from one point to another with the shape of an edge; an arc keeps its centre.
+-- | Path from @a@ to @b@ with the shape of a programmed segment; an arc keeps its centre.
 along :: Point -> Point -> Segment -> Segment
 along a b edge = case edge of
   Straight _ _ -> Straight a b
-  Arc {centre, sweep = whole@(Rad angle)}
+  Arc {centre, sweep = whole}
     | Vec.isNear (Segment.start edge) (Segment.end edge) ->
       Arc {start = a, end = b, centre, sweep = whole}
-    | otherwise -> Segment.arc (if angle > 0 then CounterClockwise else Clockwise) centre a b
+    | otherwise -> Segment.arc (Carrier.senseOf whole) centre a b
 
--- | Test that a straight path goes against its edge, by more than rounding.
+-- | Test that a straight path goes against its programmed segment, by more than rounding.
 goesBack :: Segment -> Segment -> Bool
 goesBack path edge = case edge of
   Straight _ _ ->
@@ -305,8 +323,8 @@ goesBack path edge = case edge of
   where
     Mm slack = Tolerance.coincident
 
--- | Test that an arc has a larger sweep than its edge. An arc that was shortened to less than
--- nothing goes almost all the way round.
+-- | Test that an arc has a larger sweep than its programmed segment. The sweep of an arc that would
+-- have to be shorter than nothing is almost a full circle.
 winds :: Segment -> Segment -> Bool
 winds path edge = case (path, edge) of
   (Arc {sweep = Rad a}, Arc {sweep = Rad b}) -> Rad (abs a - abs b) > Tolerance.controlTurn
@@ -314,27 +332,26 @@ winds path edge = case (path, edge) of
 
 -- Corners -----------------------------------------------------------------------------------------
 
--- | Transition from one offset to the next.
+-- | Transition from the offset of one segment to that of the next.
 data Joint
-  = Smooth
-  | Around Segment
-  | Intersection Point
-  | NoMeeting
+  = -- | the corner is so slight that it counts as none
+    Smooth
+  | -- | the centre goes round the corner on an arc
+    Around Segment
+  | -- | both offsets end at a common point
+    Intersection Point
+  | -- | the offsets do not meet
+    NoMeeting
 
--- | Transition between two edges that follow each other.
+-- | Transition between the offsets of two programmed segments that follow each other.
 jointOf :: Offset -> Segment -> Segment -> Joint
 jointOf k a b
   | abs turned < least = Smooth
   -- A sharp tip counts as a corner towards the cutter on both sides.
   | abs turned > pi - least = NoMeeting
-  | turned * leftward k < 0 =
+  | turned * Carrier.sideSign (side k) < 0 =
     Around
-      ( Segment.arc
-          (if leftward k > 0 then Clockwise else CounterClockwise)
-          corner
-          (offsetEnd k a)
-          (offsetStart k b)
-      )
+      (Segment.arc (Carrier.senseAwayFrom (side k)) corner (offsetEnd k a) (offsetStart k b))
   | otherwise = case meetings k a b of
     [] -> NoMeeting
     ps -> Intersection (minimumBy (comparing (Vec.distance corner)) ps)
@@ -343,36 +360,20 @@ jointOf k a b
     Rad least = Tolerance.controlBend
     corner = Segment.end a
 
--- | End and start of an edge, shifted sideways by the cutter's radius.
+-- | End and start of a programmed segment, shifted sideways by the cutter's radius.
 offsetEnd, offsetStart :: Offset -> Segment -> Point
-offsetEnd k s =
-  Vec.shift (Vec.scale (leftward k * radius k) (Vec.left (Segment.endDirection s))) (Segment.end s)
-offsetStart k s =
-  Vec.shift
-    (Vec.scale (leftward k * radius k) (Vec.left (Segment.startDirection s)))
-    (Segment.start s)
+offsetEnd k s = Carrier.beside (side k) (radius k) (Segment.endDirection s) (Segment.end s)
+offsetStart k s = Carrier.beside (side k) (radius k) (Segment.startDirection s) (Segment.start s)
 
--- | Intersections of the offset carriers of two edges.
+-- | Intersections of the carriers on which the offsets of two programmed segments lie.
 meetings :: Offset -> Segment -> Segment -> [Point]
-meetings k a b = points $ case (lineA, lineB) of
-  (Just l, Just m) -> Intersection.lines l m
-  (Just l, Nothing) -> Intersection.lineCircle l circleB
-  (Nothing, Just m) -> Intersection.lineCircle m circleA
-  (Nothing, Nothing) -> Intersection.circles circleA circleB
-  where
-    lineA = offsetLine a (offsetEnd k a) (Segment.endDirection a)
-    lineB = offsetLine b (offsetStart k b) (Segment.startDirection b)
-    circleA = offsetCircle a (offsetEnd k a)
-    circleB = offsetCircle b (offsetStart k b)
-    offsetLine s p direction = case s of
-      Straight _ _ -> Just (Line p (Vec.shift direction p))
-      Arc {} -> Nothing
-    offsetCircle s p = case s of
-      Arc {centre} -> Circle centre (Vec.distance centre p)
-      Straight _ _ -> Circle p (Mm 0)
-    points intersection = case intersection of
-      Apart _ -> []
-      Touching p -> [p]
-      CrossingOnce p -> [p]
-      Crossing p q -> [p, q]
-      Same -> []
+meetings k a b =
+  Intersection.common
+    (carrierThrough (offsetEnd k a) (Segment.endDirection a) a)
+    (carrierThrough (offsetStart k b) (Segment.startDirection b) b)
+
+-- | Carrier of a segment's offset, by a point of the offset and its direction there.
+carrierThrough :: Point -> Vec -> Segment -> Carrier
+carrierThrough p direction s = case s of
+  Straight _ _ -> LineCarrier (Line p (Vec.shift direction p))
+  Arc {centre} -> CircleCarrier (Circle centre (Vec.distance centre p))

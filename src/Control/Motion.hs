@@ -1,8 +1,8 @@
 -- | Model of a controller without time: each frame that moves is one motion of the cutter's centre,
--- on a line or on an arc. Speed, acceleration and pulses in time are not modelled.
+-- on a line or on an arc. Speed, acceleration and the times of pulses are not modelled.
 --
 -- The end points of an arc and its centre are whole pulses, so its start radius and its end radius
--- may differ. Controllers resolve this difference in different manners, but all of them go about
+-- may differ. Controllers resolve this difference in different manners, but all of them move about
 -- the programmed centre, in the programmed sense, between the two radii. The model therefore gives
 -- two bounding paths for such a motion, one arc on each radius, and the lines that connect their
 -- ends. A statement about the motion is true if it is true of all of these.
@@ -33,17 +33,17 @@ import Geometry.Tolerance qualified as Tolerance
 import Geometry.Vec qualified as Vec
 import Machine.Machine (Machine)
 
--- | Motion of one frame: the number of the frame, counted from 1; both end positions in pulses; the
--- frame itself.
+-- | Motion of one frame: the number of the frame, counted from 1; the positions at both ends in
+-- pulses; the frame itself.
 data Motion = Motion {number :: Int, from :: Pulses3, to :: Pulses3, frame :: Frame}
   deriving stock (Eq, Show)
 
--- | List the motions of frames from a start position. A frame that only commands has no motion; a
+-- | List the motions of frames from a start position. A frame with commands only has no motion. A
 -- full circle has one, although its increment is zero.
 run :: Pulses3 -> [Frame] -> [Motion]
 run = runWith (:)
 
--- | Fold the motions of frames from the right, without holding the list of motions.
+-- | Fold the motions of frames from the right. The list of motions is never in memory as a whole.
 runWith :: (Motion -> [a] -> [a]) -> Pulses3 -> [Frame] -> [a]
 runWith onto = go 1
   where
@@ -56,7 +56,8 @@ runWith onto = go 1
            in m `seq` onto m (go (n + 1) next more)
         | otherwise -> go (n + 1) at more
 
--- | Test that a frame goes about a centre. An arc about its own start or end point is none.
+-- | Test that a frame is an arc about a centre. An arc whose centre is its start or its end is
+-- none.
 isRound :: Frame -> Bool
 isRound f = case motion f of
   Circular _ -> Frame.centre f /= 0 && Frame.centre f /= Pulses2 x y
@@ -66,8 +67,8 @@ isRound f = case motion f of
   where
     Pulses3 x y _ = increment f
 
--- | Test, exactly in pulses, that the start and the end of an arc lie in one direction from its
--- centre.
+-- | Test, exactly in pulses, that the start and the end of an arc lie in the same direction from
+-- its centre.
 endsInStartDirection :: Frame -> Bool
 endsInStartDirection f = a * d == b * c && a * c + b * d > 0
   where
@@ -75,8 +76,9 @@ endsInStartDirection f = a * d == b * c && a * c + b * d > 0
     Pulses3 x y _ = increment f
     (a, b, c, d) = (-i, -j, x - i, y - j)
 
--- | Motion in the plane, in mm, with exact end points. An arc has the radius of its start. An arc
--- whose ends lie in one direction from the centre is a full turn, because controls compare angles.
+-- | Motion in the plane, in mm, with exact end points. The radius of an arc is that of its start.
+-- If both ends lie in the same direction from the centre, the arc is a full circle: controls
+-- compare angles.
 segment :: Machine -> Motion -> Segment
 segment machine m = case (Frame.segment machine (from m) (frame m), motion (frame m)) of
   (a@Arc {}, Circular sense)
@@ -100,7 +102,8 @@ boundingPaths s = case s of
       Mm same = Tolerance.coincident
       onRadius r p = Vec.shift (Vec.scale r (Vec.unit (Vec.to c p))) c
 
--- | Lines from the first bounding path to each other one, at their starts and at their ends.
+-- | Lines from the first bounding path to each other one, between their starts and between their
+-- ends.
 connectors :: NonEmpty Segment -> [Segment]
 connectors (one :| others) =
   concat
@@ -110,7 +113,7 @@ connectors (one :| others) =
       | other <- others
     ]
 
--- | Start radius and end radius of an arc; nothing for a line.
+-- | Distances of the start and of the end of an arc from its centre; nothing for a line.
 radii :: Machine -> Motion -> Maybe (Mm, Mm)
 radii machine m = if isRound (frame m) then ends else Nothing
   where
@@ -122,7 +125,7 @@ radii machine m = if isRound (frame m) then ends else Nothing
 height :: Machine -> Motion -> (Mm, Mm)
 height machine m = (Frame.height machine (from m), Frame.height machine (to m))
 
--- | Length of the path in space, in mm; a helix is measured along its slope.
+-- | Length of the path in space, in mm. Of a helix it is the length along its slope.
 travel :: Machine -> Motion -> Mm
 travel machine m = Mm (Vec.norm (Vec.vec l (b - a)))
   where

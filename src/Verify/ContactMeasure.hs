@@ -32,10 +32,11 @@ import Verify.MillingJob qualified as MillingJob
 -- | Measure of a contour, in mm.
 data Measure = Measure
   { contourLength :: Double,
-    -- | how far back a step of the cutter may seem to go because of rounding
+    -- | how far back a step of the cutter may seem to go because of rounding: the largest
+    -- uncertainty
     slack :: Double,
     isClosed :: Bool,
-    -- | the uncertainty is smaller than each arc, or curve of arcs
+    -- | true if the uncertainty is smaller than each arc, or each curve of arcs
     isResolved :: Bool
   }
 
@@ -51,14 +52,16 @@ measureOf job =
   where
     Uncertainty largest isResolved = uncertaintyOf job
 
--- | Test that contact points show the progress of the cutter. They do not in a hollow where the
--- centre hardly moves while the cutter touches all of it.
+-- | Test that contact points show the progress of the cutter. They do not in a hollow that the
+-- cutter touches all over while its centre hardly moves.
 isMeasurable :: MillingJob -> Bool
 isMeasurable job = let Uncertainty _ isResolved = uncertaintyOf job in isResolved
 
--- | Largest uncertainty on a contour, in mm; whether it is smaller than each run with an arc.
+-- | Largest uncertainty on a contour, in mm, and true if each run with an arc is longer than its
+-- own uncertainty.
 data Uncertainty = Uncertainty Double Bool
 
+-- | Uncertainty on the contour of a job.
 uncertaintyOf :: MillingJob -> Uncertainty
 uncertaintyOf job
   | Edge.isCurved (edges job) = foldl' withRun (Uncertainty 0 True) (runsOf job)
@@ -79,8 +82,8 @@ uncertaintyOf job
       Arc {} -> True
       Straight _ _ -> False
 
--- | Runs of elements of which each continues the curve of the one before, on a closed contour also
--- across its start.
+-- | Runs of elements: each element of a run continues the curve of the one before. On a closed
+-- contour a run may extend across the start.
 runsOf :: MillingJob -> [NonEmpty Segment]
 runsOf job = case (elements, runs elements) of
   (e : _, first : more)
@@ -138,9 +141,9 @@ largestGrowth window firsts seconds = go 0 0 0
           + (seconds ! (step + 1) - seconds ! step)
             * (firsts ! from + window - firsts ! step) / (firsts ! (step + 1) - firsts ! step)
 
--- | Uncertainty of the contact point on one segment, in mm. On the inside of an arc of radius @R@
--- the contact point moves by @R / |R − r|@ times as much as the centre, @r@ the distance between
--- them.
+-- | Uncertainty of the contact point on one segment, in mm. On the inside of an arc of radius @R@,
+-- the contact point moves by @R / |R − r|@ times as much as the centre; @r@ is the distance of the
+-- centre from the contour.
 uncertaintyOn :: MillingJob -> Segment -> Double
 uncertaintyOn job s = case s of
   Arc {start, centre, sweep = Rad angle}
@@ -151,7 +154,4 @@ uncertaintyOn job s = case s of
   where
     Mm a = allowance job
     Mm r = reach job
-    isInside angle = case side job of
-      Just Carrier.LeftOf -> angle > 0
-      Just Carrier.RightOf -> angle < 0
-      Nothing -> False
+    isInside angle = maybe False (\s' -> Carrier.sideSign s' * angle > 0) (side job)

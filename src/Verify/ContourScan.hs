@@ -1,7 +1,7 @@
--- | Scan of the motions beside a contour, in the order of the tape. Each motion asks once for the
--- elements within reach, and all comparisons of single motions are made with them: the gouge, the
--- distance of a motion along the contour, its side. The scan also collects for each element a fast
--- upper bound of its distance from the motions along the contour.
+-- | Scan of the motions beside a contour, in the order of the tape. The elements within reach of a
+-- motion are looked up once for all comparisons of the motion: its gouge, its distance from the
+-- contour, its side. The scan also collects for each element a fast upper bound of its distance
+-- from the motions along the contour.
 module Verify.ContourScan
   ( Scan (..),
     scan,
@@ -32,11 +32,11 @@ import Verify.WrongSide qualified as WrongSide
 
 -- | Result of a scan.
 data Scan = Scan
-  { -- | the deepest gouge
+  { -- | deepest gouge, if there is one
     gouge :: Maybe Witness,
-    -- | motions too far from the contour, the last one first
+    -- | motions that are too far from the contour, the last one first
     strays :: [Witness],
-    -- | the first motion on the wrong side
+    -- | finding for the first motion on the wrong side
     wrongSide :: Maybe Finding,
     -- | bounding paths of the last motion along the contour; none after a vertical one
     latest :: [Segment]
@@ -46,10 +46,11 @@ data Scan = Scan
 data View = View {motion :: CutterMotion, close :: [Edge], bounding :: [Segment]}
 
 -- | Scan the motions that have to keep out of the part, and the motions that have to follow the
--- contour, both in the order of the tape; a motion may be in both lists. With the result comes for
--- each element, by its number, an upper bound of the distance in mm: each point of the element has,
--- on the right side, a motion along the contour that is no further away. The bound is ∞ if none was
--- found. A bound may count one motion or two that follow one another.
+-- contour. Both lists are in the order of the tape; a motion may be in both.
+--
+-- The array has an upper bound in mm for each element, by its number: no point of the element is
+-- further from the motions along the contour on its right side. Each bound comes from one motion or
+-- from two that follow one another; it is ∞ if none was found.
 scan ::
   MillingJob ->
   (CutterMotion -> KeepOut) ->
@@ -60,11 +61,11 @@ scan ::
 scan job keepOutOf allowedExcess keepingOut along = runST $ do
   bounds <- PrimArray.newPrimArray (BoxTree.size (edges job))
   PrimArray.setPrimArray bounds 0 (PrimArray.sizeofMutablePrimArray bounds) (1 / 0)
-  let go result outside within = case (outside, within) of
+  let go result toKeepOut toFollow = case (toKeepOut, toFollow) of
         (v : vs, m : ms) -> case inOrder (motion v) m of
           EQ -> following (keptOut result v) v >>= \result' -> go result' vs ms
-          LT -> go (keptOut result v) vs within
-          GT -> following result (viewOf m) >>= \result' -> go result' outside ms
+          LT -> go (keptOut result v) vs toFollow
+          GT -> following result (viewOf m) >>= \result' -> go result' toKeepOut ms
         (v : vs, []) -> go (keptOut result v) vs []
         ([], ms) -> foldM following result (views ms)
       following result v = do
@@ -81,7 +82,7 @@ scan job keepOutOf allowedExcess keepingOut along = runST $ do
     keptOut result v =
       result {gouge = deeperGouge job (keepOutOf (motion v)) v (gouge result)}
 
--- | Deepest gouge so far, or that of a motion if it is deeper.
+-- | Gouge of a motion if it is deeper than the deepest one so far, otherwise that one.
 deeperGouge :: MillingJob -> KeepOut -> View -> Maybe Witness -> Maybe Witness
 deeperGouge job keepOut View {motion, close, bounding} best
   | Gouge.mayGougeDeeper keepOut best motion bounding near =
@@ -95,7 +96,7 @@ deeperGouge job keepOut View {motion, close, bounding} best
           (BoundingBox.inflate (searchRadius keepOut) (Motion.box motion))
           (edges job)
 
--- | Result after a motion along the contour.
+-- | Result after one more motion along the contour.
 followed :: MillingJob -> Mm -> View -> Scan -> Scan
 followed job allowedExcess View {motion, close, bounding} result
   | Motion.isVertical motion = result {latest = []}
@@ -114,11 +115,11 @@ followed job allowedExcess View {motion, close, bounding} result
         bounding
 
 -- | Lower the bound of an element to its distance from a motion, if the motion is surely on the
--- right side of it. The paths of the motion before are given.
+-- right side of it. @before@ are the bounding paths of the motion before.
 improveBound :: MillingJob -> MutablePrimArray s Double -> [Segment] -> View -> Edge -> ST s ()
 improveBound job bounds before View {motion, bounding} e = do
   known <- PrimArray.readPrimArray bounds (rank e)
-  -- A bound below the reach is good enough.
+  -- A bound below the reach need not be lowered.
   when (known > enough) $ do
     let far = boundFrom job known before motion bounding e
     when
@@ -128,8 +129,8 @@ improveBound job bounds before View {motion, bounding} e = do
     enough = let Mm r = reach job in r - 2 * FastDistance.unsure
 
 -- | Upper bound of the distance of an element from a motion. If the motion alone gives none and
--- none is known, the element is divided where the motion starts: its first part is compared with
--- the motion before.
+-- none is known, the element is divided at the point beside the start of the motion: its first part
+-- is compared with the motion before.
 boundFrom :: MillingJob -> Double -> [Segment] -> CutterMotion -> [Segment] -> Edge -> Double
 boundFrom job known before motion bounding e
   | alone < 1 / 0

@@ -37,19 +37,19 @@ data Cover a = Cover
     isEligible :: a -> Bool,
     -- | distance at which a point is covered
     reach :: Mm,
-    -- | allowed excess over the reach
+    -- | allowed excess over the reach, with which the search for the largest gap begins
     allowance :: Mm
   }
 
 -- | Bounds of the directed Hausdorff distance that are known without an exact comparison.
 data DistanceBounds = DistanceBounds {atLeast :: Mm, atMost :: Mm}
 
--- | Largest excess over the reach, the point of the segment that has it, and the members near the
--- segment.
+-- | Largest excess over the reach in mm, a point of the segment that has it, and the members near
+-- the segment.
 data Gap a = Gap {size :: Mm, location :: Point, members :: [a]}
 
--- | Largest gap of a segment, if it is larger than a given size. A gap larger than 'unlimited' has
--- that size.
+-- | Largest gap of a segment, if it is larger than @least@. A gap that is larger than 'unlimited'
+-- gets that size.
 largestGap :: Cover a -> Maybe DistanceBounds -> Mm -> Segment -> Maybe (Gap a)
 largestGap cover known least segment
   | isClosedBy least = Nothing
@@ -67,7 +67,8 @@ largestGap cover known least segment
       _ -> isCovered cover (plus (reach cover) m) segment
     sizes = takeWhile (< unlimited) (iterate (times 2) (max (times 2 least) (allowance cover)))
 
--- | Gap of a known size, with a point of it; nothing without members near the segment.
+-- | Gap of a known size, with a point of the segment that has it. Nothing without members near the
+-- segment.
 gapOf :: Cover a -> Segment -> Mm -> Maybe (Gap a)
 gapOf cover segment size = case membersNear cover (plus (reach cover) size) segment of
   [] -> Nothing
@@ -113,8 +114,7 @@ isCovered cover distance segment
         [] -> True
         (a, _) : _
           | a > t + Tolerance.negligibleShare -> from a
-          -- The member ends right here, and the nearest one a hair further on does not begin
-          -- before.
+          -- The nearest member covers nothing after this point, but another one may do so.
           | otherwise ->
             maybe False (const together) (nearestAt (min 1 (t + Tolerance.negligibleShare)))
     nearestAt t =
@@ -158,6 +158,6 @@ union intervals = case intervals of
   s : rest -> s : union rest
   [] -> []
 
--- | Number of members up to which all of them are taken together.
+-- | Number of members up to which 'isCovered' takes all of them together.
 fewAtMost :: Int
 fewAtMost = 30

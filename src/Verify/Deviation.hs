@@ -1,9 +1,11 @@
--- | Deviation of one pass along a contour: the three comparisons of the proof, gouge, excess and
--- side, and the order of travel. The tape is compared with the part; the toolpath only says which
--- pass is meant.
+-- | Comparison of a tape with one pass along a contour: gouge, excess and side, and the order of
+-- travel. The toolpath only says which pass is meant.
 module Verify.Deviation
   ( MillingPass (..),
     examine,
+    gougeFindings,
+    excessFindings,
+    motionsAlong,
     allowedDeviation,
   )
 where
@@ -55,53 +57,70 @@ data MillingPass = MillingPass
 -- | Allowed deviations into the material and out of it, with one pulse.
 data Allowed = Allowed {allowedGouge :: Mm, allowedExcess :: Mm}
 
--- | Compare the tape with a contour. In the first pass along the contour, all motions near it are
--- examined for gouges; in the others, only those of the pass.
+-- | Compare the tape with a contour. @isFirst@ is true of the first pass along the contour: then
+-- all motions near it are examined for gouges, otherwise only those of the pass.
 examine :: MotionSet -> Bool -> MillingPass -> (ContourProof, [Finding])
 examine set isFirst pass = (contourProof, if null findings then orderFindings pass else findings)
   where
     MillingPass {job, found} = pass
-    allowed = allowedOf set job
-    along = case found of
-      Complete _ ms -> ms
-      Incomplete _ ms -> ms
-      Missing -> []
+    Allowed {allowedGouge, allowedExcess} = allowedOf set job
+    along = motionsAlong found
     keepingOut = motionsKeepingOut set isFirst job along
     keepOut = keepOutOf set job along
-    (scan, bounds) = ContourScan.scan job keepOut (allowedExcess allowed) keepingOut along
-    pierced = piercedBy job (allowedGouge allowed) keepingOut
+    (scan, bounds) = ContourScan.scan job keepOut allowedExcess keepingOut along
+    -- Gouges
+    pierced = piercedBy job allowedGouge keepingOut
     gouges = mapMaybe (\m -> Gouge.gougeOf (keepOut m) (edges job) m) keepingOut <> pierced
     deepest = foldl (\best w -> Just (Proof.deeper best w)) (gouge scan) pierced
-    missed = missedOn set isFirst pass (allowedExcess allowed) bounds
+    -- Excess
     strayed = reverse (strays scan)
-    worst = Proof.deepest (missed <> strayed)
+    missed = missedOn set isFirst pass allowedExcess bounds
+    largest = Proof.deepest (missed <> strayed)
+    isTooMuch w = Proof.amount w > allowedExcess
+    tooMuch
+      -- The tip of a pointed tool is at distance 0 where it crosses the contour. That distance does
+      -- not show how much material remains, so no excess is reported then.
+      | any ((> allowedGouge) . Proof.amount) pierced = []
+      | otherwise = filter isTooMuch strayed <> sortOn Proof.frame (filter isTooMuch missed)
+    -- Result
     contourProof =
       ContourProof
         { Proof.contour = Part.contourName (Part.contour (milling job)),
           Proof.gouge = deepest,
-          Proof.excess = worst,
-          Proof.allowedGouge = allowedGouge allowed,
-          Proof.allowedExcess = allowedExcess allowed
+          Proof.excess = largest,
+          Proof.allowedGouge,
+          Proof.allowedExcess
         }
-    isTooDeep w = Proof.amount w > allowedGouge allowed
-    isTooMuch w = Proof.amount w > allowedExcess allowed
     findings =
-      [ Gouge first w (allowedGouge allowed)
-        | Just w <- [deepest],
-          isTooDeep w,
-          first : _ <- [filter isTooDeep gouges]
-      ]
-        -- The tip of a pointed tool is at distance 0 where it crosses the contour. That distance
-        -- does not show how much material remains, so no excess is reported then.
-        <> [ Excess first (fromMaybe first worst) (allowedExcess allowed)
-             | not (any isTooDeep pierced),
-               first : _ <-
-                 [filter isTooMuch strayed <> sortOn Proof.frame (filter isTooMuch missed)]
-           ]
+      gougeFindings allowedGouge gouges deepest
+        <> excessFindings allowedExcess tooMuch largest
         <> maybeToList (wrongSide scan)
 
--- | Allowed deviations of a job. A cutter on the contour itself has no side: both are the larger
--- one then.
+-- | Finding for gouges deeper than allowed, if there are any. It has the first of them in the list,
+-- and the deepest one.
+gougeFindings :: Mm -> [Witness] -> Maybe Witness -> [Finding]
+gougeFindings allowed gouges deepest =
+  [ Gouge first worst allowed
+    | Just worst <- [deepest],
+      Proof.amount worst > allowed,
+      first : _ <- [filter ((> allowed) . Proof.amount) gouges]
+  ]
+
+-- | Finding for an excess larger than allowed, if there is one. The list has all that are too
+-- large; the finding has the first of them, and the largest one.
+excessFindings :: Mm -> [Witness] -> Maybe Witness -> [Finding]
+excessFindings allowed tooMuch largest =
+  [Excess first (fromMaybe first largest) allowed | first : _ <- [tooMuch]]
+
+-- | Motions along the contour, without the arrival at its start.
+motionsAlong :: FoundPass -> [CutterMotion]
+motionsAlong found = case found of
+  Complete _ along -> along
+  Incomplete _ along -> along
+  Missing -> []
+
+-- | Allowed deviations of a job. Without a side, for a cutter that runs on the contour, the larger
+-- of the two allowed chord errors counts in both directions.
 allowedOf :: MotionSet -> MillingJob -> Allowed
 allowedOf set job
   | isNothing (side job) = Allowed (plus larger pulse) (plus larger pulse)
@@ -111,8 +130,9 @@ allowedOf set job
     larger = max inside outside
     pulse = Machine.planeResolution (MotionSet.machine set)
 
--- | Allowed chord errors of a tape, into the material and out of it. A curve is replaced by arcs
--- that deviate by up to 'Tolerance.curve' themselves; the tape has to be closer to them by that.
+-- | Allowed chord errors of a tape in mm, into the material and out of it. The arcs that replace a
+-- curve may deviate from it by 'Tolerance.curve'; on a curve, the allowed errors are smaller by
+-- that.
 allowedDeviation :: Bool -> Milling -> (Mm, Mm)
 allowedDeviation isCurved milling
   | isCurved = (less inside, less outside)
@@ -121,7 +141,7 @@ allowedDeviation isCurved milling
     (inside, outside) = Part.deviationLimits (Part.tolerance milling)
     less d = max (Mm 0) (minus d Tolerance.curve)
 
--- | Fault in the order of travel, if nothing else is wrong with the contour.
+-- | Finding for a contour that is not followed from its start to its end.
 orderFindings :: MillingPass -> [Finding]
 orderFindings MillingPass {job, found} = case found of
   Complete {} -> []
@@ -133,6 +153,7 @@ orderFindings MillingPass {job, found} = case found of
     ]
   Missing -> [Proof.NeverBegun (statement job)]
 
+-- | Test that the statement allows rest material.
 allowsRest :: MillingJob -> Bool
 allowsRest job = Part.rest (milling job) == Part.Allowed
 
@@ -154,8 +175,9 @@ boxOf milling =
     BoundingBox.union
     (fmap (BoundingBox.ofSegment . Part.segment) (Part.elements (Part.contour milling)))
 
--- | Distance that a motion keeps: a motion along the contour keeps that of the pass with the
--- allowances of the elements, any other one the radius of its cutter.
+-- | Distance that a motion keeps from the elements. A motion along the contour keeps the distance
+-- of the pass, with the allowances of the elements. Any other motion keeps the radius of its
+-- cutter.
 keepOutOf :: MotionSet -> MillingJob -> [CutterMotion] -> CutterMotion -> KeepOut
 keepOutOf set job along = \m ->
   let tool = MotionSet.toolOf set m
@@ -173,14 +195,15 @@ keepOutOf set job along = \m ->
     ownFrames = IntSet.fromDistinctAscList (ascending (map number along))
     largestAllowance = max (Mm 0) (Edge.largestAllowance (edges job))
 
--- | Sorted numbers, each once.
+-- | Sorted list of numbers without its repetitions.
 ascending :: [Int] -> [Int]
 ascending ns = case ns of
   a : b : more | a == b -> ascending (b : more)
   a : more -> a : ascending more
   [] -> []
 
--- | Gouges of a tool without radius. No distance shows them.
+-- | Gouges of a tool without radius, by an examination of their own: the distance of such a tool
+-- from the contour shows none. Empty for a tool with a radius.
 piercedBy :: MillingJob -> Mm -> [CutterMotion] -> [Witness]
 piercedBy job allowed motions =
   [ w
@@ -193,9 +216,9 @@ piercedBy job allowed motions =
 
 -- Excess ------------------------------------------------------------------------------------------
 
--- | Excess on the elements of a contour. If rest material is allowed, all motions at the height
--- count; they are the same for all cuts of a pass, so only the first cut is examined. The array has
--- the upper bounds of the scan.
+-- | Excess on the elements of a contour. If rest material is allowed, all motions at the height of
+-- the pass count. They are the same for all cuts of the pass, so only the first cut is examined.
+-- The array has the upper bounds of the scan.
 missedOn :: MotionSet -> Bool -> MillingPass -> Mm -> PrimArray Double -> [Witness]
 missedOn set isFirst MillingPass {job, level, found} allowed bounds
   | allowsRest job && not isFirst = []
@@ -232,7 +255,7 @@ touchableParts job kept distance e = case (Part.rest (milling job), side job) of
     ]
   _ -> [e]
 
--- | Elements in groups with one allowance.
+-- | Elements in groups of equal allowance.
 byAllowance :: [Edge] -> [(Mm, [Edge])]
 byAllowance es = case es of
   e : others | all ((== ownAllowance e) . ownAllowance) others -> [(ownAllowance e, es)]

@@ -1,5 +1,3 @@
-{-# LANGUAGE BangPatterns #-}
-
 -- | Elements of the contours that a tape is compared with, in a bounding-box tree, together with
 -- the numbers that every comparison needs.
 module Verify.Edge
@@ -14,6 +12,7 @@ module Verify.Edge
 where
 
 import Base.Quantity (Mm (..))
+import Data.List (foldl')
 import Data.List.NonEmpty qualified as NonEmpty
 import Geometry.Distance qualified as Distance
 import Geometry.Distance.Fast qualified as FastDistance
@@ -37,9 +36,9 @@ data Edge = Edge
     startsAt :: Double,
     -- | length of the element, in mm
     long :: Double,
-    -- | allowance of the element itself, besides that of the pass
+    -- | allowance of the element itself, in addition to that of the pass
     ownAllowance :: Mm,
-    -- | the element continues the curve of the element before it
+    -- | true if the element continues the curve of the element before it
     continues :: Bool,
     -- | segment of the element
     shape :: Segment
@@ -73,33 +72,33 @@ edgesOf contour =
                 }
          in edge `seq` endsAt `seq` (edge : go (rank + 1) endsAt more)
 
--- | Test that an element continues the curve of another one.
+-- | Test that a contour has curves: that an element continues the curve of another one.
 isCurved :: BoxTree Edge -> Bool
 isCurved = BoxTree.foldl' (\is e -> is || continues e) False
 
--- | Largest allowance of a single element; -∞ without elements.
+-- | Largest allowance of a single element, in mm; -∞ without elements.
 largestAllowance :: BoxTree Edge -> Mm
 largestAllowance = BoxTree.foldl' (\most e -> max most (ownAllowance e)) (Mm (-1 / 0))
 
--- | Distance from a point to the nearest of some elements, no larger than the given limit.
-leastDistance :: Double -> [Edge] -> Double -> Double -> Double
+-- | Distance in mm from a point to the nearest of some elements, or the limit if none is nearer.
+leastDistance :: Double -> [Edge] -> Point -> Double
 leastDistance = leastExcess (const (Mm 0))
 
--- | Least difference of distance and allowance over some elements, no larger than the given limit.
-leastExcess :: (Edge -> Mm) -> Double -> [Edge] -> Double -> Double -> Double
-leastExcess allowanceOf limit near !x !y = go limit near
+-- | Least value of distance minus allowance for a point and some elements, or the limit if none has
+-- less; all in mm.
+leastExcess :: (Edge -> Mm) -> Double -> [Edge] -> Point -> Double
+leastExcess allowanceOf limit near p = foldl' lesser limit near
   where
-    go !d es = case es of
-      [] -> d
-      e : more
-        | Mm a <- allowanceOf e,
-          far <- min limit (d + a),
-          FastDistance.mayLieWithin far (long e) (shape e) x y ->
-          go (min d (FastDistance.distance (shape e) x y - a)) more
-        | otherwise -> go d more
+    lesser least e
+      | Mm a <- allowanceOf e,
+        far <- min limit (least + a),
+        FastDistance.mayLieWithin far (long e) (shape e) (Vec.x p) (Vec.y p) =
+        min least (FastDistance.distance (shape e) (Vec.x p) (Vec.y p) - a)
+      | otherwise = least
 
--- | Signed offset of a point from the contour at its nearest point: positive if the point is on the
--- left of the direction of travel. At a corner, both elements there are added up.
+-- | Signed distance of a point from a contour in mm: positive on the left of the direction of
+-- travel. @foot@ is the point of the contour nearest to it. At a corner, the signed distances from
+-- the tangents of both elements are added.
 leftwardness :: BoxTree Edge -> Point -> Point -> Double
 leftwardness edges foot p = sum (map crossProduct touching)
   where

@@ -33,9 +33,9 @@ import Verify.Motion (CutterMotion (number), pathList, paths)
 import Verify.Proof (Witness (Witness))
 import Verify.Proof qualified as Proof
 
--- | Excess on elements. An excess within the allowance is only given if it is larger than all
--- before it. The array has for each element, by its number, a known upper bound of the distance of
--- its points from the motions, in mm.
+-- | Excess on elements. An excess within the allowance is only listed if it is larger than all
+-- before it. The array has an upper bound for each element, by its number: the distance in mm of
+-- its points from the motions.
 excesses :: MillingJob -> PrimArray Double -> BoxTree CutterMotion -> [Edge] -> [Witness]
 excesses job bounds index = go (Mm 0)
   where
@@ -72,8 +72,8 @@ excesses job bounds index = go (Mm 0)
           Coverage.allowance = allowance job
         }
 
--- | Test by fast bounds that each point of an element has a motion within the reach and the given
--- excess.
+-- | True only if each point of an element has a motion within the reach plus @least@; decided by
+-- fast bounds.
 isSurelyCovered :: MillingJob -> PrimArray Double -> BoxTree CutterMotion -> Mm -> Edge -> Bool
 isSurelyCovered job bounds index least e =
   PrimArray.indexPrimArray bounds (rank e) <= d - 2 * FastDistance.unsure
@@ -82,8 +82,8 @@ isSurelyCovered job bounds index least e =
     far@(Mm d) = plus (reach job) least
     near = BoxTree.within (BoundingBox.inflate far (FastDistance.box (shape e))) index
 
--- | Bounds of the directed Hausdorff distance from an element to the motions. Motions outside of
--- reach and allowance are not looked at.
+-- | Bounds of the directed Hausdorff distance from an element to the motions within reach and
+-- allowance of it.
 distanceBounds :: MillingJob -> BoxTree CutterMotion -> Edge -> Coverage.DistanceBounds
 distanceBounds job index e =
   Coverage.DistanceBounds {Coverage.atLeast = Mm (min d low), Coverage.atMost = Mm high}
@@ -93,25 +93,26 @@ distanceBounds job index e =
     near = filter (isEligible job e) (map withPaths (BoxTree.within around index))
     (low, high) = FastDistance.range (map snd near) (shape e)
 
+-- | Motion with its bounding paths.
 withPaths :: CutterMotion -> (CutterMotion, [Segment])
 withPaths m = (m, pathList m)
 
--- | Test that a motion with its bounding paths is on the right side of an element.
+-- | Test that a motion, given with its bounding paths, is on the cutter's side of an element.
 isEligible :: MillingJob -> Edge -> (CutterMotion, [Segment]) -> Bool
 isEligible job e (m, bounding) =
   all (isSurelyOnSide job (shape e)) bounding
     || all (isOnSide job (Part.segment (element e))) (paths m)
 
--- | Test by fast bounds that a path is wholly on the cutter's side of an element.
+-- | True only if a path lies wholly on the cutter's side of an element; decided by fast bounds.
 isSurelyOnSide :: MillingJob -> Segment -> Segment -> Bool
 isSurelyOnSide job e path = case side job of
   Nothing -> True
   Just Carrier.LeftOf -> FastDistance.isLeftOf path e
   Just Carrier.RightOf -> FastDistance.isRightOf path e
 
--- | Test that a path is on the cutter's side of an element, where it is nearest to it. A cutter on
--- the other side would reach the element through the part. A path on the element itself, to the
--- allowance, counts as well.
+-- | Test that a path is on the cutter's side of an element at the point where it is nearest to the
+-- element. From the other side, the cutter would reach the element through the part. A path within
+-- the allowance of the element counts as well.
 isOnSide :: MillingJob -> Segment -> Segment -> Bool
 isOnSide job element path = case side job of
   Nothing -> True
@@ -123,8 +124,9 @@ isOnSide job element path = case side job of
       Arc {start, centre, sweep = Rad s} ->
         (Vec.distance centre p < Segment.radius centre start) == (s > 0)
 
--- | Excess distance of a motion from the contour, if it is more than the allowance. The elements
--- that the cutter may touch and the bounding paths of the motion are given.
+-- | Excess of a motion's distance from the contour over the reach, if it is more than the
+-- allowance. @near@ are the elements that the cutter may touch during the motion, @bounding@ its
+-- bounding paths.
 strayOf :: MillingJob -> CutterMotion -> [Edge] -> [Segment] -> Maybe Witness
 strayOf job m near bounding
   | all isSurelyNear bounding = Nothing

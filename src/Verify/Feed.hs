@@ -1,5 +1,5 @@
--- | Feeds of a tape: equal to those of the program frame by frame, or, on a tape with other frames,
--- equal to those that the statements demand; and never too high to slow down in time.
+-- | Feeds of a tape. Frame by frame they equal the planned ones; on a tape with another number of
+-- frames they equal those that the statements demand. They are never too high to slow down in time.
 module Verify.Feed
   ( asPlanned,
     alongContour,
@@ -32,7 +32,7 @@ speedOf f =
 
 -- Demanded feeds ----------------------------------------------------------------------------------
 
--- | Findings for frames whose speed differs from that of the program's own frame with that number.
+-- | Findings for frames whose speed differs from that of the planned frame with the same number.
 asPlanned :: FrameProgram -> [Frame] -> [Finding]
 asPlanned program frames =
   [ WrongFeed n (speedOf f) (speedOf (Frame.frame planned)) (Frame.origin planned)
@@ -51,8 +51,8 @@ alongContour :: Machine -> MillingJob -> [Motion] -> [Finding]
 alongContour machine job =
   atFeed machine (Part.feed (milling job)) (map Part.finish (elementsOf job))
 
--- | Findings for motions with a feed that is neither the demanded one nor one of single elements. A
--- braking frame may be slower.
+-- | Findings for motions with a feed that is neither the demanded one nor that of an element. A
+-- braking frame may be slower than these.
 atFeed :: Machine -> Located Feed -> [Part.Finish] -> [Motion] -> [Finding]
 atFeed machine demanded finishes motions =
   [ WrongFeed
@@ -77,12 +77,12 @@ atFeed machine demanded finishes motions =
           (Machine.valueOf machine (code found))
     feedOf = fromMaybe 0 . Machine.valueOf machine
 
--- | Findings for vertical motions into solid material at a speed that no such motion of the program
--- has.
+-- | Findings for vertical motions into solid material at a speed that no planned motion into solid
+-- material has.
 downwards :: FrameProgram -> [Frame] -> [Finding]
 downwards program frames = case plunges (map Frame.frame (Frame.plannedFrames program)) of
   [] -> []
-  own@(m : _) ->
+  planned@(m : _) ->
     [ WrongFeed
         (number p)
         (speedOf (frame p))
@@ -92,12 +92,12 @@ downwards program frames = case plunges (map Frame.frame (Frame.plannedFrames pr
         speedOf (frame p) `notElem` allowed
     ]
     where
-      allowed = nub (map (speedOf . frame) own)
+      allowed = nub (map (speedOf . frame) planned)
   where
     plunges = intoSolid Map.empty . Control.run (Frame.start program)
 
--- | Vertical motions below the top of the part that go deeper than all motions before them at their
--- position. The map has the lowest heights so far.
+-- | Vertical motions that go below the top of the part, and deeper than all motions before them at
+-- their position. The map has the lowest height so far at each position.
 intoSolid :: Map.Map (Pulses, Pulses) Pulses -> [Motion] -> [Motion]
 intoSolid lowest motions = case motions of
   [] -> []
@@ -113,9 +113,9 @@ intoSolid lowest motions = case motions of
 
 -- Codes and speeds --------------------------------------------------------------------------------
 
--- | Code of a feed along the path, in mm/min, in a motion, if the machine has one. Machines whose
--- codes mean the pulse frequency of the leading axis get @v/60·n/L@ pulses per second, for @n@
--- pulses of this axis on a path of length @L@.
+-- | Code for a feed of @v@ mm/min along the path of a motion; nothing if the machine has no such
+-- feed. On machines whose codes mean the pulse frequency of the leading axis, it is the code for
+-- @v/60·n/L@ pulses per second, for @n@ pulses of this axis on a path of length @L@.
 codeFor :: Machine -> Motion -> Feed -> Maybe FeedCode
 codeFor machine m (Feed v) = case Machine.choose machine inMeasure of
   Machine.Given c _ -> Just c
@@ -125,7 +125,7 @@ codeFor machine m (Feed v) = case Machine.choose machine inMeasure of
       AlongPath -> v
       LeadingAxis -> v / 60 * leading m / travelOf machine m
 
--- | Pulses of the leading axis in a motion.
+-- | Number of pulses of the leading axis in a motion.
 leading :: Motion -> Double
 leading m = fromIntegral n
   where
@@ -176,9 +176,10 @@ tooFast machine start frames = case Machine.brakingForm (Machine.braking machine
     -- Path lengths from the start of the tape to the start of each motion, and to the end.
     starts = scanl (+) 0 lengths
 
--- | Step of 'tooFast' from the end of the tape to its start. The path lengths at the start and at
--- the end of a motion are given, the motion, and the next one. The number is the least of
--- @v² + 2·a·s@ over all later speeds, with @s@ measured from the start of the tape.
+-- | Step of 'tooFast', which runs from the end of the tape to its start. Its input is the path
+-- lengths at the start and at the end of a motion, the motion, and the motion after it. It updates
+-- the least value of @v² + 2·a·s@ over all later speeds, with @s@ measured from the start of the
+-- tape.
 tooFastIn ::
   Machine ->
   ((Double, Double), Motion, Maybe Motion) ->
@@ -200,6 +201,7 @@ tooFastIn machine ((begin, end), m, next) (least, found)
     rounding = 1e-9 * max 1 (v * v)
     Mm pulse = Machine.planeResolution machine
 
--- | Number of pulses by which rounding may change the distance of two positions: one for each.
+-- | Number of pulses by which rounding may change the distance between two positions: one pulse for
+-- each.
 pulsesRounded :: Double
 pulsesRounded = 2

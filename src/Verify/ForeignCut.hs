@@ -1,4 +1,4 @@
--- | Cuts below the top of the part where the program's own tape does not cut, or deeper.
+-- | Cuts below the top of the part where the planned frames do not cut, or deeper than these do.
 module Verify.ForeignCut
   ( foreignCuts,
   )
@@ -21,11 +21,12 @@ import Verify.Motion (CutterMotion (number, segment))
 import Verify.Motion qualified as Motion
 import Verify.Proof (Finding (CutsElsewhere))
 
--- | Findings for motions of a tape with a sample below the top of the part that none of the
--- program's own motions comes near at that depth or deeper. Two tapes with different chords may
--- differ by both tolerances.
+-- | Findings for motions of a tape that cut elsewhere or deeper than the planned motions. A motion
+-- is found if one of its samples is below the top of the part, and no planned motion comes near the
+-- sample at that depth or deeper. Near means within two pulses and twice the tolerance: two tapes
+-- with different chords may deviate to opposite sides.
 foreignCuts :: Machine -> Toolpath -> [CutterMotion] -> [CutterMotion] -> [Finding]
-foreignCuts machine path own motions =
+foreignCuts machine path planned motions =
   [ CutsElsewhere (number m) p
     | m <- motions,
       isDeep (lowest m),
@@ -37,7 +38,7 @@ foreignCuts machine path own motions =
     index =
       BoxTree.index
         (BoundingBox.ofSegment . segment)
-        (filter ((< Mm 0) . lowest) own)
+        (filter ((< Mm 0) . lowest) planned)
     slack = plus (times 2 pulse) (times 2 (largestTolerance path))
     isKnown p z =
       or
@@ -45,7 +46,7 @@ foreignCuts machine path own motions =
           | o <- BoxTree.within (BoundingBox.inflate slack (BoundingBox.ofPoints p [])) index
         ]
 
--- | Lower one of the heights of a motion.
+-- | Smaller of the two heights of a motion.
 lowest :: CutterMotion -> Mm
 lowest = uncurry min . Motion.heights
 
@@ -58,7 +59,7 @@ samplesOf m =
   where
     (from, to) = Motion.heights m
 
--- | Largest chord error that a statement allows.
+-- | Largest chord error that a statement of the toolpath allows.
 largestTolerance :: Toolpath -> Mm
 largestTolerance path =
   maximum
@@ -68,6 +69,7 @@ largestTolerance path =
         ]
     )
 
+-- | Milling of a block along a contour or in a pocket.
 millingOf :: Block -> [Milling]
 millingOf block = case block of
   Toolpath.Cutting {Toolpath.job = Located _ m} -> [m]

@@ -1,7 +1,5 @@
-{-# LANGUAGE BangPatterns #-}
-
--- | Rules that the frames of a tape have to keep whatever the part is: the control accepts them,
--- and their commands are those of the program.
+-- | Rules for the frames of a tape that do not depend on the shape of the part: the control accepts
+-- every frame, and the commands are those of the program.
 module Verify.FrameRule
   ( refused,
     wrongCommands,
@@ -22,17 +20,24 @@ import Verify.Proof (Finding (..), Refusal (..))
 
 -- Frames that a control refuses -------------------------------------------------------------------
 
--- | Findings for frames that break a rule of the machine or are impossible arcs, from a start
--- position.
+-- | Findings for frames that the control refuses, on a tape that begins at a start position: frames
+-- that break a rule of the machine, and impossible arcs.
 refused :: Machine -> Pulses3 -> [Frame] -> [Finding]
-refused machine = go 1
+refused machine begin = go (Start 1 begin)
   where
-    go :: Int -> Pulses3 -> [Frame] -> [Finding]
-    go !n !at frames = case frames of
+    go :: Start -> [Frame] -> [Finding]
+    go start@(Start n at) frames = case frames of
       [] -> []
       f : more -> case refusals machine n at f of
-        [] -> go (n + 1) (at + Frame.increment f) more
-        reasons -> map Refused reasons <> go (n + 1) (at + Frame.increment f) more
+        [] -> go (startAfter f start) more
+        reasons -> map Refused reasons <> go (startAfter f start) more
+
+-- | Number of a frame, counted from 1, and the position at which it starts.
+data Start = Start Int Pulses3
+
+-- | Number and start position of the frame after another one.
+startAfter :: Frame -> Start -> Start
+startAfter f (Start n at) = Start (n + 1) (at + Frame.increment f)
 
 -- | Reasons to refuse one frame, by its number and its start position.
 refusals :: Machine -> Int -> Pulses3 -> Frame -> [Refusal]
@@ -43,7 +48,7 @@ refusals machine n at f =
     Rapid -> []
     Linear -> []
 
--- | Faults of an arc. Its radii may differ by two pulses.
+-- | Reasons to refuse an arc: its two radii differ by more than two pulses, or it has no sweep.
 impossibleArc :: Machine -> Int -> Pulses3 -> Frame -> [Refusal]
 impossibleArc machine n at f =
   [ UnequalRadii n (minus b a)
@@ -60,12 +65,12 @@ impossibleArc machine n at f =
 
 -- Commands ----------------------------------------------------------------------------------------
 
--- | Commands of a frame by their names and numbers.
+-- | Commands of a frame: their names and numbers.
 type Commands = [(CommandName, Int)]
 
--- | Findings for frames whose commands differ from those of the program's own frame. If the numbers
--- of frames differ, frames with commands are compared in order; the positions of the cutter have to
--- agree to two pulses.
+-- | Findings for frames whose commands differ from those of the planned frames. A tape with as many
+-- frames as planned is compared frame by frame. On any other tape, the frames with commands are
+-- compared in order; two of them correspond if they begin at the same position, to two pulses.
 wrongCommands :: FrameProgram -> [Frame] -> [Finding]
 wrongCommands program frames =
   [ WrongCommand n name (lookup name found) (lookup name wanted)
@@ -74,13 +79,14 @@ wrongCommands program frames =
       lookup name wanted /= lookup name found
   ]
   where
-    ownFrames = map Frame.frame (Frame.plannedFrames program)
-    commanded = map Frame.commands ownFrames
+    planned = map Frame.frame (Frame.plannedFrames program)
+    commanded = map Frame.commands planned
     differences
       | length frames == length commanded = frameByFrame 1 commanded (map Frame.commands frames)
-      | otherwise = inOrder (length frames) (positioned ownFrames) (positioned frames)
+      | otherwise = inOrder (length frames) (positioned planned) (positioned frames)
 
--- | Frames with different commands: the number, the program's commands, the tape's.
+-- | Frames with different commands, numbered from @n@: the number, the planned commands, those of
+-- the tape. A frame that is missing on one side counts as one without commands.
 frameByFrame :: Int -> [Commands] -> [Commands] -> [(Int, Commands, Commands)]
 frameByFrame n own found = case (own, found) of
   (a : as, b : bs) | a == b -> frameByFrame (n + 1) as bs
@@ -88,7 +94,8 @@ frameByFrame n own found = case (own, found) of
   (_, []) -> zipWith (\k a -> (k, a, [])) [n ..] own
   ([], _) -> zipWith (\k b -> (k, [], b)) [n ..] found
 
--- | Frames with commands: the number, the position where the frame starts, the commands.
+-- | Frames with commands: the number, the position where the frame begins, the commands. Positions
+-- are measured from the start of the tape.
 positioned :: [Frame] -> [(Int, Pulses3, Commands)]
 positioned fs =
   [ (n, at, Frame.commands f)
@@ -96,8 +103,10 @@ positioned fs =
       not (null (Frame.commands f))
   ]
 
--- | Differences between frames with commands, taken in pairs. Commands that are missing at the end
--- of the tape are reported at its last frame or later.
+-- | Differences between the planned frames with commands and those on the tape, taken in pairs. If
+-- two positions differ, the planned commands of the pair count as none. Planned commands that are
+-- missing at the end of the tape get their planned number, but at least the number of the last
+-- frame on the tape.
 inOrder ::
   Int ->
   [(Int, Pulses3, Commands)] ->

@@ -1,5 +1,5 @@
--- | Proof of a tape: its frames are run on the controller model, and the motions of the cutter are
--- compared with the part.
+-- | Proof of a tape: its frames are executed on the controller model, and the motions of the cutter
+-- are compared with the part.
 --
 -- Three comparisons decide about a contour. Each is exact over whole motions and whole elements,
 -- and none of them computes an offset of the contour:
@@ -7,11 +7,14 @@
 -- * gouge: no motion comes nearer to a milled element than the cutter's radius;
 -- * excess: each point of a milled element has a motion within the cutter's radius;
 -- * band: between the start and the end of a contour, no motion is further from it than the
---   cutter's radius, and none is on its other side.
+--   cutter's radius, and none is on its wrong side.
 --
 -- Each allows the tolerance and one pulse. Pockets, holes, the order of cuts, feeds, commands and
--- the last position are compared as well. A tape with the frames of the program and a foreign tape
--- are both accepted; the program's own frames only show where a pass has to be.
+-- the last position are compared as well.
+--
+-- The /planned frames/ are those that the compiler made for the program. A tape with other frames
+-- can be proven as well: the planned frames only show where on the tape a pass has to be, and which
+-- cutter, feeds and commands it has.
 module Verify.FromTape
   ( prove,
   )
@@ -57,7 +60,6 @@ import Verify.PassFrames (FrameRange (..))
 import Verify.PassFrames qualified as PassFrames
 import Verify.PassLocation (Guide (Guide))
 import Verify.PassLocation qualified as PassLocation
-import Verify.PassSearch (FoundPass (..))
 import Verify.PassSearch qualified as PassSearch
 import Verify.Pocket (ClearingPass, Pocket)
 import Verify.Pocket qualified as Pocket
@@ -70,28 +72,30 @@ import Verify.Swivel qualified as Swivel
 import Verify.TapeSummary (TapeSummary)
 import Verify.TapeSummary qualified as TapeSummary
 
--- | Tape with the program that it is compared with, and what is computed once for all comparisons.
+-- | Tape, the program that it is compared with, and what is computed once for all comparisons.
 data Subject = Subject
   { machine :: Machine,
     path :: Toolpath,
     program :: FrameProgram,
+    -- | frames of the tape
     frames :: [Frame],
     summary :: ~TapeSummary,
-    -- | cutters of the program's own frames
+    -- | cutters in the planned frames
     tools :: ~Tools,
     -- | motions of the cutter's centre on the tape
     motions :: ~[CutterMotion],
-    -- | motions of the program's own frames
-    ownMotions :: ~[CutterMotion],
+    -- | motions of the cutter's centre in the planned frames
+    plannedMotions :: ~[CutterMotion],
     -- | bounding-box tree of the motions on the tape
     motionIndex :: ~(BoxTree CutterMotion),
     compensationErrors :: ~[Compensation.CompensationError],
     pockets :: ~[Pocket],
+    -- | planned frames of each pass, by its number
     passFrames :: ~(IntMap FrameRange)
   }
 
--- | Compare the frames of a tape with the part of a toolpath. The program's own frames give the
--- start position, the cutters, the demanded feeds and commands.
+-- | Compare the frames of a tape with the part of a toolpath. The frame program has the start
+-- position and the planned frames.
 prove :: Machine -> Toolpath -> FrameProgram -> [Frame] -> Proof
 prove machine path program frames =
   Proof
@@ -120,8 +124,8 @@ prove machine path program frames =
     deviations = concat contourFindings <> concat pocketFindings
     closure = closureOf subject
 
--- | Subject of a proof. The list of frames is run lazily, so that the motions of the controller
--- model are never held; those of the cutter are much smaller.
+-- | Subject of a proof. The frames are executed lazily: the list of the controller model's motions
+-- is never in memory as a whole. That of the cutter's motions is, but these are much smaller.
 subjectOf :: Machine -> Toolpath -> FrameProgram -> [Frame] -> Subject
 subjectOf machine path program frames =
   Subject
@@ -132,7 +136,7 @@ subjectOf machine path program frames =
       summary = TapeSummary.summarize (Frame.start program) (Frame.plannedFrames program) frames,
       tools,
       motions,
-      ownMotions =
+      plannedMotions =
         Swivel.levelled machine path (fst (run (map Frame.frame (Frame.plannedFrames program)))),
       motionIndex = BoxTree.index Motion.box motions,
       compensationErrors,
@@ -150,24 +154,23 @@ subjectOf machine path program frames =
         (SpindleTool.toolInFrame tools)
         (Frame.start program)
 
--- | Test that the tape has as many frames as the program. Then frames are compared by their
--- numbers.
+-- | Test that the tape has as many frames as planned. Then frames are compared by their numbers.
 hasSameCount :: Subject -> Bool
 hasSameCount subject =
   SpindleTool.toolCount (tools subject) == TapeSummary.count (summary subject)
 
--- | Test that a frame of the tape differs from the program's own.
+-- | Test that a frame of the tape differs from the planned one.
 isDifferent :: Subject -> Bool
 isDifferent subject = isJust (TapeSummary.firstDifference (summary subject))
 
--- | Test that the cutter stays at its first height.
+-- | Test that the cutter stays at its first height on the toolpath.
 isFlat :: Subject -> Bool
 isFlat subject = Toolpath.isFlat (path subject)
 
 -- Passes on the tape ------------------------------------------------------------------------------
 
--- | Passes along contours. The frames of the program limit the search, if the tape has the same
--- frames.
+-- | Passes along contours on the tape. On a tape with the planned frames, these limit the search
+-- for each pass.
 locatedPasses :: Subject -> [MillingPass]
 locatedPasses subject@Subject {machine, path, program} =
   PassLocation.locate
@@ -190,7 +193,8 @@ locatedPasses subject@Subject {machine, path, program} =
     -- A single cut cannot be taken for another one.
     isSingle = null (drop 1 [() | Toolpath.Cutting {} <- Toolpath.blocks path])
 
--- | Test that a motion is in the frames of a pass of a pocket.
+-- | Test that a motion is in the frames of a pass of a pocket. False on a tape with another number
+-- of frames, on which these are unknown.
 isInPass :: Subject -> ClearingPass -> CutterMotion -> Bool
 isInPass subject pass m =
   hasSameCount subject
@@ -199,8 +203,8 @@ isInPass subject pass m =
       (`PassFrames.includes` number m)
       (IntMap.lookup (Pocket.passIndex pass) (passFrames subject))
 
--- | Motions as the comparisons ask for them. A bounding-box tree pays if several contours or
--- pockets ask.
+-- | Motions of the tape for the comparisons. If only one contour or pocket is compared,
+-- 'MotionSet.nearby' gives all motions, because a bounding-box tree would cost more than it saves.
 motionSetOf :: Subject -> [MillingPass] -> MotionSet
 motionSetOf subject passes =
   MotionSet
@@ -213,41 +217,34 @@ motionSetOf subject passes =
   where
     toolOf = toolIn subject passes
     nearby box
-      | asksOften =
-        BoxTree.within (BoundingBox.inflate largestTool box) (motionIndex subject)
-      | otherwise = motions subject
-    asksOften =
-      not
-        ( null
-            ( drop
-                1
-                (filter id (PassLocation.areFirst passes) <> map (const True) (pockets subject))
-            )
-        )
+      | isAskedOnce = motions subject
+      | otherwise = BoxTree.within (BoundingBox.inflate largestTool box) (motionIndex subject)
+    isAskedOnce = null (drop 1 queries)
+    -- The first pass along each contour asks for motions, and each pocket.
+    queries = [() | True <- PassLocation.areFirst passes] <> map (const ()) (pockets subject)
     largestTool = foldl' (\most m -> max most (toolOf m)) (Mm 0) (motions subject)
 
--- | Radius of the cutter in a motion: that of the program's own frame, or the supposed one if the
--- tape has other frames.
+-- | Radius of the cutter in a motion: that of the planned frame if the tape has as many frames as
+-- planned, otherwise that of 'SpindleTool.supposedTool'.
 toolIn :: Subject -> [MillingPass] -> CutterMotion -> Mm
 toolIn subject passes
   | hasSameCount subject = SpindleTool.toolInFrame (tools subject) . number
   | otherwise = SpindleTool.supposedTool uses smallest . number
   where
-    uses =
-      [ use (radiusOf p) first ms
-        | p <- passes,
-          first : ms <- [PassSearch.motionsOf (found p)]
-      ]
-        <> inPockets
-    inPockets =
-      [ use (Part.radius (Pocket.milling pocket)) first ms
-        | (pocket, _, first : ms) <- pocketVisits subject
-      ]
-    use radius first ms = Use (number first) (number (foldl' (\_ m -> m) first ms)) radius
+    uses = concatMap useAlong passes <> concatMap useIn (pocketVisits subject)
+    useAlong pass = useOf (radiusOf pass) (PassSearch.motionsOf (found pass))
+    useIn (pocket, _, visit) = useOf (Part.radius (Pocket.milling pocket)) visit
     radiusOf = Part.radius . milling . job
     smallest = if null passes then Mm 0 else minimum (map radiusOf passes)
 
--- | Motions in each pass of each pocket by their positions, for a tape with other frames.
+-- | Use of a cutter with a radius in the motions of a pass; none without motions.
+useOf :: Mm -> [CutterMotion] -> [Use]
+useOf radius pass = case pass of
+  [] -> []
+  first : later -> [Use (number first) (number (foldl' (\_ m -> m) first later)) radius]
+
+-- | Motions in each pass of each pocket, found by their positions. For a tape on which the frames
+-- of the passes are unknown.
 pocketVisits :: Subject -> [(Pocket, ClearingPass, [CutterMotion])]
 pocketVisits subject =
   [ ( pocket,
@@ -264,7 +261,8 @@ pocketVisits subject =
 
 -- Findings ----------------------------------------------------------------------------------------
 
--- | Findings besides deviations from contours and pockets, and besides the last position.
+-- | Findings of all comparisons except those with contours, with pockets, and with the end of the
+-- toolpath.
 otherFindings :: Subject -> [MillingPass] -> [Finding]
 otherFindings subject@Subject {machine, path, program, frames} passes =
   pocketOrder subject
@@ -280,7 +278,7 @@ otherFindings subject@Subject {machine, path, program, frames} passes =
     begin = Frame.start program
     foreign'
       | isFlat subject || not (isDifferent subject) = []
-      | otherwise = ForeignCut.foreignCuts machine path (ownMotions subject) (motions subject)
+      | otherwise = ForeignCut.foreignCuts machine path (plannedMotions subject) (motions subject)
 
 -- | Findings for pockets whose depths are not cut in order.
 pocketOrder :: Subject -> [Finding]
@@ -292,16 +290,21 @@ pocketOrder subject =
   ]
   where
     motionsFor k
-      | hasSameCount subject = IntMap.findWithDefault [] k ownTo
+      | hasSameCount subject = IntMap.findWithDefault [] k byPocket
       | otherwise = motions subject
-    -- Motions in the frames of each pocket, by its number from 0.
-    ownTo :: IntMap [CutterMotion]
-    ownTo = foldr insert IntMap.empty (motions subject)
+    byPocket = motionsByPocket subject
+
+-- | Motions in the planned frames of each pocket, by the number of the pocket from 0.
+motionsByPocket :: Subject -> IntMap [CutterMotion]
+motionsByPocket subject = foldr insert IntMap.empty (motions subject)
+  where
     insert m known =
       maybe known (\k -> IntMap.insertWith (<>) k [m] known) (pocketAt (number m))
+    -- Pocket in whose frames a frame is.
     pocketAt n = case IntMap.lookupLE n pocketFrames of
       Just (_, (b, k)) | n <= b -> Just k
       _ -> Nothing
+    -- Last frame of each pass of a pocket and the number of the pocket, by the first frame.
     pocketFrames =
       IntMap.fromList
         [ (a, (b, k))
@@ -311,8 +314,9 @@ pocketOrder subject =
               [IntMap.lookup (Pocket.passIndex pass) (passFrames subject)]
         ]
 
--- | Findings for feeds. A tape with the frames of the program has its feeds. A tape with as many
--- frames is compared frame by frame, another one by the statements.
+-- | Findings for feeds. A tape with as many frames as planned is compared frame by frame, unless
+-- its frames are the planned ones. Any other tape is compared with the feeds that the statements
+-- demand.
 feedFindings :: Subject -> [MillingPass] -> [Finding]
 feedFindings subject@Subject {program, frames} passes
   | hasSameCount subject =
@@ -322,18 +326,13 @@ feedFindings subject@Subject {program, frames} passes
       <> concatMap (pocketFeeds subject) (pocketVisits subject)
       <> Feed.downwards program frames
 
--- | Findings for feeds along a contour. Vertical motions at its end do not count.
+-- | Findings for feeds along a contour. Vertical motions at its start and its end are left out.
 contourFeeds :: Subject -> MillingPass -> [Finding]
-contourFeeds subject pass = case found pass of
-  Complete _ along -> findingsOn along
-  Incomplete _ along -> findingsOn along
-  Missing -> []
-  where
-    findingsOn along =
-      Feed.alongContour
-        (machine subject)
-        (job pass)
-        (programmed subject (filter (not . Motion.isVertical) along))
+contourFeeds subject pass =
+  Feed.alongContour
+    (machine subject)
+    (job pass)
+    (programmed subject (filter (not . Motion.isVertical) (Deviation.motionsAlong (found pass))))
 
 -- | Findings for feeds in a pass of a pocket, without its linking moves.
 pocketFeeds :: Subject -> (Pocket, ClearingPass, [CutterMotion]) -> [Finding]
@@ -355,8 +354,8 @@ isAlong machine s move =
     (\p -> Distance.toPoint p move <= times 2 (Machine.planeResolution machine))
     [Segment.start s, Segment.end s]
 
--- | Programmed motions of the frames of some motions. The frames are run once more, because few
--- tapes need it.
+-- | Motions of the controller model in the frames of some motions of the cutter. The frames are
+-- executed once more, because few tapes need it.
 programmed :: Subject -> [CutterMotion] -> [Control.Motion]
 programmed subject ms =
   filter
@@ -365,7 +364,7 @@ programmed subject ms =
   where
     numbers = IntSet.fromList (map number ms)
 
--- | Difference of the last position on the tape and the rounded end of the toolpath.
+-- | Last position on the tape minus the rounded end of the toolpath, in pulses.
 closureOf :: Subject -> Pulses3
 closureOf subject =
   TapeSummary.endPosition (summary subject)
@@ -373,8 +372,8 @@ closureOf subject =
   where
     end = Toolpath.end (path subject)
 
--- | Finding for a wrong last position. It is none of its own if the cutter left a contour or a
--- pocket before.
+-- | Finding for a wrong last position. None if there are findings that the cutter left a contour or
+-- a pocket: the wrong position is their consequence.
 notClosed :: Pulses3 -> [Finding] -> [Finding]
 notClosed closure deviations =
   [NotClosed closure | closure /= 0, not (any Proof.isOffContour deviations)]

@@ -1,4 +1,4 @@
--- | Gouges: motions whose distance from an element is smaller than it has to be.
+-- | Gouges: motions in which the cutter's centre comes nearer to an element than it may.
 module Verify.Gouge
   ( KeepOut (..),
     constantKeepOut,
@@ -25,22 +25,22 @@ import Verify.Motion (CutterMotion (number, segment), connectors, paths)
 import Verify.Proof (Witness (Witness))
 import Verify.Proof qualified as Proof
 
--- | Distance that a motion has to keep from the elements of a contour.
+-- | Distance that the cutter's centre has to keep from the elements of a contour during a motion.
 data KeepOut = KeepOut
-  { -- | elements further away are not looked at
+  { -- | elements further from the motion than this are not examined
     searchRadius :: Mm,
-    -- | largest distance to keep from any element
+    -- | upper bound of 'required' for all elements and points
     largest :: Mm,
-    -- | distance to keep from an element, at a point of the motion
+    -- | distance to keep from an element while the centre is at a point of the motion
     required :: Element -> Point -> Mm
   }
 
--- | One distance to all elements.
+-- | Same distance from all elements.
 constantKeepOut :: Mm -> KeepOut
 constantKeepOut d = KeepOut {searchRadius = d, largest = d, required = \_ _ -> d}
 
--- | Deepest gouge of a motion, if there is one: by how much it comes nearer to an element than it
--- may.
+-- | Deepest gouge of a motion, if there is one. Its amount is the required distance minus the
+-- actual one. The bounding paths of an arc are examined, and the lines that connect them.
 gougeOf :: KeepOut -> BoxTree Edge -> CutterMotion -> Maybe Witness
 gougeOf KeepOut {searchRadius, required} edges m = Proof.deepest gouges
   where
@@ -60,9 +60,9 @@ gougeOf KeepOut {searchRadius, required} edges m = Proof.deepest gouges
       BoundingBox.meets (BoundingBox.inflate searchRadius (BoundingBox.ofSegment path)) b
         && BoundingBox.lowerBound (`Distance.toPoint` path) b <= searchRadius
 
--- | Test by fast bounds that a motion may gouge some elements deeper than the deepest gouge so far.
--- Its bounding paths are given. Those of an arc differ from its segment by the difference of its
--- radii.
+-- | False only if no element is gouged deeper than by the deepest gouge so far. The answer comes
+-- from the fast bounds of "Geometry.Distance.Fast". @bounding@ are the bounding paths of the
+-- motion. Those of an arc are no further from its segment than its two radii differ.
 mayGougeDeeper :: KeepOut -> Maybe Witness -> CutterMotion -> [Segment] -> [Edge] -> Bool
 mayGougeDeeper keepOut best m bounding =
   any
@@ -81,9 +81,10 @@ mayGougeDeeper keepOut best m bounding =
       let Mm d = largest keepOut
        in d - maybe 0 (\w -> let Mm a = Proof.amount w in a) best + FastDistance.unsure
 
--- | Allowance on an element at the point nearest to a given one. Within a pulse of a joint it is
--- the smallest of those that meet there, because a step between two allowances ends on whole
--- pulses. It is zero if another element is nearer to the point.
+-- | Allowance of an element that counts at a point @p@ of a motion. Usually it is the element's
+-- own. If other elements lie within @pulse@ of the foot of @p@ on the element, the smallest
+-- allowance of all these counts, because a step between two allowances is cut on whole pulses. If
+-- one of these others is nearer to @p@ than the element, the result is 0.
 allowanceAt :: Mm -> BoxTree Edge -> Element -> Point -> Mm
 allowanceAt pulse edges e p
   | own <= Mm 0 = own

@@ -21,8 +21,8 @@ import Verify.Motion (CutterMotion (segment))
 import Verify.Motion qualified as Motion
 import Verify.Proof (Finding (HoleMissing))
 
--- | Findings for holes without a vertical motion to their bottom: to a pulse in the plane, to 0.6
--- pulses in depth.
+-- | Findings for holes that no vertical motion drills. It has to be within a pulse of the hole's
+-- centre, and to end at most 0.6 pulses above its bottom.
 missingHoles :: Machine -> Toolpath -> [CutterMotion] -> [Finding]
 missingHoles machine path motions =
   [ HoleMissing at p
@@ -40,7 +40,7 @@ missingHoles machine path motions =
         index
     index = BoxTree.index Motion.box (filter Motion.isVertical motions)
 
--- | Test that a vertical motion drills a hole to its bottom.
+-- | Test that a vertical motion drills a hole with the centre @p@ to its bottom or deeper.
 isDrilled :: Machine -> Mm -> Point -> CutterMotion -> Bool
 isDrilled machine bottom p m =
   Vec.distance (Segment.start (segment m)) p <= Machine.planeResolution machine

@@ -1,10 +1,9 @@
-{-# LANGUAGE BangPatterns #-}
-
--- | Pass along a contour as the part demands it, and the contact between the cutter and the
--- elements of the contour.
+-- | Cut along a contour as the part demands it, and the contact between the cutter and the elements
+-- of the contour.
 --
 -- The contact point of a cutter is the point of the contour that is nearest to its centre. A
--- corner, an allowance or rounding makes several elements equally near; then all of them count.
+-- corner, an allowance or rounding makes several elements equally near; then each of them has a
+-- contact point.
 module Verify.MillingJob
   ( MillingJob (..),
     elementsOf,
@@ -21,6 +20,7 @@ where
 
 import Base.Quantity (Mm (..), plus)
 import Base.Region (Region)
+import Data.List (foldl')
 import Data.List.NonEmpty qualified as NonEmpty
 import Geometry.Carrier qualified as Carrier
 import Geometry.Distance.Fast qualified as FastDistance
@@ -36,7 +36,7 @@ import Verify.Edge qualified as Edge
 import Verify.Motion (CutterMotion (segment))
 import Verify.Motion qualified as Motion
 
--- | Pass along a contour that has to be on the tape.
+-- | Cut along a contour that has to be on the tape.
 data MillingJob = MillingJob
   { milling :: Milling,
     -- | region of the statement in the part program
@@ -48,15 +48,16 @@ data MillingJob = MillingJob
     exit :: Point,
     -- | distance from the contour to the cutter's centre
     reach :: Mm,
-    -- | largest distance from the contour to the cutter's centre: round sharp corners, along
-    -- elements with an allowance
+    -- | largest distance from the contour to the cutter's centre; it is more than 'reach' at sharp
+    -- corners and along elements with an allowance
     maxReach :: Mm,
-    -- | allowed chord error on either side, and one pulse
+    -- | allowed deviation: the larger of the chord errors on both sides, plus one pulse
     allowance :: Mm,
-    -- | tolerance of the position at the end of the cut
+    -- | largest distance of the centre from 'exit' at the end of the cut
     exitTolerance :: Mm,
-    -- | the cut is one of several in its pass: none of them goes along the whole contour
+    -- | true of one of several cuts in a pass, none of which goes along the whole contour
     isPartialCut :: Bool,
+    -- | elements of the contour
     edges :: BoxTree Edge
   }
 
@@ -68,59 +69,78 @@ elementsOf = NonEmpty.toList . Part.elements . Part.contour . milling
 isClosed :: MillingJob -> Bool
 isClosed job = Part.ends (Part.contour (milling job)) == Part.Closed
 
--- | Largest distance from an element to the centre of a cutter that touches it.
+-- | Largest distance, with the allowed deviation, from an element to the centre of a cutter that
+-- touches it.
 contactLimit :: MillingJob -> Mm
 contactLimit job = plus (maxReach job) (allowance job)
 
--- | Elements that a cutter with its centre at a point may touch.
+-- | Elements that a cutter with its centre at a point may touch, and perhaps others nearby.
 edgesAround :: MillingJob -> Point -> [Edge]
 edgesAround job p =
   BoxTree.within (BoundingBox.inflate (contactLimit job) (BoundingBox.ofPoints p [])) (edges job)
 
--- | Elements that a cutter may touch in a motion.
+-- | Elements that a cutter may touch during a motion.
 edgesNear :: MillingJob -> CutterMotion -> [Edge]
 edgesNear job m = filter (mayTouch job m) (edgesInBox job m)
 
--- | 'edgesNear' for each of some motions; fast if they follow one another.
+-- | 'edgesNear' for each motion of a list; fast if the motions follow one another on the tape.
 edgesNearEach :: MillingJob -> [CutterMotion] -> [[Edge]]
 edgesNearEach job =
   BoxTree.each (BoundingBox.inflate (contactLimit job) . Motion.box) (mayTouch job) (edges job)
 
--- | Test that a cutter may touch an element in a motion.
+-- | False only if a cutter does not touch an element during a motion.
 mayTouch :: MillingJob -> CutterMotion -> Edge -> Bool
 mayTouch job m = \e -> FastDistance.mayComeWithin far (long e) (shape e) (segment m)
   where
     far = let Mm r = contactLimit job in r + FastDistance.uneven (segment m)
 
--- | Elements whose bounding boxes lie within reach of a motion: those that a cutter may touch, and
--- some others.
+-- | Elements that a cutter may touch during a motion, and others whose bounding boxes are as near.
 edgesInBox :: MillingJob -> CutterMotion -> [Edge]
 edgesInBox job m =
   BoxTree.within (BoundingBox.inflate (contactLimit job) (Motion.box m)) (edges job)
 
--- | Contact points of a cutter with its centre at a point: the numbers of the elements and the arc
--- lengths from the start of the contour. The list has to contain all elements within reach.
+-- | Contact points of a cutter with its centre at @p@: for each the number of its element, and the
+-- arc length in mm from the start of the contour. @near@ has to contain all elements within
+-- 'contactLimit' of @p@.
 contacts :: MillingJob -> [Edge] -> Point -> [(Int, Double)]
 contacts job near p = reverse (foldContacts job near p (\found n s -> (n, s) : found) [])
 
--- | Fold over the contact points, without a list of them. The contact with an arc beyond its ends
--- is the nearer end.
+-- | Strict left fold over 'contacts' that makes no list of them. The function gets the result so
+-- far, the number of the element and the arc length. If the point has no foot on an arc, the
+-- contact is at the nearer end of the arc.
 foldContacts :: MillingJob -> [Edge] -> Point -> (b -> Int -> Double -> b) -> b -> b
-foldContacts job near p with = go near
+foldContacts job near p with b = foldl' withContact b near
   where
-    go es b = case es of
-      [] -> b
-      e : more
-        | far <- farthest e,
-          FastDistance.mayLieWithin far (long e) (shape e) x y,
-          FastDistance.distance (shape e) x y <= far ->
-          let b' = with b (rank e) (startsAt e + FastDistance.footOn (shape e) x y * long e)
-           in b' `seq` go more b'
-        | otherwise -> go more b
-    !x = Vec.x p
-    !y = Vec.y p
-    !(Mm most) = contactLimit job
-    !(Mm a) = allowance job
-    -- The cutter touches an element with an allowance from further away.
-    !least = Edge.leastExcess ownAllowance most near x y
-    farthest e = let Mm l = ownAllowance e in min most (least + l + 2 * a)
+    withContact found e
+      | far <- farthestContact touch e,
+        FastDistance.mayLieWithin far (long e) (shape e) (Vec.x p) (Vec.y p),
+        FastDistance.distance (shape e) (Vec.x p) (Vec.y p) <= far =
+        with found (rank e) (startsAt e + contactOn e * long e)
+      | otherwise = found
+    contactOn e = FastDistance.footOn (shape e) (Vec.x p) (Vec.y p)
+    touch = touchAt job near p
+
+-- | Lengths in mm that decide which elements a cutter touches from one position of its centre.
+data Touch = Touch
+  { -- | 'contactLimit' of the job
+    limit :: Double,
+    -- | least value of distance minus allowance over all elements
+    leastExcess :: Double,
+    -- | by how much the distances of two elements may differ if the cutter touches both
+    spread :: Double
+  }
+
+-- | Touch of a cutter with its centre at a point.
+touchAt :: MillingJob -> [Edge] -> Point -> Touch
+touchAt job near p =
+  Touch {limit, leastExcess = Edge.leastExcess ownAllowance limit near p, spread = 2 * deviation}
+  where
+    Mm limit = contactLimit job
+    Mm deviation = allowance job
+
+-- | Largest distance in mm from an element to the centre of a cutter that touches it. It is larger
+-- for an element with an allowance.
+farthestContact :: Touch -> Edge -> Double
+farthestContact touch e = min (limit touch) (leastExcess touch + own + spread touch)
+  where
+    Mm own = ownAllowance e

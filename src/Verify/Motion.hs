@@ -1,5 +1,5 @@
--- | Path of the cutter's centre in one motion, or in one of its parts, as a few numbers. A tape has
--- as many motions as frames, so everything else is computed from these numbers where it is needed.
+-- | Motion of the cutter's centre in one frame of a tape, as a few numbers. A long tape has very
+-- many motions, so everything else is computed from these numbers when it is needed.
 module Verify.Motion
   ( CutterMotion (..),
     motionsOf,
@@ -30,7 +30,9 @@ import Geometry.Segment qualified as Segment
 import Geometry.Vec (Point)
 import Machine.Machine (Machine)
 
--- | Part of a motion. The segment of a vertical one has no length.
+-- | Motion of the cutter's centre in one frame, or a part of it. A motion has two parts if cutter
+-- compensation puts an arc round a corner before it. The segment of a vertical motion has no
+-- length.
 data CutterMotion = CutterMotion
   { -- | number of the frame, from 1
     number :: Int,
@@ -38,13 +40,13 @@ data CutterMotion = CutterMotion
     part :: Int,
     -- | path in the plane, in mm; an arc has the radius of its start
     segment :: Segment,
-    -- | heights at the start and at the end
+    -- | heights at the start and at the end, in mm; the top of the part is 0
     fromHeight :: Mm,
     toHeight :: Mm
   }
 
--- | Prepend the parts of one motion to those of the motions after it. If there are several parts,
--- the height changes in the last one.
+-- | Prepend the parts of one motion to the list of later motions. The whole change of height is in
+-- the last part.
 motionsOf :: Machine -> Moved -> [CutterMotion] -> [CutterMotion]
 motionsOf machine moved later = go 0 (Compensation.centrePath moved)
   where
@@ -62,15 +64,15 @@ motionsOf machine moved later = go 0 (Compensation.centrePath moved)
           toHeight = end
         }
 
--- | Heights at the start and at the end.
+-- | Heights at the start and at the end, in mm.
 heights :: CutterMotion -> (Mm, Mm)
 heights m = (fromHeight m, toHeight m)
 
--- | Position and height at the end.
+-- | Position and height, in mm, at the end.
 endPosition :: CutterMotion -> (Point, Mm)
 endPosition m = (Segment.end (segment m), toHeight m)
 
--- | Bounding paths of the motion; see "Control.Motion".
+-- | Bounding paths of the motion: one, or two for an arc whose radii differ; see "Control.Motion".
 paths :: CutterMotion -> NonEmpty Segment
 paths = Control.boundingPaths . segment
 
@@ -93,7 +95,7 @@ box m = case FastDistance.uneven (segment m) of
   -- The ends and the sagitta of the two arcs differ by no more than their radii.
   difference -> BoundingBox.inflate (Mm (2 * difference)) (FastDistance.box (segment m))
 
--- | Test that two motions are one part of one frame.
+-- | Test that two motions are the same part of the same frame.
 isSame :: CutterMotion -> CutterMotion -> Bool
 isSame a b = number a == number b && part a == part b
 

@@ -1,4 +1,4 @@
--- | Motions of a whole tape, as the comparisons of single passes ask for them.
+-- | All motions of a tape, with the queries of the comparisons.
 module Verify.MotionSet
   ( MotionSet (..),
     atHeight,
@@ -20,7 +20,7 @@ data MotionSet = MotionSet
   { machine :: Machine,
     -- | the cutter stays at its first height, so heights are not compared
     isFlat :: Bool,
-    -- | radius of the cutter in a motion
+    -- | radius of the cutter in a motion, in mm
     toolOf :: CutterMotion -> Mm,
     -- | in the order of the tape
     motions :: [CutterMotion],
@@ -45,6 +45,7 @@ isAtHeight m level motion =
 isSameHeight :: Machine -> Mm -> Mm -> Bool
 isSameHeight m (Mm z) (Mm h) = let Mm pulse = Machine.resolutionOf m Z in abs (z - h) <= pulse
 
--- | Test that a motion is not wholly above the top of the part, where nothing is cut.
+-- | Test that a motion reaches down to the top of the part or below it. Above the top, nothing is
+-- cut.
 isBelowTop :: CutterMotion -> Bool
 isBelowTop m = fromHeight m <= Mm 0 || toHeight m <= Mm 0

@@ -1,4 +1,4 @@
--- | Frames of each pass, as the program plans them.
+-- | Numbers of the planned frames of each pass.
 module Verify.PassFrames
   ( FrameRange (..),
     includes,
@@ -12,18 +12,18 @@ import Data.IntMap.Strict qualified as IntMap
 import Frame.Frame (FrameProgram)
 import Frame.Frame qualified as Frame
 
--- | First and last of some frames, by their numbers.
+-- | Range of frames: the numbers of the first and of the last one, counted from 1.
 data FrameRange = FrameRange Int Int
 
 -- | Test that a frame is in a range.
 includes :: FrameRange -> Int -> Bool
 includes (FrameRange a b) n = a <= n && n <= b
 
--- | Frames of each pass with its approach and its retract, by the number of the pass.
+-- | Frames of each pass with its approach and its retract, by the number of the pass, from 0.
 framesOfPasses :: FrameProgram -> IntMap FrameRange
 framesOfPasses = rangesBy Frame.passNumber
 
--- | Frames along the contour in each pass, by the number of the pass.
+-- | Frames of each pass without its linking moves, by the number of the pass, from 0.
 framesOfCuts :: FrameProgram -> IntMap FrameRange
 framesOfCuts = rangesBy cutOf
   where
@@ -31,6 +31,7 @@ framesOfCuts = rangesBy cutOf
       Frame.Cutting n -> Just n
       _ -> Nothing
 
+-- | Range of the planned frames that have the same key.
 rangesBy :: (Frame.Role -> Maybe Int) -> FrameProgram -> IntMap FrameRange
 rangesBy key program =
   IntMap.fromListWith

@@ -16,11 +16,11 @@ import Data.List (foldl')
 import Data.List.NonEmpty (NonEmpty)
 import Data.List.NonEmpty qualified as NonEmpty
 import Data.Maybe (fromMaybe, isJust)
-import Geometry.Carrier (Side (..))
+import Geometry.Carrier (Side)
+import Geometry.Carrier qualified as Carrier
 import Geometry.Index.BoxTree (BoxTree)
 import Geometry.Segment qualified as Segment
 import Geometry.Vec (Point)
-import Geometry.Vec qualified as Vec
 import Machine.Machine (Machine)
 import Machine.Machine qualified as Machine
 import Part.Part (Milling)
@@ -40,31 +40,32 @@ import Verify.PassFrames (FrameRange (..))
 import Verify.PassSearch qualified as PassSearch
 import Verify.Requirement qualified as Requirement
 
--- | Knowledge for the search.
+-- | Facts that guide the search.
 data Guide = Guide
   { machine :: Machine,
     -- | the cutter stays at its first height, so heights are not compared
     isFlat :: Bool,
-    -- | last frame of a pass by its number, if it is known from the program's own frames
+    -- | last planned frame of a pass by its number; nothing if the tape has another number of
+    -- frames
     lastFrameOf :: Int -> Maybe Int,
-    -- | frames of a cut by the number of its pass, if they are known from the program's own
-    -- frames. They decide
-    -- between passes that lie within the tolerance of one another.
+    -- | planned frames of a cut by the number of its pass; nothing if the tape has other frames.
+    -- They decide between passes that lie within the tolerance of one another
     cutFramesOf :: Int -> Maybe FrameRange
   }
 
 -- | State of the search: the position and height of the centre, the motions after it, the last
 -- pass.
-data Reading = Reading
+data SearchState = SearchState
   { at :: (Point, Mm),
-    rest :: [CutterMotion],
+    remaining :: [CutterMotion],
     lastPass :: Maybe MillingPass
   }
 
--- | Cut of the toolpath: the number of its pass among all passes, whether it is one of several cuts
--- of the pass, the statement, the pass, the moves.
+-- | Cut of the toolpath along a contour. A pass around rest material has several.
 data Cut = Cut
-  { passIndex :: Int,
+  { -- | number of its pass among all passes of the toolpath
+    passIndex :: Int,
+    -- | true of one of several cuts of a pass
     isPartial :: Bool,
     statementAt :: Located Milling,
     plannedPass :: Toolpath.Pass,
@@ -74,16 +75,18 @@ data Cut = Cut
 -- | Locate the passes along contours on a tape, from a start position and height.
 locate :: Guide -> (Point, Mm) -> [CutterMotion] -> [Block] -> [MillingPass]
 locate guide begin motions blocks =
-  go (Reading begin motions Nothing) (zip3 (Toolpath.passNumbers blocks) (arePartial blocks) blocks)
+  go
+    (SearchState begin motions Nothing)
+    (zip3 (Toolpath.passNumbers blocks) (arePartial blocks) blocks)
   where
-    go reading numbered = case numbered of
+    go state numbered = case numbered of
       [] -> []
       (passIndex, isPartial, block) : more -> case block of
         Toolpath.Cutting {Toolpath.job, Toolpath.pass, Toolpath.cut} ->
           let found =
                 locateCut
                   guide
-                  reading
+                  state
                   Cut
                     { passIndex,
                       isPartial,
@@ -91,54 +94,54 @@ locate guide begin motions blocks =
                       plannedPass = pass,
                       cutMoves = cut
                     }
-           in found : go (afterPass found reading) more
+           in found : go (afterPass found state) more
         Toolpath.Clearing {}
-          | Just final <- lastFrameOf guide passIndex -> go (afterFrame final reading) more
-        _ -> go reading more
+          | Just final <- lastFrameOf guide passIndex -> go (afterFrame final state) more
+        _ -> go state more
 
 -- | State after a located pass.
-afterPass :: MillingPass -> Reading -> Reading
-afterPass pass reading = case lastOf (PassSearch.motionsOf (found pass)) of
-  Nothing -> reading {lastPass = Just pass}
+afterPass :: MillingPass -> SearchState -> SearchState
+afterPass pass state = case lastOf (PassSearch.motionsOf (found pass)) of
+  Nothing -> state {lastPass = Just pass}
   Just final ->
-    Reading
+    SearchState
       { at = Motion.endPosition final,
-        rest = drop 1 (dropWhile (not . Motion.isSame final) (rest reading)),
+        remaining = drop 1 (dropWhile (not . Motion.isSame final) (remaining state)),
         lastPass = Just pass
       }
 
--- | State after a frame.
-afterFrame :: Int -> Reading -> Reading
-afterFrame final reading =
-  reading {at = maybe (at reading) Motion.endPosition (lastOf done), rest = later}
+-- | State after the frame with a number.
+afterFrame :: Int -> SearchState -> SearchState
+afterFrame final state =
+  state {at = maybe (at state) Motion.endPosition (lastOf done), remaining = later}
   where
-    (done, later) = span ((<= final) . number) (rest reading)
+    (done, later) = span ((<= final) . number) (remaining state)
 
--- | Locate one cut.
-locateCut :: Guide -> Reading -> Cut -> MillingPass
-locateCut guide reading cut =
+-- | Locate one cut after the motions that were searched before.
+locateCut :: Guide -> SearchState -> Cut -> MillingPass
+locateCut guide state cut =
   MillingPass {job, passNumber, level, found = PassSearch.find job startsAt searched}
   where
     Located statement milling = statementAt cut
     Toolpath.Pass {Toolpath.number = passNumber, Toolpath.atHeight = level} = plannedPass cut
     job = jobOf (machine guide) statement milling cut edges
     -- All cuts of a statement have its elements in common.
-    edges = case lastPass reading of
+    edges = case lastPass state of
       Just MillingPass {job = MillingJob {edges = same}, passNumber = m} | m == passNumber -> same
       _ -> Edge.edgesOf (Part.contour milling)
     startsAt
-      | isFlat guide || MotionSet.isSameHeight (machine guide) level (snd (at reading)) =
-        Just (fst (at reading))
+      | isFlat guide || MotionSet.isSameHeight (machine guide) level (snd (at state)) =
+        Just (fst (at state))
       | otherwise = Nothing
     searched
-      | isFlat guide = ownMotions
-      | otherwise = filter (MotionSet.isAtHeight (machine guide) level) ownMotions
-    ownMotions = case cutFramesOf guide (passIndex cut) of
-      Nothing -> rest reading
+      | isFlat guide = candidates
+      | otherwise = filter (MotionSet.isAtHeight (machine guide) level) candidates
+    candidates = case cutFramesOf guide (passIndex cut) of
+      Nothing -> remaining state
       Just (FrameRange a b) ->
-        takeWhile ((<= b) . number) (dropWhile ((< a - 1) . number) (rest reading))
+        takeWhile ((<= b) . number) (dropWhile ((< a - 1) . number) (remaining state))
 
--- | Demand of the part for a cut.
+-- | Requirements of the part for a cut.
 jobOf :: Machine -> Region -> Milling -> Cut -> BoxTree Edge -> MillingJob
 jobOf machine statement milling cut edges =
   MillingJob
@@ -165,8 +168,8 @@ jobOf machine statement milling cut edges =
         (uncurry max (Deviation.allowedDeviation (Edge.isCurved edges) milling))
         (Machine.planeResolution machine)
 
--- | Tests for each block whether it is one of several cuts of its pass. A pass is only divided
--- where rest material is allowed.
+-- | List with an entry for each block: true of one of several cuts of a pass. A pass is only
+-- divided into cuts where rest material is allowed.
 arePartial :: [Block] -> [Bool]
 arePartial blocks =
   zipWith3
@@ -185,25 +188,20 @@ arePartial blocks =
             Just (number, left, atHeight)
       _ -> Nothing
 
--- | Position of the centre at the end of a contour under cutter compensation: square beside the end
--- of the last element. On a closed contour, the control may or may not count the last corner.
+-- | Position of the centre at the end of a contour under cutter compensation: beside the end of the
+-- last element, square to it. Nothing without compensation. On a closed contour, the control may or
+-- may not treat the joint with the first element as a corner.
 exitByControl :: Milling -> Maybe Side -> Mm -> Maybe Point
-exitByControl milling side (Mm reach) = case (Part.controlCompensation milling, side) of
+exitByControl milling side reach = case (Part.controlCompensation milling, side) of
   (Just _, Just s) ->
-    Just
-      ( Vec.shift
-          (Vec.scale (sign s * reach) (Vec.left (Segment.endDirection final)))
-          (Segment.end final)
-      )
+    Just (Carrier.beside s reach (Segment.endDirection final) (Segment.end final))
   _ -> Nothing
   where
     final = Part.segment (NonEmpty.last (Part.elements (Part.contour milling)))
-    sign s = case s of
-      LeftOf -> 1
-      RightOf -> -1
 
--- | Uncertainty of that position. Rounding to pulses changes the direction of the last move, most
--- if it has the smallest length that a control is sent.
+-- | Uncertainty in mm of the position of 'exitByControl'; 0 without compensation. Rounding to
+-- pulses changes the direction of the last element, by the most if it is as short as
+-- 'Tolerance.controlLength'.
 exitUncertainty :: Machine -> Milling -> Mm -> Mm
 exitUncertainty machine milling reach = case Part.controlCompensation milling of
   Just _ -> times (2 * pulse / shortest) reach
@@ -212,17 +210,18 @@ exitUncertainty machine milling reach = case Part.controlCompensation milling of
     Mm pulse = Machine.planeResolution machine
     Mm shortest = Tolerance.controlLength
 
--- | Largest distance of the centre from a contour, for the largest allowance of its elements. At a
--- sharp corner the toolpath goes up to twice as far.
+-- | Largest distance of the centre from a contour. @allowance@ is the largest allowance of its
+-- elements. At a sharp corner the toolpath goes up to twice as far.
 largestReach :: Milling -> Mm -> Mm -> Mm
 largestReach milling allowance reach
   | Part.corners milling == Part.Sharp = times 2 (plus reach allowance)
   | otherwise = plus reach allowance
 
--- | Tests for each pass whether it is the first one along its contour.
+-- | List with an entry for each pass: true of the first pass of its statement.
 areFirst :: [MillingPass] -> [Bool]
 areFirst passes =
   zipWith (/=) (map (Just . passNumber) passes) (Nothing : map (Just . passNumber) passes)
 
+-- | Last element of a list, if there is one.
 lastOf :: [a] -> Maybe a
 lastOf = foldl' (\_ a -> Just a) Nothing

@@ -1,6 +1,4 @@
-{-# LANGUAGE BangPatterns #-}
-
--- | Search for one cut of a contour on the tape: the motions that go along the contour from its
+-- | Search for one cut along a contour on the tape: the motions that go along the contour from its
 -- start to its end, in the direction of travel.
 --
 -- The search looks for arrivals at the start of the cut. From each of them it follows the contact
@@ -41,7 +39,7 @@ data FoundPass
   | -- | The start is not reached.
     Missing
 
--- | All motions of a cut.
+-- | All motions of a cut: the arrival and those along the contour.
 motionsOf :: FoundPass -> [CutterMotion]
 motionsOf found = case found of
   Complete arrival along -> arrival <> along
@@ -51,9 +49,9 @@ motionsOf found = case found of
 -- | Motion that arrives at the start of the cut, if there is one, and all motions after it.
 type Arrival = ([CutterMotion], [CutterMotion])
 
--- | Find a cut among motions at its height. The cutter's centre may already be at this height,
--- before the first motion. Contact points of a partial cut are not followed: partial cuts that
--- almost touch seem to be one.
+-- | Find a cut among motions at its height. @at@ is the position of the cutter's centre before the
+-- first motion, if it is already at this height. The contact points of a partial cut are not
+-- followed, because partial cuts that almost touch seem to be one.
 find :: MillingJob -> Maybe Point -> [CutterMotion] -> FoundPass
 find job at motions = case (complete, filter (staysBeside job . snd) arrivals <> arrivals) of
   (found : _, _) -> found
@@ -71,7 +69,7 @@ find job at motions = case (complete, filter (staysBeside job . snd) arrivals <>
 
 -- | Arrivals at the start of a cut, in the order of the tape. The arriving motion is unknown if the
 -- cutter was at the start already, or came from another height. A line that ends nearer to the
--- start than it begins is part of the approach, whose end may be divided for braking.
+-- start than it begins is the last part of an approach that was divided for braking.
 arrivalsIn :: MillingJob -> Maybe Point -> [CutterMotion] -> [Arrival]
 arrivalsIn job at = go Nothing
   where
@@ -89,8 +87,8 @@ arrivalsIn job at = go Nothing
       Straight a b -> Vec.distance b (entry job) < Vec.distance a (entry job)
       Arc {} -> False
 
--- | Test that the cutter touches the contour in all motions up to the end of the cut. A cutter that
--- leaves from the start of a contour, which was the end of another one, does not.
+-- | Test that the cutter touches the contour in all motions up to the end of the cut. This excludes
+-- a point where another contour ends, and from which the cutter leaves.
 staysBeside :: MillingJob -> [CutterMotion] -> Bool
 staysBeside job rest =
   not (null along) && and (zipWith touches along (MillingJob.edgesNearEach job along))
@@ -114,9 +112,11 @@ isTouched job near p =
   where
     Mm limit = MillingJob.contactLimit job
 
+-- | Test that two positions are equal to the allowance.
 isNear :: MillingJob -> Point -> Point -> Bool
 isNear job p q = Vec.distance p q <= allowance job
 
+-- | Test that a motion ends at a position, to the allowance.
 endsNear :: MillingJob -> Point -> CutterMotion -> Bool
 endsNear job p = isNear job p . Segment.end . segment
 
@@ -124,24 +124,25 @@ endsNear job p = isNear job p . Segment.end . segment
 isAtExit :: MillingJob -> Point -> Bool
 isAtExit job p = Vec.distance (exit job) p <= exitTolerance job
 
+-- | Test that a motion ends at the end of the cut.
 endsAtExit :: MillingJob -> CutterMotion -> Bool
 endsAtExit job = isAtExit job . Segment.end . segment
 
--- | Test that a motion is a full circle, of any radius.
+-- | Test that a motion is a full circle.
 isFullCircle :: CutterMotion -> Bool
 isFullCircle m = case segment m of
   Straight _ _ -> False
   Arc {start, end} -> start == end
 
--- | First motions as far as their frames follow one another on the tape. Motions at other heights
--- are missing in the list.
+-- | First motions whose frames follow one another on the tape without a gap. A gap in the list is a
+-- motion at another height.
 unbroken :: [CutterMotion] -> [CutterMotion]
 unbroken motions = case motions of
   m : rest@(next : _) | number next <= number m + 1 -> m : unbroken rest
   m : _ -> [m]
   [] -> []
 
--- | Motions up to the next arrival at the end of the cut.
+-- | Motions up to the next arrival at the end of the cut, and those that stay there.
 untilExit :: MillingJob -> [CutterMotion] -> [CutterMotion]
 untilExit job motions = leaving <> along <> takeWhile (endsAtExit job) (unbroken back)
   where
@@ -164,33 +165,29 @@ data Progress = Progress
   }
 
 -- | Number of the motions that follow the contour to its end. Nothing if they leave the contour,
--- turn back on it, or end before its end.
+-- reverse on it, or stop before its end.
 countFollowing :: MillingJob -> Measure -> [CutterMotion] -> Maybe Int
 countFollowing job measure motions =
   follow job measure (Progress 0 0 (entry job) []) motions (MillingJob.edgesNearEach job motions)
 
--- | Follow the contact point from the progress so far through more motions, of which the elements
--- within reach are given.
+-- | Follow the contact point through more motions. @near@ has the elements within reach of each
+-- motion. The result is the number of motions up to the end of the cut, with those before.
 follow :: MillingJob -> Measure -> Progress -> [CutterMotion] -> [[Edge]] -> Maybe Int
 follow job measure progress motions near
-  | isAtExit job (position progress)
-      && travelled progress + furthest ahead >= contourLength measure - slack measure =
+  | hasArrived =
     -- If the cutter does not touch the elements between two contacts, the contour only comes close
     -- to its own end there. Then it is followed on, if that is possible.
     if areNeighbours job ahead then ended else onwards <|> ended
   | otherwise = onwards
   where
     ahead = contactsAhead job measure progress
-    furthest contacts = maximum (0 : map fst contacts)
-    ended =
-      Just
-        ( count progress
-            + length
-              ( takeWhile
-                  (\m -> endsAtExit job m && not (isFullCircle m))
-                  (drop (length (latest progress)) (unbroken (latest progress <> motions)))
-              )
-        )
+    furthest = maximum (0 : map fst ahead)
+    hasArrived =
+      isAtExit job (position progress)
+        && travelled progress + furthest >= contourLength measure - slack measure
+    ended = Just (count progress + length (takeWhile staysAtExit later))
+    later = drop (length (latest progress)) (unbroken (latest progress <> motions))
+    staysAtExit m = endsAtExit job m && not (isFullCircle m)
     onwards = case (motions, near) of
       (m : rest, edges' : others)
         | Just travelled' <- afterMotion job measure edges' m (travelled progress) ->
@@ -210,22 +207,20 @@ follow job measure progress motions near
 -- | Arc length of the contact point after a motion; nothing if the cutter leaves the contour or
 -- goes back on it.
 afterMotion :: MillingJob -> Measure -> [Edge] -> CutterMotion -> Double -> Maybe Double
-afterMotion job measure near m = go 1
+afterMotion job measure near m = go . Sample 1
   where
-    n = Motion.sampleCount m
-    go :: Int -> Double -> Maybe Double
-    go !k !arcLength
-      | k > n = Just arcLength
+    count = Motion.sampleCount m
+    go :: Sample -> Maybe Double
+    go (Sample k arcLength)
+      | k > count = Just arcLength
       | isInfinite step = Nothing
-      | otherwise = go (k + 1) (arcLength + step)
+      | otherwise = go (Sample (k + 1) (arcLength + step))
       where
-        step =
-          smallestStep
-            job
-            measure
-            near
-            arcLength
-            (Segment.at (fromIntegral k / fromIntegral n) (segment m))
+        step = smallestStep job measure near arcLength (Segment.at (fraction k) (segment m))
+    fraction k = fromIntegral k / fromIntegral count
+
+-- | Sample of a motion, counted from 1, and the arc length of the contact point before it, in mm.
+data Sample = Sample Int Double
 
 -- | Smallest step along the contour to one of the contact points; ∞ if there is none.
 smallestStep :: MillingJob -> Measure -> [Edge] -> Double -> Point -> Double
@@ -235,8 +230,9 @@ smallestStep job measure near arcLength p = MillingJob.foldContacts job near p s
       let d = stepTo measure arcLength s
        in if d >= negate (slack measure) && abs d < abs least then d else least
 
--- | Contact points at the present position that are not behind the progress so far: the steps to
--- them and the numbers of their elements, nearest first.
+-- | Contact points at the present position that are no further back than the slack allows, nearest
+-- first. Each has its step along the contour, from the arc length so far, and the number of its
+-- element.
 contactsAhead :: MillingJob -> Measure -> Progress -> [(Double, Int)]
 contactsAhead job measure progress =
   sortOn
@@ -259,7 +255,8 @@ areNeighbours job found =
         (drop 1 found)
     )
 
--- | Step from one arc length to another; on a closed contour the shorter one of both senses.
+-- | Signed step from one arc length to another, in mm. On a closed contour, the shorter of the two
+-- ways round counts.
 stepTo :: Measure -> Double -> Double -> Double
 stepTo measure from to
   | isClosed measure =

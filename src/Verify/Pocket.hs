@@ -1,4 +1,4 @@
--- | Pockets of a toolpath as the part demands them, and their passes on the tape.
+-- | Pockets of a toolpath as the part demands them, with the passes that clear them.
 module Verify.Pocket
   ( Pocket (..),
     ClearingPass (..),
@@ -43,32 +43,34 @@ import Verify.MotionSet qualified as MotionSet
 import Verify.Reachability qualified as Reachability
 import Verify.Requirement qualified as Requirement
 
--- | Pocket with its passes in the order of the tape.
+-- | Pocket with its passes in the order of the toolpath.
 data Pocket = Pocket
-  { statement :: Region,
+  { -- | region of the statement in the part program
+    statement :: Region,
     milling :: Milling,
-    -- | side of the walls on which the pocket is, in the direction of travel
+    -- | side of the walls on which material is removed, in the direction of travel along them
     side :: Side,
     -- | elements of the outline and of the islands
     walls :: BoxTree Edge,
     -- | bounding box of the outline
     bounds :: BoundingBox,
-    -- | border of all positions of the cutter's centre after the last allowance, with the element
-    -- that each part of it belongs to
+    -- | border of the region that the cutter's centre may enter in the final pass, in segments;
+    -- each comes with the element of the walls to which it runs parallel
     rim :: [(Element, Segment)],
     -- | distance of the rim from the walls
     rimDistance :: Mm,
     passes :: NonEmpty ClearingPass
   }
 
--- | Pass of a pocket.
+-- | Pass of a pocket at one depth.
 data ClearingPass = ClearingPass
   { -- | number among all passes of the toolpath
     passIndex :: Int,
+    -- | height of the cutter; the top of the part is 0
     level :: Mm,
     -- | distance of the cutter's centre from the walls
     reach :: Mm,
-    -- | it leaves the last allowance
+    -- | true of a pass that leaves the last of the statement's allowances
     isFinal :: Bool,
     -- | linking moves before and after it
     linkingMoves :: [Segment]
@@ -78,7 +80,7 @@ data ClearingPass = ClearingPass
 -- moves.
 data Clearing = Clearing Int (Located Pocketing) Toolpath.Pass [Segment]
 
--- | Pockets of a toolpath.
+-- | Pockets of the blocks of a toolpath. A statement that is carried out twice has two.
 pocketsOf :: [Block] -> [Pocket]
 pocketsOf blocks = map pocketOf (NonEmpty.groupBy ((==) `on` statementNumber) clearings)
   where
@@ -96,7 +98,7 @@ pocketsOf blocks = map pocketOf (NonEmpty.groupBy ((==) `on` statementNumber) cl
             zip (Toolpath.passNumbers blocks) blocks
       ]
 
--- | Pocket of the passes of one statement.
+-- | Pocket that one statement clears in these passes.
 pocketOf :: NonEmpty Clearing -> Pocket
 pocketOf clearings@(Clearing _ (Located statement pocketing) _ _ :| _) =
   Pocket {statement, milling, side, walls, bounds, rim, rimDistance, passes}
@@ -125,7 +127,8 @@ pocketOf clearings@(Clearing _ (Located statement pocketing) _ _ :| _) =
           linkingMoves
         }
 
--- | Bounding-box tree of the walls. Arc lengths and allowances of walls are not used.
+-- | Bounding-box tree of the elements of the walls. The proof of a pocket needs neither their arc
+-- lengths nor their allowances; these are 0.
 wallsOf :: [Element] -> BoxTree Edge
 wallsOf elements =
   BoxTree.index
@@ -142,8 +145,8 @@ wallsOf elements =
       | (rank, e) <- zip [0 ..] elements
     ]
 
--- | Rim of a pocket at a distance from its walls. If two walls almost touch, a point beside one of
--- them may lie in the other; such parts are left out.
+-- | Rim of a pocket at a distance from its walls. Where two walls almost touch, a point beside one
+-- of them may lie beyond the other; such parts are left out.
 rimOf :: Side -> Mm -> BoxTree Edge -> [[Element]] -> [(Element, Segment)]
 rimOf side distance walls contours =
   [ (elements Vector.! i, s)
@@ -154,8 +157,8 @@ rimOf side distance walls contours =
     elements = Vector.fromList (concat contours)
     segments = BoxTree.index BoundingBox.ofSegment (map Part.segment (concat contours))
 
--- | Room besides its own that a cutter may need to enter a passage. Rounding may take it away where
--- the cutter just fits.
+-- | Room that a passage must have besides the cutter's width before the proof demands that it be
+-- cut. Where the cutter just fits, rounding may have closed the passage.
 spareRoom :: Mm
 spareRoom = times 3 Tolerance.clearance
 
@@ -163,6 +166,7 @@ spareRoom = times 3 Tolerance.clearance
 contains :: Pocket -> Point -> Bool
 contains pocket = isInside (side pocket) (walls pocket)
 
+-- | Test that a point lies on the free side of the wall nearest to it; false without walls.
 isInside :: Side -> BoxTree Edge -> Point -> Bool
 isInside side walls p = maybe False (isOnFreeSide side walls p . snd) (nearestWall walls p)
 
@@ -174,20 +178,21 @@ nearestWall walls p =
     p
     walls
 
--- | Test that a point lies on the free side of the wall nearest to it. At a corner both walls
--- count.
+-- | Test that a point lies on the side of a wall on which the pocket is. @e@ has to be the element
+-- nearest to the point. At a corner both of its elements count.
 isOnFreeSide :: Side -> BoxTree Edge -> Point -> Edge -> Bool
 isOnFreeSide side walls p e = (Edge.leftwardness walls foot p > 0) == (side == LeftOf)
   where
     foot = snd (Distance.nearest p (Edge.shape e))
 
--- | Test that motions cut the depths of a pocket in their order. A depth where the cutter has less
--- than a pulse of room has only a vertical motion.
+-- | Test that motions cut the depths of a pocket in the order of its passes. A depth counts as cut
+-- at a horizontal motion in the pocket. Where the cutter has less than a pulse of room, a depth has
+-- no such motion; then a vertical motion down to it counts.
 isInOrder :: Machine -> Pocket -> [CutterMotion] -> Bool
 isInOrder machine pocket motions =
   go (map NonEmpty.head (NonEmpty.group (map level (NonEmpty.toList (passes pocket))))) motions
   where
-    go levels rest = case (levels, rest) of
+    go levels later = case (levels, later) of
       ([], _) -> True
       (_, []) -> False
       (z : more, m : others)

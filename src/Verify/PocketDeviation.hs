@@ -1,13 +1,13 @@
--- | Deviation of one pass of a pocket, by distances alone: no motion cuts into the walls, and
--- nothing that the cutter can reach is left.
+-- | Comparison of a tape with one pass of a pocket, by distances alone. It shows that no motion
+-- cuts into the walls, and that no material remains that the cutter can reach.
 --
 -- Let A be the set of all positions of the cutter's centre that keep the cutter's radius and the
 -- allowance from the walls. The cutter can reach all points within its radius of A. Two things are
 -- shown at each depth:
 --
--- * Rim: each point of the border of A has a motion close by. So the walls are cut wherever a
---   cutter touches them. A reachable point outside of A is within the radius of the border, so it
---   is cleared as well; this includes the corners.
+-- * Rim: each point of the border of A has a motion within the allowed excess. So the walls are cut
+--   wherever a cutter touches them. A reachable point outside of A is within the radius of the
+--   border, so it is cleared as well; this includes the corners.
 -- * Floor: each point of A is within the radius of a motion; see "Verify.PocketFloor".
 module Verify.PocketDeviation
   ( examine,
@@ -15,8 +15,8 @@ module Verify.PocketDeviation
 where
 
 import Base.Quantity (Mm (..), plus)
-import Data.List (find, foldl', minimumBy, sortOn)
-import Data.Maybe (fromMaybe, mapMaybe, maybeToList)
+import Data.List (foldl', minimumBy, sortOn)
+import Data.Maybe (mapMaybe, maybeToList)
 import Data.Ord (comparing)
 import Geometry.Distance.Fast qualified as FastDistance
 import Geometry.Index.BoundingBox (BoundingBox (BoundingBox))
@@ -41,12 +41,12 @@ import Verify.MotionSet qualified as MotionSet
 import Verify.Pocket (ClearingPass (..), Pocket (..))
 import Verify.Pocket qualified as Pocket
 import Verify.PocketFloor qualified as PocketFloor
-import Verify.Proof (ContourProof (ContourProof), Finding (..), Witness (Witness))
+import Verify.Proof (ContourProof (ContourProof), Finding (NotCleared), Witness (Witness))
 import Verify.Proof qualified as Proof
 
--- | Compare the tape with one pass of a pocket. The predicate selects the motions of the pass. In
--- the first pass of the pocket, all motions near it are examined for gouges; in the others, only
--- those of the pass.
+-- | Compare the tape with one pass of a pocket. The predicate is true of the motions of this pass.
+-- The flag is true of the first pass of the pocket: then all motions near the pocket are examined
+-- for gouges, otherwise only those of the pass.
 examine ::
   MotionSet ->
   (CutterMotion -> Bool) ->
@@ -54,39 +54,40 @@ examine ::
   Bool ->
   ClearingPass ->
   (ContourProof, [Finding])
-examine set isOwn pocket isFirst pass = (contourProof, findings)
+examine set isInPass pocket isFirst pass = (contourProof, findings)
   where
     (allowedGouge, allowedExcess) = allowedIn set pocket
-    clearing = clearingMotions set pocket pass
+    -- Gouges
     examined =
       filter
-        (\m -> MotionSet.isBelowTop m && (isFirst || isOwn m))
+        (\m -> MotionSet.isBelowTop m && (isFirst || isInPass m))
         (MotionSet.nearby set (BoundingBox.inflate (reach pass) (bounds pocket)))
-    keepOut m = Gouge.constantKeepOut (if isOwn m then reach pass else MotionSet.toolOf set m)
+    keepOut m = Gouge.constantKeepOut (if isInPass m then reach pass else MotionSet.toolOf set m)
+    gouges = mapMaybe (\m -> Gouge.gougeOf (keepOut m) (walls pocket) m) examined
     deepest = deepestGouge keepOut pocket examined
+    -- Excess
+    clearing = clearingMotions set pocket pass
     missed
       | isFinal pass = unreached allowedExcess (BoxTree.index Motion.box clearing) (rim pocket)
       | otherwise = []
-    worst = Proof.deepest missed
+    largest = Proof.deepest missed
     tooMuch = sortOn Proof.frame (filter ((> allowedExcess) . Proof.amount) missed)
+    -- Result
     contourProof =
       ContourProof
         { Proof.contour = Part.contourName (Part.contour (milling pocket)),
           Proof.gouge = deepest,
-          Proof.excess = worst,
+          Proof.excess = largest,
           Proof.allowedGouge,
           Proof.allowedExcess
         }
     findings =
-      [ Gouge first w allowedGouge
-        | Just w <- [deepest],
-          Proof.amount w > allowedGouge,
-          Just first <- [firstGouge keepOut pocket allowedGouge examined]
-      ]
-        <> [Excess first (fromMaybe first worst) allowedExcess | first : _ <- [tooMuch]]
+      Deviation.gougeFindings allowedGouge gouges deepest
+        <> Deviation.excessFindings allowedExcess tooMuch largest
         <> (if null tooMuch then floorFindings pocket pass allowedExcess clearing else [])
 
--- | Finding for a position in the final pass that is not cleared.
+-- | Finding for a position on the floor that the final pass leaves uncleared. None for an earlier
+-- pass.
 floorFindings :: Pocket -> ClearingPass -> Mm -> [CutterMotion] -> [Finding]
 floorFindings pocket pass allowedExcess clearing =
   [ NotCleared (statement pocket) (level pass) p
@@ -100,8 +101,8 @@ floorFindings pocket pass allowedExcess clearing =
           )
   ]
 
--- | Allowed gouge and excess: the tolerance and one pulse; for the excess also the spare room of
--- the rim.
+-- | Allowed gouge and allowed excess of a pocket: the tolerance plus one pulse. The excess also
+-- includes 'Pocket.spareRoom', by which the rim is further from the walls.
 allowedIn :: MotionSet -> Pocket -> (Mm, Mm)
 allowedIn set pocket =
   (plus inside pulse, plus (plus (max inside outside) pulse) Pocket.spareRoom)
@@ -110,9 +111,9 @@ allowedIn set pocket =
     (inside, outside) = Deviation.allowedDeviation isCurved (milling pocket)
     isCurved = any Part.continues (Part.elements (Part.contour (milling pocket)))
 
--- | Motions at the height of a pass with a cutter that is large enough. If one of them starts in
--- the bounding box of the pocket, only those around the box are taken: none further away is the
--- nearest one of any point of the pocket.
+-- | Motions that clear the floor in a pass: those at its height, with a cutter at least as large as
+-- that of the pocket. If one of them starts in the bounding box of the pocket, motions further from
+-- the box than its diagonal are left out, because they are not the nearest ones of any point in it.
 clearingMotions :: MotionSet -> Pocket -> ClearingPass -> [CutterMotion]
 clearingMotions set pocket pass
   | any (startsInBounds . segment) around = around
@@ -130,7 +131,7 @@ clearingMotions set pocket pass
     diagonal (BoundingBox left bottom right top) =
       Mm (Vec.norm (Vec.vec (right - left) (top - bottom)))
 
--- | Deepest gouge of some motions into the walls of a pocket.
+-- | Deepest gouge of some motions into the walls of a pocket, if there is one.
 deepestGouge :: (CutterMotion -> KeepOut) -> Pocket -> [CutterMotion] -> Maybe Witness
 deepestGouge keepOut pocket = foldl' orDeeper Nothing
   where
@@ -143,15 +144,8 @@ deepestGouge keepOut pocket = foldl' orDeeper Nothing
         (BoundingBox.inflate (searchRadius (keepOut m)) (Motion.box m))
         (walls pocket)
 
--- | First gouge into the walls of a pocket that is deeper than allowed.
-firstGouge :: (CutterMotion -> KeepOut) -> Pocket -> Mm -> [CutterMotion] -> Maybe Witness
-firstGouge keepOut pocket allowed motions =
-  find
-    ((> allowed) . Proof.amount)
-    (mapMaybe (\m -> Gouge.gougeOf (keepOut m) (walls pocket) m) motions)
-
--- | Distances of the rim from the motions. A distance within the allowance is only given if it is
--- larger than all before it.
+-- | Excess on the parts of a rim: the largest distance of each part from the motions. An excess
+-- within the allowance is only listed if it is larger than all before it.
 unreached :: Mm -> BoxTree CutterMotion -> [(Element, Segment)] -> [Witness]
 unreached allowance motions = go (Mm 0)
   where

@@ -1,9 +1,9 @@
--- | Floor of a pocket: search for a position that the cutter's centre can reach and from which the
--- tape clears nothing.
+-- | Search for material that a tape leaves on the floor of a pocket: a position that the cutter's
+-- centre may take, but that no motion comes near enough to.
 --
--- The bounding box of the pocket is divided into squares. A square is done if one motion covers all
--- of it, or two motions cover it together, or if it lies outside of the reachable region. Other
--- squares are divided into four, down to 'floorResolution' (a quadtree).
+-- The search starts with a square around the pocket. A square is settled if one motion clears all
+-- of it, if two motions clear it together, or if the centre may take no position in it. Any other
+-- square is divided into four, down to 'floorResolution' (a quadtree).
 module Verify.PocketFloor
   ( unclearedPoint,
   )
@@ -28,11 +28,13 @@ import Verify.Pocket qualified as Pocket
 -- | Square by its centre and half of its side, in mm.
 data Square = Square {centreX :: Double, centreY :: Double, half :: Double}
 
--- | Floor of a pocket, the radius in mm within which a motion clears, and the motions.
+-- | Floor of a pocket, the radius in mm within which a motion clears it, and the motions at its
+-- height.
 data Floor = Floor {pocket :: Pocket, radius :: Double, motions :: BoxTree CutterMotion}
 
--- | Position of the cutter's centre in a pocket that has no motion within a distance, to
--- 'floorResolution'.
+-- | Position that the cutter's centre may take, but that is further than a distance from all
+-- motions; nothing if there is none. A position that is too far by less than 'floorResolution' may
+-- be missed.
 unclearedPoint :: Pocket -> Mm -> BoxTree CutterMotion -> Maybe Point
 unclearedPoint pocket (Mm radius) motions =
   listToMaybe
@@ -49,8 +51,8 @@ unclearedPoint pocket (Mm radius) motions =
   where
     BoundingBox left bottom right top = Pocket.bounds pocket
 
--- | Uncleared positions in a square. A motion that may cover the square is given by its paths, and
--- whether the square is known to lie in the pocket.
+-- | Uncleared positions in a square. The hint consists of the paths of a motion that may clear the
+-- square. The flag is true of a square that is known to lie inside the pocket.
 unclearedIn :: Floor -> Maybe [Segment] -> Bool -> Square -> [Point]
 unclearedIn floor' hint isKnownInside square@Square {centreX = x, centreY = y, half}
   | corner < radius floor', Just paths <- hint, covers paths = []
@@ -77,9 +79,10 @@ unclearedIn floor' hint isKnownInside square@Square {centreX = x, centreY = y, h
     covers paths = rangeOf x y paths + corner <= tolerantRadius floor'
     isSharedBy = isCoveredByTwo floor' square
 
--- | Test that a motion and the one nearest to the furthest corner cover a square together. The
--- distance from a line is convex, and so is the mean of two such distances: it is largest at a
--- corner. The smaller one of both is no larger than the mean.
+-- | Test that two lines clear a square together: the motion with these paths, and the motion
+-- nearest to the corner that is furthest from them. The distance from a line is a convex function
+-- of the point, and so is the mean of two such distances. On a square, the mean is therefore
+-- largest at a corner. Where the mean is within the radius, so is the smaller of the two distances.
 isCoveredByTwo :: Floor -> Square -> [Segment] -> Bool
 isCoveredByTwo floor' Square {centreX, centreY, half} paths =
   all FastDistance.isLine paths && case nearestMotion floor' farX farY of
@@ -104,11 +107,11 @@ quarters Square {centreX, centreY, half} =
 diagonals :: [(Double, Double)]
 diagonals = [(-1, -1), (1, -1), (1, 1), (-1, 1)]
 
--- | Radius with the resolution of the search added, so that the smallest squares are decided.
+-- | Radius plus 'floorResolution': a smallest square counts as cleared if its centre is cleared.
 tolerantRadius :: Floor -> Double
 tolerantRadius floor' = let Mm finest = floorResolution in radius floor' + finest
 
--- | Paths of the motion nearest to a point.
+-- | Bounding paths of the motion nearest to a point, if there are motions.
 nearestMotion :: Floor -> Double -> Double -> Maybe [Segment]
 nearestMotion floor' x y =
   Motion.pathList . snd
@@ -117,11 +120,11 @@ nearestMotion floor' x y =
       (Vec.point x y)
       (motions floor')
 
--- | Distance from a point to the furthest of some paths.
+-- | Distance in mm from a point to the furthest of some paths.
 rangeOf :: Double -> Double -> [Segment] -> Double
 rangeOf x y = foldl' (\d path -> max d (FastDistance.distance path x y)) 0
 
 -- | Distance from the centre to the corners of the smallest squares. A position may be further from
--- the motions by this.
+-- the motions than the radius by this much and still count as cleared.
 floorResolution :: Mm
 floorResolution = Mm 0.02

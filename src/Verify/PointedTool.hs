@@ -37,8 +37,8 @@ import Verify.Motion qualified as Motion
 import Verify.Proof (Witness (Witness))
 import Verify.Proof qualified as Proof
 
--- | Deepest gouge of a motion beside a contour, if there is one; the tool has to stay on the given
--- side. The depth is found by a search that starts at the allowance.
+-- | Deepest gouge of a motion into the material beside a contour, if there is one. The tool has to
+-- stay on @side@ of the contour. The search for the depth begins at @allowance@.
 gougeOf :: Side -> Contour -> BoxTree Edge -> Mm -> CutterMotion -> Maybe Witness
 gougeOf side contour edges allowance m =
   Proof.deepest (concatMap onPath (NonEmpty.toList (Motion.paths m)))
@@ -76,7 +76,7 @@ gougeOf side contour edges allowance m =
           Proof.location
         }
 
--- | Parts of a segment between some of its points.
+-- | Parts into which some of its points divide a segment. Parts of negligible length are left out.
 divided :: [Point] -> Segment -> [Segment]
 divided points s =
   [part a b | (a, b) <- zip marks (drop 1 marks), b - a > Tolerance.negligibleShare]
@@ -86,7 +86,8 @@ divided points s =
       let upTo = if b < 1 then fst (Segment.cutAt b s) else s
        in if a > 0 then snd (Segment.cutAt (a / b) upTo) else upTo
 
--- | Lines across the ends of an open contour, as long as the largest part.
+-- | Lines square to an open contour at both of its ends; they extend by 'Tolerance.reach' to either
+-- side. None for a closed contour.
 normals :: Contour -> [Segment]
 normals contour = case Part.ends contour of
   Part.Closed -> []
@@ -102,8 +103,8 @@ normals contour = case Part.ends contour of
           n = Vec.scale far (Vec.left d)
        in Straight (Vec.shift (Vec.negate n) p) (Vec.shift n p)
 
--- | Part of a motion that does not cross the contour, with its side. If its middle lies beyond an
--- end of the contour, it is divided further, and only the divisions with a side are kept.
+-- | Part of a motion that does not cross the contour, with its side. If the middle of the part has
+-- no side, the part is divided into eight, and those of them that have a side are listed.
 sided :: Contour -> BoxTree Edge -> Segment -> [(Side, Segment)]
 sided contour edges s = case sideOf contour edges (Segment.at 0.5 s) of
   Just side -> [(side, s)]
@@ -116,8 +117,8 @@ sided contour edges s = case sideOf contour edges (Segment.at 0.5 s) of
     parts :: Num a => a
     parts = 8
 
--- | Side of the contour on which a point lies, at the nearest point of the contour; nothing on the
--- contour and beyond its ends.
+-- | Side of the contour on which a point lies, at the nearest point of the contour. Nothing for a
+-- point on the contour, or beyond an end of an open contour.
 sideOf :: Contour -> BoxTree Edge -> Point -> Maybe Side
 sideOf contour edges p =
   case BoxTree.closest (Distance.toPoint p . shape) p edges of

@@ -34,13 +34,13 @@ import Machine.Machine qualified as Machine
 import Report.Report (Report (label, message), ReportPlace (..), report)
 import Report.Report qualified as Report
 
--- | Deviation from the part.
+-- | One deviation from the part: how large it is, and where.
 data Witness = Witness
   { -- | size of the deviation, in mm
     amount :: Mm,
     -- | number of the frame
     frame :: Int,
-    -- | region of the element in the part program
+    -- | region of the contour element in the part program
     element :: Region,
     -- | point of the part, or position of the cutter's centre
     location :: Point
@@ -57,13 +57,12 @@ deeper best w = case best of
 deepest :: [Witness] -> Maybe Witness
 deepest = foldl' (\best w -> Just (deeper best w)) Nothing
 
--- | Deviations of one contour in one pass. Without a witness, nothing is cut too deep, or nothing
--- is left.
+-- | Deviations of one contour in one pass.
 data ContourProof = ContourProof
   { contour :: Located Name,
-    -- | deepest gouge
+    -- | deepest gouge; nothing if the cutter keeps its distance everywhere
     gouge :: Maybe Witness,
-    -- | largest excess
+    -- | largest excess; nothing if no material remains
     excess :: Maybe Witness,
     -- | allowed deviations into the material and out of it: the tolerance and one pulse
     allowedGouge :: Mm,
@@ -76,11 +75,11 @@ data Proof = Proof
   { -- | number of frames on the tape
     frames :: Int,
     contourProofs :: [ContourProof],
-    -- | difference of the last position and the position where the tape has to end
+    -- | last position on the tape minus the position where it has to end
     closure :: Pulses3,
-    -- | largest increment of each axis, without its sign
+    -- | largest increment in one frame, along each axis, without its sign
     largestIncrement :: Pulses3,
-    -- | number of the first frame that differs from the program's own frame
+    -- | number of the first frame that differs from the planned one
     firstDifference :: Maybe Int,
     -- | in the order of the tape; none if the tape is proven
     findings :: [Finding]
@@ -145,8 +144,8 @@ tapeOrder finding = case finding of
   Refused refusal -> (refusedFrame refusal, 8)
   NotClosed _ -> (maxBound, 9)
 
--- | Test that a finding means that the cutter leaves the band around a contour or a pocket. Then a
--- wrong end follows and is no finding of its own.
+-- | Test that a finding means that the cutter leaves the band around a contour or a pocket. A wrong
+-- last position is then a consequence, and no finding of its own.
 isOffContour :: Finding -> Bool
 isOffContour finding = case finding of
   Gouge {} -> True
@@ -186,7 +185,7 @@ data Refusal
 isProven :: Proof -> Bool
 isProven = null . findings
 
--- | Reports of all findings. Each names the first frame that differs from the program's own.
+-- | Reports of all findings. Each names the first frame that differs from the planned one.
 toReports :: Machine -> Proof -> [Report]
 toReports machine proof = map (withDifference . toReport machine) (findings proof)
   where

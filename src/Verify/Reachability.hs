@@ -12,7 +12,8 @@ where
 
 import Base.Quantity (Mm (..), Rad (..), minus, times)
 import Data.List (foldl', sort)
-import Geometry.Carrier (Side (..))
+import Geometry.Carrier (Side)
+import Geometry.Carrier qualified as Carrier
 import Geometry.Distance qualified as Distance
 import Geometry.Index.BoundingBox qualified as BoundingBox
 import Geometry.Index.BoxTree (BoxTree)
@@ -23,8 +24,8 @@ import Geometry.Tolerance qualified as Tolerance
 import Geometry.Vec qualified as Vec
 import Offset.Tolerance qualified as Tolerance
 
--- | Distance that the centre keeps from some segments of a contour: the cutter's radius and the
--- allowances.
+-- | Segments of a contour, with the distance that the cutter's centre keeps from all of them: its
+-- radius plus their allowance.
 data KeptDistance = KeptDistance {distanceKept :: Mm, segments :: BoxTree Segment}
 
 -- | Interval of a segment, as fractions of its length.
@@ -32,11 +33,12 @@ type Interval = (Double, Double)
 
 -- Elements ----------------------------------------------------------------------------------------
 
--- | Parts of an element that a cutter touches with its centre at a distance on a side. All segments
--- of the contour are given by the distances kept from them. A segment with a larger distance only
--- counts on its normals: beside its ends the toolpath steps back to the smaller distance.
+-- | Parts of an element that a cutter touches with its centre at a distance from the element, on a
+-- side of it. @others@ are all segments of the contour, by the distance kept from them. A segment
+-- with a larger distance only counts for centres on its normals: beside its ends the toolpath steps
+-- back to the smaller distance.
 parts :: Side -> Mm -> [KeptDistance] -> Segment -> [Segment]
-parts side distance others element = case beside side distance element of
+parts side distance others element = case Segment.offset side distance element of
   Nothing -> []
   Just centres ->
     [ part element a b
@@ -44,7 +46,8 @@ parts side distance others element = case beside side distance element of
         b - a > Tolerance.negligibleShare
     ]
 
--- | Intervals in which no other segment is too near to the centres of the cutter.
+-- | Parts of the intervals @free@ in which no segment with this kept distance is too near to the
+-- centre of the cutter. @centres@ is the path of the centre along the element.
 freeOf :: Side -> Mm -> Segment -> Segment -> [Interval] -> KeptDistance -> [Interval]
 freeOf side distance element centres free (KeptDistance kept others) =
   case compare kept distance of
@@ -58,12 +61,13 @@ freeOf side distance element centres free (KeptDistance kept others) =
       BoundingBox.union (BoundingBox.ofSegment element) (BoundingBox.ofSegment centres)
     common xs ys = [(max a c, min b d) | (a, b) <- xs, (c, d) <- ys, max a c < min b d]
 
--- | Distance with half of the clearance that the toolpath allows where the cutter just fits.
+-- | Distance that counts as kept: less by half of 'Tolerance.clearance', with which the toolpath is
+-- allowed where the cutter just fits.
 roomy :: Mm -> Mm
 roomy d = minus d (times 0.5 Tolerance.clearance)
 
--- | Parts of an interval whose centres are on this side of all other segments. A segment with a
--- smaller distance might lie between the element and the centre.
+-- | Parts of an interval in which no other segment lies between the element and the centre. Only a
+-- segment with a smaller distance can lie there.
 onThisSide :: Segment -> Segment -> [Segment] -> Interval -> [Interval]
 onThisSide element centres near (a, b) =
   [ (from, to)
@@ -85,8 +89,9 @@ onThisSide element centres near (a, b) =
             (\p -> Vec.distance foot p > Tolerance.clearance)
             (Distance.intersections (Straight foot (Segment.at t centres)) s)
 
--- | Parts of an interval of centres that are on no normal of a segment with a larger distance, or
--- far enough from it.
+-- | Parts of an interval in which each centre keeps the distance @kept@ from all segments on whose
+-- normals it lies. @near@ are segments with this distance, which is larger than that of the
+-- element.
 withoutNormals :: Side -> Mm -> [Segment] -> Segment -> Interval -> [Interval]
 withoutNormals side kept near centres (a, b) =
   [ (from, to)
@@ -101,7 +106,7 @@ withoutNormals side kept near centres (a, b) =
           p <- Distance.intersections centres border
       ]
     -- Border of the region of too near centres: the offset, and the normals at both ends.
-    bordersOf s = case beside side kept s of
+    bordersOf s = case Segment.offset side kept s of
       Nothing -> []
       Just offset ->
         [ offset,
@@ -118,23 +123,22 @@ dividedAt marks (a, b) = zip (a : inside) (inside <> [b])
 
 -- Pockets -----------------------------------------------------------------------------------------
 
--- | Border of all positions of the centre at a distance or more from closed contours, on a side of
--- them: offsets of the segments and arcs round outer corners, without the parts that are too near
--- to a segment. Each comes with the number of its segment among all.
+-- | Border of the region of all centres on a side of closed contours and at a distance or more from
+-- them. It consists of offsets of the segments and of arcs round outer corners, without those parts
+-- that are too near to a segment. Each comes with the number of its segment, counted from 0 over
+-- all contours. @segments@ are the same segments in a tree.
 rim :: Side -> Mm -> BoxTree Segment -> [[Segment]] -> [(Int, Segment)]
 rim side distance segments contours =
-  concatMap free (concat (zipWith around (scanl (+) 0 (map length contours)) contours))
+  concatMap free (concat (zipWith around firstNumbers contours))
   where
+    firstNumbers = scanl (+) 0 (map length contours)
     around first contour =
-      concat
-        ( zipWith3
-            ( \i s next ->
-                [(i, c) | Just c <- [beside side distance s] <> [outerCorner side distance s next]]
-            )
-            [first ..]
-            contour
-            (drop 1 contour <> take 1 contour)
-        )
+      concat (zipWith3 offsets [first ..] contour (drop 1 contour <> take 1 contour))
+    offsets i s next =
+      [ (i, c)
+        | Just c <- [Segment.offset side distance s, outerCorner side distance s next]
+      ]
+    -- Parts of an offset that are not too near to any segment.
     free (i, s) =
       [ (i, part s a b)
         | (a, b) <-
@@ -155,15 +159,15 @@ part s a b
   | b >= 1 = snd (Segment.cutAt a s)
   | otherwise = snd (Segment.cutAt (a / b) (fst (Segment.cutAt b s)))
 
--- | Smallest angle of a corner that gets an arc round it, in radians.
+-- | Smallest change of direction, in radians, at a corner that gets an arc round it.
 smallestTurn :: Double
 smallestTurn = 1e-9
 
--- | Arc of the centre round the corner at the end of a segment, if the corner turns away from the
--- cutter.
+-- | Path of the centre round the corner between two segments: an arc about the corner, if the
+-- contour turns away from the cutter there.
 outerCorner :: Side -> Mm -> Segment -> Segment -> Maybe Segment
-outerCorner side (Mm d) s next
-  | leftward side * t < negate smallestTurn =
+outerCorner side distance s next
+  | Carrier.sideSign side * t < negate smallestTurn =
     Just
       Arc
         { start = off (Segment.endDirection s),
@@ -175,29 +179,4 @@ outerCorner side (Mm d) s next
   where
     turned@(Rad t) = Vec.signedAngle (Segment.endDirection s) (Segment.startDirection next)
     centre = Segment.end s
-    off direction =
-      Vec.shift (Vec.scale (leftward side * d) (Vec.left (Vec.unit direction))) centre
-
--- | Offset of one segment; nothing if the segment has no length, or if the cutter does not fit
--- inside an arc.
-beside :: Side -> Mm -> Segment -> Maybe Segment
-beside side (Mm d) segment = case segment of
-  Straight a b
-    | a == b -> Nothing
-    | otherwise ->
-      let n = Vec.scale (leftward side * d) (Vec.left (Vec.unit (Vec.to a b)))
-       in Just (Straight (Vec.shift n a) (Vec.shift n b))
-  Arc {start, end, centre, sweep = sweep@(Rad s)}
-    | r <= 0 || offsetRadius <= 0 -> Nothing
-    | otherwise -> Just Arc {start = moved start, end = moved end, centre, sweep}
-    where
-      Mm r = Segment.radius centre start
-      -- The centre of a counter-clockwise arc is on its left.
-      offsetRadius = if signum s == leftward side then r - d else r + d
-      moved p = Vec.shift (Vec.scale (offsetRadius / r) (Vec.to centre p)) centre
-
--- | Sign of an offset: 1 to the left, -1 to the right.
-leftward :: Side -> Double
-leftward side = case side of
-  LeftOf -> 1
-  RightOf -> -1
+    off direction = Carrier.beside side distance (Vec.unit direction) centre

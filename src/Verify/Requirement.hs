@@ -39,7 +39,7 @@ cutterSide milling = case value (Part.side milling) of
   Part.LeftSide -> Just Carrier.LeftOf
   Part.RightSide -> Just Carrier.RightOf
   Part.Inside -> interior
-  Part.Outside -> fmap opposite interior
+  Part.Outside -> fmap Carrier.oppositeSide interior
   where
     contour = Part.contour milling
     interior = case (Part.ends contour, Part.work milling) of
@@ -52,11 +52,6 @@ cutterSide milling = case value (Part.side milling) of
       (Part.Open, Part.Milled) -> Nothing
     start = Segment.start (Part.segment (NonEmpty.head (Part.elements contour)))
     end = Segment.end (Part.segment (NonEmpty.last (Part.elements contour)))
-
-opposite :: Carrier.Side -> Carrier.Side
-opposite side = case side of
-  Carrier.LeftOf -> Carrier.RightOf
-  Carrier.RightOf -> Carrier.LeftOf
 
 isCounterClockwise :: Contour -> Bool
 isCounterClockwise contour = Polyarc.areaOf Part.segment (Part.elements contour) > 0
@@ -71,8 +66,8 @@ centreDistance milling allowance
   | isOnContour milling = allowance
   | otherwise = plus (Part.radius milling) allowance
 
--- | Outline and islands of a pocket, all with the free room on the side on which the outline has
--- it: an island goes in the sense opposite to that of the outline.
+-- | Outline and islands of a pocket, directed so that the pocket lies on the same side of all of
+-- them. An island therefore has the sense opposite to that of the outline.
 facingTheRoom :: Contour -> [Contour] -> [Contour]
 facingTheRoom outline islands = outline : map facing islands
   where
@@ -82,7 +77,7 @@ facingTheRoom outline islands = outline : map facing islands
 
 -- Bevels ------------------------------------------------------------------------------------------
 
--- | Position along the contour in mm, and the bevel there in radians.
+-- | Bevel in radians that is known at a position along the contour, in mm.
 data Known = Known Double Double
 
 -- | Bevels at the start and at the end of each element, in radians; nothing if no element has one.
@@ -111,7 +106,8 @@ bevels contour
     lastOf = Vector.foldl' (flip (<|>)) Nothing
     firstOf = Vector.foldr (<|>) Nothing
 
--- | Linear interpolation between two known bevels; constant where only one is known.
+-- | Bevel at a position between two known ones, linearly interpolated. It is constant where only
+-- one is known, and 0 where none is.
 interpolated :: Maybe Known -> Maybe Known -> Double -> Double
 interpolated before after x = case (before, after) of
   (Just (Known p a), Just (Known q b))

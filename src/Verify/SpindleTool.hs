@@ -1,4 +1,4 @@
--- | Radius of the cutter in the spindle, in each motion of a tape.
+-- | Radius of the cutter that is in the spindle while a frame is executed.
 module Verify.SpindleTool
   ( Tools,
     plannedTools,
@@ -15,29 +15,29 @@ import Data.Vector.Unboxed qualified as Vector
 import Frame.Frame (FrameProgram)
 import Frame.Frame qualified as Frame
 
--- | Radii in mm, one for each of the program's own frames.
+-- | Radius of the cutter in mm, for each planned frame in order.
 type Tools = Vector Double
 
--- | Radius of the cutter in each of the program's own frames.
+-- | Radius of the cutter in each planned frame.
 plannedTools :: FrameProgram -> Tools
 plannedTools program =
   Vector.fromList [r | p <- Frame.plannedFrames program, let Mm r = Frame.cutterRadius p]
 
--- | Number of the program's own frames.
+-- | Number of planned frames.
 toolCount :: Tools -> Int
 toolCount = Vector.length
 
--- | Radius of the cutter in the program's frame with this number; 0 if the program has no such
+-- | Radius of the cutter in the planned frame with a number, counted from 1; 0 if there is no such
 -- frame.
 toolInFrame :: Tools -> Int -> Mm
 toolInFrame tools n = maybe (Mm 0) Mm (tools Vector.!? (n - 1))
 
--- | Frames of a pass, the first one and the last one, and the radius of its cutter.
+-- | Use of a cutter in a pass on the tape: the numbers of the first and the last frame, the radius.
 data Use = Use Int Int Mm
 
--- | Radius in a frame of a tape with other frames than the program: that of the pass that contains
--- the frame, or the smaller one of the passes before and after it. If no pass was found on the
--- tape, it is the given radius.
+-- | Radius of the cutter in frame @n@ of a tape whose frames are not the planned ones. A frame in a
+-- pass has the cutter of the pass. Between two passes the smaller one of both cutters counts. If no
+-- pass was found on the tape, the result is @otherwiseRadius@.
 supposedTool :: [Use] -> Mm -> Int -> Mm
 supposedTool uses otherwiseRadius n =
   case ( [r | Use _ end r <- reverse uses, end < n],

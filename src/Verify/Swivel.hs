@@ -1,9 +1,9 @@
 -- | Motions of a swivelling blade, brought to the height of their pass.
 --
 -- The controlled axis of a blade does not lift the tool: its height says how far the blade is
--- swivelled. Where this height agrees to a pulse with the bevel of the contour, the motion counts
--- as one at the height of the pass. Elsewhere it keeps its height, and so it is no motion along the
--- contour.
+-- swivelled. Where this height agrees with the bevel of the contour, to a pulse, the motion gets
+-- the height of the pass. Elsewhere it keeps the height of the axis, so that it does not count as a
+-- motion along the contour.
 module Verify.Swivel
   ( levelled,
   )
@@ -15,7 +15,7 @@ import Data.List.NonEmpty qualified as NonEmpty
 import Data.Maybe (fromMaybe)
 import Data.Vector (Vector)
 import Data.Vector qualified as Vector
-import Geometry.Carrier (Side (..))
+import Geometry.Carrier qualified as Carrier
 import Geometry.Distance qualified as Distance
 import Geometry.Index.BoundingBox qualified as BoundingBox
 import Geometry.Index.BoxTree (BoxTree)
@@ -51,11 +51,11 @@ data BladePass = BladePass
     level :: Mm,
     -- | largest distance of the tool's centre from the contour
     maxReach :: Mm,
-    -- | allowed chord error
+    -- | larger of the allowed chord errors on both sides
     tolerance :: Mm,
     -- | elements of the contour with their numbers from 0
     elements :: BoxTree (Int, Segment),
-    -- | heights of the axis at the start and at the end of each element
+    -- | heights of the axis at the start and at the end of each element; empty without bevels
     axisHeights :: Vector (Mm, Mm)
   }
 
@@ -83,12 +83,9 @@ bladePass milling Toolpath.Pass {Toolpath.left, Toolpath.atHeight} =
   where
     contour = Part.contour milling
     height bevel = plus atHeight (times (sign * bevel / 2) (fromMaybe (Mm 0) (Part.gear milling)))
-    sign = case Requirement.cutterSide milling of
-      Just RightOf -> -1
-      Just LeftOf -> 1
-      Nothing -> 1
+    sign = maybe 1 Carrier.sideSign (Requirement.cutterSide milling)
 
--- | Motion at the height of a pass, if its axis has the right height at all samples.
+-- | Bring a motion to the height of a pass, if the axis has the right height at all its samples.
 levelledIn :: Machine -> BladePass -> CutterMotion -> CutterMotion
 levelledIn machine pass m
   | all hasRightHeight (0 : sampled) = m {fromHeight = level pass, toHeight = level pass}
@@ -134,8 +131,9 @@ isRightHeight machine pass p z = case demanded of
     slack =
       times 1.5 (max (Machine.planeResolution machine) (Machine.resolutionOf machine Machine.Z))
 
--- | Uncertainty of the axis height beside an element, because the position is rounded to pulses.
--- Inside an arc the contact point moves further than the centre, in proportion to the radii.
+-- | Uncertainty of the right axis height at a position beside an element, because the position is
+-- rounded to pulses. Inside an arc the contact point moves further than the centre, in proportion
+-- to the radii.
 heightUncertainty :: Machine -> BladePass -> Int -> Segment -> Point -> Mm
 heightUncertainty machine pass i s p = case axisHeights pass Vector.!? i of
   Just (from, to)
@@ -153,12 +151,9 @@ heightUncertainty machine pass i s p = case axisHeights pass Vector.!? i of
           max 1 (r / own)
       _ -> 1
 
--- | Height of the axis beside an element, linear in arc length.
+-- | Right height of the axis at a position beside an element. It is linear in arc length, and
+-- constant beyond the ends of the element.
 axisAt :: BladePass -> Int -> Segment -> Point -> Maybe Mm
 axisAt pass i s p =
-  (\(from, to) -> plus from (times fraction (minus to from))) <$> axisHeights pass Vector.!? i
-  where
-    fraction
-      | Segment.hasFootOf s p = max 0 (min 1 (Segment.fraction s p))
-      | Vec.distance p (Segment.start s) <= Vec.distance p (Segment.end s) = 0
-      | otherwise = 1
+  (\(from, to) -> plus from (times (Distance.nearestFraction p s) (minus to from)))
+    <$> axisHeights pass Vector.!? i

@@ -1,6 +1,5 @@
-{-# LANGUAGE BangPatterns #-}
-
--- | Summary of the frames of a tape, computed in one traversal because they are many.
+-- | Summary of the frames of a tape. It is computed in one traversal, because a tape may have many
+-- frames.
 module Verify.TapeSummary
   ( TapeSummary (..),
     summarize,
@@ -10,52 +9,56 @@ where
 import Base.PulseVector (Pulses3 (..))
 import Base.Quantity (Pulses)
 import Control.Applicative ((<|>))
-import Frame.Frame (Frame (..))
+import Data.List (foldl')
+import Frame.Frame (Frame (..), PlannedFrame)
 import Frame.Frame qualified as Frame
 
--- | Summary of a tape.
+-- | Summary of a tape. Frames are numbered from 1.
 data TapeSummary = TapeSummary
   { -- | number of frames
     count :: Int,
+    -- | position after the last frame
     endPosition :: Pulses3,
-    -- | largest increment of each axis, without its sign
+    -- | largest increment in one frame, along each axis, without its sign
     largestIncrement :: Pulses3,
-    -- | number of the first frame that ends at another height than the start
+    -- | number of the first frame that ends at another height than that of the start position
     firstRisen :: Maybe Int,
-    -- | number of the first frame that differs from the program's own
+    -- | number of the first frame that differs from the planned frame with this number, or exists
+    -- on one side only
     firstDifference :: Maybe Int
   }
 
--- | Summarize the frames of a tape from a start position, compared with the program's own frames.
-summarize :: Pulses3 -> [Frame.PlannedFrame] -> [Frame] -> TapeSummary
-summarize begin@(Pulses3 _ _ startHeight) = go (TapeSummary 0 begin 0 Nothing Nothing)
+-- | Summarize the frames of a tape that begins at a start position. The planned frames are those
+-- that the compiler made for the program.
+summarize :: Pulses3 -> [PlannedFrame] -> [Frame] -> TapeSummary
+summarize begin@(Pulses3 _ _ startHeight) planned frames = case missing of
+  [] -> summary
+  _ -> summary {firstDifference = firstDifference summary <|> Just (count summary + 1)}
   where
-    go :: TapeSummary -> [Frame.PlannedFrame] -> [Frame] -> TapeSummary
-    go !summary planned frames = case frames of
-      []
-        | null planned -> summary
-        | otherwise -> summary {firstDifference = firstDifference summary <|> Just next}
-      f : more -> go (withFrame startHeight (isPlanned f planned) f summary) (drop 1 planned) more
-      where
-        next = count summary + 1
-    isPlanned f planned = case planned of
-      p : _ -> Frame.frame p == f
-      [] -> False
+    Comparison summary missing = foldl' (withFrame startHeight) (Comparison empty planned) frames
+    empty = TapeSummary 0 begin 0 Nothing Nothing
 
--- | Summary with one more frame; the height at the start of the tape is given, and whether the
--- frame is the program's own.
-withFrame :: Pulses -> Bool -> Frame -> TapeSummary -> TapeSummary
-withFrame startHeight isOwn f summary =
-  TapeSummary
-    { count = number,
-      endPosition = Pulses3 (x + dx) (y + dy) height,
-      largestIncrement = Pulses3 (max a (abs dx)) (max b (abs dy)) (max c (abs dz)),
-      firstRisen = firstRisen summary <|> if height == startHeight then Nothing else Just number,
-      firstDifference = firstDifference summary <|> if isOwn then Nothing else Just number
-    }
+-- | Summary of the first frames of a tape, and the planned frames after these.
+data Comparison = Comparison TapeSummary [PlannedFrame]
+
+-- | Comparison with one more frame of the tape. @startHeight@ is the height of the start position.
+withFrame :: Pulses -> Comparison -> Frame -> Comparison
+withFrame startHeight (Comparison summary planned) f =
+  Comparison
+    TapeSummary
+      { count = number,
+        endPosition = Pulses3 (x + dx) (y + dy) height,
+        largestIncrement = Pulses3 (max a (abs dx)) (max b (abs dy)) (max c (abs dz)),
+        firstRisen = firstRisen summary <|> if height == startHeight then Nothing else Just number,
+        firstDifference = firstDifference summary <|> if isPlanned then Nothing else Just number
+      }
+    (drop 1 planned)
   where
     number = count summary + 1
     Pulses3 x y z = endPosition summary
     Pulses3 dx dy dz = increment f
     Pulses3 a b c = largestIncrement summary
     height = z + dz
+    isPlanned = case planned of
+      p : _ -> Frame.frame p == f
+      [] -> False

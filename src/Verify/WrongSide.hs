@@ -25,9 +25,10 @@ import Verify.Motion (CutterMotion (number, segment))
 import Verify.Motion qualified as Motion
 import Verify.Proof (Finding (WrongSide))
 
--- | Finding for a motion that is beside an element on the wrong side. A line is sampled at its
--- middle, an arc between the points of 'Motion.samples'. The elements that the cutter may touch in
--- the motion are given.
+-- | Finding for a motion that runs beside an element on its wrong side. A line is sampled at its
+-- middle, an arc in the middle between each two points of 'Motion.samples'. @close@ are the
+-- elements that the cutter may touch during the motion. Nothing for a cutter that runs on the
+-- contour.
 wrongSide :: MillingJob -> CutterMotion -> [Edge] -> Maybe Finding
 wrongSide job m close = do
   demanded <- side job
@@ -40,8 +41,9 @@ wrongSide job m close = do
       | FastDistance.isLine (segment m) = [0.5]
       | otherwise = let ks = Motion.samples m in zipWith (\a b -> (a + b) / 2) (0 : ks) ks
 
--- | Test by fast bounds that one of the elements nearest to a point may have it on its wrong side.
--- The elements that the cutter may touch are tried first, then all elements around the motion.
+-- | False only if no element nearest to a point has the point on its wrong side; decided by fast
+-- bounds. The elements that the cutter may touch are tried first, then all elements around the
+-- motion.
 mayBeWrong :: MillingJob -> Side -> [Edge] -> [Edge] -> Point -> Bool
 mayBeWrong job demanded close around p =
   least > a - FastDistance.unsure && any isWrong near
@@ -49,7 +51,7 @@ mayBeWrong job demanded close around p =
     (x, y) = (Vec.x p, Vec.y p)
     Mm a = allowance job
     Mm limit = MillingJob.contactLimit job
-    leastOf es = Edge.leastDistance (1 / 0) es x y
+    leastOf es = Edge.leastDistance (1 / 0) es p
     (near, least)
       | ofClose + FastDistance.unsure <= limit = (close, ofClose)
       | otherwise = (around, leastOf around)
@@ -63,7 +65,8 @@ mayBeWrong job demanded close around p =
       Carrier.LeftOf -> FastDistance.isLeftOf (FastDistance.spot x y) (shape e)
       Carrier.RightOf -> FastDistance.isRightOf (FastDistance.spot x y) (shape e)
 
--- | Exact test at one point, against the nearest element.
+-- | Finding at one point of a motion, by an exact comparison with the nearest element. A point
+-- within the allowance of the element is on neither side.
 wrongAt :: MillingJob -> Side -> CutterMotion -> [Edge] -> Point -> Maybe Finding
 wrongAt job demanded m around p = case [(Distance.toPoint p (segmentOf e), e) | e <- around] of
   [] -> Nothing

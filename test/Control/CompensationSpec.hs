@@ -1,5 +1,5 @@
--- | Law of the model of cutter compensation: LinuxCNC makes the same path of the same tape, for
--- tapes of the compiler and for damaged ones.
+-- | Law of the model of cutter compensation: LinuxCNC makes the same path of the same tape. The
+-- tapes are those of the compiler, and damaged ones.
 module Control.CompensationSpec (spec) where
 
 import Base.PulseVector (Pulses2 (..), Pulses3 (..))
@@ -51,15 +51,16 @@ spec = do
         it
           "does what LinuxCNC does"
           (pendingWith "rs274 is not installed (scripts/setup.sh installs linuxcnc-uspace)")
-    it "refuses what a control refuses, for that reason" $
+    it "refuses what a control refuses, and for the same reason" $
       [ (what, expected, snd (Compensation.run iso6983 (const (Mm 0)) 0 fs))
         | (what, expected, fs) <- refusals,
           snd (Compensation.run iso6983 (const (Mm 0)) 0 fs) /= expected
       ]
         `shouldBe` []
 
--- | Law: the model and LinuxCNC differ by less than @close@. The radii of an arc differ by
--- rounding, and where shortened paths meet at a small angle, this moves their intersection.
+-- | Law: the paths of the model and of LinuxCNC differ by less than @close@. For a damaged tape
+-- @close@ is larger: the radii of an arc differ by rounding, and this moves an intersection of two
+-- paths that meet at a small angle.
 compared :: Mm -> ([Frame] -> Gen [Frame]) -> Property
 compared close change =
   withMaxSuccess 150 $
@@ -194,7 +195,7 @@ exchanged f = f {commands = [(other o, v) | (o, v) <- commands f]}
 -- | Frames with a name and the errors of the model.
 refusals :: [(String, [CompensationError], [Frame])]
 refusals =
-  [ ("a good one", [], good),
+  [ ("a correct tape", [], good),
     ("a short entry", [ShortEntry 1 (Mm 10) (Mm 10)], begun 10 : drop 1 good),
     ( "a vertical entry",
       [ShortEntry 1 (Mm 0) (Mm 10)],

@@ -59,8 +59,8 @@ spec = do
                     Arcs.quantise (quick name) path
                in findings (quick name) path program (own program) === []
   it
-    "of random contours no change that cuts too deep or leaves too much is proven (catches a \
-    \motion that is measured at its middle alone)"
+    "a changed tape of a random contour is found if it cuts too deep or leaves too much (catches \
+    \a motion that is measured at its middle alone)"
     $ property $
       withMaxSuccess 300 $
         forAll
@@ -85,7 +85,7 @@ spec = do
       [s | (s, (path, program)) <- rounds, findings uncut path program (own program) /= []]
         `shouldBe` []
     it
-      "lost, it leaves the circle standing; so it does in the opposite sense (catches a circle \
+      "is an excess if it is left out, and not followed in the opposite sense (catches a circle \
       \that is dropped because its increment is zero)"
       $ do
         [s | (s, found) <- changedBy (filter (not . isCircle)), not (any isExcess found)]
@@ -93,8 +93,8 @@ spec = do
         [s | (s, found) <- changedBy (map mirrored), not (any isNotFollowed found)]
           `shouldBe` []
     it
-      "with another centre it gouges or leaves material, although its ends do not \
-      \change (catches a circle taken for a point)"
+      "gouges or leaves material if its centre changes, although its ends do not (catches a \
+      \circle taken for a point)"
       $ [ (s, d)
           | (s, (path, program)) <- rounds,
             d <- [Pulses2 5 0, Pulses2 (-5) 0, Pulses2 0 5, Pulses2 0 (-5)],
@@ -111,7 +111,7 @@ spec = do
         ]
         `shouldBe` []
     it
-      "in the approach it is a gouge where it meets the part (catches linking moves that are \
+      "is a gouge if it meets the part during the approach (catches linking moves that are \
       \measured at their ends alone)"
       $ [ s
           | (s, (path, program)) <- rounds,
@@ -130,12 +130,14 @@ spec = do
         `shouldBe` []
   describe "frames that the control would refuse" $ do
     it
-      "are arcs whose radii differ by more than 2 pulses, without a centre, without a sweep; no \
-      \others"
+      "are arcs without a centre, arcs without a sweep, and arcs whose radii differ by more than \
+      \2 pulses, but no other arcs"
       $ [(what, refusals uncut f) | (what, expected, f) <- arcs, refusals uncut f /= expected]
         `shouldBe` []
-    it "are arcs that leave their quadrant on a machine of quadrants, and any on one without arcs" $
-      do
+    it
+      "are all arcs on a machine without arcs, and arcs that leave their quadrant where a \
+      \machine forbids it"
+      $ do
         [refusals (quick "lki-fm") f | f <- [quarter, half, long]]
           `shouldBe` [[], ["motion"], ["motion"]]
         refusals (quick "lkp-01f") quarter `shouldBe` ["motion"]
@@ -153,7 +155,7 @@ spec = do
     rounds = [(s, circle s) | s <- [LeftOf, RightOf]]
     circle s =
       let path =
-            laid
+            toolpathAround
               (if s == LeftOf then Vec.point 0 0 else Vec.point 60 0)
               (Mm 0.02)
               s
@@ -185,8 +187,8 @@ findings :: Machine -> Toolpath -> FrameProgram -> [Frame] -> [Finding]
 findings machine path program fs = Proof.findings (Verify.prove machine path program fs)
 
 -- | Toolpath around a contour with a cutter of radius 5, from a point straight to its start.
-laid :: Point -> Mm -> Side -> Polyarc -> Toolpath
-laid from tolerance side polyarc = case Equidistant.equidistant side (Mm 5) polyarc of
+toolpathAround :: Point -> Mm -> Side -> Polyarc -> Toolpath
+toolpathAround from tolerance side polyarc = case Equidistant.equidistant side (Mm 5) polyarc of
   Right pieces
     | Just path <-
         Result.output
@@ -308,7 +310,7 @@ findingsBeside sense atStart d = findings machine path (Arcs.quantise machine pa
   where
     machine = quick "lki-u"
     path =
-      laid
+      toolpathAround
         (Vec.point (fromIntegral sx * 0.02) (fromIntegral sy * 0.02))
         (Mm 0.001)
         RightOf

@@ -37,8 +37,8 @@ import Verify.Proof qualified as Proof
 spec :: Spec
 spec = do
   it
-    "random contours with leads are proven by the path that the control makes of the edge \
-    \(catches a proof of the frames alone, an edge that starts at a wrong point)"
+    "random contours with leads are proven by the path of the centre that the control computes \
+    \from the edge (catches a proof of the frames alone, an edge that starts at a wrong point)"
     $ property $
       forAll (tolerant =<< ByControl.cases) $ \job -> case made job of
         Nothing -> property Discard
@@ -46,17 +46,17 @@ spec = do
   describe "of random contours" $ do
     changes "the other side" $ \_ fs -> [[f {commands = map exchanged (commands f)} | f <- fs]]
     changes "a diameter of one unit more or less" $ \_ fs ->
-      [ [f {commands = [(o, if isKeep o then v + d else v) | (o, v) <- commands f]} | f <- fs]
+      [ [f {commands = [(o, if switchesOn o then v + d else v) | (o, v) <- commands f]} | f <- fs]
         | d <- [1, -1]
       ]
     changes "a lost command that switches compensation on" $ \_ fs ->
-      [[f {commands = filter (not . isKeep . fst) (commands f)} | f <- fs]]
+      [[f {commands = filter (not . switchesOn . fst) (commands f)} | f <- fs]]
     changes "a lost release" $ \_ fs ->
       [map (without "release") fs]
     changes "a lost frame along the edge" $ \ps fs ->
       [take n fs <> drop (n + 1) fs | n <- cutting ps]
   it
-    "of random contours every change is found with which the control cuts too deep or leaves too \
+    "a changed tape of a random contour is found if the control then cuts too deep or leaves too \
     \much (catches a proof of the programmed frames, a corner that is not compared)"
     $ property $
       withMaxSuccess 150 $
@@ -79,8 +79,8 @@ spec = do
                           && (not leaves || any (\f -> isExcess f || isNeverBegun f) found)
                       )
   it
-    "a wrong diameter on the tape is found by its effect, to the tolerance (catches a proof with \
-    \the diameter of the program)"
+    "a wrong diameter on the tape is found if its effect is more than the tolerance (catches a \
+    \proof with the diameter of the program)"
     $ property $
       forAll (tolerant =<< ByControl.cases) $ \job ->
         forAll (elements [60, -60]) $ \d -> case made job of
@@ -90,7 +90,7 @@ spec = do
                   findings
                     path
                     program
-                    [ f {commands = [(o, if isKeep o then v + d else v) | (o, v) <- commands f]}
+                    [ f {commands = [(o, if switchesOn o then v + d else v) | (o, v) <- commands f]}
                       | f <- own program
                     ]
              in counterexample
@@ -156,14 +156,16 @@ deviation centre job =
         (minimum [(Vec.x p - Vec.x q) ^ (2 :: Int) + (Vec.y p - Vec.y q) ^ (2 :: Int) | p <- ps]) ::
         Double
 
+-- | Command with the sides exchanged.
 exchanged :: (CommandName, Int) -> (CommandName, Int)
 exchanged (o, v)
   | o == CommandName "left" = (CommandName "right", v)
   | o == CommandName "right" = (CommandName "left", v)
   | otherwise = (o, v)
 
-isKeep :: CommandName -> Bool
-isKeep o = o == CommandName "left" || o == CommandName "right"
+-- | Test that a command switches compensation on.
+switchesOn :: CommandName -> Bool
+switchesOn o = o == CommandName "left" || o == CommandName "right"
 
 isExcess, isGouge, isExcessOrRefused, isLost, isNeverBegun :: Finding -> Bool
 isExcess f = case f of
@@ -187,24 +189,26 @@ isNeverBegun f = case f of
 findings :: Toolpath -> FrameProgram -> [Frame] -> [Finding]
 findings path program fs = Proof.findings (Verify.prove iso6983 path program fs)
 
+-- | Milling with a tolerance.
 tolerant :: (Generate.Case, Milling) -> Gen Milling
 tolerant (_, job) = pure job {Part.tolerance = Part.OnPath (Mm 0.02)}
 
--- | Toolpath and frames of a milling with compensation, if those without compensation are proven to
--- a slightly smaller tolerance. Linking moves that cut or graze the part are no matter of the
--- control.
+-- | Toolpath and frames of a milling with compensation. Nothing if the same milling without
+-- compensation is not proven to a slightly smaller tolerance: linking moves that cut or graze the
+-- part say nothing about the control.
 made :: Milling -> Maybe (Toolpath, FrameProgram)
 made job = do
-  (plainly, frames) <-
-    laid job {Part.controlCompensation = Nothing, Part.tolerance = Part.OnPath (Mm 0.015)}
-  if null (findings plainly frames (own frames)) then laid job else Nothing
+  (uncompensated, frames) <-
+    toolpathOf job {Part.controlCompensation = Nothing, Part.tolerance = Part.OnPath (Mm 0.015)}
+  if null (findings uncompensated frames (own frames)) then toolpathOf job else Nothing
   where
-    laid m = do
+    toolpathOf m = do
       from <- listToMaybe [p | Part.Stop (Located _ p) _ _ <- Part.approach m]
       path <- ByControl.path (Vec.shift (Vec.vec 7 5) from) m
       program <- Result.output (FromToolpath.quantise iso6983 path)
       Just (path, program)
 
+-- | Toolpath and frames of one of the programs for cutter compensation.
 compiled :: String -> IO (Toolpath, FrameProgram)
 compiled name = do
   text <- readText ("test/programs/mill/good/compensation-" <> name <> ".part") :: IO Text

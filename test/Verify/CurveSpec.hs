@@ -40,11 +40,11 @@ spec = do
     $ property $
       forAll (Generate.smoothCase >>= \c -> (c,) <$> vectorOf 60 (choose (1, 40))) $ \(c, counts) ->
         let job = (Generate.job c) {Part.tolerance = Part.OnPath (Mm 0.02)}
-         in punched (Generate.begin c) job $ \_ plain ->
+         in punched (Generate.begin c) job $ \_ undivided ->
               punched (Generate.begin c) (inParts counts job) $ \path program ->
-                counterexample (show (frameCount plain, frameCount program)) $
+                counterexample (show (frameCount undivided, frameCount program)) $
                   proven path program
-                    .&&. abs (frameCount plain - frameCount program)
+                    .&&. abs (frameCount undivided - frameCount program)
                       <= length (Part.elements (Part.contour job))
   it
     "backwards, a curve is not followed (catches a curve that is not measured as a whole)"
@@ -95,7 +95,7 @@ spec = do
 lkp01f :: Machine
 lkp01f = Machines.named "lkp-01f"
 
--- | Law of the toolpath and the frames of a milling, from a start point.
+-- | Law of the toolpath and the planned frames of a milling, from a start point.
 punched :: Testable p => Point -> Milling -> (Toolpath -> FrameProgram -> p) -> Property
 punched begin job holds =
   case Toolpath.toToolpath (Generate.partOf begin (Part.Mill (Located (Region 0 0) job))) of

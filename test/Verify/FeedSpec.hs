@@ -1,4 +1,5 @@
--- | Proof of feeds: frame by frame, along contours on foreign tapes, and before slower frames.
+-- | Proof of feeds: frame by frame, along contours on tapes with other frames, and before slower
+-- frames.
 module Verify.FeedSpec (spec) where
 
 import Base.PulseVector (Pulses3 (..))
@@ -74,8 +75,8 @@ spec = do
         `shouldBe` [[], [1], [1], [1]]
   describe "a foreign tape" $ do
     it
-      "has the code of the demanded feed along a contour, or brakes (catches a tape that cuts in \
-      \rapid)"
+      "has the code of the demanded feed along a contour, or a lower one in a braking frame \
+      \(catches a tape that cuts in rapid)"
       $ [ [n | WrongFeed n _ _ _ <- prove lki along [] [f]]
           | f <- [cut 15, cut 14, cut 40, (cut 14) {braking = True}, (cut 16) {braking = True}]
         ]

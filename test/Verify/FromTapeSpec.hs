@@ -31,14 +31,14 @@ import Verify.Proof qualified as Proof
 
 spec :: Spec
 spec = do
-  it "the flange's own frames are proven" $
+  it "the planned frames of the flange are proven" $
     findings (proofOf Flange.frames) `shouldBe` []
   it
-    "every change of a legal digit that moves the path is found, with the number of its frame; if \
-    \the path leaves the band, a deviation is found as well"
+    "a digit changed to another legal one is found, with the number of its frame; if the path \
+    \leaves the band, a deviation is found as well"
     $ [(n, f, findings p) | (n, f, fs) <- changes, let p = proofOf fs, not (isFound n f p)]
       `shouldBe` []
-  it "every change of a speed code is a wrong feed in its frame" $
+  it "a changed speed code is a wrong feed in its frame" $
     [ (n, s)
       | (n, f) <- zip [1 ..] Flange.frames,
         s <- map FeedCode [1 .. 9],
@@ -56,8 +56,8 @@ spec = do
     ]
       `shouldBe` []
   it
-    "a program whose own frames end elsewhere than its path is refused, also on a tape with \
-    \these frames (catches an end that is compared with the frames)"
+    "a program whose planned frames do not end where its toolpath ends is refused, also on a tape \
+    \with these frames (catches an end that is compared with the frames)"
     $ let (analysis, own) =
             punched "contour l open { line((-10, 0), (10, 0)) }\nmill l on { depth 1 }"
           further =
@@ -100,7 +100,7 @@ spec = do
               ]
                 `shouldBe` [True, True]
         | otherwise -> expectationFailure (show (Result.errors r))
-  it "a contour in the opposite direction is not followed" $
+  it "a tape along the contour in the opposite direction does not follow it" $
     findings (proofOf backwards) `shouldSatisfy` any isNotFollowed
   it
     "a command that the program does not give is found, also when the frames cannot be compared \
@@ -171,8 +171,8 @@ spec = do
                 entry : _ ->
                   case Toolpath.toToolpath
                     (Generate.partOf entry (Part.Mill (Located (Region 0 0) job))) of
-                    Result.Result _ [] (Just laid) ->
-                      case Result.output (FromToolpath.quantise lkp01f laid) of
+                    Result.Result _ [] (Just toolpath) ->
+                      case Result.output (FromToolpath.quantise lkp01f toolpath) of
                         Nothing -> discard
                         Just program ->
                           counterexample
@@ -190,15 +190,15 @@ spec = do
                               lkp01f
                               ( Verify.prove
                                   lkp01f
-                                  laid
+                                  toolpath
                                   program
                                   (map Frame.frame (Frame.plannedFrames program))
                               )
                               === []
                     _ -> discard
   it
-    "with a tolerance of 0 inside no chord gouges but by a pulse (catches chords that cut the \
-    \corner of the band)"
+    "with a tolerance of 0 towards the material, no gouge is deeper than a pulse (catches chords \
+    \that cut the corner of the band)"
     $ property $
       forAll (Generate.closedCase `suchThat` ((> 0.4) . Generate.radiusOf)) $ \c ->
         case Result.output
@@ -214,11 +214,15 @@ spec = do
               )
           ) of
           Nothing -> discard
-          Just laid -> case Result.output (FromToolpath.quantise lkp01f laid) of
+          Just toolpath -> case Result.output (FromToolpath.quantise lkp01f toolpath) of
             Nothing -> discard
             Just program ->
               let p =
-                    Verify.prove lkp01f laid program (map Frame.frame (Frame.plannedFrames program))
+                    Verify.prove
+                      lkp01f
+                      toolpath
+                      program
+                      (map Frame.frame (Frame.plannedFrames program))
                in findings p
                     === []
                       .&&. conjoin
@@ -247,9 +251,9 @@ spec = do
       "part p\nmachine lkp-01f\ntool mill(diameter 6 mm)\nfeed 60\ntolerance 0.02\nclearance 3\n\
       \from (0, 0, 3)\ncontour k closed { ccw circle((0, 0), 30) }\n"
     -- End of the first linking move with a length: the start of the lead-in or of the contour.
-    entries laid =
+    entries toolpath =
       [ Segment.end (Toolpath.segment m)
-        | b <- take 1 (Toolpath.blocks laid),
+        | b <- take 1 (Toolpath.blocks toolpath),
           m <- Toolpath.moves b,
           Segment.length (Toolpath.segment m) > Mm 0
       ]
@@ -263,7 +267,7 @@ iso6983 = Machines.named "iso6983"
 proofOf :: [Frame] -> Proof
 proofOf = Verify.prove lkp01f (path Flange.analysis) Flange.program
 
--- | Chord error of an arc that is divided for a tolerance of 0.3 mm.
+-- | Chord error in mm of an arc that is divided for a tolerance of 0.3 mm.
 chordError :: Segment -> Double
 chordError s = case s of
   Straight _ _ -> 0
@@ -271,6 +275,7 @@ chordError s = case s of
     let Mm r = Segment.radius centre start
      in r * (1 - cos (abs a / fromIntegral (FromToolpath.chordCount lkp01f (Mm 0.3) s) / 2))
 
+-- | Segments of all cuts of a toolpath.
 cutSegments :: Toolpath -> [Segment]
 cutSegments p =
   [ Toolpath.segment m

@@ -49,8 +49,8 @@ spec = modifyMaxSuccess (const 60) $ do
         forAllPath (Generate.pocketing first p) $ \path ->
           Proof.toReports m (proofOf m path) === []
   prop
-    "points that the cutter can reach lie within its radius of the motions (catches a proof of \
-    \nothing)"
+    "in a proven pocket, points that the cutter can reach lie within its radius of the motions \
+    \(catches a proof of nothing)"
     $ forAll ((,) <$> Generate.pocket <*> Test.QuickCheck.elements machines) $ \(p, m) ->
       forAllPath (Generate.pocketing [] p) $ \path ->
         forAllBlind (vectorOf 200 (anywhere p)) $ \ps -> conjoin (map (swept p (cuts m path)) ps)
@@ -129,8 +129,8 @@ spec = modifyMaxSuccess (const 60) $ do
               _ -> property False
             _ -> discard
   prop
-    "a pocket whose walls are a little further out is found to be left too small (catches a \
-    \tolerance that grows)"
+    "a tape that leaves a little more at the walls of a pocket is found (catches a tolerance that \
+    \grows)"
     $ forAll Generate.rectangle $ \p ->
       case ( Generate.toolpathOf (Generate.pocketing [] p),
              Generate.toolpathOf (Generate.pocketing [] p {left = plus (left p) (Mm 0.08)})
@@ -148,7 +148,7 @@ spec = modifyMaxSuccess (const 60) $ do
           _ -> property False
         _ -> discard
   it
-    "of several pockets each is compared by itself (catches motions that are taken for those of \
+    "each of several pockets is compared by itself (catches motions that are taken for those of \
     \another one)"
     $ do
       let asked = three (replicate 3 right)

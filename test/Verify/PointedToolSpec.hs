@@ -32,8 +32,8 @@ import Verify.Proof qualified as Proof
 spec :: Spec
 spec = describe "a nose without radius" $ do
   it
-    "lies on the contour, outside and inside, in both directions (catches motions on the contour \
-    \that do not count as beside it)"
+    "is proven on the contour, outside and inside, in both directions (catches motions on the \
+    \contour that do not count as beside it)"
     $ [ (side, back)
         | side <- [Part.Outside, Part.Inside],
           back <- [False, True],
@@ -42,8 +42,8 @@ spec = describe "a nose without radius" $ do
       ]
       `shouldBe` []
   it
-    "shifted into the material it gouges, shifted out of it it leaves material (catches a cutter \
-    \that is taken for one on the contour)"
+    "gouges if it is shifted into the material, and leaves material if it is shifted out of it \
+    \(catches a cutter that is taken for one on the contour)"
     $ [ (side, back, d, map kind fs)
         | side <- [Part.Outside, Part.Inside],
           back <- [False, True],
@@ -56,14 +56,14 @@ spec = describe "a nose without radius" $ do
           any isGouge fs /= deep || any isExcess fs == deep
       ]
       `shouldBe` []
-  it "says how deep: of a profile shifted by 10 pulses all of them" $
+  it "is found with the depth of its gouge: 10 pulses on a profile that is shifted by 10 pulses" $
     [ round (amount worst `inPulses` machine)
       | path <- [turned Part.Outside False],
         let program = Arcs.quantise machine path,
         Gouge _ worst _ <- found path program (shifted (-10) (own program))
     ]
       `shouldBe` [10 :: Int]
-  it "does not cross the profile in a linking move (catches a proof by the distance 0)" $
+  it "gouges in a linking move that crosses the profile (catches a proof by the distance 0)" $
     [ map kind fs
       | let path = turned Part.Outside False
             program = Arcs.quantise machine path

@@ -1,9 +1,9 @@
 -- | Independence of the proof from the toolpath: 'Verify.Requirement' works out the side of the
 -- cutter, its distance from the contour and the bevels of a blade from the part.
 --
--- A law that requires a proven tape is also a law against the toolpath. If the toolpath chooses a
--- wrong side, the program still compiles, and only the proof can refuse its tape. The mutants of
--- these laws are in the toolpath.
+-- A law that demands a proven tape also tests the toolpath. If the toolpath chooses a wrong side,
+-- the program still compiles, and only the proof can refuse its tape. The mutants of these laws are
+-- in the toolpath.
 module Verify.RequirementSpec (spec) where
 
 import Base.Quantity (Mm (..))
@@ -65,7 +65,7 @@ spec = do
       forAll (Generate.closedCase `suchThat` ((> 0.4) . Generate.radiusOf)) $ \c ->
         case Generate.milled (Mm 0.02) c of
           Nothing -> discard
-          Just laid -> case Result.output (FromToolpath.quantise lkp01f laid) of
+          Just toolpath -> case Result.output (FromToolpath.quantise lkp01f toolpath) of
             Nothing -> discard
             Just program ->
               let prove path' =
@@ -76,8 +76,9 @@ spec = do
                           program
                           (map Frame.frame (Frame.plannedFrames program))
                       )
-                  larger = withJobs (\m -> m {Part.radius = Mm (Generate.radiusOf c + 0.2)}) laid
-               in prove (withReach (Mm 0) laid) === []
+                  withLarger m = m {Part.radius = Mm (Generate.radiusOf c + 0.2)}
+                  larger = withJobs withLarger toolpath
+               in prove (withReach (Mm 0) toolpath) === []
                     .&&. counterexample "a larger cutter" (any isGouge (prove larger))
   where
     onItsSide (name, statement) =
