@@ -255,8 +255,8 @@ data WordRow
     SignSymbol Char
   | -- | decimal point
     Point
-  | -- | digit, its power of ten, the meaning of a hole in the service track there, and true if there
-    -- is one; decimals count, so the last digit has the power 0
+  | -- | digit, its position, the meaning of a hole in the service track there, and true if there is
+    -- one; the position counts from 0 at the last digit, decimals included
     Digit Int Int Service Bool
   deriving stock (Eq, Show)
 
