@@ -15,8 +15,7 @@ spec = do
   it
     "in a right-angled corner the area r²(1 − π/4) remains (catches an area on the wrong side of \
     \the cutter)"
-    $
-    rows "mill window inside { approach (20, 3)  rest allowed  retract (20, 15) }"
+    $ rows "mill window inside { approach (20, 3)  rest allowed  retract (20, 15) }"
       `shouldBe` [ [x, y, "1.931", "inner", "corner"]
                    | (x, y) <-
                        [ ("40.000", "0.000"),
