@@ -64,7 +64,7 @@ piece at curve finish = do
       }
   where
     original = map shiftOf (Curve.layers curve)
-    side = sideSign original
+    side = signOfPiece original
     shifts = map (onSide side) original
     row p s = PointRow {px = here (Vec.x p), py = here (Vec.y p), surface = s}
     isBevelled s = case distance s of
@@ -98,15 +98,13 @@ shiftOf (side, distance) = case distance of
   ShiftDistance.Joggled _ -> alone
   where
     alone = Shift {sign, square = Nothing, distance}
-    sign = case side of
-      Carrier.LeftOf -> 1
-      Carrier.RightOf -> -1
+    sign = Carrier.sideSign side
 
 -- | The side of a piece as a sign: 1 left, -1 right. It is the side to which the first of the
 -- distances that a sheet has before the points really shifts. Without such a distance, or if it is
 -- 0, it is the side of the first shift; left without shifts.
-sideSign :: [Shift] -> Double
-sideSign shifts = case listToMaybe [sign s * h | s <- shifts, Just h <- [headOf (distance s)]] of
+signOfPiece :: [Shift] -> Double
+signOfPiece shifts = case listToMaybe [sign s * h | s <- shifts, Just h <- [headOf (distance s)]] of
   Just h | h /= 0 -> signum h
   _ -> maybe 1 sign (listToMaybe shifts)
   where
