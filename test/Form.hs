@@ -93,8 +93,7 @@ tunedModules =
 -- memory grows with the tape.
 strictModules :: [Text]
 strictModules =
-  [ "Cli.Subcommand",
-    "Frame.Frame",
+  [ "Frame.Frame",
     "Frame.FromToolpath",
     "Frame.InstructionCheck",
     "Toolpath.CuttingPass",

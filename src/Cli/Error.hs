@@ -31,8 +31,8 @@ data Error
     OverwritesProgram Text
   | -- | Several tapes would be written to the given file.
     OneForSeveral Text
-  | -- | The tape has nothing in the range: the unit of the range (frame, row or line), and the count
-    -- of these units on the tape.
+  | -- | The tape has nothing in the range: the unit of the range (frame, row or line), and the
+    -- count of these units on the tape.
     NothingInRange Text Int
   | -- | The command line gives a value to this parameter, but an input sheet has no parameters.
     SheetAssigned Text

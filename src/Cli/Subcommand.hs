@@ -1,5 +1,3 @@
-{-# LANGUAGE BangPatterns #-}
-
 -- | The subcommands of @partc@, one function each.
 module Cli.Subcommand
   ( run,
@@ -38,6 +36,7 @@ import Cli.Progress qualified as Progress
 import Cli.ProofTable qualified as ProofTable
 import Compile (Compiled (Compiled), Punched (..))
 import Compile qualified
+import Control.Exception (evaluate)
 import Data.List.NonEmpty qualified as NonEmpty
 import Data.Maybe (maybeToList)
 import Data.Text (Text)
@@ -101,10 +100,10 @@ perform reporter command = case command of
 -- | Writes the tapes of a program for all its targets.
 compile :: Reporter -> CompileOptions -> IO Exit
 compile reporter options = withInput reporter (file options) (targets options) $ \given -> do
-  -- The syntax tree may be freed after this line; the large program is not kept while tapes are
-  -- made.
-  let !kept = withoutSurface given
-      job = (jobFor (targets options) kept) {verification = chosen}
+  -- Evaluated here, it keeps no reference to the syntax tree, which can be freed while the tapes
+  -- are made.
+  kept <- evaluate (withoutSurface given)
+  let job = (jobFor (targets options) kept) {verification = chosen}
   settled reporter kept (withWarning =<< Compile.compile job (loaded given)) $ \tapes ->
     writeTapes
       reporter
