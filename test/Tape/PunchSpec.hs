@@ -180,6 +180,25 @@ randomMachineLaws = do
                       | (state, f) <- zip states fs
                     ]
   it
+    "a minus before zero is refused by the fast reader and by the reader word by word (catches -0 \
+    \that is read as 0)"
+    $ do
+      let layout = Layout.fromMachine iso6983
+          state = ModalState.initial False start
+          readBoth line =
+            ( case FastFrameReader.readFrame layout state (textRows line) 0 of
+                FastFrameReader.Read f _ -> Just (increment f)
+                FastFrameReader.NotSimple -> Nothing,
+              case FrameReader.wordByWord layout state (textRows line) 0 of
+                Right (f, _) -> Right (increment f)
+                Left (FrameReader.RowFault _ _ why) -> Left why
+            )
+          textRows = Short.toShort . Encoding.encodeUtf8
+          toZero = Pulses3 (-500) 200 0
+      readBoth "G1 X0.000 Y0.000 F60\n" `shouldBe` (Just toZero, Right toZero)
+      readBoth "G1 X-0.000 Y0.000 F60\n" `shouldBe` (Nothing, Left MinusZero)
+      readBoth "G1 X0.000 Y-0.000 F60\n" `shouldBe` (Nothing, Left MinusZero)
+  it
     "an axis in the opposite direction negates its numbers and reverses the arcs (catches a sign \
     \that is forgotten)"
     $ forAll Generate.machine $ \m -> forAll (Generate.frames m) $ \(at, fs) ->
