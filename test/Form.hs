@@ -90,8 +90,7 @@ tunedModules =
 -- memory grows with the tape.
 strictModules :: [Text]
 strictModules =
-  [ "Cli.Subcommand",
-    "Frame.Frame",
+  [ "Frame.Frame",
     "Frame.FromToolpath",
     "Frame.InstructionCheck"
   ]

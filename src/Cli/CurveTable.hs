@@ -1,5 +1,5 @@
--- | The tables of fitted curves (Ural paper, Tables 2–4): the sections with their coefficients, and
--- their deviations from the rows of the table. Lengths are in mm.
+-- | The tables of fitted curves (Ural paper, Tables 2–4): the sections of each curve with their
+-- equations, and their deviations from the rows of the point table. Lengths are in mm.
 module Cli.CurveTable
   ( fittings,
   )
@@ -27,6 +27,7 @@ import Part.Part qualified as Part
 fittings :: Part -> [Text]
 fittings = map (uncurry fitting . \(Located _ name, f) -> (name, f)) . Part.fittings
 
+-- | The table of sections and the table of deviations of one curve.
 fitting :: Name -> Fitting -> Text
 fitting (Name name) Fitting {sections, deviations, fittedPoints} =
   "Curve "
@@ -67,7 +68,7 @@ fitting (Name name) Fitting {sections, deviations, fittedPoints} =
           ]
     fixed n (Mm x) = Decimal.fixed n x
 
--- | The equation of a section, with the digits of the paper.
+-- | The equation of a section; its coefficients have as many decimals as in the Ural paper.
 equation :: Section.Section -> Text
 equation p = case Section.formula p of
   Section.Polynomial 0 b c -> "y = " <> Decimal.fixed 7 b <> " x " <> signed 6 c

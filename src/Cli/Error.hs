@@ -17,30 +17,34 @@ import Data.Text qualified as Text
 import Report.Report (Report (..), ReportPlace (..), report)
 import Report.Report qualified as Report
 
+-- | Error of a file or of the command line.
 data Error
-  = -- | the reason
+  = -- | A file cannot be read, for the given reason.
     CannotRead Text
-  | -- | the file and the reason
+  | -- | The given file cannot be written, for the given reason.
     CannotWrite Text Text
-  | NotUtf8
-  | -- | no machine for a tape; the built-in machines
+  | -- | A file is not UTF-8 text.
+    NotUtf8
+  | -- | The command line names no machine for a tape; the list has the built-in machines.
     NoMachineForTape [Text]
-  | -- | a file that the program is made of, and that the output would replace
+  | -- | The output would replace the given file, of which the program is made.
     OverwritesProgram Text
-  | -- | the file that several tapes would go to
+  | -- | Several tapes would be written to the given file.
     OneForSeveral Text
-  | -- | a tape has nothing in the range: the unit of the range (row or frame), the tape's count
+  | -- | The tape has nothing in the range: the unit of the range (frame, row or line), and the
+    -- count of these units on the tape.
     NothingInRange Text Int
-  | -- | the parameter to which the command line gives a value; an input sheet has none
+  | -- | The command line gives a value to this parameter, but an input sheet has no parameters.
     SheetAssigned Text
-  | -- | an input sheet has no layout
+  | -- | An input sheet cannot be formatted.
     SheetLaidOut
-  | -- | an unknown report code, and the codes that may be meant
+  | -- | No report has the given code; the list has similar codes that exist.
     UnknownCode Text [Text]
   deriving stock (Eq, Show)
 
+-- | Warning about the command line.
 data Warning
-  = -- | the tape is written without verification
+  = -- | The tape is written without verification.
     Unproven
   deriving stock (Eq, Show)
 
@@ -104,7 +108,7 @@ toReport err = case err of
   where
     wrong = report Report.Error
 
--- | The reason why a file cannot be used, as the end of a sentence.
+-- | The reason why a file cannot be used, for the end of a sentence in another report.
 reason :: Error -> Text
 reason err = case err of
   CannotRead why -> why

@@ -1,4 +1,4 @@
--- | The subcommand @fmt@: programs in the canonical layout.
+-- | The subcommand @fmt@, which brings programs into the canonical layout.
 module Cli.Formatter
   ( fmt,
   )
@@ -20,8 +20,8 @@ import Surface.Formatter qualified as Formatter
 import Surface.Parser qualified as Parser
 import Surface.Syntax (Program)
 
--- | Formats one program in place, or from standard input to standard output. With @--check@, prints
--- the name of a program that is not in the canonical layout, and writes nothing.
+-- | Formats one program in place, or from standard input to standard output. If the flag @--check@
+-- is true, it writes no file: it prints the name of a program that is not in the canonical layout.
 fmt :: Reporter -> Bool -> FilePath -> IO Exit
 fmt reporter checkOnly file
   | LoadedProgram.isInputSheet file = failWith reporter (Text.pack file) SheetLaidOut
@@ -36,6 +36,8 @@ fmt reporter checkOnly file
   where
     name = if file == "-" then "<stdin>" else Text.pack file
 
+-- | Writes or checks a formatted program. The arguments after the flag: the file, its name in
+-- reports, its text as it is, and its text formatted.
 replaceText :: Reporter -> Bool -> FilePath -> Text -> Text -> Text -> IO Exit
 replaceText reporter checkOnly file name text formatted
   | checkOnly, formatted == text = pure Done

@@ -29,14 +29,14 @@ import Geometry.Carrier (Sense (..))
 import Geometry.Vec qualified as Vec
 import Machine.Machine (CommandName (..), FeedCode (..), Machine)
 
--- | A column: its alignment, its heading, its cell for each row.
+-- | A column: its alignment, its heading, and the function that makes its cell for a row.
 data Column a = Column {align :: Align, title :: Text, cell :: a -> Text}
 
--- | A frame with its number, from 1, and the position at its end.
+-- | A frame with its number, from 1, and the position of the cutter at its end, in pulses.
 data Numbered = Numbered {number :: Int, planned :: PlannedFrame, to :: Pulses3}
 
--- | A table of frames, each with the line of the program that it comes from. Columns that would be
--- empty are left out.
+-- | A table of frames, each with the line of the program from which it is made. Columns that would
+-- be empty are left out.
 frames :: Machine -> Source -> FrameProgram -> Text
 frames machine source program = table columns rows
   where
@@ -70,7 +70,8 @@ frames machine source program = table columns rows
         )
     coordinate = Decimal.fixed 3
 
--- | Frames as JSON lines: increments in pulses, positions in mm.
+-- | Frames as JSON, one object on each line. Increments and centres are in pulses, positions in mm,
+-- feeds in mm\/min.
 framesJson :: Machine -> Source -> FrameProgram -> Text
 framesJson machine source program = Text.concat (map row (numbered program))
   where
@@ -129,11 +130,14 @@ table :: [Column a] -> [a] -> Text
 table columns rows =
   Table.columns (map align columns) (map title columns : map (\r -> map (`cell` r) columns) rows)
 
--- | A column for rows that contain the rows of another column.
+-- | Changes a column for rows of type @a@ to one for rows of type @b@, by the function that gets
+-- the
+-- @a@ out of a @b@.
 via :: (b -> a) -> Column a -> Column b
 via get c = c {cell = cell c . get}
 
--- | The increments; the kind of motion if some frames are arcs or rapid; the centres of arcs.
+-- | Columns for the increments in pulses. If some frames are arcs or rapid moves, also one for the
+-- kind of motion; if some are arcs, also those for their centres.
 motionColumns :: [Frame] -> [Column Frame]
 motionColumns fs =
   [ Column ToLeft "motion" (motionWord . motion)
@@ -153,11 +157,11 @@ motionColumns fs =
     pulses (Pulses n) = Decimal.whole n
     ofCentre get f = if isArc f then pulses (get (centre f)) else ""
 
--- | Marks braking frames, if there are any.
+-- | A column that marks braking frames; none if there are no such frames.
 brakeColumn :: [Frame] -> [Column Frame]
 brakeColumn fs = [Column ToLeft "" (\f -> if braking f then "brakes" else "") | any braking fs]
 
--- | A column for every word of commands that some frame has.
+-- | A column for the number of each command that occurs in the frames.
 commandColumns :: [Frame] -> [Column Frame]
 commandColumns fs =
   [ Column ToRight name (maybe "" Decimal.whole . lookup o . commands)
@@ -190,7 +194,8 @@ numbered program =
   where
     ps = Frame.plannedFrames program
 
--- | The line of the program, with the file if it is an imported one.
+-- | The line of the program from which a frame is made; if it is in an imported file, with its
+-- name.
 lineWord :: Source -> PlannedFrame -> Text
 lineWord source p =
   (if file == Region.mainFile source then "" else file <> ":") <> Decimal.whole (lineOf source p)

@@ -1,5 +1,5 @@
--- | The files that commands read: part programs with all that belongs to them, tapes, and machine
--- descriptions.
+-- | The files that subcommands read: part programs with all files that they need, tapes, and
+-- machine descriptions.
 module Cli.InputFile
   ( Input (..),
     source,
@@ -42,13 +42,13 @@ data Input = Input {name :: Text, loaded :: LoadedProgram, values :: [(Text, Tex
 source :: Input -> Source
 source = LoadedProgram.source . loaded
 
--- | Drops the syntax tree of a program. For a large one it takes more memory than the toolpath and
--- the tape.
+-- | Drops the syntax tree of a program, to free its memory. The tree of a large program takes more
+-- memory than its toolpath and its tape.
 withoutSurface :: Input -> Input
 withoutSurface input = input {loaded = LoadedProgram.withoutSurface (loaded input)}
 
--- | Loads a program, what it imports, and the machine descriptions that the program or the command
--- line names, and continues with it.
+-- | Loads a program, its imports, and the machine descriptions that the program or the command line
+-- (@targets@) names; then continues with it. If the program cannot be read, it reports that.
 withInput :: Reporter -> FilePath -> [Text] -> (Input -> IO Exit) -> IO Exit
 withInput reporter file targets continue = do
   content <- readProgram file
@@ -70,27 +70,29 @@ withInput reporter file targets continue = do
   where
     values = Output.values (Output.settings reporter)
 
--- | The files that a program is made of: its own, those that it imports, its machine descriptions.
+-- | The files of which a program is made: the program itself, its imports, its machine
+-- descriptions.
 ownFiles :: FilePath -> Input -> [FilePath]
 ownFiles file input = file : imported <> concatMap asWritten described
   where
     imported = map (Text.unpack . snd) (LoadedProgram.imports (loaded input))
     described = map (Text.unpack . fst) (LoadedProgram.descriptions (loaded input))
-    -- The command line names a description by its own path, the program from its folder.
+    -- A description's path is relative to the current folder if the command line names it, and to
+    -- the program's folder if the program does. It is not known here which of them did.
     asWritten description = [description, takeDirectory file </> description]
 
--- | Supplies files by this function. A file is the same by whatever path it is reached.
+-- | Supplies imported files by the given function. Two paths to the same file count as one file.
 readerFrom :: (FilePath -> IO (Either Text Text)) -> Import.Reader IO
 readerFrom contents = Import.Reader {Import.contents, Import.identity}
   where
     identity path =
       either (const path :: IOException -> FilePath) id <$> try (canonicalizePath path)
 
--- | The text of a file on the disk, or the reason why there is none.
+-- | The text of a file on the disk, or the reason why it cannot be read.
 readContents :: FilePath -> IO (Either Text Text)
 readContents file = either (Left . Cli.reason) Right <$> readProgram file
 
--- | The text of a program file. A byte order mark is not part of it.
+-- | The text of a program file, without a byte order mark.
 readProgram :: FilePath -> IO (Either Error Text)
 readProgram file = do
   bytes <- readBytes file
@@ -103,7 +105,8 @@ readProgram file = do
 readBytes :: FilePath -> IO (Either Error ByteString)
 readBytes file = either (Left . CannotRead) Right <$> Output.readBytes file
 
--- | Loads the machine descriptions that the command line names, and adds those of the program.
+-- | Loads the machine descriptions that the command line names, and puts them before the given
+-- ones, which are those of the program. Names of built-in machines need no file.
 descriptionsFor :: [Text] -> Descriptions -> IO Descriptions
 descriptionsFor targets own =
   (<> own)
@@ -111,6 +114,6 @@ descriptionsFor targets own =
       (MachineDescription.load readContents "")
       (filter MachineDescription.isFileName targets)
 
--- | The name of a file in reports.
+-- | The name of a file in reports; @\<stdin>@ for standard input.
 displayName :: FilePath -> Text
 displayName file = if file == "-" then "<stdin>" else Text.pack file

@@ -1,9 +1,9 @@
 {-# OPTIONS_GHC -O0 #-}
 
--- | Tables of machines: the list of all, and the sheet of one.
+-- | Tables of machines: the list of all, and the data of one.
 module Cli.MachineTable
   ( machineList,
-    machineSheet,
+    machineDetails,
   )
 where
 
@@ -20,14 +20,14 @@ import Data.Text (Text)
 import Data.Text qualified as Text
 import Machine.Machine
 
--- | The list of machines, one line each.
+-- | The names and titles of machines, one line for each.
 machineList :: [Machine] -> Text
 machineList ms = Table.columns [ToLeft, ToLeft] [[n, title m] | m <- ms, let MachineName n = name m]
 
 -- | The data of one machine: tape, code, axes, frames, feeds, braking, commands, and the provenance
 -- of each value.
-machineSheet :: Machine -> Text
-machineSheet m =
+machineDetails :: Machine -> Text
+machineDetails m =
   n
     <> ": "
     <> title m
@@ -84,7 +84,8 @@ tapeRows m =
     t = medium m
     blanks k = Decimal.whole k <> " blank row" <> (if k == 1 then "" else "s")
 
--- | The symbols that frames use, each with its holes. The highest track comes first.
+-- | The symbols that frames use, each with its row as binary digits (1 is a hole), the highest
+-- track first.
 codeRows :: Machine -> [[Text]]
 codeRows m =
   line "symbol" "weight" ("tracks " <> Text.concat (map Decimal.whole tracksDown)) :
@@ -126,6 +127,7 @@ codeRows m =
       AWord w -> Text.unpack (address w)
       CheckDigit _ -> []
 
+-- | True of a machine whose frames have a check digit.
 hasCheck :: Machine -> Bool
 hasCheck m = or [True | CheckDigit _ <- NonEmpty.toList (items (layout m))]
 
@@ -158,7 +160,7 @@ axisRows m =
 
 -- The frame ---------------------------------------------------------------------------------------
 
--- | Has every frame the same rows, each with a fixed meaning?
+-- | True of a machine whose frames all have the same count of rows, each with a fixed meaning.
 isGrid :: Machine -> Bool
 isGrid m = all fixed (NonEmpty.toList (items (layout m)))
   where
@@ -171,6 +173,7 @@ isGrid m = all fixed (NonEmpty.toList (items (layout m)))
           && padded (form w)
           && sign (form w) `elem` [Unsigned, ServiceSign]
 
+-- | The table of a frame of fixed rows: the meaning of each row.
 gridRows :: Machine -> [[Text]]
 gridRows m =
   ["row", "digit of", "service track"] :
@@ -189,6 +192,7 @@ gridRows m =
                 <> replicate (digits (form w) - length (service (form w))) ""
         ]
 
+-- | The table of a frame of words: the form of each word.
 wordRows :: Machine -> [[Text]]
 wordRows m =
   ["address", "holds", "digits", "sign", "stands"] :
@@ -219,7 +223,7 @@ wordRows m =
     servicesText ss =
       if all (== NoHole) ss then "" else "holes: " <> Text.intercalate ", " (map serviceWord ss)
 
--- | The number that codes each kind of motion.
+-- | The code of each kind of motion.
 motionRows :: Machine -> [[Text]]
 motionRows m =
   concat
@@ -291,7 +295,7 @@ feedRows m = ["code", unit, ""] : listed
             | (FeedCode c, v) <- Map.toList t
           ]
 
--- | The first and the last rows of a long table.
+-- | Replaces the middle rows of a table of more than 13 rows by one row of dots.
 abbreviated :: [[Text]] -> [[Text]]
 abbreviated rows
   | length rows <= longest + 1 = rows
@@ -367,6 +371,6 @@ markWord mark = case mark of
   Corrected -> "corrected"
   Reconstructed -> "reconstructed"
 
--- | Symbols between quotation marks, with a visible end of line.
+-- | Symbols between quotation marks; a line feed becomes @\\n@.
 quoted :: Text -> Text
 quoted t = "‘" <> Text.replace "\n" "\\n" t <> "’"

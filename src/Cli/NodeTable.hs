@@ -1,4 +1,5 @@
--- | The tables of the Ural paper: the nodes of every equidistant, lengths, times, metres of tape.
+-- | The tables of the subcommand @report@, after the Ural paper: the nodes of every equidistant,
+-- lengths, times, and the length of the tape.
 --
 -- Coordinates and lengths are in mm, times in seconds.
 module Cli.NodeTable
@@ -32,8 +33,8 @@ import Tape.Tape qualified as Tape
 import Toolpath.Toolpath (Block (..), Move (..), Pass (..), Toolpath, heights, pace)
 import Toolpath.Toolpath qualified as Toolpath
 
--- | The tables of a part: curves, contours, pockets, holes, rest material, sums. Times are those of
--- the machine's feeds; without a machine, those of the program's feeds.
+-- | The tables of a part: curves, contours, pockets, holes, rest material, sums. Times are computed
+-- with the feeds of the machine; without a machine, with those of the program.
 nodes :: Maybe (Machine, Punched) -> Analysis -> Text
 nodes punched Analysis {part, path} =
   Text.intercalate
@@ -56,9 +57,11 @@ heading part =
     <> maybe "" (": " <>) (Part.title part)
     <> "\n"
 
+-- | The passes along contours.
 cutsOf :: Toolpath -> [(Located Milling, Pass, [Move])]
 cutsOf path = [(job, pass, NonEmpty.toList cut) | Cutting {job, pass, cut} <- Toolpath.blocks path]
 
+-- | The passes in pockets, each with the milling of the pocket's wall.
 clearingsOf :: Toolpath -> [(Located Milling, Pass, [Move])]
 clearingsOf path =
   [ (Part.wall <$> pocket, pass, NonEmpty.toList cleared)
@@ -93,6 +96,7 @@ contourTable machine job pass cut =
       )
     <> lengthAndTime machine cut
 
+-- | The count of moves, the length and the time of one pass in a pocket.
 pocketText :: Maybe Machine -> Located Milling -> Pass -> [Move] -> Text
 pocketText machine wall pass cleared =
   "Pocket "
@@ -106,7 +110,7 @@ pocketText machine wall pass cleared =
 nameOf :: Located Milling -> Text
 nameOf job = let Name n = value (Part.contourName (Part.contour (value job))) in n
 
--- | The height of a pass and its allowance, unless they are zero.
+-- | The height of a pass and the allowance that it leaves, each only if it is not 0.
 passWord :: Pass -> Text
 passWord Pass {left, atHeight} =
   (if atHeight == Mm 0 then "" else " at z = " <> fixed3 atHeight)
@@ -128,8 +132,8 @@ lengthAndTime machine moves =
     <> seconds (total (map (moveTime machine) moves))
     <> " s\n"
 
--- | One row for each section, from a node to the next; an open contour has a last row for its end.
--- The arcs of one curve are one section.
+-- | One row for each section, from one node to the next. An open contour also has a row for its
+-- last node. All arcs of a curve are one section.
 sectionRows :: Maybe Machine -> Part.Ends -> [NonEmpty Move] -> [[Text]]
 sectionRows machine ends sections =
   zipWith (sectionRow machine (length sections) ends) [0 ..] sections <> endRow ends sections
@@ -177,7 +181,7 @@ centreAndRadius section = case segment (NonEmpty.head section) of
 
 -- Holes and sums ----------------------------------------------------------------------------------
 
--- | The table of all holes, if there are any.
+-- | The table of all holes; none if there are no holes.
 holeTable :: [Drilling] -> [Text]
 holeTable drillings =
   [ "Holes\n\n"
@@ -196,7 +200,8 @@ holeTable drillings =
     | not (null drillings)
   ]
 
--- | The length of linking moves, of the whole toolpath, its time, and the size of the tape.
+-- | The length of all linking moves, the length and the time of the whole toolpath, and the size of
+-- the tape.
 summary :: Maybe (Machine, Punched) -> Toolpath -> Text
 summary punched path =
   Table.columns
@@ -226,8 +231,8 @@ tapeRows machine Punched {program, tape} =
 -- Moves -------------------------------------------------------------------------------------------
 
 -- | The time of a move at the feed of the machine; without a machine, at the feed of the program. A
--- rapid move takes no time if its speed is unknown: without a machine, and on a machine whose
--- control chooses the speed itself.
+-- rapid move counts as 0 s if its speed is unknown: if there is no machine, or if the control of
+-- the machine chooses the speed itself.
 moveTime :: Maybe Machine -> Move -> Seconds
 moveTime machine move = maybe (Seconds 0) (travelTime (moveLength move)) (feedOf (pace move))
   where
@@ -237,7 +242,8 @@ moveTime machine move = maybe (Seconds 0) (travelTime (moveLength move)) (feedOf
       (At (Located _ feed), Nothing) -> Just feed
       (At (Located _ feed), Just m) -> Just (FeedCode.expectedFeed m feed)
 
--- | The length of a move in space: the hypotenuse of its length in the plane and its height.
+-- | The length of a move in space: the hypotenuse of its length in the plane and its change of
+-- height.
 moveLength :: Move -> Mm
 moveLength move =
   let Mm l = Segment.length (segment move)

@@ -27,44 +27,50 @@ import Text.Read (readMaybe)
 data Invocation = Invocation {settings :: OutputSettings, command :: Subcommand}
   deriving stock (Eq, Show)
 
--- | A subcommand with its arguments.
+-- | A subcommand with its arguments. Without a machine, it is that of the program; without a file
+-- to write, it is standard output.
 data Subcommand
   = Compile CompileOptions
-  | Check (NonEmpty FilePath)
-  | -- | the program, its machine, the tape
+  | -- | the programs
+    Check (NonEmpty FilePath)
+  | -- | the program, the machine, the tape
     Verify FilePath (Maybe Text) (Maybe FilePath)
-  | -- | the program, its machine; JSON lines instead of a table
+  | -- | the program, the machine, true for JSON lines instead of a table
     Frames FilePath (Maybe Text) Bool
-  | Report FilePath (Maybe Text)
+  | -- | the program, the machine
+    Report FilePath (Maybe Text)
   | -- | the input sheet, the program to write
     Import FilePath (Maybe FilePath)
   | -- | the program, the input sheet to write
     ExportSheet FilePath (Maybe FilePath)
-  | Decode (Maybe Text) FilePath
-  | Plot FilePath (Maybe FilePath)
+  | -- | the machine, the tape
+    Decode (Maybe Text) FilePath
+  | -- | the program, the drawing to write
+    Plot FilePath (Maybe FilePath)
   | -- | the machine, the rows to show, the tape
     DrawTape (Maybe Text) RowRange FilePath
-  | -- | the machine; the text of its description instead of a table
+  | -- | the machine, or the list of all; true for the text of the description instead of a table
     Machines (Maybe Text) Bool
-  | Explain (Maybe Text)
+  | -- | the report code, or the list of all
+    Explain (Maybe Text)
   | LanguageServer
-  | -- | only check the layout; the programs
+  | -- | true to check the layout and write nothing; the programs
     Fmt Bool (NonEmpty FilePath)
   deriving stock (Eq, Show)
 
 -- | The arguments of @compile@.
 data CompileOptions = CompileOptions
   { file :: FilePath,
-    -- | names of machines; none means the program's own machine
+    -- | names of machines; an empty list means the program's own machine
     targets :: [Text],
-    -- | the file or folder to write to
+    -- | the file or folder to write to; nothing for a file beside the program
     place :: Maybe FilePath,
-    -- | write tapes without verification
+    -- | true to write tapes without verification
     unproven :: Bool
   }
   deriving stock (Eq, Show)
 
--- | The parser of the whole command line. The text is the version.
+-- | The parser of the whole command line; the argument is the version of partc.
 parser :: String -> ParserInfo Invocation
 parser version =
   Opt.info
@@ -257,7 +263,7 @@ rangeOption =
         )
     <|> pure TapeRows.Everything
 
--- | A range from 1: @3@ or @3..8@.
+-- | A range of numbers from 1 with both ends included: @3..8@, or @3@ for @3..3@.
 fromTo :: Opt.ReadM (Int, Int)
 fromTo =
   Opt.eitherReader $ \word ->
@@ -274,7 +280,8 @@ outputOption help =
   Opt.strOption
     (Opt.long "output" <> Opt.short 'o' <> Opt.metavar "PATH" <> Opt.help help <> Opt.action "file")
 
--- | The settings that the command line gives, before or after the subcommand.
+-- | The settings that the command line gives before or after the subcommand; nothing and false mean
+-- that it does not give them.
 data Overrides = Overrides
   { format' :: Maybe Format,
     colour' :: Maybe ColourChoice,
@@ -321,7 +328,7 @@ overrides =
           )
       )
 
--- | One of these words.
+-- | The value of one of these words.
 choice :: [(String, a)] -> Opt.ReadM a
 choice table = Opt.eitherReader $ \word ->
   maybe
@@ -329,7 +336,7 @@ choice table = Opt.eitherReader $ \word ->
     Right
     (lookup word table)
 
--- | A value for a parameter: @d=25 mm@.
+-- | A parameter's name and its value, as in @d=25 mm@.
 assignment :: Opt.ReadM (Text, Text)
 assignment = Opt.eitherReader $ \word -> case Text.breakOn "=" (Text.pack word) of
   (name, rest)
@@ -338,7 +345,8 @@ assignment = Opt.eitherReader $ \word -> case Text.breakOn "=" (Text.pack word) 
       Right (Text.strip name, Text.drop 1 rest)
   _ -> Left ("‘" <> word <> "’ is not NAME=VALUE")
 
--- | Joins settings before and after the subcommand; the later ones win.
+-- | Joins the settings after the subcommand (the first argument) with those before it. If both give
+-- a setting, the first argument wins.
 over :: Overrides -> Overrides -> Overrides
 over later earlier =
   Overrides

@@ -1,4 +1,5 @@
--- | The ends of commands: an error, a printed result, or the next step after a sound one.
+-- | The last steps of subcommands: report an error, print a result, or continue with a result that
+-- has no errors.
 module Cli.Outcome
   ( failWith,
     failWithReport,
@@ -33,8 +34,8 @@ failWithReport :: Reporter -> Text -> Report -> IO Exit
 failWithReport reporter name report =
   Failed <$ Output.showReports reporter name (Region.fromText name "") [report]
 
--- | Computes a result, writes its reports, and continues with its output if no report forbids it.
--- The name and the source are those of the program.
+-- | Computes a result, writes its reports, and continues with its output if no report stops the
+-- command, see 'Output.showReports'. The name and the source are those of the program.
 whenSound :: Reporter -> Text -> Source -> Result Report Report a -> (a -> IO Exit) -> IO Exit
 whenSound reporter name source result continue = do
   Progress.during ("working on " <> name) (evaluated result)
@@ -44,7 +45,7 @@ whenSound reporter name source result continue = do
     Nothing | not isStopped -> bug "a stage gave neither an output nor a report"
     _ -> pure Failed
 
--- | Evaluates a result as far as its errors and warnings depend on it.
+-- | Evaluates a result until all its errors and warnings are known.
 evaluated :: Result w e a -> IO ()
 evaluated result = void (evaluate (length (errors result) + length (warnings result)))
 
@@ -53,8 +54,8 @@ printResult :: Reporter -> Text -> IO Exit
 printResult reporter text =
   Output.result text >>= exitAfterWriting reporter "" "to standard output"
 
--- | Ends a command that has written something: the name for the report, the destination in words,
--- and the reason if the writing failed.
+-- | The exit status after writing. The arguments: the name of the file in the report, the
+-- destination as the report calls it, and the result of writing, with the reason of a failure.
 exitAfterWriting :: Reporter -> Text -> Text -> Either Text () -> IO Exit
 exitAfterWriting reporter name destination written = case written of
   Left why -> failWith reporter name (CannotWrite destination why)

@@ -1,5 +1,5 @@
--- | Input and output of commands: reports go to standard error, results to standard output. A file
--- is written completely or not at all.
+-- | Input and output of subcommands. Reports are written to standard error, results to standard
+-- output. A file is written completely or not at all.
 module Cli.Output
   ( Format (..),
     ColourChoice (..),
@@ -73,13 +73,13 @@ data Format = HumanFormat | ShortFormat | JsonFormat | SarifFormat
 data ColourChoice = Auto | Always | Never
   deriving stock (Eq, Show)
 
--- | The settings of every command.
+-- | The settings that every subcommand has.
 data OutputSettings = OutputSettings
   { format :: Format,
     colour :: ColourChoice,
-    -- | no warnings
+    -- | true to leave out warnings; no effect if 'werror' is true
     quiet :: Bool,
-    -- | warnings count as errors
+    -- | true if warnings count as errors
     werror :: Bool,
     -- | values for the parameters of the program, by their names
     values :: [(Text, Text)]
@@ -91,7 +91,8 @@ defaultSettings :: OutputSettings
 defaultSettings =
   OutputSettings {format = HumanFormat, colour = Auto, quiet = False, werror = False, values = []}
 
--- | The end of a command. The order is that of severity.
+-- | The exit status of a command. A greater one is worse, so the maximum is the status of several
+-- commands.
 data Exit
   = Done
   | -- | the program or the tape has errors, or a file cannot be read or written
@@ -114,8 +115,8 @@ ioProblem e
   where
     Errno closed = eBADF
 
--- | Writes the reports of one run. SARIF has one log for the whole run, so its reports are
--- collected, the latest first.
+-- | The means to write the reports of one run. SARIF has one log for the whole run, so its reports
+-- are collected in @collected@, the latest first.
 data Reporter = Reporter {settings :: OutputSettings, collected :: IORef [Filed]}
 
 -- | Runs a command, and writes the collected reports at its end.
@@ -130,8 +131,9 @@ reporting settings work = do
     JsonFormat -> pure ()
   pure a
 
--- | Writes the reports on one file. The answer is true if one of them stops the command: an error,
--- or with @--werror@ a warning.
+-- | Writes the reports about one file. The result is true if one of them stops the command: an
+-- error, or a warning if 'werror' is true. The arguments: the name and the source of the file, the
+-- reports.
 showReports :: Reporter -> Text -> Source -> [Report] -> IO Bool
 showReports Reporter {settings, collected} path source reports = do
   case format settings of
@@ -152,7 +154,7 @@ showReports Reporter {settings, collected} path source reports = do
       Report.sorted
         (if quiet settings && not (werror settings) then filter Report.isError reports else reports)
 
--- | The reader of a terminal gets at most this number of reports.
+-- | Greatest count of reports that are shown to a person.
 mostReports :: Int
 mostReports = 50
 
@@ -162,6 +164,7 @@ writeError text = do
   _ <- try (Text.hPutStr stderr text) :: IO (Either IOException ())
   pure ()
 
+-- | Decides if reports to a stream are coloured.
 useColour :: OutputSettings -> Handle -> IO Human.Colour
 useColour settings handle = case colour settings of
   Always -> pure Human.Coloured
@@ -176,8 +179,8 @@ useColour settings handle = case colour settings of
           else Human.Plain
       )
 
--- | Writes a result to standard output. The answer is the reason of a failure; a pipe that its
--- reader has closed is none.
+-- | Writes a result to standard output. The value is the reason of a failure. If the reader has
+-- closed the pipe, that is not a failure.
 result :: Text -> IO (Either Text ())
 result = resultBytes . Encoding.encodeUtf8
 
@@ -190,14 +193,14 @@ resultBytes bytes = either judge Right <$> try (ByteString.hPut stdout bytes *> 
       | otherwise = Left (ioProblem e)
     Errno pipe = ePIPE
 
--- | The bytes of a file, or of standard input for @-@, or the reason of the failure.
+-- | The bytes of a file, or of standard input for @-@; or the reason why they cannot be read.
 readBytes :: FilePath -> IO (Either Text ByteString)
 readBytes file =
   either (Left . ioProblem) Right
     <$> try (if file == "-" then ByteString.getContents else ByteString.readFile file)
 
--- | Writes a file under a temporary name and renames it: the old file stays until the new one is
--- complete. A device or a pipe is written to directly. The answer is the reason of a failure.
+-- | Writes a file under a temporary name and renames it, so the old file stays until the new one is
+-- complete. A device or a pipe is written directly. The value is the reason of a failure.
 writeFileWhole :: FilePath -> ByteString -> IO (Either Text ())
 writeFileWhole path bytes = either problem Right <$> try write
   where
@@ -207,7 +210,7 @@ writeFileWhole path bytes = either problem Right <$> try write
         Right known
           | not (isRegularFile known || isDirectory known) ->
             ByteString.writeFile path bytes
-        -- Renaming would replace a write-protected file, if the folder is writable.
+        -- Renaming would replace even a write-protected file, so the protection is checked first.
         Right known | isRegularFile known -> do
           isWritable <- fileAccess path False True False
           if isWritable

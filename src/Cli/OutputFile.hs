@@ -1,4 +1,4 @@
--- | The files that commands write. No output replaces a file that it was made from.
+-- | The files that subcommands write. No output replaces a file from which it is made.
 module Cli.OutputFile
   ( writeTapes,
     writeText,
@@ -28,8 +28,8 @@ import System.FilePath
   )
 import Tape.Tape (Tape (..))
 
--- | Writes the tapes of a program: its name in reports, its file, the files that it is made of, and
--- the output path of the command line.
+-- | Writes the tapes of a program. The arguments: the program's name in reports, its file, all
+-- files of which it is made, the output path of the command line, and the tapes.
 writeTapes ::
   Reporter ->
   Text ->
@@ -46,8 +46,9 @@ writeTapes reporter name file sources wanted tapes = do
     (Nothing, Just path) -> failWith reporter name (OneForSeveral (Text.pack path))
     (Nothing, Nothing) -> writeAll reporter (zip destinations [bytes | (_, Tape bytes) <- tapes])
 
--- | The path of a tape: beside the program, in a folder, or exactly as the command line says. The
--- count is that of all tapes of the run.
+-- | The path of a tape. Without an output path it is beside the program. If the output path is a
+-- folder, or if there are several tapes (@count@), it is in that folder. Otherwise it is the output
+-- path itself.
 destination :: FilePath -> Maybe FilePath -> Int -> Machine -> IO FilePath
 destination file wanted count machine = case wanted of
   Nothing -> pure (if file == "-" then standard else replaceDirectory standard folder)
@@ -66,12 +67,13 @@ destination file wanted count machine = case wanted of
       base <.> Text.unpack machineName <.> Text.unpack (Machine.suffix (Machine.medium machine))
     folder = take (length file - length (takeFileName file)) file
 
+-- | The first element that occurs again later in the list.
 firstRepeated :: Eq a => [a] -> Maybe a
 firstRepeated items = case items of
   [] -> Nothing
   first : more -> if first `elem` more then Just first else firstRepeated more
 
--- | The first destination that is one of these source files, by whatever path.
+-- | The first destination that is the same file as one of the sources, even under another path.
 overwritten :: [FilePath] -> [FilePath] -> IO (Maybe FilePath)
 overwritten sources destinations = do
   present <- filterM doesFileExist sources
@@ -88,7 +90,9 @@ writeAll reporter files = case files of
     exit <- exitAfterWriting reporter "" (Text.pack path) written
     if exit == Done then writeAll reporter more else pure exit
 
--- | Writes a text to a file, or to standard output if there is no path or the path is @-@.
+-- | Writes a text to a file, or to standard output if there is no path or the path is @-@. The
+-- arguments: the name of the program in reports, all files of which the text is made, the output
+-- path, and the text.
 writeText :: Reporter -> Text -> [FilePath] -> Maybe FilePath -> Text -> IO Exit
 writeText reporter name sources wanted text = case wanted of
   Just path | path /= "-" -> do

@@ -18,8 +18,8 @@ import Machine.Machine qualified as Machine
 import Verify.Proof (ContourProof (..), Proof, Witness (..))
 import Verify.Proof qualified as Proof
 
--- | A row for gouge and one for excess of each contour, then the sums and the verdict. Deviations
--- are in mm.
+-- | The table: for each contour the largest gouge and the largest excess in mm, with the allowed
+-- value and the frame; then facts about the whole tape, and the verdict.
 proof :: Machine -> Proof -> Text
 proof machine p =
   Table.columns

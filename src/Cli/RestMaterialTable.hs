@@ -23,8 +23,8 @@ import Toolpath.RestMaterial (Remaining (Remaining, tool, walls))
 import Toolpath.RestMaterial qualified as RestMaterial
 import Toolpath.Toolpath (Toolpath)
 
--- | One table for each statement that leaves rest material: the position, the area in mm² if the
--- region's boundary is known, the largest cutter that reaches it, and the reason.
+-- | One table for each statement that leaves rest material. A row has the position of a region in
+-- mm, its area in mm² if its boundary is known, the largest cutter that reaches it, and the reason.
 tables :: Toolpath -> [Text]
 tables path = map table (RestMaterial.ofPath path)
 
@@ -41,6 +41,7 @@ table Remaining {tool, walls, RestMaterial.positions = regions} =
       [ToRight, ToRight, ToRight, ToRight, ToLeft]
       (["x", "y", "area mm²", "largest", "place"] : map (row tool) (NonEmpty.toList regions))
 
+-- | The row of one region.
 row :: Tool -> (RestPosition, UnreachedPart) -> [Text]
 row tool (stay, rest) = case stay of
   InCorner _ _ p -> at p "" "inner corner"

@@ -1,5 +1,3 @@
-{-# LANGUAGE BangPatterns #-}
-
 -- | The subcommands of @partc@, one function each.
 module Cli.Subcommand
   ( run,
@@ -38,6 +36,7 @@ import Cli.Progress qualified as Progress
 import Cli.ProofTable qualified as ProofTable
 import Compile (Compiled (Compiled), Punched (..))
 import Compile qualified
+import Control.Exception (evaluate)
 import Data.List.NonEmpty qualified as NonEmpty
 import Data.Maybe (maybeToList)
 import Data.Text (Text)
@@ -98,11 +97,13 @@ perform reporter command = case command of
 
 -- Programs ----------------------------------------------------------------------------------------
 
+-- | Writes the tapes of a program for all its targets.
 compile :: Reporter -> CompileOptions -> IO Exit
 compile reporter options = withInput reporter (file options) (targets options) $ \given -> do
-  -- From here on the program is kept without its syntax tree.
-  let !kept = withoutSurface given
-      job = (jobFor (targets options) kept) {verification = chosen}
+  -- Evaluated here, it keeps no reference to the syntax tree, which can be freed while the tapes
+  -- are made.
+  kept <- evaluate (withoutSurface given)
+  let job = (jobFor (targets options) kept) {verification = chosen}
   settled reporter kept (withWarning =<< Compile.compile job (loaded given)) $ \tapes ->
     writeTapes
       reporter
@@ -116,11 +117,13 @@ compile reporter options = withInput reporter (file options) (targets options) $
     withWarning tapes =
       tapes <$ Result.warned [Cli.warningReport Unproven | unproven options, _ <- tapes]
 
--- | Reports mistakes up to the limits of the program's own machine.
+-- | Reports the mistakes of a program, including frames that its own machine cannot execute. Makes
+-- no tape.
 check :: Reporter -> FilePath -> IO Exit
 check reporter file = withInput reporter file [] $ \given ->
   settled reporter given (Snapshot.checkWith (values given) (loaded given)) (const (pure Done))
 
+-- | Proves a tape against its program. Without a tape it proves the one that the program gives.
 verify :: Reporter -> FilePath -> Maybe Text -> Maybe FilePath -> IO Exit
 verify reporter file target tapeFile =
   withInput reporter file (maybeToList target) $ \given ->
@@ -148,6 +151,7 @@ verifyTape reporter given tapeName compiled rows =
   where
     Compiled {Compile.machine, Compile.toolpath, Compile.punched} = compiled
 
+-- | Prints the frames of a program, as a table or as JSON lines.
 frames :: Reporter -> FilePath -> Maybe Text -> Bool -> IO Exit
 frames reporter file target asJson = withInput reporter file (maybeToList target) $ \given ->
   settled reporter given (onFirstMachine target given) $
@@ -156,6 +160,7 @@ frames reporter file target asJson = withInput reporter file (maybeToList target
   where
     table = if asJson then FrameTable.framesJson else FrameTable.frames
 
+-- | Prints the tables of a program, with a tape if the program or the command line names a machine.
 report :: Reporter -> FilePath -> Maybe Text -> IO Exit
 report reporter file target = withInput reporter file (maybeToList target) $ \given ->
   settled reporter given (analysed given) $ \(analysis, punched) ->
@@ -174,6 +179,7 @@ report reporter file target = withInput reporter file (maybeToList target) $ \gi
       Just wanted -> jobFor [wanted] given
       Nothing -> Job.forOwnMachine (values given) (loaded given)
 
+-- | Writes the drawing of a program.
 plot :: Reporter -> FilePath -> Maybe FilePath -> IO Exit
 plot reporter file wanted = withInput reporter file [] $ \given ->
   settled reporter given (Compile.analyse (values given) (loaded given)) $ \analysis ->
@@ -184,14 +190,16 @@ plot reporter file wanted = withInput reporter file [] $ \given ->
       wanted
       (Plot.plot (Compile.part analysis) (Compile.path analysis))
 
+-- | Does what 'whenSound' does, with the name and the source of a program.
 settled :: Reporter -> Input -> Result Report Report a -> (a -> IO Exit) -> IO Exit
 settled reporter given = whenSound reporter (name given) (source given)
 
+-- | The job of compiling a program for machines of these names; for its own machine without a name.
 jobFor :: [Text] -> Input -> Job
 jobFor names given = Job.forTargets names (values given) (loaded given)
 
--- | Compiles a program for the machine of the command line, or else for its own. The tape is not
--- verified.
+-- | Compiles a program for the machine of the command line; without one, for the program's own
+-- machine. The tape is not verified.
 onFirstMachine :: Maybe Text -> Input -> Result Report Report Compiled
 onFirstMachine target given = do
   tapes <- Compile.compile job {verification = Unverified} (loaded given)
@@ -206,7 +214,7 @@ framesOf = map Frame.frame . Frame.plannedFrames . program
 
 -- Input sheets ------------------------------------------------------------------------------------
 
--- | Writes an input sheet as a part program.
+-- | Converts an input sheet to a part program.
 importSheet :: Reporter -> FilePath -> Maybe FilePath -> IO Exit
 importSheet reporter file wanted = do
   content <- readProgram file
@@ -223,7 +231,7 @@ importSheet reporter file wanted = do
   where
     sheetName = displayName file
 
--- | Writes a part program as an input sheet.
+-- | Converts a part program to an input sheet.
 exportSheet :: Reporter -> FilePath -> Maybe FilePath -> IO Exit
 exportSheet reporter file wanted = withInput reporter file [] $ \given ->
   settled reporter given (asSheet given) $
@@ -235,12 +243,13 @@ exportSheet reporter file wanted = withInput reporter file [] $ \given ->
 
 -- Tapes -------------------------------------------------------------------------------------------
 
+-- | Prints the frames of a tape.
 decode :: Reporter -> Maybe Text -> FilePath -> IO Exit
 decode reporter target tapeFile =
   withTape reporter target tapeFile $ \machine read' ->
     printResult reporter (FrameTable.decoded machine read')
 
--- | Draws the rows of a tape in a range.
+-- | Prints the picture of the rows of a tape in a range.
 drawTape :: Reporter -> Maybe Text -> TapeRows.RowRange -> FilePath -> IO Exit
 drawTape reporter target range tapeFile = withTape reporter target tapeFile $ \machine read' -> do
   let rows = Tape.rows machine 0 read'
@@ -249,7 +258,8 @@ drawTape reporter target range tapeFile = withTape reporter target tapeFile $ \m
     Nothing -> failWith reporter (displayName tapeFile) (NothingInRange counted count)
     Just picture -> printResult reporter picture
 
--- | Reads a tape without a program. The cutter is assumed to be at zero before it.
+-- | Reads a tape for which there is no program. The starting position of the cutter is not known
+-- and is assumed to be 0.
 withTape :: Reporter -> Maybe Text -> FilePath -> (Machine -> [Frame] -> IO Exit) -> IO Exit
 withTape reporter target tapeFile continue = case target of
   Nothing -> failWith reporter tapeName (NoMachineForTape Target.builtInNames)
@@ -281,8 +291,9 @@ machines reporter wanted asText = case wanted of
       (Right machine, _)
         | asText ->
           maybe (pure Failed) (printResult reporter) (BuiltIn.text (Machine.name machine))
-        | otherwise -> printResult reporter (MachineTable.machineSheet machine)
+        | otherwise -> printResult reporter (MachineTable.machineDetails machine)
 
+-- | Prints the explanation of a report code, or the list of all codes.
 explain :: Reporter -> Maybe Text -> IO Exit
 explain reporter wanted = case wanted of
   Nothing -> printResult reporter Explanation.list
@@ -290,8 +301,8 @@ explain reporter wanted = case wanted of
     [] -> failWith reporter "" (UnknownCode word (Explanation.near word))
     found -> printResult reporter (Text.intercalate "\n" (map Explanation.render found))
 
--- | Serves an editor until it leaves. Documents that are open in the editor take precedence over
--- their files on the disk.
+-- | Serves an editor until it ends the conversation. The text of a document that is open in the
+-- editor takes precedence over its file on the disk.
 languageServer :: Reporter -> IO Exit
 languageServer reporter =
   statusOf

@@ -13,7 +13,8 @@ import Text.DocLayout (realLength)
 -- | The alignment of a column.
 data Align = ToLeft | ToRight
 
--- | Lays out rows in columns, two spaces apart. Widths are those of the terminal's characters.
+-- | Lays out rows in columns, two spaces apart. Widths count the columns that characters take on a
+-- terminal.
 columns :: [Align] -> [[Text]] -> Text
 columns aligns rows =
   Text.unlines (map (Text.stripEnd . Text.intercalate "  " . zipWith3 pad aligns widths) rows)

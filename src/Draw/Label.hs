@@ -1,9 +1,9 @@
--- | Placement of labels beside points, clear of lines and of each other. The search is greedy:
--- each label takes the first of its candidate positions that is free.
+-- | Placement of labels beside points, so that they cover neither lines nor each other. The search
+-- is greedy: each label takes the first of its candidate positions that is free.
 module Draw.Label
   ( PointLabel (..),
     size,
-    settle,
+    place,
   )
 where
 
@@ -26,12 +26,14 @@ import Geometry.Segment (Segment (..))
 import Geometry.Vec (Point, Vec)
 import Geometry.Vec qualified as Vec
 
--- | Label of a point: its text, the preferred direction from the point (a unit vector), and the
--- allowed distances from the point in mm, the preferred one first.
+-- | Label to be placed beside a point.
 data PointLabel = PointLabel
   { caption :: Text,
+    -- | the point, in mm of paper
     anchor :: Point,
+    -- | preferred direction from the point to the label; a unit vector
     outward :: Vec,
+    -- | allowed distances from the point to the edge of the label in mm, the preferred one first
     distances :: [Double]
   }
   deriving stock (Eq, Show)
@@ -40,13 +42,13 @@ data PointLabel = PointLabel
 size :: Double
 size = 3
 
--- | Places labels in an area, clear of segments, in the order given. The result has the centre of
--- each label. A label without a free position is left out.
-settle :: Area -> BoxTree Segment -> [PointLabel] -> [(Point, Text)]
-settle area drawn = catMaybes . snd . List.mapAccumL next Map.empty
+-- | Places labels in an area, in the order given, so that they do not cover the segments. The
+-- result has the centre and the text of each label. A label without a free position is left out.
+place :: Area -> BoxTree Segment -> [PointLabel] -> [(Point, Text)]
+place area drawn = catMaybes . snd . List.mapAccumL next Map.empty
   where
     next taken label = case find (free area drawn taken) (candidates label) of
-      Just box -> (settled box taken, Just (middleOf box, caption label))
+      Just box -> (occupied box taken, Just (middleOf box, caption label))
       Nothing -> (taken, Nothing)
 
 -- | Centre of a box.
@@ -54,14 +56,15 @@ middleOf :: BoundingBox -> Point
 middleOf BoundingBox {left, bottom, right, top} =
   Vec.point ((left + right) / 2) ((bottom + top) / 2)
 
--- | Boxes of placed labels, by the squares of the paper that they touch.
+-- | Boxes of the labels placed so far, under each of the 'squares' that they touch.
 type Taken = Map (Int, Int) [BoundingBox]
 
-settled :: BoundingBox -> Taken -> Taken
-settled box taken =
+-- | Adds the box of a label.
+occupied :: BoundingBox -> Taken -> Taken
+occupied box taken =
   foldl' (\known square -> Map.insertWith (<>) square [box] known) taken (squares box)
 
--- | Squares of paper, 10 mm wide, that a box touches.
+-- | Column and row of the squares that a box touches, in a grid of 10 mm on the paper.
 squares :: BoundingBox -> [(Int, Int)]
 squares BoundingBox {left, bottom, right, top} =
   [(i, j) | i <- [at left .. at right], j <- [at bottom .. at top]]
@@ -85,9 +88,12 @@ candidates PointLabel {caption, anchor, outward, distances} = [at d a | d <- dis
           p = Vec.shift (Vec.scale (distance + inside) direction) anchor
        in BoundingBox (Vec.x p - wide) (Vec.y p - high) (Vec.x p + wide) (Vec.y p + high)
 
+-- | Angles between the preferred direction and the tried ones, in the order of the trials.
 angles :: [Rad]
 angles = map radians [0, 30, -30, 60, -60, 90, -90, 180, 150, -150]
 
+-- | True if a label may have this box: it lies in the area and keeps its distance from segments and
+-- placed labels.
 free :: Area -> BoxTree Segment -> Taken -> BoundingBox -> Bool
 free area drawn taken box@BoundingBox {left, bottom, right, top} =
   all (holds area) [Vec.point left bottom, Vec.point right top]
@@ -101,6 +107,7 @@ free area drawn taken box@BoundingBox {left, bottom, right, top} =
     around = BoundingBox.inflate (Mm 0.6) box
     half = (top - bottom) / 2
     y = (bottom + top) / 2
-    -- For the test against lines, a text is a horizontal line as thick as its letters are high.
+    -- To test its distance from a segment, a text is taken for a horizontal line that is as thick
+    -- as the letters are high.
     middle = Straight (Vec.point (left + half / 2) y) (Vec.point (right - half / 2) y)
     clear s = let ClosestPoint (Mm d) _ = Distance.segments middle s in d > half + 0.5

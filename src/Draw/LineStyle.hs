@@ -1,9 +1,9 @@
--- | Line styles, colours and symbols of the drawing (after ISO 128). The legend shows the same.
+-- | Line styles, colours and symbols of the drawing, after ISO 128. The legend uses them too.
 module Draw.LineStyle
   ( black,
     blue,
     red,
-    matterColour,
+    materialColour,
     restColour,
     contourPen,
     edgePen,
@@ -36,15 +36,15 @@ import Geometry.Segment qualified as Segment
 import Geometry.Vec (Point, Vec)
 import Geometry.Vec qualified as Vec
 
--- | Colours, dark enough to print without colour.
+-- | Colours that are dark enough to be printed in black and white.
 black, grey, blue, red :: Text
 black = "#000000"
 grey = "#909090"
 blue = "#0b3d91"
 red = "#a01818"
 
--- | Pens. Where the cutter runs on a contour, an edge pen over a white bed pen replaces the
--- contour pen.
+-- | Pens of the drawing. Where the cutter's centre is on the contour, the white 'bedPen' is drawn
+-- over the wider 'edgePen', which leaves two thin lines; the 'pathPen' is drawn between them.
 contourPen, edgePen, bedPen, pathPen, feedPen, rapidPen, cutterPen, framePen, axisPen :: Pen
 contourPen = Pen black 0.6 []
 edgePen = Pen black 1.3 []
@@ -57,23 +57,24 @@ framePen = Pen black 0.35 []
 axisPen = Pen grey 0.13 []
 
 -- | Grey of the material.
-matterColour :: Text
-matterColour = "#e4e4e4"
+materialColour :: Text
+materialColour = "#e4e4e4"
 
 -- | Colour of rest material.
 restColour :: Text
 restColour = "#f0a090"
 
--- | Small letters, for coordinates and the legend.
+-- | Style of small letters, for coordinates and the legend.
 small :: TextStyle
 small = TextStyle {size = 2.5, ink = black, bold = False}
 
--- | Arrow at a fraction of a segment; the segment has a positive length.
+-- | Arrowhead whose tip is at a fraction of a segment, 0 at its start and 1 at its end. The segment
+-- has a positive length.
 arrowAt :: Text -> Double -> Segment -> Svg
 arrowAt colour fraction s =
   Svg.arrow colour 2.4 (Segment.directionAt fraction s) (Segment.at fraction s)
 
--- | Arrow at a fraction of a segment, or nothing if the segment is shorter than an arrow.
+-- | Arrowhead as 'arrowAt' makes it; none if the segment is shorter than 4 mm.
 arrowOn :: Text -> Double -> Segment -> [Svg]
 arrowOn colour fraction s
   | room < 4 = []
@@ -85,7 +86,7 @@ arrowOn colour fraction s
 axisArrow :: Vec -> Point -> Svg
 axisArrow = Svg.arrow grey 2.4
 
--- | Node of the toolpath; the flag tells whether it has a number.
+-- | Dot of a node; a larger one if it has a number.
 node :: Bool -> Point -> Svg
 node numbered = Svg.dot blue (if numbered then 0.6 else 0.35)
 
@@ -99,17 +100,17 @@ origin p = [Svg.dot "white" r p, quarter 0, quarter pi, Svg.ring (Pen black 0.2 
       let (from, to) = (rim a, rim (a - pi / 2))
        in Svg.area black [Straight p from, Segment.arc Clockwise p from to]
 
--- | Outline of a cutter of a radius in mm of paper, with the cross of its axis.
+-- | Circle of a cutter with the cross of its axis; the radius in mm of paper.
 cutter :: Double -> Point -> [Svg]
-cutter reach p = Svg.ring cutterPen reach p : map bar (cross reach p)
+cutter radius p = Svg.ring cutterPen radius p : map bar (cross radius p)
   where
     bar s = Svg.stroke cutterPen [s]
 
--- | Cross of the axis of a cutter of a radius in mm of paper.
+-- | Cross at the axis of a cutter; the cutter's radius in mm of paper.
 cross :: Double -> Point -> [Segment]
-cross reach p = [bar (Vec.vec arm 0), bar (Vec.vec 0 arm)]
+cross radius p = [bar (Vec.vec arm 0), bar (Vec.vec 0 arm)]
   where
-    arm = max 1.6 (min 3 (reach + 1))
+    arm = max 1.6 (min 3 (radius + 1))
     bar v = Straight (Vec.shift (Vec.negate v) p) (Vec.shift v p)
 
 -- | Symbol of the start position of the cutter.

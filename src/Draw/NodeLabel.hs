@@ -1,4 +1,4 @@
--- | Nodes of the toolpath along a contour, numbered from the entry, as dots and labels.
+-- | Dots and numbers for the nodes of a cut. The node at the entry has the number 0.
 module Draw.NodeLabel
   ( dots,
     labels,
@@ -21,20 +21,19 @@ import Geometry.Segment qualified as Segment
 import Geometry.Vec (Point, Vec)
 import Geometry.Vec qualified as Vec
 
--- | Node: its position on paper, the direction away from the contour (a unit vector), and its
--- number from 0 at the entry.
+-- | Node: its position on paper, the direction away from the contour (a unit vector) in which its
+-- label is best placed, and its number, which is 0 at the entry.
 data Node = Node {place :: Point, outward :: Vec, number :: Int}
 
--- | Points between the moves of a cut, both ends included. Arcs of one curve have no nodes
--- between them.
+-- | Nodes of a cut: both of its ends and the points between its sections.
 nodes :: Cut -> NonEmpty Node
-nodes Cut {course, away} =
+nodes Cut {sections, away} =
   entry
     :| zipWith3 node [1 ..] (map NonEmpty.last runs) (map NonEmpty.head (drop 1 runs) <> [after])
   where
-    runs = NonEmpty.toList course
-    first = NonEmpty.head (NonEmpty.head course)
-    final = NonEmpty.last (NonEmpty.last course)
+    runs = NonEmpty.toList sections
+    first = NonEmpty.head (NonEmpty.head sections)
+    final = NonEmpty.last (NonEmpty.last sections)
     closed = Vec.isNear (Segment.start first) (Segment.end final)
     -- A closed cut continues at its end with its first move; an open one continues straight on.
     (before, after) = if closed then (final, first) else (first, final)
@@ -51,12 +50,13 @@ nodes Cut {course, away} =
       | otherwise =
         outwardAt away (heading Segment.endDirection s) (heading Segment.startDirection next)
 
--- | Direction of a segment, or the zero vector if the segment has no length.
+-- | Direction of a segment by the given function; the zero vector if the segment has no length.
 heading :: (Segment -> Vec) -> Segment -> Vec
 heading direction s = if Segment.length s > Mm 1e-9 then direction s else Vec.vec 0 0
 
 -- | Direction away from the contour at a node, square to the mean of the arriving and the leaving
--- direction. The factor is +1 or -1 for the side.
+-- direction. The factor is the 'away' of the cut. At a point where the cut turns back, it is up on
+-- the paper.
 outwardAt :: Double -> Vec -> Vec -> Vec
 outwardAt away arriving leaving
   | Vec.norm along > 1e-3 = Vec.scale away (Vec.left (Vec.unit along))
@@ -64,16 +64,18 @@ outwardAt away arriving leaving
   where
     along = Vec.add arriving leaving
 
--- | Dots of the nodes. If there are many, only numbered nodes have dots.
+-- | Dots of the nodes. If the nodes are closer than 1.5 mm on average, only those with a number
+-- have a dot.
 dots :: Cut -> [Svg]
 dots cut = [LineStyle.node (marked n) (place n) | n <- NonEmpty.toList numbered, marked n || roomy]
   where
     numbered = nodes cut
-    marked n = isMarked (NonEmpty.length (course cut)) n
+    marked n = isMarked (NonEmpty.length (sections cut)) n
     Mm whole = total (map Segment.length (NonEmpty.toList (Scene.lines cut)))
     roomy = whole / fromIntegral (NonEmpty.length numbered) > 1.5
 
--- | Labels with the numbers of the nodes. The last node of a closed cut has two numbers.
+-- | Labels with the numbers of the nodes. The last node of a closed cut is the entry and has only
+-- the label of the entry.
 labels :: Cut -> [PointLabel]
 labels cut
   | Vec.isNear (place first) (place final) = entry "0" first : map plain between
@@ -88,8 +90,8 @@ labels cut
     entry words' n = PointLabel words' (place n) (outward n) (near <> [5.5, 7.5, 10])
     near = [1.2, 2, 3, 4]
 
--- | True of a node that has a label; the first argument is the number of the last node. Both ends
--- have labels, and as many nodes between them as 'most' allows.
+-- | True of a node that has a label; @final@ is the number of the last node. Both ends have labels.
+-- If there are more nodes than 'most', only every 2nd, 5th, 10th and so on has one.
 isMarked :: Int -> Node -> Bool
 isMarked final n = number n `mod` every == 0 || number n == final
   where
@@ -98,6 +100,7 @@ isMarked final n = number n `mod` every == 0 || number n == final
         then 1
         else round (1 / Page.round125 (fromIntegral most / fromIntegral final)) :: Int
 
--- | Greatest count of numbers, or of distinguishable lines, that stay legible on one drawing.
+-- | Greatest count of node numbers on one cut, and of numbered cuts on one drawing, that are
+-- legible.
 most :: Int
 most = 60

@@ -3,7 +3,7 @@
 -- On paper x points right and y points down, in mm from the upper left corner of the page.
 module Draw.Page
   ( Page,
-    lay,
+    choose,
     Scale (..),
     scale,
     ratio,
@@ -14,7 +14,7 @@ module Draw.Page
     onPaper,
     extent,
     Area (..),
-    page,
+    wholePage,
     field,
     strip,
     holds,
@@ -33,7 +33,7 @@ import Geometry.Segment qualified as Segment
 import Geometry.Vec (Point)
 import Geometry.Vec qualified as Vec
 
--- | Scale of a drawing, and the point of the part at the centre of the field.
+-- | Scale of a drawing, and the point of the part that is drawn at the centre of the field.
 data Page = Page {scale :: Scale, middle :: Point}
   deriving stock (Eq, Show)
 
@@ -41,15 +41,15 @@ data Page = Page {scale :: Scale, middle :: Point}
 data Scale = Scale {paper :: Double, real :: Double}
   deriving stock (Eq, Show)
 
--- | Rectangle on paper.
+-- | Rectangle on paper, in mm; @upper@ is less than @lower@.
 data Area = Area {leftmost :: Double, upper :: Double, rightmost :: Double, lower :: Double}
   deriving stock (Eq, Show)
 
 -- | Whole page, 297 × 210 mm.
-page :: Area
-page = Area 0 0 297 210
+wholePage :: Area
+wholePage = Area 0 0 297 210
 
--- | Field in which the part is drawn: the page less a margin of 10 mm and less the strip.
+-- | Field in which the part is drawn: the page without a margin of 10 mm and without the strip.
 field :: Area
 field = Area 10 10 287 184
 
@@ -61,17 +61,17 @@ strip = Area 10 184 287 200
 padding :: Double
 padding = 6
 
--- | Chooses the page for a box of the part. The origin of the part is shown too if the scale
--- allows it.
-lay :: BoundingBox -> Page
-lay box = Page {scale = chosen, middle = Vec.point ((left + right) / 2) ((bottom + top) / 2)}
+-- | Chooses scale and position for a part with this bounding box. The box is centred in the field.
+-- If the origin of the part also fits at this scale, the box with the origin is centred instead.
+choose :: BoundingBox -> Page
+choose box = Page {scale = chosen, middle = Vec.point ((left + right) / 2) ((bottom + top) / 2)}
   where
     chosen = scaleFor box
     wider = BoundingBox.union box (BoundingBox.ofPoints (Vec.point 0 0) [])
     BoundingBox {left, bottom, right, top} = if fits wider chosen then wider else box
 
--- | Chooses full size if the box fits and is not tiny, otherwise the largest standard scale (ISO
--- 5455) at which it fits.
+-- | Chooses the scale for a bounding box: full size if it fits and fills at least 0.4 of the
+-- field's width or height. Otherwise the largest standard scale (ISO 5455) at which it fits.
 scaleFor :: BoundingBox -> Scale
 scaleFor box
   | not (fits box (Scale 1 1)) = fromMaybe (Scale 1 1) (find (fits box) reductions)
@@ -83,10 +83,12 @@ scaleFor box
       [Scale 1 m | m <- 2 : 2.5 : 5 : [d * 10 ^ e | e <- [1 .. 12 :: Int], d <- [1, 2, 5]]]
     enlargements = [Scale m 1 | m <- 2 : 5 : [d * 10 ^ e | e <- [1 .. 6 :: Int], d <- [1, 2, 5]]]
 
+-- | True if a box fits into the field at a scale.
 fits :: BoundingBox -> Scale -> Bool
 fits box s = filled box s <= 1
 
--- | Larger of the fractions of the field's width and height that a box takes at a scale.
+-- | Fraction of the field that a box takes at a scale, in width or in height, whichever is larger.
+-- The field is taken without its 'padding'.
 filled :: BoundingBox -> Scale -> Double
 filled BoundingBox {left, bottom, right, top} s =
   factor s * max ((right - left) / width) ((top - bottom) / height)
@@ -94,6 +96,7 @@ filled BoundingBox {left, bottom, right, top} s =
     width = rightmost field - leftmost field - 2 * padding
     height = lower field - upper field - 2 * padding
 
+-- | Length on paper divided by the length on the part.
 factor :: Scale -> Double
 factor s = paper s / real s
 
@@ -101,7 +104,8 @@ factor s = paper s / real s
 ratio :: Scale -> Text
 ratio s = Decimal.short 4 (paper s) <> ":" <> Decimal.short 4 (real s)
 
--- | Largest number of … 1, 2, 5, 10, 20 … that is not above a positive number.
+-- | Largest number of the series … 0.5, 1, 2, 5, 10, 20 … that does not exceed @limit@, which is
+-- positive.
 round125 :: Double -> Double
 round125 limit = maximum (decade : [d | d <- map (decade *) [2, 5, 10], d <= limit])
   where
@@ -124,19 +128,19 @@ unplace Page {scale, middle} p =
 -- | Converts a segment to paper. A counter-clockwise arc still looks counter-clockwise; its sweep
 -- changes sign, because y points down.
 segment :: Page -> Segment -> Segment
-segment sheet s = case s of
-  Straight a b -> Straight (place sheet a) (place sheet b)
+segment page s = case s of
+  Straight a b -> Straight (place page a) (place page b)
   Arc {start, end, centre, sweep = Rad a} ->
     Arc
-      { start = place sheet start,
-        end = place sheet end,
-        centre = place sheet centre,
+      { start = place page start,
+        end = place page end,
+        centre = place page centre,
         sweep = Rad (-a)
       }
 
 -- | Converts a length of the part to mm on paper.
 onPaper :: Page -> Mm -> Double
-onPaper sheet (Mm l) = factor (scale sheet) * l
+onPaper page (Mm l) = factor (scale page) * l
 
 -- | Smallest bounding box of a segment.
 extent :: Segment -> BoundingBox

@@ -1,6 +1,6 @@
--- | Drawing of a part and of the toolpath as SVG: one A4 page at a standard scale, made to be
--- printed. Line widths and letter sizes are mm of paper at every scale. Line styles differ in
--- black and white, too.
+-- | Drawing of a part and its toolpath as SVG: one A4 page at a standard scale, made to be printed.
+-- Line widths and letter sizes are mm of paper at every scale. Line styles can be told apart in
+-- black and white.
 module Draw.Plot
   ( plot,
   )
@@ -20,7 +20,7 @@ import Draw.LineStyle qualified as LineStyle
 import Draw.NodeLabel qualified as NodeLabel
 import Draw.Page (Area (..), Page)
 import Draw.Page qualified as Page
-import Draw.Scene (Cut (..), Matter (..), Scene (..), Shape (..))
+import Draw.Scene (Cut (..), MaterialSide (..), Scene (..), Shape (..))
 import Draw.Scene qualified as Scene
 import Draw.Svg (Anchor (..), Pen (..), Svg, TextStyle (..))
 import Draw.Svg qualified as Svg
@@ -41,48 +41,50 @@ import Toolpath.Toolpath (Toolpath)
 plot :: Part -> Toolpath -> Text
 plot part path =
   Svg.document
-    Page.page
+    Page.wholePage
     (TitleBlock.name part)
-    ( [ Svg.layer "page" [Svg.rectangle (Pen "none" 0 []) "white" Page.page],
+    ( [ Svg.layer "page" [Svg.rectangle (Pen "none" 0 []) "white" Page.wholePage],
         Svg.layer "material" (material (shapes scene)),
-        Svg.layer "axes" (axes (sheet scene))
+        Svg.layer "axes" (axes (page scene))
       ]
-        <> [ Svg.layer "rests" (map (Svg.area LineStyle.restColour) (rests scene))
-             | not (null (rests scene))
+        <> [ Svg.layer "rests" (map (Svg.area LineStyle.restColour) (restMaterial scene))
+             | not (null (restMaterial scene))
            ]
         <> [ Svg.layer "contours" (map contourLine (shapes scene)),
-             Svg.layer "ways" (ways scene),
+             Svg.layer "ways" (linkingMoves scene),
              Svg.layer "path" (concatMap cutLine (cuts scene)),
-             Svg.layer "start" (LineStyle.start (start scene) <> originMark (sheet scene)),
-             Svg.layer "cutters" (concatMap cutter (filter entered (cuts scene))),
+             Svg.layer "start" (LineStyle.start (start scene) <> originMark (page scene)),
+             Svg.layer "cutters" (concatMap cutter (filter showsCutter (cuts scene))),
              Svg.layer "nodes" (concatMap NodeLabel.dots (filter numbered (cuts scene))),
              Svg.layer "numbers" (numbers scene),
              Svg.layer "title" (TitleBlock.block part scene)
            ]
     )
   where
-    scene = Scene.set part path
+    scene = Scene.fromPart part path
 
 -- The part
 
--- | Areas of material in grey. Shapes inside others are drawn after them. A window that lies in
--- no material gets a band of grey around it.
+-- | Areas of material in grey, with windows in white. A shape that lies in another one is drawn
+-- after it. If no shape has its material inside, each window gets a grey band around it.
 material :: [Shape] -> [Svg]
 material shapes = bands <> map snd (sortOn fst (map painted bodies <> map painted windows))
   where
-    bodies = filter (\s -> matter s == Within) shapes
-    windows = filter (\s -> matter s == Beyond) shapes
+    bodies = filter (\s -> materialSide s == Inside) shapes
+    windows = filter (\s -> materialSide s == Outside) shapes
     bands =
-      [ Svg.loop (Pen LineStyle.matterColour 6 []) (outline s)
+      [ Svg.loop (Pen LineStyle.materialColour 6 []) (outline s)
         | all ((> 0) . inWindows) bodies,
           s <- windows
       ]
     painted s =
       ( level s,
-        Svg.area (if matter s == Within then LineStyle.matterColour else "white") (outline s)
+        Svg.area (colour s) (outline s)
       )
-    -- Nesting level of a shape: what lies in a window is drawn after it.
-    level s = 2 * inWindows s + (if matter s == Within then 0 else 1)
+    colour s = if materialSide s == Inside then LineStyle.materialColour else "white"
+    -- Shapes are drawn in the order of this level: bodies before the windows in them, and windows
+    -- before the bodies in them.
+    level s = 2 * inWindows s + (if materialSide s == Inside then 0 else 1)
     inWindows s =
       let p =
             beginning s
@@ -105,22 +107,23 @@ material shapes = bands <> map snd (sortOn fst (map painted bodies <> map painte
       s' : _ -> Segment.start s'
       [] -> Vec.point 0 0
 
+-- | Line of a contour.
 contourLine :: Shape -> Svg
 contourLine Shape {ends, outline} = case ends of
   Open -> Svg.stroke LineStyle.contourPen outline
   Closed -> Svg.loop LineStyle.contourPen outline
 
--- | Thin axes through the origin. If the origin is off the page, the axes cross at a point with
--- round coordinates.
+-- | Thin axes through the origin. If the origin is not on the field, short axes through a point
+-- with round coordinates near the lower left corner, labelled with these coordinates.
 axes :: Page -> [Svg]
-axes sheet
+axes page
   | Page.holds Page.field origin =
     [ Svg.stroke
         LineStyle.axisPen
         [Straight (Vec.point (leftmost Page.field) oy) (Vec.point right oy)],
       Svg.stroke LineStyle.axisPen [Straight (Vec.point ox (lower Page.field)) (Vec.point ox top)]
     ]
-      <> heads ox oy right top
+      <> axisHeads ox oy right top
   | otherwise =
     [ Svg.stroke LineStyle.axisPen [Straight mark (Vec.point (mx + 12) my)],
       Svg.stroke LineStyle.axisPen [Straight mark (Vec.point mx (my - 12))],
@@ -130,42 +133,43 @@ axes sheet
         (Vec.point (mx + 1) (my + 3.2))
         ("(" <> Decimal.short 4 cx <> ", " <> Decimal.short 4 cy <> ")")
     ]
-      <> heads mx my (mx + 12) (my - 12)
+      <> axisHeads mx my (mx + 12) (my - 12)
   where
-    origin = Page.place sheet (Vec.point 0 0)
+    origin = Page.place page (Vec.point 0 0)
     (ox, oy) = (Vec.x origin, Vec.y origin)
     (right, top) = (rightmost Page.field - 3, upper Page.field + 3)
-    corner = Page.unplace sheet (Vec.point (leftmost Page.field + 3) (lower Page.field - 5))
-    grid = gridOf sheet
+    corner = Page.unplace page (Vec.point (leftmost Page.field + 3) (lower Page.field - 5))
+    grid = gridOf page
     (cx, cy) = (up (Vec.x corner), up (Vec.y corner))
     up c = grid * fromIntegral (ceiling (c / grid) :: Integer)
-    mark = Page.place sheet (Vec.point cx cy)
+    mark = Page.place page (Vec.point cx cy)
     (mx, my) = (Vec.x mark, Vec.y mark)
 
--- | Symbol of the origin, if the origin is on the page.
+-- | Symbol of the origin, if the origin is on the field.
 originMark :: Page -> [Svg]
-originMark sheet =
-  concatMap LineStyle.origin (filter (Page.holds Page.field) [Page.place sheet (Vec.point 0 0)])
+originMark page =
+  concatMap LineStyle.origin (filter (Page.holds Page.field) [Page.place page (Vec.point 0 0)])
 
--- | Arrowheads and names of the axes through a point.
-heads :: Double -> Double -> Double -> Double -> [Svg]
-heads px py right top =
+-- | Arrowheads and names of the axes. The arguments: the point where the axes cross, the right end
+-- of the x axis, the upper end of the y axis.
+axisHeads :: Double -> Double -> Double -> Double -> [Svg]
+axisHeads px py right top =
   [ LineStyle.axisArrow (Vec.vec 1 0) (Vec.point right py),
     LineStyle.axisArrow (Vec.vec 0 (-1)) (Vec.point px top),
     Svg.text LineStyle.small Centred (Vec.point (right - 1) (py - 2.4)) "x",
     Svg.text LineStyle.small Centred (Vec.point (px + 2.4) (top + 1)) "y"
   ]
 
--- | Spacing of the grid: a round length that is 4 to 8 mm on paper.
+-- | Spacing of the round coordinates: a length of the part that is 3.2 to 8 mm on paper.
 gridOf :: Page -> Double
-gridOf sheet = Page.round125 (8 / Page.onPaper sheet (Mm 1))
+gridOf page = Page.round125 (8 / Page.onPaper page (Mm 1))
 
 -- The path
 
--- | Linking moves. A segment that is traversed both ways is drawn once, with an arrow for each
--- way.
-ways :: Scene -> [Svg]
-ways Scene {feeds, rapids} =
+-- | Linking moves. A segment that is traversed in both directions is drawn once, with an arrow for
+-- each direction.
+linkingMoves :: Scene -> [Svg]
+linkingMoves Scene {feeds, rapids} =
   map (line LineStyle.feedPen) lineFeeds <> map (line LineStyle.rapidPen) lineRapids <> arrows
   where
     arrows = concatMap (LineStyle.arrowOn LineStyle.red 0.75) (feeds <> rapids)
@@ -173,8 +177,8 @@ ways Scene {feeds, rapids} =
     (lineFeeds, drawn) = once Set.empty feeds
     (lineRapids, _) = once drawn rapids
 
--- | Drops segments that are equal, in either direction, to known segments or to earlier ones. The
--- result has the remaining segments and all known segments.
+-- | Drops segments that are known already, in the same or the opposite direction, and repetitions.
+-- The result: the remaining segments, and all segments that are known now.
 once :: Set Segment -> [Segment] -> ([Segment], Set Segment)
 once known segments = case segments of
   [] -> ([], known)
@@ -184,11 +188,12 @@ once known segments = case segments of
     where
       key = min s (Segment.reverse s)
 
--- | Toolpath along a contour or in a pocket, with five arrows, and more on a long one in a
--- pocket. A toolpath on the contour itself is drawn between two thin lines.
+-- | Toolpath of a cut with five arrows, in a pocket one for every 40 mm but at least five; without
+-- arrows if it is 12 mm long or less. A cut whose centre is on the contour is drawn between two
+-- thin lines.
 cutLine :: Cut -> [Svg]
-cutLine cut@Cut {upon, numbered} =
-  [Svg.stroke pen segments | upon, pen <- [LineStyle.edgePen, LineStyle.bedPen]]
+cutLine cut@Cut {isOnContour, numbered} =
+  [Svg.stroke pen segments | isOnContour, pen <- [LineStyle.edgePen, LineStyle.bedPen]]
     <> (Svg.stroke LineStyle.pathPen segments : arrows)
   where
     segments = NonEmpty.toList (Scene.lines cut)
@@ -206,8 +211,8 @@ cutLine cut@Cut {upon, numbered} =
         else []
     count = if numbered then 5 else max 5 (floor (over whole (Mm 40))) :: Int
 
--- | Arrow at a distance along segments, kept away from the nodes of segments that are long
--- enough.
+-- | Arrow at a distance along segments. If possible it is 4 mm away from the ends of its segment.
+-- None if the distance exceeds the length of the segments.
 arrowFrom :: [Segment] -> Mm -> Maybe Svg
 arrowFrom segments distance = case segments of
   [] -> Nothing
@@ -222,14 +227,15 @@ arrowFrom segments distance = case segments of
                 s
             )
 
--- | Cutter at the position where it begins to cut.
+-- | Cutter at the point where a cut begins.
 cutter :: Cut -> [Svg]
-cutter cut@Cut {reach} = LineStyle.cutter reach (Segment.start (NonEmpty.head (Scene.lines cut)))
+cutter cut@Cut {cutterRadius} =
+  LineStyle.cutter cutterRadius (Segment.start (NonEmpty.head (Scene.lines cut)))
 
--- | Numbers of all nodes, clear of the lines.
+-- | Numbers of the nodes, placed so that they cover no line.
 numbers :: Scene -> [Svg]
 numbers Scene {shapes, cuts, feeds, rapids, start} =
-  [Svg.text style Centred p words' | (p, words') <- Label.settle Page.field index labels]
+  [Svg.text style Centred p words' | (p, words') <- Label.place Page.field index labels]
   where
     style = TextStyle {size = Label.size, ink = LineStyle.blue, bold = False}
     labels =
@@ -251,10 +257,12 @@ numbers Scene {shapes, cuts, feeds, rapids, start} =
         <> rapids
         <> LineStyle.diamond start
 
--- | Segments of a cut and of its cutter, which labels have to avoid.
+-- | Segments of a cut and of its drawn cutter, which labels must not cover.
 cutLines :: Cut -> [Segment]
-cutLines cut@Cut {reach, entered} =
-  (if entered then rim : LineStyle.cross reach p else []) <> NonEmpty.toList (Scene.lines cut)
+cutLines cut@Cut {cutterRadius, showsCutter} =
+  (if showsCutter then rim : LineStyle.cross cutterRadius p else [])
+    <> NonEmpty.toList (Scene.lines cut)
   where
-    rim = Segment.fullCircle Clockwise (Circle p (Mm reach)) (Vec.shift (Vec.vec reach 0) p)
+    rim = Segment.fullCircle Clockwise circle (Vec.shift (Vec.vec cutterRadius 0) p)
+    circle = Circle p (Mm cutterRadius)
     p = Segment.start (NonEmpty.head (Scene.lines cut))

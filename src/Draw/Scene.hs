@@ -1,11 +1,11 @@
--- | Objects of a drawing, converted to paper: contours, cuts, linking moves and rest material.
+-- | Objects of a drawing in mm of paper: contours, cuts, linking moves and rest material.
 module Draw.Scene
   ( Scene (..),
     Shape (..),
-    Matter (..),
+    MaterialSide (..),
     Cut (..),
     lines,
-    set,
+    fromPart,
   )
 where
 
@@ -60,65 +60,71 @@ import Prelude hiding (lines)
 
 -- | All objects of a drawing, in mm of paper.
 data Scene = Scene
-  { sheet :: Page,
+  { -- | scale and position of the part
+    page :: Page,
+    -- | contours and drilled holes
     shapes :: [Shape],
+    -- | moves that cut
     cuts :: [Cut],
     -- | outlines of rest material
-    rests :: [[Segment]],
-    -- | straight linking moves at feed
+    restMaterial :: [[Segment]],
+    -- | linking moves at feed
     feeds :: [Segment],
+    -- | linking moves in rapid
     rapids :: [Segment],
+    -- | starting position of the cutter
     start :: Point,
-    -- | work of each tool, with the radius of its cutter or nose in mm of the part
+    -- | milling or turning, with the radius of the cutter or of the tool's nose in mm of the part
     tools :: [(Part.Work, Mm)]
   }
 
 -- | Contour of the part, or a drilled hole.
-data Shape = Shape {ends :: Ends, matter :: Matter, outline :: [Segment]}
+data Shape = Shape {ends :: Ends, materialSide :: MaterialSide, outline :: [Segment]}
 
--- | Side of a contour on which the material lies.
-data Matter
-  = -- | within the contour
-    Within
-  | -- | around it
-    Beyond
-  | -- | the drawing does not say
+-- | Side of a contour on which the material of the part lies.
+data MaterialSide
+  = -- | inside the contour
+    Inside
+  | -- | outside the contour
+    Outside
+  | -- | not known: an open contour, or one that is not milled on one side
     Unknown
   deriving stock (Eq)
 
--- | Path of the cutter's centre in one cut.
+-- | Toolpath of one cut: one pass along a contour, or the moves in a pocket between two lifts.
 data Cut = Cut
-  { -- | between nodes: one line or arc, or the arcs of one curve
-    course :: NonEmpty (NonEmpty Segment),
+  { -- | the parts between two nodes, each one line or arc, or all arcs of one curve
+    sections :: NonEmpty (NonEmpty Segment),
     -- | radius of the cutter in mm of paper
-    reach :: Double,
-    -- | side of the path that is away from the contour: +1 for its right, -1 for its left
+    cutterRadius :: Double,
+    -- | side of the path that faces away from the contour: +1 for its right, -1 for its left; on
+    -- the paper, where y points down, 'Vec.left' is the right side
     away :: Double,
-    -- | true if the cutter runs on the contour itself
-    upon :: Bool,
+    -- | true if the cutter's centre is on the contour
+    isOnContour :: Bool,
     -- | true if the nodes have numbers; false in a pocket
     numbered :: Bool,
-    -- | true if the cutter is drawn at the begin of the cut; in a pocket, at the first plunge
-    entered :: Bool
+    -- | true if the cutter is drawn where the cut begins; in a pocket only for the first cut
+    showsCutter :: Bool
   }
 
 -- | All segments of a cut.
 lines :: Cut -> NonEmpty Segment
-lines = sconcat . course
+lines = sconcat . sections
 
 -- | Converts a part and its toolpath to the objects of a drawing.
-set :: Part -> Toolpath -> Scene
-set part path =
+fromPart :: Part -> Toolpath -> Scene
+fromPart part path =
   Scene
-    { sheet,
+    { page,
       shapes =
-        map (shapeOf sheet millingsAt) contours
-          <> map (holeOf sheet) (nubOrd (concatMap holesOf (Part.operations part))),
-      cuts = concatMap (cutsOf sheet) (drawnOnce (Toolpath.blocks path)),
-      rests = map (map (Page.segment sheet)) (restsOf path),
+        map (shapeOf page millingsAt) contours
+          <> map (holeOf page) (nubOrd (concatMap holesOf (Part.operations part))),
+      cuts = concatMap (cutsOf page) (drawnOnce (Toolpath.blocks path)),
+      restMaterial = map (map (Page.segment page)) (restMaterialOf path),
       feeds = along (\pace -> pace /= Rapid),
       rapids = along (== Rapid),
-      start = Page.place sheet begin,
+      start = Page.place page begin,
       tools = nubOrd [(Part.work m, radius m) | m <- millings]
     }
   where
@@ -129,10 +135,10 @@ set part path =
     between = concatMap movesBetween (Toolpath.blocks path)
     along wanted =
       map
-        (Page.segment sheet)
+        (Page.segment page)
         (nubOrd [Toolpath.segment m | m <- between, wanted (Toolpath.pace m)])
-    sheet =
-      Page.lay (foldl BoundingBox.union (BoundingBox.ofPoints begin []) (boxesOf contours path))
+    page =
+      Page.choose (foldl BoundingBox.union (BoundingBox.ofPoints begin []) (boxesOf contours path))
 
 -- | Drops contours that are equal to earlier ones.
 distinct :: [Part.Contour] -> [Part.Contour]
@@ -146,6 +152,7 @@ distinct = catMaybes . snd . List.mapAccumL next Map.empty
 beginning :: Part.Contour -> Point
 beginning = Segment.start . Part.segment . NonEmpty.head . Part.elements
 
+-- | Contours that an operation mills: of a pocket, its wall and its islands.
 millingOf :: Operation -> [Milling]
 millingOf operation = case operation of
   Mill job -> [value job]
@@ -158,10 +165,10 @@ millingOf operation = case operation of
   Travel _ -> []
   Command _ -> []
 
--- | Outlines of rest material. If an outline is not known, a circle marks the position where the
--- cutter turns back.
-restsOf :: Toolpath -> [[Segment]]
-restsOf path = nubOrd (concatMap drawn (RestMaterial.ofPath path))
+-- | Outlines of rest material, in mm of the part. If an outline is not known, a circle about the
+-- cutter's centre marks the point. Its radius is a quarter of the offset distance.
+restMaterialOf :: Toolpath -> [[Segment]]
+restMaterialOf path = nubOrd (concatMap drawn (RestMaterial.ofPath path))
   where
     drawn Remaining {offsetDistance, positions} =
       concatMap (\(_, f) -> material offsetDistance f) (NonEmpty.toList positions)
@@ -186,6 +193,7 @@ holesOf operation = case operation of
   Travel _ -> []
   Command _ -> []
 
+-- | Linking moves of a block.
 movesBetween :: Block -> [Move]
 movesBetween block = case block of
   Travelling _ moves -> moves
@@ -202,6 +210,7 @@ boxesOf contours path =
     <> [Page.extent (Toolpath.segment m) | b <- Toolpath.blocks path, m <- Toolpath.moves b]
     <> concatMap cutterBox (Toolpath.blocks path)
 
+-- | Boxes of the drawn cutters and the drilled holes of a block.
 cutterBox :: Block -> [BoundingBox]
 cutterBox block = case block of
   Travelling _ _ -> []
@@ -218,17 +227,18 @@ cutterBox block = case block of
         (radius milling)
         (BoundingBox.ofPoints (Segment.start (Toolpath.segment (NonEmpty.head ms))) [])
 
--- | Converts a contour to paper. The map has the millings of the contours that begin at a point.
+-- | Converts a contour to paper. The map has, for a point, the millings of all contours that begin
+-- there; they tell the material's side.
 shapeOf :: Page -> Map Point [Milling] -> Part.Contour -> Shape
-shapeOf sheet millings c =
+shapeOf page millings c =
   Shape
     { ends = Part.ends c,
-      matter,
-      outline = map (Page.segment sheet) (NonEmpty.toList (Polyarc.segments bare))
+      materialSide,
+      outline = map (Page.segment page) (NonEmpty.toList (Polyarc.segments bare))
     }
   where
     bare = Part.polyarcOf c
-    matter =
+    materialSide =
       case mapMaybe
         sideOf
         ( filter
@@ -237,12 +247,13 @@ shapeOf sheet millings c =
         ) of
         side : _
           | Part.ends c == Closed ->
-            if (side == Carrier.LeftOf) == (Polyarc.signedArea bare > 0) then Beyond else Within
+            if (side == Carrier.LeftOf) == (Polyarc.signedArea bare > 0) then Outside else Inside
         _ -> Unknown
 
+-- | Converts a drilled hole to paper.
 holeOf :: Page -> Circle -> Shape
-holeOf sheet circle@(Circle c r) =
-  Shape {ends = Closed, matter = Beyond, outline = [Page.segment sheet whole]}
+holeOf page circle@(Circle c r) =
+  Shape {ends = Closed, materialSide = Outside, outline = [Page.segment page whole]}
   where
     whole = Segment.fullCircle CounterClockwise circle (Vec.shift (Vec.polar r (Rad 0)) c)
 
@@ -252,43 +263,44 @@ sideOf milling = case Toolpath.leadingSide milling of
   Left _ -> Nothing
   Right side -> side
 
+-- | Cuts of a block, converted to paper.
 cutsOf :: Page -> Block -> [Cut]
-cutsOf sheet block = case block of
+cutsOf page block = case block of
   Travelling _ _ -> []
   Holing _ _ -> []
   Commanding _ -> []
   Cutting {job = Located _ milling, cut} ->
     [ (along milling cut)
         { away = awayFrom milling,
-          upon = isNothing (sideOf milling),
+          isOnContour = isNothing (sideOf milling),
           numbered = True
         }
     ]
   -- Moves in a pocket between two lifts are one cut.
   Clearing {pocket = Located _ p, cleared} ->
     zipWith
-      (\entered ms -> (along (Part.wall p) ms) {entered})
+      (\showsCutter ms -> (along (Part.wall p) ms) {showsCutter})
       (True : repeat False)
       [ms | ms@(m :| _) <- NonEmpty.groupBy (\a b -> isCut a == isCut b) cleared, isCut m]
   where
     along milling ms =
       Cut
-        { course =
+        { sections =
             fmap
-              (fmap (Page.segment sheet . Toolpath.segment))
+              (fmap (Page.segment page . Toolpath.segment))
               (NonEmpty.groupBy1 (\_ m -> Toolpath.continues m) ms),
-          reach = Page.onPaper sheet (radius milling),
+          cutterRadius = Page.onPaper page (radius milling),
           away = 1,
-          upon = False,
+          isOnContour = False,
           numbered = False,
-          entered = True
+          showsCutter = True
         }
 
--- | True of a move in a pocket that cuts.
+-- | True of a move in a pocket that cuts: at feed, and without a change of height.
 isCut :: Move -> Bool
 isCut m = Toolpath.pace m /= Rapid && uncurry (==) (Toolpath.heights m)
 
--- | Keeps the first of those passes of a pocket that differ in depth only.
+-- | Of the passes of a pocket that differ only in their depth, keeps the first one.
 drawnOnce :: [Block] -> [Block]
 drawnOnce blocks = map snd (nubOrdOn key (zip [0 ..] blocks))
   where
@@ -297,8 +309,9 @@ drawnOnce blocks = map snd (nubOrdOn key (zip [0 ..] blocks))
       Clearing {pass} -> Right (Toolpath.number pass, Toolpath.left pass)
       _ -> Left i
 
--- | Side on which labels are placed. A cutter on the contour itself leaves neither side free;
--- labels are then outside.
+-- | The 'away' of a cut: the side of the path on which the labels are placed. If the cutter's
+-- centre is on the contour, this is the outside of a closed contour and the left side of an open
+-- one.
 awayFrom :: Milling -> Double
 awayFrom milling = case (sideOf milling, Part.ends (contour milling)) of
   (Just Carrier.LeftOf, _) -> -1

@@ -1,7 +1,7 @@
 -- | SVG 1.1 documents: lines, areas, symbols and texts, in mm of paper.
 --
--- Arcs remain arcs. Every element has its style in its own attributes, so a drawing needs no style
--- sheet, and any part of it can be copied.
+-- An arc is an arc in the file, not a polyline. Every element has its style in its own attributes.
+-- So a document needs no style sheet, and its elements can be copied into others.
 module Draw.Svg
   ( Svg,
     document,
@@ -40,7 +40,7 @@ import Text.Blaze.Svg11 qualified as Svg
 import Text.Blaze.Svg11.Attributes qualified as Attribute
 import Text.DocLayout qualified as DocLayout
 
--- | Document of a page size, with a title and layers from the lowest to the topmost.
+-- | Document with the size of its page, its title, and its layers, the lowest one first.
 document :: Area -> Text -> [Svg] -> Text
 document page title layers =
   Lazy.toStrict (Blaze.renderSvg (Svg.docTypeSvg ! size ! viewBox ! font $ rows (heading : layers)))
@@ -63,24 +63,28 @@ rows things = toSvg newLine *> traverse_ (\thing -> thing *> toSvg newLine) thin
   where
     newLine = "\n" :: Text
 
--- | Pen: colour, width in mm, and the lengths of dashes and gaps in mm.
+-- | Pen: colour, width in mm, and alternately the lengths of dashes and gaps in mm; none for a
+-- solid line.
 data Pen = Pen {colour :: Text, width :: Double, dashes :: [Double]}
   deriving stock (Eq, Show)
 
 -- | Open polyarc, drawn with a pen. Each segment begins where the one before ends.
 stroke :: Pen -> [Segment] -> Svg
 stroke pen segments =
-  Svg.path ! Attribute.d (toValue (course segments)) ! Attribute.fill "none" ! drawnWith pen
+  Svg.path ! Attribute.d (toValue (pathData segments)) ! Attribute.fill "none" ! drawnWith pen
 
 -- | Closed polyarc, drawn with a pen.
 loop :: Pen -> [Segment] -> Svg
 loop pen segments =
-  Svg.path ! Attribute.d (toValue (course segments <> "Z")) ! Attribute.fill "none" ! drawnWith pen
+  Svg.path
+    ! Attribute.d (toValue (pathData segments <> "Z"))
+    ! Attribute.fill "none"
+    ! drawnWith pen
 
 -- | Area that segments enclose, filled with a colour.
 area :: Text -> [Segment] -> Svg
 area colour segments =
-  Svg.path ! Attribute.d (toValue (course segments <> "Z")) ! Attribute.fill (toValue colour)
+  Svg.path ! Attribute.d (toValue (pathData segments <> "Z")) ! Attribute.fill (toValue colour)
 
 -- | Rectangle with a pen, filled with a colour.
 rectangle :: Pen -> Text -> Area -> Svg
@@ -109,14 +113,16 @@ circle radius p =
     ! Attribute.cy (number (Vec.y p))
     ! Attribute.r (number radius)
 
--- | Arrowhead of a colour and a length in a direction (a unit vector), with its tip at a point.
+-- | Arrowhead of a colour and a length in mm. It points in a direction (a unit vector), and its tip
+-- is at a point.
 arrow :: Text -> Double -> Vec -> Point -> Svg
 arrow colour size direction tip = area colour [Straight tip (back 1), Straight (back 1) (back (-1))]
   where
     along = Vec.scale (-size) direction
     back side = Vec.shift (Vec.add along (Vec.scale (side * size / 4) (Vec.left direction))) tip
 
--- | Reference point of a text: start, middle or end of its base line, or its centre.
+-- | Point of a text that lies at the given position: start, middle or end of its base line, or the
+-- centre of its digits.
 data Anchor = Start | Middle | End | Centred
   deriving stock (Eq, Show)
 
@@ -142,7 +148,8 @@ text TextStyle {size, ink, bold} anchor p words' =
       End -> ("end", 0)
       Centred -> ("middle", 0.36 * size)
 
--- | Estimated width in mm of a text of a size in mm; rather too large than too small.
+-- | Estimated width in mm of a text whose size is given in mm. The estimate is rather too large
+-- than too small.
 textWidth :: Double -> Text -> Double
 textWidth size words' =
   0.6
@@ -157,6 +164,7 @@ textWidth size words' =
 printable :: Text -> Text
 printable = Text.map (\c -> if Char.isControl c || c >= '\xFFFE' && c <= '\xFFFF' then ' ' else c)
 
+-- | Attributes of a line that is drawn with a pen.
 drawnWith :: Pen -> Svg.Attribute
 drawnWith Pen {colour, width, dashes} =
   Attribute.stroke (toValue colour)
@@ -168,19 +176,22 @@ drawnWith Pen {colour, width, dashes} =
       [] -> mempty
       _ -> Attribute.strokeDasharray (numbers dashes)
 
--- | Path data of segments.
-course :: [Segment] -> Text
-course segments = case segments of
+-- | Path data of an open polyarc: a command that moves to its beginning, then one for each line and
+-- arc.
+pathData :: [Segment] -> Text
+pathData segments = case segments of
   [] -> ""
-  first : _ -> Text.concat ("M" : pair (Segment.start first) : concatMap walked segments)
+  first : _ -> Text.concat ("M" : pair (Segment.start first) : concatMap pathCommands segments)
 
-walked :: Segment -> [Text]
-walked s = case s of
+-- | Path commands of one segment.
+pathCommands :: Segment -> [Text]
+pathCommands s = case s of
   Straight _ b -> ["L", pair b]
   Arc {start, centre, sweep = Rad a} ->
     let Mm r = Segment.radius centre start
-        -- Rounded ends of a long arc determine its centre badly, and those of a full circle not at
-        -- all. So an arc is cut into parts of at most a third of a circle.
+        -- SVG gives an arc by its ends. With rounded ends the centre of a long arc is inexact, and
+        -- the two ends of a full circle do not determine it. So an arc is divided into parts of at
+        -- most a third of a circle.
         pieces = max 1 (ceiling (abs a * 3 / (2 * pi) - 1e-9)) :: Int
         sense = if a > 0 then "1 " else "0 "
         to i = Segment.at (fromIntegral i / fromIntegral pieces) s

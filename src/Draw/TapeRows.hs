@@ -1,5 +1,5 @@
--- | Picture of a tape as text: a line for each row, with its holes and its meaning. A tape
--- without holes, which is a text, is shown line by line.
+-- | Picture of a tape as text: a line for each row, with its holes and its meaning. If the tape is
+-- a text, the picture has a line for each line of it.
 module Draw.TapeRows
   ( RowRange (..),
     picture,
@@ -21,7 +21,8 @@ import Tape.Layout (RowKind (..))
 import Tape.RowMeaning (Row (..))
 import Tape.RowMeaning qualified as RowMeaning
 
--- | Range of a tape to show. Frames and rows count from 1; both ends are included.
+-- | Range of a tape to show. Frames and rows count from 1; both ends are included. If the tape is a
+-- text, its lines count as rows.
 data RowRange = Everything | Frames Int Int | Rows Int Int
   deriving stock (Eq, Show)
 
@@ -42,26 +43,28 @@ pictureLines machine range rows = case Machine.pitch (Machine.medium machine) of
   where
     chosen' r = filter (\(n, line) -> any (\row -> inRange r n row) line)
 
--- | Unit that a range counts, and the count of these units on a tape: frames; rows with holes; or
--- lines of a text.
+-- | Unit of a range, and the count of these units on the tape: frames, rows, or the lines of a
+-- text.
 extent :: Machine -> RowRange -> [Row] -> (Text, Int)
 extent machine range rows = case (range, Machine.pitch (Machine.medium machine)) of
   (Frames _ _, _) -> ("frame", foldl' max 0 (mapMaybe frame rows))
   (_, Just _) -> ("row", length rows)
   (_, Nothing) -> ("line", length (textLines rows))
 
--- | Row with its number.
+-- | Row with its number, from 1.
 type Numbered = (Int, Row)
 
+-- | Rows in a range.
 chosen :: RowRange -> [Numbered] -> [Numbered]
 chosen range = filter (uncurry (inRange range)) . untilEnd
   where
-    -- Nothing after the range is evaluated.
+    -- The rows after the range are never computed.
     untilEnd = case range of
       Everything -> id
       Rows _ b -> takeWhile ((<= b) . fst)
       Frames _ b -> takeWhile (maybe True (<= b) . frame . snd)
 
+-- | True if a range contains the row with this number.
 inRange :: RowRange -> Int -> Row -> Bool
 inRange range n row = case range of
   Everything -> True
@@ -74,19 +77,20 @@ inRange range n row = case range of
 heading :: Int -> Text
 heading tracks = "   row  " <> acrossTracks tracks Decimal.whole
 
--- | Joins a text for each track, from the highest to the lowest, with the sprocket hole between
--- them.
+-- | Joins one text for each track, the highest track first, with the mark of the sprocket hole at
+-- its position between two tracks.
 acrossTracks :: Int -> (Int -> Text) -> Text
 acrossTracks tracks each =
   Text.unwords
     (concat [[each k] <> ["∘" | k == sprocket tracks + 1] | k <- [tracks, tracks - 1 .. 1]])
 
--- | Track above which the sprocket holes lie, counted from the lowest: the second of a five-track
--- tape, the third of wider tapes.
+-- | Number of the track below the sprocket holes, from 1 for the lowest: they lie between tracks 2
+-- and 3 of a five-track tape, and between tracks 3 and 4 of a wider one.
 sprocket :: Int -> Int
 sprocket tracks = if tracks <= 5 then 2 else 3
 
--- | Groups blank rows of one kind.
+-- | Groups neighbouring blank rows of one kind and one frame. Every other row is a group of its
+-- own.
 folded :: [Numbered] -> [NonEmpty Numbered]
 folded = NonEmpty.groupBy together
   where
@@ -106,7 +110,7 @@ isBlank row = case kind row of
 fewBlanks :: Int
 fewBlanks = 3
 
--- | Line of a row. Many blank rows share one line with their count.
+-- | Lines of a group. More than 'fewBlanks' blank rows share one line with their count.
 holed :: Machine -> NonEmpty Numbered -> [Text]
 holed machine group@((n, row) :| _)
   | count > fewBlanks =
@@ -136,14 +140,14 @@ holed machine group@((n, row) :| _)
 
 -- Text --------------------------------------------------------------------------------------------
 
--- | Rows of each line of text, the line end included.
+-- | Divides the rows of a text into its lines; each line has its line end.
 textLines :: [Row] -> [[Row]]
 textLines rows = case break ((== Just '\n') . symbol) rows of
   ([], []) -> []
   (line, []) -> [line]
   (line, end : more) -> (line <> [end]) : textLines more
 
--- | Line of text with the meaning of its words.
+-- | Line of the picture for a line of text, with its number and the meaning of its words.
 printed :: Machine -> (Int, [Row]) -> Maybe Text
 printed machine (n, line) = case line of
   [] -> Nothing

@@ -14,7 +14,7 @@ import Data.Text qualified as Text
 import Draw.LineStyle qualified as LineStyle
 import Draw.Page (Area (..), Page)
 import Draw.Page qualified as Page
-import Draw.Scene (Cut (numbered, upon), Matter (..), Scene (..), Shape (..))
+import Draw.Scene (Cut (isOnContour, numbered), MaterialSide (..), Scene (..), Shape (..))
 import Draw.Svg (Anchor (..), Pen (..), Svg, TextStyle (..))
 import Draw.Svg qualified as Svg
 import Geometry.Segment (Segment (Straight))
@@ -23,19 +23,21 @@ import Geometry.Vec qualified as Vec
 import Part.Part (Part, Work (..))
 import Part.Part qualified as Part
 
--- | Name and title of the part on one line.
+-- | Name and title of the part on one line; empty if the part has neither.
 name :: Part -> Text
 name part = Text.intercalate ". " (catMaybes [Name.text <$> Part.name part, Part.title part])
 
--- | Frame of the page and the whole strip.
+-- | Borders of the field and the strip, and the content of the strip.
 block :: Part -> Scene -> [Svg]
-block part scene = borders <> legend scene <> scaleBar (sheet scene) <> title part scene
+block part scene = borders <> legend scene <> scaleBar (page scene) <> title part scene
 
--- | Positions at which the strip is divided, in mm from the left edge of the page.
+-- | Left edges of the scale bar's field and of the title block, in mm from the left edge of the
+-- page.
 barEdge, titleEdge :: Double
 barEdge = 160
 titleEdge = 203
 
+-- | Borders of the field and the strip, and the lines that divide the strip.
 borders :: [Svg]
 borders =
   [ Svg.rectangle LineStyle.framePen "none" Page.field,
@@ -52,7 +54,7 @@ borders =
 -- | Legend of the symbols that the drawing uses, in two rows.
 legend :: Scene -> [Svg]
 legend scene =
-  concat (zipWith entry [0 ..] [(sample, words') | (True, sample, words') <- signs scene])
+  concat (zipWith entry [0 ..] [(sample, words') | (True, sample, words') <- legendEntries scene])
   where
     entry i (sample, words') =
       let (column, row) = (i :: Int) `divMod` 2
@@ -62,31 +64,31 @@ legend scene =
               (upper Page.strip + 5 + 6.2 * fromIntegral row)
        in sample p <> [Svg.text LineStyle.small Start (Vec.shift (Vec.vec 10 0.9) p) words']
 
--- | Symbols of the legend: whether the drawing uses the symbol, how it is drawn from the left end
--- of its position, and its meaning.
-signs :: Scene -> [(Bool, Point -> [Svg], Text)]
-signs Scene {sheet, shapes, cuts, rests, feeds, rapids} =
-  [ (any (\s -> matter s == Unknown) shapes, line LineStyle.contourPen, "contour"),
-    ( any (\s -> matter s /= Unknown) shapes,
-      \p -> surface LineStyle.matterColour p <> line LineStyle.contourPen p,
+-- | Entries of the legend: true if the drawing uses the symbol; the symbol, drawn from a point to
+-- the right; its meaning.
+legendEntries :: Scene -> [(Bool, Point -> [Svg], Text)]
+legendEntries Scene {page, shapes, cuts, restMaterial, feeds, rapids} =
+  [ (any (\s -> materialSide s == Unknown) shapes, line LineStyle.contourPen, "contour"),
+    ( any (\s -> materialSide s /= Unknown) shapes,
+      \p -> surface LineStyle.materialColour p <> line LineStyle.contourPen p,
       "part"
     ),
-    (not (null rests), surface LineStyle.restColour, "material left"),
+    (not (null restMaterial), surface LineStyle.restColour, "material left"),
     (not (null cuts), line LineStyle.pathPen, "cutter path"),
-    ( any upon cuts,
+    ( any isOnContour cuts,
       \p -> concatMap (`line` p) [LineStyle.edgePen, LineStyle.bedPen, LineStyle.pathPen],
       "on a contour"
     ),
     (any numbered cuts, \p -> [LineStyle.node True (middle p)], "node"),
-    (not (null feeds), way LineStyle.feedPen, "way at feed"),
-    (not (null rapids), way LineStyle.rapidPen, "rapid way"),
+    (not (null feeds), linkingMove LineStyle.feedPen, "way at feed"),
+    (not (null rapids), linkingMove LineStyle.rapidPen, "rapid way"),
     (not (null cuts), LineStyle.cutter 2 . middle, "cutter"),
     (True, LineStyle.start . middle, "start"),
-    (Page.holds Page.field (Page.place sheet (Vec.point 0 0)), LineStyle.origin . middle, "origin")
+    (Page.holds Page.field (Page.place page (Vec.point 0 0)), LineStyle.origin . middle, "origin")
   ]
   where
     line pen p = [Svg.stroke pen [Straight p (right p)]]
-    way pen p =
+    linkingMove pen p =
       line pen p <> [Svg.arrow LineStyle.red 2.4 (Vec.vec 1 0) (Vec.shift (Vec.vec 5.2 0) p)]
     surface colour p =
       [ Svg.rectangle
@@ -97,14 +99,15 @@ signs Scene {sheet, shapes, cuts, rests, feeds, rapids} =
     right = Vec.shift (Vec.vec 8 0)
     middle = Vec.shift (Vec.vec 4 0)
 
--- | Scale bar: a round length of 12 to 30 mm on paper in four parts, alternately black and white.
+-- | Scale bar: a round length of the part, 12 to 30 mm on paper, in four parts that are alternately
+-- black and white.
 scaleBar :: Page -> [Svg]
-scaleBar sheet =
+scaleBar page =
   zipWith step [0 ..] [LineStyle.black, "white", LineStyle.black, "white"]
     <> zipWith mark [0, 0.5, 1] ["", "", " mm"]
   where
-    total = Page.round125 (30 / Page.onPaper sheet (Mm 1))
-    width = Page.onPaper sheet (Mm total)
+    total = Page.round125 (30 / Page.onPaper page (Mm 1))
+    width = Page.onPaper page (Mm total)
     left = (barEdge + titleEdge - width) / 2
     y = upper Page.strip + 5
     step from colour =
@@ -119,9 +122,10 @@ scaleBar sheet =
         (Vec.point (left + width * fraction) (y + 5))
         (Decimal.short 4 (total * fraction) <> unit)
 
--- | Title block: part, scale, cutters and noses.
+-- | Title block: the part's name and title, the scale, the diameters of cutters, the nose radii of
+-- turning tools.
 title :: Part -> Scene -> [Svg]
-title part Scene {sheet, tools} =
+title part Scene {page, tools} =
   [ fitted
       TextStyle {size = 4, ink = LineStyle.black, bold = True}
       (Vec.point left (y + 5.6))
@@ -129,7 +133,7 @@ title part Scene {sheet, tools} =
     Svg.stroke
       LineStyle.axisPen {colour = LineStyle.black}
       [Straight (Vec.point titleEdge (y + 8.2)) (Vec.point (rightmost Page.strip) (y + 8.2))],
-    Svg.text plain Start (Vec.point left (y + 13.2)) ("scale " <> Page.ratio (Page.scale sheet)),
+    Svg.text plain Start (Vec.point left (y + 13.2)) ("scale " <> Page.ratio (Page.scale page)),
     fitted plain (Vec.point (left + 30) (y + 13.2)) cutters
   ]
   where
@@ -143,7 +147,8 @@ title part Scene {sheet, tools} =
         [] -> []
         sizes -> [word <> Text.intercalate ", " sizes <> " mm"]
 
--- | Text that ends before the right edge of the strip: it is set smaller if necessary, then cut.
+-- | Text that ends before the right edge of the strip. A text that is too long is set smaller, down
+-- to 2 mm; if that is not enough, it is cut off.
 fitted :: TextStyle -> Point -> Text -> Svg
 fitted style p words' =
   Svg.text style {size = chosen} Start p (if fits chosen words' then words' else short)

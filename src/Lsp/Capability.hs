@@ -2,7 +2,7 @@
 module Lsp.Capability
   ( Client (..),
     fromInitialize,
-    welcome,
+    initializeResult,
   )
 where
 
@@ -12,13 +12,13 @@ import Data.Aeson.KeyMap qualified as KeyMap
 import Data.Foldable (toList)
 import Data.Text (Text)
 
--- | The capabilities of the client that change an answer.
+-- | The capabilities of the client on which answers depend.
 data Client = Client
-  { -- | symbols may have a range for the name, besides that of the statement
+  { -- | true if a symbol may have two ranges: that of the statement and that of the name
     hierarchical :: Bool,
-    -- | hovers may be Markdown
+    -- | true if a hover may be Markdown
     markdown :: Bool,
-    -- | a diagnostic may have related information, with ranges of its own
+    -- | true if a diagnostic may have related information, with ranges of its own
     related :: Bool
   }
   deriving stock (Eq, Show)
@@ -36,7 +36,7 @@ fromInitialize params =
   where
     at keys = within (["capabilities", "textDocument"] <> keys) params
 
--- | The value at a path of keys.
+-- | The value at a path of keys in nested objects.
 within :: [Key] -> Value -> Maybe Value
 within keys value = case (keys, value) of
   ([], _) -> Just value
@@ -44,8 +44,8 @@ within keys value = case (keys, value) of
   (_ : _, _) -> Nothing
 
 -- | The answer to @initialize@.
-welcome :: Value
-welcome =
+initializeResult :: Value
+initializeResult =
   object
     [ "serverInfo" .= object ["name" .= ("partc" :: Text)],
       "capabilities"

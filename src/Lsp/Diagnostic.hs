@@ -22,15 +22,16 @@ import Query.Snapshot (Snapshot)
 import Query.Snapshot qualified as Snapshot
 import Report.Report (Label (..), Report (..), ReportCode (..), ReportPlace (..), Severity (..))
 
--- | The notification that replaces all diagnostics of a document. Without a snapshot it removes
--- them.
+-- | The notification that replaces all diagnostics of a document by the reports of a snapshot.
+-- Without a snapshot it removes them.
 publish :: Client -> Document -> Maybe Snapshot -> Outgoing
 publish client document snapshot =
   notification
     document
     (maybe [] (\s -> map (diagnostic client (uri document) s) (Snapshot.reports s)) snapshot)
 
--- | The notification for a document that made the server fail, with the failure's message.
+-- | The notification for a document whose analysis raised an exception, with the exception's
+-- message.
 bug :: Document -> Text -> Outgoing
 bug document failure =
   notification
@@ -68,8 +69,9 @@ diagnostic client uri snapshot r =
     relation (Label region text) =
       object ["location" .= Location.location uri source region, "message" .= text]
 
--- | The range at which a report is shown, and a prefix of its message. A report on an imported file
--- is shown at the import that brings the file; the prefix then gives the position.
+-- | The range at which a report is shown, and a prefix for its message. A report on an imported
+-- file is shown at the import statement, and the prefix is the position in that file. The prefix of
+-- all other reports is empty.
 shownAt :: Snapshot -> ReportPlace -> (LspRange, Text)
 shownAt snapshot place = case place of
   InSource region
@@ -83,7 +85,7 @@ shownAt snapshot place = case place of
   where
     source = Snapshot.source snapshot
 
--- | The line of a region in words; in an imported file, the file, line and column.
+-- | The position of a region in words: its line, or in an imported file the file, line and column.
 lineOf :: Source -> Region -> Text
 lineOf source region
   | Region.file at == Region.mainFile source = "line " <> Decimal.whole (Region.line at)
@@ -96,11 +98,11 @@ lineOf source region
   where
     at = Region.position source (start region)
 
--- | The beginning of a document.
+-- | The empty range at the beginning of a document.
 top :: LspRange
 top = LspRange (LspPosition 0 0) (LspPosition 0 0)
 
--- | The source of the diagnostics.
+-- | The name that an editor shows as the source of the diagnostics.
 name :: Text
 name = "partc"
 

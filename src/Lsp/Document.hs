@@ -22,7 +22,7 @@ import Lsp.Uri qualified as Uri
 data Document = Document {uri :: Uri, version :: Maybe Int, text :: Text}
   deriving stock (Eq, Show)
 
--- | An edit: new text for a range, or for the whole document.
+-- | An edit of a document: a new text for a range, or for the whole document.
 data Edit = Replace LspRange Text | Whole Text
   deriving stock (Eq, Show)
 
@@ -32,12 +32,12 @@ instance FromJSON Edit where
     new <- o .: "text"
     pure (maybe Whole Replace range new)
 
--- | A document when it is opened.
+-- | A newly opened document.
 open :: Uri -> Maybe Int -> Text -> Document
 open uri version text = Document {uri, version, text}
 
--- | Applies edits one after the other. The range of each refers to the text after the edits before
--- it.
+-- | Applies edits one after the other, and sets the version. The range of an edit refers to the
+-- text that the edits before it have made.
 edit :: Maybe Int -> [Edit] -> Document -> Document
 edit version edits document =
   document {version, text = foldl (applied (uri document)) (text document) edits}
@@ -49,8 +49,8 @@ applied uri old e = case e of
     let Region from to = Position.region (Region.fromText (Uri.toPath uri) old) range
      in Text.concat [Text.take from old, new, Text.drop to old]
 
--- | The text for the compiler. A byte order mark becomes a space: it is not part of the program,
--- but the client's positions count it.
+-- | The text for the compiler. A byte order mark becomes a space. It is not part of the program,
+-- but it counts in the client's positions.
 program :: Document -> Text
 program Document {text} = Text.map unmarked (Text.take 1 text) <> Text.drop 1 text
   where

@@ -11,7 +11,8 @@ import Lsp.Position qualified as Position
 import Lsp.Uri (Uri)
 import Lsp.Uri qualified as Uri
 
--- | The location of a region. The open document keeps the client's spelling of its address.
+-- | The location of a region. If it lies in the open document, the address is the given one, in the
+-- client's spelling; otherwise it is made of the path of the file.
 location :: Uri -> Source -> Region -> Value
 location own source region = object ["uri" .= uri, "range" .= Position.range source region]
   where

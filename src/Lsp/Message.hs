@@ -26,7 +26,7 @@ data Incoming
     Notification Text Value
   | -- | an answer to a request of the server, which sends none
     Reply
-  | -- | not a message; the failure to answer
+  | -- | bytes that are no message, and the failure that is to be answered
     Malformed Failure
   deriving stock (Eq, Show)
 
@@ -35,15 +35,19 @@ type Id = Value
 
 -- | A message to the client.
 data Outgoing
-  = Result Id Value
-  | Refusal Id Failure
-  | Notify Text Value
+  = -- | the answer to a request
+    Result Id Value
+  | -- | the answer to a request that failed
+    Refusal Id Failure
+  | -- | a notification: the method, the parameters
+    Notify Text Value
   deriving stock (Eq, Show)
 
 -- | The reason why a request has no result: a code of the protocol, a message.
 data Failure = Failure ErrorCode Text
   deriving stock (Eq, Show)
 
+-- | The error codes of JSON-RPC and of the protocol that this server uses.
 data ErrorCode
   = ParseError
   | InvalidRequest

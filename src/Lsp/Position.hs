@@ -1,5 +1,5 @@
--- | The positions of the protocol: lines and UTF-16 code units, both from 0. Only this module
--- converts between them and offsets.
+-- | The positions of the protocol, which count lines and UTF-16 code units from 0. Only this module
+-- converts between them and offsets, which count characters.
 module Lsp.Position
   ( LspPosition (..),
     LspRange (..),
@@ -22,7 +22,7 @@ import Data.Text qualified as Text
 data LspPosition = LspPosition {line :: Int, character :: Int}
   deriving stock (Eq, Ord, Show)
 
--- | From the first character to the position after the last one.
+-- | A range: the position of its first character, and the position after its last one.
 data LspRange = LspRange {from :: LspPosition, to :: LspPosition}
   deriving stock (Eq, Ord, Show)
 
@@ -38,7 +38,7 @@ instance ToJSON LspRange where
 instance FromJSON LspRange where
   parseJSON = withObject "a range" (\o -> LspRange <$> o .: "start" <*> o .: "end")
 
--- | The position of an offset in its file.
+-- | The position of an offset in the file in which it lies.
 position :: Source -> Int -> LspPosition
 position source at =
   LspPosition
@@ -48,16 +48,17 @@ position source at =
   where
     inFile = Region.position source at
 
--- | The range of a region in its file.
+-- | The range of a region in the file in which it lies.
 range :: Source -> Region -> LspRange
 range source (Region from to) = LspRange (position source from) (position source to)
 
--- | The file that a region lies in.
+-- | The file in which a region lies.
 fileOf :: Source -> Region -> Text
 fileOf source (Region from _) = Region.file (Region.position source from)
 
--- | The offset of a position in the program's own file. A position after the end of its line gives
--- the line's end; a position inside a surrogate pair gives the beginning of the character.
+-- | The offset of a position in the main file of a source. A position beyond the end of its line
+-- gives the end of the line. A position inside a surrogate pair gives the beginning of the
+-- character.
 offset :: Source -> LspPosition -> Int
 offset source LspPosition {line, character} =
   Region.offset source ordinal (1 + charactersIn character content)
@@ -65,7 +66,8 @@ offset source LspPosition {line, character} =
     ordinal = min line (maxBound - 1) + 1
     content = Region.lineText source (Region.offset source ordinal 1)
 
--- | The region of a range in the program's own file. The ends of the range may be in either order.
+-- | The region of a range in the main file of a source. The ends of the range may be in either
+-- order.
 region :: Source -> LspRange -> Region
 region source LspRange {from, to} = Region (min a b) (max a b)
   where
@@ -76,7 +78,7 @@ region source LspRange {from, to} = Region (min a b) (max a b)
 units :: Text -> Int
 units = Text.foldl' (\count c -> count + width c) 0
 
--- | The number of whole characters within @limit@ UTF-16 code units.
+-- | The count of characters at the beginning of a text that fit into @limit@ UTF-16 code units.
 charactersIn :: Int -> Text -> Int
 charactersIn limit content =
   length

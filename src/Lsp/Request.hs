@@ -27,10 +27,10 @@ import Surface.Formatter qualified as Formatter
 -- | A document, the snapshot of its present text, and that of its last text without errors.
 data Subject = Subject {document :: Document, now :: Snapshot, sound :: Maybe Snapshot}
 
--- | Answers the parameters of a request.
+-- | The answer to a request, from the client, the document, and the parameters of the request.
 type Method = Client -> Subject -> Value -> Parser Value
 
--- | Finds a method by its name in the protocol.
+-- | The method with a name of the protocol; nothing for one that this server does not have.
 method :: Text -> Maybe Method
 method name = lookup name table
 
@@ -42,12 +42,12 @@ table =
     ("textDocument/formatting", formatting)
   ]
 
--- | The offset of the position in the parameters.
+-- | The offset in the document of the position that the parameters contain.
 offsetIn :: Subject -> Value -> Parser Int
 offsetIn subject =
   withObject "parameters" (\o -> Position.offset (source subject) <$> o .: "position")
 
--- | The present text with what it imports.
+-- | The present text of the document with its imported files.
 source :: Subject -> Source
 source = Snapshot.source . now
 
@@ -62,7 +62,7 @@ hover client subject params =
       | otherwise = markup "plaintext" (line h <> "\n" <> Name.meaning h)
     line h = Name.name h <> maybe "" (" = " <>) (Name.value h)
 
--- | Text of a kind that the client can show.
+-- | A text of a kind of the protocol: @markdown@ or @plaintext@.
 markup :: Text -> Text -> Value
 markup kind text = object ["kind" .= kind, "value" .= text]
 

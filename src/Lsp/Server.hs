@@ -1,7 +1,7 @@
--- | The language server on a pair of streams: a loop round a 'Session'.
+-- | The language server on a pair of streams: a loop around the steps of "Lsp.Session".
 --
--- One thread reads, handles and writes, so answers have the order of the requests. While no input
--- arrives, it waits for the next deadline of the session.
+-- One thread reads a message, handles it and writes the answers, so the answers have the order of
+-- the requests. While no message arrives, it waits until the next deadline of the session.
 module Lsp.Server
   ( Host (..),
     serve,
@@ -40,8 +40,9 @@ data Host = Host
     input :: Handle,
     -- | the stream of messages to the client, which nothing else may use
     output :: Handle,
-    -- | loads a program with its imports: the texts that are open in the editor, by path, which
-    -- take precedence over files on the disk; the path and the text of the program
+    -- | Loads a program with its imports. The arguments: the text of a file that is open in the
+    -- editor, by its path; the path of the program; the text of the program. An open text takes
+    -- precedence over its file on the disk.
     load :: (Text -> Maybe Text) -> Text -> Text -> IO LoadedProgram,
     -- | finds the mistakes of a program
     check :: Check
@@ -56,7 +57,8 @@ serve host = do
   -- A failure of the streams means that the client is gone.
   pure (Either.fromRight Abrupt ended)
 
--- | Handles messages and deadlines one after the other. The bytes are received but not yet handled.
+-- | Handles messages and deadlines one after the other. The bytes are those that have been received
+-- and not yet handled.
 loop :: Host -> ByteString -> Session -> IO Ending
 loop host received session = case Transport.next received of
   Transport.Complete body more ->
@@ -74,13 +76,15 @@ loop host received session = case Transport.next received of
       Just "" -> handle host Due session >>= continue host received
       Just bytes -> loop host (received <> bytes) session
 
--- | Continues with the session that follows, unless the conversation has ended.
+-- | Continues the loop with the next session, unless the conversation has ended.
 continue :: Host -> ByteString -> Either Ending Session -> IO Ending
 continue host received outcome = case outcome of
   Left ending -> pure ending
   Right session -> loop host received session
 
--- | The next bytes; nothing at the end of input. A message longer than a chunk is read at once.
+-- | The next bytes; nothing at the end of the input. The second argument is the least count of
+-- bytes that are missing from a message. If it exceeds 64 KiB, that many bytes are read in one
+-- call.
 receive :: Host -> Int -> IO (Maybe ByteString)
 receive host missing = do
   bytes <-
@@ -91,7 +95,7 @@ receive host missing = do
   where
     chunk = 65536
 
--- | Does something arrive within @wait@ milliseconds? The end of input counts as something.
+-- | True if bytes or the end of the input arrive within @wait@ milliseconds.
 inputWithin :: Host -> Int -> IO Bool
 inputWithin host wait = do
   ready <- try (hWaitForInput (input host) wait)
@@ -104,10 +108,12 @@ inputWithin host wait = do
 after :: Milliseconds -> Milliseconds -> Int
 after (Milliseconds time) (Milliseconds now) = max 0 (time - now)
 
+-- | The present time of a clock that never goes back.
 clock :: IO Milliseconds
 clock = Milliseconds . fromIntegral . (`div` 1000000) <$> getMonotonicTimeNSec
 
--- | Handles an event and sends the answers. An exception fails only the request that raised it.
+-- | Handles an event and sends the messages. If an exception is raised, only this event fails, see
+-- 'Session.failed'.
 handle :: Host -> Event -> Session -> IO (Either Ending Session)
 handle host event session = do
   now <- clock
@@ -125,8 +131,8 @@ handle host event session = do
     firstLine :: SomeException -> Text
     firstLine e = Text.takeWhile (/= '\n') (Text.pack (displayException e))
 
--- | The session after an event, the end of the conversation if this is it, and the messages to
--- send. All is evaluated here, so that exceptions are raised here.
+-- | The session after an event, the end of the conversation if the event ends it, and the messages
+-- to send. They are evaluated here, so that exceptions are raised here and not later.
 handled :: Host -> Milliseconds -> Event -> Session -> IO (Session, Maybe Ending, [ByteString])
 handled host now event session = do
   supplied <-

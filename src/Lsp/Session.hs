@@ -1,8 +1,9 @@
--- | The conversation with one client as a state and a step: an event in, messages out. No effects.
+-- | The conversation with one client: a state, and a step that takes an event to the next state and
+-- the messages to send. It has no effects.
 --
--- Before an event is handled, 'awaited' names the programs that must be analysed for it, and
--- 'supply' brings their snapshots. So the server reads imported files, and a handler sees a
--- snapshot of the present text.
+-- A step may need the snapshots of programs, and to make one the server has to read imported files.
+-- So before each step the server asks for 'awaited', analyses these programs, and brings their
+-- snapshots with 'supply'.
 module Lsp.Session
   ( Session,
     start,
@@ -57,11 +58,11 @@ data Phase
 -- | An open document.
 data Open = Open
   { document :: Document,
-    -- | the snapshot of the present text, once it is analysed
+    -- | the snapshot of the present text; nothing if this text is not analysed yet
     present :: Maybe Snapshot,
     -- | the snapshot of the last text without errors
     sound :: Maybe Snapshot,
-    -- | the time to publish its diagnostics
+    -- | the time at which its diagnostics are to be published; nothing if they are up to date
     due :: Maybe Milliseconds
   }
 
@@ -69,7 +70,7 @@ data Open = Open
 start :: Session
 start = Session {phase = Waiting, documents = Map.empty}
 
--- | A time, from an arbitrary origin.
+-- | A time in ms since an arbitrary origin.
 newtype Milliseconds = Milliseconds Int
   deriving stock (Eq, Ord, Show)
 
@@ -84,15 +85,16 @@ data Event
 data Effect = Send Outgoing | Stop Ending
   deriving stock (Eq, Show)
 
--- | The end of the conversation: after @shutdown@, or without it.
+-- | The end of the conversation: orderly after the request @shutdown@, abrupt without it.
 data Ending = Orderly | Abrupt
   deriving stock (Eq, Show)
 
--- | The time to publish diagnostics after a change: 200 ms later. Each further change delays it.
-afterRest :: Milliseconds -> Milliseconds
-afterRest (Milliseconds now) = Milliseconds (now + 200)
+-- | The time at which diagnostics are published after a change: 200 ms later. Each further change
+-- delays it.
+afterDelay :: Milliseconds -> Milliseconds
+afterDelay (Milliseconds now) = Milliseconds (now + 200)
 
--- | The time of the next 'Due' event.
+-- | The time of the next 'Due' event; nothing if no diagnostics are due.
 deadline :: Session -> Maybe Milliseconds
 deadline session = case Maybe.mapMaybe due (Map.elems (documents session)) of
   [] -> Nothing
@@ -118,11 +120,12 @@ awaited now event session =
       Received _ -> []
       Due -> filter (isDue now . snd) (Map.toList (documents session))
 
+-- | True if the diagnostics of a document are due.
 isDue :: Milliseconds -> Open -> Bool
 isDue now o = maybe False (<= now) (due o)
 
--- | Brings the snapshot of a program. It is evaluated as far as its errors, so that it keeps no
--- older snapshots in memory.
+-- | Brings the snapshot of a program with this path. It is evaluated until its errors are known;
+-- otherwise an unevaluated test would keep older snapshots in memory.
 supply :: Text -> Snapshot -> Session -> Session
 supply path snapshot session = session {documents = Map.adjust supplied path (documents session)}
   where
@@ -132,11 +135,11 @@ supply path snapshot session = session {documents = Map.adjust supplied path (do
           sound = if Snapshot.isGood snapshot then Just snapshot else sound o
         }
 
--- | The text of an open file. It takes precedence over the file on the disk.
+-- | The text of the document with this path, if it is open.
 openText :: Session -> Text -> Maybe Text
 openText session path = Document.program . document <$> Map.lookup path (documents session)
 
--- | Handles an event.
+-- | Handles an event. The snapshots that 'awaited' names have been supplied.
 step :: Milliseconds -> Event -> Session -> (Session, [Effect])
 step now event session = case event of
   Due -> published now session
@@ -150,14 +153,15 @@ step now event session = case event of
     Reply -> (session, [])
     Malformed failure -> (session, [Send (Refusal Null failure)])
 
--- | The end of the conversation if the client leaves now.
+-- | The kind of end that the conversation has if the client leaves now.
 leaving :: Session -> Ending
 leaving session = case phase session of
   Closing -> Orderly
   Waiting -> Abrupt
   Running _ -> Abrupt
 
--- | The step after an exception: refuses the request; the open documents stay.
+-- | The step in place of one that raised an exception with this message. It refuses a request, and
+-- logs a notification. For diagnostics that were due it publishes the exception instead.
 failed :: Milliseconds -> Text -> Event -> Session -> (Session, [Effect])
 failed now why event session = case event of
   Received (Request ident _ _) ->
@@ -187,7 +191,7 @@ request :: Id -> Text -> Value -> Session -> (Session, [Effect])
 request ident method params session = case (phase session, method) of
   (Waiting, "initialize") ->
     ( session {phase = Running (Capability.fromInitialize params)},
-      [Send (Result ident Capability.welcome)]
+      [Send (Result ident Capability.initializeResult)]
     )
   (Waiting, _) -> refuse NotInitialized "the first request must be initialize"
   (Closing, _) -> refuse InvalidRequest "the server has been shut down"
@@ -206,7 +210,7 @@ request ident method params session = case (phase session, method) of
           Left why -> Refusal ident (Failure InvalidParams (Text.pack why))
           Right result -> Result ident result
 
--- | The open document that parameters name, if it is analysed.
+-- | The open document that the parameters name; nothing if it is not open or not analysed.
 subject :: Value -> Session -> Parser (Maybe Subject)
 subject params session = do
   path <- named params
@@ -260,7 +264,7 @@ opened now session document = (filesChanged now (put path fresh session), [])
     path = Uri.toPath (Document.uri document)
     fresh = Open {document, present = Nothing, sound = Nothing, due = Just now}
 
--- | Edits a document. Its diagnostics become due when the text rests.
+-- | Edits a document. Its diagnostics become due after the delay.
 changed :: Milliseconds -> Session -> (Uri, Maybe Int, [Edit]) -> (Session, [Effect])
 changed now session (uri, version, edits) = case Map.lookup path (documents session) of
   Nothing -> (session, [])
@@ -272,7 +276,7 @@ changed now session (uri, version, edits) = case Map.lookup path (documents sess
             o
               { document = Document.edit version edits (document o),
                 present = Nothing,
-                due = Just (afterRest now)
+                due = Just (afterDelay now)
               }
             session
         ),
@@ -281,6 +285,7 @@ changed now session (uri, version, edits) = case Map.lookup path (documents sess
   where
     path = Uri.toPath uri
 
+-- | Adds or replaces the document with this path.
 put :: Text -> Open -> Session -> Session
 put path o session = session {documents = Map.insert path o (documents session)}
 
@@ -296,17 +301,17 @@ closed now session path = case phase session of
         [Send (Diagnostic.publish client (document o) {Document.version = Nothing} Nothing)]
       )
 
--- | Marks programs that import files for a new analysis, since those files may have changed.
+-- | Marks all programs that import files for a new analysis, because those files may have changed.
 filesChanged :: Milliseconds -> Session -> Session
 filesChanged now session = session {documents = Map.map again (documents session)}
   where
     again o
       | any hasImports (present o) =
-        o {present = Nothing, due = Just (maybe (afterRest now) (min (afterRest now)) (due o))}
+        o {present = Nothing, due = Just (maybe (afterDelay now) (min (afterDelay now)) (due o))}
       | otherwise = o
     hasImports snapshot = not (null (Snapshot.imports snapshot))
 
--- | Publishes the diagnostics that are due. Their snapshots are those of the present texts.
+-- | Publishes the diagnostics that are due.
 published :: Milliseconds -> Session -> (Session, [Effect])
 published now session = case phase session of
   Running client ->

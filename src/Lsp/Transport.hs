@@ -1,4 +1,5 @@
--- | Messages on a stream of bytes: a header with the number of bytes, an empty line, the body.
+-- | Messages on a stream of bytes. Each has a header with the length of its body in bytes, an empty
+-- line, and the body.
 module Lsp.Transport
   ( Received (..),
     next,
@@ -13,17 +14,17 @@ import Data.Char (toLower)
 import Data.List (isSuffixOf)
 import Data.Maybe (listToMaybe)
 
--- | The first message of the bytes received so far.
+-- | The beginning of the bytes received so far.
 data Received
-  = -- | part of a message, and the least number of missing bytes
+  = -- | an incomplete message, of which at least this count of bytes is missing
     Incomplete Int
-  | -- | the body of a message, and the bytes after it
+  | -- | the body of a complete message, and the bytes after it
     Complete ByteString ByteString
-  | -- | the bytes after a header without a length
+  | -- | a header without a length, of which no body can be read; the bytes after it
     Headless ByteString
   deriving stock (Eq, Show)
 
--- | Separates the first message.
+-- | Separates the first message from the bytes after it.
 next :: ByteString -> Received
 next received = case ByteString.breakSubstring "\r\n\r\n" received of
   (header, rest)
@@ -36,8 +37,9 @@ next received = case ByteString.breakSubstring "\r\n\r\n" received of
         where
           body = ByteString.drop 4 rest
 
--- | The number after @Content-Length:@, if it is a possible length. The header may begin with a
--- message whose own header had no length.
+-- | The number after @Content-Length:@, if it is from 0 to 'longest'. Before the header there may
+-- be the body of a message whose header had no length, so the key need not be at the beginning of a
+-- line.
 contentLength :: ByteString -> Maybe Int
 contentLength header =
   listToMaybe
@@ -52,7 +54,8 @@ contentLength header =
   where
     isKey key = "content-length:" `isSuffixOf` filter (/= ' ') (map toLower (Char8.unpack key))
 
--- | The greatest length of a message, in bytes. A larger number means that the stream is damaged.
+-- | The greatest length of a body in bytes: 256 MiB. A larger number means that the stream is
+-- damaged.
 longest :: Int
 longest = 256 * 1024 * 1024
 

@@ -1,5 +1,5 @@
--- | File addresses of the protocol. Clients percent-encode them differently, so they are compared
--- after decoding, and sent back in the client's own spelling.
+-- | File addresses of the protocol. Clients percent-encode them in different ways. So the server
+-- compares decoded addresses, and sends an address back in the client's own spelling.
 module Lsp.Uri
   ( Uri (..),
     toPath,
@@ -23,7 +23,7 @@ newtype Uri = Uri Text
   deriving newtype (Eq, Ord, FromJSON, ToJSON)
   deriving stock (Show)
 
--- | The path of a file. Another address is only decoded.
+-- | The path of a @file:@ address. An address of another kind is only decoded.
 toPath :: Uri -> Text
 toPath (Uri uri) = decoded (Maybe.fromMaybe uri local)
   where
@@ -50,6 +50,7 @@ escaped byte
 decoded :: Text -> Text
 decoded = Encoding.decodeUtf8With Encoding.lenientDecode . bytes . Encoding.encodeUtf8
 
+-- | Decodes percent-encoded bytes; a percent sign without two hexadecimal digits stays.
 bytes :: ByteString -> ByteString
 bytes encoded = case ByteString.uncons rest of
   Nothing -> plain

@@ -1,7 +1,7 @@
 -- | Excerpts of a program: source lines with a mark under a region.
 --
--- Marks are aligned by the widths of characters on a terminal. Characters that would control the
--- terminal are replaced by visible ones. Colours are left to "Report.Human".
+-- The mark is aligned by the widths that characters have on a terminal. Characters that would
+-- control the terminal are replaced by visible ones. "Report.Human" adds the colours.
 module Report.Excerpt
   ( Excerpt (..),
     excerpts,
@@ -29,7 +29,8 @@ data Excerpt = Excerpt
     width :: Int,
     -- | count of characters left out at the front of the line
     skipped :: Int,
-    -- | true if the excerpt before shows the same window of the same line
+    -- | true if the excerpt before it shows exactly this line or window, so that the line need not
+    -- be printed again
     isSame :: Bool
   }
   deriving stock (Eq, Show)
@@ -57,7 +58,7 @@ excerpt source before region =
     content = Region.lineText source (start region)
     printed = expand 0 (Text.unpack content)
     length' = max 0 (min (end region - start region) (Text.length content - column + 1))
-    -- The window of the excerpt before is used again if it shows the region.
+    -- If the window of the excerpt before contains the region, it is used again.
     (skipped, isSame) = case before of
       Just Excerpt {place = Position {file, line}, skipped = front}
         | file == file',
@@ -77,22 +78,23 @@ excerpt source before region =
 longest :: Int
 longest = 120
 
--- | Replaces the control characters of a text by visible ones; line ends remain.
+-- | Replaces the control characters of a text by visible ones; line feeds stay.
 visible :: Text -> Text
 visible = Text.map sign
   where
     sign c = if c == '\n' then c else shownAs c
 
--- | Visible form of a character: a control picture (U+2400 …) for C0 controls, U+FFFD for other
--- controls and for format characters, among them those that change the writing direction.
+-- | Visible form of a character. Characters below U+0020 become their control pictures (U+2400 and
+-- following). Other control characters and format characters, such as those that change the writing
+-- direction, become U+FFFD.
 shownAs :: Char -> Char
 shownAs c
   | ord c < 0x20 = toEnum (0x2400 + ord c)
   | isControl c || generalCategory c == Format = '\xFFFD'
   | otherwise = c
 
--- | Printed form of each character, from a terminal column on. A tab reaches the next multiple of
--- four columns.
+-- | Printed form of each character of a string that begins at the terminal column @at@. A tab
+-- becomes spaces up to the next column that is a multiple of four.
 expand :: Int -> String -> [Text]
 expand at string = case string of
   [] -> []

@@ -1,4 +1,4 @@
--- | Explanations of report codes: a text, a wrong program and the same program put right.
+-- | Explanations of report codes: a text, a wrong program and the same program corrected.
 --
 -- Each explanation is a Markdown file in @explain/@, compiled into the program. This module parses
 -- the files, finds an explanation by its code, and renders it for a terminal or for Markdown.
@@ -28,11 +28,13 @@ import Report.Report (ReportCode (..))
 -- | Explanation of one code.
 data Explanation = Explanation
   { code :: ReportCode,
-    -- | one line, no full stop
+    -- | one line without a full stop, in Markdown
     title :: Text,
-    -- | paragraphs in Markdown, broken at the width of a terminal
+    -- | paragraphs in Markdown, whose lines fit a terminal of 80 columns
     prose :: Text,
+    -- | example that raises the code
     wrong :: Example,
+    -- | the example corrected
     right :: Example
   }
   deriving stock (Eq, Show)
@@ -49,15 +51,17 @@ data Language
     Session
   deriving stock (Eq, Show)
 
--- | All explanations, in the order of their codes; in each group the warnings follow the errors.
+-- | All explanations, ordered by group (the first two digits of the code), in each group the errors
+-- before the warnings.
 everything :: [Explanation]
 everything = sortOn order (mapMaybe readOne Embedded.files)
   where
     readOne (file, bytes) = either (const Nothing) Just (Encoding.decodeUtf8' bytes) >>= parse file
     order e = let ReportCode c = code e in (Text.take 2 (Text.drop 1 c), Text.take 1 c, c)
 
--- | Parses the file of an explanation: a heading with the code of the file's name, paragraphs, the
--- wrong example, the right example. Nothing if the file has another form.
+-- | Parses the file of an explanation; its name is the code with the extension @.md@. The file has
+-- a heading with the code and the title, paragraphs, the wrong example, and the right example.
+-- Nothing if the file has another form.
 parse :: FilePath -> Text -> Maybe Explanation
 parse file text = do
   name <- Text.stripSuffix ".md" (Text.pack file)
@@ -70,7 +74,8 @@ parse file text = do
     then Just Explanation {code = ReportCode name, title, prose = Text.strip prose, wrong, right}
     else Nothing
 
--- | Parses the fenced block of a kind at the beginning of a text; gives the example and the rest.
+-- | Parses the fenced block at the beginning of a text. The kind is @wrong@ or @right@. Gives the
+-- example and the text after it.
 example :: Text -> Text -> Maybe (Example, Text)
 example kind text = case Text.stripPrefix ("```part " <> kind <> "\n") trimmed of
   Just rest -> closed Part rest
@@ -101,8 +106,9 @@ readCode word =
     (letters, digits) = Text.break isDigit (Text.toUpper within)
     isNumber = not (Text.null digits) && Text.all isDigit digits && Text.length letters <= 1
 
--- | Suggests at most three codes for one that does not exist: the same number with the other
--- letter; otherwise codes with two digits exchanged, then the nearest numbers of the group.
+-- | Suggests codes for one that does not exist. If the number exists with the other letter, that
+-- code. Otherwise at most three codes: first those with two neighbouring digits exchanged, then the
+-- nearest numbers with the same first two digits.
 near :: Text -> [Text]
 near word
   | number == "" = []
@@ -149,7 +155,8 @@ markdown e = layOut ("# " <> c <> ": " <> title e) (prose e) fenced e
     ReportCode c = code e
     fenced content = "```\n" <> content <> "```"
 
--- | Joins heading, prose and examples; the function renders the text of an example.
+-- | Joins a heading, a text and the two examples of an explanation. The function renders the text
+-- of an example.
 layOut :: Text -> Text -> (Text -> Text) -> Explanation -> Text
 layOut heading body shown e =
   Text.unlines

@@ -1,7 +1,7 @@
 {-# OPTIONS_GHC -O0 #-}
 
--- | Rendering of reports for a person at a terminal: heading, excerpts with marks, sentences,
--- hints.
+-- | Rendering of reports for a person at a terminal: heading, source lines with marks, sentences
+-- and hints.
 module Report.Human
   ( Colour (..),
     render,
@@ -21,26 +21,39 @@ import Report.Report (Label (..), Report (..), ReportCode (..), ReportPlace (..)
 import Report.Report qualified as Report
 import System.Console.ANSI.Codes qualified as Ansi
 
--- | Use of the terminal's colours.
+-- | Use of colours.
 data Colour = Coloured | Plain
   deriving stock (Eq, Show)
 
--- | Kind of a part of the rendering; it decides the colour.
-data Role = Severe Severity | Title | Frame | Secondary | Advice
+-- | Kind of a text in the rendering, which decides its colour.
+data Role
+  = -- | severity and code, and the mark of the report's place
+    Severe Severity
+  | -- | title of the report
+    Title
+  | -- | line numbers, bars and arrows
+    Frame
+  | -- | marks of other regions
+    Secondary
+  | -- | the word @hint@
+    Advice
 
--- | What all parts of one rendering need.
+-- | Facts that all parts of one rendering use.
 data Layout = Layout
-  { painted :: Role -> Text -> Text,
+  { -- | colours a text for its role
+    painted :: Role -> Text -> Text,
     report :: Report,
     source :: Source,
-    -- | count of characters of the largest line number
+    -- | width of the line numbers: the count of digits of the largest one
     gutter :: Int
   }
 
--- | Excerpt with the text of its mark; true for the mark of the report's own place.
+-- | Mark of a region: true for the report's place, false for other regions; the excerpt; the text
+-- beside the mark.
 type Marked = (Bool, Excerpt, Text)
 
--- | Renders one report. The path names the file of a report that has no region in the program.
+-- | Renders one report. The path is the name of the file for a report that has no region in the
+-- program.
 render :: Colour -> Text -> Source -> Report -> Text
 render colour path source given =
   Text.unlines (heading layout : location layout path <> body <> remedies)
@@ -60,7 +73,7 @@ heading Layout {painted, report} =
   where
     ReportCode code = Report.code report
 
--- | Line with the address of the report; none if the address is empty.
+-- | Line with the position of the report; none for a report about no file.
 location :: Layout -> Text -> [Text]
 location Layout {painted, report, source, gutter} path =
   [Text.replicate gutter " " <> painted Frame "--> " <> address | address /= ""]
@@ -84,8 +97,8 @@ markedExcerpts source report =
       InTape _ -> map (False,) (others report)
       InFile -> map (False,) (others report)
 
--- | Lines of an excerpt after the one before. Two marks on one line share it; another file gets a
--- heading.
+-- | Lines for a mark; the second argument is the mark before it. If both are in the same window of
+-- a line, that line is printed once. If they are in different files, the position is printed first.
 excerptLines :: Layout -> Maybe Marked -> Marked -> [Text]
 excerptLines layout@Layout {painted, report, source, gutter} before (isMain, e, text) =
   [bar layout | not (isSame e)]
@@ -107,8 +120,7 @@ excerptLines layout@Layout {painted, report, source, gutter} before (isMain, e, 
     sign = Text.replicate (width e) (if isMain then "^" else "-")
     words' = if text == "" then "" else " " <> text
 
--- | Sentences and hints, broken at the width of a terminal. The flag tells whether excerpts
--- precede.
+-- | Sentences and hints in lines of at most 80 columns. The flag is true if excerpts precede them.
 advice :: Layout -> Bool -> [Text]
 advice layout@Layout {painted, report, gutter} hasExcerpts =
   [bar layout | hasExcerpts && not (null (message report) && null (hints report))]
@@ -135,7 +147,8 @@ positionText :: Position -> Text
 positionText Position {file, line, column} =
   file <> ":" <> Decimal.whole line <> ":" <> Decimal.whole column
 
--- | Replaces control characters in all words of a report. Excerpts do that for source lines.
+-- | Replaces control characters in all texts of a report. In source lines, "Report.Excerpt" does
+-- so.
 cleaned :: Report -> Report
 cleaned r =
   r
@@ -163,8 +176,8 @@ summary colour reports = case (count "error" errors, count "warning" warnings) o
       | n == 1 = "1 " <> word
       | otherwise = Decimal.whole n <> " " <> word <> "s"
 
--- | Breaks a text at spaces into lines of at most @limit@ characters. Line ends of the text remain.
--- A longer word gets a line of its own.
+-- | Breaks a text at spaces into lines of at most @limit@ characters. Line ends in the text stay
+-- line ends. A word longer than @limit@ gets a line of its own.
 wrap :: Int -> Text -> [Text]
 wrap limit = concatMap line . Text.lines
   where

@@ -1,5 +1,5 @@
--- | Rendering of reports for other programs, one line per report: the format of compilers, which
--- editors match, and JSON.
+-- | Rendering of reports for other programs, one line for each report: the usual format of
+-- compilers, which editors recognise, and JSON.
 module Report.LineFormat
   ( short,
     json,
@@ -18,8 +18,8 @@ import Report.Excerpt qualified as Excerpt
 import Report.Report (Label (..), Report (..), ReportCode (..), ReportPlace (..))
 import Report.Report qualified as Report
 
--- | Renders a report as @file:line:col: error[E0123]: text@. For a report about a tape the row is
--- the line.
+-- | Renders a report as @file:line:column: error[E0123]: title@. In a report about a tape the row
+-- of the tape is the line. The path is the name of the file for a report without a region.
 short :: Text -> Source -> Report -> Text
 short path source r =
   at
@@ -39,8 +39,9 @@ short path source r =
       InTape row -> path <> ":" <> Decimal.whole row <> ":1"
       InFile -> path <> ":1:1"
 
--- | Renders a report as one JSON object with a line end. Lines and columns count characters from 1;
--- @end@ is the position after the last character.
+-- | Renders a report as one JSON object with a line end. Lines count from 1, columns count
+-- characters from 1; @end@ is the position after the last character. The path is used as in
+-- 'short'.
 json :: Text -> Source -> Report -> Text
 json path source r =
   Encoding.decodeUtf8 (LazyByteString.toStrict (encodingToLazyByteString (pairs fields))) <> "\n"

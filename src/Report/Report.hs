@@ -32,7 +32,7 @@ newtype ReportCode = ReportCode Text
   deriving newtype (Eq, Ord, IsString)
   deriving stock (Show)
 
--- | Object to which a report points.
+-- | Place to which a report points.
 data ReportPlace
   = -- | a region of the program
     InSource Region
@@ -42,24 +42,25 @@ data ReportPlace
     InFile
   deriving stock (Eq, Ord, Show)
 
--- | Region of the program with a few words of explanation.
+-- | Region of the program with a few words that are printed beside it.
 data Label = Label {region :: Region, words :: Text}
   deriving stock (Eq, Show)
 
--- | Mistake or warning: its place, its reason, and the remedy.
+-- | Error or warning, with its place, its reason and its remedy.
 data Report = Report
   { severity :: Severity,
     code :: ReportCode,
-    -- | one line, lower case, no full stop
+    -- | the mistake on one line, in lower case and without a full stop
     title :: Text,
     place :: ReportPlace,
     -- | words printed beside the place; may be empty
     label :: Text,
     -- | further regions that explain the mistake
     others :: [Label],
-    -- | whole sentences
+    -- | the reason, as whole sentences
     message :: [Text],
-    -- | remedies; a lazy list, because near names are searched only when the report is rendered
+    -- | remedies; lazy, because some need a search for similar names, which only a rendered report
+    -- pays for
     hints :: ~[Text]
   }
   deriving stock (Eq, Show)
@@ -69,8 +70,8 @@ report :: Severity -> ReportCode -> ReportPlace -> Text -> Report
 report severity code place title =
   Report {severity, code, title, place, label = "", others = [], message = [], hints = []}
 
--- | Puts a word of the program in quotation marks. Of a word of more than 60 characters only the
--- first 57 are quoted.
+-- | Puts a word of the program in quotation marks. If it has more than 60 characters, only the
+-- first 57 are shown.
 quote :: Text -> Text
 quote text = "‘" <> (if Text.length text > 60 then Text.take 57 text <> "…" else text) <> "’"
 
@@ -86,6 +87,7 @@ isError r = case severity r of
   Error -> True
   Warning -> False
 
--- | Sorts reports by place, severity, code and title, and drops repetitions of the same four.
+-- | Sorts reports by place, severity, code and title. Of several reports that are equal in all
+-- four, only the first stays.
 sorted :: [Report] -> [Report]
 sorted = map NonEmpty.head . NonEmpty.group . sortOn (\r -> (place r, severity r, code r, title r))

@@ -1,7 +1,7 @@
--- | Rendering of reports as one SARIF 2.1.0 log, the exchange format of code scanners and of their
--- viewers. The log contains neither a time nor a version, so equal runs give equal logs.
+-- | Rendering of reports as a SARIF 2.1.0 log, the format in which code scanners give their
+-- results. The log contains neither a time nor the version of partc, so equal runs give equal logs.
 --
--- Numbers of paragraphs refer to
+-- Numbers in brackets are paragraphs of
 -- <https://docs.oasis-open.org/sarif/sarif/v2.1.0/sarif-v2.1.0.html>.
 module Report.Sarif
   ( Filed (..),
@@ -30,10 +30,11 @@ import Report.Report (Label (..), Report (..), ReportCode (..), ReportPlace (..)
 import Report.Report qualified as Report
 import Prelude hiding (log)
 
--- | Report with the path of its file and the source of its regions.
+-- | Report with the path of its file, for a report without a region, and the source of its regions.
 data Filed = Filed {path :: Text, source :: Source, report :: Report}
 
--- | Renders the log of one run. Its rules are the codes that occur, with their explanations.
+-- | Renders the log of one run of partc. Its rules are the codes that occur in it, each with its
+-- explanation if there is one.
 log :: [Explanation] -> [Filed] -> Text
 log explanations filed =
   Encoding.decodeUtf8 (LazyByteString.toStrict (encodingToLazyByteString whole)) <> "\n"
@@ -108,12 +109,12 @@ inSource source region = at file (pair "region" (pairs stretch))
         <> "endLine" .= endLine
         <> "endColumn" .= endColumn
 
--- | Physical location in a file: its address and further properties.
+-- | Physical location in the file with this path; the series adds a region or a message.
 at :: Text -> Series -> Series
 at path region =
   pair "physicalLocation" (pairs (pair "artifactLocation" (pairs ("uri" .= uri path)) <> region))
 
--- | Encodes a message. Braces are doubled, since single ones enclose placeholders (3.11.5).
+-- | Encodes a message. Braces are doubled, because single braces enclose placeholders (3.11.5).
 message' :: Text -> Encoding
 message' words' = pairs ("text" .= Text.replace "}" "}}" (Text.replace "{" "{{" words'))
 

@@ -30,33 +30,35 @@ import Report.Report
   )
 import Sheet.Sheet (address, generalCount, maxArrays)
 
--- | The position of a number of the sheet: its region, and its number from 1.
+-- | The position of a word of the sheet: its region in the text, and its ordinal number from 1.
 data NumberPosition = NumberPosition {site :: Region, number :: Int}
   deriving stock (Eq, Ord, Show)
 
--- | A mistake; the position where it shows comes first.
+-- | A mistake. The position at which it is reported comes first.
 data Error
-  = -- | a word that is no number
+  = -- | The word is no number.
     NotANumber NumberPosition Text
-  | -- | too few general data: the count of numbers before this position
+  | -- | The sheet has only the given count of general data.
     GeneralShort NumberPosition Int
-  | GeneralWrong NumberPosition GeneralFault
-  | -- | points of the approach that are shifted
+  | -- | A number of the general data is wrong.
+    GeneralWrong NumberPosition GeneralFault
+  | -- | A number is missing or doubled among the points of the approach.
     ApproachShifted NumberPosition ApproachFault
-  | -- | points after an array that are shifted
+  | -- | A number is missing or doubled among the points after an array.
     RetractShifted NumberPosition RetractFault
-  | CipherUnknown NumberPosition CipherFault
-  | -- | data that do not fit the cipher, and the position of the cipher
+  | -- | The cipher of a piece is wrong.
+    CipherUnknown NumberPosition CipherFault
+  | -- | The numbers of a piece do not fit its cipher; the second position is that of the cipher.
     PieceMisfit NumberPosition NumberPosition PieceMisfit
-  | -- | the first array beyond 'maxArrays'
+  | -- | The array at this position exceeds 'maxArrays'.
     TooManyArrays NumberPosition
-  | -- | a sheet that ends too early, at its last word
+  | -- | The sheet ends too early; the position is that of its last word.
     EndMissing NumberPosition Expected
-  | -- | no number after the end mark of a piece
+  | -- | The word after the end mark of a piece is not the number that belongs there.
     LinkMissing NumberPosition LinkNumber
-  | -- | a number after the end of the program
-    BehindTheEnd NumberPosition
-  | -- | the rapid feed at the last point before an array
+  | -- | A number follows the end of the program.
+    AfterTheEnd NumberPosition
+  | -- | The last point before an array has the rapid feed, which would be the feed of its pieces.
     NoWorkingFeed NumberPosition
   deriving stock (Eq, Ord, Show)
 
@@ -64,22 +66,28 @@ data Error
 data GeneralFault
   = ProductCipherNotWhole
   | PartCipherNotWhole
-  | ProgramNotWhole
+  | -- | the number of the program is not whole
+    ProgramNotWhole
   | DiameterNotPositive
   | ToleranceNotPositive
-  | NegativeGear
-  | NegativeHeight
-  | -- | a dimension of a cone, for a swivelling blade
+  | -- | negative diameter of the wheel that swivels a blade
+    NegativeGear
+  | -- | negative height of a cone
+    NegativeHeight
+  | -- | a swivelling blade with the bevel or the height of a cone
     BladeWithCone
-  | HeightWithoutBevel
-  | UnknownSide
-  | -- | a word at an unused address
+  | -- | the height of a cone that has no bevel
+    HeightWithoutBevel
+  | -- | a side of the tool that is not 1, -1 or 0
+    UnknownSide
+  | -- | a number other than 0 at an unused address
     UnusedWord
   deriving stock (Eq, Ord, Show)
 
 -- | A fault of the points of the approach.
 data ApproachFault
-  = SignInApproach
+  = -- | a sign without a number
+    SignInApproach
   | ApproachFeedNotPositive
   | NoApproachPoint
   | -- | a count of numbers that is no multiple of four
@@ -87,40 +95,52 @@ data ApproachFault
   deriving stock (Eq, Ord, Show)
 
 -- | A fault of the points after an array.
-data RetractFault = NegativeFeed | NoLastFeed | NotACoordinate
+data RetractFault
+  = NegativeFeed
+  | -- | the sheet ends before a point with the feed 0
+    NoLastFeed
+  | -- | an end mark or a sign in place of a coordinate or a feed
+    NotACoordinate
   deriving stock (Eq, Ord, Show)
 
 -- | A fault of a cipher.
 data CipherFault
   = CipherNotWhole
-  | MarkInsteadOfCipher
-  | SignInsteadOfCipher
-  | UnknownDigit Char
-  | -- | a minus sign before a cipher whose first distance has a sign
+  | -- | an end mark in place of the cipher
+    MarkInsteadOfCipher
+  | -- | a sign without a number in place of the cipher
+    SignInsteadOfCipher
+  | -- | a digit other than 1, 2, 4 and 6
+    UnknownDigit Char
+  | -- | a minus sign before a cipher whose first distance gives the side already
     SignTwice
   deriving stock (Eq, Ord, Show)
 
--- | A part of the sheet that is missing at its end.
+-- | The next part of the sheet at the point where the sheet ends too early.
 data Expected
-  = PieceOrLastFeed
-  | MarkAfterApproach
-  | MarkAfterPiece
+  = -- | another piece, or the feed 0 of the last point
+    PieceOrLastFeed
+  | -- | the end mark of the approach
+    MarkAfterApproach
+  | -- | the end mark of a piece
+    MarkAfterPiece
   | LinkOfPiece
   | AllowanceOfPiece
   deriving stock (Eq, Ord, Show)
 
--- | A number after the end mark of a piece.
+-- | One of the two numbers after the end mark of a piece.
 data LinkNumber = LinkNumber | AllowanceNumber
   deriving stock (Eq, Ord, Show)
 
--- | The reason why the data of a piece do not fit its cipher.
+-- | The reason why the numbers of a piece do not fit its cipher.
 data PieceMisfit
-  = -- | the counts of numbers that the cipher asks for: before the points, for each point, after
-    -- the points, again for each point; and the count of numbers of the piece
+  = -- | No whole count of points is possible. The first four numbers are counts that the cipher
+    -- demands: before all points, with each point, after all points, and once more for each point.
+    -- The last one is the count of the piece's numbers.
     CountOff Int Int Int Int Int
   | -- | fewer than two points
     PointsFew
-  | -- | a flag that is neither 0 nor 1
+  | -- | a flag of the feed that is neither 0 nor 1
     FlagOff
   | -- | a sign without a number
     LoneSign
@@ -200,7 +220,7 @@ toReport err = case err of
             \end of an array), and its allowance."
           ]
       }
-  BehindTheEnd position ->
+  AfterTheEnd position ->
     (at position "E0911" "the program has ended before this number")
       { message = [counted position, "The feed 0 ends a program."],
         hints = ["Give the point before it a feed if the program goes on."]
@@ -285,7 +305,7 @@ misfitReport position cipher misfit =
   where
     (short, long) = misfitTexts misfit
 
--- | The end of the title, and the message.
+-- | The end of the report's title, and its message.
 misfitTexts :: PieceMisfit -> (Text, Text)
 misfitTexts misfit = case misfit of
   CountOff before each after again count ->
@@ -314,10 +334,11 @@ misfitTexts misfit = case misfit of
   where
     numbers n = if n == 1 then "1 number" else Decimal.whole n <> " numbers"
 
+-- | A report at a position, with its code and its title.
 at :: NumberPosition -> ReportCode -> Text -> Report
 at position code = report Error code (InSource (site position))
 
--- | The sentence with the number and the address of a position.
+-- | The sentence that tells the ordinal number and the octal address of a word.
 counted :: NumberPosition -> Text
 counted position =
   "This is number "
@@ -326,9 +347,11 @@ counted position =
     <> address (number position)
     <> "."
 
+-- | The sentence that names the control stop of the Minsk-22 system.
 stop :: Text -> Text
 stop code = "The Minsk-22 system stopped here with " <> code <> "."
 
+-- | The remedy for a word that is no number.
 wordHint :: Text -> [Text]
 wordHint text
   | Text.any (== ',') text = ["Write the decimal point as a point: 59.3"]

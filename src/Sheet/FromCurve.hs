@@ -1,4 +1,5 @@
--- | A curve with its recalculations as a piece of an input sheet. Refuses curves without a cipher.
+-- | Conversion of a curve with its shifts to a piece of an input sheet, with the cipher of these
+-- shifts. Refuses a curve whose shifts no cipher can express.
 module Sheet.FromCurve
   ( piece,
     degreesOf,
@@ -31,14 +32,15 @@ import Text.Read (readMaybe)
 
 -- | One shift of a curve.
 data Shift = Shift
-  { -- | 1 to the left of the curve's direction, -1 to the right
+  { -- | side to which positive distances shift: 1 left of the curve's direction, -1 right of it
     sign :: Double,
-    -- | the bevels at the points, if the distance is square to the surface
+    -- | the bevel at each point, in radians, if the distance is measured square to the surface;
+    -- nothing if it is measured in the plane
     square :: Maybe (Vector Double),
     distance :: Distance
   }
 
--- | The piece of a curve that is an element with this region and this finish.
+-- | The piece for an element of a contour: the element's region for reports, its curve, its finish.
 piece :: Region -> Curve.Curve -> Finish -> Result w Unfit Piece
 piece at curve finish = do
   points <- pointsOf at (Curve.base curve)
@@ -62,7 +64,7 @@ piece at curve finish = do
       }
   where
     original = map shiftOf (Curve.layers curve)
-    side = sideSign original
+    side = signOfPiece original
     shifts = map (onSide side) original
     row p s = PointRow {px = here (Vec.x p), py = here (Vec.y p), surface = s}
     isBevelled s = case distance s of
@@ -85,6 +87,7 @@ pointsOf at base = case BasisCurve.method base of
   where
     points = Vector.map BasisCurve.knotPoint (BasisCurve.rows base)
 
+-- | One layer of a curve as a shift.
 shiftOf :: (Carrier.Side, Distance) -> Shift
 shiftOf (side, distance) = case distance of
   ShiftDistance.Square mu inner -> Shift {sign, square = Just (Column.values mu), distance = inner}
@@ -95,14 +98,13 @@ shiftOf (side, distance) = case distance of
   ShiftDistance.Joggled _ -> alone
   where
     alone = Shift {sign, square = Nothing, distance}
-    sign = case side of
-      Carrier.LeftOf -> 1
-      Carrier.RightOf -> -1
+    sign = Carrier.sideSign side
 
--- | The side to which the distances of a piece count, as a sign: the side of its first distance
--- before the points. Without such a distance, or with 0, the side of the first shift.
-sideSign :: [Shift] -> Double
-sideSign shifts = case listToMaybe [sign s * h | s <- shifts, Just h <- [headOf (distance s)]] of
+-- | The side of a piece as a sign: 1 left, -1 right. It is the side to which the first of the
+-- distances that a sheet has before the points really shifts. Without such a distance, or if it is
+-- 0, it is the side of the first shift; left without shifts.
+signOfPiece :: [Shift] -> Double
+signOfPiece shifts = case listToMaybe [sign s * h | s <- shifts, Just h <- [headOf (distance s)]] of
   Just h | h /= 0 -> signum h
   _ -> maybe 1 sign (listToMaybe shifts)
   where
@@ -111,7 +113,8 @@ sideSign shifts = case listToMaybe [sign s * h | s <- shifts, Just h <- [headOf 
       ShiftDistance.Growing Growth {from = Mm h} -> Just h
       _ -> Nothing
 
--- | A shift with the opposite distance if it is to the other side than the one wanted.
+-- | The same shift, expressed with distances that are positive on the side @wanted@ (1 left, -1
+-- right).
 onSide :: Double -> Shift -> Shift
 onSide wanted s
   | wanted == sign s = s
@@ -126,10 +129,10 @@ onSide wanted s
       ShiftDistance.Square mu inner -> ShiftDistance.Square mu (opposite inner)
       ShiftDistance.Joggled j -> ShiftDistance.Joggled j
     minus (Mm h) = Mm (negate h)
-    -- Only the values of a column are used here.
+    -- The spline of the column would be wrong now, but this module uses only its values.
     negative c = c {Column.values = Vector.map negate (Column.values c)}
 
--- | Refuses a shift without numbers on a sheet.
+-- | Refuses a shift that a sheet has no numbers for.
 checkShift :: Region -> Shift -> Result w Unfit ()
 checkShift at s = case distance s of
   ShiftDistance.Bevelled _ _ (Mm delta) | delta /= 0 -> refused (NoCipher at AllowanceOfFour)
@@ -141,8 +144,8 @@ checkShift at s = case distance s of
   ShiftDistance.Constant _ -> pure ()
   ShiftDistance.Pointwise _ -> pure ()
 
--- | The surface at every point, given their count; nothing when no recalculation uses the bevel.
--- Refuses bevels and heights that differ between recalculations.
+-- | The surface at each of @count@ points; nothing if no shift uses a bevel. Refuses bevels or
+-- heights that differ between the shifts, and distances that are not square to the surface.
 surfaceOf :: Region -> Int -> [Shift] -> Result w Unfit (Maybe [Surface])
 surfaceOf at count shifts
   | null bevels = pure Nothing
@@ -167,6 +170,7 @@ surfaceOf at count shifts
       ShiftDistance.Bevelled {} -> False
       _ -> null (square s)
 
+-- | The recalculation of a shift that 'checkShift' has accepted.
 recalculation :: Shift -> Recalculation
 recalculation s = case distance s of
   ShiftDistance.Growing Growth {from = Mm a, to = Mm b} -> Growing (here a) (here b)
@@ -179,7 +183,8 @@ recalculation s = case distance s of
     nonEmptyOf :: Vector Double -> Maybe (NonEmpty Double)
     nonEmptyOf = NonEmpty.nonEmpty . Vector.toList
 
--- | The shortest decimal number of degrees that is exactly this angle in radians.
+-- | The shortest decimal number of degrees whose conversion to radians gives exactly @angle@; the
+-- unrounded quotient if there is none.
 degreesOf :: Double -> Double
 degreesOf angle = case [d | k <- [0 .. 16], Just d <- [rounded k], d * (pi / 180) == angle] of
   d : _ -> d

@@ -1,5 +1,6 @@
--- | An evaluated part as an input sheet: every milled contour becomes an array of pieces, every
--- stop a point. Refuses all that a sheet has no numbers for.
+-- | Conversion of an evaluated part to an input sheet: every milled contour becomes an array of
+-- pieces, every stop between contours a point. Refuses a part with anything that a sheet has no
+-- numbers for.
 module Sheet.FromPart
   ( fromPart,
   )
@@ -43,15 +44,15 @@ import Sheet.Unsupported
     UnsupportedCipher (..),
   )
 
--- | The sheet of a part, or all that does not fit one. The program tells the dimensions of a cone,
--- of which the part keeps only the radius.
+-- | The sheet of a part, or the reasons why it cannot have one. The program is needed for the
+-- dimensions of a cone, because the part keeps only the radius at which the cone touches it.
 fromPart :: Checked.Program -> Part -> Result w Unfit Sheet
 fromPart written part = case (Part.start part, runsOf (Part.operations part)) of
   (_, Left e) -> refused e
   (Nothing, _) -> refused (NoPath NoStart)
   (Just _, Right ([], _)) -> refused (NoPath NothingMilled)
   (Just (Located _ startPoint), Right (one : more, final)) ->
-    mapM_ (refused . ManyArrays . region') (take 1 (drop maxArrays (one : more)))
+    mapM_ (refused . ManyArrays . keywordRegion) (take 1 (drop maxArrays (one : more)))
       *> ( build
              <$> generalData written part (fmap milled (one :| more))
                <*> pathOf startPoint (one : more) final
@@ -65,10 +66,10 @@ fromPart written part = case (Part.start part, runsOf (Part.operations part)) of
 refused :: Unfit -> Result w Unfit a
 refused e = Result [] [e] Nothing
 
--- | A milled contour, and the stops before it.
-data Run = Run {stops :: [Part.Stop], region' :: Region, milled :: (Region, Milling)}
+-- | A milled contour: the stops before it, the region of its statement's keyword, and the contour.
+data Run = Run {stops :: [Part.Stop], keywordRegion :: Region, milled :: (Region, Milling)}
 
--- | The milled contours, and the stops after the last one.
+-- | The milled contours of some operations, and the stops after the last one.
 runsOf :: [Part.Operation] -> Either Unfit ([Run], [Part.Stop])
 runsOf = go []
   where
@@ -77,9 +78,9 @@ runsOf = go []
       Part.Travel ss : rest -> go (before <> toList ss) rest
       Part.Mill (Located at m) : rest -> do
         (runs, final) <- go (Part.retract m) rest
-        let region' = keyword at
-            run = Run {stops = before <> Part.approach m, region', milled = (region', m)}
-        Right (run : runs, final)
+        let keywordRegion = keyword at
+            stops = before <> Part.approach m
+        Right (Run {stops, keywordRegion, milled = (keywordRegion, m)} : runs, final)
       Part.Pocket (Located at _) : _ -> Left (NoNumbers at PocketClearing)
       Part.Drill (Located at _) : _ -> Left (NoNumbers at DrillingHoles)
       Part.Command (Located at c) : _ -> Left (NoNumbers at (commandFeature c))
@@ -96,6 +97,8 @@ keyword (Region a b) = Region a (min b (a + 4))
 
 -- General data
 
+-- | The general data, from the first contour. Refuses a further contour with another tool,
+-- tolerance or side.
 generalData :: Checked.Program -> Part -> NonEmpty (Region, Milling) -> Result w Unfit General
 generalData written part ((at, one) :| more) = do
   mapM_ checkShared more
@@ -132,9 +135,9 @@ sideOf (Located at side) = case side of
   Part.Outside -> refused (NoNumbers at OutsideOfContour)
   Part.Inside -> refused (NoNumbers at InsideOfContour)
 
--- | Diameter, bevel in degrees and height of the tool: the dimensions of the program's cone, if it
--- touches the part at this radius; otherwise those of a cylinder. A cone without a bevel is a
--- cylinder.
+-- | Diameter in mm, bevel in degrees and height in mm of the tool, from the radius at which it
+-- touches the part. They are those of the program's cone if the cone has this radius at its upper
+-- end; otherwise those of a cylinder. A cone without a bevel is a cylinder.
 toolOf :: Checked.Program -> Mm -> (Double, Double, Double)
 toolOf written (Mm radius) =
   case [ (d, mu, h)
@@ -152,28 +155,28 @@ toolOf written (Mm radius) =
       Checked.Negate inner -> negate <$> literal inner
       _ -> Nothing
 
--- | The number in a name as 'Sheet.ToSurface.partName' makes it; 0 for other names.
+-- | The number in a part's name, if "Sheet.ToSurface" made the name; 0 for other names.
 numberOf :: Maybe Name -> Double
 numberOf name = fromMaybe 0 $ do
   Name text <- name
   wholeNumber =<< Text.stripPrefix "program_" text
 
--- | The numbers in a title as 'Sheet.ToSurface.partTitle' makes it.
+-- | The numbers of the product and the part in a title, if "Sheet.ToSurface" made the title.
 titleNumbers :: Text -> Maybe (Double, Double)
 titleNumbers title = do
   rest <- Text.stripPrefix "Product " title
   let (a, more) = Text.breakOn ", part " rest
   (,) <$> wholeNumber a <*> (wholeNumber =<< Text.stripPrefix ", part " more)
 
--- | A number of at most nine digits.
+-- | A whole number of at most nine digits.
 wholeNumber :: Text -> Maybe Double
 wholeNumber text =
   if Text.length text <= 9 && not (Text.any (== '.') text) then Decimal.parse text else Nothing
 
 -- The toolpath between the arrays
 
--- | The points up to the first array, and the points after each array: given the starting position,
--- the milled contours, and the stops after the last one.
+-- | The points up to the first array, and the points after each array. The arguments: the starting
+-- position, the milled contours, and the stops after the last one.
 pathOf ::
   Part.SpacePoint ->
   [Run] ->
@@ -190,15 +193,15 @@ pathOf startPoint runs final = do
           origin = (Vec.x (Part.plane startPoint), Vec.y (Part.plane startPoint), z)
       checkHeights runs final
       retracts <-
-        retractsOf z' f (zip3 (map region' runs) (rest <> [after]) (map Just fs <> [Nothing]))
+        retractsOf z' f (zip3 (map keywordRegion runs) (rest <> [after]) (map Just fs <> [Nothing]))
       maybe
         (refused (NoPath NothingMilled))
         (pure . (waypoints origin approachPoints f,))
         (NonEmpty.nonEmpty retracts)
     _ -> refused (NoPath NothingMilled)
 
--- | Refuses points without a height after the first contour of a swivelling blade, which changes
--- its height.
+-- | Refuses points without a height after the first contour of a swivelling blade. The blade
+-- changes its height on a contour, so the height of the point before is not in force any more.
 checkHeights :: [Run] -> [Part.Stop] -> Result w Unfit ()
 checkHeights runs final = case runs of
   Run {milled = (_, Part.Milling {Part.gear = Just _})} : others' ->
@@ -207,10 +210,11 @@ checkHeights runs final = case runs of
       [s | s <- concatMap stops others' <> final, Nothing <- [Part.level s]]
   _ -> pure ()
 
+-- | Coordinates x, y, z in mm.
 type Position = (Double, Double, Double)
 
--- | Stops with their positions, from a height on, and the height of the last one. A stop without a
--- height keeps the one before it.
+-- | The positions of stops, each with its feed, and the height of the last one. The first argument
+-- is the height before the first stop. A stop without a height has that of the stop before it.
 located :: Double -> [(Part.Stop, Double)] -> (Double, [(Position, Double)])
 located z list = case list of
   [] -> (z, [])
@@ -220,8 +224,8 @@ located z list = case list of
         (final, others') = located z' rest
      in (final, ((Vec.x p, Vec.y p, z'), pace) : others')
 
--- | Points from a position on. A waypoint has the feed at which the next point is reached; the last
--- one has the feed given.
+-- | Makes waypoints of a first position and of further positions, each with the feed of the move to
+-- it. A waypoint has the feed of the move after it; the last argument is the feed of the last one.
 waypoints :: Position -> [(Position, Double)] -> Double -> NonEmpty Waypoint
 waypoints from list final = case list of
   [] -> waypoint from final :| []
@@ -229,8 +233,9 @@ waypoints from list final = case list of
   where
     waypoint (a, b, c) f = Waypoint {x = here a, y = here b, z = here c, feed = here f}
 
--- | The points after each array, given the height and the feed of the first one. For each array:
--- its region, the stops after it, and the feed of the next array.
+-- | The points after each array. The first arguments are the height and the feed at the end of the
+-- first array. The list has for each array its region, the stops after it with their feeds, and the
+-- feed of the next array.
 retractsOf ::
   Double ->
   Double ->
@@ -246,24 +251,25 @@ retractsOf z f list = case list of
       (waypoints position others' f' :) <$> retractsOf z' f' rest
     (_, []) -> refused (NoPath (NoRetract at))
 
--- | A stop and the feed at which it is reached, mm\/min.
+-- | A stop with the feed of the move to it, mm\/min.
 paced :: Part.Stop -> Result w Unfit (Part.Stop, Double)
 paced s = case Part.pace s of
   Part.Rapid -> pure (s, rapidFeed)
-  Part.At f -> (s,) <$> plainFeed f
+  Part.At f -> (s,) <$> belowRapid f
 
+-- | The feed of a contour, mm\/min.
 feedOfRun :: Run -> Result w Unfit Double
-feedOfRun = plainFeed . Part.feed . snd . milled
+feedOfRun = belowRapid . Part.feed . snd . milled
 
--- | A feed below 'rapidFeed'.
-plainFeed :: Located Feed -> Result w Unfit Double
-plainFeed (Located at (Feed f))
+-- | A feed in mm\/min. Refuses 'rapidFeed' and higher feeds, which would mean a rapid move.
+belowRapid :: Located Feed -> Result w Unfit Double
+belowRapid (Located at (Feed f))
   | f >= rapidFeed = refused (NoFeed at FeedTooHigh)
   | otherwise = pure f
 
 -- Arrays
 
--- | The pieces of a contour. The points after them are still missing.
+-- | The array of a contour. The points after it are a placeholder, which 'fromPart' replaces.
 arrayOf :: (Region, Milling) -> Result w Unfit Array
 arrayOf (at, m) = do
   mapM_ (refused . NoNumbers at) (unsupported m)
@@ -284,7 +290,7 @@ arrayOf (at, m) = do
     name = region (Part.contourName contour)
     nowhere = Waypoint {x = here 0, y = here 0, z = here 0, feed = here 0}
 
--- | The settings of a milling that a sheet has no numbers for.
+-- | The settings of a milling statement that a sheet has no numbers for.
 unsupported :: Milling -> [Feature]
 unsupported m =
   [TurningContour | Part.work m == Part.Turned]
@@ -294,6 +300,7 @@ unsupported m =
     <> [SharpCorner | Part.corners m == Part.Sharp]
     <> [ControlCompensation | Just _ <- [Part.controlCompensation m]]
 
+-- | The piece of an element. Refuses elements that are not curves, and feeds of their own.
 pieceOf :: Milling -> Part.ContourElement -> Result w Unfit Piece
 pieceOf m element = case Part.elementCurve element of
   Nothing -> refused (NoPiece at PlainElement)
@@ -313,8 +320,9 @@ pieceOf m element = case Part.elementCurve element of
           Just b <- [Part.bevel e]
       ]
 
--- | Refuses a blade that does not swivel by the bevel of its piece, 0 on a piece without one. The
--- bevels at the ends of the segments are compared with those of the points, interpolated.
+-- | Refuses a piece on which the blade does not swivel by the piece's bevel, which is 0 if the
+-- piece has none. The last argument has the segments with the swivel at both ends, in radians. Each
+-- is compared with the bevels of the points, interpolated at that end.
 checkSwivel ::
   Region ->
   Curve.PartCurve ->
@@ -334,7 +342,8 @@ checkSwivel at curve piece bevels
       let Mm s = MeasuredPolyarc.nearestStation (Curve.approximation curve) p
        in abs (b - interpolated s marks) > 2 * slack
 
--- | Linear interpolation between known stations; constant before the first and after the last one.
+-- | Linear interpolation at the station @s@ between known stations, each with its value. The
+-- stations increase. Constant before the first and after the last one; 0 without any.
 interpolated :: Double -> [(Double, Double)] -> Double
 interpolated s known = case known of
   (a, x) : more@((b, y) : _)
@@ -344,6 +353,7 @@ interpolated s known = case known of
   [(_, x)] -> x
   [] -> 0
 
+-- | The link of an element to the next one.
 linkOf :: Part.ContourElement -> Result w Unfit (Located Link)
 linkOf element = case Part.link element of
   Nothing -> pure (here Intersection)

@@ -1,7 +1,7 @@
--- | Reads an input sheet from its text.
+-- | Reader of input sheets: makes a sheet of its text.
 --
--- All words that are no numbers are reported. Of the numbers' meaning only the first mistake is
--- reported, because every number after it is shifted.
+-- If words are no numbers, the reader reports all of them. Otherwise it reports only the first
+-- wrong number: a missing or doubled number shifts the meaning of all numbers after it.
 module Sheet.FromText
   ( read,
   )
@@ -31,7 +31,7 @@ import Sheet.Word (SheetWord (..), WordValue (..), figure)
 import Sheet.Word qualified as Word
 import Prelude hiding (read)
 
--- | The sheet of a text.
+-- | Reads a sheet.
 read :: Text -> Result w Error Sheet
 read text
   | not (null (lefts found)) = Result [] (lefts found) Nothing
@@ -45,11 +45,12 @@ read text
 
 -- Reading
 
--- | The words to be read, and the position of the last word read.
+-- | The words that are still to be read, and the position of the last word that has been read.
 data Input = Input {unread :: [SheetWord], last' :: NumberPosition}
 
 type Reader = StateT Input (Either Error)
 
+-- | Stops reading with an error.
 refuse :: Error -> Reader a
 refuse = lift . Left
 
@@ -61,18 +62,20 @@ next = do
     [] -> pure Nothing
     e : rest -> Just e <$ put Input {unread = rest, last' = position e}
 
+-- | The next word, which stays unread; nothing at the end of the sheet.
 peek :: Reader (Maybe SheetWord)
 peek = gets (listToMaybe . unread)
 
--- | The position of the last word read.
+-- | The position of the last word that has been read.
 latest :: Reader NumberPosition
 latest = gets last'
 
--- | Reads a word; fails at the end of the sheet.
+-- | Reads a word. An error at the end of the sheet; the argument says what should follow.
 needed :: Expected -> Reader SheetWord
 needed expected = next >>= maybe (latest >>= \s -> refuse (EndMissing s expected)) pure
 
--- | Reads the words up to an end mark, and the mark.
+-- | Reads the words before an end mark, and the mark. An error if there is no further mark; the
+-- argument says what should follow.
 upToMark :: Expected -> Reader ([SheetWord], SheetWord)
 upToMark expected = do
   (inside, rest) <- gets (break ((== Mark) . symbol) . unread)
@@ -91,9 +94,10 @@ sheet = do
   (first, hasMore) <- array 1
   others <- if hasMore then furtherArrays 2 else pure []
   remainder <- peek
-  mapM_ (refuse . BehindTheEnd . position) remainder
+  mapM_ (refuse . AfterTheEnd . position) remainder
   pure Sheet {general, approach, first, others}
 
+-- | Reads the arrays after the first one; the argument is the number of the next array, from 1.
 furtherArrays :: Int -> Reader [Array]
 furtherArrays count = do
   (one, hasMore) <- array count
@@ -101,6 +105,7 @@ furtherArrays count = do
 
 -- General data
 
+-- | A number with its position.
 type Positioned = (NumberPosition, Number)
 
 generalData :: Reader General
@@ -142,7 +147,8 @@ generalData = do
   where
     isWhole x = x >= 0 && x < 1e9 && x == fromInteger (round x)
 
--- | Checks the dimensions of the tool: a cylinder, a cone or a swivelling blade.
+-- | Checks the dimensions of the tool, which is a cylinder, a cone or a swivelling blade: the wheel
+-- of a blade, the bevel and the height of a cone.
 checkTool :: Positioned -> Positioned -> Positioned -> Reader ()
 checkTool gear' bevel' height' = do
   check NegativeGear (>= 0) gear'
@@ -150,7 +156,7 @@ checkTool gear' bevel' height' = do
   when (value (snd gear') /= 0) (mapM_ (check BladeWithCone (== 0)) [bevel', height'])
   when (value (snd bevel') == 0) (check HeightWithoutBevel (== 0) height')
 
--- | Fails when a number does not satisfy a condition.
+-- | An error if a number does not satisfy a condition.
 check :: GeneralFault -> (Double -> Bool) -> Positioned -> Reader ()
 check fault isRight (s, n) = unless (isRight (value n)) (refuse (GeneralWrong s fault))
 
@@ -161,7 +167,7 @@ sideOf (s, n) = case value n of
   0 -> pure (Located (region n) Nothing)
   _ -> refuse (GeneralWrong s UnknownSide)
 
--- | Reads one of the general data, with its number from 1.
+-- | Reads one of the general data; the argument is its number from 1.
 generalWord :: Int -> Reader Positioned
 generalWord count = do
   e <- next
@@ -184,19 +190,20 @@ approachPoints = do
     Just [] -> refuse (ApproachShifted (position mark) NoApproachPoint)
     Nothing -> refuse (ApproachShifted (position mark) (ApproachCount (length inside)))
 
--- | Fails when the last point before an array, with the position of its feed, sets the rapid feed.
+-- | An error if the last point before an array has the rapid feed. The position is that of the
+-- feed.
 checkWorkingFeed :: (NumberPosition, Waypoint) -> Reader ()
 checkWorkingFeed (s, w) = when (value (feed w) == rapidFeed) (refuse (NoWorkingFeed s))
 
--- | Points from groups of four numbers, each with the position of its feed; nothing when the count
--- is no multiple of four.
+-- | Makes points of groups of four numbers, each with the position of its feed. Nothing if the
+-- count of numbers is no multiple of four.
 fours :: [Positioned] -> Maybe [(NumberPosition, Waypoint)]
 fours numbers = case numbers of
   [] -> Just []
   (_, x) : (_, y) : (_, z) : (s, feed) : rest -> ((s, Waypoint {x, y, z, feed}) :) <$> fours rest
   _ -> Nothing
 
--- | Reads the points after an array, and whether another array follows.
+-- | Reads the points after an array; true if another array follows.
 retractPoints :: Reader (NonEmpty Waypoint, Bool)
 retractPoints = go []
   where
@@ -212,7 +219,7 @@ retractPoints = go []
           (points, True) <$ next
         _ -> go (point : before)
 
--- | Reads a point, with the position of its feed.
+-- | Reads a point after an array, with the position of its feed.
 retractPoint :: Reader (NumberPosition, Waypoint)
 retractPoint = do
   x <- coordinate
@@ -231,7 +238,7 @@ retractPoint = do
 
 -- Arrays and pieces
 
--- | Reads the array with a number from 1, and whether another one follows.
+-- | Reads an array; true if another one follows. The argument is the number of the array, from 1.
 array :: Int -> Reader (Array, Bool)
 array count = do
   begin <- peek
@@ -240,6 +247,7 @@ array count = do
   (retract, hasMore) <- retractPoints
   pure (Array {joined, final, retract}, hasMore)
 
+-- | Reads the pieces of an array: all but the last one with their links, and the last one.
 piecesOfArray :: Reader ([LinkedPiece], Piece)
 piecesOfArray = do
   (one, link) <- piece
@@ -249,7 +257,7 @@ piecesOfArray = do
       (rest, final) <- piecesOfArray
       pure (LinkedPiece one l : rest, final)
 
--- | Reads a piece and its link; the last piece of an array has none.
+-- | Reads a piece and its link to the next piece; the last piece of an array has none.
 piece :: Reader (Piece, Maybe (Located Link))
 piece = do
   opening <- needed PieceOrLastFeed
@@ -265,6 +273,7 @@ piece = do
       (figure allowanceWord)
   pure (body {allowance}, link)
 
+-- | The link that a word means; nothing for 0, which ends an array.
 linkOf :: SheetWord -> Reader (Maybe (Located Link))
 linkOf e = case symbol e of
   Figure 0 -> pure Nothing

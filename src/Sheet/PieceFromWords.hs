@@ -1,9 +1,10 @@
--- | The meaning of the words of one piece. The cipher determines their count and their order:
+-- | The meaning of the words of one piece. The digits of its cipher determine the count and the
+-- order of its numbers:
 --
--- * before the points: one number for each 1 and each 2;
--- * for each point: x, y, and with a 4 the bevel and the height;
--- * after the points: one number for each 1;
--- * one number for each point and each 6;
+-- * for each digit 1 and each digit 2, a distance;
+-- * for each point, x and y; if there is a digit 4, also the bevel and the height of the flange;
+-- * for each digit 1, a second distance;
+-- * for each digit 6, a distance for each point;
 -- * the flag of the feed.
 module Sheet.PieceFromWords
   ( cipherOf,
@@ -19,7 +20,7 @@ import Sheet.Error (CipherFault (..), Error (..), NumberPosition (..), PieceMisf
 import Sheet.Sheet
 import Sheet.Word (SheetWord (..), WordValue (..), figure, isSign)
 
--- | The digits of a cipher, and whether it has a minus sign.
+-- | The digits of a cipher; true if it has a minus sign.
 cipherOf :: SheetWord -> Either Error (Bool, [Digit])
 cipherOf e = case symbol e of
   Figure 0 -> pure (False, [])
@@ -39,8 +40,17 @@ cipherOf e = case symbol e of
       '6' -> pure Six
       _ -> unknown (UnknownDigit c)
 
--- | The counts of numbers that a cipher asks for.
-data Layout = Layout {before :: Int, each :: Int, after :: Int, again :: Int}
+-- | The counts of numbers that a cipher demands, without the flag.
+data Layout = Layout
+  { -- | before all points
+    before :: Int,
+    -- | with each point: 2 or 4
+    each :: Int,
+    -- | after all points
+    after :: Int,
+    -- | after all points, once more for each point
+    again :: Int
+  }
 
 layoutOf :: [Digit] -> Layout
 layoutOf digits =
@@ -57,13 +67,15 @@ data Parts = Parts
     heads :: [Number],
     -- | the numbers of each point
     pointRows :: [[Number]],
-    -- | the distances after the points
+    -- | the second distances of the digits 1, after the points
     tails :: [Number],
-    -- | the distances for each point, by recalculation
+    -- | for each digit 6, the distances for all points
     given :: [[Number]],
+    -- | the flag of the feed
     flag :: Maybe Number
   }
 
+-- | Divides the numbers of a piece with a known count of points.
 partsOf :: Layout -> Int -> [Number] -> Parts
 partsOf Layout {before, each, after, again} points numbers =
   Parts
@@ -79,8 +91,9 @@ partsOf Layout {before, each, after, again} points numbers =
     (tails, afterTails) = splitAt after afterBody
     (givenNumbers, rest) = splitAt (points * again) afterTails
 
--- | A piece from the word of its cipher, the cipher, the words up to the end mark, and the end
--- mark. Its allowance is 0.
+-- | Makes a piece. The arguments: the word of its cipher; the sign and the digits of the cipher,
+-- see 'cipherOf'; the words up to the end mark; the end mark. The allowance of the piece is 0,
+-- because it comes after the end mark.
 pieceOf :: SheetWord -> Bool -> [Digit] -> [SheetWord] -> SheetWord -> Either Error Piece
 pieceOf opening isNegative digits inside mark = do
   mapM_ (\e -> Left (misfitAt e LoneSign)) (filter isSign inside)
@@ -110,12 +123,12 @@ pieceOf opening isNegative digits inside mark = do
     misfitAt e = PieceMisfit (position e) (position opening)
     misfit :: PieceMisfit -> Either Error a
     misfit = Left . misfitAt mark
-    -- The sign of the first distance tells the side.
+    -- The sign of the first distance gives the side, so the distance itself is positive.
     unsigned distances = case distances of
       [] -> []
       h : others -> fmap abs h : others
 
--- | The count of points, which is two at least.
+-- | The count of points, at least two, from the @count@ of a piece's numbers.
 pointCount :: Layout -> Int -> (PieceMisfit -> Either Error Int) -> Either Error Int
 pointCount Layout {before, each, after, again} count misfit
   | remainder /= 0 = misfit (CountOff before each after again count)
@@ -124,13 +137,15 @@ pointCount Layout {before, each, after, again} count misfit
   where
     (points, remainder) = (count - before - after - 1) `divMod` (each + again)
 
--- | The flag of the feed.
+-- | The flag of the feed: true for 1, which slows down at the end of the piece; nothing for a
+-- number other than 0 and 1.
 flagOf :: Number -> Maybe (Located Bool)
 flagOf n = case value n of
   0 -> Just (False <$ n)
   1 -> Just (True <$ n)
   _ -> Nothing
 
+-- | A point from its two or four numbers.
 row :: [Number] -> PointRow
 row numbers = case numbers of
   [px, py, mu, flangeHeight] -> PointRow {px, py, surface = Just Surface {mu, flangeHeight}}
@@ -140,14 +155,14 @@ row numbers = case numbers of
     -- Unreachable: points have two or four numbers.
     nowhere = Located (Region 0 0) 0
 
--- | Splits a list into groups of a size.
+-- | Splits a list into groups of @size@ elements; the last group may be shorter.
 groups :: Int -> [a] -> [[a]]
 groups size list = case splitAt size list of
   ([], _) -> []
   (one, rest) -> one : groups size rest
 
--- | The recalculations of a cipher's digits with the distances before the points, after the points,
--- and for each point.
+-- | The recalculations of a cipher's digits. The arguments are those of 'Parts': the distances
+-- before the points, the second distances after them, and the distances for each point.
 recalculations :: [Digit] -> [Number] -> [Number] -> [[Number]] -> [Recalculation]
 recalculations digits heads tails given = case (digits, heads, tails, given) of
   (One : ds, h : hs, t : ts, _) -> Growing h t : recalculations ds hs ts given

@@ -1,8 +1,8 @@
 -- | The input sheet of the Minsk-22 system as data: the meaning of every number
 -- (docs/input-sheet.md).
 --
--- Numbers are as written: mm, degrees and mm\/min. Every number keeps its region, so that reports
--- can point at it.
+-- Numbers have the units of the sheet: mm, degrees and mm\/min. Every number keeps its region in
+-- the text, so that reports can point at it.
 module Sheet.Sheet
   ( Sheet (..),
     General (..),
@@ -52,33 +52,34 @@ type Number = Located Double
 
 -- | The general data.
 data General = General
-  { -- | the cipher of the product, a whole number
+  { -- | the identification number of the product, a whole number
     productCipher :: Number,
-    -- | the cipher of the part, a whole number
+    -- | the identification number of the part, a whole number
     partCipher :: Number,
     -- | the number of the program, a whole number
     program :: Number,
-    -- | of the tool, mm
+    -- | diameter of the tool, mm; that of a cone is measured at its tip
     diameter :: Number,
-    -- | the diameter of the wheel that swivels a blade, mm; 0 without a blade
+    -- | diameter of the wheel that swivels a blade, mm; 0 for other tools
     gear :: Number,
-    -- | of a cone, degrees; 0 without a cone
+    -- | bevel of a cone, degrees; 0 for other tools
     bevel :: Number,
-    -- | of a cone's flank, mm; 0 without a cone
+    -- | height of a cone, mm; 0 for other tools
     height :: Number,
-    -- | the chord error allowed, mm
+    -- | largest chord error, mm
     tolerance :: Number,
-    -- | the side of the tool; nothing when its centre moves on the pieces
+    -- | side of the pieces on which the tool travels; nothing if its centre is on the pieces
     side :: Located (Maybe Side)
   }
   deriving stock (Eq, Show)
 
--- | A point in space, mm, and the feed from it to the next point, mm\/min. The feed of the last
--- point of a sheet is 0.
+-- | A point in space, mm, and the feed of the move from it to the next point, mm\/min. The feed of
+-- the last point before an array is that of the array's pieces; that of the sheet's last point is
+-- 0.
 data Waypoint = Waypoint {x :: Number, y :: Number, z :: Number, feed :: Number}
   deriving stock (Eq, Show)
 
--- | Linked pieces, and the points after them.
+-- | A run of linked pieces: all pieces but the last one, the last one, and the points after it.
 data Array = Array {joined :: [LinkedPiece], final :: Piece, retract :: NonEmpty Waypoint}
   deriving stock (Eq, Show)
 
@@ -86,14 +87,16 @@ data Array = Array {joined :: [LinkedPiece], final :: Piece, retract :: NonEmpty
 data LinkedPiece = LinkedPiece Piece (Located Link)
   deriving stock (Eq, Show)
 
--- | A curve through points of the theoretical contour, and its recalculations. When one of these
--- uses the bevel, every point has a surface; otherwise none has.
+-- | A curve through points of the theoretical contour, and its recalculations. If one of these is a
+-- digit 4, every point has a surface; otherwise no point has one.
 data Piece = Piece
-  { -- | the side to which the distances count
+  { -- | the side to which positive distances shift the curve
     shiftSide :: Located Side,
+    -- | the recalculations in their order
     cipher :: Located [Recalculation],
+    -- | the points, at least two
     rows :: NonEmpty PointRow,
-    -- | the flag of the feed: slow down at the end
+    -- | the flag of the feed: true to slow down at the end of the piece
     slow :: Located Bool,
     -- | the material left on the piece, mm
     allowance :: Number
@@ -104,19 +107,19 @@ data Piece = Piece
 data Digit = One | Two | Four | Six
   deriving stock (Eq, Show, Enum, Bounded)
 
--- | A recalculation of a curve, with distances in mm.
+-- | A recalculation of a curve: it shifts every point along the normal by a distance in mm.
 data Recalculation
-  = -- | 1: a distance that changes evenly along the curve, from one value to another
+  = -- | Digit 1: the distance changes evenly along the curve from the first number to the second.
     Growing Number Number
-  | -- | 2: a constant distance
+  | -- | Digit 2: the distance is constant.
     Constant Number
-  | -- | 4: the distance that follows from the bevel and the height of the flange
+  | -- | Digit 4: the distance is H tan μ, from the height of the flange H and the bevel μ.
     Bevelled
-  | -- | 6: a distance for each point
+  | -- | Digit 6: each point has its own distance.
     Pointwise (NonEmpty Number)
   deriving stock (Eq, Show)
 
--- | A point, mm, and the surface there.
+-- | A point, mm, and the part's surface there.
 data PointRow = PointRow {px :: Number, py :: Number, surface :: Maybe Surface}
   deriving stock (Eq, Show)
 
@@ -126,15 +129,15 @@ data Surface = Surface {mu :: Number, flangeHeight :: Number}
 
 -- | The link of two pieces.
 data Link
-  = -- | @+@: the pieces touch
+  = -- | @+@: the pieces touch, with the same direction of travel
     Joint
-  | -- | @-@: they intersect
+  | -- | @-@: the pieces intersect
     Intersection
-  | -- | an arc of this radius, mm; positive is clockwise
+  | -- | an arc of this radius, mm; a positive radius is clockwise, a negative one counter-clockwise
     Rounding Double
   deriving stock (Eq, Show)
 
--- | The side of the direction of travel.
+-- | Left or right of the direction of travel.
 data Side = LeftSide | RightSide
   deriving stock (Eq, Show, Enum, Bounded)
 
@@ -142,7 +145,7 @@ data Side = LeftSide | RightSide
 arrays :: Sheet -> NonEmpty Array
 arrays sheet = first sheet :| others sheet
 
--- | The pieces of an array.
+-- | All pieces of an array in order.
 pieces :: Array -> NonEmpty Piece
 pieces array = foldr (\(LinkedPiece p _) rest -> p <| rest) (final array :| []) (joined array)
 
@@ -154,7 +157,7 @@ digitOf r = case r of
   Bevelled -> Four
   Pointwise _ -> Six
 
--- | A digit as written.
+-- | A digit as the sheet writes it.
 digitText :: Digit -> Text
 digitText digit = case digit of
   One -> "1"
@@ -162,11 +165,11 @@ digitText digit = case digit of
   Four -> "4"
   Six -> "6"
 
--- | Tells whether the points of a piece have a surface.
+-- | True of a piece whose points have a surface.
 hasSurface :: Piece -> Bool
 hasSurface piece = isJust (surface (NonEmpty.head (rows piece)))
 
--- | The feed that means rapid, mm\/min: the largest number of four digits.
+-- | The feed that means a rapid move, mm\/min: the largest number of four digits.
 rapidFeed :: Double
 rapidFeed = 9999
 
@@ -174,7 +177,7 @@ rapidFeed = 9999
 maxArrays :: Int
 maxArrays = 30
 
--- | The address of a sheet's first number in the store of the Minsk-22.
+-- | The address of a sheet's first number in the memory of the Minsk-22.
 firstAddress :: Int
 firstAddress = 0o70
 
@@ -182,6 +185,6 @@ firstAddress = 0o70
 generalCount :: Int
 generalCount = 16
 
--- | The octal address of a number of the sheet, counted from 1.
+-- | The octal address, in four digits, of a word of the sheet with this ordinal number from 1.
 address :: Int -> Text
 address number = Text.justifyRight 4 '0' (Text.pack (showOct (firstAddress + number - 1) ""))

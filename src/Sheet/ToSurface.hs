@@ -1,7 +1,7 @@
--- | An input sheet as a part program.
+-- | Conversion of an input sheet to a part program.
 --
--- Every node of the syntax tree has the region of the numbers that it comes from, so the reports of
--- later stages point at the sheet.
+-- Every node of the syntax tree has the region of the numbers from which it is made, so the reports
+-- of later stages point at the sheet.
 module Sheet.ToSurface
   ( program,
     text,
@@ -33,7 +33,7 @@ import Surface.Syntax
 import Surface.Syntax qualified as Surface
 import Surface.Token (Numeral (..), Unit (..))
 
--- | The program with the meaning of a sheet.
+-- | The program that makes the part of a sheet.
 program :: Sheet -> Surface.Program
 program sheet =
   Surface.Program {Surface.statements = concat (paragraphs sheet), Surface.comments = []}
@@ -45,11 +45,11 @@ text sheet =
     "\n"
     [PrintProgram.program (Surface.Program statements []) | statements <- paragraphs sheet]
 
--- | The name of the part, by the number of the program.
+-- | The name of the part, made of the number of the program.
 partName :: Double -> Text
 partName number = "program_" <> Decimal.exact number
 
--- | The title of the part, by the ciphers of the product and the part.
+-- | The title of the part, made of the ciphers of the product and the part.
 partTitle :: Double -> Double -> Text
 partTitle product' part' = "Product " <> Decimal.exact product' <> ", part " <> Decimal.exact part'
 
@@ -58,28 +58,29 @@ paragraphs :: Sheet -> [[Statement]]
 paragraphs sheet =
   [headStatement (general sheet)] : settings sheet : concatMap (arrayStatements sheet) (runs sheet)
 
--- | An array in its sheet.
+-- | An array with its ordinal numbers and feeds in the sheet.
 data Run = Run
-  { -- | of the array, from 1
-    count :: Int,
-    -- | the number of its first piece, from 1
+  { -- | the number of the array, from 1
+    ordinal :: Int,
+    -- | the number of its first piece among all pieces of the sheet, from 1
     firstPiece :: Int,
-    -- | the feed of its pieces
+    -- | the feed of its pieces, mm\/min
     working :: Number,
-    -- | the feed of the pieces before it
+    -- | the feed of the pieces of the array before it; nothing for the first array
     earlier :: Maybe Number,
     array :: Array
   }
 
+-- | The arrays of a sheet.
 runs :: Sheet -> [Run]
 runs sheet = go 1 1 (leaving (approach sheet)) Nothing (NonEmpty.toList (arrays sheet))
   where
-    go count firstPiece working earlier list = case list of
+    go ordinal firstPiece working earlier list = case list of
       [] -> []
       array : rest ->
-        Run {count, firstPiece, working, earlier, array} :
+        Run {ordinal, firstPiece, working, earlier, array} :
         go
-          (count + 1)
+          (ordinal + 1)
           (firstPiece + length (pieces array))
           (leaving (retract array))
           (Just working)
@@ -119,14 +120,14 @@ settings sheet@Sheet {general = g, approach} =
           (measured Millimetre (height g))
       | otherwise = Surface.MillCutter (measured Millimetre (diameter g))
 
--- | The paragraphs of an array: its pieces, its contour, its milling.
+-- | The paragraphs of an array: one for each piece, one for the contour, one for the milling.
 arrayStatements :: Sheet -> Run -> [[Statement]]
-arrayStatements sheet run@Run {count, firstPiece, working, earlier, array} =
+arrayStatements sheet run@Run {ordinal, firstPiece, working, earlier, array} =
   zipWith pieceStatements [firstPiece ..] (NonEmpty.toList (pieces array))
     <> [[contour], feeds <> [mill]]
   where
     at = region (cipher (NonEmpty.head (pieces array)))
-    name = Name ("array_" <> Decimal.whole count)
+    name = Name ("array_" <> Decimal.whole ordinal)
     links = [Just l | LinkedPiece _ l <- joined array] <> [Nothing]
     contour = Located at (Contour (Located at name) Surface.Open items)
     items = zipWith3 (item (isBlade sheet)) [firstPiece ..] (NonEmpty.toList (pieces array)) links
@@ -144,8 +145,8 @@ arrayStatements sheet run@Run {count, firstPiece, working, earlier, array} =
             (linkingMoves sheet run)
         )
 
--- | The approach and the retract of an array. An array after another one has no approach: the
--- retract of the other one leads to it.
+-- | The approach and the retract of an array. Only the first array has an approach: to each further
+-- array leads the retract of the array before it.
 linkingMoves :: Sheet -> Run -> [Setting]
 linkingMoves sheet Run {working, earlier, array} = approaching <> retracting
   where
@@ -167,13 +168,14 @@ sideOf side = case side of
   Just RightSide -> Surface.RightSide
   Nothing -> Surface.On
 
--- | Tells whether the tool is a swivelling blade.
+-- | True if the tool is a swivelling blade.
 isBlade :: Sheet -> Bool
 isBlade sheet = value (gear (general sheet)) /= 0
 
 -- Points
 
--- | Tells whether the tool keeps the height 0. A swivelling blade does not.
+-- | True if all heights of the sheet are 0 and the tool does not change its height. A swivelling
+-- blade changes it.
 isFlat :: Sheet -> Bool
 isFlat sheet =
   not (isBlade sheet)
@@ -181,16 +183,16 @@ isFlat sheet =
   where
     retracts = map retract (NonEmpty.toList (arrays sheet))
 
--- | A point, with its height unless all heights of the sheet are 0.
+-- | A point; without its height if the flag 'isFlat' is true.
 pointOf :: Bool -> Waypoint -> Expr
 pointOf isFlat' Waypoint {x, y, z}
   | isFlat' = Located (Region.merge (region x) (region y)) (Pair (unitless x) (unitless y))
   | otherwise =
     Located (Region.merge (region x) (region z)) (Triple (unitless x) (unitless y) (unitless z))
 
--- | Waypoints as the stops of an approach or a retract, each with the pace of the move to it. Given
--- are: whether all heights of the sheet are 0, the feed of the pieces, the feed to the first
--- point.
+-- | Converts waypoints to the stops of an approach or a retract. A waypoint has the feed of the
+-- move after it, a stop the feed of the move to it. The arguments: the flag 'isFlat', the feed of
+-- the pieces, the feed of the move to the first waypoint, the waypoints.
 stops :: Bool -> Number -> Number -> [Waypoint] -> [Stop]
 stops isFlat' working leaving list = case list of
   [] -> []
@@ -203,7 +205,8 @@ stops isFlat' working leaving list = case list of
 
 -- Pieces
 
--- | The table of a piece, and its curve or piece, named by a number.
+-- | The table of a piece, and the statement that defines the piece, or a curve if the cipher is 0.
+-- The number of the piece makes their names.
 pieceStatements :: Int -> Piece -> [Statement]
 pieceStatements count piece =
   [ Located at (Table (Located at points) (tableOf piece)),
@@ -225,7 +228,7 @@ pieceStatements count piece =
       LeftSide -> Surface.LeftSide
       RightSide -> Surface.RightSide
 
--- | The points of a piece, their surfaces, and the distances for each point.
+-- | The table of a piece: a line for each point, with the surface and the distances there.
 tableOf :: Piece -> Surface.Lines
 tableOf piece = Surface.WrittenLines (Located at (Surface.Header headings) : map line linesOf)
   where
@@ -248,11 +251,11 @@ tableOf piece = Surface.WrittenLines (Located at (Surface.Header headings) : map
 pieceName :: Int -> Name
 pieceName count = Name ("piece_" <> Decimal.whole count)
 
--- | The names of a count of columns of distances.
+-- | The names of @count@ columns of distances: @t@, or @t_1@, @t_2@ and so on.
 thicknessNames :: Int -> [Text]
 thicknessNames count = if count == 1 then ["t"] else ["t_" <> Decimal.whole k | k <- [1 .. count]]
 
--- | The ciphers of a piece. Distances of a piece with surfaces are square to the surface.
+-- | The ciphers of a piece. Distances of a piece with surfaces are measured square to the surface.
 ciphers :: Piece -> [Recalculation] -> [Surface.Cipher]
 ciphers piece recalculations =
   go (thicknessNames (length [() | Pointwise _ <- recalculations])) recalculations
@@ -276,8 +279,8 @@ ciphers piece recalculations =
       Four -> 4
       Six -> 6
 
--- | A piece as an element of its contour, given whether the tool is a swivelling blade, and the
--- number of the piece.
+-- | A piece as an element of its contour. The arguments: true if the tool is a swivelling blade;
+-- the number of the piece; the piece; its link to the next piece.
 item :: Bool -> Int -> Piece -> Maybe (Located Link) -> Item
 item isSwivelling count piece link =
   Located

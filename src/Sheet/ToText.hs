@@ -1,6 +1,7 @@
--- | Writes an input sheet as text: a line for each kind of number, an empty line before each piece.
+-- | Writer of input sheets: a line for each point and each group of numbers, an empty line before
+-- each piece.
 --
--- 'Sheet.FromText.read' gives the same numbers again.
+-- 'Sheet.FromText.read' gives the same sheet again, except for the regions of its numbers.
 module Sheet.ToText
   ( write,
   )
@@ -39,7 +40,8 @@ generalData g =
 waypoint :: Waypoint -> Text
 waypoint w = line [x w, y w, z w, feed w]
 
--- | An array with its number, given the number of the last array; both count from 0.
+-- | An array; the first arguments are the number of the sheet's last array and that of this array,
+-- both from 0. An end mark follows every array but the last.
 array :: Int -> Int -> Array -> [Text]
 array lastArray number' a =
   concatMap (\(LinkedPiece p (Located _ l)) -> piece p (linkText l)) (joined a)
@@ -48,8 +50,8 @@ array lastArray number' a =
     <> map waypoint (NonEmpty.toList (retract a))
     <> ["-0" | number' < lastArray]
 
--- | A piece with its link. The sign of the first distance tells the side; without a first distance,
--- or with 0, the sign of the cipher does.
+-- | A piece with the text of its link. The sign of the first distance gives the side. If there is
+-- no distance before the points, or the first one is 0, the sign of the cipher gives the side.
 piece :: Piece -> Text -> [Text]
 piece p link =
   ["", cipherText]
@@ -76,7 +78,7 @@ piece p link =
         distances -> distances
     line' = Text.unwords . map number
 
--- | The distance before the points that a recalculation has.
+-- | The distance of a recalculation that the sheet has before the points, if it has one there.
 headOf :: Recalculation -> [Number]
 headOf r = case r of
   Growing h _ -> [h]
@@ -93,13 +95,15 @@ linkText link = case link of
   Intersection -> "-"
   Rounding r -> (if r > 0 then "+" else "") <> number r
 
+-- | Numbers on one line.
 line :: [Number] -> Text
 line = Text.unwords . map (number . value)
 
+-- | All digits of a number.
 number :: Double -> Text
 number = Decimal.exact
 
--- | Groups of ten.
+-- | Splits a list into groups of ten; the last group may be shorter.
 tens :: [a] -> [[a]]
 tens list = case splitAt 10 list of
   ([], _) -> []

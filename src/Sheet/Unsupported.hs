@@ -1,4 +1,4 @@
--- | Parts that an input sheet has no numbers for.
+-- | Features of parts that an input sheet has no numbers for, and their reports.
 module Sheet.Unsupported
   ( Unfit (..),
     Feature (..),
@@ -18,21 +18,23 @@ import Data.Text (Text)
 import Report.Report (Report (..), ReportCode, ReportPlace (..), Severity (..), report)
 import Sheet.Sheet (maxArrays)
 
--- | A fact about a part that no sheet can hold; the region comes first.
+-- | The reason why a part cannot become a sheet, with the region of the program that is at fault.
 data Unfit
-  = -- | an operation, or a setting of one
+  = -- | A statement, or one of its settings, has no numbers on a sheet.
     NoNumbers Region Feature
-  | -- | an element or a contour that is no array of pieces
+  | -- | An element is no piece, or a contour is no array of pieces.
     NoPiece Region PieceFault
-  | NoLink Region LinkFeature
-  | -- | the recalculations of the piece that this element is
+  | -- | The link after this element has no number on a sheet.
+    NoLink Region LinkFeature
+  | -- | The recalculations of this element have no cipher.
     NoCipher Region UnsupportedCipher
-  | NoFeed Region FeedFault
-  | -- | a setting that a sheet has once, and that differs from the one of the first contour
+  | -- | A feed has no number on a sheet.
+    NoFeed Region FeedFault
+  | -- | A sheet has this setting only once, but the contour has another value than the first one.
     TwoOfOne Region SharedSetting
-  | -- | a toolpath that does not begin or end as the one of a sheet does
+  | -- | The toolpath does not begin or end as that of a sheet does.
     NoPath PathFault
-  | -- | the first contour beyond 'maxArrays'
+  | -- | The contour at this region exceeds 'maxArrays'.
     ManyArrays Region
   deriving stock (Eq, Ord, Show)
 
@@ -44,65 +46,84 @@ data Feature
   | CoolantCommand
   | AuxiliaryCommand
   | SecondTool
-  | BandTolerance
-  | OutsideOfContour
-  | InsideOfContour
+  | -- | different tolerances inside and outside
+    BandTolerance
+  | -- | the side @outside@; a sheet has left and right only
+    OutsideOfContour
+  | -- | the side @inside@; a sheet has left and right only
+    InsideOfContour
   | TurningContour
   | Depth
-  | Lead
-  | ContourAllowance
-  | SharpCorner
-  | ControlCompensation
+  | -- | a lead-in or a lead-out
+    Lead
+  | -- | an allowance for the whole contour
+    ContourAllowance
+  | -- | sharp corners of the offset
+    SharpCorner
+  | -- | cutter compensation by the control
+    ControlCompensation
   deriving stock (Eq, Ord, Show)
 
--- | The reason why an element or a contour is no array of pieces.
+-- | The reason why an element is no piece, or a contour no array of pieces.
 data PieceFault
-  = NoPoints
-  | -- | neither a natural spline nor a straight line
+  = -- | a curve without points
+    NoPoints
+  | -- | a curve that is neither a natural spline nor a straight line
     OtherCurve
-  | -- | not a curve
+  | -- | an element that is not a curve: a line, a circle or a point
     PlainElement
   | ClosedContour
-  | -- | a contour that is transformed or reversed
+  | -- | a contour that is made of others, so that it has no written elements
     DerivedContour
   | -- | a contour as an element
     NestedContour
   deriving stock (Eq, Ord, Show)
 
--- | A link without a sign on a sheet.
-data LinkFeature = ChosenIntersection | TangentLink | ChamferLink
+-- | A link that a sheet does not have.
+data LinkFeature
+  = -- | an intersection with a selector, such as @near@
+    ChosenIntersection
+  | TangentLink
+  | ChamferLink
   deriving stock (Eq, Ord, Show)
 
--- | The reason why recalculations have no cipher.
+-- | The reason why the recalculations of a piece have no cipher.
 data UnsupportedCipher
-  = AllowanceOfFour
-  | GrowthBetweenPoints
+  = -- | a recalculation 4 with an allowance
+    AllowanceOfFour
+  | -- | a recalculation 1 whose distance changes between two points only
+    GrowthBetweenPoints
   | HasJoggle
-  | DifferentBevels
-  | DifferentHeights
-  | DistanceNotSquare
+  | -- | several recalculations with different bevels
+    DifferentBevels
+  | -- | several recalculations 4 with different flange heights
+    DifferentHeights
+  | -- | a distance that is not square to the surface, on a piece with a bevel
+    DistanceNotSquare
   | -- | a blade that does not swivel on a piece with a bevel
     NotSwivelling
-  | -- | a blade that swivels by another bevel than the piece's
+  | -- | a blade that swivels by another bevel than that of the piece
     OtherSwivel
   deriving stock (Eq, Ord, Show)
 
--- | The reason why a feed cannot be written.
+-- | The reason why a feed has no number on a sheet.
 data FeedFault
-  = -- | a feed after a contour that differs from the contour's own
+  = -- | the move from a contour to the next point has another feed than the contour
     LeavingFeed
-  | -- | 'Sheet.Sheet.rapidFeed' or more
+  | -- | the feed is 'Sheet.Sheet.rapidFeed' or more
     FeedTooHigh
-  | FeedOfElement
+  | -- | an element has a feed of its own
+    FeedOfElement
   deriving stock (Eq, Ord, Show)
 
--- | A setting that holds for a whole sheet.
+-- | A setting that applies to a whole sheet.
 data SharedSetting = SharedTool | SharedTolerance | SharedSide
   deriving stock (Eq, Ord, Show)
 
--- | The reason why the moves of a program are not those of a sheet.
+-- | The reason why the toolpath of a program is not that of a sheet.
 data PathFault
-  = NoStart
+  = -- | the program gives no starting position
+    NoStart
   | NothingMilled
   | -- | a point after the first contour without a height, for a swivelling blade
     NoHeight Region
@@ -110,7 +131,7 @@ data PathFault
     NoRetract Region
   deriving stock (Eq, Ord, Show)
 
--- | The report of a fact.
+-- | The report for a part that cannot become a sheet.
 toReport :: Unfit -> Report
 toReport unfit = case unfit of
   NoNumbers region feature ->
@@ -160,6 +181,7 @@ toReport unfit = case unfit of
         hints = ["Make two programs of it."]
       }
 
+-- | A report on a region, with its code and its title.
 at :: Region -> ReportCode -> Text -> Report
 at region code = report Error code (InSource region)
 
@@ -181,7 +203,7 @@ featureText feature = case feature of
   SharpCorner -> "a sharp corner"
   ControlCompensation -> "a compensation by the control"
 
--- | The subject of the title, and the hint.
+-- | The subject of the report's title, and its hint.
 pieceTexts :: PieceFault -> (Text, Text)
 pieceTexts fault = case fault of
   NoPoints -> ("a curve of no points", "")
@@ -207,7 +229,7 @@ linkText feature = case feature of
   TangentLink -> "a tangent"
   ChamferLink -> "a chamfer"
 
--- | The end of the title, and the hint.
+-- | The end of the report's title, and its hint.
 cipherTexts :: UnsupportedCipher -> (Text, Text)
 cipherTexts fault = case fault of
   AllowanceOfFour ->
@@ -236,7 +258,7 @@ cipherTexts fault = case fault of
       "Behind an element with a 4 write: bevel mu; behind another one: bevel 0"
     )
 
--- | The title and the hint.
+-- | The report's title and its hint.
 feedTexts :: FeedFault -> (Text, Text)
 feedTexts fault = case fault of
   LeavingFeed ->
@@ -254,7 +276,7 @@ sharedText setting = case setting of
   SharedTolerance -> "tolerance"
   SharedSide -> "side of the walk"
 
--- | The place and the title.
+-- | The place to which the report points, and its title.
 pathTexts :: PathFault -> (ReportPlace, Text)
 pathTexts fault = case fault of
   NoStart -> (InFile, "the program does not say where the tool stands")

@@ -1,4 +1,4 @@
--- | The words of a sheet's text: numbers, end marks, and signs without a number.
+-- | The words of a sheet's text: numbers, end marks, and signs without digits.
 module Sheet.Word
   ( WordValue (..),
     SheetWord (..),
@@ -18,19 +18,20 @@ import Sheet.Sheet (Number)
 
 -- | The meaning of a word.
 data WordValue
-  = Figure Double
+  = -- | a number; 0 is never negative, because @-0@ is an end mark
+    Figure Double
   | -- | the end mark @-0@
     Mark
-  | -- | a plus sign without digits
+  | -- | a plus sign without digits, the link of pieces that touch
     Plus
-  | -- | a minus sign without digits
+  | -- | a minus sign without digits, the link of pieces that intersect
     Minus
   deriving stock (Eq, Show)
 
 -- | A word with its position.
 data SheetWord = SheetWord {position :: NumberPosition, symbol :: WordValue}
 
--- | The words of a text, in order; a word that is no number is an error.
+-- | The words of a text in order. A word that is no number, end mark or sign is an error.
 entries :: Text -> [Either Error SheetWord]
 entries text = zipWith entry [1 ..] (wordsOf text)
 
@@ -46,6 +47,7 @@ wordsOf = go 0
         trimmed = Text.dropWhile isSpace text
         from = at + Text.length text - Text.length trimmed
 
+-- | The meaning of a word; the first argument is its ordinal number from 1.
 entry :: Int -> Located Text -> Either Error SheetWord
 entry number (Located at word) =
   maybe (Left (NotANumber here word)) (Right . SheetWord here) $ case Text.uncons word of
@@ -66,7 +68,7 @@ figure e = case symbol e of
   Plus -> Nothing
   Minus -> Nothing
 
--- | Tells whether a word is a sign without digits.
+-- | True of a sign without digits.
 isSign :: SheetWord -> Bool
 isSign e = case symbol e of
   Plus -> True

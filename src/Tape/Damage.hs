@@ -1,6 +1,6 @@
 -- | Damage: the reasons why a tape cannot be read, and their reports.
 --
--- A damage holds its position and its facts; words appear only in 'toReport'.
+-- A damage holds positions and numbers. Only 'toReport' makes a text of them.
 module Tape.Damage
   ( Damage (..),
     Reason (..),
@@ -19,80 +19,83 @@ import Report.Report (Report (..), ReportPlace (..), report)
 import Report.Report qualified as Report
 import Tape.RowMeaning qualified as RowMeaning
 
--- | Damaged row from 1, the frame from 1 and the word if the row is in one, and the reason.
+-- | Damage of a tape: the first wrong row and its frame, both counted from 1, the content of its
+-- word, and the reason. Rows outside of all frames have no frame, rows outside of words no content.
 data Damage = Damage {row :: Int, frame :: Maybe Int, field :: Maybe Content, reason :: Reason}
   deriving stock (Eq, Show)
 
 -- | Fault of a row, of a frame or of the tape.
 data Reason
-  = -- | a row in the leader is not blank; the leader has the given number of rows
+  = -- | The leader has a row with holes; the number is the length of the leader in rows.
     LeaderNotBlank Int
-  | -- | the tape ends within its leader, which has the given number of rows
+  | -- | The tape ends within its leader; the number is the length of the leader in rows.
     NoFrames Int
-  | -- | a hole in the blank rows before an even frame
+  | -- | Hole in the blank rows before a frame with an even number ('Machine.Machine.evenShift').
     ShiftNotBlank
-  | -- | a hole in the blank rows after a frame
+  | -- | Hole in the blank rows after a frame.
     GapNotBlank
-  | -- | the tape ends within a frame
+  | -- | The tape ends within a frame.
     CutOff
-  | -- | the given symbols after the last frame are missing
+  | -- | The given symbols, which follow the last frame, are missing.
     MissingClosing Text
-  | -- | wrong number of blank rows at the end: found, expected
+  | -- | Wrong number of blank rows at the end: the number found, the number expected.
     TrailerLength Int Int
-  | -- | a hole outside of the tracks of the tape
+  | -- | Hole outside of the tracks of the tape.
     ForeignTrack
-  | -- | an odd number of holes
+  | -- | Odd number of holes, in a code with parity.
     BadParity
-  | -- | no digit: the number of tracks, the holes
+  | -- | No symbol of the code where a digit is expected: the number of tracks, the holes.
     NoDigit Int Word8
-  | -- | a symbol in the position of a digit
+  | -- | The given symbol where a digit is expected.
     NotADigit Char
-  | -- | no symbol: the number of tracks, the holes
+  | -- | No symbol of the code where a symbol is expected: the number of tracks, the holes.
     NoSymbol Int Word8
-  | -- | a wrong symbol: found, expected
+  | -- | Wrong symbol: the symbol found, the symbol expected.
     Unexpected Char Char
-  | -- | holes in a row that has to be blank
+  | -- | Holes in a row that has to be blank.
     NotBlank
-  | -- | a blank row in the position of a symbol
+  | -- | Blank row where the given symbol is expected.
     Missing Char
-  | -- | a word with this address cannot be here
+  | -- | First symbol of the address of a word that is not allowed at this row.
     UnexpectedWord Char
-  | -- | a digit without the marker in the service track
+  | -- | Digit that lacks the marker, a hole in the service track.
     MarkerMissing
-  | -- | a hole in the service track where none is allowed
+  | -- | Hole in the service track of a row that must not have one.
     ServiceHole
-  | -- | a number without its sign
+  | -- | Number that lacks its sign.
     NoSign
-  | MinusZero
-  | -- | a digit that gives neither direction, with or without the leading axis
+  | -- | Number 0 with a minus.
+    MinusZero
+  | -- | Digit that is none of the four for the direction and the leading axis, see
+    -- 'Machine.Machine.Priority'.
     NoPriority Int
-  | -- | a wrong digit for the direction and the leading axis: found, expected
+  | -- | Wrong digit for the direction and the leading axis: the digit found, the digit expected.
     WrongPriority Int Int
-  | -- | a wrong check sum: the sum, the number of which it has to be a multiple
+  | -- | Wrong check sum: the sum, the modulus of which it has to be a multiple.
     WrongSum Int Int
-  | -- | a wrong frame number: found, expected
+  | -- | Wrong frame number: the number found, the number expected.
     WrongNumber Int Int
-  | -- | a motion code that the machine does not have
+  | -- | Motion code that the machine does not have.
     UnknownMotion Int
-  | -- | a motion without an increment
+  | -- | Motion code in a frame without an increment.
     MotionWithoutIncrement
-  | -- | an increment without a motion code
+  | -- | Increment in a frame without a motion code.
     IncrementWithoutMotion
-  | -- | a feed code that the machine does not have
+  | -- | Feed code that the machine does not have.
     UnknownFeedCode Int
-  | -- | a feed code in a frame that takes none
+  | -- | Feed code in a rapid frame, or in a frame that does not move.
     FeedWithoutMotion Int
-  | -- | a motion at a feed, without a feed code
+  | -- | Line or arc without a feed code.
     MotionWithoutFeed
-  | -- | a modal feed code that is in force already
+  | -- | Feed code that is written although it is in force already.
     FeedRepeated Int
-  | -- | neither a motion nor a command
+  | -- | Frame with neither a motion nor a command.
     NoContent
-  | -- | a rule for frames is broken
+  | -- | Frame that breaks a rule of the machine.
     BrokenRule Violation
-  | -- | a row that the machine would write in another manner; the text describes the expected row
+  | -- | Row that differs from the one that the machine would write, which the text describes.
     WrittenOtherwise Text
-  | -- | the frames on the tape are not those that were punched
+  | -- | The frames read differ from the frames that were punched.
     Misread
   deriving stock (Eq, Show)
 
@@ -113,7 +116,7 @@ toReport (Damage at n c why) =
       (Just k, Nothing) -> " (frame " <> Decimal.whole k <> ")"
       (Just k, Just w) -> " (frame " <> Decimal.whole k <> ", " <> Machine.contentName w <> ")"
 
--- | Sentences after the title of a report.
+-- | Sentences below the title of a report; none for a reason whose title says everything.
 explanation :: Reason -> [Text]
 explanation why = case why of
   NoFrames wanted -> ["A tape begins with " <> Decimal.whole wanted <> " blank rows." | wanted > 0]
@@ -132,7 +135,7 @@ explanation why = case why of
     ]
   _ -> []
 
--- | Title of a report without the position.
+-- | Title of a report, without the row and the frame.
 reasonText :: Reason -> Text
 reasonText why = case why of
   LeaderNotBlank _ -> "the leader is not blank"
@@ -184,7 +187,7 @@ reasonText why = case why of
   Misread -> "it is read as another than was punched"
   WrittenOtherwise wanted -> "the machine writes this otherwise: here belongs " <> wanted
 
--- | Title of a report about a broken rule.
+-- | Title of a report about a broken rule, without the row and the frame.
 ruleText :: Violation -> Text
 ruleText broken = case broken of
   OverCapacity {} -> "the move is longer than a frame can say"
@@ -197,7 +200,7 @@ ruleText broken = case broken of
   UnknownCommand _ (CommandName o) -> "the machine has no such command " <> o
   EmptyFrame _ -> "the frame moves nothing and commands nothing"
 
--- | Holes as binary digits, from the highest track to the lowest.
+-- | Holes as @tracks@ binary digits, the highest track first; 1 is a hole.
 binary :: Int -> Word8 -> Text
 binary tracks w =
   Text.pack [if w `div` (2 ^ k) `mod` 2 == 1 then '1' else '0' | k <- [tracks - 1, tracks - 2 .. 0]]

@@ -1,11 +1,10 @@
 {-# LANGUAGE BangPatterns #-}
 {-# OPTIONS_GHC -O2 #-}
 
--- | Rows of one frame read back, by the same steps of the layout that wrote them.
+-- | Reader of frames: makes a frame of its rows, by the same steps of a layout as the writer.
 --
--- The words are read first, and a frame is made of them. This frame is then written again: any row
--- that the layout would not have written is a fault. "Tape.FrameReader.Fast" reads simple frames in
--- one go and leaves all others to this module.
+-- It reads the words and makes a frame of them. Then it writes this frame again: a row that differs
+-- is a fault. Simple frames are first tried with "Tape.FrameReader.Fast".
 module Tape.FrameReader
   ( RowFault (..),
     readFrame,
@@ -58,18 +57,18 @@ import Tape.Symbol qualified as Symbol
 
 -- | Words of a frame as they are read.
 data Reading = Reading
-  { -- | the words in order; no two of them have the same content
+  { -- | the words in the order of the layout; no two of them have the same content
     readWords :: [ReadWord],
-    -- | numbers of commands, from words and from the service track
+    -- | numbers of commands, from command words and from bits in the service track
     commandNumbers :: [(Machine.CommandName, Int)],
     isBraking :: Bool,
-    -- | sum of the weights of the symbols, in frames with a check digit
+    -- | sum of the weights of the symbols so far; stays 0 in a layout without a check digit
     total :: Int,
-    -- | row of the check digit, and the number of which the sum has to be a multiple
+    -- | row of the check digit, and the modulus: the sum has to be a multiple of it
     check :: Maybe (Int, Int)
   }
 
--- | Word, the row where its number begins, the number, and how many digits it has.
+-- | Word, the row where its number begins, the number, and its count of digits.
 data ReadWord = ReadWord {word :: Word', at :: Int, number :: Int, places :: Int}
 
 -- | First word whose content satisfies a predicate.
@@ -86,13 +85,14 @@ isAlong, isCentre :: Axis -> Content -> Bool
 isAlong a c = case c of Along b -> a == b; _ -> False
 isCentre a c = case c of Centre b -> a == b; _ -> False
 
--- | Frame that begins at row @begin@, and the index of the row after it.
+-- | Reads the frame that begins at row @begin@, in the state before the frame. Gives the frame and
+-- the index of the row after it, or the first fault.
 readFrame :: PreparedLayout -> State -> ShortByteString -> Int -> Either RowFault (Frame, Int)
 readFrame layout state rows begin = case FastFrameReader.readFrame layout state rows begin of
   FastFrameReader.Read f end -> Right (f, end)
   FastFrameReader.NotSimple -> wordByWord layout state rows begin
 
--- | The result of 'readFrame' for a frame of any kind, without the fast reader.
+-- | Gives the result of 'readFrame' without the fast reader.
 wordByWord :: PreparedLayout -> State -> ShortByteString -> Int -> Either RowFault (Frame, Int)
 wordByWord layout state rows begin = do
   (reading, end) <- readSteps layout rows begin
@@ -110,12 +110,13 @@ wordByWord layout state rows begin = do
 
 -- Reading the words -------------------------------------------------------------------------------
 
--- | Words of a frame from a row on, and the index of the row after them.
+-- | Reads the words of the frame that begins at a row. Gives them and the index of the row after
+-- the frame.
 readSteps :: PreparedLayout -> ShortByteString -> Int -> Either RowFault (Reading, Int)
 readSteps layout rows = go False (Layout.steps layout) [] (Reading [] [] False 0 Nothing)
   where
-    -- The words so far are passed on their own, the last one first: the rest of what is read rarely
-    -- changes.
+    -- The argument @done@ has the words so far, the last one first. They are not in @now@, because
+    -- its other fields change rarely.
     go followsWord todo done !now !k = case skipAbsent layout rows followsWord todo k of
       [] -> Right (now {readWords = reverse done}, k)
       FixedStep cs : more
@@ -145,8 +146,9 @@ readWordOf w n =
       places = NumberReader.places n
     }
 
--- | True if a word is present whose address ends before row @begin@, which is −1 if the address is
--- not there. A word without an address that may be left out is present if a number can begin here.
+-- | True if the frame contains a word here. The argument @begin@ is the row after the word's
+-- address, or −1 if the rows are not that address. An optional word without an address is present
+-- if a number of its form can begin at this row.
 isPresent :: PreparedLayout -> ShortByteString -> Word' -> Address -> Int -> Bool
 isPresent layout rows w cs begin =
   begin >= 0
@@ -155,7 +157,7 @@ isPresent layout rows w cs begin =
            || NumberReader.canBegin layout (form w) rows begin
        )
 
--- | Steps without the leading words that may be left out and are not present at row @k@.
+-- | Drops the optional words at the head of the steps that are not present at row @k@.
 skipAbsent :: PreparedLayout -> ShortByteString -> Bool -> [LayoutStep] -> Int -> [LayoutStep]
 skipAbsent layout rows followsWord todo k = case todo of
   WordStep w cs joined : more
@@ -171,14 +173,14 @@ skipAbsent layout rows followsWord todo k = case todo of
       skipAbsent layout rows followsWord more k
   _ -> todo
 
--- | Add the weights of symbols.
+-- | Adds the weights of symbols to the check sum.
 withSymbols :: PreparedLayout -> [Symbol] -> Reading -> Reading
 withSymbols layout cs now
   | Layout.hasCheckDigit layout =
     now {total = foldl' (\n c -> n + Symbol.weight c) (total now) cs}
   | otherwise = now
 
--- | Add the check digit at row @k@.
+-- | Adds the check digit @d@ at row @k@.
 withCheckDigit :: PreparedLayout -> Int -> Int -> Int -> Reading -> Reading
 withCheckDigit layout k modulus d now =
   now
@@ -186,7 +188,7 @@ withCheckDigit layout k modulus d now =
       check = Just (k, modulus)
     }
 
--- | Add the number of a word: its weights, the number of a command, the holes of the service track.
+-- | Adds the weights of a number, the number of a command word, and the holes of the service track.
 withNumber :: PreparedLayout -> Word' -> TapeNumber -> Reading -> Reading
 withNumber layout w n now = case content w of
   Command o -> counted {commandNumbers = (o, NumberReader.value n) : commandNumbers counted}
@@ -204,7 +206,8 @@ withNumber layout w n now = case content w of
             total = total now + NumberReader.total n
           }
 
--- | Index of the row after the given symbols; a fault if they are not the rows from @k@ on.
+-- | Compares the rows from @k@ on with the given symbols. Gives the index of the row after them, or
+-- the fault of the first row that differs.
 expect :: PreparedLayout -> ShortByteString -> Int -> [Symbol] -> Either RowFault Int
 expect layout rows k cs =
   let next = Symbol.rowAfter rows k cs
@@ -236,13 +239,14 @@ insteadOf layout w s = case NumberReader.rowFault layout w of
 
 -- The frame ---------------------------------------------------------------------------------------
 
--- | Fault of the first word whose content satisfies a predicate; of the frame if there is none.
+-- | Fault of the first word whose content satisfies a predicate. Without such a word, fault of the
+-- frame's first row @begin@.
 faultOf :: Int -> Reading -> (Content -> Bool) -> Reason -> RowFault
 faultOf begin reading isContent why = case wordWith isContent reading of
   Just s -> RowFault (at s) (Just (content (word s))) why
   Nothing -> RowFault begin Nothing why
 
--- | Frame that the words describe.
+-- | Makes the frame that the words describe, in the state before the frame.
 frameOf :: PreparedLayout -> State -> Int -> Reading -> Either RowFault Frame
 frameOf layout state begin reading = do
   mapM_ (checkFrameNumber state) (wordWith isFrameNumber reading)
@@ -270,8 +274,8 @@ frameOf layout state begin reading = do
               Increments -> n
               Positions -> n - ModalState.along a (position state)
 
--- | Commands of a frame in the order of the layout, each with the sum of its bits. A 0 that is no
--- command is left out.
+-- | Commands of a frame in the order of the layout, each with the sum of its bits. A number 0 that
+-- means no command is left out, see 'ModalState.isZeroCommand'.
 commandsOf :: PreparedLayout -> Reading -> [(Machine.CommandName, Int)]
 commandsOf layout reading
   | null (commandNumbers reading) = []
@@ -284,7 +288,7 @@ commandsOf layout reading
         v /= 0 || isZeroCommand
     ]
 
--- | Compare the frame number with the count of the frames.
+-- | Compares the number in the word with the number of the frame in the state.
 checkFrameNumber :: State -> ReadWord -> Either RowFault ()
 checkFrameNumber state s
   | n /= number s = Left (RowFault (at s) (Just FrameNumber) (WrongNumber (number s) n))
@@ -333,7 +337,8 @@ feedCodeOf layout state begin reading m = case (wordWith isFeed reading, m) of
     isModal = Layout.isFeedModal layout
     wrong why = Left (faultOf begin reading isFeed why)
 
--- | Check the rules for frames, see 'Frame.Frame.frameViolations'.
+-- | Checks that a frame moves or has a command, and that it keeps the rules of the machine, see
+-- 'Frame.frameViolations'.
 checkRules :: PreparedLayout -> Int -> Reading -> Frame -> Either RowFault ()
 checkRules layout begin reading f
   | not (Frame.isMoving f) && null (commands f) = Left (faultOf begin reading isFeed NoContent)
@@ -351,8 +356,8 @@ checkRules layout begin reading f
 
 -- Comparison with the frame as it would be written ------------------------------------------------
 
--- | True if exactly the words that were read would be written for a frame, each with as many
--- digits. In a layout whose words cannot differ in anything else, the rows are the same then.
+-- | True if the machine would write exactly the words that were read, each with the same count of
+-- digits. Then the rows are equal too, in a layout that is 'Layout.isPlain'; false in all others.
 hasSameWords :: PreparedLayout -> State -> Reading -> Frame -> Bool
 hasSameWords layout state reading f =
   Layout.isPlain layout && go (Layout.wordsFor layout f) (readWords reading)
@@ -370,7 +375,8 @@ hasSameWords layout state reading f =
               && go more others
           [] -> False
 
--- | True if the rows from @begin@ to @end@ are those that would be written for a frame.
+-- | True if the rows from @begin@ up to @end@, excluded, are those that the machine would write for
+-- a frame.
 hasSameRows :: PreparedLayout -> State -> ShortByteString -> Int -> Int -> Frame -> Bool
 hasSameRows layout state rows begin end f =
   runIdentity (FrameWriter.foldRows same layout state f begin) == end
@@ -378,8 +384,8 @@ hasSameRows layout state rows begin end f =
     -- The index becomes −1 at the first row that differs.
     same k h _ _ = pure (if k >= 0 && k < end && Short.index rows k == h then k + 1 else -1)
 
--- | Compare the rows with those that would be written, and report the first difference. A wrong
--- check digit follows from other wrong rows, so those are blamed first.
+-- | Compares the rows with those that the machine would write, and reports the first difference.
+-- Another wrong row makes the check digit wrong too, so the check digit is reported last.
 compareRows :: PreparedLayout -> ShortByteString -> Int -> Int -> [MarkedRow] -> Either RowFault ()
 compareRows layout rows begin end = go begin (Right ())
   where
@@ -397,7 +403,7 @@ compareRows layout rows begin end = go begin (Right ())
     fault k m = RowFault k (wordOf m) (difference layout (Short.index rows k) m)
     meaningOf m = RowMeaning.meaning (RowMeaning.row layout Nothing m)
 
--- | Word that a row belongs to.
+-- | Content of the word that a row belongs to; none for a row outside of words.
 wordOf :: MarkedRow -> Maybe Content
 wordOf m = case kind m of
   InWord c _ _ -> Just c
@@ -408,7 +414,7 @@ wordOf m = case kind m of
   Separator _ -> Nothing
   CheckSymbol _ -> Nothing
 
--- | Reason why a row is not the expected one.
+-- | Reason why a row with the holes @w@ is not the expected row.
 difference :: PreparedLayout -> Word8 -> MarkedRow -> Reason
 difference layout w m = fromMaybe specific (NumberReader.rowFault layout w)
   where

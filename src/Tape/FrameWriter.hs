@@ -1,8 +1,10 @@
 {-# LANGUAGE BangPatterns #-}
 {-# OPTIONS_GHC -O2 #-}
 
--- | Frames written as rows, by the steps of a layout. Each row comes with its weight in the check
--- sum and its meaning, so the tape and its picture are made by the same steps.
+-- | Writer of frames: makes the rows of a frame by the steps of a layout.
+--
+-- Each row comes with its weight in the check sum and its meaning. The tape and its picture are
+-- made by the same code.
 module Tape.FrameWriter
   ( frameRows,
     foldRows,
@@ -35,14 +37,14 @@ import Tape.ModalState (State)
 import Tape.ModalState qualified as ModalState
 import Tape.Symbol qualified as Symbol
 
--- | Rows of a frame without the gap after it.
+-- | Rows of a frame without the blank rows after it, in the state before the frame.
 frameRows :: PreparedLayout -> State -> Frame -> [MarkedRow]
 frameRows layout state frame =
   reverse
     (runIdentity (foldRows (\rows h n m -> pure (MarkedRow h n m : rows)) layout state frame []))
 
--- | Left fold over the rows of a frame: each with its holes, its weight in the check sum and its
--- meaning.
+-- | Monadic left fold over the rows of a frame. The function gets the accumulator and of each row
+-- the holes, the weight in the check sum, and the meaning.
 foldRows ::
   Monad m =>
   (r -> Word8 -> Int -> RowKind -> m r) ->
@@ -69,7 +71,7 @@ checkSum layout state frame = runIdentity (foldWithSum count 0 layout state fram
         CheckSymbol _ -> total
         _ -> total + n
 
--- | The fold of 'foldRows', from the check sum of the frame.
+-- | Does what 'foldRows' does, with the check sum of the frame as the second argument.
 foldWithSum ::
   Monad m =>
   (r -> Word8 -> Int -> RowKind -> m r) ->
@@ -103,13 +105,14 @@ foldWithSum add total layout state frame =
       Symbol.Symbol c h k : more -> add before h k (meaning c) >>= constants meaning more
 {-# INLINE foldWithSum #-}
 
--- | Add the row of a digit.
+-- | Adds the row of a digit without a hole in the service track.
 addDigit :: (r -> Word8 -> Int -> RowKind -> m r) -> PreparedLayout -> RowKind -> Int -> r -> m r
 addDigit add layout meaning d before =
   add before (Symbol.digit (symbols layout) d) (Symbol.digitWeight (symbols layout) d) meaning
 {-# INLINE addDigit #-}
 
--- | Add the sign of a number, or the digit for its direction and the leading axis.
+-- | Adds the sign of a number, or the digit for its direction and the leading axis; nothing in a
+-- form without a sign before the digits.
 foldSign ::
   Monad m =>
   (r -> Word8 -> Int -> RowKind -> m r) ->
@@ -138,7 +141,7 @@ foldSign add layout frame w n before = case sign (form w) of
       addDigit add layout (InWord (content w) n (PriorityDigit d)) (d `mod` 10) before
 {-# INLINE foldSign #-}
 
--- | Add the digits of a number with their decimal point and the holes in the service track.
+-- | Adds the digits of a number with their decimal point and the holes in the service track.
 foldDigits ::
   Monad m =>
   (r -> Word8 -> Int -> RowKind -> m r) ->
@@ -156,7 +159,7 @@ foldDigits add layout frame w n start = case service f of
     meaning = InWord (content w) n
     count = Layout.digitCount f (abs n)
     rest = lowestDigits count (abs n)
-    -- The digits of the rest from place k down to 0.
+    -- The digits of @left@ from the power k of ten down to 0.
     plainDigits k !left !before
       | k < 0 = pure before
       | otherwise = do
@@ -182,7 +185,7 @@ foldDigits add layout frame w n start = case service f of
         serviceDigits (k - 1) (drop 1 services) (left - d * Layout.power k) next
 {-# INLINE foldDigits #-}
 
--- | Add the decimal point if it comes before the digit in place @k@.
+-- | Adds the decimal point if it comes directly before digit @k@. The last digit has k = 0.
 addPoint ::
   Monad m =>
   (r -> Word8 -> Int -> RowKind -> m r) ->
@@ -203,17 +206,18 @@ addPoint add layout w n k before
 mostRows :: PreparedLayout -> Int
 mostRows layout = sum (map most (steps layout))
   where
-    most resolution = case resolution of
+    most step = case step of
       FixedStep cs -> length cs
       CheckStep _ -> 1
       -- Two rows more for a sign and a decimal point.
       WordStep w _ address -> extent address + 2 + max Layout.mostDigits (digits (form w))
 
--- | Number made of the lowest @count@ digits of a non-negative number.
+-- | Number that the last @count@ digits of a number @n@ ≥ 0 make.
 lowestDigits :: Int -> Int -> Int
 lowestDigits count n = if n < Layout.power count then n else n `rem` Layout.power count
 
--- | Smallest digit that makes a check sum a multiple of @modulus@; 0 if there is none.
+-- | Smallest digit whose weight makes the check sum @total@ a multiple of @modulus@; 0 if no digit
+-- does.
 checkDigit :: PreparedLayout -> Int -> Int -> Int
 checkDigit layout modulus total =
   case [d | d <- [0 .. 9], (total + weightOf d) `mod` max 1 modulus == 0] of
@@ -222,8 +226,8 @@ checkDigit layout modulus total =
   where
     weightOf = Symbol.digitWeight (symbols layout)
 
--- | True for the word of the leading axis: the one with the most pulses, the first one of several.
--- True for all words without an axis.
+-- | True for the word of the leading axis, the axis with the most pulses in this frame. Of several
+-- such axes the first in the layout leads. Words other than those of axes count as leading.
 isLeading :: PreparedLayout -> Frame -> Content -> Bool
 isLeading layout frame c = case c of
   Along a -> take 1 [b | b <- axisOrder layout, pulses b == most] == [a]
@@ -232,7 +236,8 @@ isLeading layout frame c = case c of
     pulses b = abs (ModalState.along b (increment frame))
     most = maximum (0 : map pulses (axisOrder layout))
 
--- | True if the service track has a hole beside a digit of the number @n@.
+-- | True if the service track has a hole beside a digit of the number @n@, by the meaning of the
+-- track at this digit.
 isServicePunched :: Frame -> Int -> Service -> Bool
 isServicePunched frame n s = case s of
   MinusHole -> n < 0

@@ -2,9 +2,8 @@
 
 -- | Layout of a machine's frames, prepared for writing and reading.
 --
--- One description of a frame serves both directions: "Tape.FrameWriter" and "Tape.FrameReader"
--- follow the same steps. The module also owns the rows of a tape with their meaning, and the number
--- of digits that a number has in its form.
+-- "Tape.FrameWriter" and "Tape.FrameReader" follow the same steps of this layout. The module also
+-- owns the type of a row with its meaning, and the count of digits with which a number is written.
 module Tape.Layout
   ( -- * The layout
     PreparedLayout (..),
@@ -61,52 +60,55 @@ import Tape.ModalState qualified as ModalState
 import Tape.Symbol (Symbol, Symbols)
 import Tape.Symbol qualified as Symbol
 
--- | Layout of a machine, with everything that is the same for all of its frames.
+-- | Layout of a machine's frames, with all facts that are the same for every frame.
 data PreparedLayout = PreparedLayout
   { machine :: Machine,
     symbols :: Symbols,
     axes :: Axes,
     steps :: [LayoutStep],
-    -- | steps of a simple frame (see 'ModalState.isSimple'), which has few of the words
+    -- | the steps without the words that no simple frame contains, see 'ModalState.isSimple'
     simpleSteps :: [LayoutStep],
     -- | symbols between two words
     separator :: [Symbol],
     minus :: Symbol,
     plus :: Symbol,
+    -- | decimal point
     point :: Symbol,
+    -- | all words in their order on the tape
     frameWords :: [Word'],
-    -- | words that can occur in a simple frame
+    -- | the words that some simple frame contains, see 'ModalState.occursInSimple'
     simpleWords :: [Word'],
     -- | axes in the order of their words
     axisOrder :: [Axis],
-    -- | commands in the order of their words and bits, and whether 0 is a command of its own
+    -- | commands in the order of their words and bits; true if the number 0 is a command
     commandWords :: [(CommandName, Bool)],
-    -- | word of the motion with its codes, if there is one
+    -- | word of the motion with its codes, if the machine has one
     motionWord :: Maybe (Word', MotionCodes),
-    -- | the feed code is modal: it holds until it is written anew
+    -- | true if the feed code is modal: it stays in force until another one is written
     isFeedModal :: Bool,
-    -- | frames have a check digit
+    -- | true if frames have a check digit
     hasCheckDigit :: Bool,
-    -- | frames can be compared word by word in place of row by row: words differ only in a number
-    -- and its count of digits, and the last rows of a frame belong to a word of simple frames or
-    -- are always written
+    -- | True if comparing words is as strict as comparing rows: equal numbers with equal counts of
+    -- digits have equal rows. This also needs an end of the frame that simple frames have too.
     isPlain :: Bool
   }
 
 -- | Step of writing or reading a frame.
 data LayoutStep
-  = -- | symbols that are always the same
+  = -- | symbols that every frame contains
     FixedStep [Symbol]
-  | -- | a word, its address, and the address with the separator before it
+  | -- | a word, its address at the beginning of a frame, and its address after another word, with
+    -- the separator before it
     WordStep Word' Address Address
-  | -- | a check digit, and the number of which the check sum has to be a multiple
+  | -- | a check digit, with the modulus: the check sum has to be a multiple of it
     CheckStep Int
 
--- | Symbols before a number, their count, and the row of the last one. Most addresses differ in
--- their last row, so that is compared first.
+-- | Symbols before a number, the count of these symbols, and the row of the last one. The reader
+-- compares the last row first, because most addresses differ there.
 data Address = Address {spelling :: [Symbol], extent :: Int, lastHoles :: Word8}
 
--- | Index of the row after an address, if its rows are those from index @k@ on; else −1.
+-- | Compares the rows from index @k@ on with an address. Gives the index of the row after it, or −1
+-- if a row differs or the rows end.
 rowAfterAddress :: ShortByteString -> Int -> Address -> Int
 rowAfterAddress rows k Address {spelling, extent, lastHoles}
   | extent == 0 = k
@@ -144,13 +146,13 @@ fromMachine machine =
     steps = map (stepOf symbols separator) items
     frameWords = Machine.wordsOf machine
     hasCheckDigit = not (null [() | CheckStep _ <- steps])
-    -- Steps after the last one that is always written.
+    -- True if the optional steps after the last obligatory one can all occur in a simple frame.
     endsSurely = all isSimpleStep (takeWhile (not . isAlwaysWritten) (reverse steps))
 
 symbolsOf :: Symbols -> Text -> [Symbol]
 symbolsOf symbols = map (Symbol.symbol symbols) . Text.unpack
 
--- | Step for an item of the layout; the separator is given.
+-- | Step for an item of the layout. The list of symbols is the separator.
 stepOf :: Symbols -> [Symbol] -> LayoutItem -> LayoutStep
 stepOf symbols separator item = case item of
   Literal t -> FixedStep (symbolsOf symbols t)
@@ -169,25 +171,26 @@ addressOf cs =
 
 -- | True for a step that can occur in a simple frame.
 isSimpleStep :: LayoutStep -> Bool
-isSimpleStep resolution = case resolution of
+isSimpleStep step = case step of
   FixedStep _ -> True
   WordStep w _ _ -> ModalState.occursInSimple w
   CheckStep _ -> True
 
 -- | True for a step that gives at least one row in every frame.
 isAlwaysWritten :: LayoutStep -> Bool
-isAlwaysWritten resolution = case resolution of
+isAlwaysWritten step = case step of
   FixedStep cs -> not (null cs)
   WordStep w _ _ -> presence w == Always
   CheckStep _ -> True
 
--- | Commands that a word holds, and whether 0 is a command of its own in it.
+-- | Commands that a word contains; true if the number 0 is a command.
 commandsOf :: Word' -> [(CommandName, Bool)]
 commandsOf w =
   [(o, ModalState.isZeroCommand w) | Command o <- [content w]]
     <> [(o, False) | CommandBit o _ <- service (form w)]
 
--- | True for a form whose rows hold nothing but the number.
+-- | True for a form whose rows follow from the number alone: no service track, and no digit for the
+-- leading axis.
 isPlainForm :: NumberForm -> Bool
 isPlainForm f = null (service f) && digits f < mostDigits && isPlainSign (sign f)
   where
@@ -198,12 +201,13 @@ isPlainForm f = null (service f) && digits f < mostDigits && isPlainSign (sign f
       EitherSign -> True
       Priority {} -> False
 
--- | Words that can occur in a frame.
+-- | Words that a frame like this one can contain: those of simple frames for a simple frame, else
+-- all.
 wordsFor :: PreparedLayout -> Frame -> [Word']
 wordsFor layout frame =
   if ModalState.isSimple frame then simpleWords layout else frameWords layout
 
--- | State after a frame.
+-- | State after a frame, from the state before it.
 after :: PreparedLayout -> State -> Frame -> State
 after layout = ModalState.after (axes layout) (frameWords layout)
 
@@ -216,57 +220,68 @@ data MarkedRow = MarkedRow {holes :: Word8, weight :: Int, kind :: RowKind}
 -- | Purpose of a row.
 data RowKind
   = Blank BlankRows
-  | -- | symbol before the first frame
+  | -- | symbol between the leader and the first frame
     Opening Char
-  | -- | symbol after the last frame
+  | -- | symbol between the last frame and the trailer
     Closing Char
-  | -- | symbol that every frame has
+  | -- | symbol that every frame contains
     Constant Char
-  | Separator Char
-  | CheckSymbol Int
-  | -- | row of a word with its number
+  | -- | symbol between two words
+    Separator Char
+  | -- | check digit
+    CheckSymbol Int
+  | -- | row of a word: the content and the number of the word, and the row's purpose in it
     InWord Content Int WordRow
   deriving stock (Eq, Show)
 
--- | Purpose of a blank row: before the first frame, after a frame, before an even frame, after the
--- last frame.
-data BlankRows = Leader | Gap | Shift | Trailer
+-- | Purpose of a blank row.
+data BlankRows
+  = -- | before the first frame
+    Leader
+  | -- | after a frame
+    Gap
+  | -- | before a frame with an even number, see 'Machine.Machine.evenShift'
+    Shift
+  | -- | after the last frame
+    Trailer
   deriving stock (Eq, Show)
 
 -- | Purpose of a row within a word.
 data WordRow
   = AddressSymbol Char
-  | -- | digit for the direction, and for the leading axis
+  | -- | digit for the direction and the leading axis, see 'Machine.Machine.Priority'
     PriorityDigit Int
-  | SignSymbol Char
-  | Point
-  | -- | digit, its place from 0 for the lowest, the use of the service track there, and True for a
-    -- hole in it
+  | -- | plus or minus
+    SignSymbol Char
+  | -- | decimal point
+    Point
+  | -- | digit, its position, the meaning of a hole in the service track there, and true if there is
+    -- one; the position counts from 0 at the last digit, decimals included
     Digit Int Int Service Bool
   deriving stock (Eq, Show)
 
--- | Blank rows.
+-- | @n@ blank rows of one purpose.
 blanks :: BlankRows -> Int -> [MarkedRow]
 blanks purpose n = replicate n (MarkedRow 0 0 (Blank purpose))
 
--- | Row of a symbol.
+-- | Row of a symbol; the function gives its purpose.
 constant :: (Char -> RowKind) -> Symbol -> MarkedRow
 constant meaning (Symbol.Symbol c h n) = MarkedRow h n (meaning c)
 
 -- Digits ------------------------------------------------------------------------------------------
 
--- | Largest number of digits that a number can have.
+-- | Greatest count of digits: that of the largest 'Int'.
 mostDigits :: Int
 mostDigits = 19
 
--- | Power of ten; 'maxBound' from 10^19 on, which no number reaches.
+-- | 10^k for @k@ ≥ 0. From k = 19 on, where an 'Int' is too small, 'maxBound'.
 power :: Int -> Int
 power k = if k < mostDigits then Primitive.indexPrimArray powers k else maxBound
 
 powers :: PrimArray Int
 powers = Primitive.primArrayFromList (take mostDigits (iterate (10 *) 1))
 
--- | Number of digits of a non-negative number in a form.
+-- | Count of digits with which a number @n@ ≥ 0 is written in a form, decimals included.
 digitCount :: NumberForm -> Int -> Int
 digitCount f n
   | padded f = digits f
@@ -274,7 +289,8 @@ digitCount f n
   where
     go k = if k < mostDigits && power k <= n && n > 0 then go (k + 1) else k
 
--- | True if a non-negative number is written with @count@ digits. It must not have more of them.
+-- | True if a number @n@ ≥ 0 is written with @count@ digits, that is @digitCount f n == count@. The
+-- number must be below 10^count.
 isDigitCount :: NumberForm -> Int -> Int -> Bool
 isDigitCount f count n
   | padded f = count == digits f
@@ -282,6 +298,6 @@ isDigitCount f count n
   where
     least = leastDigits f
 
--- | Least number of digits in a form without padding: one before the decimal point.
+-- | Least count of digits in a form without padding: all decimals and one digit before the point.
 leastDigits :: NumberForm -> Int
 leastDigits f = min (digits f) (if decimals f > 0 then decimals f + 1 else 1)

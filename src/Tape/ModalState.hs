@@ -1,7 +1,7 @@
 {-# OPTIONS_GHC -O2 #-}
 
--- | Modal state: values that a tape keeps from frame to frame, and the numbers that the words of a
--- frame have in such a state.
+-- | Modal state: the values that stay in force from frame to frame. With it this module computes
+-- the number of each word of a frame, for the writer and for the readers.
 module Tape.ModalState
   ( State (..),
     initial,
@@ -45,16 +45,18 @@ data State = State
     ordinal :: Int,
     -- | position of the cutter in pulses, along the axes of the part
     position :: Pulses3,
-    -- | axes whose position the tape has not given yet
+    -- | axes of which the tape has given no position so far; used on tapes with absolute positions
     unwritten :: [Axis],
-    -- | last feed code on the tape
+    -- | last feed code on the tape; none before the first one
     feed :: Maybe FeedCode
   }
   deriving stock (Eq, Show)
 
--- | State before the first frame, at the given position. On a tape with absolute positions the
--- first frame that moves gives all of them. It gives the height only if some frame changes it
--- (first argument); otherwise the height is set by hand.
+-- | State before the first frame. The arguments: true if some frame changes the height; the
+-- position of the cutter.
+--
+-- On a tape with absolute positions the first frame that moves gives x and y, changed or not. It
+-- also gives z if some frame changes the height. Otherwise the operator sets the height by hand.
 initial :: Bool -> Pulses3 -> State
 initial changesZ start =
   State {ordinal = 1, position = start, unwritten = [X, Y] <> [Z | changesZ], feed = Nothing}
@@ -63,13 +65,13 @@ initial changesZ start =
 changesHeight :: [Frame] -> Bool
 changesHeight = any (\f -> let Pulses3 _ _ z = increment f in z /= 0)
 
--- | Axes of the tape relative to those of the part.
+-- | Axes of the machine relative to those of the part.
 data Axes = Axes
-  { -- | increments or absolute positions
+  { -- | meaning of the axis words: increments or absolute positions
     measure :: AxisMeasure,
-    -- | 1, or −1 for an axis in the opposite direction
+    -- | for each axis 1 if it has the part's direction, −1 if it has the opposite direction
     signs :: Pulses3,
-    -- | clockwise arcs of the part are counter-clockwise on the machine
+    -- | true if clockwise arcs of the part are counter-clockwise on the machine
     isMirrored :: Bool
   }
 
@@ -92,7 +94,8 @@ along a (Pulses3 x y z) = case a of
   Y -> y
   Z -> z
 
--- | Number of a word of a frame; none if the frame is written without this word.
+-- | Number of a word in a frame, in the state before the frame. None if the frame is written
+-- without this word.
 number :: Axes -> State -> Frame -> Word' -> Maybe Int
 number system state frame word = case content word of
   FrameNumber ->
@@ -130,11 +133,12 @@ number system state frame word = case content word of
     given :: CommandName -> Maybe Int
     given o = lookup o (commands frame)
 
--- | True for a simple frame: one without an arc and without commands. Most frames are simple.
+-- | True for a simple frame, which has neither an arc nor a command. Most frames are simple.
 isSimple :: Frame -> Bool
 isSimple frame = null (commands frame) && not (isArc frame)
 
--- | True for a word that can occur in a simple frame. All other words have no 'number' there.
+-- | True for a word that some simple frame contains. For all other words 'number' gives none in
+-- every simple frame.
 occursInSimple :: Word' -> Bool
 occursInSimple word = case content word of
   Centre _ -> occursAnyway
@@ -150,8 +154,8 @@ occursInSimple word = case content word of
       WhenNeeded -> False
       WhenChanged -> False
 
--- | True for the word of a command in which 0 is a command of its own. In a word that is written
--- without a command as well, 0 means that there is none.
+-- | True for a command word in which the number 0 is a command. A word that frames without a
+-- command contain as well is different: there 0 means that the frame has no command.
 isZeroCommand :: Word' -> Bool
 isZeroCommand word = case presence word of
   Always -> False
@@ -159,8 +163,8 @@ isZeroCommand word = case presence word of
   WhenNeeded -> True
   WhenChanged -> True
 
--- | Number for a motion. A frame without motion gets the number of a straight line, in words that
--- are always written.
+-- | Code of a motion. The flag is 'isMirrored'. No motion has the code of a straight line, for
+-- words that every frame contains.
 motionNumber :: Bool -> MotionCodes -> FrameMotion -> Int
 motionNumber mirror codes m = case m of
   NoMotion -> straight codes
@@ -177,7 +181,7 @@ isArc frame = case motion frame of
   Rapid -> False
   Linear -> False
 
--- | True for a frame that moves at a feed.
+-- | True for a frame that moves at a feed: a line or an arc, no rapid move.
 hasFeed :: Frame -> Bool
 hasFeed frame = case motion frame of
   Circular _ -> True
@@ -206,7 +210,7 @@ axisNumber system state frame a = n
       Increments -> along a (increment frame)
       Positions -> along a (position state) + along a (increment frame)
 
--- | State after a frame with the given words.
+-- | State after a frame, from the words of the layout and the state before the frame.
 after :: Axes -> [Word'] -> State -> Frame -> State
 after system ws state frame =
   State

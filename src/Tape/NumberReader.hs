@@ -26,28 +26,30 @@ import Tape.Layout (PreparedLayout)
 import Tape.Layout qualified as Layout
 import Tape.Symbol qualified as Symbol
 
--- | Faulty row: its index from 0, the word that it belongs to, and the reason.
+-- | Faulty row: its index from 0, the content of its word if the row is in one, and the reason.
 data RowFault = RowFault Int (Maybe Content) Reason
   deriving stock (Eq, Show)
 
--- | Number with the holes of the service track beside it.
+-- | Number with what the service track beside its digits says.
 data TapeNumber = TapeNumber
-  { -- | index of its first row
+  { -- | index of the number's first row
     start :: Int,
-    -- | index of the row after it
+    -- | index of the row after the number
     next :: Int,
     value :: Int,
-    -- | number of its digits
+    -- | count of digits, decimals included
     places :: Int,
-    -- | command bits in the service track
+    -- | commands in the service track, each with the value of one bit; several bits of a command
+    -- are several entries
     bits :: [(CommandName, Int)],
-    -- | hole for braking in the service track
+    -- | true if the service track has the hole for braking
     brakes :: Bool,
-    -- | sum of the weights of its symbols
+    -- | sum of the weights of the number's symbols; not used in a layout without a check digit
     total :: Int
   }
 
--- | Number in the given form, from row @begin@ on.
+-- | Number that begins at row @begin@, in the form that the layout gives it. A fault if the rows
+-- are no such number.
 numeral ::
   PreparedLayout ->
   Content ->
@@ -87,7 +89,8 @@ numeral layout c f rows begin = do
             total = weights ds
           }
   where
-    -- A digit for the direction is compared later with the one that would be written.
+    -- With a digit for the direction, 0 may be negative here: the reader of frames compares this
+    -- digit with the one that the machine would write.
     refusesMinusZero = case sign f of
       Priority {} -> False
       Unsigned -> True
@@ -95,7 +98,8 @@ numeral layout c f rows begin = do
       MinusSign -> True
       EitherSign -> True
 
--- | True if a number in the given form can begin at row @k@.
+-- | True if a number in the given form can begin at row @k@: the row is a digit, or a sign that the
+-- form allows. Always true for a form without digits.
 canBegin :: PreparedLayout -> NumberForm -> ShortByteString -> Int -> Bool
 canBegin layout f rows k =
   digits f == 0
@@ -110,9 +114,10 @@ canBegin layout f rows k =
       MinusSign -> is '-'
       EitherSign -> is '-' || is '+'
 
--- | Rows before the digits: the index of the row after them, true for a minus, and their weight.
+-- | Sign of a number: the index of the row after it, true for a minus, and the weight of its row.
 data SignPart = SignPart Int Bool Int
 
+-- | Sign at row @k@, if the form has one before the digits.
 readSign ::
   PreparedLayout ->
   Content ->
@@ -151,19 +156,22 @@ readSign layout c f rows k = case sign f of
 data Digits = Digits
   { -- | index of the next row
     at :: Int,
-    -- | value of the digits so far
+    -- | value of the digits so far, without sign and decimal point
     amount :: Int,
+    -- | true if a minus has been read
     negative :: Bool,
+    -- | commands in the service track so far, see 'bits'
     commandBits :: [(CommandName, Int)],
+    -- | true if the hole for braking has been read
     braking :: Bool,
     -- | sum of the weights so far
     weights :: Int,
-    -- | use of the service track at the next digits
+    -- | meaning of the service track at the digits to come
     services :: [Service]
   }
 
--- | Read at least @least@ digits and at most @most@. Fewer than @most@ are a fault if another digit
--- follows that cannot be read.
+-- | Reads at least @least@ digits and at most @most@. It is a fault if there are fewer than
+-- @least@, or if a digit ends the reading early because its hole in the service track is wrong.
 figures ::
   PreparedLayout ->
   Content ->
@@ -182,8 +190,8 @@ figures layout c rows least most ds
         && isJust (Symbol.digitAt (Layout.symbols layout) (Short.index rows (at now)))
 {-# INLINE figures #-}
 
--- | Read digits up to row @end@, as long as the service track beside them has holes only where its
--- use allows them.
+-- | Reads digits before row @end@. Stops at the first row that is no digit, or whose hole in the
+-- service track is wrong.
 digitsUpTo :: PreparedLayout -> ShortByteString -> Int -> Digits -> Digits
 digitsUpTo layout rows end ds
   | null (services ds),
@@ -204,7 +212,7 @@ digitsUpTo layout rows end ds
             Just d <- [Symbol.digitAt table (Short.index rows k)]
         ]
 
--- | Read digits up to row @end@ with the service track beside them.
+-- | Reads digits as 'digitsUpTo' does, in a form that uses the service track.
 serviceDigits :: PreparedLayout -> ShortByteString -> Int -> Digits -> Digits
 serviceDigits layout rows end ds =
   go (at ds) (amount ds) (negative ds) (commandBits ds) (braking ds) (weights ds) (services ds)
@@ -238,11 +246,11 @@ serviceDigits layout rows end ds =
               services = track
             }
 
--- | Index of the row after some digits, and their value.
+-- | Index of the row after the digits, and the value of all digits so far.
 data Figures = Figures Int Int
 
--- | Digits without a hole in the service track, from a row on and up to row @end@. The value
--- continues that of the digits before them.
+-- | Reads digits before row @end@ that have no hole in the service track. The last two arguments
+-- are the first row, and the value of the digits before it.
 plainFigures :: PreparedLayout -> ShortByteString -> Int -> Int -> Int -> Figures
 plainFigures layout rows end = go
   where
@@ -256,14 +264,14 @@ plainFigures layout rows end = go
         go (k + 1) (10 * n + d)
       | otherwise = Figures k n
 
--- | Reason why the digits end too early.
+-- | Fault of the row at which the digits end too early.
 stopFault :: PreparedLayout -> Content -> ShortByteString -> Digits -> RowFault
 stopFault layout c rows ds = case (digit layout (Just c) rows (at ds), services ds) of
   (Left fault, _) -> fault
   (Right _, Marker : _) -> RowFault (at ds) (Just c) MarkerMissing
   (Right _, _) -> RowFault (at ds) (Just c) ServiceHole
 
--- | Read the decimal point.
+-- | Reads the decimal point.
 point :: PreparedLayout -> Content -> ShortByteString -> Digits -> Either RowFault Digits
 point layout c rows ds
   | at ds >= Short.length rows = Left (cutOff c rows)
@@ -274,7 +282,8 @@ point layout c rows ds
     s = Layout.point layout
 {-# INLINE point #-}
 
--- | Digit at row @k@, with or without a hole in the service track.
+-- | Digit at row @k@, with or without a hole in the service track. A fault if the row is no digit;
+-- the content is that of the row's word, for the fault.
 digit :: PreparedLayout -> Maybe Content -> ShortByteString -> Int -> Either RowFault Int
 digit layout c rows k
   | k >= Short.length rows = Left (RowFault (Short.length rows - 1) c CutOff)
@@ -288,13 +297,14 @@ digit layout c rows k
       (Nothing, Just s) -> NotADigit s
       (Nothing, Nothing) -> NoDigit (Machine.tracks (Machine.medium (Layout.machine layout))) w
 
--- | Fault of a row that is wrong whatever it should be: a hole outside of the tracks, or wrong
--- parity.
+-- | Fault of a row that no symbol of this tape can have: a hole outside of the tracks, or wrong
+-- parity. None for all other rows.
 rowFault :: PreparedLayout -> Word8 -> Maybe Reason
 rowFault layout w
   | Symbol.isOutsideTracks (Layout.symbols layout) w = Just ForeignTrack
   | Symbol.isOdd (Layout.symbols layout) w = Just BadParity
   | otherwise = Nothing
 
+-- | Fault of a tape that ends within a word.
 cutOff :: Content -> ShortByteString -> RowFault
 cutOff c rows = RowFault (Short.length rows - 1) (Just c) CutOff

@@ -1,10 +1,10 @@
 {-# LANGUAGE BangPatterns #-}
 {-# OPTIONS_GHC -O2 #-}
 
--- | Writing a whole tape and reading it: leader, frames with the blank rows between them, trailer.
+-- | Writer and reader of whole tapes: leader, frames with the blank rows between them, trailer.
 --
--- Reading refuses a tape that the machine would not have written, see "Tape.Damage". The rows of
--- one frame are written by "Tape.FrameWriter" and read by "Tape.FrameReader".
+-- The reader refuses a tape that the machine would not have written, see "Tape.Damage". The rows of
+-- a single frame belong to "Tape.FrameWriter" and "Tape.FrameReader".
 module Tape.Punch
   ( write,
     rows,
@@ -48,7 +48,8 @@ import Prelude hiding (read)
 
 -- Writing -----------------------------------------------------------------------------------------
 
--- | Tape of frames that keep the rules of the machine. The cutter begins at the given position.
+-- | Tape of some frames. The frames have to keep the rules of the machine, see
+-- 'Frame.Frame.violations'. The cutter begins at the given position.
 write :: Machine -> Pulses3 -> [Frame] -> Tape
 write machine start frames =
   Tape
@@ -62,8 +63,8 @@ write machine start frames =
     layout = Layout.fromMachine machine
     holesOf = ByteString.pack . map holes
 
--- | Rows of the frames with the blank rows between them, in blocks. The rows are written to one
--- buffer, which is copied when it is full.
+-- | Rows of the frames with the blank rows between them, in blocks. All blocks are filled in one
+-- buffer, which is copied when it is full, so the memory in use stays small.
 frameRows :: PreparedLayout -> State -> [Frame] -> [ByteString]
 frameRows layout state frames =
   runST (Primitive.newPrimArray (blockSize + mostOfFrame) >>= go 0 state frames)
@@ -88,7 +89,8 @@ frameRows layout state frames =
       let !rows' = Short.fromShort (SBS filled)
       pure rows'
 
--- | Number of rows in a block of 'frameRows'.
+-- | Least count of rows in a block of 'frameRows', except the last block. A block ends with a
+-- frame.
 blockSize :: Int
 blockSize = 32768
 
@@ -99,7 +101,8 @@ rows machine start frames =
   where
     layout = Layout.fromMachine machine
 
--- | Rows of a tape in groups: those of each frame with its number, and those at both ends.
+-- | Rows of a tape in groups: one for each frame, with the number of the frame, and one for each
+-- end of the tape.
 markedRows :: PreparedLayout -> Pulses3 -> [Frame] -> [(Maybe Int, [MarkedRow])]
 markedRows layout start frames =
   (Nothing, rowsBefore layout) :
@@ -141,17 +144,18 @@ symbolsOf layout = map (Symbol.symbol (Layout.symbols layout)) . Text.unpack
 
 -- Reading -----------------------------------------------------------------------------------------
 
--- | Frames of a tape. The cutter begins at the given position.
+-- | Frames of a tape, or its first damage. The cutter begins at the given position.
 --
--- On a medium where every row counts, each row has its place: a blank row may be a digit 0. On all
--- other media the rows that the code skips are removed first, and blank rows between frames are
--- skipped.
+-- If blank rows are 'Counted', every row matters, because a blank row may be the digit 0. If they
+-- are 'Skipped', the reader first removes the rows that the code skips, and ignores blank rows
+-- between frames.
 read :: Machine -> Pulses3 -> Tape -> Either Damage [Frame]
 read machine start (Tape raw) = case firstFrameRow source of
   Left fault -> Left (damage source Nothing fault)
-  -- Increments do not depend on the position, so the tape never has to give the height.
+  -- Increments do not depend on the height, so the tape never has to give it.
   Right begin | not (hasPositions source) -> readFrom source start begin False
-  -- Only the frames show whether the first of them gives the height.
+  -- The first frame that moves gives the height if a later frame changes it. That is not known
+  -- before all frames are read, so both cases are tried.
   Right begin -> case (readFrom source start begin True, readFrom source start begin False) of
     (Right frames, _) | ModalState.changesHeight frames -> Right frames
     (Left withHeight, Right frames) | ModalState.changesHeight frames -> Left withHeight
@@ -162,15 +166,15 @@ read machine start (Tape raw) = case firstFrameRow source of
   where
     source = sourceOf (Layout.fromMachine machine) raw
 
--- | Frames of a tape that is expected to hold the given frames. If it does, these very frames are
--- the result, so they are not held in memory twice. Else the tape is read as by 'read'.
+-- | Frames of a tape on which the given frames are expected. If they are on it, the result is the
+-- given list itself, so that memory does not hold the frames twice. Otherwise the result of 'read'.
 readExpected :: Machine -> Pulses3 -> [Frame] -> Tape -> Either Damage [Frame]
 readExpected machine start expected tape
   | holds machine start expected tape = Right expected
   | otherwise = read machine start tape
 
--- | Frames of a tape that was punched from the given frames. Any other frames on it are a damage:
--- the description of the machine is ambiguous.
+-- | Frames of a tape that was punched from the given frames. If the tape is read as other frames,
+-- the result is the damage 'Misread': the description of the machine is ambiguous.
 readPunched :: Machine -> Pulses3 -> [Frame] -> Tape -> Either Damage [Frame]
 readPunched machine start punched tape
   | holds machine start punched tape = Right punched
@@ -179,8 +183,7 @@ readPunched machine start punched tape
       Left
         (Damage 1 (Just (1 + length (takeWhile id (zipWith (==) punched frames)))) Nothing Misread)
 
--- | True if reading a tape gives exactly the given frames. On a tape with positions these frames
--- show whether the first of them gives the height.
+-- | True if reading a tape gives exactly the given frames.
 holds :: Machine -> Pulses3 -> [Frame] -> Tape -> Bool
 holds machine start expected (Tape raw) = case firstFrameRow source of
   Left _ -> False
@@ -199,7 +202,7 @@ holds machine start expected (Tape raw) = case firstFrameRow source of
       ([], LazyList.End fault) -> null fault
       _ -> False
 
--- | Index of the first row of the first frame.
+-- | Index of the first row after the leader and the opening symbols.
 firstFrameRow :: Source -> Either RowFault Int
 firstFrameRow source =
   afterLeader source >>= \at ->
@@ -213,8 +216,8 @@ firstFrameRow source =
 hasPositions :: Source -> Bool
 hasPositions source = ModalState.measure (Layout.axes (layout source)) /= Increments
 
--- | All frames from a row on. Given are the position of the cutter, and whether the first frame
--- that moves gives the height.
+-- | All frames from a row on, or the first damage. The arguments: the position of the cutter, the
+-- row, and true if the first frame that moves gives the height.
 readFrom :: Source -> Pulses3 -> Int -> Bool -> Either Damage [Frame]
 readFrom source start begin givesHeight = case LazyList.end found of
   Just (n, fault) -> Left (damage source n fault)
@@ -222,22 +225,22 @@ readFrom source start begin givesHeight = case LazyList.end found of
   where
     found = framesFrom source begin (ModalState.initial givesHeight start)
 
--- | Damage of a row, with the number of its frame.
+-- | Damage for the fault of a row; the second argument is the number of the row's frame.
 damage :: Source -> Maybe Int -> RowFault -> Damage
 damage source n (RowFault at c why) = Damage (1 + tapeIndex source at) n c why
 
 -- | Rows of a tape, prepared for reading.
 data Source = Source
   { layout :: PreparedLayout,
-    -- | all rows
+    -- | all rows of the tape
     raw :: ByteString,
-    -- | the rows that are left when the skipped ones are removed
+    -- | 'raw' without the rows that the code skips
     kept :: ByteString,
-    -- | the same, for access to single rows
+    -- | 'kept' in another type, with fast access to single rows
     line :: ShortByteString,
-    -- | values of rows that are skipped
+    -- | the rows that the code skips, each once; empty if blank rows are 'Counted'
     skipped :: ByteString,
-    -- | the medium; without its blank rows, if these are skipped
+    -- | the medium; if the code skips blank rows, its leader, gap and shift are set to 0
     medium :: Medium,
     -- | symbols after the last frame
     ending :: [Symbol]
@@ -265,7 +268,7 @@ sourceOf layout raw =
         then ByteString.filter (`ByteString.notElem` skipped) raw
         else raw
 
--- | Index on the tape of a row, from its index among the kept rows.
+-- | Converts the index of a row in 'kept' to its index in 'raw'.
 tapeIndex :: Source -> Int -> Int
 tapeIndex source at
   | ByteString.null (skipped source) = at
@@ -278,9 +281,10 @@ tapeIndex source at
         Nothing -> max 0 (ByteString.length (raw source) - 1)
         Just d -> if k <= 0 then from + d else go (k - 1 :: Int) (from + d + 1)
 
--- | Index of the row after the leader. Further blank rows before the opening symbols are skipped on
--- a medium that allows that. Without opening symbols they are not, because they could be the
--- trailer.
+-- | Index of the row after the leader, or the fault of a leader that is too short or has holes.
+--
+-- If blank rows are 'Skipped', further blank rows before the opening symbols are ignored. On a
+-- medium without opening symbols they are not, because they could be the trailer.
 afterLeader :: Source -> Either RowFault Int
 afterLeader source
   | ByteString.null (kept source)
@@ -306,21 +310,21 @@ afterLeader source
             (ByteString.takeWhile (`ByteString.elem` skipped source) (raw source))
         else asked
 
--- | Number of blank rows before the first frame, and after the last.
+-- | Count of blank rows that the medium demands before the first frame, and after the last one.
 leaderLength :: Source -> Int
 leaderLength source = leader (Machine.medium (Layout.machine (layout source)))
 
--- | True for a tape whose blank rows are skipped everywhere.
+-- | True if the code skips blank rows, so that 'kept' contains none.
 skipsBlanks :: Source -> Bool
 skipsBlanks source = ByteString.elem 0 (skipped source)
 
--- | Index of the first row, from the given one on, that is not blank.
+-- | Index in 'kept' of the first row, from the given one on, that is not blank.
 afterBlanks :: Source -> Int -> Int
 afterBlanks source at =
   at + ByteString.length (ByteString.takeWhile (== 0) (ByteString.drop at (kept source)))
 
--- | Frames from a row on as a lazy list. It ends with the first fault and the number of its frame,
--- if there is a fault.
+-- | Frames from a row on as a lazy list. It ends with the first fault and the number of the fault's
+-- frame, or with 'Nothing' at the proper end of the tape.
 framesFrom :: Source -> Int -> State -> LazyList (Maybe (Maybe Int, RowFault)) Frame
 framesFrom source = go
   where
@@ -344,7 +348,8 @@ framesFrom source = go
       Counted -> begin
       Skipped -> afterBlanks source begin
 
--- | Index of the row after @n@ blank rows.
+-- | Index of the row after @n@ blank rows. A row with holes among them is a fault with the given
+-- reason.
 blankRows :: Source -> Reason -> Int -> Int -> Either RowFault Int
 blankRows source why n at
   | n <= 0 = Right at
@@ -359,9 +364,14 @@ blankRows source why n at
 
 -- The end of the tape -----------------------------------------------------------------------------
 
--- | State of the tape at a row where a frame can begin: properly ended, torn, or with further
--- frames.
-data End = Ended | Torn RowFault | Continued
+-- | State of the tape at a row where a frame can begin.
+data End
+  = -- | closing symbols and trailer follow, and nothing else
+    Ended
+  | -- | no frame follows, and the end of the tape is wrong
+    Torn RowFault
+  | -- | another frame follows
+    Continued
 
 endAt :: Source -> Int -> End
 endAt source at = case spare (medium source) of
@@ -380,14 +390,15 @@ endAt source at = case spare (medium source) of
     closer = closing (medium source)
     torn = maybe Continued Torn (tornAt source at)
 
--- | Number of blank rows at the end of the tape, from the number of those that are kept.
+-- | Count of blank rows at the end of the tape. The argument is their count in 'kept'.
 trailerLength :: Source -> Int -> Int
 trailerLength source found
   | skipsBlanks source =
     ByteString.count 0 (ByteString.takeWhileEnd (`ByteString.elem` skipped source) (raw source))
   | otherwise = found
 
--- | Number of blank rows after the closing symbols, if these and nothing else follow from a row on.
+-- | Count of blank rows in 'kept' after the closing symbols, if only these symbols and blank rows
+-- follow from a row on.
 trailerAt :: Source -> Int -> Maybe Int
 trailerAt source at = case FrameReader.expect (layout source) (line source) first cs of
   Right afterSymbols
@@ -400,8 +411,8 @@ trailerAt source at = case FrameReader.expect (layout source) (line source) firs
       Counted -> at
       Skipped -> if null cs then at else afterBlanks source at
 
--- | Fault of a tape that ends at a row in another manner than it should; none if it does not end
--- there.
+-- | Fault of a tape whose frames end at a row, and whose end is wrong: a trailer of a wrong length,
+-- or missing closing symbols. None if rows with other holes follow.
 tornAt :: Source -> Int -> Maybe RowFault
 tornAt source at = case trailerAt source at of
   Just found ->

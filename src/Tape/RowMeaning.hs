@@ -1,7 +1,7 @@
--- | Rows of a tape explained in words.
+-- | Rows of a tape explained in English, for the picture of a tape and for reports.
 --
--- The module puts the meaning of a row, as the layout gives it, into the words of the tape picture.
--- It reads no rows.
+-- The meaning of a row comes from the writer of frames. This module only words it; it does not
+-- interpret holes.
 module Tape.RowMeaning
   ( Row (..),
     row,
@@ -38,17 +38,18 @@ import Tape.Symbol qualified as Symbol
 -- | Row of a tape with its explanation.
 data Row = Row
   { holes :: Word8,
-    -- | number of its frame, from 1; none for rows before the first and after the last frame
+    -- | number of the row's frame, from 1; none for rows before the first and after the last frame
     frame :: Maybe Int,
-    -- | its symbol, as it appears in a text
+    -- | symbol that the code gives to these holes; none if it gives none
     symbol :: Maybe Char,
+    -- | purpose of the row
     kind :: RowKind,
-    -- | its meaning in words
+    -- | the purpose in English, on one line
     meaning :: Text
   }
   deriving stock (Eq, Show)
 
--- | Row with its explanation, from the number of its frame.
+-- | Explains a row; the second argument is the number of its frame, see 'frame'.
 row :: PreparedLayout -> Maybe Int -> MarkedRow -> Row
 row layout n (MarkedRow h _ purpose) =
   Row
@@ -59,7 +60,7 @@ row layout n (MarkedRow h _ purpose) =
       meaning = meaningOf layout purpose
     }
 
--- | Meaning of a row in words.
+-- | English text for the purpose of a row.
 meaningOf :: PreparedLayout -> RowKind -> Text
 meaningOf layout purpose = case purpose of
   Blank Leader -> "leader"
@@ -79,7 +80,7 @@ meaningOf layout purpose = case purpose of
   InWord c _ Point -> Machine.contentName c <> ", point"
   InWord c n (Digit d k use isPunched) ->
     Machine.contentName c
-      <> placeText (formOf c) k
+      <> positionText (formOf c) k
       <> " "
       <> Decimal.whole d
       <> motionAfterDigit c n k
@@ -93,9 +94,10 @@ meaningOf layout purpose = case purpose of
         <> (if n < 0 then "backwards" else "forwards")
     isLeading c d = or [d == a || d == b | Just NumberForm {sign = Priority a b _ _} <- [formOf c]]
 
--- | Name of a digit's place after a space; empty for a number of one digit.
-placeText :: Maybe NumberForm -> Int -> Text
-placeText f k = case f of
+-- | Name of the decimal position of digit @k@ (0 is the last digit), with a space before it:
+-- @" tens"@. Empty for a number of one digit.
+positionText :: Maybe NumberForm -> Int -> Text
+positionText f k = case f of
   Just NumberForm {digits = 1} -> ""
   Just NumberForm {decimals} -> named (k - decimals)
   Nothing -> ""
@@ -118,12 +120,14 @@ placeText f k = case f of
       3 -> "thousandths"
       _ -> "10^-" <> Decimal.whole e
 
--- | Name of a motion, after the last digit of its code.
+-- | Name of the motion with the code @n@, for the last digit of a motion word; empty for all other
+-- digits.
 motionAfterDigit :: Content -> Int -> Int -> Text
 motionAfterDigit c n k = case c of
   Motion codes | k == 0 -> ", " <> motionText codes n
   _ -> ""
 
+-- | Name of the motion with the code @n@.
 motionText :: MotionCodes -> Int -> Text
 motionText codes n
   | n == straight codes = "straight"
@@ -132,7 +136,7 @@ motionText codes n
   | Just n == counterClockwise codes = "counter-clockwise"
   | otherwise = "unknown"
 
--- | Meaning of a hole in the service track.
+-- | Meaning of a hole in the service track, with a comma before it.
 serviceText :: Service -> Text
 serviceText s = case s of
   MinusHole -> ", minus"
@@ -141,14 +145,14 @@ serviceText s = case s of
   BrakingHole -> ", braking"
   NoHole -> ""
 
--- | Symbol as it is written in a sentence.
+-- | Symbol for use in a sentence: in quotation marks; a space and a line feed by their names.
 shown :: Char -> Text
 shown c = case c of
   '\n' -> "LF"
   ' ' -> "space"
   _ -> "‘" <> Text.singleton c <> "’"
 
--- | Word with its number, for a line of a text.
+-- | Content of a word with its number @n@, for the picture of a tape that is a text.
 wordMeaning :: Machine -> Content -> Int -> Text
 wordMeaning machine c n = case (c, [form w | w <- Machine.wordsOf machine, content w == c]) of
   (Motion codes, _) -> motionText codes n

@@ -2,8 +2,8 @@
 
 -- | Symbols of a tape code and their rows, as tables for writing and reading.
 --
--- A code may have a parity track, whose hole makes the number of holes in a row even, and a service
--- track, whose hole marks a digit without changing it.
+-- A code may have a parity track and a service track. A hole in the parity track makes the number
+-- of holes in a row even. A hole in the service track marks a digit and does not change its value.
 module Tape.Symbol
   ( Symbols (..),
     fromMachine,
@@ -34,30 +34,30 @@ import Machine.Machine qualified as Machine
 
 -- | Tables of a tape code.
 data Symbols = Symbols
-  { -- | row of each symbol
+  { -- | row of each symbol, with its parity hole
     rowOf :: Map Char Word8,
-    -- | weight of each symbol in a check sum
+    -- | weight of each symbol in a check sum; a missing symbol has the weight 0
     weightOf :: Map Char Int,
-    -- | symbol of each row
+    -- | symbol of each row, the inverse of 'rowOf'
     nameOf :: Map Word8 Char,
-    -- | rows of the ten digits without a hole in the service track
+    -- | rows of the digits 0 to 9 without a hole in the service track
     digitRows :: ShortByteString,
-    -- | rows of the ten digits with a hole in the service track
+    -- | rows of the digits 0 to 9 with a hole in the service track
     serviceRows :: ShortByteString,
-    -- | weights of the ten digits in a check sum
+    -- | weights of the digits 0 to 9 in a check sum
     digitWeights :: ShortByteString,
-    -- | digit of every row, with or without a hole in the service track; 'noDigit' for all other
-    -- rows
+    -- | digit of each of the 256 rows, with or without a hole in the service track; 'noDigit' for a
+    -- row that is no digit
     digitOf :: ShortByteString,
-    -- | bit of the service track; 0 if there is none
+    -- | bit of the service track; 0 if the code has no service track
     service :: Word8,
-    -- | bits that are no tracks of the tape
+    -- | bits that belong to no track of the tape
     outside :: Word8,
-    -- | the number of holes in a row has to be even
+    -- | true if the number of holes in every row has to be even
     parity :: Bool
   }
 
--- | Symbol with its row, parity hole included, and its weight in a check sum.
+-- | Symbol with its row (parity hole included) and its weight in a check sum.
 data Symbol = Symbol {name :: Char, holes :: Word8, weight :: Int}
 
 -- | Tables for a machine.
@@ -92,22 +92,23 @@ fromMachine machine =
             w <- [withoutServiceHole c, withServiceHole c]
         ]
 
--- | Bits of a row that are no tracks of the tape.
+-- | Bits of a row that belong to no track of the tape.
 outsideMask :: Medium -> Word8
 outsideMask medium = complement (fromIntegral ((1 `shiftL` Machine.tracks medium) - 1 :: Int))
 
--- | Row with the parity hole, if the code has a parity track and the number of holes is odd.
+-- | Row with the hole in the parity track changed if the number of holes is odd; unchanged in a
+-- code without parity.
 withParity :: TapeCode -> Word8 -> Word8
 withParity code w = case Machine.evenTrack code of
   Just k | odd (popCount w) -> w `xor` setBit 0 (k - 1)
   _ -> w
 
--- | Entry of 'digitOf' for a row that is no digit.
+-- | Value in 'digitOf' of a row that is no digit.
 noDigit :: Word8
 noDigit = 10
 
--- | Symbol of a layout. The description of a machine has rows for all symbols of its layout; any
--- other symbol gets a blank row.
+-- | Symbol of this name. A name without a row in the code gets a blank row; a checked machine
+-- description has rows for all symbols of its layout.
 symbol :: Symbols -> Char -> Symbol
 symbol table c =
   Symbol
@@ -128,7 +129,8 @@ serviceDigit table = Short.index (serviceRows table)
 digitWeight :: Symbols -> Int -> Int
 digitWeight table = fromIntegral . Short.index (digitWeights table)
 
--- | Digit of a row, with or without a hole in the service track.
+-- | Digit from 0 to 9 of a row, with or without a hole in the service track; none if the row is no
+-- digit.
 digitAt :: Symbols -> Word8 -> Maybe Int
 digitAt table w =
   let d = Short.index (digitOf table) (fromIntegral w)
@@ -143,17 +145,18 @@ hasServiceHole table w = w .&. service table /= 0
 isOutsideTracks :: Symbols -> Word8 -> Bool
 isOutsideTracks table w = w .&. outside table /= 0
 
--- | True for a row with an odd number of holes, in a code with a parity track.
+-- | True for a row with an odd number of holes; always false in a code without a parity track.
 isOdd :: Symbols -> Word8 -> Bool
 isOdd table w = parity table && odd (popCount w)
 
--- | Symbol of a row; the digit for a digit with a hole in the service track.
+-- | Symbol of a row. A digit with a hole in the service track is that digit.
 symbolAt :: Symbols -> Word8 -> Maybe Char
 symbolAt table w = case Map.lookup w (nameOf table) of
   Just c -> Just c
   Nothing -> intToDigit <$> digitAt table w
 
--- | Index of the row after the given symbols, if these are the rows from index @k@ on; else −1.
+-- | Compares the rows from index @k@ on with the given symbols. Gives the index of the row after
+-- them, or −1 if a row differs or the rows end.
 rowAfter :: ShortByteString -> Int -> [Symbol] -> Int
 rowAfter rows k cs = case cs of
   [] -> k

@@ -12,7 +12,7 @@ import Data.ByteString qualified as ByteString
 import Machine.Machine (Machine)
 import Machine.Machine qualified as Machine
 
--- | Rows of a tape from its beginning; for a text, its bytes.
+-- | Rows of a tape in order, one byte each. For a text in place of a tape, its bytes.
 newtype Tape = Tape ByteString
   deriving newtype (Eq)
   deriving stock (Show)
@@ -21,7 +21,8 @@ newtype Tape = Tape ByteString
 rowCount :: Tape -> Int
 rowCount (Tape rows) = ByteString.length rows
 
--- | Length of a tape in metres, by the pitch of the machine's medium; none for a text.
+-- | Length of a tape in metres: the number of rows times the row pitch of the machine's medium.
+-- None for a text.
 metres :: Machine -> Tape -> Maybe Double
 metres machine tape = case Machine.pitch (Machine.medium machine) of
   Nothing -> Nothing

@@ -1,13 +1,14 @@
--- | The command @partc@ as a user runs it: exit status, streams, files.
+-- | The program @partc@ as a user runs it: exit status, streams, files.
 module Cli.CommandSpec (spec) where
 
 import Command (inFolder, partc)
 import Control.Monad (forM_)
 import Data.Aeson qualified as Aeson
 import Data.ByteString qualified as ByteString
-import Data.ByteString.Lazy qualified as LazyByteString
 import Data.Either (isRight)
 import Data.List (isInfixOf, isPrefixOf)
+import Data.Text qualified as Text
+import Data.Text.Encoding qualified as Encoding
 import Flange qualified
 import System.Directory
   ( createFileLink,
@@ -79,7 +80,7 @@ spec = do
             (code, out) `shouldBe` (ExitFailure 1, "")
             err `shouldSatisfy` isInfixOf "error[E0802]"
             readFile (folder </> "x.tape") `shouldReturn` "keep"
-    it "reports the limit of nested imports, which is not a cycle" $
+    it "reports imports that are nested more than 100 deep, even without a cycle" $
       inFolder $ \folder -> do
         forM_ [0 .. 120 :: Int] $ \k ->
           writeFile
@@ -239,7 +240,7 @@ spec = do
         (code, out, err) <- partc ["decode", "-t", "lkp-01f", folder </> "cut.tape"]
         (code, out) `shouldBe` (ExitFailure 1, "")
         err `shouldSatisfy` isInfixOf "the tape ends within a frame"
-    it "shows the table of the documentation" $ do
+    it "prints the table that the README shows" $ do
       (_, table, _) <- partc ["verify", "examples/flange.part"]
       page <- readFile "README.md"
       page `shouldSatisfy` isInfixOf table
@@ -269,7 +270,7 @@ spec = do
         err `shouldSatisfy` isInfixOf "error[E0105]"
         readFile (folder </> "x.part") `shouldReturn` "part  x\nlet a = (1,\n"
   describe "input sheets" $ do
-    it "compile to the same tape as the program of import, and export gives them back" $
+    it "compile to the same tape as the imported program, and exporting this gives the sheet" $
       inFolder $ \folder -> do
         let there = (folder </>)
         partc ["compile", "examples/spar.sheet", "-o", there "a.tape"]
@@ -297,32 +298,32 @@ spec = do
               (code, out, err) <- partc (arguments <> [folder </> "rib.sheet"])
               (code, out) `shouldBe` (ExitFailure 1, "")
               err `shouldSatisfy` isInfixOf ("error[" <> wanted <> "]")
-    it "with errors give no program" $
+    it "with errors are not converted to a program" $
       inFolder $ \folder -> do
         (code, out, err) <-
           partc ["import", "test/programs/sheet/bad/piece-short.sheet", "-o", folder </> "x.part"]
         (code, out) `shouldBe` (ExitFailure 1, "")
         err `shouldSatisfy` isInfixOf "14623"
         doesFileExist (folder </> "x.part") `shouldReturn` False
-  describe "formats" $ do
-    it "short: one line for each report, and nothing else" $ do
+  describe "formats of reports" $ do
+    it "short writes one line for each report, and nothing else" $ do
       (_, _, err) <-
         partc ["check", "--format", "short", "test/programs/surface/bad/five-mistakes.part"]
       length (lines err) `shouldBe` 5
       lines err `shouldSatisfy` all ("test/programs/surface/bad/five-mistakes.part:" `isPrefixOf`)
-    it "json: one object in each line, and nothing else" $ do
+    it "json writes one object on each line, and nothing else" $ do
       (_, _, err) <-
         partc ["--format", "json", "check", "test/programs/surface/bad/five-mistakes.part"]
       length (lines err) `shouldBe` 5
       filter (not . isJson) (lines err) `shouldBe` []
-    it "colours only when asked, or on a terminal" $ do
+    it "have no colours in a pipe unless --color always is given" $ do
       (_, _, plain) <- partc ["check", "test/programs/surface/bad/five-mistakes.part"]
       (_, _, coloured) <-
         partc ["check", "--color", "always", "test/programs/surface/bad/five-mistakes.part"]
       plain `shouldNotSatisfy` isInfixOf "\ESC["
       coloured `shouldSatisfy` isInfixOf "\ESC["
   describe "the streams" $ do
-    it "a closed pipe is no error, and does not hide one" $ do
+    it "a closed pipe is no error, and errors are still in the exit status" $ do
       (a, _, err) <-
         readCreateProcessWithExitCode
           (shell "partc frames examples/flange.part | head -1 > /dev/null")
@@ -336,12 +337,12 @@ spec = do
           )
           ""
       b `shouldBe` ExitFailure 1
-    it "a full disk is a report" $ do
+    it "a full disk is reported" $ do
       (code, _, err) <-
         readCreateProcessWithExitCode (shell "partc report examples/flange.part > /dev/full") ""
       code `shouldBe` ExitFailure 1
       err `shouldSatisfy` isInfixOf "the disk is full"
-    it "a full disk is a report for help and version too" $
+    it "a full disk is reported for help and version too" $
       mapM_
         ( \command -> do
             (code, _, err) <-
@@ -350,20 +351,20 @@ spec = do
             err `shouldSatisfy` isInfixOf "the disk is full"
         )
         ["--help", "--version", "compile --help"]
-    it "closed standard output is a report" $ do
+    it "a closed standard output is reported" $ do
       (code, _, err) <-
         readCreateProcessWithExitCode (shell "partc report examples/flange.part >&-") ""
       code `shouldBe` ExitFailure 1
       err `shouldSatisfy` isInfixOf "cannot write to standard output: it is closed"
-    it "Cyrillic is intact under any locale" $ do
+    it "Cyrillic letters are written in every locale" $ do
       (code, out, _) <-
         readCreateProcessWithExitCode (shell "LC_ALL=C partc report examples/flange.part") ""
       code `shouldBe` ExitSuccess
       out `shouldSatisfy` isInfixOf "Фланец"
-    it "wrong usage is status 2" $ do
+    it "a wrong command line has the exit status 2" $ do
       (code, _, _) <- partc ["compile"]
       code `shouldBe` ExitFailure 2
-  it "every command explains itself with an example" $
+  it "every subcommand has an example in its help" $
     forM_
       [ "compile",
         "check",
@@ -371,6 +372,7 @@ spec = do
         "frames",
         "report",
         "decode",
+        "tape",
         "plot",
         "import",
         "export-sheet",
@@ -385,13 +387,15 @@ spec = do
           code `shouldBe` ExitSuccess
           out `shouldSatisfy` isInfixOf ("Example: partc " <> command)
 
+-- | True of a line that is a JSON object.
 isJson :: String -> Bool
-isJson l =
+isJson line =
   isRight
-    ( Aeson.eitherDecodeStrict (LazyByteString.toStrict (Aeson.encode l)) ::
-        Either String Aeson.Value
+    ( Aeson.eitherDecodeStrict (Encoding.encodeUtf8 (Text.pack line)) ::
+        Either String Aeson.Object
     )
 
+-- | Copies the program of the flange into a folder.
 copyFlange :: FilePath -> IO ()
 copyFlange folder =
   ByteString.readFile "examples/flange.part" >>= ByteString.writeFile (folder </> "flange.part")

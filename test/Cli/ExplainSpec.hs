@@ -1,4 +1,4 @@
--- | The command @partc explain@.
+-- | The subcommand @partc explain@.
 module Cli.ExplainSpec (spec) where
 
 import Command (partc)
@@ -22,7 +22,7 @@ spec = do
     (code, err) `shouldBe` (ExitSuccess, "")
     lines out `shouldContain` ["E0101  A word or sign stands where another is expected"]
     length (lines out) `shouldSatisfy` (> 80)
-  it "refuses an unknown code, and offers similar ones" $ do
+  it "refuses an unknown code, and suggests similar ones" $ do
     (code, out, err) <- partc ["explain", "E0250"]
     (code, out) `shouldBe` (ExitFailure 1, "")
     take 2 (lines err)
@@ -33,7 +33,7 @@ spec = do
     (code, out, err) <- partc ["explain", "--format", "short", "tangent"]
     (code, out) `shouldBe` (ExitFailure 1, "")
     err `shouldSatisfy` isInfixOf "error[E0809]"
-  it "takes one code at a time" $ do
+  it "refuses more than one code" $ do
     (code, _, err) <- partc ["explain", "E0314", "E0315"]
     code `shouldBe` ExitFailure 2
     err `shouldSatisfy` isPrefixOf "Invalid argument"

@@ -1,4 +1,4 @@
--- | A curve in the tables and in the picture.
+-- | Curves in the tables of nodes and in the drawing.
 module Cli.NodeTableSpec (spec) where
 
 import Base.Decimal qualified as Decimal
@@ -36,7 +36,7 @@ spec =
        ) of
     (Just path, Just analysis) -> do
       it
-        "a curve is one section, with its ends and its whole length (catches a row for each of its \
+        "a curve is one section of the table, with its whole length (catches a row for each of its \
         \arcs)"
         $ do
           let rows =
@@ -50,7 +50,7 @@ spec =
                          [Decimal.fixed 3 (sum [l | s <- waves path, let Mm l = Segment.length s])],
                          ["20.000"]
                        ]
-      it "a curve has one node, at its end (catches a node for each of its arcs)" $
+      it "a curve has nodes only at its ends (catches a node for each of its arcs)" $
         Text.count "<circle" (layer "nodes" (Plot.plot winding path)) `shouldBe` 4
     _ -> it "has a path" (expectationFailure "there is none")
   where

@@ -12,8 +12,10 @@ import Test.Hspec
 
 spec :: Spec
 spec = do
-  it "a right corner keeps r²(1 − π/4) (catches an area on the wrong side of the cutter's edge)" $
-    rows "mill window inside { approach (20, 3)  rest allowed  retract (20, 15) }"
+  it
+    "in a right-angled corner the area r²(1 − π/4) remains (catches an area on the wrong side of \
+    \the cutter)"
+    $ rows "mill window inside { approach (20, 3)  rest allowed  retract (20, 15) }"
       `shouldBe` [ [x, y, "1.931", "inner", "corner"]
                    | (x, y) <-
                        [ ("40.000", "0.000"),
@@ -23,7 +25,8 @@ spec = do
                        ]
                  ]
   it
-    "into a slot of 5 goes a cutter of 4 that leaves 0.5 (catches a diameter without what is left)"
+    "the largest cutter for a slot of 5 mm with an allowance of 0.5 mm has 4 mm (catches a \
+    \diameter without the allowance)"
     $ map
       (take 3 . drop 3)
       ( rows
@@ -32,15 +35,15 @@ spec = do
       )
       `shouldBe` [["3.999", "mm", "narrow"]]
   it
-    "no cutter comes into the corner before a curve (catches the cutter that touches the curve's \
-    \first arc)"
+    "no cutter reaches the corner between a line and a curve (catches a cutter that touches only \
+    \the first arc of the curve)"
     $ map
       (\r -> (take 2 r, drop 3 r))
       (rows "mill wavy left { approach (-10, 20) rapid  rest allowed  retract (90, 40) rapid }")
       `shouldBe` [(["20.000", "0.000"], ["inner", "corner"])]
   it
-    "nor into one at which the contour begins (catches a way round the end that is taken for one \
-    \back to the beginning)"
+    "no cutter reaches the corner at which a closed contour begins (catches a search that goes \
+    \back along the contour instead of past its end)"
     $ map
       (\r -> (take 2 r, drop 3 r))
       ( rows
@@ -48,8 +51,8 @@ spec = do
       )
       `shouldBe` [(["20.000", "0.000"], ["inner", "corner"])]
   it
-    "into a hollow goes what is narrower than its mouth (catches an outer corner that is taken for \
-    \an inner one)"
+    "the largest cutter for a hollow fits through its opening (catches an outer corner that is \
+    \taken for an inner one)"
     $ map
       (drop 3)
       (rows "mill hollow left { approach (-10, 20) rapid  rest allowed  retract (60, 20) rapid }")

@@ -13,7 +13,7 @@ import Test.Hspec
 
 spec :: Spec
 spec = do
-  it "is one log without results when there are no reports" $ do
+  it "gives one log without results if there are no reports" $ do
     (code, out, err) <- partc ["check", "--format", "sarif", "examples/flange.part"]
     (code, out) `shouldBe` (ExitSuccess, "")
     err
@@ -43,7 +43,7 @@ spec = do
     code `shouldBe` ExitSuccess
     out `shouldSatisfy` isInfixOf "frames"
     (isJson err, codesOf err) `shouldBe` (True, [])
-  it "contains the warnings that are errors with --werror" $ do
+  it "contains the warnings if they count as errors (--werror)" $ do
     (code, _, err) <-
       partc
         ["--format", "sarif", "--werror", "check", "test/programs/machine/good/feed-warning.part"]

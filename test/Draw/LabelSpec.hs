@@ -1,4 +1,4 @@
--- | The laws of labels.
+-- | Laws of the placement of labels.
 module Draw.LabelSpec (spec) where
 
 import Base.Decimal qualified as Decimal
@@ -19,14 +19,14 @@ import Test.QuickCheck hiding (label, labels)
 spec :: Spec
 spec =
   describe "labels" $ do
-    it "no two cover one another (catches a long one that is looked for only where it begins)" $
+    it "do not cover each other (catches a long label that is known in one square of paper only)" $
       property $
         forAll labels $ \ls ->
-          let placed = map covered (settled ls)
+          let placed = map covered (placements ls)
            in cover
                 50
                 (length placed > 30)
-                "many"
+                "more than 30 labels"
                 ( and
                     [ not (BoundingBox.meets (BoundingBox.inflate (Mm 0.599) a) b)
                       | (k, a) <- zip [0 :: Int ..] placed,
@@ -34,23 +34,24 @@ spec =
                         k < l
                     ]
                 )
-    it "none is left out where there is room (catches places that are taken twice)" $
+    it "are all placed if there is room (catches a position that counts as taken without a label)" $
       property $
         forAll (choose (1, 8)) $ \n ->
           length
-            ( settled
+            ( placements
                 [ PointLabel "12345" (Vec.point (30 * fromIntegral k) 60) (Vec.vec 0 1) [2]
                   | k <- [1 .. n :: Int]
                 ]
             )
             === n
 
-settled :: [PointLabel] -> [(Point, Text)]
-settled = Label.settle Page.field (BoxTree.index id' [])
+-- | Centres and texts of the labels that are placed on an empty drawing.
+placements :: [PointLabel] -> [(Point, Text)]
+placements = Label.place Page.field (BoxTree.index id' [])
   where
     id' = const (BoundingBox 0 0 0 0)
 
--- | So many on so little paper that they are in one another's way.
+-- | Labels that are so close together that not all of them have room.
 labels :: Gen [PointLabel]
 labels = do
   n <- choose (20, 120)
@@ -64,7 +65,7 @@ labels = do
     label number a x y =
       PointLabel (Decimal.whole number) (Vec.point x y) (Vec.polar (Mm 1) (Rad a)) [1.2, 2, 3, 4]
 
--- | What a text covers about its middle.
+-- | Box that the text of a label covers, about its centre.
 covered :: (Point, Text) -> BoundingBox
 covered (p, caption) = BoundingBox (Vec.x p - w) (Vec.y p - h) (Vec.x p + w) (Vec.y p + h)
   where

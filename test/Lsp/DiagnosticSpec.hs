@@ -1,4 +1,4 @@
--- | Reports as diagnostics, for programs of several files.
+-- | Diagnostics for programs of several files.
 module Lsp.DiagnosticSpec (spec) where
 
 import Base.Region (Region (Region), Source)
@@ -20,7 +20,7 @@ import Test.Hspec
 
 spec :: Spec
 spec = do
-  it "a report on an imported file is at the import and gives the true position" $
+  it "a report on an imported file is at the import statement and gives its position in the file" $
     shown (report Error "E0101" (InSource (Region 9 10)) "wrong")
       `shouldBe` [(at (1, 0), String "/tmp/ж.part:2:3: wrong")]
   it "a report on the whole file is at its beginning" $
@@ -28,7 +28,7 @@ spec = do
   it "a report on the document is at its region" $
     shown (report Error "E0101" (InSource (Region 3 4)) "wrong")
       `shouldBe` [(at (1, 0), String "wrong")]
-  it "a location in the document has the client's address, in another file that of the file" $
+  it "a location in the document has the client's address, one in another file that of its path" $
     map (field "uri" . Location.location uri' source) [Region 3 4, Region 9 10]
       `shouldBe` [String "file:///tmp/%61.part", String "file:///tmp/%D0%B6.part"]
 
@@ -38,7 +38,7 @@ uri' = Uri "file:///tmp/%61.part"
 text' :: Text
 text' = "🙂\r\nx"
 
--- | The document, and after it a file that it imports.
+-- | The source of the document and of a file that it imports.
 source :: Source
 source = Region.addFile "/tmp/ж.part" "a\nbcd" (Region.fromText "/tmp/a.part" text')
 

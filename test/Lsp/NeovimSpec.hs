@@ -1,4 +1,4 @@
--- | Neovim with the set-up of editors/nvim shows the reports of the command line.
+-- | Neovim with the configuration of editors/nvim shows the reports that the command line prints.
 module Lsp.NeovimSpec (spec) where
 
 import Control.Monad (when)
@@ -20,7 +20,7 @@ import Test.Hspec
 
 spec :: Spec
 spec = do
-  it "shows the command line's reports, jumps, hovers, and drops fixed reports" $
+  it "shows the reports, jumps to a definition, shows a hover, and removes reports that are fixed" $
     inFolder $ \folder -> do
       file <- written folder
       expected <- reported file
@@ -39,8 +39,7 @@ spec = do
       [(diagnostics a, jumped a, hover a, fixed a) | a <- [silent, missing]]
         `shouldBe` replicate 2 ([], False, "", False)
 
--- | A diagnostic of Neovim: line and byte of both ends from 0, the code, and whether it is an
--- error.
+-- | A diagnostic of Neovim: line and byte of both ends, from 0; the code; true for an error.
 data Shown = Shown {from :: (Int, Int), to :: (Int, Int), code :: Text, severe :: Bool}
   deriving stock (Eq, Ord, Show)
 
@@ -48,6 +47,9 @@ instance FromJSON Shown where
   parseJSON = withObject "a diagnostic" $ \o ->
     Shown <$> o .: "from" <*> o .: "to" <*> o .: "code" <*> ((== (1 :: Int)) <$> o .: "severity")
 
+-- | What Neovim shows, as the script test/Lsp/neovim.lua writes it: the file type, the diagnostics,
+-- true if the jump was made, the cursor after it, the text of the hover, and true if the reports
+-- are gone after the program is fixed.
 data Answer = Answer
   { filetype :: Text,
     diagnostics :: [Shown],
@@ -68,7 +70,7 @@ instance FromJSON Answer where
         .: "hover" <*> o
         .: "fixed"
 
--- | A program with two mistakes after characters of two and of four bytes.
+-- | A program with two mistakes that come after characters of two and of four bytes.
 program :: Text
 program =
   Text.unlines
@@ -83,12 +85,13 @@ program =
       "let c = (длина, длина)"
     ]
 
+-- | Writes the program into a folder; gives the file.
 written :: FilePath -> IO FilePath
 written folder = file <$ ByteString.writeFile file (Encoding.encodeUtf8 program)
   where
     file = folder </> "деталь.part"
 
--- | The reports of the command line, in the units of Neovim.
+-- | The reports of the command line, with positions as Neovim counts them.
 reported :: FilePath -> IO [Shown]
 reported file = do
   (_, out, err) <-
@@ -99,9 +102,9 @@ reported file = do
     (Text.lines (Text.pack err))
 
 -- | A report of the command line: lines and columns count characters from 1.
-data Report = Report {start :: Place, end :: Place, code' :: Text, severity :: Text}
+data Report = Report {start :: TextPosition, end :: TextPosition, code' :: Text, severity :: Text}
 
-data Place = Place {line :: Int, column :: Int}
+data TextPosition = TextPosition {line :: Int, column :: Int}
 
 instance FromJSON Report where
   parseJSON =
@@ -109,9 +112,10 @@ instance FromJSON Report where
       "a report"
       (\o -> Report <$> o .: "start" <*> o .: "end" <*> o .: "code" <*> o .: "severity")
 
-instance FromJSON Place where
-  parseJSON = withObject "a place" (\o -> Place <$> o .: "line" <*> o .: "column")
+instance FromJSON TextPosition where
+  parseJSON = withObject "a place" (\o -> TextPosition <$> o .: "line" <*> o .: "column")
 
+-- | Converts the positions of a report from characters to bytes.
 inBytes :: Report -> Shown
 inBytes r =
   Shown {from = bytes (start r), to = bytes (end r), code = code' r, severe = severity r == "error"}
@@ -124,9 +128,8 @@ inBytes r =
           )
       )
 
--- | Opens a file in Neovim with this server, and reads what the editor shows. Each wait takes at
--- most
--- @patience@ milliseconds.
+-- | Opens a file in Neovim with this server, and reads what the editor shows. The script waits for
+-- each answer at most @patience@ milliseconds.
 neovim :: Int -> String -> FilePath -> FilePath -> IO Answer
 neovim patience server folder file = do
   there <- findExecutable "nvim"

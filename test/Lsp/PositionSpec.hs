@@ -1,4 +1,4 @@
--- | Positions in UTF-16 code units.
+-- | Laws of positions in UTF-16 code units.
 module Lsp.PositionSpec (spec) where
 
 import Base.Region (Region (..))
@@ -7,7 +7,7 @@ import Data.Text (Text)
 import Data.Text qualified as Text
 import Lsp.Position (LspPosition (..))
 import Lsp.Position qualified as Position
-import Lsp.Talk (placeIn, units)
+import Lsp.Talk (positionIn, units)
 import Test.Hspec
 import Test.Hspec.QuickCheck (prop)
 import Test.QuickCheck
@@ -19,8 +19,8 @@ spec = do
       \text ->
         forAll (offsetIn text) $ \at ->
           let LspPosition {line, character} = Position.position (Region.fromText "a" text) at
-           in (line, character) === placeIn text at
-    prop "what is put before a line's text shifts it by its UTF-16 length"
+           in (line, character) === positionIn text at
+    prop "grows by the UTF-16 length of a text that is inserted before it in the line"
       . forAll ((,,) <$> text' <*> oneLine <*> oneLine)
       $ \(above, put, text) ->
         let front = above <> "\n"
@@ -34,18 +34,18 @@ spec = do
         let source =
               Region.fromText "a" text
          in Position.offset source (Position.position source at) === at
-    prop "is total, and never outside the text"
+    prop "lies within the text for every position"
       . forAll ((,,) <$> text' <*> chooseInt (-3, 20) <*> chooseInt (-3, 20))
       $ \(text, line, character) ->
         let at =
               Position.offset (Region.fromText "a" text) LspPosition {line, character}
          in at >= 0 && at <= Text.length text
-    it "takes a position within a surrogate pair as the beginning of the character" $
+    it "of a position within a surrogate pair is the beginning of the character" $
       Position.offset (Region.fromText "a" "ж🙂b") LspPosition {line = 0, character = 2} `shouldBe` 1
-    it "takes a position after its line as the end of the line" $
+    it "of a position beyond the end of its line is the end of the line" $
       Position.offset (Region.fromText "a" "ab\r\nc") LspPosition {line = 0, character = 9}
         `shouldBe` 2
-    it "takes a line after the text as its end, however large its number" $
+    it "of a line beyond the end of the text is the end of the text, even for the largest numbers" $
       [ Position.offset (Region.fromText "a" "ab\nc") LspPosition {line, character}
         | (line, character) <- [(7, 0), (maxBound, 0), (maxBound, maxBound), (1, maxBound)]
       ]
@@ -64,7 +64,7 @@ text' = Text.pack <$> listOf (elements "ab 1ж€🙂𝔸\n\r\t")
 oneLine :: Gen Text
 oneLine = Text.pack <$> listOf (elements "ab 1ж€🙂𝔸\t")
 
--- | An offset that a position can express: not between CR and LF.
+-- | An offset that has a position of its own, so none between CR and LF.
 offsetIn :: Text -> Gen Int
 offsetIn text =
   chooseInt (0, Text.length text) `suchThat` \at ->

@@ -1,4 +1,4 @@
--- | The server as an editor starts it: streams, exit status, time.
+-- | The language server as an editor starts it: streams, exit status, timing.
 module Lsp.ServerSpec (spec) where
 
 import Base.Crash (bug)
@@ -42,7 +42,7 @@ import Test.Hspec
 
 spec :: Spec
 spec = do
-  it "under LC_ALL=C, with what editors pass, it speaks the protocol and nothing else" $
+  it "writes nothing but messages, under LC_ALL=C and with the options that editors pass" $
     forM_ [["--stdio"], ["--clientProcessId=1"], ["--clientProcessId", "1"], []] $ \arguments -> do
       (status, rest, answers) <-
         conversation
@@ -58,7 +58,8 @@ spec = do
       Aeson.encode answers `shouldSatisfy` LazyByteString.isPrefixOf "["
       field "result" (answers !! 1) `shouldNotBe` Null
   it
-    "exit without shutdown, and the end of input, are status 1; the end after shutdown is no fault"
+    "has the exit status 1 for an exit without shutdown and for the end of the input, and 0 after \
+    \shutdown"
     $ do
       (a, _, _) <- conversation [] (opening <> [notice "exit" Null])
       (b, _, _) <- conversation [] opening
@@ -68,7 +69,7 @@ spec = do
           []
           (opening <> [question 1 "shutdown" Null, notice "exit" Null, question 2 "shutdown" Null])
       [a, b, c, d] `shouldBe` [ExitFailure 1, ExitFailure 1, ExitFailure 1, ExitSuccess]
-  it "input that is not a message is refused, and the server continues" $ do
+  it "refuses input that is not a message, and continues" $ do
     (status, _, answers) <-
       conversation
         []
@@ -80,7 +81,7 @@ spec = do
     map (field "code" . field "error") (take 4 (drop 1 answers))
       `shouldBe` map Number [-32700, -32600, -32600, -32700]
     field "id" (last answers) `shouldBe` Number 4
-  it "publishes when the text has rested, without a request" $
+  it "publishes diagnostics after the last of several changes, without a request" $
     talking [] $ \to from -> do
       mapM_ (send to) opening
       (_, first) <- diagnosticsFrom "" from
@@ -100,7 +101,7 @@ spec = do
           )
       (_, second) <- diagnosticsFrom "" from
       version second `shouldBe` Number 9
-  it "an exception refuses its own request, is reported, and the server continues" $
+  it "refuses a request that raises an exception, publishes the exception, and continues" $
     inProcess
       ( \loaded ->
           if "нет" `Text.isInfixOf` Region.text (LoadedProgram.source loaded)
@@ -125,7 +126,8 @@ spec = do
                 )
             )
           send to (question 2 "textDocument/hover" (about addressOf (0, 4)))
-          -- While the server waits, nothing else runs in this process; so the order is not fixed.
+          -- In this process the server's waiting blocks the test, so the two messages may come in
+          -- either order.
           (d, one) <- nextFrom c from
           (_, other) <- nextFrom d from
           field "id" welcome `shouldBe` Number 0
@@ -138,7 +140,7 @@ spec = do
             _ -> False
           [(version m, codes m) | m <- [one, other], field "id" m == Null]
             `shouldBe` [(Number 2, [String "E0215"])]
-  it "takes a long text in one message" $ do
+  it "reads a message of several megabytes" $ do
     flange <- readText "examples/flange.part"
     let long = flange <> Text.replicate 40000 "-- шестьдесят 🙂\n"
     (status, _, answers) <-
@@ -160,6 +162,7 @@ spec = do
       String name -> Just name
       _ -> Nothing
 
+-- | The first messages of a conversation: they open a program with one mistake.
 opening :: [ByteString]
 opening =
   [ initialize,
@@ -200,8 +203,8 @@ encoded fields =
 send :: Handle -> ByteString -> IO ()
 send to message = ByteString.hPut to (Transport.framed message) *> hFlush to
 
--- | Sends messages and closes the stream: the exit status, the bytes after the last message, the
--- messages other than diagnostics.
+-- | Sends messages and closes the stream. The result: the exit status, the bytes after the server's
+-- last message, and its messages other than diagnostics.
 conversation :: [String] -> [ByteString] -> IO (ExitCode, ByteString, [Value])
 conversation arguments messages = within . withServer arguments $ \to from process -> do
   ByteString.hPut to (ByteString.concat (map Transport.framed messages))
@@ -211,16 +214,17 @@ conversation arguments messages = within . withServer arguments $ \to from proce
   let (rest, answers) = unframed out
   pure (status, rest, [a | a <- answers, field "method" a == Null])
 
+-- | All messages of some bytes, and the bytes after them.
 unframed :: ByteString -> (ByteString, [Value])
 unframed bytes = case Transport.next bytes of
   Complete body rest | Just value <- Aeson.decodeStrict body -> (value :) <$> unframed rest
   _ -> (bytes, [])
 
--- | Talks to a server, and ends it.
+-- | Runs an action with the streams of a server, then ends the server.
 talking :: [String] -> (Handle -> Handle -> IO ()) -> IO ()
 talking arguments act = void . within . withServer arguments $ \to from _ -> act to from
 
--- | The next message, and the bytes received after it.
+-- | The next message and the bytes received after it. The bytes given were received before.
 nextFrom :: ByteString -> Handle -> IO (ByteString, Value)
 nextFrom waiting from = case Transport.next waiting of
   Complete body rest | Just value <- Aeson.decodeStrict body -> pure (rest, value)
@@ -229,7 +233,7 @@ nextFrom waiting from = case Transport.next waiting of
     if ByteString.null bytes then fail "the server is gone" else nextFrom (waiting <> bytes) from
   _ -> fail "this is not the protocol"
 
--- | The next diagnostics.
+-- | The next message with diagnostics; other messages are dropped.
 diagnosticsFrom :: ByteString -> Handle -> IO (ByteString, Value)
 diagnosticsFrom waiting from = do
   (rest, value) <- nextFrom waiting from
@@ -242,7 +246,8 @@ diagnosticsOf message = case field "diagnostics" (field "params" message) of
   Array ds -> foldMap pure ds
   _ -> []
 
--- | Talks to a server in this process, with this check of the program.
+-- | Runs an action with the streams of a server in this process, which finds mistakes by the given
+-- function.
 inProcess :: Check -> (Handle -> Handle -> IO ()) -> IO ()
 inProcess check act = within $ do
   (input, to) <- createPipe
@@ -267,6 +272,7 @@ inProcess check act = within $ do
 within :: IO a -> IO a
 within act = timeout 30000000 act >>= maybe (fail "the server did not answer in time") pure
 
+-- | Runs an action with a server in a process of its own, with these options.
 withServer :: [String] -> (Handle -> Handle -> ProcessHandle -> IO a) -> IO a
 withServer arguments act = bracket begin end (\(to, from, process) -> act to from process)
   where

@@ -1,4 +1,4 @@
--- | The conversation with an editor: its order, its texts, its diagnostics.
+-- | Laws of the conversation with an editor: order of messages, edits, diagnostics, answers.
 module Lsp.SessionSpec (spec) where
 
 import Base.Region qualified as Region
@@ -25,15 +25,15 @@ import Test.QuickCheck hiding (Failure)
 spec :: Spec
 spec = do
   describe "the order of a conversation" $ do
-    it "nothing is answered before initialize" $
+    it "requests before initialize are refused" $
       refusals (say (Request (Number 1) "textDocument/hover" Null) begin)
         `shouldBe` [(Number 1, NotInitialized)]
-    it "notifications before initialize are dropped" $
+    it "notifications before initialize are ignored" $
       heard (pause 900 (open addressOf 1 "x" begin)) `shouldBe` []
-    it "initialize is answered once" $
+    it "a second initialize is refused" $
       refusals (say (Request (String "two") "initialize" Null) (running (object [])))
         `shouldBe` [(String "two", InvalidRequest)]
-    it "unknown requests are refused, unknown notifications ignored" $ do
+    it "unknown requests are refused, unknown notifications are ignored" $ do
       refusals (say (Request (Number 7) "textDocument/frobnicate" Null) ready)
         `shouldBe` [(Number 7, MethodNotFound)]
       heard (say (Notification "$/setTrace" Null) ready) `shouldBe` []
@@ -43,9 +43,9 @@ spec = do
     it "wrong parameters are refused" $
       refusals (say (Request (Number 7) "textDocument/hover" (String "no")) ready)
         `shouldBe` [(Number 7, InvalidParams)]
-    it "a document that is not open has no answers" $
+    it "a request about a document that is not open has the answer null" $
       ask "textDocument/hover" (about "file:///tmp/other.part" (0, 0)) ready `shouldBe` Right Null
-    it "after shutdown nothing is answered, and exit is orderly" $ do
+    it "requests after shutdown are refused, and exit is orderly" $ do
       let gone = say (Request (Number 1) "shutdown" Null) ready
       heard gone `shouldBe` [Send (Result (Number 1) Null)]
       refusals (say (Request (Number 2) "textDocument/hover" Null) gone)
@@ -59,11 +59,11 @@ spec = do
         `shouldSatisfy` \case
           [(String "file:///tmp/%d1%84.part", Number 0, [Squiggle {code = "E0201"}])] -> True
           _ -> False
-    it "wait until the text has rested" $ do
+    it "are published 200 ms after a change" $ do
       let touched = replace addressOf 2 right (opened wrong)
       length (published (pause 199 touched)) `shouldBe` 1
       length (published (pause 200 touched)) `shouldBe` 2
-    it "of fast edits are those of the last text, once" $ do
+    it "of fast edits are published once, for the last text" $ do
       let fast =
             pause
               500
@@ -74,18 +74,18 @@ spec = do
               )
       map (\(_, v, found) -> (v, map code found)) (drop 1 (published fast))
         `shouldBe` [(Number 40, [])]
-    it "are gone after the fix" $
+    it "are removed after the mistake is fixed" $
       map
         (\(_, _, found) -> map code found)
         (published (pause 200 (replace addressOf 2 right (opened wrong))))
         `shouldBe` [["E0201"], []]
-    it "are gone after closing" $
+    it "are removed when the document is closed" $
       map (\(u, _, found) -> (u, map code found)) (published (close addressOf (opened wrong)))
         `shouldBe` [(String addressOf, ["E0201"]), (String addressOf, [])]
-    it "do not come after closing" $
+    it "are not published after the document is closed" $
       length (published (pause 900 (close addressOf (replace addressOf 2 wrong (opened wrong)))))
         `shouldBe` 2
-    it "come although an answer came first" $
+    it "are published although a request was answered before" $
       length
         ( published
             ( pause
@@ -97,7 +97,7 @@ spec = do
             )
         )
         `shouldBe` 1
-    it "follow an imported file that is edited in another window" $ do
+    it "change when an imported file is edited in another window" $ do
       let both =
             pause
               500
@@ -121,13 +121,13 @@ spec = do
         (field "line" . field "start" . field "range")
         (ask "textDocument/definition" (about addressOf (2, 9)) mended)
         `shouldBe` Right (Number 2)
-    it "come when a missing import is opened" $ do
+    it "change when a missing import is opened" $ do
       let alone = pause 500 (open addressOf 1 importing ready)
           found = pause 500 (open "file:///tmp/pins.part" 1 "part pins\nlet pin = 3 mm\n" alone)
           latest talk =
             [map code there | (String u, _, there) <- reverse (published talk), u == addressOf]
       map (take 1 . latest) [alone, found] `shouldBe` [[["E0112"]], [[]]]
-    it "of an imported file are at the import, and name the file" $ do
+    it "of an imported file are at the import statement, and name the file" $ do
       let talk =
             pause
               500
@@ -140,12 +140,12 @@ spec = do
       let facts f = (from f, code f, "pins.part:2" `Text.isInfixOf` message f)
       [map facts found | (String u, _, found) <- published talk, u == addressOf]
         `shouldBe` [[((1, 7), "E0206", True)]]
-    it "have the hint and the related regions in the message, for clients without them" $
+    it "have hints in the message, and related regions too if the client cannot show them" $
       map message (squiggles (header <> "let a = 1\nlet a = 2\n"))
         `shouldBe` [ "‘a’ is defined twice\ndefined again here\nline 7: first defined here\nhint: \
                      \Give one of them another name."
                    ]
-    it "have the related regions apart when the client can show them" $ do
+    it "have related regions of their own if the client can show them" $ do
       let talk =
             pause
               0
@@ -175,9 +175,9 @@ spec = do
                            )
                        )
                    ]
-    it "of a text with a byte order mark are where the client sees them" $
+    it "of a text with a byte order mark count this mark as a character" $
       map from (squiggles ("\xFEFFpart p junk\n" <> Text.drop 7 header)) `shouldBe` [(0, 8)]
-    prop "a text with Cyrillic and emoji before the place shifts its columns by its UTF-16 length"
+    prop "are shifted by the UTF-16 length of a text that is inserted before them in the line"
       . forAll (listOf (elements "aж€🙂𝔸 -"))
       $ \put ->
         let title = Text.pack put
@@ -185,10 +185,10 @@ spec = do
               (\s -> (from s, to s))
               (squiggles ("part p \"" <> title <> "\" junk\n" <> Text.drop 7 header))
               === [((0, 10 + units title), (0, 14 + units title))]
-    prop "lines that end with LF, CR and CR LF have the same places" . forAll broken $ \text ->
+    prop "have the same positions in lines that end with LF, CR or CR LF" . forAll broken $ \text ->
       let ended end = squiggles (Text.intercalate end (Text.splitOn "\n" text))
        in conjoin [ended "\r\n" === ended "\n", ended "\r" === ended "\n"]
-    prop "after any edits are those of the final text in a fresh session" . forAll edits $
+    prop "after any edits are those of the final text in a new session" . forAll edits $
       \(first, steps) ->
         let (final, talk) = foldl edited (first, opened first) (zip [2 ..] steps)
             (_, version, found) = last (published (pause 200 talk))
@@ -202,18 +202,18 @@ spec = do
       forM_ programs $ \file -> do
         text <- readText file
         map (\s -> (from s, to s, code s)) (squiggles text) `shouldBe` reported text
-    it "nothing kills the server: every request at every position of every program" $
+    it "every request at every position of every program has an answer" $
       forM_ programs $ \file -> do
         text <- readText file
         let talk = opened text
-            places =
+            positions =
               [ (line, character)
                 | (line, content) <- zip [0 ..] (Text.lines text <> ["", ""]),
                   character <- [0 .. Text.length content + 1]
               ]
         lefts
-          [ ask method (about addressOf place) talk
-            | place <- places,
+          [ ask method (about addressOf position) talk
+            | position <- positions,
               method <- ["textDocument/hover", "textDocument/definition"]
           ]
           `shouldBe` []
@@ -253,7 +253,7 @@ reported text =
   where
     result = Snapshot.checkWith [] (LoadedProgram.fromText "/tmp/a.part" text)
     ends end r = case Report.place r of
-      InSource region -> placeIn text (end region)
+      InSource region -> positionIn text (end region)
       InTape _ -> (0, 0)
       InFile -> (0, 0)
 
@@ -296,7 +296,8 @@ edited (text, talk) (version, steps) =
        in ( Text.take begin' old <> put <> Text.drop end' old,
             object
               [ "range"
-                  .= object ["start" .= at (placeIn old begin'), "end" .= at (placeIn old end')],
+                  .= object
+                    ["start" .= at (positionIn old begin'), "end" .= at (positionIn old end')],
                 "text" .= put
               ]
           )

@@ -1,4 +1,5 @@
--- | A client for tests: a session without processes, and a simulated clock.
+-- | A client for tests. It talks to a session directly, without a process, and has a simulated
+-- clock.
 module Lsp.Talk
   ( Talk,
     begin,
@@ -20,7 +21,7 @@ module Lsp.Talk
     at,
     field,
     units,
-    placeIn,
+    positionIn,
   )
 where
 
@@ -40,7 +41,8 @@ import Project.LoadedProgram qualified as LoadedProgram
 import Query.Snapshot qualified as Snapshot
 import Surface.Import qualified as Import
 
--- | A session, the time in ms, and all messages sent so far, the last first.
+-- | A conversation: the session, the time in ms, and all effects of the server so far, the last one
+-- first.
 data Talk = Talk Session Int [Effect]
 
 -- | The state before the first message.
@@ -65,6 +67,7 @@ running capabilities = Talk session now []
 say :: Incoming -> Talk -> Talk
 say incoming = happen (Received incoming)
 
+-- | Brings the awaited snapshots and handles an event.
 happen :: Event -> Talk -> Talk
 happen event (Talk session now sent) = Talk session' now (reverse effects <> sent)
   where
@@ -83,7 +86,7 @@ happen event (Talk session now sent) = Talk session' now (reverse effects <> sen
     opened s there =
       Identity (maybe (Left "it is not open") Right (Session.openText s (Text.pack there)))
 
--- | Lets time pass, in ms.
+-- | Lets the clock advance by a time in ms; deadlines within it are handled.
 pause :: Int -> Talk -> Talk
 pause milliseconds talk@(Talk session now sent) = case Session.deadline session of
   Just (Milliseconds due)
@@ -91,7 +94,7 @@ pause milliseconds talk@(Talk session now sent) = case Session.deadline session 
       pause (now + milliseconds - max now due) (happen Due (Talk session (max now due) sent))
   _ -> let Talk s _ e = talk in Talk s (now + milliseconds) e
 
--- | All messages sent so far, in order.
+-- | All effects of the server so far, in order.
 heard :: Talk -> [Effect]
 heard (Talk _ _ sent) = reverse sent
 
@@ -137,6 +140,7 @@ change uri version edits =
 replace :: Text -> Int -> Text -> Talk -> Talk
 replace uri version text = change uri version [object ["text" .= text]]
 
+-- | Closes an open text.
 close :: Text -> Talk -> Talk
 close uri =
   say (Notification "textDocument/didClose" (object ["textDocument" .= object ["uri" .= uri]]))
@@ -145,7 +149,7 @@ close uri =
 textOf :: Text -> Talk -> Maybe Text
 textOf path (Talk session _ _) = Session.openText session path
 
--- | The published diagnostics, with address and version.
+-- | All published diagnostics in order, each set with its address and version.
 published :: Talk -> [(Value, Value, [Squiggle])]
 published talk =
   [ (field "uri" p, field "version" p, map squiggle (list (field "diagnostics" p)))
@@ -176,13 +180,13 @@ int v = case v of
   Number n -> round n
   _ -> error ("no number: " <> show v)
 
--- | The diagnostics of a newly opened text.
+-- | The diagnostics that are published when a text is opened.
 squiggles :: Text -> [Squiggle]
 squiggles text = case published (pause 0 (open addressOf 1 text (running (object [])))) of
   [(_, _, found)] -> found
   other -> error (show other)
 
--- | An arbitrary address.
+-- | The address that most tests use.
 addressOf :: Text
 addressOf = "file:///tmp/a.part"
 
@@ -191,7 +195,7 @@ about :: Text -> (Int, Int) -> Value
 about uri (line, character) =
   object ["textDocument" .= object ["uri" .= uri], "position" .= at (line, character)]
 
--- | A position.
+-- | A position of the protocol: line and character.
 at :: (Int, Int) -> Value
 at (line, character) = object ["line" .= line, "character" .= character]
 
@@ -210,9 +214,9 @@ list v = case v of
 units :: Text -> Int
 units text = ByteString.length (Encoding.encodeUtf16LE text) `div` 2
 
--- | The line and the UTF-16 code units of an offset, by counting all characters before it.
-placeIn :: Text -> Int -> (Int, Int)
-placeIn text offset = go 0 "" (Text.unpack (Text.take offset text)) (Text.drop offset text)
+-- | The line and the UTF-16 code units of an offset, counted over all characters before it.
+positionIn :: Text -> Int -> (Int, Int)
+positionIn text offset = go 0 "" (Text.unpack (Text.take offset text)) (Text.drop offset text)
   where
     go line current before after = case before of
       [] -> (line, units (Text.pack (reverse current)))

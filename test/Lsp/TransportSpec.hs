@@ -13,20 +13,21 @@ import Test.QuickCheck
 
 spec :: Spec
 spec = do
-  prop "messages come out as they went in, however the bytes arrive" . forAll (listOf body) $
-    \bodies ->
+  prop "messages are received as they were sent, in whatever pieces the bytes arrive"
+    . forAll (listOf body)
+    $ \bodies ->
       forAll (cut (ByteString.concat (map Transport.framed bodies))) $ \pieces ->
         received "" pieces === bodies
   it "counts bytes, not characters" $
     Transport.framed (Encoding.encodeUtf8 "ж🙂")
       `shouldSatisfy` ByteString.isPrefixOf "Content-Length: 6\r\n\r\n"
-  it "takes other headers, and names in any case" $
+  it "accepts further header fields, and field names in any case" $
     Transport.next
       "Content-Type: application/vscode-jsonrpc; charset=utf-8\r\ncontent-length:2\r\n\r\n{}rest"
       `shouldBe` Complete "{}" "rest"
-  it "says how much is missing" $
+  it "gives the count of missing bytes" $
     Transport.next "Content-Length: 5\r\n\r\n{}" `shouldBe` Incomplete 3
-  it "passes over a header without a length, or with one that cannot be" $
+  it "skips a header without a length or with an impossible one" $
     map
       Transport.next
       [ "X: 1\r\n\r\nrest",
@@ -36,8 +37,8 @@ spec = do
       ]
       `shouldBe` replicate 4 (Headless "rest")
   it
-    "finds the next message after one whose header has no length (catches a stream \
-    \that stays deaf)"
+    "finds the next message after one whose header has no length (catches a server that never \
+    \reads again)"
     $ case Transport.next "X: 1\r\n\r\n{\"a\": 1}Content-Length: 2\r\n\r\n{}rest" of
       Headless rest -> Transport.next rest `shouldBe` Complete "{}" "rest"
       other -> expectationFailure (show other)

@@ -1,4 +1,4 @@
--- | Excerpts of a program with marks under them.
+-- | Law of the excerpts of a program: each mark is under the region that it means.
 module Report.ExcerptSpec (spec) where
 
 import Base.Region (Region (..))
@@ -13,14 +13,13 @@ import Test.QuickCheck
 spec :: Spec
 spec =
   it
-    "marks stand under what they mean (catches the window of one mark under which another one is \
-    \put)"
+    "marks are under the regions that they mean (catches a mark under the window of another mark)"
     $ property $
       forAll text $ \content ->
         forAll (sort <$> listOf1 (spot content)) $ \spots ->
           let source = Region.fromText "a.part" (Text.pack content)
               found = Excerpt.excerpts source [Region from to | (from, to) <- spots]
-              -- The line that is printed last before the mark.
+              -- For each mark, the line above it.
               printed = drop 1 (scanl (\line e -> if isSame e then line else shown e) "" found)
               under =
                 [ Text.unpack (Text.take (width e) (Text.drop (indent e) line))
@@ -35,7 +34,7 @@ spec =
                 )
   where
     text = unlines <$> listOf1 (choose (1, 300) >>= \n -> vectorOf n (elements ['a' .. 'z']))
-    -- On one line, and no longer than is shown of it.
+    -- A region on one line that is not longer than the window.
     spot content = do
       (begin, line) <-
         elements (zip (scanl (\at l -> at + length l + 1) 0 (lines content)) (lines content))

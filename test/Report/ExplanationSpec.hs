@@ -1,5 +1,5 @@
--- | Every code is explained, and the explanations are true: the wrong programs raise their codes,
--- the right ones raise nothing.
+-- | Every code has an explanation, and its examples are right: the wrong program raises the code,
+-- the corrected one raises no report.
 module Report.ExplanationSpec (spec) where
 
 import Base.Region qualified as Region
@@ -22,8 +22,8 @@ import System.Directory (listDirectory)
 import System.FilePath (dropExtension, takeExtension, (</>))
 import Test.Hspec hiding (Example)
 
--- | The codes that no text of a program can raise, by what raises them. Their wrong example shows
--- how it comes about; all other codes are shown by a program.
+-- | The codes that no part program can raise, grouped by what raises them. Their examples are lines
+-- of a terminal or rows of a tape; those of all other codes are programs.
 raisedElsewhere :: [(String, [Text])]
 raisedElsewhere =
   [ ("a program that no page holds", ["E0116"]),
@@ -108,7 +108,8 @@ raisedElsewhere =
     )
   ]
 
--- | Where the Minsk-22 system stopped, an explanation says so just as the report does.
+-- | Control stops of the Minsk-22 system. If a report mentions one of them, so does its
+-- explanation.
 controlStops :: [Text]
 controlStops = ["14174", "14441", "14623", "15074", "17533", "17535"]
 
@@ -117,7 +118,7 @@ spec = do
   names <- runIO (sort . filter ((== ".md") . takeExtension) <$> listDirectory "explain")
   found <- runIO (traverse readOne names)
   describe "the folder explain/" $ do
-    it "explains every code that there is, and no other" $ do
+    it "explains every code of the sources, and no other" $ do
       codes <- Codes.inSources
       let explained = Set.fromList (map (Text.pack . dropExtension) names)
           lacking c = "the code " <> c <> " lacks an explanation: write explain/" <> c <> ".md"
@@ -125,10 +126,10 @@ spec = do
       map lacking (Set.toList (Set.difference codes explained)) `shouldBe` []
       map needless (Set.toList (Set.difference explained codes)) `shouldBe` []
     it
-      "has one form: # CODE: title, paragraphs, a block of ```part wrong or ```text wrong, and one \
-      \with right"
+      "has files of one form: # CODE: title, paragraphs, a block ```part wrong or ```text wrong, a \
+      \block with right"
       $ [file <> " is not of this form" | file <- lefts found] `shouldBe` []
-    it "is in the program as it is" $ do
+    it "is embedded in the program unchanged" $ do
       contents <- traverse (ByteString.readFile . ("explain" </>)) names
       sort (map fst Embedded.files) `shouldBe` names
       [file | (file, content) <- zip names contents, lookup file Embedded.files /= Just content]
@@ -150,7 +151,7 @@ spec = do
             let isReported stop = any (any (Text.isInfixOf stop) . Report.message) reports
                 isExplained stop = Text.isInfixOf stop (prose e)
             filter (\stop -> isReported stop /= isExplained stop) controlStops `shouldBe` []
-            -- On this machine a program that drills is warned: the source knows no moves in z.
+            -- The machine of the examples does not drive the z axis, so drilling raises a warning.
             let isUnwanted r =
                   Report.isError r
                     || Report.code r == code e
@@ -161,22 +162,22 @@ spec = do
         asked word = [c | e <- Explanation.find word, let ReportCode c = code e]
     it "finds every code as a report writes it" $
       [c | c <- codes, asked c /= [c] || asked ("error[" <> c <> "]") /= [c]] `shouldBe` []
-    it "does not mind small letters, missing zeros and spaces" $
+    it "accepts small letters, spaces, and codes without letter or leading zeros" $
       map asked ["e0314", " E314 ", "314", "w501", "0314"]
         `shouldBe` [["E0314"], ["E0314"], ["E0314"], ["W0501"], ["E0314"]]
-    it "finds both when only the letter tells them apart" $
+    it "finds the error and the warning of a number without a letter" $
       asked "501" `shouldBe` ["E0501", "W0501"]
-    it "finds nothing in other words" $
+    it "finds nothing for a word that is no code" $
       map asked ["", "E", "E9999", "EE314", "E03l4", "E31415", "E00000314 5"]
         `shouldBe` replicate 7 []
   describe "near" $ do
-    it "exchanges digits" $
+    it "suggests a code with two digits exchanged" $
       take 1 (Explanation.near "E0250") `shouldBe` ["E0205"]
-    it "exchanges the letter" $
+    it "suggests the code with the other letter" $
       Explanation.near "w0314" `shouldBe` ["E0314"]
-    it "finds the neighbours of a number that is not taken" $
+    it "suggests neighbours of a number that no code has" $
       Explanation.near "E0400" `shouldSatisfy` elem "E0401"
-    it "offers nothing for what is no code" $
+    it "suggests nothing for a word that is no code" $
       map Explanation.near ["", "tangent", "E9999"] `shouldBe` [[], [], []]
   where
     readOne file =

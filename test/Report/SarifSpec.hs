@@ -1,4 +1,4 @@
--- | Logs in SARIF: what they say, and that the published schema of version 2.1.0 accepts them.
+-- | Logs in SARIF: their content, and that the published schema of version 2.1.0 accepts them.
 module Report.SarifSpec (spec) where
 
 import Base.Region (Region (..))
@@ -39,16 +39,16 @@ spec = do
     it "accepts every report that a program of the explanations raises" $ do
       length everyReport `shouldSatisfy` (> 60)
       validated (logged everyReport) `shouldReturn` (ExitSuccess, "")
-    it "accepts reports on a tape, on a file, on nothing, and without an explanation" $
+    it "accepts reports on a tape, on a file, without a file, and without an explanation" $
       validated (logged [onTape, onFile, onNothing, unexplained]) `shouldReturn` (ExitSuccess, "")
-    it "is really asked: a log without its version is refused" $ do
+    it "refuses a log without its version (catches a test that does not ask the schema)" $ do
       (code, _) <- validated "{\"runs\": []}"
       code `shouldNotBe` ExitSuccess
   describe "a log" $ do
-    it "is the same for the same reports, and says the program's name but no version" $ do
+    it "is the same for the same reports, and does not contain the version of partc" $ do
       logged everyReport `shouldBe` logged everyReport
       logged everyReport `shouldNotSatisfy` Text.isInfixOf "ersion\":\"0"
-    it "lists each code that occurs once as a rule, and points at it" $ do
+    it "has each code that occurs as one rule, and the results refer to the rules" $ do
       let log' = decoded (logged (everyReport <> [onTape, onFile]))
           rules = log' `at` "runs" `at` "tool" `at` "driver" `at` "rules"
           ids = [i | r <- items rules, Just i <- [textAt r "id"]]
@@ -59,7 +59,7 @@ spec = do
                      | r <- results,
                        Aeson.Success i <- [Aeson.fromJSON (r `at` "ruleIndex")]
                    ]
-    it "counts columns in characters, and ends behind the last one" $
+    it "counts columns in characters, and a region ends after its last character" $
       let region =
             head (items (decoded (logged [inProgram]) `at` "runs" `at` "results"))
               `at` "locations"
@@ -72,7 +72,7 @@ spec = do
                 "endLine" .= (2 :: Int),
                 "endColumn" .= (8 :: Int)
               ]
-    it "has the row of a tape as a byte of it" $
+    it "gives the row of a tape as one byte of the file" $
       head (items (decoded (logged [onTape]) `at` "runs" `at` "results"))
         `at` "locations"
         `at` "physicalLocation"
@@ -80,14 +80,14 @@ spec = do
           [ "artifactLocation" .= object ["uri" .= ("x.tape" :: Text)],
             "region" .= object ["byteOffset" .= (299 :: Int), "byteLength" .= (1 :: Int)]
           ]
-    it "has no place when there is no file" $
+    it "has no location for a report without a file" $
       head (items (decoded (logged [onNothing]) `at` "runs" `at` "results"))
         `at` "locations" `shouldBe` Aeson.toJSON ([] :: [Value])
-    it "doubles braces, which would be placeholders" $
+    it "doubles braces, because single ones would enclose placeholders" $
       head (items (decoded (logged [inProgram]) `at` "runs" `at` "results")) `at` "message"
         `shouldBe` object
           ["text" .= ("found ‘{{’\nOne sentence.\nhint: mill c outside {{ }}" :: Text)]
-    it "has the other places with their words" $
+    it "has the other regions with their labels" $
       items
         ( head (items (decoded (logged [inProgram]) `at` "runs" `at` "results"))
             `at` "relatedLocations"
@@ -96,10 +96,10 @@ spec = do
           [one] -> one `at` "message" == object ["text" .= ("the part" :: Text)]
           _ -> False
   describe "uri" $ do
-    it "leaves plain relative paths" $
+    it "keeps relative paths of letters, digits and -._~/ but drops a leading ./" $
       map Sarif.uri ["flange.part", "a/b-1_c~.part", "./x/y.part", "../x.part"]
         `shouldBe` ["flange.part", "a/b-1_c~.part", "x/y.part", "../x.part"]
-    it "encodes what has a meaning in a reference, and all that is not ASCII" $
+    it "percent-encodes reserved characters and all that are not ASCII" $
       map Sarif.uri ["my part.part", "50%.part", "a#b?.part", "c:d.part", "<stdin>", "фланец.part"]
         `shouldBe` [ "my%20part.part",
                      "50%25.part",
@@ -108,14 +108,14 @@ spec = do
                      "%3Cstdin%3E",
                      "%D1%84%D0%BB%D0%B0%D0%BD%D0%B5%D1%86.part"
                    ]
-    it "makes absolute paths references to files" $
+    it "gives an absolute path as a file: address" $
       Sarif.uri "/tmp/my part.part" `shouldBe` "file:///tmp/my%20part.part"
 
 -- | The log of reports, as the command writes it.
 logged :: [Filed] -> Text
 logged = Sarif.log Explanation.everything
 
--- | What the programs of all explanations raise.
+-- | Reports that the wrong programs of all explanations raise.
 everyReport :: [Filed]
 everyReport =
   [ Filed file source r
@@ -140,14 +140,14 @@ onFile = without "x.part" (report Warning "W0801" InFile "not proven")
 onNothing = without "" (report Error "E0802" InFile "cannot write")
 unexplained = without "x.part" (report Error "E9999" InFile "a code to come")
 
--- | A report on a file without a text.
+-- | A report on a file whose text is empty.
 without :: Text -> Report -> Filed
 without file = Filed file (Region.fromText file "")
 
 decoded :: Text -> Value
 decoded text = either error id (Aeson.eitherDecodeStrict (Encoding.encodeUtf8 text))
 
--- | A field; of a list with one item, of that item.
+-- | A field of an object, or of the only item of a list.
 at :: Value -> Text -> Value
 at value key = case value of
   Aeson.Object fields | Just v <- KeyMap.lookup (Key.fromText key) fields -> v
@@ -164,7 +164,7 @@ items value = case value of
   Aeson.Array vs -> toList vs
   _ -> []
 
--- | What Python's jsonschema says of a log.
+-- | Exit status and error text of Python's jsonschema for a log.
 validated :: Text -> IO (ExitCode, String)
 validated text = withSystemTempDirectory "partc" $ \folder -> do
   ByteString.writeFile (folder </> "log.sarif") (Encoding.encodeUtf8 text)

@@ -1,4 +1,4 @@
--- | Laws of sheets as parts, and of parts as sheets.
+-- | Laws of the conversions between input sheets, part programs and parts.
 module Sheet.PartSpec (spec) where
 
 import Base.Result (Result (..))
@@ -38,28 +38,32 @@ spec :: Spec
 spec = do
   rib <- runIO (readText "examples/spar.sheet")
   describe "a sheet with one number changed" $ do
-    -- Catches a shift that is taken for data, and a crash on strange data.
-    forM_ [("left out", const []), ("doubled", \w -> [w, w]), ("an end mark", const ["-0"])] $
-      \(what, change) ->
-        it ("is refused, or is another sound program: " <> what) $
+    -- Catches a missing or doubled number that is not noticed, and a crash.
+    forM_
+      [ ("the number is left out", const []),
+        ("the number is doubled", \w -> [w, w]),
+        ("the number is an end mark", const ["-0"])
+      ]
+      $ \(what, change) ->
+        it ("is refused, or is another sheet without mistakes: " <> what) $
           forM_ (variants change (Text.words rib)) $ \(n, text) -> do
             result <- judged "x.sheet" text
             case result of
               Right _ -> (n, meaning text) `shouldNotBe` (n, meaning rib)
               Left codes -> (n, codes) `shouldSatisfy` (not . null . snd)
-    it "stops as the Minsk-22 did where points or data of a piece are shifted" $ do
+    it "is refused with the report for the control stop of the Minsk-22 if it is left out" $ do
       let left = variants (const []) (Text.words rib)
           codesOf (n, text) = (n, fromLeft [] (fromTextCodes text))
           stops code = sort [n | (n, [c]) <- map codesOf left, c == ReportCode code]
-      -- The eight numbers of the approach
+      -- Any of the eight numbers of the approach.
       [n | n <- [17 .. 24], n `notElem` stops "E0904"] `shouldBe` []
-      -- The data of the first piece without its cipher, and the points of the second one
+      -- Any number of the first piece but its cipher, and of the second piece's points.
       [n | n <- [27 .. 45] <> [51 .. 54], n `notElem` stops "E0907"] `shouldBe` []
-      -- The twelve numbers of the retract without the last one
+      -- Any of the twelve numbers of the retract but the last one.
       [n | n <- [59 .. 70], n `notElem` stops "E0905"] `shouldBe` []
   describe "a part as a sheet" $ do
     -- Catches a number that the part loses, and a sign or a side that is swapped.
-    modifyMaxSuccess (const 30) . prop "sheet, part, sheet: the numbers are the same" $
+    modifyMaxSuccess (const 30) . prop "has the numbers of the sheet from which the part is made" $
       forAll Generate.cut $ \s ->
         let text = ToText.write s
          in counterexample (Text.unpack text) $
@@ -81,7 +85,7 @@ spec = do
                           ]
                       )
     -- Catches a program whose text differs from the sheet in meaning.
-    modifyMaxSuccess (const 10) . prop "sheet, program, sheet: the frames are the same" $
+    modifyMaxSuccess (const 10) . prop "has the tape of the program and of the first sheet" $
       forAll Generate.cut $ \s ->
         let text = ToText.write s
             program = ToSurface.text s
@@ -93,9 +97,9 @@ spec = do
                   ([], Just again) -> judged "x.sheet" again
                   _ -> pure a
                 pure (a === b .&&. a === c)
-    it "is the example again, to the letter" $
+    it "is the example sheet, character by character, if the part is made from it" $
       exported "x.sheet" rib `shouldBe` ([], Just rib)
-    it "is every good sheet again, and its program has the same tape" $ do
+    it "is the same sheet for every good sheet, and its program has the same tape" $ do
       sheets <- filter ((== ".sheet") . takeExtension) <$> filesBelow "test/programs/sheet/good"
       forM_ sheets $ \file -> do
         text <- readText file
@@ -107,8 +111,8 @@ spec = do
             (output (FromText.read text :: Result () Error Sheet))
         again `shouldBe` Just tape'
     it
-      "requires a blade to swivel by the spline of the cipher's bevels (catches bevels that only \
-      \have to lie between those of the points)"
+      "is refused if a blade does not swivel by the spline through the cipher's bevels (catches a \
+      \check that accepts any bevel between those of the points)"
       $ do
         blade <- readText "test/programs/sheet/good/blade.sheet"
         let steep = Text.replace "\n50 4 1.5 8\n" "\n20 4 1.5 8\n" blade
@@ -119,7 +123,7 @@ spec = do
         forM_ ["bevel 2", "bevel mu / 2", "bevel 1.2 * mu"] $ \other ->
           (other, fmap (fst . exported "x.part" . Text.replace "bevel mu" other) (programOf blade))
             `shouldBe` (other, Just [ReportCode "E0924"])
-    it "takes a cone without a bevel for a cylinder" $ do
+    it "has a cylinder as its tool for a cone without a bevel" $ do
       let program =
             "part p\nmachine lkp-01f\ntool cone(diameter 12 mm, bevel 0 deg, height 8 mm)\nfeed \
             \60\ntolerance 0.1\nfrom (0, 0, 0)\ncontour c open { polyline([(10, 10), (60, 10)]) \
@@ -127,7 +131,7 @@ spec = do
       case exported "x.part" program of
         ([], Just sheet) -> exported "x.sheet" sheet `shouldBe` ([], Just sheet)
         other -> expectationFailure (show other)
-  describe "parts that no sheet can hold are refused" $ do
+  describe "a part that cannot become a sheet is refused" $ do
     files <- runIO (sort . filter ((== ".part") . takeExtension) <$> listDirectory "test/unfit")
     forM_ files $ \file -> it file $ do
       text <- readText ("test/unfit" </> file)
@@ -146,13 +150,14 @@ spec = do
   where
     meaning text = fmap ToText.write (output (FromText.read text :: Result () Error Sheet))
 
--- | The sheet of a text, or the codes of the mistakes in its numbers.
+-- | The sheet of a text, or the codes of the reports about it.
 fromTextCodes :: Text -> Either [ReportCode] Sheet
 fromTextCodes text = case FromText.read text :: Result () Error Sheet of
   Result {errors = [], output = Just s} -> Right s
   Result {errors} -> Left (map (Report.code . Error.toReport) errors)
 
--- | A program or a sheet as a sheet, with the codes of the reports.
+-- | Converts the text of a program or a sheet to a sheet. The path's extension tells which it is.
+-- The codes are those of the reports.
 exported :: Text -> Text -> ([ReportCode], Maybe Text)
 exported path' text = (map Report.code (errors outcome), ToText.write <$> Result.ifSound outcome)
   where
@@ -161,7 +166,7 @@ exported path' text = (map Report.code (errors outcome), ToText.write <$> Result
         `Result.thenSound` (Result.mapErrors id Unsupported.toReport . uncurry FromPart.fromPart) ::
         Result Report Report Sheet
 
--- | The texts in which one word is changed, each with the number of the word.
+-- | All texts in which one word is changed, each with the number of the word from 1.
 variants :: (Text -> [Text]) -> [Text] -> [(Int, Text)]
 variants change words' =
   [ (n, Text.unwords (before <> change w <> after))
@@ -170,7 +175,8 @@ variants change words' =
       change w /= [w]
   ]
 
--- | The tape, or the codes of the errors, whose reports are rendered.
+-- | The tape of a program or a sheet, or the codes of its errors. Renders the reports too, so that
+-- a crash in their texts is noticed.
 judged :: Text -> Text -> IO (Either [ReportCode] Tape)
 judged path' text = case Result.ifSound outcome of
   Nothing ->

@@ -1,4 +1,4 @@
--- | Sheets as text and as programs.
+-- | Laws of input sheets as text and as part programs.
 module Sheet.TextSpec (spec) where
 
 import Base.Result (Result (..))
@@ -23,14 +23,14 @@ spec :: Spec
 spec = do
   describe "a sheet as text" $ do
     -- Catches a number that reader and writer put at different positions.
-    prop "write, then read: every number is at its position again" $
+    prop "has every number at the same position after writing and reading" $
       forAll Generate.sheet $ \s ->
         let text = ToText.write s
             Result {errors, output} = FromText.read text :: Result () Error Sheet
          in counterexample (Text.unpack text) $
               errors === [] .&&. fmap ToText.write output === Just text
     -- Catches a meaning that depends on the layout of the sheet.
-    prop "spaces and line ends are equivalent" $
+    prop "has the same meaning with other spaces and line ends" $
       forAll Generate.sheet $ \s ->
         let text = ToText.write s
          in meaning (Text.unwords (Text.words text))
@@ -38,7 +38,7 @@ spec = do
               === meaning text
   describe "a sheet as a program" $ do
     -- Catches a number that the program rounds, and a name or a sign that is read differently.
-    prop "the text of the program is the program of the sheet" $
+    prop "has the same syntax tree if the program is written as text and parsed" $
       forAll Generate.sheet $ \s ->
         let text = ToSurface.text s
             Result {errors, output} = Parser.parse 0 text :: Result () Surface.Error Surface.Program

@@ -1,5 +1,5 @@
--- | Table in docs/machines.md: the share of all single wrong holes, one more or one less, that
--- reading a tape of the flange finds. With PARTC_RECORD set the table is written anew.
+-- | Table in docs/machines.md: of all tapes of the flange with one hole added or removed, the share
+-- that the reader refuses. If PARTC_RECORD is set, the test writes the table into the page.
 module Tape.FlangeHolesSpec (spec) where
 
 import Base.Decimal qualified as Decimal
@@ -23,8 +23,8 @@ import Test.Hspec
 spec :: Spec
 spec = describe "docs/machines.md" $
   it
-    "states the share of single wrong holes that reading finds, for the flange on every machine \
-    \(catches a code that finds less)"
+    "states the share of single wrong holes that the reader finds, for the flange on every machine \
+    \(catches a reader that finds fewer)"
     $ do
       let rows = map row Machines.known
       page <- Text.lines <$> readText file
@@ -45,7 +45,7 @@ spec = describe "docs/machines.md" $
     heading = "| machine | single holes | found by reading | read as other frames |"
     rule = "|---|--:|--:|--:|"
 
--- | Line of the table; none for a machine whose tape is a text.
+-- | Line of the table for a machine; none for a machine whose tape is a text.
 row :: Machine -> [Text]
 row machine = case Machine.pitch (Machine.medium machine) of
   Nothing -> []

@@ -1,4 +1,4 @@
--- | Tapes with one hole more or less, and the share of them that reading finds.
+-- | Tapes with one hole added or removed, and the share of them that the reader refuses.
 module Tape.Holes (Share (..), share, changes) where
 
 import Base.PulseVector (Pulses3)
@@ -10,12 +10,14 @@ import Machine.Machine qualified as Machine
 import Tape.Punch qualified as Punch
 import Tape.Tape (Tape (..))
 
--- | Number of single holes tried, number of those found, and those that are read as other frames,
--- by their row from 1 and their track. The remaining ones change nothing.
+-- | Result for all tapes with one hole added or removed: the count of these tapes; the count of
+-- those that the reader refuses; the changed holes that it reads as other frames, each by row and
+-- track, both from 1. All other tapes are read as the right frames.
 data Share = Share {tried :: Int, found :: Int, unseen :: [(Int, Int)]}
   deriving stock (Eq, Show)
 
--- | Share of single holes in the tape of some frames that reading finds.
+-- | Tries all tapes that differ in one hole from the tape of some frames. The cutter begins at the
+-- given position.
 share :: Machine -> Pulses3 -> [Frame] -> Share
 share machine start frames =
   Share
@@ -29,7 +31,8 @@ share machine start frames =
         | (position, t) <- changes machine (Punch.write machine start frames)
       ]
 
--- | All tapes that differ in one hole, with its row from 1 and its track.
+-- | All tapes that differ from a tape in one hole, each with the row and the track of the hole,
+-- both from 1.
 changes :: Machine -> Tape -> [((Int, Int), Tape)]
 changes machine (Tape rows) =
   [ ((k + 1, track), Tape (before <> ByteString.cons (complementBit w (track - 1)) after))

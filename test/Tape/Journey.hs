@@ -1,4 +1,5 @@
--- | Frames around a plate for every machine, with arcs, rapid moves and commands where it has them.
+-- | Example frames for every machine: lines, and arcs, rapid moves and commands if the machine has
+-- them.
 module Tape.Journey (machines, start, journey) where
 
 import Base.PulseVector (Pulses2 (..), Pulses3 (..))
@@ -24,10 +25,12 @@ import Machines qualified
 machines :: [Machine]
 machines = Machines.known
 
+-- | Position of the cutter before the journey.
 start :: Pulses3
 start = Pulses3 500 (-200) 100
 
--- | Frames that keep the rules of a machine, with the same increments for all machines.
+-- | Frames that keep the rules of a machine. The increments are the same for all machines; frames
+-- that a machine does not allow are left out.
 journey :: Machine -> [Frame]
 journey machine =
   filter
@@ -54,8 +57,8 @@ journey machine =
     feeds = cycle (twice (feedCodes machine))
     twice cs = concat [[c, c] | c <- cs]
     slowFlags = cycle [False, False, True]
-    commandFrames = [[(o, v)] | o <- orderNames, v <- [1, 3], Machine.canEncode machine o v]
-    orderNames =
+    commandFrames = [[(o, v)] | o <- commandNames, v <- [1, 3], Machine.canEncode machine o v]
+    commandNames =
       [ o
         | w <- Machine.wordsOf machine,
           o <-
@@ -102,7 +105,7 @@ journey machine =
       or [s == BrakingHole | w <- Machine.wordsOf machine, s <- Machine.service (Machine.form w)]
     hasZ = Machine.capacity machine Z > 0
 
--- | Some feed codes from low to high.
+-- | Some feed codes of a machine, from the lowest feed to the highest.
 feedCodes :: Machine -> [FeedCode]
 feedCodes machine = case Machine.codes (Machine.feeds machine) of
   Direct a b -> [FeedCode (max a (min b n)) | n <- [60, 240, 900]]

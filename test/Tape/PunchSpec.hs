@@ -1,4 +1,4 @@
--- | Laws of tapes: written and read back on all machines, and damaged in every way.
+-- | Laws of tapes: what a machine's writer writes, its reader reads, and damage is found.
 module Tape.PunchSpec (spec) where
 
 import Base.PulseVector (Pulses2 (..), Pulses3 (..))
@@ -72,8 +72,8 @@ randomMachineLaws = do
       readAgain [straightAt60 1000 0, straightAt60 2000 0, straightAt60 0 1000]
         `shouldBe` Left Punch.Misread
   it
-    "frames may end with a word that is usually left out (catches a frame that ends before this \
-    \word)"
+    "frames may end with an optional word that most frames lack (catches a frame that is read only \
+    \up to this word)"
     $ do
       machine <- machineOf "test/machines/no-end.machine"
       let fs =
@@ -88,8 +88,8 @@ randomMachineLaws = do
     $ checkCoverage . forAll Generate.machine $ \m -> forAll (Generate.frames m) $ \(at, fs) ->
       withCoverage m fs (Punch.read m at (Punch.write m at fs) === Right fs)
   it
-    "a tape is read in the same way whatever frames are expected on it (catches expected frames \
-    \that are taken for those on the tape)"
+    "a tape is read in the same way whatever frames are expected on it (catches a reader that \
+    \returns the expected frames for a tape with others)"
     $ checkCoverage . forAll Generate.machine $ \m ->
       forAll (Generate.frames m) $ \(at, fs) ->
         forAll (expectedFor fs) $ \expected ->
@@ -103,8 +103,8 @@ randomMachineLaws = do
                           change
                           (rowsOf (Punch.write m at fs))
                       )
-               in cover 20 (Punch.read m at t == Right expected) "just these" $
-                    cover 20 (Punch.read m at t /= Right expected) "others" $
+               in cover 20 (Punch.read m at t == Right expected) "the expected frames" $
+                    cover 20 (Punch.read m at t /= Right expected) "other frames" $
                       Punch.readExpected m at expected t === Punch.read m at t
   it "rows with their meaning are the rows of the tape (catches a picture of another tape)" $
     forAll Generate.machine $ \m -> forAll (Generate.frames m) $ \(at, fs) ->
@@ -128,8 +128,8 @@ randomMachineLaws = do
                           withoutSkippedRows m (rowsOf (Punch.write m at fs'))
                             === withoutSkippedRows m rows'
   it
-    "simple frames are read in one go as they are word by word (catches a shortcut with another \
-    \result)"
+    "the fast reader and the reader word by word give the same frames (catches a shortcut with \
+    \another result)"
     $ withMaxSuccess 1000 . checkCoverage . forAll Generate.machine $ \m ->
       forAll (Generate.frames m) $ \(at, fs) ->
         forAll (choose (0, 40)) $ \k ->
@@ -145,11 +145,13 @@ randomMachineLaws = do
                   ( FastFrameReader.readFrame layout state (Short.pack rows) 0,
                     FrameReader.wordByWord layout state (Short.pack rows) 0
                   )
+                -- A frame as the machine writes it: simple frames are read fast, all others not.
                 isRead state f = case readBoth state (rowsFor state f) of
                   (FastFrameReader.Read g end, slowly) ->
                     Layout.isPlain layout && slowly == Right (g, end) && g == f
                   (FastFrameReader.NotSimple, _) ->
                     not (Layout.isPlain layout && ModalState.isSimple f && Frame.isMoving f)
+                -- Any rows: if the fast reader gives a frame, it is the right one.
                 isSame state rows = case readBoth state rows of
                   (FastFrameReader.Read g end, slowly) -> slowly == Right (g, end)
                   (FastFrameReader.NotSimple, _) -> True
@@ -178,6 +180,25 @@ randomMachineLaws = do
                       | (state, f) <- zip states fs
                     ]
   it
+    "a minus before zero is refused by the fast reader and by the reader word by word (catches -0 \
+    \that is read as 0)"
+    $ do
+      let layout = Layout.fromMachine iso6983
+          state = ModalState.initial False start
+          readBoth line =
+            ( case FastFrameReader.readFrame layout state (textRows line) 0 of
+                FastFrameReader.Read f _ -> Just (increment f)
+                FastFrameReader.NotSimple -> Nothing,
+              case FrameReader.wordByWord layout state (textRows line) 0 of
+                Right (f, _) -> Right (increment f)
+                Left (FrameReader.RowFault _ _ why) -> Left why
+            )
+          textRows = Short.toShort . Encoding.encodeUtf8
+          toZero = Pulses3 (-500) 200 0
+      readBoth "G1 X0.000 Y0.000 F60\n" `shouldBe` (Just toZero, Right toZero)
+      readBoth "G1 X-0.000 Y0.000 F60\n" `shouldBe` (Nothing, Left MinusZero)
+      readBoth "G1 X0.000 Y-0.000 F60\n" `shouldBe` (Nothing, Left MinusZero)
+  it
     "an axis in the opposite direction negates its numbers and reverses the arcs (catches a sign \
     \that is forgotten)"
     $ forAll Generate.machine $ \m -> forAll (Generate.frames m) $ \(at, fs) ->
@@ -192,7 +213,7 @@ randomMachineLaws = do
             ==> Punch.write reversedX (mirroredPosition at) (map mirroredFrame fs)
               === Punch.write m at fs
 
--- | Row of a symbol of a number, in the code of a machine.
+-- | Row of a digit, a sign or the decimal point, in the code of a machine.
 numberRow :: Machine -> Gen Word8
 numberRow m = elements [Symbol.holes (Symbol.symbol table c) | c <- "0123456789+-."]
   where
@@ -204,6 +225,7 @@ withoutSkippedRows m rows = case Machine.spare (Machine.medium m) of
   Counted -> rows
   Skipped -> ByteString.filter (`notElem` (0 : Machine.skips (Machine.code m))) rows
 
+-- | Demands that random machines and frames have every feature often enough, in per cent.
 withCoverage :: Testable p => Machine -> [Frame] -> p -> Property
 withCoverage m fs =
   cover 20 (Machine.measure (Machine.layout m) == Positions) "positions"
@@ -220,13 +242,15 @@ withCoverage m fs =
       (not (null [() | CheckDigit _ <- NonEmpty.toList (Machine.items (Machine.layout m))]))
       "check digits"
     . cover 10 (isJust (Machine.evenTrack (Machine.code m))) "parity"
-    . cover 20 (Machine.spare (Machine.medium m) == Skipped) "spare rows"
+    . cover 20 (Machine.spare (Machine.medium m) == Skipped) "skipped blank rows"
     . cover 5 (isNothing (Machine.pitch (Machine.medium m))) "texts"
-    . cover 5 (or [Machine.presence w == WhenChanged | w <- Machine.wordsOf m]) "feeds said once"
+    . cover 5 (or [Machine.presence w == WhenChanged | w <- Machine.wordsOf m]) "modal feeds"
 
+-- | Position mirrored in x = 0.
 mirroredPosition :: Pulses3 -> Pulses3
 mirroredPosition (Pulses3 x y z) = Pulses3 (negate x) y z
 
+-- | Frame mirrored in x = 0: arcs change their sense.
 mirroredFrame :: Frame -> Frame
 mirroredFrame f =
   f
@@ -248,13 +272,14 @@ straightAt60 :: Pulses -> Pulses -> Frame
 straightAt60 x y =
   (Frame.commandFrame []) {motion = Linear, increment = Pulses3 x y 0, feedCode = FeedCode 60}
 
+-- | Machine of a description that has no errors.
 machineOf :: FilePath -> IO Machine
 machineOf file =
   readText file >>= maybe (fail "the description has errors") pure . Result.ifSound . FromText.read
 
 knownTapes :: Spec
 knownTapes = do
-  it "5121: four digits, four, three and one, signs and commands in the service track" $
+  it "5121: x, y, z and feed have 4, 4, 3 and 1 digits, signs and commands in the service track" $
     written lkp01f [straight (-1234) 56 (-7) 5 [(CommandName "aux", 5)]]
       `shouldBe` blank 25
         <> [0x11, 0x15, 0x06, 0x17]
@@ -263,10 +288,10 @@ knownTapes = do
         <> [0x18]
         <> blank 3
         <> blank 25
-  it "5121: two blank rows before every even frame" $
+  it "5121: two blank rows precede every frame with an even number" $
     [k | (k, 0x11) <- zip [0 :: Int ..] (written lkp01f (replicate 3 (straight 1 0 0 1 [])))]
       `shouldBe` [25 + 11, 25 + 15 + 2 + 11, 25 + 15 + 17 + 11]
-  it "a marker, the motion, increments, centre, feed with the braking hole, check digit" $
+  it "ЛКИ-У: marker, motion, increments, centre, feed with the braking hole, check digit" $
     written lkiU [(straight 12 0 (-3) 40 []) {Frame.braking = True}]
       `shouldBe` blank 25
         <> [0x1F, 1]
@@ -289,7 +314,7 @@ knownTapes = do
   it "ISO-7bit: X has holes 4 5 7 8, 3 has 1 2 5 6, + has 1 2 4 6" $
     [w | w <- written n55 [straight 3 0 0 60 []], w `elem` [0xD8, 0x33, 0x2B]]
       `shouldBe` [0xD8, 0x2B, 0x33]
-  it "a text: positions in mm, each when it changes or was not written yet" $
+  it "a text: positions in mm, each one when it changes and in the first frame that moves" $
     text
       iso6983
       (Pulses3 100 200 300)
@@ -306,11 +331,11 @@ knownTapes = do
                    "G40",
                    "%"
                  ]
-  it "a tape has metres, a text has none" $ do
+  it "a tape has a length in metres, a text has none" $ do
     Tape.metres lkp01f (Tape (ByteString.replicate 1000 0)) `shouldBe` Just 2.54
     Tape.metres iso6983 (Tape (ByteString.replicate 1000 0)) `shouldBe` Nothing
 
--- | Frames that may be expected on a tape with the given ones.
+-- | Frames that a reader may expect on a tape with the given frames: these, fewer, more, or others.
 expectedFor :: [Frame] -> Gen [Frame]
 expectedFor fs = do
   k <- choose (0, length fs)
@@ -339,8 +364,8 @@ oneHole = do
       ]
       `shouldBe` []
   it
-    "is refused wherever it is, by check digits with weights and by parity (catches two digits \
-    \with the same weight)"
+    "is refused wherever it is, on machines whose check digits have weights or whose rows have \
+    \parity (catches two digits with the same weight)"
     $ [ (Machine.name m, Holes.unseen s)
         | m <- [kontur2p, kontur3p, n55],
           let s = Holes.share m start (journey m),
@@ -348,8 +373,8 @@ oneHole = do
       ]
       `shouldBe` []
   it
-    "is refused on a tape with check digits, except in the service track (catches a check digit \
-    \that is ignored)"
+    "is refused on a tape with check digits if it is not in the service track (catches a check \
+    \digit that is ignored)"
     $ [ (Machine.name m, row, track)
         | m <- [lkiU, lkiUn],
           (row, track) <- Holes.unseen (Holes.share m start (journey m)),
@@ -357,7 +382,7 @@ oneHole = do
       ]
       `shouldBe` []
   it
-    "is reported in its frame, or in the next one where that depends on it (catches rows that are \
+    "is reported in its frame or in the next one, which may depend on it (catches rows that are \
     \counted wrong)"
     $ [ (Machine.name m, place, d)
         | m <- machines,
@@ -374,6 +399,7 @@ oneHole = do
 frameRows :: Machine -> [Maybe Int]
 frameRows m = map RowMeaning.frame (Punch.rows m start (journey m))
 
+-- | Frame of a row, from 1.
 frameAt :: [Maybe Int] -> Int -> Maybe Int
 frameAt frames row = case drop (row - 1) frames of
   n : _ -> n
@@ -382,8 +408,8 @@ frameAt frames row = case drop (row - 1) frames of
 damage :: Spec
 damage = do
   it
-    "of 5121: a lost marker, a hole in a gap, a wrong digit, a foreign track, minus zero, an \
-    \unknown feed code"
+    "is reported on 5121: missing marker, hole in a gap, wrong digit, hole outside of the tracks, \
+    \minus zero, missing feed"
     $ do
       let at = reasonAt lkp01f [straight 10 0 0 5 [], straight 1 2 3 5 []]
       at 37 (const 0x08) `shouldBe` Just MarkerMissing
@@ -396,7 +422,7 @@ damage = do
       at 37 (const 0x10) `shouldBe` Just MotionWithoutFeed
       at 28 (const 0) `shouldBe` Nothing
       at 3 (const 1) `shouldBe` Just (LeaderNotBlank 25)
-  it "of a frame with letters: its sum, its priority, its order" $ do
+  it "is reported on a tape with addresses: wrong check sum, wrong leading axis, wrong order" $ do
     let at = reasonAt kontur3p [straight 0 6000 0 27 []]
     at 26 (const 0) `shouldBe` Just (WrongSum 27 10)
     at 28 (const 6) `shouldBe` Just (WrongSum 31 10)
@@ -411,8 +437,10 @@ damage = do
     faultOf kontur3p (blank 25 <> withCheckDigit [18, 5, 6, 0, 0, 0, 16])
       `shouldBe` Just MotionWithoutFeed
     faultOf kontur3p (blank 25 <> withCheckDigit [16]) `shouldBe` Just NoContent
-  it "of a text: a feed written twice, a frame number, an unknown motion, parity, a missing sign" $
-    do
+  it
+    "is reported in ISO-7bit: repeated feed, wrong frame number, unknown motion, wrong parity, \
+    \missing sign"
+    $ do
       faultLine "N001X+000001F0060" `shouldBe` Just IncrementWithoutMotion
       faultLine "N002G01X+000001F0060" `shouldBe` Just (WrongNumber 2 1)
       faultLine "N001G04X+000001F0060" `shouldBe` Just (UnknownMotion 4)
@@ -423,7 +451,7 @@ damage = do
       faultLine "N001G01X+000001F0060\nN002G01X+000001F0060" `shouldBe` Just (FeedRepeated 60)
       faultLine "N001" `shouldBe` Just NoContent
       reasonAt n55 [straight 1 0 0 60 []] 30 (const 0x31) `shouldBe` Just BadParity
-  it "of the end: a torn tape, a trailer of a wrong length, a text without its end" $ do
+  it "is reported at the end: torn tape, trailer of a wrong length, missing closing symbols" $ do
     let rows = rowsOf (tapeOf lkp01f)
         lines' = rowsOf (tapeOf iso6983)
         reasonOf m = either (Just . Punch.reason) (const Nothing) . Punch.read m start . Tape
@@ -438,7 +466,7 @@ damage = do
       `shouldBe` Just (1, NoFrames 0)
     reasonOf iso6983 (ByteString.take (ByteString.length lines' - 2) lines')
       `shouldBe` Just (MissingClosing "%\n")
-  it "is not found in blank rows between frames or in erased rows, on media that skip them" $ do
+  it "is not reported for blank and erased rows between frames, on media that skip them" $ do
     let spread m w = ByteString.concatMap (\r -> ByteString.pack [r, w]) (rowsOf (tapeOf m))
         (front, afterLeader) = ByteString.splitAt 25 (rowsOf (tapeOf lkiU))
     Punch.read n55 start (Tape (spread n55 0xFF)) `shouldBe` Right (journey n55)
@@ -476,6 +504,7 @@ faultLine lines' =
     even' w =
       if odd (length [() | k <- [0 .. 6 :: Int], w `div` (2 ^ k) `mod` 2 == 1]) then w + 128 else w
 
+-- | Straight frame with its increments in pulses, its feed code and its commands.
 straight :: Int -> Int -> Int -> Int -> [(CommandName, Int)] -> Frame
 straight x y z s given =
   Frame
@@ -487,28 +516,34 @@ straight x y z s given =
       commands = given
     }
 
+-- | Tape of the machine's 'journey'.
 tapeOf :: Machine -> Tape
 tapeOf m = Punch.write m start (journey m)
 
 rowsOf :: Tape -> ByteString
 rowsOf (Tape rows) = rows
 
+-- | Rows of the whole tape of some frames.
 written :: Machine -> [Frame] -> [Word8]
 written m fs = ByteString.unpack (rowsOf (Punch.write m start fs))
 
+-- | Lines of the text of some frames, for a machine whose tape is a text.
 text :: Machine -> Pulses3 -> [Frame] -> [Text.Text]
 text m at fs = Text.lines (Encoding.decodeUtf8 (rowsOf (Punch.write m at fs)))
 
+-- | @n@ blank rows.
 blank :: Int -> [Word8]
 blank n = replicate n 0
 
+-- | Rows with row @n@, from 1, changed.
 changed :: Int -> (Word8 -> Word8) -> ByteString -> ByteString
 changed n f rows = case ByteString.splitAt (n - 1) rows of
   (a, b) -> case ByteString.uncons b of
     Just (w, c) -> a <> ByteString.cons (f w) c
     Nothing -> rows
 
--- | Reason that is reported for a row, from 1, when that row is changed.
+-- | Reason why a tape with one changed row, counted from 1, is refused. The report has to name this
+-- row; a wrong check sum or a missing feed may be reported at another one.
 reasonAt :: Machine -> [Frame] -> Int -> (Word8 -> Word8) -> Maybe Reason
 reasonAt m fs n f =
   case Punch.read m start (Tape (changed n f (rowsOf (Punch.write m start fs)))) of

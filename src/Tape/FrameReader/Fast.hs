@@ -1,11 +1,12 @@
 {-# LANGUAGE BangPatterns #-}
 {-# OPTIONS_GHC -O2 #-}
 
--- | Simple frames, without arcs and commands, read in one go. Most frames of a long tape are
--- simple.
+-- | Fast reader of simple frames, which have neither an arc nor a command. Most frames of a long
+-- tape are simple.
 --
--- The result is always that of 'Tape.FrameReader.wordByWord'. Rows that differ in any respect from
--- those that would be written are left to that reader, and so are the reports about faults.
+-- If this reader gives a frame, 'Tape.FrameReader.wordByWord' gives the same frame. It gives none
+-- if the frame is not simple, or if a row differs from the one that the machine would write. Then
+-- 'Tape.FrameReader.wordByWord' reads the frame, or reports the fault.
 module Tape.FrameReader.Fast
   ( Read (..),
     readFrame,
@@ -45,17 +46,17 @@ import Prelude hiding (Read)
 data Read
   = -- | the frame and the index of the row after it
     Read Frame Int
-  | -- | a frame that is not simple, or that would be written with other rows
+  | -- | The frame is not simple, or a row differs from the one that the machine would write.
     NotSimple
 
--- | Frame that begins at row @begin@.
+-- | Reads the frame that begins at row @begin@, in the state before the frame.
 readFrame :: PreparedLayout -> State -> ShortByteString -> Int -> Read
 readFrame layout state rows begin
   | Layout.isPlain layout =
     go False (Layout.simpleSteps layout) begin 0 (withoutWords layout state)
   | otherwise = NotSimple
   where
-    -- The words are numbered from 0.
+    -- The words of simple frames are numbered from 0, in the order of the layout.
     go followsWord todo !k !ordinalOfWord !ns = case todo of
       [] -> frameFrom layout state ns k
       FixedStep cs : more ->
@@ -77,7 +78,7 @@ readFrame layout state rows begin
         | otherwise -> NotSimple
         where
           at = Layout.rowAfterAddress rows k (if followsWord then joined else cs)
-    -- Numbers that are known before the frame is.
+    -- The frame number follows from the state; words of arcs and commands are 0 in a simple frame.
     isExpected w n = case content w of
       FrameNumber -> n == ordinal state `mod` 10 ^ digits (form w)
       Centre _ -> n == 0
@@ -86,9 +87,11 @@ readFrame layout state rows begin
       Along _ -> True
       FeedWord -> True
 
--- | Words of a frame by the bits of their ordinals, and the numbers of the relevant ones.
+-- | Numbers of the words of a frame, as they are on the tape. An axis word that the frame lacks has
+-- the number that means no travel.
 data Numbers = Numbers
-  { present :: Int,
+  { -- | bit n is 1 if the frame contains word n of 'Layout.simpleWords'
+    present :: Int,
     numberX :: Int,
     numberY :: Int,
     numberZ :: Int,
@@ -97,7 +100,8 @@ data Numbers = Numbers
     feedNumber :: Int
   }
 
--- | Numbers of a frame without words: the cutter stays in place, and the motion is straight.
+-- | Numbers of a frame without any word: no travel along any axis, the code of a straight line, no
+-- feed.
 withoutWords :: PreparedLayout -> State -> Numbers
 withoutWords layout state =
   Numbers
@@ -113,6 +117,8 @@ withoutWords layout state =
       Increments -> 0
       Positions -> ModalState.signs (Layout.axes layout) * position state
 
+-- | Sets the number of the word with this content. Words whose number is already checked are not
+-- kept.
 withNumber :: Content -> Int -> Numbers -> Numbers
 withNumber c n ns = case c of
   Along X -> ns {numberX = n}
@@ -125,8 +131,8 @@ withNumber c n ns = case c of
   Command _ -> ns
 {-# INLINE withNumber #-}
 
--- | Frame with these numbers that ends before row @end@, if exactly these words would be written
--- for it.
+-- | Frame with these numbers, which ends before row @end@. 'NotSimple' unless the machine would
+-- write exactly these words for it, and the frame keeps the rules of the machine.
 frameFrom :: PreparedLayout -> State -> Numbers -> Int -> Read
 frameFrom layout state ns end
   | increment /= 0,
@@ -166,8 +172,8 @@ frameFrom layout state ns end
         isJust (ModalState.number axes state f w) == testBit (present ns) ordinalOfWord
           && areThese (ordinalOfWord + 1) f more
 
--- | Straight or rapid motion of a number; on a machine without a word for it every motion is
--- straight.
+-- | Motion of a code: a line or a rapid move; none for all other codes. On a machine without a
+-- motion word every motion is a line.
 motionOf :: PreparedLayout -> Int -> Maybe FrameMotion
 motionOf layout code = case Layout.motionWord layout of
   Nothing -> Just Linear
@@ -176,10 +182,11 @@ motionOf layout code = case Layout.motionWord layout of
     | Just code == rapid codes -> Just Rapid
     | otherwise -> Nothing
 
--- | Index of the row after a number, and the number. The index is −1 if there is no number, or if
--- it would be written with other rows.
+-- | Index of the row after a number, and the number. The index is −1 if the rows are not those that
+-- the machine would write for a number.
 data Number = Number Int Int
 
+-- | Reads a number that begins at row @begin@, in a form that uses no service track.
 plainNumber :: PreparedLayout -> NumberForm -> ShortByteString -> Int -> Number
 plainNumber layout f rows begin = case sign f of
   Unsigned -> unsigned False begin
