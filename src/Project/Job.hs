@@ -1,4 +1,4 @@
--- | The choices of one run of the compiler.
+-- | The choices of one run of the compiler: parameter values, machines, verification.
 module Project.Job
   ( Job (..),
     Verification (..),
@@ -20,7 +20,7 @@ import Toolpath.Toolpath (Toolpath)
 data Job = Job
   { -- | values for parameters of the program, by their names
     values :: [(Text, Text)],
-    -- | chooses the machines; without machines no tape is made
+    -- | chooses the machines for a part and its toolpath; without machines no tape is made
     machinesFor :: Part -> Toolpath -> Result Report Report [Machine],
     verification :: Verification
   }
@@ -35,7 +35,8 @@ forTargets :: [Text] -> [(Text, Text)] -> LoadedProgram -> Job
 forTargets names values loaded =
   Job {values, machinesFor = Target.targets (descriptions loaded) names, verification = Verified}
 
--- | A verified tape for the machine that the program names, if it names one.
+-- | A job that makes a verified tape for the machine that the program names, or no tape if the
+-- program names none.
 forOwnMachine :: [(Text, Text)] -> LoadedProgram -> Job
 forOwnMachine values loaded =
   Job {values, machinesFor = Target.ownMachines (descriptions loaded), verification = Verified}
