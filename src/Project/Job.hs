@@ -25,12 +25,13 @@ data Job = Job
     verification :: Verification
   }
 
--- | Verified tapes are read back and compared with the part.
+-- | The check of a tape. A verified tape is read back and its motions are compared with the part;
+-- an unverified one is only written.
 data Verification = Verified | Unverified
   deriving stock (Eq, Show)
 
--- | A verified tape for each of these machines; without names, for the machine that the program
--- names. It is an error if there is none.
+-- | A job that makes a verified tape for each of the named machines. Without names the machine is
+-- the one that the program names; it is an error if the program names none.
 forTargets :: [Text] -> [(Text, Text)] -> LoadedProgram -> Job
 forTargets names values loaded =
   Job {values, machinesFor = Target.targets (descriptions loaded) names, verification = Verified}
