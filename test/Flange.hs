@@ -27,7 +27,7 @@ import System.IO.Unsafe (unsafePerformIO)
 import Tape.Tape (Tape)
 import Verify.Proof (Proof)
 
--- | The program of examples/.
+-- | The program examples/flange.part.
 text :: Text
 text = Encoding.decodeUtf8 (unsafePerformIO (ByteString.readFile "examples/flange.part"))
 {-# NOINLINE text #-}
@@ -38,7 +38,7 @@ analysis = expect (Compile.analyse [] loaded)
 loaded :: LoadedProgram
 loaded = LoadedProgram.fromText "flange.part" text
 
--- | Its verified tape for lkp-01f.
+-- | The flange's verified tape for lkp-01f.
 compiled :: Compiled
 compiled = case expect (Compile.compile (Machines.jobFor lkp01f []) loaded) of
   [one] -> one
@@ -63,8 +63,8 @@ expect r = case Result.ifSound r of
   Just a -> a
   Nothing -> error ("the flange has errors: " <> show (Result.errors r))
 
--- | The 18 nodes of the equidistant, computed from the drawing independently of this program, in
--- the paper's order and numbering, to 0.0001 mm.
+-- | The 18 nodes of the equidistant in mm, in the order of the paper. They were computed from the
+-- drawing without partc, and are rounded to 0.0001 mm.
 exactNodes :: [(Double, Double)]
 exactNodes =
   [ (4.9343, 40.9132),
