@@ -49,7 +49,7 @@ spec = do
                 <> rendered source (warnings outcome)
             )
         _ -> expectationFailure (Text.unpack (rendered source (errors outcome)))
-  describe "bad programs have their recorded reports, and no tape" $
+  describe "bad programs give their reports, and no tape" $
     forM_ (kind "bad") $ \file -> it file $ do
       (values, loaded) <- loadedFrom file
       let outcome = Compile.check (job values loaded) loaded
