@@ -139,7 +139,7 @@ attempt ::
   Either ContourFault (NonEmpty Element)
 attempt region ends linked = do
   chosen <- case (ends, linked) of
-    (Closed, only :| []) -> lone only
+    (Closed, only :| []) -> singleElement only
     (Closed, _) -> closed linked
     (Open, LinkedElement {elementRegion, carrier = OnCurve c} :| [])
       | MeasuredPolyarc.isClosed c -> Left (ClosedCurve elementRegion)
@@ -159,14 +159,14 @@ attempt region ends linked = do
 
 -- | A closed contour of one element: a circle, which begins at its rightmost point, or a closed
 -- curve.
-lone :: LinkedElement -> Either ContourFault [Element]
-lone w@LinkedElement {elementRegion, carrier, link} = case (carrier, link) of
+singleElement :: LinkedElement -> Either ContourFault [Element]
+singleElement w@LinkedElement {elementRegion, carrier, link} = case (carrier, link) of
   (OnCircle _ _, Just (at, _)) -> Left (LinkOfLoneCircle at)
   (OnCircle sense circle@(Circle c (Mm r)), Nothing) ->
     Right (marked w (Mm 0) [Segment.fullCircle sense circle (Vec.shift (Vec.vec r 0) c)])
   (OnCurve c, Nothing)
     | MeasuredPolyarc.isClosed c ->
-      Right (continuedRound (marked w (Mm 0) (NonEmpty.toList (MeasuredPolyarc.segments c))))
+      Right (closedSmoothly (marked w (Mm 0) (NonEmpty.toList (MeasuredPolyarc.segments c))))
   (OnCurve c, Just (at, _)) | MeasuredPolyarc.isClosed c -> Left (LinkOfLoneCircle at)
   (OnCurve _, _) -> Left (LoneElement elementRegion carrier)
   (OnLine _, _) -> Left (LoneElement elementRegion carrier)
@@ -174,8 +174,8 @@ lone w@LinkedElement {elementRegion, carrier, link} = case (carrier, link) of
 
 -- | Marks the first segment of a closed curve as a continuation of the last one, unless they meet
 -- at a corner.
-continuedRound :: [Element] -> [Element]
-continuedRound elements = case elements of
+closedSmoothly :: [Element] -> [Element]
+closedSmoothly elements = case elements of
   first : rest@(_ : _)
     | isSmooth (segment (last rest)) (segment first) ->
       first {continues = True} : rest
@@ -199,11 +199,11 @@ open linked = do
   case link final of
     Just (at, _) -> Left (LinkAtEnd at (elementRegion first))
     Nothing -> Right ()
-  case directly list begin Nothing (LinkCandidate.through end) of
+  case withoutChoice list begin Nothing (LinkCandidate.through end) of
     Just elements -> Right elements
     Nothing -> do
       joints <- traverse (uncurry jointsOf) (zip list (drop 1 list))
-      route <- decided =<< shortest list begin Nothing [LinkCandidate.through end] joints
+      route <- unambiguous =<< shortest list begin Nothing [LinkCandidate.through end] joints
       Right (elementsOf list begin Nothing route)
   where
     list = NonEmpty.toList linked
@@ -215,7 +215,7 @@ open linked = do
 closed :: NonEmpty LinkedElement -> Either ContourFault [Element]
 closed linked
   | Right (c :| []) <- jointsOf (NonEmpty.last linked) (NonEmpty.head linked),
-    Just elements <- directly (NonEmpty.toList linked) (enter c) (inserted c) c =
+    Just elements <- withoutChoice (NonEmpty.toList linked) (enter c) (inserted c) c =
     Right elements
   | otherwise = closedByShortest linked
 
@@ -233,7 +233,7 @@ closedByShortest linked = do
     (c, route) : others ->
       case [o | (o, r) <- others, cost r <= plus (cost route) Tolerance.sameLength] of
         o : _ | Just fault <- tie (neighboursOf final first) [c, o] -> Left fault
-        _ -> elementsOf list (enter c) (inserted c) <$> decided route
+        _ -> elementsOf list (enter c) (inserted c) <$> unambiguous route
   where
     list = NonEmpty.toList linked
     first = NonEmpty.head linked
@@ -316,12 +316,12 @@ advance stage w next states joints = case (states, joints) of
       [] ->
         let overlaps = [overlap | joint <- joints, Left overlap <- extended joint]
          in Left (overrun stage w (minimum overlaps) next)
-      sound -> Right [(enter joint, noted stage best others) | (joint, best, others) <- sound]
+      sound -> Right [(enter joint, withTie stage best others) | (joint, best, others) <- sound]
 
 -- | The shortest route to a joint, with the fault of a tie if one of the other routes is equally
 -- long.
-noted :: Stage -> Route -> [Route] -> Route
-noted stage best others =
+withTie :: Stage -> Route -> [Route] -> Route
+withTie stage best others =
   case [o | o <- others, cost o <= plus (cost best) Tolerance.sameLength] of
     o : _
       | Just (j, a, b) <- firstDifference (reverse (taken best)) (reverse (taken o)) links,
@@ -350,8 +350,8 @@ overrun stage w overlap next =
       ]
 
 -- | Fails for a route that has an equally long alternative.
-decided :: Route -> Either ContourFault Route
-decided route = maybe (Right route) Left (ambiguous route)
+unambiguous :: Route -> Either ContourFault Route
+unambiguous route = maybe (Right route) Left (ambiguous route)
 
 -- | The first link at which two routes differ, and their joints there.
 firstDifference :: [Joint] -> [Joint] -> [Neighbours] -> Maybe (Neighbours, Joint, Joint)
@@ -513,8 +513,8 @@ interpolated table s = case (Map.lookupLE s table, Map.lookupGE s table) of
 -- starting point on the first one, the segment before it, and the joint after the last element.
 --
 -- Each joint is computed twice, which takes less time than keeping all of them.
-directly :: [LinkedElement] -> Point -> Maybe Segment -> Joint -> Maybe [Element]
-directly linked begin before final
+withoutChoice :: [LinkedElement] -> Point -> Maybe Segment -> Joint -> Maybe [Element]
+withoutChoice linked begin before final
   | allForwards linked begin = Just (from linked begin before)
   | otherwise = Nothing
   where

@@ -77,34 +77,43 @@ milling context work at e side settings = do
 data Passes = Passes
   { path :: Contour,
     -- | the approach; nothing after a mistake
-    before :: Maybe [Stop],
+    approachStops :: Maybe [Stop],
     -- | the retract; nothing after a mistake
-    after :: Maybe [Stop],
+    retractStops :: Maybe [Stop],
     heights :: [Mm],
     plungeFeed :: Maybe (Located Feed),
     -- | the lead-in and the lead-out
     leads :: (Maybe (LeadForm, Mm), Maybe (LeadForm, Mm)),
     -- | the allowances of the passes
-    left :: NonEmpty Mm
+    passAllowances :: NonEmpty Mm
   }
 
 -- | Evaluates the settings of a milling or turning.
 passesOf :: Context -> Region -> Contour -> Checked.Settings -> Eval Passes
 passesOf context at contour settings = do
-  before <- stopsOf context (Checked.approach settings)
-  after <- stopsOf context (Checked.retract settings)
+  approachStops <- stopsOf context (Checked.approach settings)
+  retractStops <- stopsOf context (Checked.retract settings)
   path <- startedNear env contour (Checked.startNear settings)
   heights <- maybe (pure []) (levelsOf env) (Checked.depth settings)
   checkSteps context (maybe at (region . fst) (Checked.depth settings)) heights
   plungeFeed <- traverse (feedOf env) (Checked.plunge settings)
   leadIn <- traverse lead (Checked.leadIn settings)
   leadOut <- traverse lead (Checked.leadOut settings)
-  left <-
+  passAllowances <-
     maybe
       (pure (Mm 0 :| []))
       (Evaluation.gather . fmap (notNegative env Parameter.Allowance))
       (Checked.allowances settings)
-  pure Passes {path, before, after, heights, plungeFeed, leads = (leadIn, leadOut), left}
+  pure
+    Passes
+      { path,
+        approachStops,
+        retractStops,
+        heights,
+        plungeFeed,
+        leads = (leadIn, leadOut),
+        passAllowances
+      }
   where
     env = environment context
     lead (form, x) = (form,) <$> lengthOf env Parameter.Lead x
@@ -115,8 +124,8 @@ assembled context work side settings passes = do
   tool <- cutter context
   tolerance <- chordError context
   feed <- modalFeed context
-  approach <- before passes
-  retract <- after passes
+  approach <- approachStops passes
+  retract <- retractStops passes
   _ <- if null (heights passes) then Just (Mm 0) else clearanceHeight context
   Just
     Milling
@@ -134,7 +143,7 @@ assembled context work side settings passes = do
         plunge = plungeFeed passes,
         leadIn = fst (leads passes),
         leadOut = snd (leads passes),
-        allowances = left passes,
+        allowances = passAllowances passes,
         corners = Checked.corners settings,
         sense = Checked.sense settings,
         spindleSense = modalSense context,

@@ -111,7 +111,7 @@ recalculated env base side lower (Located at cipher) = do
       x <- Expression.number <$> Expression.evaluate env e
       Mm x <$ Value.within (region e) x
     column e = Exact.column lower <$> alongRows env base e
-    bevels e = Exact.column lower <$> (alongRows env base e >>= upright base e)
+    bevels e = Exact.column lower <$> (alongRows env base e >>= checkedBevels base e)
     square mu distance = case mu of
       Nothing -> pure distance
       Just e -> (`Exact.Square` distance) <$> bevels e
@@ -243,18 +243,19 @@ bevelled :: Environment -> Maybe PartCurve -> Expr -> Eval [(Double, Double)]
 bevelled env on e = case on of
   Nothing -> do
     a <- Expression.number <$> Expression.evaluate env e
-    when (abs a >= steepest) (mistake (SteepBevel (region e) Nothing (Rad a)))
+    when (abs a >= bevelLimit) (mistake (SteepBevel (region e) Nothing (Rad a)))
     pure [(0, a)]
-  Just c -> Curve.alongPolyarc c <$> (alongRows env c e >>= upright c e)
+  Just c -> Curve.alongPolyarc c <$> (alongRows env c e >>= checkedBevels c e)
 
 -- | Bevels in radians at the rows of a curve's table. Fails for a bevel of a right angle or more.
-upright :: PartCurve -> Expr -> Vector Double -> Eval (Vector Double)
-upright c e values = case find ((>= steepest) . abs . snd) (zip [1 ..] (Vector.toList values)) of
+checkedBevels :: PartCurve -> Expr -> Vector Double -> Eval (Vector Double)
+checkedBevels c e values = case find ((>= bevelLimit) . abs . snd) numbered of
   Just (k, a) -> mistake (SteepBevel (region e) (if byRow then Just k else Nothing) (Rad a))
   Nothing -> pure values
   where
+    numbered = zip [1 ..] (Vector.toList values)
     byRow = mentions (map fst (tableColumns c)) e
 
 -- | The upper limit of bevels in radians, not included. It is just below a right angle.
-steepest :: Double
-steepest = pi / 2 - 1e-6
+bevelLimit :: Double
+bevelLimit = pi / 2 - 1e-6
