@@ -18,7 +18,7 @@ import Report.Report qualified as Report
 -- | An error of a program as a whole. A region is that of the statement that names the machine; it
 -- is absent if the command line names the machine.
 data Error
-  = -- | neither the program nor the command line names a machine: the names of the built-in machines
+  = -- | neither the program nor the command line names a machine: names of the built-in machines
     NoMachine [Text]
   | -- | no machine has this name: the region, the name, the names of the built-in machines
     UnknownMachine (Maybe Region) Text [Text]
