@@ -186,7 +186,7 @@ transformation region builtin arguments = case builtin of
       | k <= 0 = Evaluation.mistake (NotPositive region Parameter.ScalingFactor k)
       | otherwise = pure (Transformation.scaling k p)
 
--- | If the first argument is a thing to transform, its image. Otherwise the transformation itself.
+-- | If the first argument is a value to transform, its image. Otherwise the transformation itself.
 -- The function makes the transformation from the arguments that define it.
 transformed :: Region -> [Argument] -> ([Value] -> Eval Transformation) -> Eval Value
 transformed region arguments make = case [v | Plain v <- arguments] of

@@ -124,7 +124,7 @@ circleFunction region builtin arguments = case (builtin, arguments) of
       | r <= 0 = Evaluation.mistake (RadiusNotPositive region (Mm r))
       | otherwise = CircleValue (Circle c (Mm r)) <$ within region r
 
--- | The circles of this radius that touch two things. A thing is a point, a line or a circle, with
+-- | The circles of this radius that touch two figures. A figure is a point, a line or a circle, with
 -- or without a side.
 touchingCircles :: Mm -> Argument -> Argument -> Answers Circle
 touchingCircles r a b =
@@ -258,8 +258,8 @@ obstacle (Circle p r) (Circle q s)
     Mm inside = minus (max r s) (min r s)
     Mm tolerance = Tolerance.coincident
 
--- | The contacts that a circle may have with a thing: on either side of a line, outside or inside
--- of a circle. A side that the program writes before the thing excludes the other contact.
+-- | The contacts that a circle may have with a figure: on either side of a line, outside or inside
+-- of a circle. A side that the program writes before the figure excludes the other contact.
 touched :: Argument -> [Touched]
 touched argument = case argument of
   Plain (Spatial p) -> [Through (fromOrigin p)]

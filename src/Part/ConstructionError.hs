@@ -23,7 +23,7 @@ import Report.Report (Report (..))
 
 -- | A fault of a construction. The region of the call comes first in every constructor.
 data ConstructionFault
-  = -- | two things without a common point: both things, and the gap between them
+  = -- | two figures without a common point: both figures, and the gap between them
     NothingCommon Region ElementCarrier ElementCarrier Mm
   | -- | an intersection or a tangency of two equal curves
     SameThing Region
@@ -35,7 +35,7 @@ data ConstructionFault
     SeveralFit Region Sought [Candidate]
   | -- | a construction without an answer: the reason
     NoAnswer Region NoAnswer
-  | -- | a tangency of things that do not touch: the gap between them
+  | -- | a tangency of figures that do not touch: the gap between them
     NotTouching Region Mm
   | -- | a circle through three points of one line
     OnOneLine Region
@@ -47,11 +47,11 @@ data Sought = SoughtPoint | SoughtTangency | SoughtLine | SoughtCircle
 
 -- | The reason why a construction has no answer.
 data NoAnswer
-  = -- | no circle of the given radius touches both things on the given sides
+  = -- | no circle of the given radius touches both figures on the given sides
     NothingTouches Sought
-  | -- | the distance was asked of lines that are not parallel
+  | -- | the distance was requested for lines that are not parallel
     LinesNotParallel
-  | -- | the direction was asked of a vector of length 0
+  | -- | the direction was requested for a vector of length 0
     ZeroVector
   | -- | two circles or points have no common tangent
     NoTangent Sought TangentObstacle

@@ -103,7 +103,7 @@ data WholeNumber
     ItemNumber
   | -- | the number of a row of a table, from 1
     TableRowNumber
-  | -- | the number of a point of a list that takes the place of a table, from 1
+  | -- | the number of a point of a list that is used instead of a table, from 1
     ListPointNumber
   deriving stock (Eq, Show)
 
