@@ -32,6 +32,7 @@ text :: Text
 text = Encoding.decodeUtf8 (unsafePerformIO (ByteString.readFile "examples/flange.part"))
 {-# NOINLINE text #-}
 
+-- | The flange's part and toolpath.
 analysis :: Analysis
 analysis = expect (Compile.analyse [] loaded)
 
@@ -44,16 +45,19 @@ compiled = case expect (Compile.compile (Machines.jobFor lkp01f []) loaded) of
   [one] -> one
   tapes -> error ("one machine has " <> show (length tapes) <> " tapes")
 
+-- | The frames of the flange on lkp-01f, with the moves that they come from.
 program :: FrameProgram
 program = Compile.program (Compile.punched compiled)
 
+-- | The flange's tape for lkp-01f.
 tape :: Tape
 tape = Compile.tape (Compile.punched compiled)
 
--- | The verification of the tape.
+-- | The proof of that tape.
 proof :: Maybe Proof
 proof = Compile.proof compiled
 
+-- | The frames of that tape.
 frames :: [Frame]
 frames = map Frame.frame (Frame.plannedFrames program)
 

@@ -283,6 +283,7 @@ straightPath x y =
 data Motion = Motion {mirrored :: Bool, turned :: Rad, shifted :: Vec}
   deriving stock (Show)
 
+-- | Random motions of the plane.
 motion :: Gen Motion
 motion =
   Motion

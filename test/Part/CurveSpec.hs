@@ -213,9 +213,11 @@ spec = do
 near :: Double -> Double -> Property
 near a b = counterexample (show (a, b)) (abs (a - b) < 1e-4)
 
+-- | The first number is at most the second.
 atMost :: Double -> Double -> Property
 atMost a b = counterexample (show a <> " > " <> show b) (a <= b)
 
+-- | Two points less than this many mm apart.
 coincide :: Double -> Point -> Point -> Property
 coincide slack a b = counterexample (show (a, b)) (a `apart` b < slack)
 

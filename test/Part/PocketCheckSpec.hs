@@ -138,6 +138,7 @@ pocketOf statements = case [p | Pocket (Located _ p) <- operations statements] o
   [p] -> Just p
   _ -> Nothing
 
+-- | The operations of a program with these statements after a common head.
 operations :: [Text] -> [Operation]
 operations statements =
   case Compile.evaluate [] (LoadedProgram.fromText "pocket.part" text) of

@@ -164,6 +164,7 @@ spec = do
 here :: a -> Located a
 here = Located (Region 0 0)
 
+-- | Two points less than 10⁻⁶ mm apart.
 shouldBeNear :: Point -> Point -> Property
 shouldBeNear a b = let Mm d = Vec.distance a b in counterexample (show (a, b)) (d < 1e-6)
 
@@ -182,6 +183,7 @@ motion =
       Transformation.after <$> motion <*> motion
     ]
 
+-- | A motion, a scaling, or a composition of both.
 similarity :: Gen Transformation
 similarity =
   oneof
@@ -198,6 +200,7 @@ segmentsOf c = map Part.segment (NonEmpty.toList (Part.elements (Part.contour (m
 millingOf :: Case -> Milling
 millingOf = Generate.job
 
+-- | The moves of a milling, whose cutter begins at the start of the contour.
 movesOf :: Milling -> Maybe [Toolpath.Move]
 movesOf job = movesOfOperation (beginning job) (Mill (here job))
 
@@ -217,9 +220,11 @@ movesOfOperation at operation =
       Toolpath.Cutting {Toolpath.cut, Toolpath.retract} -> NonEmpty.toList cut <> retract
       _ -> []
 
+-- | The second move is the image of the first one.
 sameMove :: Transformation -> Toolpath.Move -> Toolpath.Move -> Property
 sameMove s a b = sameSegment s (Toolpath.segment a) (Toolpath.segment b)
 
+-- | The second segment is the image of the first one, at four of its points.
 sameSegment :: Transformation -> Segment -> Segment -> Property
 sameSegment s a b =
   conjoin
@@ -253,6 +258,7 @@ materialRight c g = Vec.cross (Segment.directionAt 0.5 g) (Vec.to middle foot) <
 
 -- Programs
 
+-- | An angle in degrees, and the two components of a vector in mm.
 angles :: Gen (Double, Double, Double)
 angles = (,,) <$> written 400 <*> written 300 <*> written 300
   where

@@ -55,6 +55,7 @@ header =
   "part p\nmachine lkp-01f\ntool mill(diameter 2 mm)\nfeed 60 mm/min\ntolerance 0.02 mm\nfrom (0, \
   \0)\n"
 
+-- | The snapshot of a text.
 look :: Text -> Snapshot
 look = Snapshot.take (Snapshot.checkWith []) . LoadedProgram.fromText "a.part"
 

@@ -31,6 +31,7 @@ spec = do
            in start (whole s) <= from && to <= end (whole s)
     filter (not . isWithin) (outline text) `shouldBe` []
 
+-- | The symbols of a program.
 outline :: Text -> [DocumentSymbol]
 outline text =
   Symbol.symbols (Snapshot.take (Snapshot.checkWith []) (LoadedProgram.fromText "a.part" text))
