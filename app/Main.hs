@@ -23,12 +23,13 @@ import System.IO (hPutStrLn, hSetEncoding, stderr, stdin, stdout)
 main :: IO ()
 main = do
   setLocaleEncoding utf8
-  -- File names are bytes; those that are not UTF-8 pass unchanged.
+  -- File names are bytes. The bytes of a name that is not UTF-8 pass unchanged.
   mkTextEncoding "UTF-8//ROUNDTRIP" >>= setFileSystemEncoding
   mapM_ (`hSetEncoding` utf8) [stdin, stdout, stderr]
   code <- work `catches` [Handler pure, Handler interrupted, Handler crashed, Handler unexpected]
   exitWith code
 
+-- | Runs the command line.
 work :: IO ExitCode
 work = do
   parsed <-
@@ -36,17 +37,19 @@ work = do
       <$> getArgs
   name <- getProgName
   statusOf <$> case parsed of
-    -- The parser gives the help and the version as failures with the status of success.
+    -- The parser yields the help and the version as failures with the status of success.
     Opt.Failure request
       | (text, ExitSuccess) <- Opt.renderFailure request name -> Subcommand.showHelp text
     _ -> Opt.handleParseResult parsed >>= Subcommand.run
 
+-- | The exit status: 0 for success, 1 for errors, 3 for a tape that is not proven.
 statusOf :: Exit -> ExitCode
 statusOf end = case end of
   Done -> ExitSuccess
   Failed -> ExitFailure 1
   Disproven -> ExitFailure 3
 
+-- | The exit status 130 for Ctrl-C; other asynchronous exceptions are bugs.
 interrupted :: AsyncException -> IO ExitCode
 interrupted e = case e of
   UserInterrupt -> pure (ExitFailure 130)
@@ -58,7 +61,7 @@ crashed b = reportBug (show b)
 unexpected :: SomeException -> IO ExitCode
 unexpected e = reportBug (show e)
 
--- | Reports a bug of the compiler: exit status 70.
+-- | Asks the user to report a bug of the compiler. The exit status is 70.
 reportBug :: String -> IO ExitCode
 reportBug what = do
   hPutStrLn

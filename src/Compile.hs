@@ -1,7 +1,7 @@
 -- | The whole pipeline on one page. Read this module first.
 --
 -- > text ─▶ Surface ─▶ Checked ─▶ Part ─▶ Toolpath ─▶ Frame ─▶ Tape
--- >           load      check   evaluate    lay      quantise  write
+-- >           load      check   evaluate    plan     quantise  write
 -- >                                ▲                             │
 -- >                                └────── Verify ◀── Control ◀──┘
 -- >                                        compare     run       read back
@@ -9,9 +9,9 @@
 -- 'compile' runs all of it; 'evaluate', 'analyse' and 'check' stop earlier. "Project.LoadedProgram"
 -- finds the texts and "Project.Target" the machines.
 --
--- Every stage is a pure function to a 'Result': warnings, errors, and the output as far as it is
--- sound. The stages up to the toolpath continue after errors, so that one run reports all
--- independent mistakes. A tape is made only from a program without errors.
+-- Every stage is a pure function to a 'Result': warnings, errors, and the sound part of the output.
+-- The stages up to the toolpath continue after errors, so that one run reports all independent
+-- mistakes. A tape is made only from a program without errors.
 module Compile
   ( compile,
     Compiled (..),
@@ -53,17 +53,18 @@ import Verify.FromTape qualified as Verify
 import Verify.Proof (Proof)
 import Verify.Proof qualified as Proof
 
--- | Compiles a program to one tape for each machine of the job.
+-- | Compiles a program to one tape for each machine of the job. With an error there is no tape.
 compile :: Job -> LoadedProgram -> Result Report Report [Compiled]
 compile Job {values, machinesFor, verification} loaded =
   forced analysed `thenSound` uncurry (makeTapes verification)
   where
     analysed =
       analyse values loaded `thenSound` \Analysis {part, path} -> (path,) <$> machinesFor part path
-    -- Unevaluated reports would keep the program in memory while the tapes are made.
+    -- Evaluates all reports: unevaluated ones would keep the program in memory while the tapes are
+    -- made.
     forced result = length (errors result) `seq` length (warnings result) `seq` result
 
--- | Text → Surface → Checked → Part. The text is loaded and parsed already.
+-- | Surface → Checked → Part, with values for the program's parameters, by their names.
 evaluate :: [(Text, Text)] -> LoadedProgram -> Result Report Report (Checked.Program, Part)
 evaluate values loaded = do
   written <- surface loaded
@@ -71,25 +72,26 @@ evaluate values loaded = do
   checked <- mapErrors id Checked.toReport (Checked.check assigned)
   (checked,) <$> mapErrors id Part.toReport (Part.evaluate checked)
 
--- | The meaning of a program on every machine: all mentions of names, the part, the toolpath.
+-- | The results that do not depend on a machine: all mentions of names, the part, the toolpath.
 data Analysis = Analysis {mentions :: [Checked.Mention], part :: Part, path :: Toolpath}
 
--- | Text → … → Part → Toolpath.
+-- | Surface → Checked → Part → Toolpath, with values for the program's parameters.
 analyse :: [(Text, Text)] -> LoadedProgram -> Result Report Report Analysis
 analyse values loaded = do
   (checked, part) <- evaluate values loaded
-  -- Evaluated now: the checked program need not be kept while the toolpath is computed.
+  -- Evaluated now, so that the checked program is not kept while the toolpath is computed.
   mentions <- pure $! Checked.mentions checked
   path <- mapErrors Toolpath.warningReport Toolpath.toReport (Toolpath.toToolpath part)
   pure Analysis {mentions, part, path}
 
--- | Reports the errors and warnings of a program up to the limits of its machines. Makes no tape.
+-- | Reports the errors and warnings of all stages up to the frames, for every machine of the job.
+-- Makes no tape.
 check :: Job -> LoadedProgram -> Result Report Report Analysis
 check Job {values, machinesFor} loaded =
   analyse values loaded `thenSound` \analysis@Analysis {part, path} ->
     analysis <$ (machinesFor part path >>= traverse (`punch` path))
 
--- | Makes one tape after the other. Nothing keeps the toolpath while the last one is verified.
+-- | Makes one tape after the other. The toolpath is freed before the last tape is verified.
 makeTapes :: Verification -> Toolpath -> [Machine] -> Result Report Report [Compiled]
 makeTapes verification path machines = case machines of
   [] -> pure []
@@ -99,7 +101,7 @@ makeTapes verification path machines = case machines of
 -- | A tape for one machine, and its proof if the job asks for verification.
 data Compiled = Compiled
   { machine :: Machine,
-    -- | the toolpath without the moves along the contours, which 'prove' does not need
+    -- | the toolpath, with each cut reduced to its first and last move: enough for 'prove'
     toolpath :: Toolpath,
     punched :: Punched,
     proof :: Maybe Proof
@@ -108,7 +110,7 @@ data Compiled = Compiled
 -- | Toolpath → Frame → Tape → read back → Control → Verify.
 makeTape :: Verification -> Toolpath -> Machine -> Result Report Report Compiled
 makeTape verification path machine =
-  -- Evaluated now: the moves along the contours are freed while their frames are made.
+  -- Evaluated now, so that each cutting move is freed as soon as its frames are made.
   toolpath `seq` do
     punched@Punched {program, tape} <- punch machine path
     let punchedFrames = map Frame.frame (Frame.plannedFrames program)
@@ -126,7 +128,7 @@ makeTape verification path machine =
 -- | The frames of a toolpath on one machine, and the tape that holds them.
 data Punched = Punched {program :: Frame.FrameProgram, tape :: Tape}
 
--- | Toolpath → Frame → Tape. The tape is written only when it is used.
+-- | Toolpath → Frame → Tape. The tape is lazy: it is written only when it is used.
 punch :: Machine -> Toolpath -> Result Report Report Punched
 punch machine path = do
   program <-
@@ -134,9 +136,9 @@ punch machine path = do
   let frames = map Frame.frame (Frame.plannedFrames program)
   pure Punched {program, tape = Tape.write machine (Frame.start program) frames}
 
--- | Frame → Control → Verify: runs the frames of a tape on the virtual controller and compares them
--- with the part. The errors are the findings; the tape is proven if there are none. The toolpath
--- may lack the moves along the contours.
+-- | Frame → Control → Verify: runs the frames of a tape on the virtual controller and compares the
+-- motions with the part. The errors are the findings; the tape is proven if there are none. The
+-- cuts of the toolpath may be reduced by 'withoutCuts'.
 prove :: Machine -> Toolpath -> Frame.FrameProgram -> [Frame.Frame] -> Result Report Report Proof
 prove machine toolpath program frames = failing (Proof.toReports machine proof) proof
   where

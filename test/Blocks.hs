@@ -1,4 +1,4 @@
--- | The programs in the documents, and the pictures below them.
+-- | The part programs in the documents, and the pictures below them.
 module Blocks
   ( Block (..),
     documents,
@@ -20,10 +20,11 @@ import Surface.Import qualified as Import
 import System.Directory (listDirectory)
 import System.FilePath (takeExtension, (</>))
 
--- | The text between @```part@ and @```@, and the name of the picture that follows.
+-- | A part program of a document: the text between @```part@ and @```@, and the name of the picture
+-- directly below it, if there is one.
 data Block = Block {program :: Text, picture :: Maybe Text}
 
--- | All documents.
+-- | The paths of all documents: README.md and docs/*.md.
 documents :: IO [FilePath]
 documents =
   ("README.md" :) . map ("docs" </>) . sort . filter ((== ".md") . takeExtension)
@@ -48,8 +49,8 @@ pictureBelow below =
         Just name
     _ -> Nothing
 
--- | Loads a program of a document. An excerpt is put after the head that docs/language.md gives.
--- Imports are relative to the document's folder.
+-- | Loads a program of a document. A program without a @part@ statement is put after the statements
+-- of the first program of docs/language.md. Imports are relative to the document's folder.
 load :: FilePath -> Block -> IO LoadedProgram
 load file block = do
   manual <- readText "docs/language.md"

@@ -12,7 +12,7 @@ import Data.Text qualified as Text
 import Files (filesBelow, readText)
 import System.FilePath (takeExtension)
 
--- | Every code between quotation marks in a module of the program.
+-- | All report codes that are string literals in a module of src/.
 inSources :: IO (Set Text)
 inSources = do
   sources <- filter ((== ".hs") . takeExtension) <$> filesBelow "src"

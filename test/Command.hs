@@ -10,7 +10,7 @@ import System.Exit (ExitCode)
 import System.IO.Temp (withSystemTempDirectory)
 import System.Process (readProcessWithExitCode)
 
--- | Runs @partc@ with these arguments: exit status, standard output, standard error.
+-- | Runs @partc@ with these arguments. Yields the exit status, standard output and standard error.
 partc :: [String] -> IO (ExitCode, String, String)
 partc arguments = do
   found <- findExecutable "partc"

@@ -1,4 +1,4 @@
--- | The documents are true: their programs compile, their table of codes is complete.
+-- | Checks of the documents: their programs compile, and their table of report codes is complete.
 module DocumentsSpec (spec) where
 
 import Base.Result qualified as Result

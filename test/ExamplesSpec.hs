@@ -1,8 +1,9 @@
--- | The programs and input sheets of examples/: each is proven and gives its recorded frames.
+-- | The programs and input sheets of examples/: the tape of each is proven and has its recorded
+-- frames.
 --
--- The name of an expectation contains the values of the parameters:
--- @spacer,bolt=12,holes=6.frames@. With PARTC_RECORD set, expectations are recorded; without it a
--- missing expectation is a failure.
+-- The frames are in examples/expected. The name of such a file contains the values of the
+-- parameters: @spacer,bolt=12,holes=6.frames@. With PARTC_RECORD set, the files are written;
+-- without it a missing file is a failure.
 module ExamplesSpec (spec) where
 
 import Base.Result (Result (..))

@@ -27,33 +27,37 @@ import System.IO.Unsafe (unsafePerformIO)
 import Tape.Tape (Tape)
 import Verify.Proof (Proof)
 
--- | The program of examples/.
+-- | The program examples/flange.part.
 text :: Text
 text = Encoding.decodeUtf8 (unsafePerformIO (ByteString.readFile "examples/flange.part"))
 {-# NOINLINE text #-}
 
+-- | The flange's part and toolpath.
 analysis :: Analysis
 analysis = expect (Compile.analyse [] loaded)
 
 loaded :: LoadedProgram
 loaded = LoadedProgram.fromText "flange.part" text
 
--- | Its verified tape for lkp-01f.
+-- | The flange's verified tape for lkp-01f.
 compiled :: Compiled
 compiled = case expect (Compile.compile (Machines.jobFor lkp01f []) loaded) of
   [one] -> one
   tapes -> error ("one machine has " <> show (length tapes) <> " tapes")
 
+-- | The frames of the flange on lkp-01f, with the moves that they come from.
 program :: FrameProgram
 program = Compile.program (Compile.punched compiled)
 
+-- | The flange's tape for lkp-01f.
 tape :: Tape
 tape = Compile.tape (Compile.punched compiled)
 
--- | The verification of the tape.
+-- | The proof of that tape.
 proof :: Maybe Proof
 proof = Compile.proof compiled
 
+-- | The frames of that tape.
 frames :: [Frame]
 frames = map Frame.frame (Frame.plannedFrames program)
 
@@ -63,8 +67,8 @@ expect r = case Result.ifSound r of
   Just a -> a
   Nothing -> error ("the flange has errors: " <> show (Result.errors r))
 
--- | The 18 nodes of the equidistant, computed from the drawing independently of this program, in
--- the paper's order and numbering, to 0.0001 mm.
+-- | The 18 nodes of the equidistant in mm, in the order of the paper. They were computed from the
+-- drawing without partc, and are rounded to 0.0001 mm.
 exactNodes :: [(Double, Double)]
 exactNodes =
   [ (4.9343, 40.9132),

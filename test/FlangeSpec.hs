@@ -24,12 +24,12 @@ spec = do
     length nodes `shouldBe` 18
     [(e, d) | e <- Flange.exactNodes, let d = minimum (map (apart e) nodes), d > 0.001]
       `shouldBe` []
-  it "the nodes come in the paper's order; node 0 of the paper is the second from the entry" $
+  it "the nodes are in the paper's order, beginning with the paper's last node" $
     [e | (e, n) <- zip Flange.exactNodes (drop 1 nodes <> take 1 nodes), apart e n > 0.001]
       `shouldBe` []
   it "its tape is proven, within tolerance and one pulse" $ do
     fmap Proof.isProven Flange.proof `shouldBe` Just True
-  it "its page shows what is computed, node by node, and the figures of the tape" $ do
+  it "its page shows the computed nodes, and the number of frames and the length of the tape" $ do
     page <- Text.readFile "docs/flange.md"
     let rows =
           [ (ours, x, y)

@@ -1,4 +1,4 @@
--- | The rules on form, on made-up sources.
+-- | The rules on the form of the code, tested on made-up sources.
 module FormSpec
   ( spec,
   )
@@ -28,12 +28,12 @@ spec = do
     it "notices a function of seven parameters" $
       found "src/Base/Name.hs" ["f :: a -> b -> c -> d -> e -> f -> g -> h", "f = g"]
         `shouldBe` [ManyParameters "Base.Name.f" 7]
-    it "lets a function of the list pass, and notices one that is there without need" $ do
+    it "allows a function in the list of exceptions, and notices a needless entry" $ do
       let listed = none {long = Map.fromList [("Base.Name.f", "a table")]}
       problems listed (Source "src/Base/Name.hs" (Text.unlines (function 41))) `shouldBe` []
       problems listed (Source "src/Base/Name.hs" (Text.unlines (function 40)))
         `shouldBe` [NeedlessException "Base.Name.f"]
-    it "notices tuning among decisions about machining, and lets the kernel have it" $ do
+    it "notices a tuning pragma where machining is decided, and allows it in the kernel" $ do
       let tuned = ["{-# OPTIONS_GHC -O2 #-}"]
       found "src/Toolpath/FromPart.hs" tuned `shouldBe` [Tuned "-O2"]
       found "src/Offset/Kernel.hs" tuned `shouldBe` []
@@ -42,12 +42,12 @@ spec = do
   describe "sharedTypes" $ do
     it "notices two exported types of one name" $
       sharedTypes none [exporting "A", exporting "B"] `shouldBe` [("T", ["A", "B"])]
-    it "lets a group of the list pass, and no further module" $ do
+    it "allows a group in the list of exceptions, but no further module" $ do
       let listed = none {shared = [("T", ["A", "B"], "the same at two stages")]}
       sharedTypes listed [exporting "A", exporting "B"] `shouldBe` []
       sharedTypes listed [exporting "A", exporting "B", exporting "C"]
         `shouldBe` [("T", ["A", "B", "C"])]
-    it "passes over types that are not exported" $
+    it "ignores types that are not exported" $
       sharedTypes none [exporting "A", Source "src/B.hs" "module B (f) where\ndata T = T\n"]
         `shouldBe` []
   where

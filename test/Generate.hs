@@ -1,5 +1,5 @@
--- | Random contours of lines and arcs: convex and concave, smooth and with corners, open and
--- closed, of either sense.
+-- | Random contours of lines and arcs (convex and concave, smooth and with corners, open and
+-- closed, of either sense), and random motions and frames.
 module Generate
   ( Case (..),
     closedCase,
@@ -54,14 +54,16 @@ import Toolpath.FromPart qualified as FromPart
 import Toolpath.Toolpath (Toolpath)
 import Toolpath.Toolpath qualified as Toolpath
 
--- | A contour, a side, the radius of a cutter that fits, and the equidistant.
+-- | A contour, the side of the cutter, the radius of a cutter that fits, and the segments of the
+-- equidistant.
 data Case = Case {contour :: Polyarc, side :: Side, radius :: Mm, pieces :: NonEmpty OffsetSegment}
   deriving stock (Show)
 
+-- | The radius of a case's cutter in mm.
 radiusOf :: Case -> Double
 radiusOf c = let Mm r = radius c in r
 
--- | Closed contours of either sense, some with sharp outer corners, the cutter on either side.
+-- | Closed contours of either sense, some with sharp outer corners. The cutter is on either side.
 closedCase :: Gen Case
 closedCase = fitting (oneof [polygon True, arcPolygon]) =<< elements [LeftOf, RightOf]
 
@@ -69,7 +71,7 @@ closedCase = fitting (oneof [polygon True, arcPolygon]) =<< elements [LeftOf, Ri
 smoothCase :: Gen Case
 smoothCase = fitting (polygon False) =<< elements [LeftOf, RightOf]
 
--- | A part of a closed contour.
+-- | An open contour: the first segments of a closed one.
 openCase :: Gen Case
 openCase = do
   s <- elements [LeftOf, RightOf]
@@ -78,7 +80,8 @@ openCase = do
     k <- choose (1, NonEmpty.length ss - 1)
     pure (Polyarc Open (NonEmpty.fromList (NonEmpty.take k ss)))
 
--- | A contour of either sense with a cutter that fits. Other contours are drawn again.
+-- | A case from a generator of contours and a side. Contours and radii are generated until the
+-- cutter fits.
 fitting :: Gen Polyarc -> Side -> Gen Case
 fitting gen side = do
   c <- gen
@@ -89,7 +92,7 @@ fitting gen side = do
     Right pieces -> pure Case {contour = c', side, radius = Mm r, pieces}
     Left _ -> fitting gen side
 
--- | A star-shaped polygon with rounded corners; outer ones may stay sharp.
+-- | A star-shaped polygon with rounded corners. If the flag is true, some outer corners are sharp.
 polygon :: Bool -> Gen Polyarc
 polygon sharp = do
   vs <- vertices
@@ -149,6 +152,7 @@ arcPolygon = do
             Vec.shift (Vec.scale deep (Vec.left (Vec.unit (Vec.to a b)))) (Vec.interpolate 0.5 a b)
       pure (Segment.arc CounterClockwise c a b)
 
+-- | The corners of a star-shaped polygon, counter-clockwise.
 vertices :: Gen [Point]
 vertices = do
   n <- choose (3, 9 :: Int)
@@ -162,7 +166,7 @@ vertices = do
       | (k, j, r) <- zip3 [0 :: Int ..] jitters radii
     ]
 
--- | The toolpath of a case with a tolerance.
+-- | The toolpath of a case, milled with this tolerance.
 milled :: Mm -> Case -> Maybe Toolpath
 milled tolerance c =
   Result.output
@@ -181,7 +185,7 @@ begin c = Segment.start (Equidistant.segment (NonEmpty.head (pieces c)))
 outside :: Case -> Bool
 outside c = (Polyarc.signedArea (contour c) > 0) == (side c == RightOf)
 
--- | The milling job of a case, with a straight approach to its beginning.
+-- | The milling of a case, with a rapid approach to the beginning of the equidistant.
 job :: Case -> Milling
 job c =
   Milling
@@ -217,7 +221,7 @@ job c =
   where
     here = Located (Region 0 0)
 
--- | Leads, corner styles, allowances and another beginning.
+-- | Random settings of a milling: leads, corners, allowances and another starting point.
 settings :: Gen (Milling -> Milling)
 settings = do
   arc <- elements [Nothing, Just (Part.LeadLine, Mm 3), Just (Part.LeadArc, Mm 2)]
@@ -235,7 +239,7 @@ settings = do
         Part.contour = maybe (Part.contour m) (`ContourElement.startingNear` Part.contour m) near
       }
 
--- | A part with one operation. The cutter begins at the point.
+-- | A part with one operation. The cutter starts at the point, at height 0.
 partOf :: Point -> Operation -> Part
 partOf at operation =
   Part
@@ -257,7 +261,7 @@ partOf at operation =
       Part.Travel _ -> Nothing
       Part.Command _ -> Nothing
 
--- | A toolpath of one move from the zero point.
+-- | A toolpath of one rapid move, from (0, 0) to a point by its coordinates in mm.
 straightPath :: Double -> Double -> Toolpath
 straightPath x y =
   Toolpath.Toolpath
@@ -279,6 +283,7 @@ straightPath x y =
 data Motion = Motion {mirrored :: Bool, turned :: Rad, shifted :: Vec}
   deriving stock (Show)
 
+-- | Random motions of the plane.
 motion :: Gen Motion
 motion =
   Motion
@@ -286,18 +291,21 @@ motion =
       <*> (Rad <$> choose (-4, 4))
       <*> (Vec.vec <$> choose (-500, 500) <*> choose (-500, 500))
 
+-- | The image of a point.
 movePoint :: Motion -> Point -> Point
 movePoint m p = Vec.shift (shifted m) (Vec.shift (Vec.rotate (turned m) v) (Vec.point 0 0))
   where
     v = if mirrored m then Vec.vec (Vec.x p) (-(Vec.y p)) else Vec.vec (Vec.x p) (Vec.y p)
 
+-- | The image of a segment.
 move :: Motion -> Segment -> Segment
 move m s = case s of
   Straight a b -> Straight (movePoint m a) (movePoint m b)
   Arc a b c (Rad sweep) ->
     Arc (movePoint m a) (movePoint m b) (movePoint m c) (Rad (if mirrored m then -sweep else sweep))
 
--- | Frames that keep the machine's invariants: straight ones, and ones with commands only.
+-- | Frames that the machine's tape can contain: straight motions, some with a command, and frames
+-- with only a command.
 frames :: Machine -> Gen [Frame]
 frames machine = listOf (oneof (moving : [commanding | not (null commands)]))
   where

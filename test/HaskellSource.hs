@@ -1,5 +1,5 @@
--- | A reader of Haskell sources for the tests that look at the code itself. It knows the lexical
--- grammar and the shape of top-level definitions, and nothing of types or scopes.
+-- | A simple parser of Haskell sources, for the tests of the code's form. It knows the lexical
+-- grammar and where top-level definitions begin and end. It does not know types and scopes.
 module HaskellSource
   ( -- * Tokens
     Token (..),
@@ -27,17 +27,17 @@ import Data.Text qualified as Text
 
 -- Tokens ------------------------------------------------------------------------------------
 
--- | As much of Haskell's lexical grammar as finding imports asks for. Comments, pragmas
--- and character literals leave no token.
+-- | A token of a source, simplified. Comments, pragmas and character literals are left out.
 data Token
-  = -- | A keyword, a name or a qualified name; a number too.
+  = -- | a keyword, a name, a qualified name or a number
     Word Text
-  | -- | A string literal, its content dropped.
+  | -- | a string literal, without its content
     Literal
-  | -- | An operator, or one bracket, comma or other mark.
+  | -- | an operator, or a single bracket, comma or other mark
     Mark Text
   deriving stock (Eq, Show)
 
+-- | The tokens of a source.
 tokenise :: Text -> [Token]
 tokenise source = case Text.uncons source of
   Nothing -> []
@@ -57,7 +57,7 @@ tokenise source = case Text.uncons source of
   where
     isDashes operator = Text.length operator >= 2 && Text.all (== '-') operator
 
--- | What follows the end of a block comment whose opening has been read. Such comments nest.
+-- | The text after a block comment, given the text after its opening @{-@. Comments nest.
 afterComment :: Text -> Text
 afterComment = go (1 :: Int)
   where
@@ -68,7 +68,7 @@ afterComment = go (1 :: Int)
       | "-}" `Text.isPrefixOf` text = go (depth - 1) (Text.drop 2 text)
       | otherwise = go depth (Text.drop 1 text)
 
--- | What follows the end of a string literal whose opening quote has been read.
+-- | The text after a string literal, given the text after its opening quotation mark.
 afterString :: Text -> Text
 afterString text = case Text.unpack (Text.take 2 unremarkable) of
   '\\' : '^' : _ -> afterString (Text.drop 3 unremarkable)
@@ -80,8 +80,8 @@ afterString text = case Text.unpack (Text.take 2 unremarkable) of
   where
     unremarkable = Text.dropWhile (`notElem` ("\\\"" :: String)) text
 
--- | What follows a character literal whose opening quote has been read. A quote that opens
--- none marks a promoted name and is passed over.
+-- | The text after a character literal, given the text after its opening quote. A quote that opens
+-- no literal marks a promoted name and is ignored.
 afterQuote :: Text -> Text
 afterQuote text = case Text.unpack (Text.take 2 text) of
   '\\' : _ -> Text.drop 1 (Text.dropWhile (/= '\'') (Text.drop 2 text))
@@ -98,7 +98,7 @@ isOperatorChar c
 
 -- The header of a module -----------------------------------------------------------------
 
--- | The modules that a module imports, in its order.
+-- | The names of the modules that a module imports, in the order of the source.
 imports :: [Token] -> [Text]
 imports tokens = case tokens of
   Word "foreign" : Word "import" : rest -> imports rest
@@ -111,7 +111,7 @@ imports tokens = case tokens of
     isModifier token = token `elem` [Word "qualified", Word "safe", Literal]
     isModuleName = Text.any isAlpha
 
--- | Whether the header names the exports one by one.
+-- | Does the header of a module have an export list?
 listsExports :: [Token] -> Bool
 listsExports tokens = case dropWhile (/= Word "module") tokens of
   Word "module" : Word _ : Mark "(" : _ -> True
@@ -143,9 +143,9 @@ declaredTypes tokens = case tokens of
 -- | A function or value at the top level.
 data Definition = Definition
   { name :: Text,
-    -- | how many lines its equations have, without comments and blank lines
+    -- | how many lines its equations take, without comments and blank lines
     extent :: Int,
-    -- | how many parameters its signature has; 0 without a signature
+    -- | how many parameters its type signature has; 0 without a signature
     parameters :: Int
   }
   deriving stock (Eq, Show)
@@ -162,7 +162,7 @@ definitions source =
       Map.fromList [(n, parameterCount rest) | b <- blocks, Just (n, rest) <- [signatureOf b]]
     extents = foldl' addExtent Map.empty blocks
 
--- | Adds the lines of an equation to those of its definition; passes over other blocks.
+-- | Adds the number of lines of an equation to that of its definition. Ignores other blocks.
 addExtent :: Map Text Int -> [Text] -> Map Text Int
 addExtent known block = case tokenise (Text.unlines block) of
   Word name : rest
@@ -175,14 +175,15 @@ addExtent known block = case tokenise (Text.unlines block) of
     declarations =
       ["data", "newtype", "type", "class", "instance", "deriving", "import", "module", "where"]
 
--- | The name of a signature and what follows its @::@.
+-- | The name that a type signature declares, and the tokens after its @::@. Nothing for other
+-- blocks.
 signatureOf :: [Text] -> Maybe (Text, [Token])
 signatureOf block = case tokenise (Text.unlines block) of
   Word name : Mark "::" : rest -> Just (name, rest)
   _ -> Nothing
 
--- | The lines of a source, grouped by the lines that begin in the first column. Comments and blank
--- lines are left out.
+-- | The lines of a source in groups. Each group begins with a line whose first column is not blank.
+-- Comments and blank lines are left out.
 topLevelBlocks :: [Text] -> [[Text]]
 topLevelBlocks source = case filter isCode source of
   [] -> []
@@ -192,8 +193,8 @@ topLevelBlocks source = case filter isCode source of
   where
     isCode l = not (Text.null (Text.strip l)) && not ("--" `Text.isPrefixOf` Text.stripStart l)
 
--- | The parameters of a signature: its arrows outside of brackets, those of a @forall@ and of
--- constraints not counted.
+-- | How many parameters a type signature has: the number of its arrows outside of brackets, after
+-- the constraints.
 parameterCount :: [Token] -> Int
 parameterCount = go (0 :: Int) 0
   where

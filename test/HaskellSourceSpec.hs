@@ -1,4 +1,4 @@
--- | The reader of Haskell sources, on made-up sources.
+-- | The parser of Haskell sources, tested on made-up sources.
 module HaskellSourceSpec
   ( spec,
   )
@@ -11,7 +11,7 @@ import Test.Hspec
 spec :: Spec
 spec = do
   describe "imports" $ do
-    it "reads the plain form" $
+    it "reads an import without keywords" $
       importsOf ["import Data.Text", "import Base.Name (Name)"]
         `shouldBe` ["Data.Text", "Base.Name"]
     it "reads qualified before the name" $
@@ -33,51 +33,51 @@ spec = do
         `shouldBe` ["Prelude", "A", "C"]
     it "reads imports that share a line" $
       importsOf ["import A; import B"] `shouldBe` ["A", "B"]
-    it "passes over line comments" $
+    it "ignores line comments" $
       importsOf ["-- import A", "--- import B", "import C -- import D"] `shouldBe` ["C"]
-    it "takes an operator with dashes for no comment" $
+    it "does not take an operator with dashes for a comment" $
       importsOf ["x = a --> b; import A", "y = f.--.g; import B", "import C"]
         `shouldBe` ["A", "B", "C"]
-    it "passes over block comments, nested ones too" $
+    it "ignores block comments, also nested ones" $
       importsOf ["{- import A {- import B -} import C -}", "import D"] `shouldBe` ["D"]
-    it "passes over strings" $
+    it "ignores string literals" $
       importsOf
         ["x = \"import A \\\" import B\"", "y = \"{-\"", "z = \"\\", "  \\ import C\"", "import D"]
         `shouldBe` ["D"]
-    it "passes over character literals and primes" $
+    it "ignores character literals and primes" $
       importsOf ["q = ['\"', '\\'', '\\\\', '\\x41']", "f' = foldl' import' 'A", "import D"]
         `shouldBe` ["D"]
-    it "passes over foreign imports" $
+    it "ignores foreign imports" $
       importsOf ["foreign import ccall \"math.h sin\" sine :: Double -> Double", "import A"]
         `shouldBe` ["A"]
 
   describe "listsExports" $ do
-    it "sees a list" $
+    it "is true for a module with an export list" $
       listed "module A (b) where" `shouldBe` True
-    it "sees a list after comments and pragmas" $
+    it "is true for an export list after comments and pragmas" $
       listed
         "{-# LANGUAGE CPP #-}\n-- | module B where\nmodule A\n  ( -- * Section\n    b,\n  )\nwhere"
         `shouldBe` True
-    it "sees that there is none" $
+    it "is false for a module without an export list" $
       listed "module A where\nf (x) = x" `shouldBe` False
   describe "exportedTypes" $ do
-    it "names the declared types of the export list" $
+    it "lists the exported types that the module declares" $
       exportedTypes
         (tokenise "module A (T (..), U, f, V) where\ndata T = U\ntype V = Int\ndata W = W\n")
         `shouldBe` ["T", "V"]
 
   describe "definitions" $ do
-    it "counts the lines of all equations and of what hangs on them" $
+    it "counts the lines of all equations, with their where clauses" $
       sizes ["f :: Int -> Int", "f 0 = 1", "f n =", "  g n", "  where", "    g = id"]
         `shouldBe` [("f", 5)]
     it "counts neither comments nor blank lines nor signatures" $
       sizes ["-- | Twice.", "f :: Int -> Int", "f n =", "", "  -- why", "  n + n"]
         `shouldBe` [("f", 2)]
-    it "passes over types, instances and imports" $
+    it "ignores types, instances and imports" $
       sizes
         ["import A", "data T = T {a :: Int}", "instance Show T where", "  show _ = \"=\"", "x = 1"]
         `shouldBe` [("x", 1)]
-    it "tells the parameters of a signature" $
+    it "counts the parameters of a signature" $
       map parameters (definitions "f :: Ord a => a -> (b -> c) -> [d -> e] -> f\nf a b c = d\n")
         `shouldBe` [3]
     it "reads signatures over several lines" $

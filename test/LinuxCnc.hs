@@ -1,7 +1,7 @@
--- | An independent judge for the frames of modern controls: the interpreter of LinuxCNC, run alone
--- as @rs274@. It prints the canonical calls, which say what a machine would do, with four decimals.
--- It may accept a program and still understand it differently; so its moves are compared with the
--- toolpath.
+-- | An independent check of the frames for modern controls, by the interpreter of LinuxCNC: the
+-- command @rs274@. It prints canonical calls, which say what a machine would do, with four
+-- decimals. It may accept a program but understand it differently. So the moves of its calls are
+-- compared with the toolpath.
 module LinuxCnc
   ( installed,
 
@@ -54,25 +54,27 @@ import Toolpath.Toolpath qualified as Toolpath
 installed :: IO Bool
 installed = (/= Nothing) <$> findExecutable "rs274"
 
--- | A position in mm.
+-- | A position: x, y and z in mm.
 data Position = Position Double Double Double
   deriving stock (Eq, Show)
 
--- | A call that moves the cutter, in mm and mm/min.
+-- | A call that moves the cutter to a position. Feeds are in mm/min.
 data Canonical
-  = Traverse Position
-  | Feeding Double Position
-  | -- | an arc in the plane of x and y: feed, sense, centre, end
+  = -- | a rapid move
+    Traverse Position
+  | -- | a straight move: its feed and its end
+    Feeding Double Position
+  | -- | an arc in the plane of x and y, or a helix: feed, sense, centre, end
     Rounding Double Sense Point Position
   deriving stock (Eq, Show)
 
--- | Runs a file. The answer is a reason if the interpreter complains, or if it prints an unknown
--- call. The interpreter keeps its tool table in the home folder, where another run could truncate
--- it; so each run has a home folder of its own.
+-- | Runs a file and yields the calls that move the cutter. Yields the reason instead if the
+-- interpreter complains, or if it prints an unknown call. The interpreter keeps its tool table in
+-- the home folder, where another run could truncate it; so each run has a home folder of its own.
 canonical :: FilePath -> IO (Either Text [Canonical])
 canonical file = withSystemTempDirectory "partc-rs274" $ \home -> do
   (status, out, err) <- readProcessWithExitCode "env" ["HOME=" <> home, "rs274", "-g", file] ""
-  -- The interpreter also reports on the stream of complaints that it is executing.
+  -- The interpreter also prints "executing" on standard error, which is no complaint.
   let complaint = Text.strip (Text.unlines (filter (/= "executing") (Text.lines (Text.pack err))))
   pure $ case status of
     ExitFailure n ->
@@ -83,11 +85,11 @@ canonical file = withSystemTempDirectory "partc-rs274" $ \home -> do
 
 -- Canonical calls ---------------------------------------------------------------------------------
 
--- | The modal state: the unit of length in mm, the feed in such units per minute, and whether arcs
+-- | The modal state: the unit of length in mm, the feed in such units per minute, and true if arcs
 -- lie in the plane of x and y.
 data State = State {scale :: Double, feed :: Double, isInXY :: Bool}
 
--- | The moves among the calls that the interpreter prints.
+-- | Parses the calls that the interpreter prints, and keeps those that move the cutter.
 parse :: Text -> Either Text [Canonical]
 parse printed = go (State 1 0 True) (filter (not . Text.all isSpace) (Text.lines printed))
   where
@@ -96,7 +98,8 @@ parse printed = go (State 1 0 True) (filter (not . Text.all isSpace) (Text.lines
       (next, move) <- first (\why -> why <> ": " <> Text.strip line) (call state line)
       maybe id (:) move <$> go next rest
 
--- | One call: the state after it, and its move.
+-- | Parses one call, given the state before it. Yields the state after it, and the call if it moves
+-- the cutter.
 call :: State -> Text -> Either Text (State, Maybe Canonical)
 call state line = case name of
   "USE_LENGTH_UNITS" -> case arguments of
@@ -109,14 +112,14 @@ call state line = case name of
   "STRAIGHT_FEED" -> moved (fmap (Feeding rate) . place)
   "ARC_FEED" -> moved arc
   _
-    -- Coordinates refer to these offsets.
+    -- Coordinates refer to the origin that these calls set.
     | name `elem` origins ->
       traverse number (drop (if name == "SET_G5X_OFFSET" then 1 else 0) arguments) >>= \ns ->
         if all (== 0) ns then nothing else Left "the zero has moved"
     | name `elem` harmless -> nothing
     | otherwise -> Left "a call that is not known"
   where
-    -- The number of the call and that of the line precede it: "   18 N..... ARC_FEED(10.0000,
+    -- A call comes after its number and the number of its line: "   18 N..... ARC_FEED(10.0000,
     -- 20.0000, …)".
     (name, given) = Text.breakOn "(" (Text.unwords (drop 2 (Text.words line)))
     arguments =
@@ -167,7 +170,7 @@ number t = case Read.signed Read.double t of
 
 -- Moves -------------------------------------------------------------------------------------------
 
--- | One move in the plane and in height, in mm.
+-- | A move: its segment in the plane, the heights of its start and its end in mm, and its speed.
 data Move = Move {segment :: Segment, heights :: (Double, Double), speed :: Speed}
   deriving stock (Eq, Show)
 
@@ -178,7 +181,7 @@ data Speed
     AtFeed Double
   deriving stock (Eq, Show)
 
--- | The moves from a known position.
+-- | The moves of some calls, beginning at the given position.
 movesFrom :: Position -> [Canonical] -> [Move]
 movesFrom _ [] = []
 movesFrom from@(Position _ _ height) (c : rest) = case c of
@@ -198,24 +201,27 @@ movesFrom from@(Position _ _ height) (c : rest) = case c of
     straight to = continue to (Straight (flat from) (flat to))
     continue to@(Position _ _ z) moved speed = Move moved (height, z) speed : movesFrom to rest
 
+-- | The point of the plane below a position.
 flat :: Position -> Point
 flat (Position x y _) = Vec.point x y
 
--- | Expected moves that belong together, the allowed distance of the cutter from them, its speed.
+-- | A leg of the expected path: a chain of segments that the control may cut into other moves. Each
+-- segment has the heights of its start and its end in mm. @within@ is the allowed distance of the
+-- cutter from the chain, and @wanted@ its speed.
 data Leg = Leg {chain :: NonEmpty (Segment, (Double, Double)), within :: Mm, wanted :: Speed}
   deriving stock (Eq, Show)
 
--- | The allowed distance from a move that the control can make exactly: half of the last decimal of
--- both ends, and the four printed decimals.
+-- | The allowed distance from a line or arc that the control can make exactly. It covers the
+-- rounding of both ends on the tape and the four printed decimals.
 exactly :: Mm
 exactly = Mm 0.002
 
--- | The allowed difference of feeds, which are written as whole numbers.
+-- | The allowed difference of feeds in mm/min. On the tape, feeds are whole numbers.
 roundedFeed :: Double
 roundedFeed = 0.5 + 1e-6
 
--- | The differences between moves and expected legs. The moves must have the order of the legs:
--- each leg takes the moves that lie on it, until it is covered and its end is reached.
+-- | The differences between expected legs and moves, in words. The moves must follow the legs in
+-- order. Each leg takes the moves that lie on it, until it is covered and its end is reached.
 differences :: [Leg] -> [Move] -> [Text]
 differences expected = go (zip [1 :: Int ..] expected)
   where
@@ -255,7 +261,7 @@ differences expected = go (zip [1 :: Int ..] expected)
 said :: Show a => a -> Text
 said = Text.pack . show
 
--- | Do the moves cover the whole leg and end exactly at its end?
+-- | Do the moves cover the whole leg, and do they end at the leg's end?
 isCoveredBy :: Leg -> [Move] -> Bool
 isCoveredBy leg made = case reverse made of
   [] -> False
@@ -283,7 +289,7 @@ liesOn leg move =
       | otherwise =
         abs (a + along s p * (b - a) - h)
           <= mm (within leg) * (1 + abs (b - a) / mm (Segment.length s))
-    -- Close to the start of an arc the fraction may be that of a full circle.
+    -- Close to the start of an arc, 'Segment.fraction' may yield the fraction of a full circle.
     along s p
       | Vec.distance p (Segment.start s) <= within leg && Segment.start s /= Segment.end s = 0
       | otherwise = max 0 (min 1 (Segment.fraction s p))
@@ -291,7 +297,8 @@ liesOn leg move =
 mm :: Mm -> Double
 mm (Mm d) = d
 
--- | The arcs with different radii at their ends. A control with a narrower check would refuse them.
+-- | The arcs whose radii at start and end differ by more than 'exactly', in words. A control with a
+-- stricter check than LinuxCNC would refuse such an arc.
 radii :: [Move] -> [Text]
 radii made = mapMaybe uneven [s | Move {segment = s@Arc {}} <- made]
   where
@@ -304,8 +311,8 @@ radii made = mapMaybe uneven [s | Move {segment = s@Arc {}} <- made]
               Just
                 ("the radius is " <> said a <> " at the start and " <> said b <> " at the end")
 
--- | The legs of a toolpath on a machine with arcs: lines and arcs exactly, curves within the
--- tolerance.
+-- | The start of a toolpath, and its legs on a machine with arcs. Lines and arcs allow the distance
+-- 'exactly', curves the tolerance of their milling.
 legs :: Toolpath -> (Position, [Leg])
 legs path =
   ( beginning,

@@ -1,4 +1,4 @@
--- | The frames for modern controls in the interpreter of LinuxCNC. @make@ installs it with the
+-- | The frames for modern controls, run by the interpreter of LinuxCNC. @make@ installs it with the
 -- other packages; without it these tests are pending.
 module LinuxCncSpec (spec) where
 
@@ -70,7 +70,8 @@ spec = do
             feed60 (Straight (p (10, 0)) (p (10, 5))),
             feed60 (halfTurn (15, 5) (10, 5) (20, 5))
           ]
-    it "finds nothing in moves that are retraced" $ LinuxCnc.differences wanted made `shouldBe` []
+    it "finds no difference in moves that follow the legs" $
+      LinuxCnc.differences wanted made `shouldBe` []
     it "notices a leg that is left out" $
       LinuxCnc.differences wanted (take 2 made) `shouldSatisfy` some
     it "notices a move too many" $ LinuxCnc.differences (take 2 wanted) made `shouldSatisfy` some
@@ -81,7 +82,7 @@ spec = do
       instead [Feeding 60 (Position 10 5.003 0), back] `shouldSatisfy` some
     it "notices a move in the wrong order" $
       LinuxCnc.differences wanted (reverse made) `shouldSatisfy` some
-    it "notices rapid through the material, and a wrong feed" $ do
+    it "notices a rapid move instead of a cut, and a wrong feed" $ do
       instead [Traverse (Position 10 5 0), back] `shouldSatisfy` some
       instead [Feeding 62 (Position 10 5 0), back] `shouldSatisfy` some
     it "notices a wrong height" $
@@ -93,7 +94,7 @@ spec = do
             feed60 (Segment.fullCircle CounterClockwise (Circle (p (0, 0)) (Mm 10)) (p (10, 0)))
           ]
         half sense to = Rounding 60 sense (p (0, 0)) (Position to 0 0)
-    it "accepts several moves on one leg, and a full circle in two" $
+    it "accepts several moves on one leg, and a full circle as two arcs" $
       LinuxCnc.differences
         round60
         ( LinuxCnc.movesFrom
@@ -105,7 +106,7 @@ spec = do
             ]
         )
         `shouldBe` []
-    it "does not take a half circle, forth and back, for the full one" $
+    it "does not accept a half circle, forth and back, as a full circle" $
       LinuxCnc.differences
         round60
         ( LinuxCnc.movesFrom
@@ -143,7 +144,7 @@ spec = do
   where
     some = not . null
 
--- | The interpreter on the programs below.
+-- | The behaviour of the interpreter that the comparison relies on.
 interpreter :: Spec
 interpreter = do
   it "retraces lines, arcs of both senses, a circle in two halves and a descent" $
@@ -264,7 +265,7 @@ interpreter = do
     arcAbout centre from to = Segment.arc CounterClockwise (p centre) (p from) (p to)
     lines' corners = zipWith still corners (drop 1 corners)
 
--- | Runs a program of these lines.
+-- | Runs the interpreter on a program of these lines, after a common head.
 run :: [Text] -> IO (Either Text [Canonical])
 run written = inFolder $ \folder -> do
   let file = folder </> "program.ngc"
@@ -275,6 +276,7 @@ run written = inFolder $ \folder -> do
     )
   LinuxCnc.canonical file
 
+-- | Expects that the interpreter complains, with these words in its complaint.
 refused :: Text -> Either Text [Canonical] -> Expectation
 refused why result = case result of
   Left said -> said `shouldSatisfy` Text.isInfixOf why
@@ -293,8 +295,8 @@ feed60 s = Leg {chain = (s, (0, 0)) :| [], within = LinuxCnc.exactly, wanted = A
 halfTurn :: (Double, Double) -> (Double, Double) -> (Double, Double) -> Segment
 halfTurn centre from to = Arc {start = p from, end = p to, centre = p centre, sweep = Rad (-pi)}
 
--- | Compiles a part program for a modern control. LinuxCNC must accept the text without a message,
--- and its moves must retrace the toolpath.
+-- | Compiles a part program for a modern control, and expects that LinuxCNC accepts the text
+-- without a message and moves along the toolpath.
 retraced :: FilePath -> Expectation
 retraced file = inFolder $ \folder -> do
   let text = folder </> takeBaseName file <.> "ngc"

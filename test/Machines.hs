@@ -1,4 +1,4 @@
--- | The built-in machines, and the job that a test runs.
+-- | The built-in machines, and the jobs that tests run.
 module Machines
   ( named,
     lkp01f,
@@ -43,7 +43,7 @@ iso6983 = named "iso6983"
 known :: [Machine]
 known = BuiltIn.machines
 
--- | A verified tape for this machine, whichever machine the program names.
+-- | A job that makes a verified tape for this machine, whichever machine the program names.
 jobFor :: Machine -> [(Text, Text)] -> Job
 jobFor machine values =
   Job
@@ -52,8 +52,8 @@ jobFor machine values =
       verification = Verified
     }
 
--- | A verified tape for the machine that the program names, or for the other machine if it names
--- none that can be found.
+-- | A job that makes a verified tape for the machine that the program names. If it names none, or
+-- none that can be found, the tape is for the given machine.
 jobForOwnOr :: Machine -> [(Text, Text)] -> LoadedProgram -> Job
 jobForOwnOr other values loaded = (jobFor other values) {machinesFor}
   where

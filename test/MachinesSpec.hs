@@ -1,6 +1,8 @@
--- | Every example on every machine: proven, or refused with a region and a reason.
+-- | Every example on every machine: its tape is proven, or the program is refused with a region and
+-- a reason.
 --
--- The outcomes are in @examples/expected/NAME.machines@; with PARTC_RECORD set they are recorded.
+-- The outcomes are in @examples/expected/NAME.machines@. With PARTC_RECORD set, the files are
+-- written.
 module MachinesSpec (spec) where
 
 import Base.Decimal qualified as Decimal
@@ -50,6 +52,7 @@ spec = do
         (/= 'Н')
         (mapMaybe RowMeaning.symbol [r | r <- rows, RowMeaning.frame r == Just n])
 
+-- | Every example, compiled for every built-in machine.
 everywhere :: Spec
 everywhere = describe "every example on every machine" $ do
   files <-
@@ -74,7 +77,7 @@ outcomeOn loaded target = do
   let outcome = Compile.compile (Machines.jobFor target []) loaded
   case Result.ifSound outcome of
     Just [Compiled {machine, punched = Punched {program, tape}, proof}] -> do
-      -- Unlike the compiler, this reads the tape without knowing its frames.
+      -- The compiler reads a tape back with its frames at hand; this reads the rows alone.
       Tape.read machine (Frame.start program) tape `shouldBe` Right (framesOf program)
       fmap Proof.findings proof `shouldBe` Just []
       pure
@@ -88,7 +91,7 @@ outcomeOn loaded target = do
 framesOf :: FrameProgram -> [Frame]
 framesOf = map Frame.frame . Frame.plannedFrames
 
--- | The numbers of frames, of arcs among them, and of rows.
+-- | How many frames a tape has, how many of them are arcs, and how many rows it has, in words.
 counts :: [Frame] -> Tape -> Text
 counts frames tape =
   Text.intercalate
@@ -101,6 +104,7 @@ counts frames tape =
 codeWord :: Report -> Text
 codeWord r = let ReportCode c = Report.code r in c
 
+-- | Does a report point at a region of the program?
 isPlaced :: Report -> Bool
 isPlaced r = case Report.place r of
   InSource _ -> True

@@ -1,4 +1,4 @@
--- | The mutants: each is whole, names a law of the tests, and is listed in docs/laws.md.
+-- | The mutants of test/mutants: each has all its fields, and docs/laws.md lists it.
 module MutantsSpec
   ( spec,
   )
@@ -16,7 +16,7 @@ import System.Environment (lookupEnv)
 import System.FilePath (takeBaseName, takeExtension)
 import Test.Hspec hiding (after, before)
 
--- | The fields above the expressions of a mutant.
+-- | The fields at the head of a mutant, by their names.
 fields :: Text -> Map Text Text
 fields text =
   Map.fromList
@@ -34,7 +34,7 @@ table mutants = Text.unlines (["| law | bug | mutant |", "|---|---|---|"] <> map
     field = Map.findWithDefault ""
     cell = Text.replace "|" "\\|"
 
--- | The text between two marks of a page, with what comes before and after it.
+-- | The text between two marks of a page, and the texts before and after it with the marks.
 between :: Text -> Text -> Text -> (Text, Text, Text)
 between begin end page = (before <> begin, inside, after)
   where
@@ -46,7 +46,7 @@ spec = describe "test/mutants" $ do
   files <- runIO (filter ((== ".mutant") . takeExtension) <$> filesBelow "test/mutants")
   texts <- runIO (mapM readText (sort files))
   let mutants = zip (map (Text.pack . takeBaseName) (sort files)) (map fields texts)
-  it "say which law notices which bug, and where the bug is" $
+  it "name the law, the bug that it must notice, and the place of the bug" $
     [ name
       | (name, m) <- mutants,
         any (`Map.notMember` m) ["law", "bug"]

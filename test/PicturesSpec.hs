@@ -1,7 +1,7 @@
--- | The pictures of the documents are those of the programs above them.
+-- | Each picture of the documents is the drawing of the program above it.
 --
--- With PARTC_RECORD set, they are drawn again (@make pictures@); without it a missing picture is a
--- failure.
+-- With PARTC_RECORD set, the pictures are drawn again (@make pictures@); without it a missing
+-- picture is a failure.
 module PicturesSpec (spec) where
 
 import Base.Result qualified as Result

@@ -1,7 +1,8 @@
--- | The small programs of test/programs: good ones with their frames, bad ones with their reports.
+-- | The small programs of test/programs. A program in a folder @good@ has its frames in a file
+-- beside it; a program in a folder @bad@ has its reports there.
 --
--- Each folder is a feature of the language. With PARTC_RECORD set, expectations are recorded;
--- without it a missing expectation is a failure.
+-- Each folder of test/programs is a feature of the language. With PARTC_RECORD set, the files of
+-- frames and reports are written; without it a missing file is a failure.
 module ProgramsSpec (spec) where
 
 import Base.Region qualified as Region
@@ -75,7 +76,7 @@ spec = do
               || Text.isInfixOf ("[" <> c <> "]") expectations
       filter (not . isTested) codes `shouldBe` []
 
--- | A tape for the program's own machine, or for lkp-01f.
+-- | A job for the machine that the program names, or for lkp-01f if it names none.
 job :: [(Text, Text)] -> LoadedProgram -> Job
 job = Machines.jobForOwnOr Machines.lkp01f
 
@@ -88,8 +89,8 @@ rendered source reports = Text.concat (map render (Report.sorted reports))
 ofCommandLine :: FilePath -> Bool
 ofCommandLine file = any (`isInfixOf` file) ["Cli", "Project"]
 
--- | A program with its imports, and the values for parameters that its lines
--- @-- set: NAME=VALUE@ give.
+-- | A program with its imports, and values for its parameters. A line @-- set: NAME=VALUE@ of the
+-- program sets such a value.
 loadedFrom :: FilePath -> IO ([(Text, Text)], LoadedProgram)
 loadedFrom file = do
   text <- readText file
@@ -108,7 +109,7 @@ loadedFrom file = do
       exists <- doesFileExist path
       if exists then Right <$> readText path else pure (Left "there is no such file or folder")
 
--- | The codes between quotation marks in a source text: a letter and four digits.
+-- | The report codes that are string literals of a source: E or W and four digits.
 codesIn :: Text -> [Text]
 codesIn text =
   [ code

@@ -12,7 +12,8 @@ import Machines qualified
 import Project.LoadedProgram qualified as LoadedProgram
 import Report.Report (Report)
 
--- | All errors and warnings up to the limits of the machine.
+-- | All errors and warnings of a program up to the frames, for the machine that it names or
+-- lkp-01f.
 onProgram :: Source -> [Report]
 onProgram source = errors outcome <> warnings outcome
   where

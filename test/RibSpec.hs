@@ -1,4 +1,4 @@
--- | The rib of examples/: the distances of its edge from the skin, and its page.
+-- | The rib of examples/: the distances of its edge from the skin, and its page in docs/.
 module RibSpec (spec) where
 
 import Base.Result qualified as Result
@@ -17,7 +17,7 @@ import Test.Hspec
 
 spec :: Spec
 spec = do
-  it "the edge keeps the distances of its ciphers, recalculation by recalculation" $ do
+  it "the edge has the distance that each of its ciphers asks for" $ do
     program' <- readText file
     map Report.title (Result.errors (Compile.analyse [] (loaded (program' <> distances))))
       `shouldBe` []
@@ -33,7 +33,7 @@ spec = do
             (/= "    …")
             (dropWhile (not . Text.isPrefixOf "section  kind") (Text.lines page))
         report = NodeTable.nodes (Just (lkp01f, punched)) analysis
-        -- After the rest of the last contour's heading and an empty line.
+        -- The table begins after the heading of the last contour and an empty line.
         printed = drop 2 (Text.lines (snd (Text.breakOnEnd "Contour outside_edge" report)))
     length shown `shouldBe` 9
     take 9 printed `shouldBe` shown
@@ -56,7 +56,7 @@ spec = do
             )
         onEdge =
           [(n, feed) | n : "cut" : rest@(_ : _ : _ : _ : feed : _) <- rows, last rest == edgeLine]
-        -- The frames of the last pass up to its slow one: their numbers are consecutive.
+        -- The frames of the last pass up to the slow one; their numbers are consecutive.
         counted = case reverse [n | (n, "15") <- onEdge] of
           end : _ ->
             length
@@ -77,8 +77,8 @@ spec = do
     showText = Text.pack . show :: Int -> Text
     number = Text.foldl' (\n c -> 10 * n + fromEnum c - fromEnum '0') 0
 
--- | The dimensions of the drawing for the upper edge at its row x = 240 and under the strap, and
--- for the lower edge in the middle of the pad.
+-- | Assertions on the dimensions of the drawing: for the upper edge at its row x = 240 and under
+-- the strap, and for the lower edge in the middle of the pad.
 distances :: Text
 distances =
   Text.unlines

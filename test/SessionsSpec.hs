@@ -1,9 +1,9 @@
--- | The documents show what the command prints.
+-- | The documents show the output of the command.
 --
 -- A block @```console@ contains commands, each after @$@, and their output: reports first, then
--- results. The commands run in a folder with the last whole program above them, @```part@ or
--- @```part wrong@, in a file named for the part, or with the last input sheet, @```sheet NAME@.
--- With PARTC_RECORD set, the output is written into the document.
+-- results. The commands run in a folder with one file: the last program above them that has a
+-- @part@ statement (@```part@ or @```part wrong@), in a file named for the part, or the last input
+-- sheet (@```sheet NAME@). With PARTC_RECORD set, the output is written into the document.
 module SessionsSpec (spec) where
 
 import Blocks qualified
@@ -21,7 +21,7 @@ import System.Process (CreateProcess (cwd), proc, readCreateProcessWithExitCode)
 import Test.Hspec
 
 spec :: Spec
-spec = describe "sessions show what partc prints" $ do
+spec = describe "sessions show the output of partc" $ do
   recording <- runIO (lookupEnv "PARTC_RECORD")
   documents <- runIO Blocks.documents
   forM_ documents $ \file -> do
@@ -39,10 +39,11 @@ spec = describe "sessions show what partc prints" $ do
 -- | A section of a document between its fences: text and blocks alternate.
 data Section
   = Plain Text
-  | -- | a block of commands, with the name and text of the program above it
+  | -- | a block of commands, with the name and the text of the file that they use
     Session (FilePath, Text) Text
 
--- | Each section with the program or input sheet above it.
+-- | The sections of a document, in which texts and blocks alternate. Each block of commands gets
+-- the program or input sheet above it.
 withPrograms :: [Text] -> [Section]
 withPrograms = snd . mapAccumL one (".part", "") . zip [0 :: Int ..]
   where
@@ -63,7 +64,7 @@ withPrograms = snd . mapAccumL one (".part", "") . zip [0 :: Int ..]
       Nothing -> Text.stripPrefix "part\n" section
       found -> found
 
--- | A section with the present output of its commands.
+-- | A section as text, with the present output of its commands.
 rerun :: Section -> IO Text
 rerun section = case section of
   Plain text -> pure text

@@ -1,4 +1,5 @@
--- | The template of the Ural paper: its sections, their deviations from the points, and its page.
+-- | The template of the Ural paper: its sections, their deviations from the points, and its page in
+-- docs/.
 module TemplateSpec (spec) where
 
 import Base.Decimal qualified as Decimal
@@ -47,12 +48,12 @@ spec = do
         abs x >= 0.005
     ]
       `shouldBe` [(2, "0.01"), (4, "0.03"), (7, "-0.02"), (9, "-0.02"), (11, "0.01"), (12, "0.03")]
-  it "three pieces are needed within 0.03 mm, and three are found" $ do
+  it "three sections are needed within 0.03 mm, and three are found" $ do
     map (length . sections) (fitted "fitted") `shouldBe` [3]
     [k | k <- [2 .. 12], isSingle (take k points), isSingle (drop (k - 1) points)] `shouldBe` []
     let isOutside d = let Mm x = SectionFit.signedDeviation d in abs x > 0.03
     filter isOutside (concatMap deviations (fitted "fitted")) `shouldBe` []
-  it "its page shows the points of the program, and what is computed" $ do
+  it "its page shows the points of the program, and the computed values" $ do
     page <- rows <$> readText "docs/template.md"
     [(x, y) | [n, _, _, x, y, _] <- page, isNumber n]
       `shouldBe` [(Decimal.fixed 2 (Vec.x p), Decimal.fixed 2 (Vec.y p)) | p <- points]
@@ -64,7 +65,7 @@ spec = do
                    | (d, p) <- zip missed points,
                      let Mm x = SectionFit.signedDeviation d
                  ]
-  it "its page shows the program of examples/, and counts its frames" $ do
+  it "its page shows the program of examples/, and the number of its frames" $ do
     page <- readText "docs/template.md"
     program' <- readText file
     page `shouldSatisfy` Text.isInfixOf (snd (Text.breakOn "part template" program'))
@@ -98,7 +99,7 @@ formula p = case Section.formula p of
   Section.Polynomial a b c -> Text.unwords [Decimal.fixed 8 a, Decimal.fixed 7 b, Decimal.fixed 6 c]
   Section.Circle _ _ -> "an arc"
 
--- | Does one line, parabola or arc pass these points within the paper's tolerance, 0.03 mm?
+-- | Does one line, parabola or arc pass within 0.03 mm, the paper's tolerance, of all these points?
 isSingle :: [Point] -> Bool
 isSingle points = case Section.table points of
   Right t ->

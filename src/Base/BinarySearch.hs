@@ -9,12 +9,13 @@ import Base.Quantity (Mm (..), minus, plus, times)
 import Data.Vector.Unboxed (Unbox, Vector)
 import Data.Vector.Unboxed qualified as Vector
 
--- | The index of the last of the first @count@ elements that is at most a value; 0 when all of them
--- are above it. The elements rise, and @count@ is at least 1. Binary search.
+-- | Binary search among the first @count@ elements of a vector in ascending order. Yields the index
+-- of the last element that is at most the given value, or 0 when every element is larger. @count@
+-- is at least 1.
 lastAtMost :: (Unbox a, Ord a) => Int -> a -> Vector a -> Int
 lastAtMost count v sorted = search 0 count
   where
-    -- The index is at least low and below high.
+    -- The index is at least @low@ and less than @high@.
     search low high
       | high - low <= 1 = low
       | sorted Vector.! middle <= v = search middle high
@@ -23,8 +24,8 @@ lastAtMost count v sorted = search 0 count
         middle = (low + high) `div` 2
 {-# INLINE lastAtMost #-}
 
--- | Bisects a predicate that is true at @low@ and false at @high@. Yields two such lengths that
--- differ by at most the resolution.
+-- | Bisects a predicate that is true at @low@ and false at @high@. Yields a length at which it is
+-- true and a larger one at which it is false. They differ by at most @resolution@.
 bisect :: Mm -> (Mm -> Bool) -> Mm -> Mm -> (Mm, Mm)
 bisect resolution holds low high
   | minus high low <= resolution = (low, high)

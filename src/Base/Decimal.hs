@@ -1,4 +1,5 @@
--- | Decimal numbers as text: fixed decimals, no exponent, no minus zero; and their parser.
+-- | Decimal numbers as text, and their parser. Zero has no minus sign, and numbers of the size of
+-- a part's dimensions have no exponent.
 module Base.Decimal
   ( fixed,
     short,
@@ -23,7 +24,8 @@ import Data.Vector.Unboxed (Vector)
 import Data.Vector.Unboxed qualified as Vector
 import Numeric (showFFloat)
 
--- | A number with a count of decimals. Numbers from 10¹⁵ on have an exponent.
+-- | A number rounded to exactly @decimals@ decimals. Numbers from 10¹⁵ on are written with an
+-- exponent instead.
 fixed :: Int -> Double -> Text
 fixed decimals x
   | abs x >= 1e15 = Text.pack (show x)
@@ -32,7 +34,7 @@ fixed decimals x
   where
     written = Text.pack (showFFloat (Just decimals) x "")
 
--- | A number with at most a count of decimals, without trailing zeros.
+-- | A number rounded to @decimals@ decimals, without trailing zeros.
 short :: Int -> Double -> Text
 short decimals x
   | Text.any (== '.') written && not (Text.any (== 'e') written) =
@@ -41,8 +43,9 @@ short decimals x
   where
     written = fixed decimals x
 
--- | The shortest text that 'parse' reads as the same number. A number that needs more than
--- 'mostDigits' is rounded: it is far smaller than any length of a part.
+-- | The shortest text that 'parse' reads as the absolute value of the number, after a minus sign
+-- for a negative one. A number that needs more than 'mostDigits' digits is rounded to 24 decimals:
+-- a part has no length as small as the error of that rounding.
 exact :: Double -> Text
 exact x
   | x == 0 = "0"
@@ -52,23 +55,24 @@ exact x
     written = Text.pack (showFFloat Nothing x "")
     plain = fromMaybe written (Text.stripSuffix ".0" written)
 
--- | Parses digits, and optionally a point and more digits, into the nearest double.
+-- | Parses digits, and optionally a point and more digits, into the nearest double. Signs and
+-- exponents are not numbers here. Nothing for a number with more than 'mostDigits' digits.
 parse :: Text -> Maybe Double
 parse text = case leading text of
   Leading {consumed, parsed, remainder} | consumed > 0 && Text.null remainder -> parsed
   _ -> Nothing
 
--- | The number at the start of a text.
+-- | A text divided into the unsigned number at its start and the text after that.
 data Leading = Leading
-  { -- | the count of its characters; 0 without a number
+  { -- | the count of the number's characters; 0 for a text that does not begin with a digit
     consumed :: Int,
-    -- | the nearest double; nothing with more than 'mostDigits' digits
+    -- | the double nearest to the number; nothing for a number with more than 'mostDigits' digits
     parsed :: Maybe Double,
-    -- | the text after it
+    -- | the text after the number
     remainder :: {-# UNPACK #-} Text
   }
 
--- | Parses the number at the start of a text.
+-- | Parses the unsigned number at the start of a text.
 leading :: Text -> Leading
 leading text = case digits 0 text of
   Digits front count remainder -> case Text.uncons remainder of
@@ -90,10 +94,11 @@ leading text = case digits 0 text of
         let (before, rest) = Text.breakOn "." (Text.take width text)
          in longer before (Text.drop 1 rest)
 
--- | The result of reading the digits at the start of a text: the given number with these digits
--- appended (it may overflow), the count of these digits, and the rest of the text.
+-- | The result of 'digits': the number with the digits appended, the count of the digits, and the
+-- text after them. The number overflows with more than 'fewDigits' digits in all.
 data Digits = Digits Int Int {-# UNPACK #-} Text
 
+-- | Appends the decimal digits at the start of a text to those of a number.
 digits :: Int -> Text -> Digits
 digits = go 0
   where
@@ -101,17 +106,16 @@ digits = go 0
       Just (c, rest) | isDigit c -> go (count + 1) (10 * n + (fromEnum c - fromEnum '0')) rest
       _ -> Digits n count text
 
--- | The powers of ten from 1 on that are below 10 to the power 'fewDigits'. Doubles hold them
--- exactly.
+-- | The powers of ten from 10⁰ to 10¹⁷, by their exponents. Doubles hold them exactly.
 powersOfTen :: Vector Double
 powersOfTen = Vector.iterateN fewDigits (10 *) 1
 
--- | The count of decimal digits that an 'Int' always holds.
+-- | The largest count of decimal digits with which every number fits into an 'Int'.
 fewDigits :: Int
 fewDigits = 18
 
--- | The double nearest to a number with up to 'mostDigits' digits, given its digits before and
--- after the point.
+-- | The double nearest to a number, given its digits before the point and those after the point.
+-- Nothing for more than 'mostDigits' digits in all.
 longer :: Text -> Text -> Maybe Double
 longer before fraction
   | Text.length before + places > mostDigits = Nothing
@@ -122,11 +126,12 @@ longer before fraction
     places = Text.length fraction
     digits' = Text.foldl' (\n c -> 10 * n + toInteger (digitToInt c)) 0 (before <> fraction)
 
--- | The largest count of digits of a number.
+-- | The largest count of digits, before and after the point together, of a number that 'parse'
+-- accepts.
 mostDigits :: Int
 mostDigits = 40
 
--- | A whole number.
+-- | A whole number as text.
 whole :: Int -> Text
 whole = Text.pack . show
 
@@ -134,8 +139,9 @@ whole = Text.pack . show
 mm :: Mm -> Text
 mm (Mm x) = short 4 x <> " mm"
 
--- | A length for a report with enough decimals, up to nine, to differ from another length: the
--- first argument. Four decimals when nine are not enough.
+-- | The second length, for a report that also names the first: with four decimals, or with up to
+-- nine if its text would otherwise be that of the first. Lengths that nine decimals do not
+-- distinguish have four.
 distinctMm :: Mm -> Mm -> Text
 distinctMm (Mm other) (Mm x) =
   case [ written
@@ -146,7 +152,8 @@ distinctMm (Mm other) (Mm x) =
     written : _ -> written <> " mm"
     [] -> mm (Mm x)
 
--- | A length that is not 0 for a report: with nine decimals when four are not enough to show it.
+-- | A length other than 0 for a report: at most four decimals, or at most nine for a length below
+-- 0.0001 mm, which four decimals would show as 0.
 nonZeroMm :: Mm -> Text
 nonZeroMm (Mm x)
   | abs x >= 0.0001 = mm (Mm x)

@@ -1,7 +1,7 @@
--- | A lazy list with a value at its end, which tells how the production of the list ended.
+-- | A lazy list with a value at its end: the result of the computation that makes the list.
 --
--- A consumer that needs the value first forces the list once and then reads the items from memory.
--- An accumulator that is reversed at the end would need a second copy of them.
+-- A consumer that needs that value first forces the whole list, and then reads the items from
+-- memory. A list accumulated in reverse would exist twice in memory when it is reversed.
 module Base.LazyList
   ( LazyList (..),
     prependReversed,
@@ -13,7 +13,8 @@ where
 -- | An item and the rest of the list, or the value at the end.
 data LazyList e a = Next a ~(LazyList e a) | End e
 
--- | A list with items before it, the last of which is given first.
+-- | Prepends items that are given in reverse order: the first given item becomes the neighbour of
+-- the list.
 prependReversed :: [a] -> LazyList e a -> LazyList e a
 prependReversed latest list = case latest of
   [] -> list

@@ -17,8 +17,8 @@ newtype Name = Name {text :: Text}
   deriving newtype (Eq, Ord, IsString)
   deriving stock (Show)
 
--- | The candidates within one edit for every three letters of a misspelt name, nearest first.
--- Capital letters do not count.
+-- | The candidates whose Levenshtein distance from a misspelt name is at most a third of the name's
+-- length, nearest first. Upper and lower case are the same.
 nearest :: Text -> [Text] -> [Text]
 nearest wanted candidates =
   map
@@ -37,7 +37,8 @@ nearest wanted candidates =
     small = lower wanted
     lower = Text.unpack . Text.toLower
 
--- | The candidates that look the same but have letters of another alphabet, Latin or Cyrillic.
+-- | The candidates that look like a name but have some letters of the other alphabet: Latin for
+-- Cyrillic, or Cyrillic for Latin.
 lookAlike :: Text -> [Text] -> [Text]
 lookAlike wanted candidates =
   [c | c <- candidates, Text.compareLength c size == EQ, c /= wanted, Text.map latin c == seen]
@@ -49,12 +50,12 @@ lookAlike wanted candidates =
 latin :: Char -> Char
 latin c = Maybe.fromMaybe c (lookup c (zip "асеорхуіјѕАВСЕНІЈКМОРЅТХ" "aceopxyijsABCEHIJKMOPSTX"))
 
--- | The Levenshtein distance if it is at most a limit. Stops at the first row of the table that
--- exceeds the limit, which for most words is an early one.
+-- | The Levenshtein distance of two words if it is at most a limit, row by row of the usual table.
+-- Stops at the first row in which all numbers exceed the limit; for most words it comes early.
 distance :: Int -> String -> String -> Maybe Int
 distance most a b = go [0 .. length b] a
   where
-    -- The row has the distances of the letters so far to every prefix of the other word.
+    -- A row has the distances of a prefix of @a@ from every prefix of @b@.
     go row rest = case rest of
       _ | all (> most) row -> Nothing
       [] -> let d = last row in if d <= most then Just d else Nothing

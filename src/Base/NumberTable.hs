@@ -1,5 +1,5 @@
--- | Tables of numbers, each row with its region, in flat arrays: a table from a file may have a
--- hundred thousand rows.
+-- | Tables of numbers, with the region of the source text of every row. They are kept in flat
+-- arrays, since a table from a file may have a hundred thousand rows.
 module Base.NumberTable
   ( NumberTable (..),
     fromList,
@@ -18,8 +18,8 @@ import Control.Monad.ST (runST)
 import Data.Primitive.PrimArray (PrimArray)
 import Data.Primitive.PrimArray qualified as PrimArray
 
--- | Rows of @width@ numbers, one after the other, and the start and end offset of every row's
--- region.
+-- | Rows of @width@ numbers. @numbers@ has the rows one after the other; @places@ has two offsets
+-- for each row, the start and the end of its region.
 data NumberTable = NumberTable {width :: Int, places :: PrimArray Int, numbers :: PrimArray Double}
   deriving stock (Eq, Show)
 
@@ -48,30 +48,31 @@ fromList rows = runST $ do
 count :: NumberTable -> Int
 count rows = PrimArray.sizeofPrimArray (places rows) `quot` 2
 
--- | The region of a row, by its index.
+-- | The region of a row, by the row's index from 0.
 regionOf :: NumberTable -> Int -> Region
 regionOf rows k =
   Region
     (PrimArray.indexPrimArray (places rows) (2 * k))
     (PrimArray.indexPrimArray (places rows) (2 * k + 1))
 
--- | The number in a row and a column, by their indices. The row comes first.
+-- | The number at the index of a row and the index of a column, both from 0.
 cell :: NumberTable -> Int -> Int -> Double
 cell rows k i = PrimArray.indexPrimArray (numbers rows) (k * width rows + i)
 {-# INLINE cell #-}
 
--- | The numbers of a row, by its index.
+-- | The numbers of a row, by the row's index from 0.
 cells :: NumberTable -> Int -> [Double]
 cells rows k = map (cell rows k) [0 .. width rows - 1]
 
--- | Concatenates tables of a width.
+-- | Concatenates the rows of tables that all have the given width.
 concatenated :: Int -> [NumberTable] -> NumberTable
 concatenated width parts = case parts of
   [one] -> one
   _ ->
     NumberTable {width, places = mconcat (map places parts), numbers = mconcat (map numbers parts)}
 
--- | A table of columns by their indices, each multiplied by a factor.
+-- | Makes a table of some columns, given by their indices from 0. Each column is multiplied by the
+-- factor beside its index.
 selectColumns :: [(Int, Double)] -> NumberTable -> NumberTable
 selectColumns columns rows =
   rows {width = wide, numbers = PrimArray.generatePrimArray (wide * count rows) number}
@@ -83,7 +84,7 @@ selectColumns columns rows =
       (k, i) ->
         cell rows k (PrimArray.indexPrimArray sources i) * PrimArray.indexPrimArray factors i
 
--- | A table of rows by their indices.
+-- | Makes a table of some rows, given by their indices from 0.
 selectRows :: [Int] -> NumberTable -> NumberTable
 selectRows ks rows = selected {width = width rows}
   where

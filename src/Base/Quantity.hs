@@ -2,8 +2,8 @@
 
 -- | Quantities: lengths, angles, feeds, times and pulses are different types.
 --
--- Sums stay in one type. A product of two lengths is no length, so there is no 'Num' instance;
--- formulas unwrap the numbers, compute, and wrap the result.
+-- Sums stay in one type. A product of two lengths is no length, so only 'Pulses' have a 'Num'
+-- instance. Formulas with other quantities unwrap the numbers, compute, and wrap the result.
 module Base.Quantity
   ( Mm (..),
     Rad (..),
@@ -52,7 +52,7 @@ newtype Pulses = Pulses Int
 plus :: Coercible q Double => q -> q -> q
 plus a b = coerce (coerce a + coerce b :: Double)
 
--- | The difference of two quantities.
+-- | The first quantity less the second.
 minus :: Coercible q Double => q -> q -> q
 minus a b = coerce (coerce a - coerce b :: Double)
 
@@ -60,7 +60,7 @@ minus a b = coerce (coerce a - coerce b :: Double)
 times :: Coercible q Double => Double -> q -> q
 times k a = coerce (k * coerce a :: Double)
 
--- | The ratio of two quantities.
+-- | The first quantity divided by the second.
 over :: Coercible q Double => q -> q -> Double
 over a b = coerce a / coerce b
 
@@ -68,15 +68,15 @@ over a b = coerce a / coerce b
 total :: Coercible q Double => [q] -> q
 total = foldl plus (coerce (0 :: Double))
 
--- | The angle of a number of degrees.
+-- | The angle that has this number of degrees.
 radians :: Double -> Rad
 radians deg = Rad (deg * pi / 180)
 
--- | The number of degrees of an angle.
+-- | An angle in degrees.
 degrees :: Rad -> Double
 degrees (Rad r) = r * 180 / pi
 
--- | The time of a move of length l at a feed s: @t = 60·l/s@ seconds, with l in mm and s in mm\/min
--- (Ural paper, section 0–1).
+-- | The time that a move takes, from its length l and its feed s: @t = 60·l/s@ seconds, with l in
+-- mm and s in mm\/min (Ural paper, section 0–1).
 travelTime :: Mm -> Feed -> Seconds
 travelTime (Mm l) (Feed s) = Seconds (60 * l / s)

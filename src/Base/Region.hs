@@ -3,9 +3,9 @@
 
 -- | Regions of the source text, and their lines and columns.
 --
--- An offset counts characters (code points). The texts of a program and its imports follow one
--- another, so that an offset determines the file, too. Only this module converts offsets to lines
--- and columns. Both count from 1, and a column counts characters.
+-- An offset counts characters (code points) from 0. The texts of a program and its imports are
+-- numbered one after another, so an offset also determines the file. Only this module converts
+-- offsets to lines and columns. Lines and columns count from 1, and a column counts characters.
 module Base.Region
   ( Region (Region, start, end),
     Located (..),
@@ -33,9 +33,9 @@ import Data.Vector qualified as Boxed
 import Data.Vector.Unboxed qualified as Vector
 import Prelude hiding (length, span)
 
--- | A region of the source. Every token of a program has one, so it takes one word of memory: the
--- offset of its start in the upper half, the offset of its end in the lower half. Texts have fewer
--- than 2³² characters.
+-- | A region of the source. Every token of a program has a region, so a region takes one word of
+-- memory: the offset of its start in the upper half, the offset of its end in the lower half. Texts
+-- have fewer than 2³² characters.
 newtype Region = Halves Word
   deriving newtype (Eq, Ord)
 
@@ -55,6 +55,7 @@ instance Show Region where
       (depth > 10)
       (showString "Region {start = " . shows a . showString ", end = " . shows b . showString "}")
 
+-- | The start and the end of a region.
 offsets :: Region -> (Int, Int)
 offsets (Halves both) =
   (fromIntegral (both `shiftR` half), fromIntegral (both .&. (1 `shiftL` half - 1)))
@@ -71,26 +72,29 @@ data Located a = Located {region :: Region, value :: a}
 instance Functor Located where
   fmap f (Located region value) = Located region (f value)
 
--- | The region from the start of one to the end of another.
+-- | The region from the start of the first region to the end of the second.
 span :: Region -> Region -> Region
 span a b = Region (start a) (end b)
 
--- | The smallest region that contains both.
+-- | The smallest region that contains both regions, in either order.
 merge :: Region -> Region -> Region
 merge a b = Region (min (start a) (start b)) (max (end a) (end b))
 
--- | The texts of a program and its imports, with an index of their lines. Lines end with LF, CR or
--- CR LF.
+-- | The text of a program and the texts that it imports, with an index of their lines. Lines end
+-- with LF, CR or CR LF.
 data Source = Source {own :: File, imported :: Boxed.Vector File}
 
--- | A text, the offset of its start, its length, and the starts and texts of its lines. The lines
--- are computed on demand.
+-- | A file of a source. The index of its lines is computed on demand.
 data File = File
   { path :: Text,
+    -- | the offset of the text's first character in the source
     base :: Int,
     content :: Text,
+    -- | the count of the text's characters
     length :: Int,
+    -- | for every line, the offset of its first character in this text
     starts :: ~(Vector.Vector Int),
+    -- | the texts of the lines, without their line ends
     contents :: ~(Boxed.Vector Text)
   }
 
@@ -119,6 +123,7 @@ text = content . own
 mainFile :: Source -> Text
 mainFile = path . own
 
+-- | A file from its path, the offset of its start, and its text.
 indexed :: Text -> Int -> Text -> File
 indexed path base content =
   File
@@ -130,7 +135,7 @@ indexed path base content =
       contents = Boxed.fromList (map snd (numbered content))
     }
 
--- | The lines of a text with the offsets of their starts.
+-- | The lines of a text, without their line ends, each with the offset of its start.
 numbered :: Text -> [(Int, Text)]
 numbered = go 0
   where
@@ -145,12 +150,12 @@ numbered = go 0
             then []
             else go (at + Text.length before + ending) (Text.drop ending after)
 
--- | The file with an offset; for an offset outside of all files, the nearest one.
+-- | The file that contains an offset. An offset outside of all files counts for the nearest file.
 fileAt :: Source -> Int -> File
 fileAt source at =
   Boxed.foldl' (\_ file' -> file') (own source) (Boxed.takeWhile ((<= at) . base) (imported source))
 
--- | The position of an offset. An offset outside of the text counts as its nearest end.
+-- | The position of an offset. An offset outside of all texts counts as the nearest end of a text.
 position :: Source -> Int -> Position
 position source at =
   Position {file = path found, line = index + 1, column = within + 1 - starts found Vector.! index}
@@ -159,8 +164,8 @@ position source at =
     within = max 0 (min (at - base found) (length found))
     index = lineIndex found within
 
--- | The offset of a line and a column of the program itself. A column beyond its line counts as the
--- line's end, and a line beyond the text as the text's end.
+-- | The offset of a position in the program itself, by line and column. A column beyond the end of
+-- its line counts as that end, and a line beyond the text counts as the text's end.
 offset :: Source -> Int -> Int -> Int
 offset Source {own} line column
   | line > Vector.length (starts own) = length own
@@ -169,18 +174,19 @@ offset Source {own} line column
   where
     index = max 0 (line - 1)
 
--- | The index of the line with an offset, counted from the start of the file.
+-- | The index, from 0, of the line that contains an offset. The offset counts from the start of the
+-- file.
 lineIndex :: File -> Int -> Int
 lineIndex File {starts} at = BinarySearch.lastAtMost (Vector.length starts) at starts
 
--- | The text of the line with an offset, without its line end.
+-- | The text of the line that contains an offset, without its line end.
 lineText :: Source -> Int -> Text
 lineText source at = contents found Boxed.! lineIndex found within
   where
     found = fileAt source at
     within = max 0 (min (at - base found) (length found))
 
--- | The parts of a region's lines that lie in the region, without their line ends.
+-- | The text of a region, divided into lines, without the line ends.
 linesIn :: Source -> Region -> [Text]
 linesIn source (Region from to) =
   [ part (starts found Vector.! i) (contents found Boxed.! i)

@@ -1,8 +1,8 @@
 -- | The result of a compiler pass: warnings, errors, and its output.
 --
--- Errors of independent steps accumulate (the applicative). A step that depends on another's output
--- runs only when there is one (the monad). An output next to errors is incomplete but sound: later
--- passes look for mistakes in it, but no tape is made of it.
+-- Errors of independent steps accumulate (the applicative). A step that depends on the output of
+-- another step runs only if there is an output (the monad). An output next to errors is incomplete
+-- but sound: later passes look for mistakes in it, but no tape is made of it.
 module Base.Result
   ( Result (..),
     failed,
@@ -36,27 +36,27 @@ instance Monad (Result w e) where
 failed :: e -> Result w e a
 failed e = Result [] [e] Nothing
 
--- | Errors with an output that is still usable.
+-- | An output, and errors that do not prevent later passes from using it.
 failing :: [e] -> a -> Result w e a
 failing es a = Result [] es (Just a)
 
--- | Warnings without an error.
+-- | Warnings, no error, and an output without content.
 warned :: [w] -> Result w e ()
 warned ws = Result ws [] (Just ())
 
--- | An output, or one error.
+-- | The output in @Right@, or one error, the one in @Left@.
 fromEither :: Either e a -> Result w e a
 fromEither = either failed pure
 
--- | Maps the warnings and the errors.
+-- | Applies one function to every warning and another to every error.
 mapErrors :: (w -> w') -> (e -> e') -> Result w e a -> Result w' e' a
 mapErrors f g (Result ws es a) = Result (map f ws) (map g es) a
 
--- | The output if there is no error.
+-- | The output if there is no error; warnings are allowed.
 ifSound :: Result w e a -> Maybe a
 ifSound (Result _ es a) = if null es then a else Nothing
 
--- | Runs a pass on an output only if there is no error.
+-- | Runs a pass on an output only if there is no error. Otherwise there is no output.
 thenSound :: Result w e a -> (a -> Result w e b) -> Result w e b
 thenSound r f = case ifSound r of
   Just _ -> r >>= f

@@ -1,4 +1,4 @@
--- | Assertions of a program.
+-- | Evaluation of the assertions of a program.
 module Part.Assertion
   ( check,
   )
@@ -17,8 +17,9 @@ import Part.Expression (Environment)
 import Part.Expression qualified as Expression
 import Part.Value (Value (..))
 
--- | Fails when an assertion does not hold. Two quantities agree within 10⁻⁶, unless the program
--- gives a tolerance.
+-- | Fails when the assertion of a statement, which has the given region, does not hold. Two
+-- quantities agree if they differ by at most 10⁻⁶ in units of mm, radians and minutes, unless the
+-- program gives a tolerance.
 check :: Region -> Environment -> Checked.Assertion -> Eval ()
 check at env assertion = case assertion of
   Checked.Holds e -> do

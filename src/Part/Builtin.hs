@@ -1,5 +1,6 @@
--- | The functions and operators of the language: numbers, lists, patterns of points and
--- transformations. Constructions are in 'Part.ConstructionBuiltin', curves in 'Part.CurveBuiltin'.
+-- | The operators of the language, and its functions of numbers and lists, patterns of points and
+-- transformations. Functions of constructions are in 'Part.ConstructionBuiltin', those of curves in
+-- 'Part.CurveBuiltin'.
 module Part.Builtin
   ( apply,
     binary,
@@ -33,8 +34,9 @@ import Part.Value
 
 -- Operators
 
--- | An operator on two values. @and@ and @or@ are not among them: 'Part.Expression.evaluate' may
--- skip their second operand. Equality and order hold within 'Tolerance.equal'.
+-- | The value of an operator for two operands. @and@ and @or@ are not handled here, because
+-- 'Part.Expression.evaluate' may skip their second operand. Numbers that differ by at most
+-- 'Tolerance.equal' are equal.
 binary :: Region -> Operator -> Value -> Value -> Eval Value
 binary region op l r = case (op, l, r) of
   (Add, Spatial a, Spatial b) -> spatial region (Vec.add a b)
@@ -61,7 +63,7 @@ binary region op l r = case (op, l, r) of
 
 -- Functions
 
--- | The value of a function for its arguments, whose types are checked.
+-- | The value of a function for its arguments. Their types are already checked.
 apply :: Region -> Builtin -> [Argument] -> Eval Value
 apply region builtin arguments =
   fromMaybe (bug "a function applied to values of other types") $
@@ -73,7 +75,7 @@ apply region builtin arguments =
         CurveBuiltin.apply region builtin arguments
       ]
 
--- | A constant, or a function of numbers; nothing for other functions and arguments.
+-- | The value of a constant or of a function of numbers. Nothing for other functions and arguments.
 numeric :: Region -> Builtin -> [Argument] -> Maybe (Eval Value)
 numeric region builtin arguments = case (builtin, arguments) of
   (Pi, []) -> number pi
@@ -105,7 +107,8 @@ numeric region builtin arguments = case (builtin, arguments) of
 
 -- Lists and patterns
 
--- | A function of a list, or a pattern of points; nothing for other functions and arguments.
+-- | The value of a function of a list, or of a pattern of points. Nothing for other functions and
+-- arguments.
 ofList :: Region -> Builtin -> [Argument] -> Maybe (Eval Value)
 ofList region builtin arguments = case (builtin, arguments) of
   (Count, [Plain (ListValue vs)]) ->
@@ -139,11 +142,13 @@ ofList region builtin arguments = case (builtin, arguments) of
     multiple :: Int -> Vec.Vec -> Vec.Vec
     multiple k = Vec.scale (fromIntegral k)
 
+-- | A list of points, each within 'Tolerance.reach'.
 points :: Region -> [Point] -> Eval Value
 points region ps = ListValue . Vector.fromList <$> traverse (spatial region . offset) ps
 
--- | Points on a circle from an angle in radians: spread over the whole circle, or up to a second
--- angle, both angles included.
+-- | Points at equal steps on a circle, from their count and the angle of the first point in
+-- radians. With a second angle, the last point is at that angle. Otherwise the steps divide the
+-- whole circle.
 around :: Region -> Circle -> Double -> Double -> Maybe Double -> Eval Value
 around region (Circle c r) n a b = do
   count <- whole region Parameter.PointCount n
@@ -157,7 +162,7 @@ around region (Circle c r) n a b = do
 
 -- Transformations
 
--- | A transformation, or a thing transformed; nothing for other functions.
+-- | A transformation, or the image of an argument. Nothing for other functions.
 transformation :: Region -> Builtin -> [Argument] -> Maybe (Eval Value)
 transformation region builtin arguments = case builtin of
   Moved -> Just . transformed region arguments $ \case
@@ -181,7 +186,8 @@ transformation region builtin arguments = case builtin of
       | k <= 0 = Evaluation.mistake (NotPositive region Parameter.ScalingFactor k)
       | otherwise = pure (Transformation.scaling k p)
 
--- | A transformation by itself, or its image of the first argument.
+-- | If the first argument is a value to transform, its image. Otherwise the transformation itself.
+-- The function makes the transformation from the arguments that define it.
 transformed :: Region -> [Argument] -> ([Value] -> Eval Transformation) -> Eval Value
 transformed region arguments make = case [v | Plain v <- arguments] of
   Quantity a : rest -> PlacementValue <$> make (Quantity a : rest)

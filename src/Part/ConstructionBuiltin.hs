@@ -37,12 +37,12 @@ import Part.Part (polyarcOf, reversedContour)
 import Part.Selection (Answers (..), answerPoints, picked)
 import Part.Value
 
--- | The value of a construction; nothing for other functions and arguments.
+-- | The value of a construction. Nothing for other functions and arguments.
 apply :: Region -> Builtin -> [Argument] -> Maybe (Eval Value)
 apply region builtin arguments =
   asum [f region builtin arguments | f <- [pointFunction, lineFunction, circleFunction, measure]]
 
--- | A construction whose result is a point.
+-- | The value of a construction that yields a point.
 pointFunction :: Region -> Builtin -> [Argument] -> Maybe (Eval Value)
 pointFunction region builtin arguments = case (builtin, arguments) of
   (Polar, [Plain (Quantity r), Plain (Quantity a)]) ->
@@ -69,7 +69,7 @@ pointFunction region builtin arguments = case (builtin, arguments) of
       CurveValue _ -> True
       _ -> False
 
--- | A construction whose result is a line, or a thing with its direction reversed.
+-- | The value of a construction that yields a line, or reverses a line, a curve or a contour.
 lineFunction :: Region -> Builtin -> [Argument] -> Maybe (Eval Value)
 lineFunction region builtin arguments = case (builtin, arguments) of
   (MakeLine, [Plain (Spatial p), Plain (Spatial q)])
@@ -97,7 +97,7 @@ lineFunction region builtin arguments = case (builtin, arguments) of
     line = Just . pure . LineValue
     at distance l = Just (LineValue l <$ within region distance)
 
--- | A construction whose result is a circle.
+-- | The value of a construction that yields a circle.
 circleFunction :: Region -> Builtin -> [Argument] -> Maybe (Eval Value)
 circleFunction region builtin arguments = case (builtin, arguments) of
   (MakeCircle, [Plain (Spatial c), Plain (Quantity r)]) -> Just (circleOf (fromOrigin c) r)
@@ -124,7 +124,8 @@ circleFunction region builtin arguments = case (builtin, arguments) of
       | r <= 0 = Evaluation.mistake (RadiusNotPositive region (Mm r))
       | otherwise = CircleValue (Circle c (Mm r)) <$ within region r
 
--- | The circles of a radius that touch two things.
+-- | The circles of this radius that touch two figures. A figure is a point, a line or a circle, with
+-- or without a side.
 touchingCircles :: Mm -> Argument -> Argument -> Answers Circle
 touchingCircles r a b =
   Answers
@@ -136,7 +137,8 @@ touchingCircles r a b =
       answers = [c | ta <- touched a, tb <- touched b, c <- TangentCircle.circles r ta tb]
     }
 
--- | A distance, a direction, a length or a coordinate.
+-- | The value of a function that yields a distance, a direction, a length, a radius or a
+-- coordinate.
 measure :: Region -> Builtin -> [Argument] -> Maybe (Eval Value)
 measure region builtin arguments = case (builtin, arguments) of
   (Distance, [Plain (Spatial p), Plain (Spatial q)]) ->
@@ -168,21 +170,22 @@ measure region builtin arguments = case (builtin, arguments) of
 fault :: ConstructionFault -> Eval a
 fault = Evaluation.mistake . InConstruction
 
+-- | The distance of a point from an infinite line, not negative.
 distanceFrom :: Line -> Point -> Mm
 distanceFrom l p = let Mm d = Carrier.signedDistance l p in Mm (abs d)
 
--- | The line through a point in a direction.
+-- | The line that begins at a point and has the direction of a vector.
 ray :: Point -> Vec -> Line
 ray p v = Line p (Vec.shift v p)
 
--- | A line, or a circle counter-clockwise.
+-- | The carrier of a line or of a circle. The sense of the circle has no meaning here.
 carrier :: Value -> ElementCarrier
 carrier v = case v of
   LineValue l -> OnLine l
   CircleValue c -> OnCircle CounterClockwise c
   _ -> bug "a value that is no curve where one was checked"
 
--- | The common point of two lines or circles that the choice selects.
+-- | An intersection of two lines or circles. The arguments choose one of two intersections.
 intersection :: Region -> ElementCarrier -> ElementCarrier -> [Argument] -> Eval Value
 intersection region a b choice = case meeting of
   Apart gap -> fault (NothingCommon region a b gap)
@@ -218,8 +221,9 @@ tangency region a b = case (a, b) of
     circleGap (Circle c (Mm r)) (Circle d (Mm s)) =
       let Mm gap = Vec.distance c d in Mm (min (abs (gap - r - s)) (abs (gap - abs (r - s))))
 
--- | The directed line that touches two circles, or goes through a point. A side before a circle
--- says on which side of the line the circle lies.
+-- | The line from the first to the second argument. An argument is a point on the line, or a circle
+-- to which the line is tangent. The side before a circle says on which side of the line the circle
+-- lies.
 tangentLine :: Region -> Sought -> (Line -> Candidate) -> Argument -> Argument -> Eval Line
 tangentLine region sought candidate a b =
   case TangentCircle.tangentLines (sensesOf a, circleAt a) (sensesOf b, circleAt b) of
@@ -238,7 +242,7 @@ tangentLine region sought candidate a b =
       Choosing ToRight _ -> [Clockwise]
       _ -> [CounterClockwise, Clockwise]
 
--- | The reason why two circles have no common tangent. A point is a circle of radius 0.
+-- | The reason why two circles have no common tangent that fits. A point is a circle of radius 0.
 obstacle :: Circle -> Circle -> TangentObstacle
 obstacle (Circle p r) (Circle q s)
   | r == Mm 0 && s == Mm 0 = SamePoints
@@ -254,7 +258,8 @@ obstacle (Circle p r) (Circle q s)
     Mm inside = minus (max r s) (min r s)
     Mm tolerance = Tolerance.coincident
 
--- | The contacts that a circle may have with a thing, restricted by the word before the thing.
+-- | The contacts that a circle may have with a figure: on either side of a line, outside or inside
+-- of a circle. A side that the program writes before the figure excludes the other contact.
 touched :: Argument -> [Touched]
 touched argument = case argument of
   Plain (Spatial p) -> [Through (fromOrigin p)]

@@ -1,7 +1,7 @@
 {-# OPTIONS_GHC -O0 #-}
 
--- | Constructions without an answer, and constructions with several: intersections, tangents,
--- circles of a radius, points of a curve.
+-- | Faults of constructions that have no answer or several: intersections, tangents, circles of a
+-- given radius, points of a curve.
 module Part.ConstructionError
   ( ConstructionFault (..),
     Sought (..),
@@ -21,41 +21,43 @@ import Geometry.Vec qualified as Vec
 import Part.ErrorText (Candidate, at, describe, listed)
 import Report.Report (Report (..))
 
--- | A fault of a construction; the region of the call comes first.
+-- | A fault of a construction. The region of the call comes first in every constructor.
 data ConstructionFault
-  = -- | two things without a common point: the gap between them
+  = -- | two figures without a common point: both figures, and the gap between them
     NothingCommon Region ElementCarrier ElementCarrier Mm
   | -- | an intersection or a tangency of two equal curves
     SameThing Region
-  | -- | several answers and no choice among them
+  | -- | a construction with several answers and no choice among them: the answers
     Several Region Sought [Candidate]
-  | -- | answers that the choice excludes
+  | -- | a choice that excludes all answers: the answers
     NoneFits Region Sought [Candidate]
-  | -- | several answers that fit the choice, or that are equally near
+  | -- | a choice that leaves several answers, or answers that are equally near: these answers
     SeveralFit Region Sought [Candidate]
-  | NoAnswer Region NoAnswer
-  | -- | a tangency of things that do not touch: the gap between them
+  | -- | a construction without an answer: the reason
+    NoAnswer Region NoAnswer
+  | -- | a tangency of figures that do not touch: the gap between them
     NotTouching Region Mm
   | -- | a circle through three points of one line
     OnOneLine Region
   deriving stock (Eq, Show)
 
--- | The result of a construction.
+-- | The kind of result that a construction looks for.
 data Sought = SoughtPoint | SoughtTangency | SoughtLine | SoughtCircle
   deriving stock (Eq, Show)
 
 -- | The reason why a construction has no answer.
 data NoAnswer
-  = -- | no circle touches both things on the sides asked for
+  = -- | no circle of the given radius touches both figures on the given sides
     NothingTouches Sought
-  | -- | the distance of lines that are not parallel
+  | -- | the distance was requested for lines that are not parallel
     LinesNotParallel
-  | -- | the direction of a vector without a length
+  | -- | the direction was requested for a vector of length 0
     ZeroVector
-  | NoTangent Sought TangentObstacle
-  | -- | a point at an x that the curve does not reach: its least and greatest x
+  | -- | two circles or points have no common tangent
+    NoTangent Sought TangentObstacle
+  | -- | the curve has no point with the given x: the curve's least and greatest x
     OutsideCurve Mm Mm
-  | -- | a point beyond the length of a curve
+  | -- | the given arc length is negative or exceeds the curve's length: that length
     BeyondLength Mm
   deriving stock (Eq, Show)
 
@@ -63,11 +65,11 @@ data NoAnswer
 data TangentObstacle
   = SamePoints
   | PointOnCircle Point
-  | -- | the point's distance from the circle
+  | -- | a point inside a circle: the point's distance from the circle
     PointInside Mm
   | SameCircles
   | CircleInCircle
-  | -- | the length by which they overlap
+  | -- | circles that cross: the sum of their radii less the distance of their centres
     CirclesOverlap Mm
   deriving stock (Eq, Show)
 
@@ -104,6 +106,7 @@ toReport fault = case fault of
   OnOneLine region ->
     at region "E0337" "no circle goes through three points of one line"
 
+-- | The name of a result in a report.
 nameOf :: Sought -> Text
 nameOf sought = case sought of
   SoughtPoint -> "point"
@@ -143,6 +146,7 @@ noAnswerTexts reason = case reason of
     )
   BeyondLength l -> ("point", "The curve is " <> Decimal.mm l <> " long.")
 
+-- | The sentence that says why there is no common tangent.
 obstacleText :: TangentObstacle -> Text
 obstacleText obstacle = case obstacle of
   SamePoints -> "The points are the same."

@@ -1,5 +1,5 @@
--- | Evaluation of a contour's body: its elements, their modifiers and links; and the starting point
--- of a closed contour.
+-- | Evaluation of contours: their elements with modifiers and links, and the starting point of a
+-- closed contour.
 module Part.ContourElement
   ( contour,
     startingNear,
@@ -50,7 +50,8 @@ import Part.Piece qualified as Piece
 import Part.Value (Value (..))
 import Part.Value qualified as Value
 
--- | A contour with its name. Without faults its links are solved and it does not cross itself.
+-- | A contour with its name: 'LinkSolver' computes its segments. Fails with all faults of the
+-- contour's elements, or else of its links.
 contour :: Environment -> Located Name -> Checked.Closure -> [Item] -> Eval Contour
 contour env name closure items = do
   linked <- Evaluation.collect (item env) items
@@ -79,7 +80,8 @@ asWritten w =
       Part.link = snd <$> LinkSolver.link w
     }
 
--- | The elements of one item: several for a repetition or for an open contour.
+-- | The elements of one item of a contour's body. A repetition may have several, and so does an
+-- open contour that is used as an element.
 item :: Environment -> Item -> Eval [LinkSolver.LinkedElement]
 item env (Located _ i) = case i of
   For name list body -> do
@@ -96,6 +98,8 @@ item env (Located _ i) = case i of
     linked <- linkedElements (region e) sense v finish link'
     pure (if null bevel then linked else map (\w -> w {LinkSolver.bevel}) linked)
 
+-- | The finish of an element after one more of its modifiers. A bevel does not belong to the
+-- finish.
 modified :: Environment -> Checked.Modifier -> Finish -> Eval Finish
 modified env (Located _ m) finish = case m of
   ElementFeed e -> (\f -> finish {ownFeed = Just f}) <$> feedOf env e
@@ -103,14 +107,15 @@ modified env (Located _ m) finish = case m of
   ElementAllowance e -> (\d -> finish {allowance = d}) <$> lengthOf env Parameter.Allowance e
   Bevel _ -> pure finish
 
--- | The bevels of an element by its modifiers: stations in mm and angles in radians; empty without
--- a bevel.
+-- | The bevels that an element's modifiers ask for: pairs of a station in mm and an angle in
+-- radians. Empty without such a modifier.
 bevelOf :: Environment -> Value -> [Checked.Modifier] -> Eval [(Double, Double)]
 bevelOf env v modifiers = case [e | Located _ (Bevel e) <- modifiers] of
   [] -> pure []
   e : _ -> Piece.bevelled env (case v of CurveValue c -> Just c; _ -> Nothing) e
 
--- | The elements of a value with the sense before it: one, or those of an open contour.
+-- | The elements that a value gives, with the sense that the program writes before it: one element,
+-- or several for an open contour.
 linkedElements ::
   Region ->
   Maybe Part.Sense ->
@@ -147,8 +152,8 @@ linkedElements at sense v finish link = case (v, sense) of
               }
        in w `seq` pure [w]
 
--- | The segments of a contour as elements of another one, joined where they meet. The modifiers and
--- the link are those of the whole.
+-- | The segments of a contour as elements of another contour. They are joined to one another at
+-- their ends. The modifiers hold for all of them, and the link follows the last one.
 elementsOfContour ::
   Region ->
   Finish ->
@@ -161,7 +166,7 @@ elementsOfContour at finish link segments = case Part.curveRuns segments of
   where
     fixed curve = Just (at, Fixed (Segment.end (Part.segment (NonEmpty.last curve))))
 
--- | The segments of one line, arc or curve as an element.
+-- | One element from the segments of one line, arc or curve.
 elementOfRun ::
   Finish ->
   NonEmpty Part.Element ->
@@ -187,7 +192,7 @@ elementOfRun finish run@(e :| more) link =
     ends' = drop 1 (scanl (+) 0 [l | x <- NonEmpty.toList run, let Mm l = lengthOf' x])
     lengthOf' = Segment.length . Part.segment
 
--- | The finish of an element, completed by the finish of the contour that it belongs to.
+-- | The finish of an element, with what it lacks taken from the finish of its contour.
 orElse :: Finish -> Finish -> Finish
 orElse own whole =
   Finish
@@ -196,6 +201,7 @@ orElse own whole =
       allowance = if allowance own == Mm 0 then allowance whole else allowance own
     }
 
+-- | A link with its region.
 linkOf :: Environment -> Checked.Link -> Eval (Region, Link)
 linkOf env (Located at l) =
   (at,) <$> case l of
@@ -210,14 +216,15 @@ linkOf env (Located at l) =
         else signed r <$ Value.within (region e) r
     Checked.Chamfer e -> Chamfer <$> lengthOf env Parameter.Chamfer e
 
--- | A fillet: +R is clockwise, −R counter-clockwise (Kolsanova: links between pieces).
+-- | A fillet from its signed radius: clockwise for a positive one, counter-clockwise for a negative
+-- one (Kolsanova: links between pieces).
 signed :: Double -> Link
 signed r = Fillet (if r > 0 then Carrier.Clockwise else Carrier.CounterClockwise) (Mm (abs r))
 
 -- Starting points
 
--- | A closed contour that begins at its point nearest to a point. It is the same contour: a segment
--- is cut in two there, unless the point is one of its ends.
+-- | The same closed contour, beginning at its point that is nearest to a given point. If that is
+-- not an end of a segment, the segment there is cut in two.
 startingNear :: Point -> Contour -> Contour
 startingNear p c = case splitAt (nearestElement p list) list of
   (before, e : after) -> case NonEmpty.nonEmpty (rotated before e after) of
@@ -236,8 +243,8 @@ startingNear p c = case splitAt (nearestElement p list) list of
           e : after <> before
         | otherwise -> after <> before <> [e]
 
--- | The number, from 0, of the first element at the least distance from a point. Bounding boxes
--- exclude most elements.
+-- | The index, from 0, of the element that is nearest to a point; the first one if several are
+-- equally near. Bounding boxes exclude most elements.
 nearestElement :: Point -> [Part.Element] -> Int
 nearestElement p = closest 0 (Mm (1 / 0)) 0
   where
@@ -250,7 +257,8 @@ nearestElement p = closest 0 (Mm (1 / 0)) 0
         | otherwise -> closest best least (i + 1) more
     boxDistance e = BoundingBox.distance p (BoundingBox.ofSegment (Part.segment e))
 
--- | Cuts a segment at its point nearest to a point; nothing when that is one of its ends.
+-- | Cuts a segment at its point that is nearest to a given point. Nothing if that is an end of the
+-- segment.
 cutNear :: Point -> Segment.Segment -> Maybe (Segment.Segment, Segment.Segment)
 cutNear p s
   | t <= 0 || t >= 1 || Vec.isNear foot (Segment.start s) || Vec.isNear foot (Segment.end s) =
@@ -260,8 +268,8 @@ cutNear p s
     t = Segment.fraction s p
     foot = Segment.at t s
 
--- | Cuts an element, given the two parts of its segment. Only the second part slows down at its
--- end.
+-- | Cuts an element in two, given the two parts of its segment. If the element slows down at its
+-- end, only the second part does.
 cutElement :: Part.Element -> Segment.Segment -> Segment.Segment -> (Part.Element, Part.Element)
 cutElement e a b =
   ( e
@@ -281,9 +289,9 @@ cutElement e a b =
     share = if l > 0 then front / l else 0
     bevelAtCut = fmap (\(x, y) -> x + (y - x) * share) (Part.bevel e)
 
--- | The elements before a cut. Those on the curve that is cut no longer slow down: the curve slows
--- down at its own end, not at the cut. The flag tells whether the cut element continues the last of
--- them.
+-- | The elements before a cut element, in order. Those that belong to the same curve as the cut
+-- element no longer slow down, because the curve does so at its end and not at the cut. The flag is
+-- true if the cut element continues the last of them.
 withoutSlow :: Bool -> [Part.Element] -> [Part.Element]
 withoutSlow continued = reverse . go continued . reverse
   where

@@ -1,7 +1,6 @@
 {-# OPTIONS_GHC -O0 #-}
 
--- | Faults of contours: elements that do not follow one another, and links that do not join their
--- neighbours.
+-- | Faults of contours: wrong elements, and links that cannot join their neighbours.
 module Part.ContourError
   ( ContourFault (..),
     Neighbours (..),
@@ -26,31 +25,33 @@ import Part.ErrorText (andMore, at, describe, downTo, stop)
 import Part.Tolerance qualified as Tolerance
 import Report.Report (Label (..), Report (..), ReportCode, quote)
 
--- | A fault of a contour; the region that the report points at comes first.
+-- | A fault of a contour. The region that the report points at comes first in every constructor.
 data ContourFault
   = EmptyContour Region Name
   | -- | a closed contour of one element that is no circle and no closed curve
     LoneElement Region ElementCarrier
   | -- | a contour whose segments are all shorter than 'Tolerance.coincident'
     NoLength Region
-  | -- | a link after a circle that closes by itself
+  | -- | a link after the only element of a contour, a circle or a closed curve
     LinkOfLoneCircle Region
-  | -- | an open contour whose first or last element has no end of its own
+  | -- | an open contour whose first or last element is a circle, which has no ends
     NoEnd Region ElementCarrier
-  | -- | a link after the last element of an open contour: the link, the first element
+  | -- | a link after the last element of an open contour: the regions of the link and of the first
+    -- element
     LinkAtEnd Region Region
   | -- | a closed contour as an element of another
     ClosedElement Region Name
   | -- | a closed curve as the element of an open contour
     ClosedCurve Region
-  | -- | a starting point on an open contour
+  | -- | a statement that sets a starting point on an open contour: the contour's name
     OpenBegins Region Name
   | -- | a link that cannot join its neighbours, whatever the other links do
     NotLinked Neighbours LinkFault
-  | -- | an element that ends before it begins: the element, the length by which it is too short,
-    -- the links at its ends, the largest radius of one of their fillets that fits
+  | -- | an element that is too short for the links at its ends: the element, the length that it
+    -- lacks, the regions of these links, the largest fillet radius that fits
     Overrun Region ElementCarrier Mm [Region] (Maybe Mm)
-  | -- | the contour, two of its elements, their common point, and whether the contour has fillets
+  | -- | a contour that meets itself: the regions of the contour and of two elements, their common
+    -- point, true if the contour has fillets
     CrossesItself Region Region Region Point Bool
   deriving stock (Eq, Show)
 
@@ -64,28 +65,29 @@ data Neighbours = Neighbours
 
 -- | The reason why a link cannot join its neighbours.
 data LinkFault
-  = -- | the gap between them
+  = -- | the neighbours do not meet: the gap between them
     NoMeeting Mm
-  | -- | their distance
+  | -- | the neighbours are parallel lines: their distance
     ParallelLines Mm
   | SameCurve
-  | -- | the points to choose from
+  | -- | the neighbours meet in several points, and the link chooses none of these
     AmbiguousMeeting [Point]
-  | -- | the gap between them
+  | -- | the neighbours do not touch: the gap between them
     NotSmooth Mm
-  | -- | the angle at which they meet
+  | -- | the neighbours touch at a corner: the angle between their directions
     Kinked Rad
-  | -- | they touch, but the contour would have to reverse its direction
+  | -- | the neighbours touch, but in opposite directions
     TurnsBack
   | TangentNeedsCircles
   | ConcentricTangent
   | CoincidentTangent
-  | -- | the senses of the circles for which there is a tangent
+  | -- | no tangent fits the senses of the circles: the senses that would have one
     NoCommonTangent [(Sense, Sense)]
-  | FilletAtPoint
-  | -- | the radius, and the largest that fits
+  | -- | a fillet or a chamfer next to an element that is a point
+    FilletAtPoint
+  | -- | no arc touches both neighbours: the radius, and the largest radius that fits
     NoFillet Mm (Maybe Mm)
-  | -- | centres of the arcs that make equally long contours
+  | -- | two arcs make equally long contours: the centres of the arcs
     AmbiguousFillet [Point]
   deriving stock (Eq, Show)
 
@@ -151,6 +153,7 @@ toReport fault = case fault of
           ]
       }
 
+-- | The report of an element that is too short for the links at its ends.
 overrunReport :: Region -> ElementCarrier -> Mm -> [Region] -> Maybe Mm -> Report
 overrunReport region carrier overlap links largest =
   (at region "E0324" title)
@@ -289,6 +292,7 @@ linkTitle j code title =
     { others = [Label r (describe carrier) | Located r carrier <- [before j, after j], r /= link j]
     }
 
+-- | Two neighbours in words.
 both :: Neighbours -> Text
 both j = describe (value (before j)) <> " and " <> describe (value (after j))
 
@@ -313,6 +317,7 @@ meetingPoints points =
 mostPoints :: Int
 mostPoints = 6
 
+-- | The hint that names the senses of the circles for which there is a common tangent.
 tangentHint :: [(Sense, Sense)] -> Text
 tangentHint senses = case senses of
   [] ->
@@ -324,6 +329,7 @@ tangentHint senses = case senses of
       Clockwise -> "cw"
       CounterClockwise -> "ccw"
 
+-- | The hints for a fillet that does not fit.
 filletHints :: Neighbours -> Mm -> Maybe Mm -> [Text]
 filletHints j r largest =
   ["The largest radius that fits here is " <> downTo m <> "." | Just m <- [largest]]
@@ -334,8 +340,8 @@ filletHints j r largest =
          \of the neighbours."
        ]
 
--- | The radius of a fillet with the only sign that fits: R with + is clockwise. Nothing when both
--- signs fit, or none.
+-- | The signed radius of a fillet, if exactly one of the two signs fits. A positive radius is
+-- clockwise.
 otherSign :: Neighbours -> Mm -> Maybe Text
 otherSign j r = case (fits Clockwise, fits CounterClockwise) of
   (True, False) -> Just (Decimal.mm r)

@@ -1,7 +1,7 @@
 -- | Tables and curves as values of a program.
 --
--- A curve is exact. Where a contour runs along it, a polyarc within 'Tolerance.curve' takes its
--- place. This module makes that polyarc and carries the columns of the curve's table along.
+-- A curve is exact. A contour follows a polyarc within 'Tolerance.curve' of the curve instead. This
+-- module makes that polyarc, and keeps the columns of the curve's table with the curve.
 module Part.Curve
   ( PartTable (..),
     points,
@@ -46,8 +46,8 @@ import Geometry.Vec (Point)
 import Geometry.Vec qualified as Vec
 import Part.Tolerance qualified as Tolerance
 
--- | The numbers of a table: x and y in mm, then one column for each name. Lengths are in mm, angles
--- in radians, times in minutes.
+-- | The numbers of a table: x and y in mm, and then one column for each name. Lengths in a column
+-- are in mm, angles in radians, times in minutes.
 data PartTable = PartTable {rows :: NumberTable, names :: [Name]}
   deriving stock (Eq, Show)
 
@@ -66,19 +66,20 @@ columns PartTable {rows, names} =
     | (i, n) <- zip [2 ..] names
   ]
 
--- | An exact curve.
+-- | A curve of a program: the exact curve and what belongs to it.
 data PartCurve = PartCurve
   { exact :: Exact.Curve,
-    -- | the columns of its table, with their names: a number for every row
+    -- | the columns of the table that the curve was made from, with their names: a number for
+    -- every row
     tableColumns :: [(Name, Vector Double)],
-    -- | the sections that were fitted to its table, if any
+    -- | for a curve of sections, the fit to its table
     fitting :: Maybe Fitting,
-    -- | lines and arcs within 'Tolerance.curve' of it
+    -- | lines and arcs within 'Tolerance.curve' of the exact curve
     approximation :: ~MeasuredPolyarc
   }
   deriving stock (Eq, Show)
 
--- | Sections fitted to a table's points, and their deviations from these.
+-- | Sections fitted to the points of a table, their deviations from the points, and the points.
 data Fitting = Fitting
   { sections :: NonEmpty Section.Section,
     deviations :: [SectionFit.Deviation],
@@ -86,13 +87,14 @@ data Fitting = Fitting
   }
   deriving stock (Eq, Show)
 
--- | A curve with the columns of its table.
+-- | A curve from the columns of its table, the fit of its sections if it has any, and the exact
+-- curve.
 curve :: [(Name, Vector Double)] -> Maybe Fitting -> Exact.Curve -> PartCurve
 curve tableColumns fitting exact =
   PartCurve {exact, tableColumns, fitting, approximation = arcsAlong Tolerance.curve exact}
 
--- | Arcs and lines within a tolerance of a curve. A curve that consists of arcs and lines keeps
--- them, with its small kinks smoothed; a cubic spline is fitted by 'CubicFit', any other curve by
+-- | Arcs and lines within a tolerance of a curve. A curve of arcs and lines keeps its arcs and
+-- lines, with small kinks smoothed. A cubic spline is fitted by 'CubicFit', any other curve by
 -- 'ParametricFit'.
 arcsAlong :: Mm -> Exact.Curve -> MeasuredPolyarc
 arcsAlong tolerance exact =
@@ -106,11 +108,11 @@ arcsAlong tolerance exact =
     fitted = ParametricFit.approximate tolerance
     cubics = Exact.cubics (times (0.5 * Tolerance.deviationShare) tolerance) exact
 
--- | A curve without columns.
+-- | A curve without columns and without a fit.
 plain :: Exact.Curve -> PartCurve
 plain = curve [] Nothing
 
--- | A curve as a function of its parameter, for 'ParametricFit'.
+-- | An exact curve as a function of its parameter, for 'ParametricFit'.
 parametric :: Exact.Curve -> ParametricCurve
 parametric c =
   ParametricCurve
@@ -126,11 +128,11 @@ parametric c =
         u : us -> u :| us
     }
 
--- | The first and the last point.
+-- | The first and the last point of a curve.
 ends :: PartCurve -> [Point]
 ends c = [Exact.start (exact c), Exact.end (exact c)]
 
--- | A curve in the opposite direction, with its columns.
+-- | A curve in the opposite direction. The rows of its columns are in reverse order, too.
 reversed :: PartCurve -> PartCurve
 reversed c =
   curve
@@ -138,30 +140,32 @@ reversed c =
     Nothing
     (Exact.reversed (exact c))
 
--- | The image of a curve. The columns keep their values: they are dimensions of the part.
+-- | The image of a curve. The columns keep their values even when the curve is scaled, because they
+-- are dimensions of the part.
 transformed :: Transformation -> PartCurve -> PartCurve
 transformed s c = curve (tableColumns c) Nothing (Exact.transformed s (exact c))
 
--- | The values of a column of angles along a curve's polyarc: stations in mm and angles in radians,
--- rising. Linear interpolation between two neighbours is within 'Tolerance.bevel' of the column.
+-- | The angles of a column along a curve's polyarc: pairs of a station in mm and an angle in
+-- radians, in the order of the stations. Linear interpolation between two pairs is within
+-- 'Tolerance.bevel' of the column.
 alongPolyarc :: PartCurve -> Vector Double -> [(Double, Double)]
 alongPolyarc c values = (0, angleAt 0) : concat (zipWith sampled stations (drop 1 stations))
   where
     stations = MeasuredPolyarc.stations (approximation c)
     column = Exact.column (exact c) values
-    -- Stations are scaled: the polyarc and the curve differ little in length.
+    -- A station of the polyarc is scaled to the curve, whose length differs a little.
     angleAt s =
       Exact.columnAt (exact c) column (Exact.parameterAtLength (exact c) (Mm (s * whole / total)))
     Mm whole = Exact.length (exact c)
     Mm total = MeasuredPolyarc.length (approximation c)
-    -- First steps small enough for every row to be seen.
+    -- The first steps are small enough that none of them skips a row.
     sampled a b =
       let count = max 1 (ceiling ((b - a) / stride)) :: Int
           marks = [a + (b - a) * fromIntegral k / fromIntegral count | k <- [0 .. count]]
        in concat (zipWith (halved (12 :: Int)) (map point marks) (map point (drop 1 marks)))
     point s = (s, angleAt s)
     stride = max 0.1 (total / (8 * fromIntegral (max 1 (Vector.length values))))
-    -- Bisects until the angles at a half and a quarter of the step are those of a straight line.
+    -- Bisects a step until linear interpolation is good enough at its half and at its quarter.
     halved depth (a, x) (b, y)
       | depth <= 0 || abs (z - (x + y) / 2) <= slack && abs (z' - (3 * x + y) / 4) <= slack =
         [(b, y)]
@@ -172,7 +176,7 @@ alongPolyarc c values = (0, angleAt 0) : concat (zipWith sampled stations (drop 
         z' = angleAt ((a + m) / 2)
     Rad slack = Tolerance.bevel
 
--- | The least and the greatest x of a curve, by its polyarc.
+-- | The least and the greatest x coordinate of a curve, measured on its polyarc.
 xRange :: Exact.Curve -> (Mm, Mm)
 xRange c = (Mm (minimum xs), Mm (maximum xs))
   where
@@ -186,8 +190,8 @@ xRange c = (Mm (minimum xs), Mm (maximum xs))
         let Mm r = Segment.radius m p
          in q : filter (Segment.hasFootOf s) [Vec.shift (Vec.vec d 0) m | d <- [r, -r]]
 
--- | Sections as spans of a curve, with the parameters of the rows on it: the number of the span
--- from 0, and the share of the span up to the row.
+-- | The sections as spans of a curve, and the curve's parameter at each row of the table. The
+-- parameter is the index of the span, from 0, plus the fraction of the span before the row.
 spansOfSections :: Vector Point -> NonEmpty Section.Section -> (NonEmpty SpanShape, Vector Double)
 spansOfSections rows sections = (fmap spanOf sections, Vector.imap parameter rows)
   where
@@ -196,6 +200,7 @@ spansOfSections rows sections = (fmap spanOf sections, Vector.imap parameter row
       (i, s) : _ -> fromIntegral i + share s q
       [] -> fromIntegral (length sections)
 
+-- | A section as a span of a curve.
 spanOf :: Section.Section -> SpanShape
 spanOf s = case (Section.formula s, Section.segment s) of
   (Section.Polynomial a b c, Nothing) ->
@@ -205,7 +210,7 @@ spanOf s = case (Section.formula s, Section.segment s) of
     Segment.Arc {} -> Circular segment
   (Section.Circle _ _, Nothing) -> Line (Section.from s) (Section.to s)
 
--- | The parameter of a row's x on a section, from 0 to 1.
+-- | The fraction of a section, from 0 to 1, that lies before the x of a row.
 share :: Section.Section -> Point -> Double
 share s q
   | Vec.x q == Vec.x (Section.from s) = 0

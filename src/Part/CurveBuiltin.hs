@@ -45,14 +45,14 @@ import Part.Selection (answerPoints, picked)
 import Part.Tolerance qualified as Tolerance
 import Part.Value
 
--- | The value of a function of tables or curves; nothing for other functions and arguments.
+-- | The value of a function of tables or curves. Nothing for other functions and arguments.
 apply :: Region -> Builtin -> [Argument] -> Maybe (Eval Value)
 apply region builtin arguments =
   asum [f region builtin arguments | f <- [newCurve, tableFunction, pointFunction, measure]]
 
 -- Tables and new curves
 
--- | A function whose result is a curve through points.
+-- | The value of a function that makes a curve of points or of another curve.
 newCurve :: Region -> Builtin -> [Argument] -> Maybe (Eval Value)
 newCurve region builtin arguments = case (builtin, arguments) of
   (MakeSpline, [t]) -> Just (curveThrough t (Exact.spline Exact.Natural))
@@ -89,13 +89,13 @@ newCurve region builtin arguments = case (builtin, arguments) of
       c <- either (faulty region table) pure (make (Curve.points table))
       pure (CurveValue (Curve.curve (Curve.columns table) Nothing c))
 
--- | Fails for a tolerance that is not above 0 or beyond the reach of machines.
+-- | Fails for a tolerance that is not above 0, or larger than 'Tolerance.reach'.
 toleranceOf :: Region -> Double -> Eval ()
 toleranceOf region d
   | d > 0 = within region d
   | otherwise = Evaluation.mistake (NotPositive region Parameter.CurveTolerance d)
 
--- | Rows or points of a table.
+-- | The value of a function that selects rows of a table or makes a list of its points.
 tableFunction :: Region -> Builtin -> [Argument] -> Maybe (Eval Value)
 tableFunction region builtin arguments = case (builtin, arguments) of
   (RowsOf, [Plain (TableValue t), Plain (ListValue ns)]) -> Just $ do
@@ -138,7 +138,7 @@ biarcs region t ends = do
 pointsOf :: PartTable -> [Point]
 pointsOf = Vector.toList . Curve.points
 
--- | A curve of arcs and lines.
+-- | A curve that consists of these arcs and lines.
 ofSegments :: Region -> NonEmpty Exact.Segment -> Eval Value
 ofSegments region segments =
   either
@@ -146,7 +146,7 @@ ofSegments region segments =
     (pure . CurveValue . Curve.plain)
     (Exact.fromSegments segments)
 
--- | A curve of sections, with their deviations from the points of the table.
+-- | A curve that consists of these sections, with their deviations from the points of the table.
 ofSections :: Region -> PartTable -> Section.PointTable -> NonEmpty Section.Section -> Eval Value
 ofSections region table points sections = do
   let (spans, parameters) = Curve.spansOfSections (Curve.points table) sections
@@ -154,7 +154,7 @@ ofSections region table points sections = do
   c <- either (faulty region table) pure (Exact.fromShapes spans parameters)
   pure (CurveValue (Curve.curve (Curve.columns table) (Just fitting) c))
 
--- | Fails for points that make no curve, at the row where it shows.
+-- | Fails because the points of a table make no curve. The mistake names the row that shows it.
 faulty :: Region -> PartTable -> Exact.CurveFault -> Eval a
 faulty region table fault = Evaluation.mistake $ case fault of
   -- The last point of a closed curve may be the first one again.
@@ -174,7 +174,7 @@ faulty region table fault = Evaluation.mistake $ case fault of
     count = NumberTable.count (rows table)
     noLength = InContour (NoLength region)
 
--- | Fails for a table whose x is not monotone.
+-- | Fails for a table whose x coordinates neither rise nor fall throughout.
 ordered :: Region -> PartTable -> Either Section.PointTableFault a -> Eval a
 ordered region table = either (Evaluation.mistake . fact) pure
   where
@@ -182,7 +182,7 @@ ordered region table = either (Evaluation.mistake . fact) pure
       Section.TooFewRows n -> badPoints region table Nothing (FewPoints n 2)
       Section.OutOfOrder k -> badPoints region table (rowAt table k) (Unordered k)
 
--- | Fails for sections whose rows do not follow one another.
+-- | Fails for sections whose rows do not cover the table in order.
 fitted :: Region -> PartTable -> Either SectionFit.SectionFault a -> Eval a
 fitted region table = either (Evaluation.mistake . fact) pure
   where
@@ -195,19 +195,23 @@ fitted region table = either (Evaluation.mistake . fact) pure
         badPoints region table Nothing (SectionJoint s begins needed)
       SectionFit.EndsEarly end count -> badPoints region table Nothing (SectionEnd end count)
 
+-- | The mistake of points that make no curve, with the region of a row that shows it, if there is
+-- one.
 badPoints :: Region -> PartTable -> Maybe Region -> ListFault -> ValueFact
 badPoints region table row fault =
   InCurve (BadPoints region (listing region table) row fault)
 
+-- | The mistake of a row number outside of a table.
 noSuchRow :: Region -> PartTable -> Int -> ValueFact
 noSuchRow region table n =
   InCurve (NoSuchRow region (listing region table) n (NumberTable.count (rows table)))
 
--- | The source of a table's points. The points of a list have the region of the call.
+-- | The source of a table's points: a table or a list of the program. The rows made of a list have
+-- the region of the call.
 listing :: Region -> PartTable -> Listing
 listing region table = if rowAt table 1 == Just region then InList else InTable
 
--- | The number of a row of the table, from 1; fails when there is no such row.
+-- | The number of a row of the table, counted from 1. Fails if the table has no such row.
 rowNumber :: Region -> PartTable -> Double -> Eval Int
 rowNumber region table x
   | abs x > 1e7 || abs (x - fromIntegral n) > Tolerance.equal =
@@ -221,6 +225,7 @@ rowNumber region table x
       InTable -> Parameter.TableRowNumber
       InList -> Parameter.ListPointNumber
 
+-- | The region of a row, by the row's number from 1.
 rowAt :: PartTable -> Int -> Maybe Region
 rowAt table k
   | k >= 1 && k <= NumberTable.count (rows table) = Just (NumberTable.regionOf (rows table) (k - 1))
@@ -228,7 +233,7 @@ rowAt table k
 
 -- Points and measures of a curve
 
--- | A function whose result is a point of a curve.
+-- | The value of a function that yields a point of a curve.
 pointFunction :: Region -> Builtin -> [Argument] -> Maybe (Eval Value)
 pointFunction region builtin arguments = case (builtin, arguments) of
   (PointAtX, Plain (CurveValue c) : Plain (Quantity x) : choice) ->
@@ -243,7 +248,7 @@ pointFunction region builtin arguments = case (builtin, arguments) of
   where
     at = Just . spatial region . offset
 
--- | The point of a curve with a given x, chosen among several.
+-- | The point of a curve with this x coordinate. The arguments choose one of several.
 pointAtX :: Region -> PartCurve -> Double -> [Argument] -> Eval Value
 pointAtX region c x choice = case Exact.atX x (exact c) of
   [] -> Evaluation.mistake (InConstruction (NoAnswer region (uncurry OutsideCurve range)))
@@ -256,7 +261,7 @@ pointAtX region c x choice = case Exact.atX x (exact c) of
   where
     range = Curve.xRange (exact c)
 
--- | The point of a curve at an arc length from its start.
+-- | The point of a curve at this arc length, in mm, from its start.
 pointAlong :: Region -> PartCurve -> Double -> Eval Value
 pointAlong region c s
   | s < -slack || s > whole' + slack =
@@ -267,7 +272,7 @@ pointAlong region c s
     Mm whole' = Exact.length (exact c)
     Mm slack = Tolerance.coincident
 
--- | A length, a distance, an angle or a curvature of a curve.
+-- | The value of a function that yields a length, a distance, an angle or a curvature of a curve.
 measure :: Region -> Builtin -> [Argument] -> Maybe (Eval Value)
 measure region builtin arguments = case (builtin, arguments) of
   (LengthAlong, [Plain (CurveValue c), Plain (Spatial p)]) ->
@@ -293,13 +298,14 @@ measure region builtin arguments = case (builtin, arguments) of
 footOf :: PartCurve -> Point -> Point
 footOf c p = Exact.at (exact c) (Exact.nearest p (exact c))
 
--- | The arc length of a curve up to its point nearest to a point.
+-- | The arc length from a curve's start to its point that is nearest to the given point.
 lengthTo :: PartCurve -> Point -> Mm
 lengthTo c p = Exact.lengthAt (exact c) (Exact.nearest p (exact c))
 
 -- Intersections
 
--- | A line, a circle or a curve: its carrier, and the function to its exact points.
+-- | The carrier of a line, a circle or a curve, and the function that refines a point to an exact
+-- point of it. Nothing for other values.
 exactly :: Value -> Maybe (ElementCarrier, Foot)
 exactly v = case v of
   LineValue l -> Just (OnLine l, Intersection.onLine l)
@@ -307,8 +313,8 @@ exactly v = case v of
   CurveValue c -> Just (OnCurve (approximation c), Intersection.onCurve (exact c))
   _ -> Nothing
 
--- | The common point of a curve and another thing that the choice selects. Polyarcs give the
--- approximate points, which are refined on the exact curves.
+-- | An intersection of a curve with a line, a circle or a curve. The arguments choose one of
+-- several intersections. Polyarcs give approximate points, which are refined on the exact curves.
 intersection ::
   Region ->
   (ElementCarrier, Foot) ->
@@ -333,7 +339,8 @@ intersection region (a, footA) (b, footB) choice = case MeasuredPolyarc.intersec
           (MeasuredPolyarc.segments p)
       _ -> BoundingBox.ofPoints (Vec.point 0 0) []
 
--- | The distance along a carrier to a point; none along a circle, which has no start.
+-- | The function to the distance of a point along a carrier. A circle has none, since it has no
+-- start.
 stationOn :: ElementCarrier -> [Point -> Mm]
 stationOn carrier = case carrier of
   OnCurve c -> [MeasuredPolyarc.nearestStation c]

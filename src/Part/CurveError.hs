@@ -1,7 +1,7 @@
 {-# OPTIONS_GHC -O0 #-}
 
--- | Faults of curves and pieces: points that make no curve, shifts that fold a curve or tear it,
--- bevels and joggles that do not fit.
+-- | Faults of curves and pieces: points that make no curve, shifts with which a curve turns back or
+-- opens a gap, bevels and joggles that do not fit.
 module Part.CurveError
   ( CurveMistake (..),
     Listing (..),
@@ -20,29 +20,31 @@ import Geometry.Vec qualified as Vec
 import Part.ErrorText (Candidate (APoint), at, below, downTo, listed, stop)
 import Report.Report (Label (..), Report (..))
 
--- | A fault of a curve or a piece; the region of the call or the cipher comes first.
+-- | A fault of a curve or a piece. The region of the call, the cipher or the expression comes first
+-- in every constructor.
 data CurveMistake
-  = -- | points that make no curve: their source, the region of the row where it shows
+  = -- | points that make no curve: their source, the region of the row that shows it, the reason
     BadPoints Region Listing (Maybe Region) ListFault
-  | -- | the number of a row or a point that does not exist, and the count of those that do
+  | -- | a row or a point that does not exist: its number, and how many there are
     NoSuchRow Region Listing Int Int
-  | -- | a shift beyond the radius of curvature: the point, the distance, the upper limit there
+  | -- | a shift by at least the radius of curvature: the point of the curve, the distance of the
+    -- shift, and the radius there, which the distance must stay below
     Folds Region Point Mm Mm
-  | -- | a shift of a curve with a corner: the point, the angle
+  | -- | a shift of a curve that has a corner: the point, the angle between the directions there
     ShiftsCorner Region Point Rad
-  | -- | a bevel outside of −90° to 90°: the row of the table
+  | -- | a bevel of 90° or more, or of −90° or less: the number of its row in a table, the bevel
     SteepBevel Region (Maybe Int) Rad
-  | -- | a change of distance that ends before it begins, along the curve
+  | -- | a change of the distance whose end lies before its start, in the direction of the curve
     GrowthEnds Region
-  | -- | a coordinate of a joggle without exactly one point on the piece: the points, and the least
-    -- and greatest x of the piece
+  | -- | a joggle's x coordinate that the piece does not have exactly once: the coordinate, the
+    -- points with that x, and the least and greatest x of the piece
     JoggleCoordinate Region Mm [Point] (Mm, Mm)
   | -- | a joggle between two equal coordinates
     JoggleNowhere Region
-  | -- | a joggle that is too long: its radius, the length between its ends, the largest radius that
-    -- fits
+  | -- | a joggle whose ramps are longer than the distance between its ends: its radius, that
+    -- distance, and the largest radius that fits
     JoggleRadius Region Mm Mm (Maybe Mm)
-  | -- | a joggle's radius that is too small for its depth: the lower limit
+  | -- | a joggle's radius that is too small for its depth: the radius, and its lower limit
     JoggleDepth Region Mm Mm
   deriving stock (Eq, Show)
 
@@ -52,25 +54,27 @@ data Listing = InTable | InList
 
 -- | The reason why points make no curve. Rows and sections are counted from 1.
 data ListFault
-  = -- | the count of points, and the least count
+  = -- | too few points: how many there are, and how many are needed
     FewPoints Int Int
-  | -- | of a closed curve: the count of different points, and the least count
+  | -- | too few different points for a closed curve: how many there are, and how many are needed
     FewDifferent Int Int
-  | -- | a row with the same point as the row before it
+  | -- | a row with the same point as the row before it: its number
     SamePoint Int
-  | -- | an even count of points for parabolas
+  | -- | parabolas through an even number of points: that number
     EvenPoints Int
-  | -- | a row where x reverses its direction
+  | -- | a row at which x no longer rises, or no longer falls: its number
     Unordered Int
-  | -- | a section, and its count of rows, which is neither two nor three
+  | -- | a section with neither two nor three rows: its number, and how many rows it has
     SectionRows Int Int
-  | -- | a section whose rows do not rise
+  | -- | a section whose row numbers do not rise: the section's number
     SectionOrder Int
-  | -- | a section, its first row, and the last row of the section before it
+  | -- | a section that does not begin with the last row of the section before it: the section's
+    -- number, the row with which it begins, the row with which it should begin
     SectionJoint Int Int Int
-  | -- | the last row of the sections, and of the table
+  | -- | sections that end before the table: the last row of the sections, and of the table
     SectionEnd Int Int
-  | NoSection
+  | -- | a curve without a section
+    NoSection
   deriving stock (Eq, Show)
 
 -- | The report of a fault.
@@ -137,6 +141,7 @@ toReport fault = case fault of
       { hints = ["Its radius must be more than half of its depth, " <> Decimal.mm least <> "."]
       }
 
+-- | The report of a joggle's x coordinate that the piece does not have exactly once.
 coordinateReport :: Region -> Mm -> [Point] -> (Mm, Mm) -> Report
 coordinateReport region x points (low, high) =
   (at region "E0354" title)
@@ -151,6 +156,7 @@ coordinateReport region x points (low, high) =
       [] -> "It runs from x = " <> Decimal.mm low <> " to x = " <> Decimal.mm high <> "."
       _ -> listed (map APoint points)
 
+-- | The report of a joggle that does not fit between its ends.
 radiusReport :: Region -> Mm -> Mm -> Maybe Mm -> Report
 radiusReport region r available largest =
   (at region "E0355" title) {message = [stop "14174"], hints = [maybe none fitting largest]}
@@ -167,6 +173,7 @@ radiusReport region r available largest =
         <> "."
     fitting m = "The largest radius that fits is " <> downTo m <> "."
 
+-- | The title of a report on a row or point that does not exist.
 noRowTitle :: Listing -> Int -> Int -> Text
 noRowTitle listing n count =
   "the "
@@ -178,13 +185,13 @@ noRowTitle listing n count =
     <> ", it has "
     <> (if count == 0 then "none" else Decimal.whole count)
 
--- | A member of a table or of a list.
+-- | The noun for a member of a table or of a list.
 nounOf :: Listing -> Text
 nounOf listing = case listing of
   InTable -> "row"
   InList -> "point"
 
--- | The title of a report on points; the noun is the one of 'nounOf'.
+-- | The title of a report on points that make no curve. The noun comes from 'nounOf'.
 listTitle :: Text -> ListFault -> Text
 listTitle noun fault = case fault of
   FewPoints count least ->
@@ -225,7 +232,7 @@ listTitle noun fault = case fault of
       1 -> "there is only one"
       _ -> "there are only " <> Decimal.whole n
 
--- | The hints of a report on points.
+-- | The hints of a report on points that make no curve. The noun comes from 'nounOf'.
 listHint :: Text -> ListFault -> [Text]
 listHint noun fault = case fault of
   FewPoints _ _ -> []

@@ -2,8 +2,8 @@
 
 -- | Mistakes in the values and the geometry of a part.
 --
--- A mistake is a fact with the regions of its source; sentences are formed by 'toReport' alone.
--- Contours, curves, constructions and pockets have types of facts of their own.
+-- A mistake is a fact: numbers and the regions that they come from. Only 'toReport' forms
+-- sentences. Facts on contours, curves, constructions and pockets have types of their own.
 module Part.Error
   ( Error (..),
     ValueFact (..),
@@ -34,38 +34,42 @@ import Part.PocketError (PocketMisfit)
 import Part.PocketError qualified as PocketError
 import Report.Report (Label (..), Report (..), quote)
 
--- | A fact, and the function calls that led to it, the innermost first.
+-- | A fact, and the regions of the function calls that led to it, the innermost first.
 data Error = Error {fact :: ValueFact, calls :: [Region]}
   deriving stock (Eq, Show)
 
--- | A mistake in a value, a statement or the geometry; the region comes first.
+-- | A mistake in a value, a statement or the geometry. The region that the report points at comes
+-- first in every constructor.
 data ValueFact
   = DivisionByZero Region
   | OutOfDomain Region Domain
-  | -- | a result that no number can hold
+  | -- | a result that is infinite or not a number
     TooLarge Region
-  | -- | a length, radius or coordinate beyond the reach of any machine, and that limit
+  | -- | a length, radius or coordinate beyond the reach of any machine: that limit
     OutOfReach Region Mm
-  | -- | an evaluation that would take more steps than this limit
+  | -- | an evaluation that would take too many steps: their limit
     TooMuchWork Region Int
   | RadiusNotPositive Region Mm
-  | -- | a line whose two points are this one
+  | -- | a line through two equal points: the point
     ZeroLine Region Point
-  | NotPositive Region LimitedQuantity Double
-  | Negative Region LimitedQuantity Double
-  | -- | a number that is not whole or not in the range
+  | -- | a quantity that must be above 0: its value
+    NotPositive Region LimitedQuantity Double
+  | -- | a quantity that must be 0 or more: its value
+    Negative Region LimitedQuantity Double
+  | -- | a number that is not whole, or outside of its range: the range, the number
     NotWhole Region WholeNumber Range Double
-  | -- | the number of an item, and the count of items
+  | -- | an item that a list does not have: the item's number, and how many items the list has
     NoSuchItem Region Int Int
   | StepOfZero Region
   | NothingToDrill Region
-  | -- | an assertion that does not hold; the values that it compares
+  | -- | an assertion that does not hold: the values that it compares, with their regions
     DoesNotHold Region [(Region, Text)]
-  | -- | two values that should agree; their difference, and the difference allowed
+  | -- | two values that should agree: both with their regions, their difference, and the largest
+    -- difference allowed
     DoNotAgree Region (Region, Text) (Region, Text) Text Text
-  | -- | a statement that needs another cutter than the one in the spindle
+  | -- | a statement that cannot be done with the cutter in the spindle: the kind of the cutter
     WrongCutter Region CutterStatement CutterKind
-  | -- | several depths with a cutter that is widest at its tip
+  | -- | passes at several heights with a cutter that is widest at its tip
     StepsUndercut Region
   | InConstruction ConstructionFault
   | InContour ContourFault
@@ -73,7 +77,7 @@ data ValueFact
   | InPocket PocketMisfit
   deriving stock (Eq, Show)
 
--- | A statement that asks for a kind of cutter.
+-- | A statement that needs cutters of certain kinds.
 data CutterStatement = MillStatement | TurnStatement | PocketStatement | DrillStatement
   deriving stock (Eq, Show)
 
@@ -86,6 +90,7 @@ toReport (Error fact calls) =
     innermost = take 1 calls
     outermost = take 1 (reverse calls)
 
+-- | The report of a fact.
 factReport :: ValueFact -> Report
 factReport fact = case fact of
   DivisionByZero region -> at region "E0301" "this divides by zero"
@@ -183,7 +188,8 @@ factReport fact = case fact of
   InCurve fault -> CurveError.toReport fault
   InPocket fault -> PocketError.toReport fault
 
--- | Points at the keyword that begins the statement.
+-- | The report of a statement with the wrong cutter. It points at the keyword that begins the
+-- statement.
 wrongCutterReport :: Region -> CutterStatement -> CutterKind -> Report
 wrongCutterReport (Region begin _) statement kind =
   (at (Region begin (begin + Text.length keyword)) "E0344" (quote keyword <> " needs " <> needed))

@@ -1,5 +1,5 @@
--- | Words and numbers that the reports on a part have in common: elements, candidates, limits, and
--- the control stops of the Minsk-22 system.
+-- | The texts of elements, answers, limits and control stops of the Minsk-22 system. All reports on
+-- a part use them.
 module Part.ErrorText
   ( at,
     describe,
@@ -26,7 +26,7 @@ import Geometry.Vec qualified as Vec
 import Report.Report (Report (..), ReportCode, ReportPlace (..), report)
 import Report.Report qualified as Report
 
--- | An error with a region, a code and a title.
+-- | The report of an error, from its region, its code and its title.
 at :: Region -> ReportCode -> Text -> Report
 at region code = report Report.Error code (InSource region)
 
@@ -49,7 +49,7 @@ describeCircle :: Circle -> Text
 describeCircle (Circle c r) =
   "the circle of radius " <> Decimal.mm r <> " about " <> Vec.toText 4 c
 
--- | One of several answers to a construction.
+-- | One of the answers to a construction.
 data Candidate = APoint Point | ALine Line | ACircle Circle
   deriving stock (Eq, Show)
 
@@ -80,20 +80,21 @@ listed candidates = case candidates of
 mostCandidates :: Int
 mostCandidates = 8
 
--- | The number of answers beyond the limit of a report; empty when there are none.
+-- | The words for the answers that a report leaves out, given how many it lists. Empty if it lists
+-- all of them.
 andMore :: Int -> [a] -> Text
 andMore most answers = case length answers - most of
   n | n > 0 -> " and " <> Decimal.whole n <> " more"
   _ -> ""
 
--- | An upper limit that is not allowed itself, with three decimals. Adds 'Tolerance.coincident'
--- first, so that a whole number stays whole in spite of the rounding of doubles.
+-- | An upper limit that is itself not allowed, rounded down to three decimals. It adds
+-- 'Tolerance.coincident' first: a whole number with a small error of rounding then stays whole.
 below :: Mm -> Text
 below (Mm x) = downTo (Mm (x + noise))
   where
     Mm noise = Tolerance.coincident
 
--- | An upper limit, rounded down to three decimals.
+-- | An upper limit that is allowed, rounded down to three decimals.
 downTo :: Mm -> Text
 downTo (Mm x) = Decimal.mm (Mm (fromIntegral (floor (x * 1000) :: Int) / 1000))
 

@@ -1,6 +1,6 @@
--- | The monad of evaluation. A computation yields a value, or mistakes; it fails without a mistake
--- when it depends on one that is already reported. It takes a limited number of steps, so that
--- every evaluation ends.
+-- | The monad of evaluation. A computation yields a value or fails with mistakes. It fails without
+-- a mistake if it depends on a mistake that is already reported. The number of its steps is
+-- limited, so that every evaluation ends.
 module Part.Evaluation
   ( Eval,
     run,
@@ -20,14 +20,15 @@ import Data.Either (fromLeft)
 import GHC.Exts (oneShot)
 import Part.Error (Error (..), ValueFact (..))
 
--- | A computation: a function of the steps left.
+-- | A computation: a function of the number of steps that are left.
 newtype Eval a = Eval (Int -> Outcome a)
 
--- | The steps left, and the value or the mistakes; no mistakes when they are already reported.
+-- | The outcome of a computation: the number of steps that are left, and the value or the mistakes.
+-- There is no mistake if the cause is already reported.
 data Outcome a = Found Int a | Failed Int [Error]
 
--- | A computation from its function of steps. 'oneShot' promises GHC that the function is called
--- once, so that no closure is allocated for it.
+-- | A computation from a function of the number of steps. 'oneShot' promises GHC that the function
+-- is called only once, so that GHC need not allocate a closure.
 steps :: (Int -> Outcome a) -> Eval a
 steps f = Eval (oneShot f)
 
@@ -47,7 +48,8 @@ instance Monad Eval where
     Found left' a -> let Eval e' = f a in e' left'
     Failed left' errors -> Failed left' errors
 
--- | Runs a computation with a number of steps; yields its result and the steps left.
+-- | Runs a computation that may take the given number of steps. Yields its result and the number of
+-- steps that are left.
 run :: Int -> Eval a -> (Either [Error] a, Int)
 run fuel (Eval e) = case e fuel of
   Found left a -> (Right a, left)
@@ -61,7 +63,7 @@ mistake fact = mistakes [Error fact []]
 mistakes :: [Error] -> Eval a
 mistakes errors = Eval (`Failed` errors)
 
--- | Fails because of a mistake that is already reported.
+-- | Fails without a mistake, because the cause is already reported.
 absent :: Eval a
 absent = mistakes []
 
@@ -78,7 +80,7 @@ gather evals = do
       Failed left' errors -> Found left' (Left errors)
 
 -- | Runs a computation for each item, even after a failure, and concatenates the results. Fails
--- with the mistakes of all of them. Takes stack for none of the items, unlike 'gather'.
+-- with the mistakes of all computations. Unlike 'gather', it needs no stack space for each item.
 collect :: (a -> Eval [b]) -> [a] -> Eval [b]
 collect find items = Eval (collecting [] items)
   where
@@ -97,8 +99,8 @@ collect find items = Eval (collecting [] items)
               Found left' _ -> failing errors more left'
               Failed left' new -> failing (new : errors) more left'
 
--- | Takes a number of steps. Fails when too few are left: the first time with a mistake, and then,
--- with the count below 0, without one.
+-- | Takes a number of steps. If too few steps are left, it fails with a mistake and sets their
+-- number to −1. Every later call then fails without a mistake.
 spend :: Region -> Int -> Eval ()
 spend region wanted = steps $ \left -> case () of
   _
@@ -106,11 +108,11 @@ spend region wanted = steps $ \left -> case () of
     | wanted > left -> Failed (-1) [Error (TooMuchWork region mostSteps) []]
     | otherwise -> Found (left - wanted) ()
 
--- | The number of steps that a program may take.
+-- | How many steps the evaluation of a program may take.
 mostSteps :: Int
 mostSteps = 5000000
 
--- | Adds the region of a function call to the mistakes that occur in it.
+-- | Adds the region of a function call to the mistakes that occur in the call.
 inCall :: Region -> Eval a -> Eval a
 inCall region (Eval e) = steps $ \left -> case e left of
   Found left' a -> Found left' a

@@ -1,6 +1,6 @@
 -- | Evaluation of expressions, and the names that they use.
 --
--- Types are checked before, so a value of another type than the one needed is a bug of partc.
+-- The types were checked by the stage before. A value of an unexpected type is a bug of partc.
 module Part.Expression
   ( Value (..),
     Environment (..),
@@ -46,10 +46,11 @@ import Part.Part (polyarcOf)
 import Part.Value (Value (..))
 import Part.Value qualified as Value
 
--- | The definitions so far. A name without a value depends on a mistake that is already reported.
+-- | The definitions of the statements before. A name that has no value here depends on a mistake
+-- that is already reported.
 data Environment = Environment
   { values :: Map Name Value,
-    -- | the local names at a function's definition, its parameters and its body
+    -- | for each function, the local names at its definition, its parameters and its body
     functions :: Map Name (Map Name Value, NonEmpty Name, Expr),
     -- | parameters of functions and variables of repetitions
     locals :: Map Name Value
@@ -64,7 +65,7 @@ empty = Environment Map.empty Map.empty Map.empty
 bind :: Name -> Value -> Environment -> Environment
 bind name v env = env {locals = Map.insert name v (locals env)}
 
--- | The value of an expression. Every node of it takes one step.
+-- | The value of an expression. Every node of the expression takes one step.
 evaluate :: Environment -> Expr -> Eval Value
 evaluate env (Located region e) =
   Evaluation.spend region 1 *> case e of
@@ -107,7 +108,8 @@ evaluate env (Located region e) =
       Chosen choice x -> Value.Choosing choice <$> evaluate env x
       Ranked rank -> pure (Value.Ranking rank)
 
--- | A call of a function: its body with the local names of its definition and with its arguments.
+-- | The value of a function call, from the region of the call, the arguments, and the function. The
+-- function's body is evaluated with the local names at its definition and with its arguments.
 call ::
   Environment ->
   Region ->
@@ -119,14 +121,14 @@ call env region arguments (definitionLocals, parameters, body) = do
   let given = Map.fromList (zip (NonEmpty.toList parameters) (NonEmpty.toList vs))
   Evaluation.inCall region (evaluate env {locals = Map.union given definitionLocals} body)
 
--- | A coordinate. Most are literals, which need no call of 'evaluate'.
+-- | The value of a coordinate. Most coordinates are literals, which need no call of 'evaluate'.
 coordinate :: Environment -> Expr -> Eval Double
 coordinate env x = case x of
   Located at (Number c) -> c <$ Evaluation.spend at 1
   _ -> number <$> evaluate env x
 
--- | The numbers from a limit to another in equal steps; empty when the steps lead away from the
--- second limit.
+-- | The numbers from the first to the second limit in steps of the third number, as a list. Empty
+-- if the steps lead away from the second limit.
 range :: Region -> Double -> Double -> Double -> Eval Value
 range region a b by
   | by == 0 = Evaluation.mistake (StepOfZero region)
@@ -136,31 +138,31 @@ range region a b by
     Evaluation.spend region (fromInteger (max 0 (min 100000000 count)))
     pure (ListValue (Vector.generate (max 0 (fromInteger count)) item))
 
--- | The number of a checked value.
+-- | The number in a value that was checked to be a number.
 number :: Value -> Double
 number v = case v of
   Quantity x -> x
   _ -> bug "a value that is no number where a number was checked"
 
--- | The point of a checked value.
+-- | The point in a value that was checked to be a point of the plane.
 point :: Value -> Point
 point v = case v of
   Spatial p -> Value.fromOrigin p
   _ -> bug "a value that is no point where a point was checked"
 
--- | The truth of a checked value.
+-- | The truth of a value that was checked to be a truth value.
 isTrue :: Value -> Bool
 isTrue v = case v of
   TruthValue b -> b
   _ -> bug "a value that is neither true nor false where one was checked"
 
--- | The items of a checked list.
+-- | The items of a value that was checked to be a list.
 items :: Value -> [Value]
 items v = case v of
   ListValue vs -> Vector.toList vs
   _ -> bug "a value that is no list where a list was checked"
 
--- | A value in words, for editors and reports; its quantities have this dimension. Empty for a
+-- | A value as text, for editors and reports. The dimension is that of its quantities. Empty for a
 -- transformation.
 written :: Dimension -> Value -> Text
 written dimension v = case v of

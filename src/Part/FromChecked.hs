@@ -1,7 +1,7 @@
 -- | Evaluation of a checked program: the exact geometry of the part and its operations.
 --
--- Statements are evaluated in order. A statement with a mistake is left out, and so is all that
--- depends on it; the others give a part that later stages can check.
+-- Statements are evaluated in order. A statement with a mistake is left out, and so is everything
+-- that depends on it. The other statements give a part that later stages can check.
 module Part.FromChecked
   ( evaluate,
   )
@@ -38,10 +38,10 @@ import Part.Piece qualified as Piece
 import Part.Transformation qualified as Transformation
 import Part.Value (Value (..))
 
--- | The state between two statements. Lists have their last member first.
+-- | The state between two statements. All lists are in reverse order.
 data State = State
   { context :: Context,
-    -- | the cutter before the first change
+    -- | the cutter before the first tool change
     initialCutter :: Maybe Cutter,
     start' :: Maybe (Located SpacePoint),
     contours' :: [Contour],
@@ -49,7 +49,7 @@ data State = State
     readings' :: [(Region, Text)],
     fittings' :: [(Located Name, Fitting)],
     errors' :: [Error],
-    -- | the steps left, see 'Evaluation.mostSteps'
+    -- | how many steps of evaluation are left, see 'Evaluation.mostSteps'
     fuel :: Int
   }
 
@@ -71,6 +71,7 @@ evaluate program = Result {warnings = [], errors = reverse (errors' final), outp
           readings = readings' final
         }
 
+-- | The state before the first statement.
 initial :: State
 initial =
   State
@@ -157,21 +158,21 @@ step state (Located at s) = case s of
     within answer block =
       run state at answer (\a left -> leave state (block a state {fuel = left}))
 
--- | Evaluates the expressions of a statement, and goes on with their value and the steps left. A
--- mistake leaves the state as it is.
+-- | Evaluates the expressions of a statement. The function makes the next state from their value
+-- and the steps that are left. After a mistake the state differs only in its errors and steps.
 run :: State -> Region -> Eval a -> (a -> Int -> State) -> State
 run state at answer continue =
   case Evaluation.run (fuel state) (Evaluation.spend at statementSteps *> answer) of
     (Left found, left) -> state {errors' = reverse found <> errors' state, fuel = left}
     (Right a, left) -> continue a left
 
--- | The steps that a statement takes besides its expressions.
+-- | The steps that a statement takes in addition to those of its expressions.
 statementSteps :: Int
 statementSteps = 5
 
 -- Definitions
 
--- | Defines a name, whose quantities have this dimension.
+-- | Defines a name. The dimension is that of the quantities in its value.
 define :: State -> Located Name -> Dimension -> Value -> State
 define state name d v =
   (withEnvironment state env')
@@ -187,6 +188,7 @@ define state name d v =
           locals = Map.delete (value name) (locals env)
         }
 
+-- | Defines a function, with the local names that its body may use.
 defineFunction :: State -> Name -> NonEmpty Name -> Expr -> State
 defineFunction state name parameters body =
   withEnvironment
@@ -203,23 +205,26 @@ withEnvironment state env = state {context = (context state) {environment = env}
 
 -- Blocks
 
--- | The state after a block: the names are those before it.
+-- | The state after a block, from the states before the block and at its end. Names that the block
+-- defines are forgotten.
 leave :: State -> State -> State
 leave outside inside = withEnvironment inside (environment (context outside))
 
+-- | The items of a list over which a block is repeated. Each takes one step.
 itemsOf :: Environment -> Expr -> Eval [Value]
 itemsOf env list = do
   vs <- Expression.items <$> Expression.evaluate env list
   vs <$ Evaluation.spend (region list) (length vs)
 
--- | Repeats a block with a name for each value. Names of one repetition are unknown in the next.
+-- | Evaluates a block once for each value, with a local name bound to the value. Names that the
+-- block defines in one repetition are unknown in the next.
 repeated :: Name -> [Checked.Statement] -> [Value] -> State -> State
 repeated name body vs state = foldl once state vs
   where
     env = environment (context state)
     once before v = foldl step (withEnvironment before (Expression.bind name v env)) body
 
--- | A block whose operations are transformed.
+-- | Evaluates a block and transforms its operations.
 transformed :: [Checked.Statement] -> Transformation -> State -> State
 transformed body placing state =
   inside

@@ -1,4 +1,4 @@
--- | The links between the elements of a contour, as data.
+-- | The links between the elements of a contour, with evaluated numbers.
 module Part.Link
   ( Link (..),
   )
@@ -8,16 +8,18 @@ import Base.Quantity (Mm)
 import Geometry.Carrier (Sense)
 import Geometry.Vec (Point)
 
--- | A link with its values.
+-- | A link between an element and the element after it.
 data Link
-  = -- | the intersection nearest to the point, if there is one
+  = -- | at an intersection; of several, at the one nearest to the given point
     Meet (Maybe Point)
-  | -- | at this point, between the elements of a contour that is an element itself
+  | -- | at this point. It joins the elements of a contour that is itself an element of another one
     Fixed Point
-  | Smooth
-  | Tangent
-  | -- | the sense and the radius of the arc
+  | -- | at a point where both have the same direction
+    Smooth
+  | -- | by the common tangent
+    Tangent
+  | -- | by an arc that is tangent to both: its sense and its radius
     Fillet Sense Mm
-  | -- | the length that it cuts off each neighbour
+  | -- | by a straight segment: the length that it cuts off each element
     Chamfer Mm
   deriving stock (Eq, Show)

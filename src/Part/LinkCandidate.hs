@@ -1,8 +1,8 @@
--- | The joints that a link can make between two neighbouring elements of a contour: intersection,
+-- | The joints by which a link can join two neighbouring elements of a contour: intersection,
 -- smooth transition, common tangent, fillet, chamfer.
 --
--- Candidates are independent of the other links of the contour; 'Part.LinkSolver' chooses among
--- them.
+-- The joints of a link do not depend on the other links of the contour. 'Part.LinkSolver' chooses
+-- one of them.
 module Part.LinkCandidate
   ( Joint (..),
     through,
@@ -35,7 +35,9 @@ import Part.ContourError (ContourFault (..), LinkFault (..), Neighbours (..))
 import Part.Link (Link (..))
 import Part.Tolerance qualified as Tolerance
 
--- | The point that ends one element, the point that begins the next, and the segment between them.
+-- | The point at which the first element ends, the point at which the second one begins, and the
+-- segment between these points. Without a segment the points are equal, up to the small gap of a
+-- smooth transition.
 data Joint = Joint
   { leave :: {-# UNPACK #-} Point,
     enter :: {-# UNPACK #-} Point,
@@ -43,7 +45,7 @@ data Joint = Joint
   }
   deriving stock (Eq, Show)
 
--- | A joint at one point.
+-- | A joint at which both elements meet in one point.
 through :: Point -> Joint
 through p = Joint p p Nothing
 
@@ -51,8 +53,9 @@ through p = Joint p p Nothing
 straight :: Point -> Point -> Joint
 straight p q = Joint p q (Just (Straight p q))
 
--- | All joints that a link can make between its neighbours, fillets in the order of their length.
--- The points are the neighbours' own ends: one of them decides between two intersections.
+-- | All joints by which a link can join its neighbours; fillets begin with the shortest one. The
+-- points are the end of the first neighbour and the start of the second one, if they have any. Of
+-- several intersections, the one at such a point is taken.
 candidates :: Neighbours -> [Point] -> Link -> Either ContourFault (NonEmpty Joint)
 candidates j own link = case link of
   Meet near -> (:| []) <$> meet j own near
@@ -62,13 +65,14 @@ candidates j own link = case link of
   Fillet sense r -> fillet j sense r
   Chamfer d -> (:| []) <$> chamfer j own d
 
+-- | The carriers of two neighbours.
 shapes :: Neighbours -> (ElementCarrier, ElementCarrier)
 shapes j = (value (before j), value (after j))
 
 -- Intersections
 
--- | The intersection. Of several, the one nearest to the point given; without such a point, the one
--- that is an own end of a neighbour.
+-- | The intersection of two neighbours. Of several intersections, it is the one nearest to the
+-- point that the link names. If the link names none, it is the one at an end of a neighbour.
 meet :: Neighbours -> [Point] -> Maybe Point -> Either ContourFault Joint
 meet j own near = case shapes j of
   (AtPoint p, AtPoint q)
@@ -99,7 +103,8 @@ meet j own near = case shapes j of
       [p] -> Right (through p)
       ps -> choose j own near Tolerance.nearTie ps
 
--- | One of several intersections. Distances within the tolerance are a tie.
+-- | The choice among several intersections. Two distances that differ by at most the tolerance are
+-- a tie, which is a fault.
 choose :: Neighbours -> [Point] -> Maybe Point -> Mm -> [Point] -> Either ContourFault Joint
 choose j own near (Mm tolerance) ps =
   through <$> case (near, sortOn (\p -> maybe 0 (`distance` p) near) ps) of
@@ -109,8 +114,8 @@ choose j own near (Mm tolerance) ps =
   where
     distance a b = let Mm d = Vec.distance a b in d
 
--- | A joint at a point that lies on its neighbour. The polyarc of a curve deviates from the curve
--- by up to 'Tolerance.curve'.
+-- | A joint at an element that is a point. Fails unless the point lies on the other neighbour. The
+-- polyarc of a curve may deviate from the curve by up to 'Tolerance.curve'.
 pointOn :: Neighbours -> Point -> ElementCarrier -> Either ContourFault Joint
 pointOn j p carrier
   | gap <= slack = Right (through p)
@@ -123,6 +128,7 @@ pointOn j p carrier
       OnCircle _ _ -> Tolerance.coincident
       AtPoint _ -> Tolerance.coincident
 
+-- | The bounding box of a polyarc.
 extent :: MeasuredPolyarc -> BoundingBox
 extent c =
   foldl
@@ -140,7 +146,7 @@ distanceTo carrier p = case carrier of
 
 -- Smooth transitions
 
--- | The point where two neighbours touch in the same direction.
+-- | The joint at which two neighbours touch and have the same direction.
 smooth :: Neighbours -> Either ContourFault Joint
 smooth j = case shapes j of
   (OnLine l, OnLine m) -> smoothLines j l m
@@ -156,7 +162,7 @@ smooth j = case shapes j of
     let q = MeasuredPolyarc.start c
      in smoothEnds j (facing a q) (q, MeasuredPolyarc.directionAt c (Mm 0))
 
--- | A smooth transition of lines, which lie on one another and have the same direction.
+-- | A smooth transition between two lines. They must coincide and have the same direction.
 smoothLines :: Neighbours -> Line -> Line -> Either ContourFault Joint
 smoothLines j l m
   | Vec.dot (Carrier.direction l) (Carrier.direction m) <= 0 = Left (NotLinked j TurnsBack)
@@ -166,8 +172,9 @@ smoothLines j l m
     Apart gap -> Left (NotLinked j (NotSmooth gap))
     _ -> meet j [] Nothing
 
--- | A smooth transition between an end with its direction and a start with its direction. Curves
--- come from measured points, so 'Tolerance.smoothGap' and 'Tolerance.smoothTurn' are allowed.
+-- | A smooth transition from the end of an element to the start of the next one, each given by a
+-- point and a direction. Curves come from measured points, so a gap of 'Tolerance.smoothGap' and an
+-- angle of 'Tolerance.smoothTurn' are allowed.
 smoothEnds :: Neighbours -> (Point, Vec) -> (Point, Vec) -> Either ContourFault Joint
 smoothEnds j (p, u) (q, v)
   | Vec.distance p q > Tolerance.smoothGap =
@@ -179,7 +186,7 @@ smoothEnds j (p, u) (q, v)
     Rad angle = Vec.signedAngle u v
     Rad allowed = Tolerance.smoothTurn
 
--- | The point of an element nearest to a point, and the element's direction there.
+-- | The point of an element that is nearest to a given point, and the element's direction there.
 facing :: ElementCarrier -> Point -> (Point, Vec)
 facing carrier p = case carrier of
   OnLine l -> (Carrier.foot l p, Carrier.direction l)
@@ -191,6 +198,8 @@ facing carrier p = case carrier of
      in (MeasuredPolyarc.at c s, MeasuredPolyarc.directionAt c s)
   AtPoint q -> (q, Vec.unit (Vec.to q p))
 
+-- | A smooth transition between a line and a circle, in either order. The line must be tangent to
+-- the circle and have the direction of its sense.
 smoothLineCircle :: Neighbours -> Line -> Sense -> Circle -> Either ContourFault Joint
 smoothLineCircle j l sense (Circle c (Mm r))
   | abs (abs h - r) <= tolerance && signum h /= Carrier.senseSign sense =
@@ -200,7 +209,8 @@ smoothLineCircle j l sense (Circle c (Mm r))
     Mm h = Carrier.signedDistance l c
     Mm tolerance = Tolerance.coincident
 
--- | Circles of one sense touch from inside, circles of different senses from outside.
+-- | A smooth transition between two circles. One of two circles with the same sense must touch the
+-- other from inside; circles with different senses must touch from outside.
 smoothCircles :: Neighbours -> (Sense, Circle) -> (Sense, Circle) -> Either ContourFault Joint
 smoothCircles j (s, Circle c (Mm r)) (t, Circle d (Mm q))
   | distance <= tolerance = Left (NotLinked j SameCurve)
@@ -215,7 +225,7 @@ smoothCircles j (s, Circle c (Mm r)) (t, Circle d (Mm q))
     innerGap = abs (distance - abs (r - q))
     towards x = Vec.shift (Vec.scale x (Vec.unit (Vec.to c d))) c
 
--- | A joint at a point of contact, for neighbours with this gap between them.
+-- | A joint at the point where two neighbours touch. Fails if the gap between them is too large.
 touching :: Neighbours -> Double -> Point -> Either ContourFault Joint
 touching j gap p
   | abs gap <= tolerance = Right (through p)
@@ -225,7 +235,8 @@ touching j gap p
 
 -- Inserted segments
 
--- | The common tangent that fits the senses. A point counts as a circle of radius 0.
+-- | The common tangent of two circles that leaves the first and reaches the second in the
+-- directions of their senses. A point counts as a circle of radius 0.
 tangent :: Neighbours -> Either ContourFault Joint
 tangent j = case shapes j of
   (OnLine _, _) -> Left (NotLinked j TangentNeedsCircles)
@@ -249,7 +260,8 @@ tangent j = case shapes j of
         Nothing ->
           Left (NotLinked j (NoCommonTangent [(s, t) | (s, t, _) <- TangentLine.all c d]))
 
--- | The arcs of a radius and a sense, the shorter ones first.
+-- | The arcs with the given sense and radius that are tangent to both neighbours, the shortest one
+-- first.
 fillet :: Neighbours -> Sense -> Mm -> Either ContourFault (NonEmpty Joint)
 fillet j sense r = case shapes j of
   (AtPoint _, _) -> Left (NotLinked j FilletAtPoint)
@@ -265,8 +277,8 @@ fillet j sense r = case shapes j of
         (Just (Segment.arc sense (Fillet.middle f) (Fillet.start f) (Fillet.end f)))
     arcLength = fmap Segment.length . inserted
 
--- | A straight segment between the points at a distance along each neighbour from their
--- intersection.
+-- | A straight segment that cuts off a corner. Its ends lie on the neighbours, at the given
+-- distance along each of them from their intersection.
 chamfer :: Neighbours -> [Point] -> Mm -> Either ContourFault Joint
 chamfer j own (Mm d) = case shapes j of
   (AtPoint _, _) -> Left (NotLinked j FilletAtPoint)
@@ -277,7 +289,7 @@ chamfer j own (Mm d) = case shapes j of
     checkReach j (after j) d corner
     Right (straight (along a (-d) corner) (along b d corner))
 
--- | Fails for an open curve that is too short for a signed distance from one of its points.
+-- | Fails for an open curve that ends before a signed distance along it from one of its points.
 checkReach :: Neighbours -> Located ElementCarrier -> Double -> Point -> Either ContourFault ()
 checkReach j (Located region carrier) distance p = case carrier of
   OnCurve c
@@ -292,7 +304,8 @@ checkReach j (Located region carrier) distance p = case carrier of
   where
     tooShort overlap = Left (Overrun region carrier (Mm overlap) [link j] Nothing)
 
--- | The point of an element at a signed distance from one of its points.
+-- | The point of an element at a signed distance along it from one of its points. Positive
+-- distances follow the element's direction.
 along :: ElementCarrier -> Double -> Point -> Point
 along carrier s p = case carrier of
   OnLine l -> Vec.shift (Vec.scale s (Carrier.direction l)) p

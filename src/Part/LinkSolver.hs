@@ -1,8 +1,9 @@
--- | The segments of a contour from its elements and links.
+-- | Computes the segments of a contour from its elements and links.
 --
--- Every link has a few joints with its neighbours (two fillets, one intersection …). Dynamic
--- programming along the contour chooses the combination with the shortest contour among those in
--- which no element runs backwards. A tie is reported, not decided.
+-- Every link can join its neighbours in a few ways, called joints: by one intersection or by two
+-- fillets, for instance. Dynamic programming along the contour chooses one joint for each link, so
+-- that no element runs backwards and the contour is as short as possible. Two equally short
+-- contours are an error.
 module Part.LinkSolver
   ( LinkedElement (..),
     Link (..),
@@ -46,22 +47,22 @@ import Part.Tolerance qualified as Tolerance
 data LinkedElement = LinkedElement
   { elementRegion :: Region,
     carrier :: ElementCarrier,
-    -- | the start and the end of the element itself; a circle has none
+    -- | the start and the end of the element by itself, whatever its links; a circle has neither
     ownStart :: Maybe Point,
     ownEnd :: Maybe Point,
     finish :: Finish,
-    -- | the bevels of its surface: stations in mm, rising, and angles in radians; a single one
-    -- holds everywhere
+    -- | the bevels of the element's surface: pairs of a station in mm and an angle in radians, in
+    -- the order of the stations. A single bevel holds for the whole element
     bevel :: [(Double, Double)],
-    -- | the exact curve, if the element is one
+    -- | the exact curve, for an element that is a curve
     sourceCurve :: Maybe PartCurve,
-    -- | the link, and its region
+    -- | the region of the link, and the link
     link :: Maybe (Region, Link)
   }
   deriving stock (Eq, Show)
 
--- | The segments of a contour with the region of its name, or all its faults. Links that fail by
--- themselves are reported together; other faults alone.
+-- | The segments of a contour, given the region of its name, or its faults. All links that cannot
+-- join their neighbours are reported together. Otherwise only the first fault is reported.
 solve ::
   Region ->
   Ends ->
@@ -73,8 +74,8 @@ solve region ends linked = case attempt region ends linked of
     let faults = fromMaybe (found :| []) (NonEmpty.nonEmpty (unlinked ends linked))
      in Left (fmap (withLargest region ends linked) faults)
 
--- | The links that cannot join their neighbours. Reported once are a link that several repetitions
--- share, and links there and back between the same two elements.
+-- | The faults of the links that cannot join their neighbours. A link inside a repetition is
+-- reported once. Two links between the same two elements are reported once, too.
 unlinked :: Ends -> NonEmpty LinkedElement -> [ContourFault]
 unlinked ends linked = case linked of
   _ :| [] -> []
@@ -87,7 +88,7 @@ unlinked ends linked = case linked of
       NotLinked (Neighbours _ (Located a _) (Located b _)) _ -> (min a b, max a b)
       _ -> (at, at)
 
--- | Adds the largest radius that fits to the fault of a fillet.
+-- | Adds the largest radius that fits to a fault that may be caused by a fillet.
 withLargest :: Region -> Ends -> NonEmpty LinkedElement -> ContourFault -> ContourFault
 withLargest region ends linked fault = case fault of
   NotLinked j (NoFillet r _) ->
@@ -96,8 +97,9 @@ withLargest region ends linked fault = case fault of
     Overrun at shape overlap links (largestFillet region ends linked links)
   _ -> fault
 
--- | The largest radius that one of the fillets with these regions may have while the others keep
--- theirs; otherwise the largest that all fillets of its radius may have together.
+-- | The largest radius of a fillet with which the contour has no fault. It is the radius of one of
+-- the fillets with the given regions, while all others keep theirs. If changing one fillet is not
+-- enough, it is the radius of all fillets that have the same radius as that one.
 largestFillet :: Region -> Ends -> NonEmpty LinkedElement -> [Region] -> Maybe Mm
 largestFillet region ends linked links =
   listToMaybe (mapMaybe (uncurry bisected) (map alone given <> map together given))
@@ -137,7 +139,7 @@ attempt ::
   Either ContourFault (NonEmpty Element)
 attempt region ends linked = do
   chosen <- case (ends, linked) of
-    (Closed, only :| []) -> lone only
+    (Closed, only :| []) -> singleElement only
     (Closed, _) -> closed linked
     (Open, LinkedElement {elementRegion, carrier = OnCurve c} :| [])
       | MeasuredPolyarc.isClosed c -> Left (ClosedCurve elementRegion)
@@ -155,29 +157,31 @@ attempt region ends linked = do
       Just (_, Fillet _ _) -> True
       _ -> False
 
--- | A closed contour of one element: a circle, from its rightmost point, or a closed curve.
-lone :: LinkedElement -> Either ContourFault [Element]
-lone w@LinkedElement {elementRegion, carrier, link} = case (carrier, link) of
+-- | A closed contour of one element: a circle, which begins at its rightmost point, or a closed
+-- curve.
+singleElement :: LinkedElement -> Either ContourFault [Element]
+singleElement w@LinkedElement {elementRegion, carrier, link} = case (carrier, link) of
   (OnCircle _ _, Just (at, _)) -> Left (LinkOfLoneCircle at)
   (OnCircle sense circle@(Circle c (Mm r)), Nothing) ->
     Right (marked w (Mm 0) [Segment.fullCircle sense circle (Vec.shift (Vec.vec r 0) c)])
   (OnCurve c, Nothing)
     | MeasuredPolyarc.isClosed c ->
-      Right (continuedRound (marked w (Mm 0) (NonEmpty.toList (MeasuredPolyarc.segments c))))
+      Right (closedSmoothly (marked w (Mm 0) (NonEmpty.toList (MeasuredPolyarc.segments c))))
   (OnCurve c, Just (at, _)) | MeasuredPolyarc.isClosed c -> Left (LinkOfLoneCircle at)
   (OnCurve _, _) -> Left (LoneElement elementRegion carrier)
   (OnLine _, _) -> Left (LoneElement elementRegion carrier)
   (AtPoint _, _) -> Left (LoneElement elementRegion carrier)
 
--- | The elements of a closed curve; the first one continues the last one unless there is a corner.
-continuedRound :: [Element] -> [Element]
-continuedRound elements = case elements of
+-- | Marks the first segment of a closed curve as a continuation of the last one, unless they meet
+-- at a corner.
+closedSmoothly :: [Element] -> [Element]
+closedSmoothly elements = case elements of
   first : rest@(_ : _)
     | isSmooth (segment (last rest)) (segment first) ->
       first {continues = True} : rest
   _ -> elements
 
--- | Tells whether a segment continues another without a corner.
+-- | Does the second segment continue the first one without a corner?
 isSmooth :: Segment -> Segment -> Bool
 isSmooth a b =
   -- The sine of the angle excludes most corners, and costs less than the angle.
@@ -195,11 +199,11 @@ open linked = do
   case link final of
     Just (at, _) -> Left (LinkAtEnd at (elementRegion first))
     Nothing -> Right ()
-  case directly list begin Nothing (LinkCandidate.through end) of
+  case withoutChoice list begin Nothing (LinkCandidate.through end) of
     Just elements -> Right elements
     Nothing -> do
       joints <- traverse (uncurry jointsOf) (zip list (drop 1 list))
-      route <- decided =<< shortest list begin Nothing [LinkCandidate.through end] joints
+      route <- unambiguous =<< shortest list begin Nothing [LinkCandidate.through end] joints
       Right (elementsOf list begin Nothing route)
   where
     list = NonEmpty.toList linked
@@ -207,16 +211,16 @@ open linked = do
     final = NonEmpty.last linked
     ownPoint side w = maybe (Left (NoEnd (elementRegion w) (carrier w))) Right (side w)
 
--- | A closed contour, from the point where its last link reaches its first element.
+-- | A closed contour. It begins on its first element, at the end of the last link.
 closed :: NonEmpty LinkedElement -> Either ContourFault [Element]
 closed linked
   | Right (c :| []) <- jointsOf (NonEmpty.last linked) (NonEmpty.head linked),
-    Just elements <- directly (NonEmpty.toList linked) (enter c) (inserted c) c =
+    Just elements <- withoutChoice (NonEmpty.toList linked) (enter c) (inserted c) c =
     Right elements
   | otherwise = closedByShortest linked
 
--- | A closed contour with several joints to choose from, or with a fault. Solves it for every joint
--- of the last link.
+-- | A closed contour that has a choice of joints, or a fault. Solves the contour for each joint of
+-- the last link and takes the shortest result.
 closedByShortest :: NonEmpty LinkedElement -> Either ContourFault [Element]
 closedByShortest linked = do
   joints <- traverse (uncurry jointsOf) (zip list (drop 1 list))
@@ -229,17 +233,17 @@ closedByShortest linked = do
     (c, route) : others ->
       case [o | (o, r) <- others, cost r <= plus (cost route) Tolerance.sameLength] of
         o : _ | Just fault <- tie (neighboursOf final first) [c, o] -> Left fault
-        _ -> elementsOf list (enter c) (inserted c) <$> decided route
+        _ -> elementsOf list (enter c) (inserted c) <$> unambiguous route
   where
     list = NonEmpty.toList linked
     first = NonEmpty.head linked
     final = NonEmpty.last linked
-    -- The smallest overrun among several faults is the most helpful.
+    -- Of several faults, the one with the smallest overlap helps the user most.
     overlapOf fault = case fault of
       Overrun _ _ overlap _ _ -> overlap
       _ -> Mm 0
 
--- | All joints of two neighbours.
+-- | All joints of an element with the element after it. Without a link they meet.
 jointsOf :: LinkedElement -> LinkedElement -> Either ContourFault (NonEmpty Joint)
 jointsOf a b =
   LinkCandidate.candidates
@@ -247,6 +251,7 @@ jointsOf a b =
     (catMaybes [ownEnd a, ownStart b])
     (maybe (Meet Nothing) snd (link a))
 
+-- | Two neighbouring elements with their link, for reports.
 neighboursOf :: LinkedElement -> LinkedElement -> Neighbours
 neighboursOf a b =
   Neighbours
@@ -260,16 +265,18 @@ linkRegion a b = maybe (elementRegion b) fst (link a)
 
 -- Dynamic programming
 
--- | A choice of joints up to a link: the length of the contour so far, the joints with the last one
--- first, and the fault that it has an equally long alternative.
+-- | A choice of joints from the start of the contour up to some link: the length of the contour up
+-- to there, and the joints in reverse order. If another choice is equally long, @ambiguous@ is the
+-- fault that says so.
 data Route = Route {cost :: Mm, taken :: [Joint], ambiguous :: Maybe ContourFault}
 
--- | The constants of one run of the dynamic programming: the segment before the first element, and
--- all elements.
+-- | The constants of one run of the dynamic programming: the segment that the last link of a closed
+-- contour inserts before the first element, and all elements.
 data Stage = Stage {previous :: Maybe Segment, allElements :: [LinkedElement]}
 
--- | The shortest route from a point on the first element through all links, given by their joints,
--- to one of the final joints. The segment inserted before the first element is given, too.
+-- | The shortest route through all links. The arguments are the elements, the starting point on the
+-- first of them, the segment inserted before that point if there is one, the joints at which the
+-- last element may end, and the joints of each link.
 shortest ::
   [LinkedElement] ->
   Point ->
@@ -287,9 +294,9 @@ shortest linked begin before final joints =
         go rest next more
       _ -> Right (minimumBy (comparing cost) (map snd states))
 
--- | Extends routes, each with the point that it has reached on an element, to every joint at the
--- end of the element. Keeps the shortest route to each joint. The next element is for the report
--- only.
+-- | One step of the dynamic programming. Extends each route from the point that it has reached on
+-- an element to every joint at the element's end, and keeps the shortest route to each joint. The
+-- element after it is only needed for a report.
 advance ::
   Stage ->
   LinkedElement ->
@@ -309,11 +316,12 @@ advance stage w next states joints = case (states, joints) of
       [] ->
         let overlaps = [overlap | joint <- joints, Left overlap <- extended joint]
          in Left (overrun stage w (minimum overlaps) next)
-      sound -> Right [(enter joint, noted stage best others) | (joint, best, others) <- sound]
+      sound -> Right [(enter joint, withTie stage best others) | (joint, best, others) <- sound]
 
--- | Notes the fault of a tie in the shortest of several routes to one joint.
-noted :: Stage -> Route -> [Route] -> Route
-noted stage best others =
+-- | The shortest route to a joint, with the fault of a tie if one of the other routes is equally
+-- long.
+withTie :: Stage -> Route -> [Route] -> Route
+withTie stage best others =
   case [o | o <- others, cost o <= plus (cost best) Tolerance.sameLength] of
     o : _
       | Just (j, a, b) <- firstDifference (reverse (taken best)) (reverse (taken o)) links,
@@ -323,7 +331,7 @@ noted stage best others =
   where
     links = zipWith neighboursOf (allElements stage) (drop 1 (allElements stage))
 
--- | The fault of an element that is too short for the links at its ends.
+-- | The fault of an element that is too short for the links at its ends, by the given overlap.
 overrun :: Stage -> LinkedElement -> Mm -> Maybe LinkedElement -> ContourFault
 overrun stage w overlap next =
   Overrun
@@ -341,9 +349,9 @@ overrun stage w overlap next =
           Just (at, _) <- [link a]
       ]
 
--- | A route without an equally long alternative.
-decided :: Route -> Either ContourFault Route
-decided route = maybe (Right route) Left (ambiguous route)
+-- | Fails for a route that has an equally long alternative.
+unambiguous :: Route -> Either ContourFault Route
+unambiguous route = maybe (Right route) Left (ambiguous route)
 
 -- | The first link at which two routes differ, and their joints there.
 firstDifference :: [Joint] -> [Joint] -> [Neighbours] -> Maybe (Neighbours, Joint, Joint)
@@ -353,15 +361,17 @@ firstDifference as bs js = case (as, bs, js) of
     | otherwise -> Just (j, a, b)
   _ -> Nothing
 
--- | The fault of equally long contours by two fillets.
+-- | The fault of two joints of one link that make equally long contours. Only two fillets are a
+-- fault.
 tie :: Neighbours -> [Joint] -> Maybe ContourFault
 tie j choice = case mapMaybe inserted choice of
   segments@(_ : _ : _) ->
     Just (NotLinked j (AmbiguousFillet [centre | Arc {centre} <- segments]))
   _ -> Nothing
 
--- | Extends a route from a point of an element along the element to a joint, and along the segment
--- that the joint inserts. Yields the overlap when the element would run backwards.
+-- | Extends a route that has reached a point of an element: along the element to a joint, and along
+-- the segment that the joint inserts. If the element would have to run backwards, yields the length
+-- by which it would.
 extend :: Maybe Segment -> LinkedElement -> (Point, Route) -> Joint -> Either Mm Route
 extend before w (at, Route c js choice) joint
   | along < Mm 0 = Left (let Mm x = along in Mm (-x))
@@ -370,7 +380,8 @@ extend before w (at, Route c js choice) joint
     along = lengthOn (carrier w) (arrival before js) (inserted joint) at (leave joint)
     insertedLength = maybe (Mm 0) Segment.length (inserted joint)
 
--- | The segment inserted right before an element.
+-- | The segment inserted right before an element: by the last of the joints so far, or, for the
+-- first element, the given one.
 arrival :: Maybe Segment -> [Joint] -> Maybe Segment
 arrival before js = case js of
   [] -> before
@@ -378,8 +389,8 @@ arrival before js = case js of
 
 -- Segments along elements
 
--- | The length along an element from one of its points to another; negative backwards. The segments
--- inserted before and after the element are given.
+-- | The length along an element from one of its points to another, given the segments inserted
+-- before and after the element. The length is negative if the second point lies before the first.
 lengthOn :: ElementCarrier -> Maybe Segment -> Maybe Segment -> Point -> Point -> Mm
 lengthOn shape before after a b = case shape of
   OnLine l
@@ -389,11 +400,13 @@ lengthOn shape before after a b = case shape of
   OnCurve c -> let (Mm from, Mm to) = stations c a b in Mm (to - from)
   AtPoint _ -> Mm 0
 
--- | The segments along an element from one of its points to another.
+-- | The segments along an element from one of its points to another, given the segments inserted
+-- before and after the element.
 --
--- A circle that is left where it is entered gives a full circle: otherwise a contour that avoids
--- the circle would be the shortest. But it gives nothing where straight segments before and after
--- it have about the same direction: circles in a row, joined by tangents.
+-- A circle with both points at the same position gives a full circle. Without this rule, the shortest
+-- contour would be one that skips the circle. The exception is a circle between straight segments
+-- of about the same direction, such as the middle one of three equal circles joined by tangents: it
+-- gives no segment.
 segmentsOn :: ElementCarrier -> Maybe Segment -> Maybe Segment -> Point -> Point -> [Segment]
 segmentsOn shape before after a b = case shape of
   OnLine (Line _ _) -> [Straight a b | not (Vec.isNear a b)]
@@ -415,8 +428,8 @@ segmentsOn shape before after a b = case shape of
         Vec.dot (Vec.unit (Vec.to p q)) (Vec.unit (Vec.to s t)) > 0.5
       _ -> False
 
--- | The stations of two points on a curve. On a closed curve, the second one may lie beyond the
--- curve's length.
+-- | The stations of two points on a curve. On a closed curve the second station is always the
+-- larger one, so it may exceed the curve's length.
 stations :: MeasuredPolyarc -> Point -> Point -> (Mm, Mm)
 stations c a b
   | MeasuredPolyarc.isClosed c && (to <= from || Vec.isNear a b) =
@@ -430,7 +443,8 @@ stations c a b
         then MeasuredPolyarc.length c
         else MeasuredPolyarc.nearestStation c b
 
--- | The station on a curve from which its segments between two points start; 0 for other elements.
+-- | The station of the first of two points on an element. Only curves have stations; for other
+-- elements it is 0.
 entryStation :: ElementCarrier -> Point -> Point -> Mm
 entryStation shape a b = case shape of
   OnCurve c -> fst (stations c a b)
@@ -438,8 +452,9 @@ entryStation shape a b = case shape of
   OnCircle _ _ -> Mm 0
   AtPoint _ -> Mm 0
 
--- | The segments of one element from a station on, cut at the stations of its bevels. Segments that
--- continue one another smoothly are marked.
+-- | Makes the parts of a contour from the segments along one element. The first segment begins at
+-- the given station of the element. Segments are cut at the stations of the bevels, and a segment
+-- that continues the one before it without a corner is marked.
 marked :: LinkedElement -> Mm -> [Segment] -> [Element]
 marked LinkedElement {elementRegion, carrier, finish, bevel} (Mm from) whole = case whole of
   [] -> []
@@ -461,7 +476,7 @@ marked LinkedElement {elementRegion, carrier, finish, bevel} (Mm from) whole = c
       OnLine _ -> (False, Nothing)
       OnCircle _ _ -> (False, Nothing)
       AtPoint _ -> (False, Nothing)
-    -- The stations of a closed curve may exceed its length.
+    -- Stations may exceed the length of a closed curve, so its bevels are repeated once.
     angles =
       Map.fromList (bevel <> [(s + l, a) | Just (Mm l) <- [closedLength], (s, a) <- drop 1 bevel])
     cuts =
@@ -472,7 +487,7 @@ marked LinkedElement {elementRegion, carrier, finish, bevel} (Mm from) whole = c
     marks = stationsOf cuts
     stationsOf = scanl (\s g -> let Mm l = Segment.length g in s + l) from
 
--- | Cuts a segment that starts at a station at the stations of a table.
+-- | Cuts a segment at the stations in a table, given the station of the segment's start.
 cutAtKeys :: Map Double a -> Double -> Segment -> [Segment]
 cutAtKeys table from s = case Map.lookupGT (from + least) table of
   Just (at, _)
@@ -484,7 +499,8 @@ cutAtKeys table from s = case Map.lookupGT (from + least) table of
     Mm l = Segment.length s
     Mm least = Tolerance.coincident
 
--- | Linear interpolation in a table; outside of it, its nearest value.
+-- | Interpolates linearly in a table. Outside of the table it is the nearest value, and nothing for
+-- an empty table.
 interpolated :: Map Double Double -> Double -> Maybe Double
 interpolated table s = case (Map.lookupLE s table, Map.lookupGE s table) of
   (Just (a, x), Just (b, y)) -> Just (if b > a then x + (y - x) * (s - a) / (b - a) else x)
@@ -492,12 +508,13 @@ interpolated table s = case (Map.lookupLE s table, Map.lookupGE s table) of
   (Nothing, Just (_, y)) -> Just y
   (Nothing, Nothing) -> Nothing
 
--- | The elements from a point on the first one to a joint after the last one, if every link between
--- them has one joint and none of them runs backwards. The segment before them is given.
+-- | The segments of a contour without dynamic programming: possible if every link between the
+-- elements has only one joint and no element runs backwards. The arguments are the elements, the
+-- starting point on the first one, the segment before it, and the joint after the last element.
 --
--- The joints are computed twice: that takes less time than keeping all of them.
-directly :: [LinkedElement] -> Point -> Maybe Segment -> Joint -> Maybe [Element]
-directly linked begin before final
+-- Each joint is computed twice, which takes less time than keeping all of them.
+withoutChoice :: [LinkedElement] -> Point -> Maybe Segment -> Joint -> Maybe [Element]
+withoutChoice linked begin before final
   | allForwards linked begin = Just (from linked begin before)
   | otherwise = Nothing
   where
@@ -522,8 +539,8 @@ directly linked begin before final
       OnLine _ -> lengthOn w Nothing Nothing a b >= Mm 0
       OnCurve _ -> lengthOn w Nothing Nothing a b >= Mm 0
 
--- | The segments of one element from a point on it to a joint, and the segment that the joint
--- inserts.
+-- | The segments along an element from one of its points to a joint, and the segment that the joint
+-- inserts. The segment before the element is given.
 between :: LinkedElement -> Point -> Maybe Segment -> Joint -> [Element]
 between w@LinkedElement {elementRegion, carrier, link} at before joint =
   marked w (entryStation carrier at (leave joint)) segments
@@ -533,7 +550,8 @@ between w@LinkedElement {elementRegion, carrier, link} at before joint =
   where
     segments = segmentsOn carrier before (inserted joint) at (leave joint)
 
--- | The segments of a contour by a route.
+-- | The segments of a contour for a chosen route. The starting point on the first element and the
+-- segment before it are given.
 elementsOf :: [LinkedElement] -> Point -> Maybe Segment -> Route -> [Element]
 elementsOf linked begin before route = go linked begin before (reverse (taken route))
   where

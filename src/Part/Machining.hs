@@ -1,7 +1,7 @@
--- | Evaluation of machining statements: milling, turning, pockets, drilling, moves; and of cutters
--- and tolerances.
+-- | Evaluation of machining statements (milling, turning, pockets, drilling, moves without cutting)
+-- and of cutters and tolerances.
 --
--- The functions yield nothing when a setting is missing because of a mistake that is already
+-- A function yields nothing when a setting has no value because of a mistake that is already
 -- reported.
 module Part.Machining
   ( Context (..),
@@ -42,8 +42,8 @@ import Part.PocketCheck qualified as PocketCheck
 import Part.PocketError (PocketMisfit (StepTooWide))
 import Part.Value (Value (..))
 
--- | The names and the settings that hold at a statement. A setting without a value is missing
--- because of a mistake.
+-- | The names and the settings that are in force at a statement. A setting that the statement needs
+-- has no value only after a mistake.
 data Context = Context
   { environment :: Environment,
     cutter :: Maybe Cutter,
@@ -55,7 +55,8 @@ data Context = Context
 
 -- Milling and turning
 
--- | The milling or turning of a contour, from the region of its statement.
+-- | The milling or turning of a contour, from the region, the contour, the side and the settings of
+-- its statement.
 milling ::
   Context ->
   Work ->
@@ -72,45 +73,59 @@ milling context work at e side settings = do
   passes <- passesOf context at (contourOf v) settings
   pure (assembled context work side settings passes)
 
--- | The evaluated settings of a milling.
+-- | The evaluated contour and settings of a milling or turning.
 data Passes = Passes
   { path :: Contour,
-    before :: Maybe [Stop],
-    after :: Maybe [Stop],
+    -- | the approach; nothing after a mistake
+    approachStops :: Maybe [Stop],
+    -- | the retract; nothing after a mistake
+    retractStops :: Maybe [Stop],
     heights :: [Mm],
     plungeFeed :: Maybe (Located Feed),
+    -- | the lead-in and the lead-out
     leads :: (Maybe (LeadForm, Mm), Maybe (LeadForm, Mm)),
-    left :: NonEmpty Mm
+    -- | the allowances of the passes
+    passAllowances :: NonEmpty Mm
   }
 
+-- | Evaluates the settings of a milling or turning.
 passesOf :: Context -> Region -> Contour -> Checked.Settings -> Eval Passes
 passesOf context at contour settings = do
-  before <- stopsOf context (Checked.approach settings)
-  after <- stopsOf context (Checked.retract settings)
+  approachStops <- stopsOf context (Checked.approach settings)
+  retractStops <- stopsOf context (Checked.retract settings)
   path <- startedNear env contour (Checked.startNear settings)
   heights <- maybe (pure []) (levelsOf env) (Checked.depth settings)
   checkSteps context (maybe at (region . fst) (Checked.depth settings)) heights
   plungeFeed <- traverse (feedOf env) (Checked.plunge settings)
   leadIn <- traverse lead (Checked.leadIn settings)
   leadOut <- traverse lead (Checked.leadOut settings)
-  left <-
+  passAllowances <-
     maybe
       (pure (Mm 0 :| []))
       (Evaluation.gather . fmap (notNegative env Parameter.Allowance))
       (Checked.allowances settings)
-  pure Passes {path, before, after, heights, plungeFeed, leads = (leadIn, leadOut), left}
+  pure
+    Passes
+      { path,
+        approachStops,
+        retractStops,
+        heights,
+        plungeFeed,
+        leads = (leadIn, leadOut),
+        passAllowances
+      }
   where
     env = environment context
     lead (form, x) = (form,) <$> lengthOf env Parameter.Lead x
 
--- | A milling when all its settings have values.
+-- | Puts a milling or turning together. Nothing if a setting that it needs has no value.
 assembled :: Context -> Work -> Located Side -> Checked.Settings -> Passes -> Maybe Milling
 assembled context work side settings passes = do
   tool <- cutter context
   tolerance <- chordError context
   feed <- modalFeed context
-  approach <- before passes
-  retract <- after passes
+  approach <- approachStops passes
+  retract <- retractStops passes
   _ <- if null (heights passes) then Just (Mm 0) else clearanceHeight context
   Just
     Milling
@@ -128,7 +143,7 @@ assembled context work side settings passes = do
         plunge = plungeFeed passes,
         leadIn = fst (leads passes),
         leadOut = snd (leads passes),
-        allowances = left passes,
+        allowances = passAllowances passes,
         corners = Checked.corners settings,
         sense = Checked.sense settings,
         spindleSense = modalSense context,
@@ -144,7 +159,8 @@ contourOf v = case v of
   ContourValue c -> c
   _ -> bug "a value that is no contour where one was checked"
 
--- | A contour from the point that its statement asks for; fails for an open one.
+-- | The contour, beginning near the point that the statement gives, if it gives one. Fails for an
+-- open contour.
 startedNear :: Environment -> Contour -> Maybe Expr -> Eval Contour
 startedNear env contour near = case near of
   Nothing -> pure contour
@@ -156,7 +172,9 @@ startedNear env contour near = case near of
          in Evaluation.mistake (InContour (OpenBegins (region e) name))
       else pure (ContourElement.startingNear p contour)
 
--- | The heights of the passes, downwards: equal steps, none larger than the stepdown asked for.
+-- | The heights of the passes, from the highest to the lowest, from the depth and the stepdown of
+-- the statement. The steps are equal and at most the stepdown. Without a stepdown there is one
+-- pass.
 levelsOf :: Environment -> (Expr, Maybe Expr) -> Eval [Mm]
 levelsOf env (depth, most) = do
   d <- lengthOf env Parameter.Depth depth
@@ -169,7 +187,7 @@ levelsOf env (depth, most) = do
     )
   pure [times (negate (fromIntegral k / fromIntegral count)) d | k <- [1 .. count]]
 
--- | Fails for several passes with a cutter that is widest at its tip.
+-- | Fails if a cutter that is widest at its tip would make passes at several heights.
 checkSteps :: Context -> Region -> [Mm] -> Eval ()
 checkSteps context at heights = case cutter context of
   Just c
@@ -178,7 +196,8 @@ checkSteps context at heights = case cutter context of
 
 -- Pockets
 
--- | The clearing of a closed contour around islands.
+-- | The clearing of the inside of a closed contour around islands, from the region, the outline,
+-- the stepover and the settings of its statement.
 pocketing ::
   Context ->
   Region ->
@@ -210,7 +229,7 @@ pocketing context at e step settings = do
         ListValue vs -> map (named i . contourOf) (Vector.toList vs)
         _ -> [named i (contourOf v)]
 
--- | Fails for more passes than any pocket needs.
+-- | Fails for more than 10 000 passes, which no pocket needs.
 checkPassCount :: Region -> Double -> Eval ()
 checkPassCount at count =
   when
@@ -221,7 +240,8 @@ checkPassCount at count =
 
 -- Drilling
 
--- | The drilling of a point or a list of points.
+-- | The drilling of a point or a list of points, from the region, the points, the depth and the
+-- settings of its statement.
 drilling ::
   Context ->
   Region ->
@@ -265,7 +285,8 @@ drilling context at points depth settings = do
 
 -- Moves
 
--- | The points of moves, with the feed of each; nothing when a feed is missing.
+-- | The ends of moves without cutting, each with its speed. Nothing if a move needs the feed in
+-- force and there is none.
 stopsOf :: Context -> [Checked.Stop] -> Eval (Maybe [Stop])
 stopsOf context stops = fmap sequence (Evaluation.gather (map stop stops))
   where
@@ -282,7 +303,7 @@ stopsOf context stops = fmap sequence (Evaluation.gather (map stop stops))
             _ -> Nothing
       pure (Stop (Located (region p) target) level <$> pace)
 
--- | A point in space; a point of the plane has the height 0.
+-- | A point in space from a point with or without a height. Without a height it is at height 0.
 spacePoint :: Value -> SpacePoint
 spacePoint v = case v of
   SpaceValue p z -> SpacePoint p z
@@ -290,7 +311,7 @@ spacePoint v = case v of
 
 -- Cutters and tolerances
 
--- | Fails when the statement needs another kind of cutter.
+-- | Fails if the statement cannot be done with the cutter in the spindle.
 checkCutter :: Context -> Region -> CutterStatement -> Eval ()
 checkCutter context at statement = case cutter context of
   Just c | not (fits (kind c)) -> Evaluation.mistake (WrongCutter at statement (kind c))
@@ -302,7 +323,7 @@ checkCutter context at statement = case cutter context of
       PocketStatement -> cutterKind == MillingCutter
       DrillStatement -> cutterKind `elem` [DrillingCutter, MillingCutter]
 
--- | Tells whether a cutter cuts with its flank along a contour.
+-- | Does a cutter of this kind mill contours with its flank?
 isMill :: CutterKind -> Bool
 isMill cutterKind = case cutterKind of
   MillingCutter -> True
@@ -312,7 +333,7 @@ isMill cutterKind = case cutterKind of
   DrillingCutter -> False
   TurningCutter -> False
 
--- | A cutter with its radius where it touches the part.
+-- | A cutter, with its radius where it touches the part.
 cutterOf :: Environment -> Checked.Cutter -> Eval Cutter
 cutterOf env (Located _ c) = case c of
   Checked.MillCutter e ->
@@ -329,8 +350,8 @@ cutterOf env (Located _ c) = case c of
     when (x < 0) (Evaluation.mistake (Negative (region e) Parameter.NoseRadius x))
     pure (Cutter TurningCutter (Mm x))
 
--- | A cone by its diameter, its bevel μ and the height H of its flank, which touches the part at
--- @a = R + H·tan μ@ from the axis (Kolsanova, section 3).
+-- | A conical cutter, from its diameter 2R at the tip, its bevel μ and the height H at which its
+-- flank touches the part. Its radius there is @a = R + H·tan μ@ (Kolsanova, section 3).
 cone :: Environment -> Expr -> Expr -> Expr -> Eval Cutter
 cone env e lean h = do
   Mm d <- lengthOf env Parameter.CutterDiameter e
@@ -343,7 +364,7 @@ cone env e lean h = do
   when (a <= 0) (Evaluation.mistake (NotPositive (region lean) Parameter.RadiusAtHeight a))
   pure (Cutter (if mu < 0 then DovetailCutter else ConeCutter) (Mm a))
 
--- | The chord error of a tolerance statement.
+-- | The allowed chord error that a tolerance statement sets.
 accuracyOf :: Environment -> Checked.Accuracy -> Eval Accuracy
 accuracyOf env accuracy = case accuracy of
   Checked.Within e -> OnPath <$> lengthOf env Parameter.Tolerance e

@@ -1,4 +1,4 @@
--- | Evaluation of lengths, feeds and whole numbers with their limits.
+-- | Evaluation of lengths, feeds and whole numbers, with checks of their limits.
 module Part.Measure
   ( positive,
     lengthOf,
@@ -22,7 +22,7 @@ import Part.Parameter (LimitedQuantity, Range (FromTo), WholeNumber)
 import Part.Parameter qualified as Parameter
 import Part.Value qualified as Value
 
--- | A quantity above 0, and within the reach of machines.
+-- | A quantity above 0 and at most 'Tolerance.reach', made from its number by the function.
 positive :: Environment -> LimitedQuantity -> (Double -> q) -> Expr -> Eval q
 positive env parameter make e = do
   x <- Expression.number <$> Expression.evaluate env e
@@ -30,22 +30,23 @@ positive env parameter make e = do
     then Evaluation.mistake (NotPositive (region e) parameter x)
     else make x <$ Value.within (region e) x
 
--- | A length above 0.
+-- | A length above 0 and at most 'Tolerance.reach'.
 lengthOf :: Environment -> LimitedQuantity -> Expr -> Eval Mm
 lengthOf env parameter = positive env parameter Mm
 
--- | A length of 0 or more.
+-- | A length from 0 to 'Tolerance.reach'.
 notNegative :: Environment -> LimitedQuantity -> Expr -> Eval Mm
 notNegative env parameter e = do
   x <- Expression.number <$> Expression.evaluate env e
   when (x < 0) (Evaluation.mistake (Negative (region e) parameter x))
   Mm x <$ Value.within (region e) x
 
--- | A feed above 0, with the region that sets it.
+-- | A feed above 0, with the region of its expression.
 feedOf :: Environment -> Expr -> Eval (Located Feed)
 feedOf env e = Located (region e) <$> positive env Parameter.Feed Feed e
 
--- | A whole number within limits, both allowed.
+-- | A whole number from a lower to an upper limit, both included. Numbers within 'Tolerance.equal'
+-- of a whole number are rounded to it.
 whole :: Environment -> WholeNumber -> (Int, Int) -> Expr -> Eval Int
 whole env what (low, high) e = do
   x <- Expression.number <$> Expression.evaluate env e

@@ -1,7 +1,8 @@
--- | The quantities that statements and functions ask for, and their names and units in reports.
+-- | The quantities that statements and functions take as parameters, with their names and units in
+-- reports.
 --
--- A mistake in one of them carries the 'LimitedQuantity' and the number; 'name' and 'written' are
--- the only definitions that turn them into words.
+-- A mistake keeps the kind of the quantity and the number. Only the functions of this module turn
+-- them into words.
 module Part.Parameter
   ( LimitedQuantity (..),
     name,
@@ -19,7 +20,7 @@ import Base.Decimal qualified as Decimal
 import Base.Quantity (Mm (..), Rad, degrees)
 import Data.Text (Text)
 
--- | A quantity with a lower limit of 0.
+-- | A quantity that must not be negative. Most of them must not be 0, either.
 data LimitedQuantity
   = Feed
   | SpindleSpeed
@@ -50,7 +51,7 @@ data LimitedQuantity
     JoggleMeasure
   deriving stock (Eq, Show)
 
--- | The name of a parameter in a report.
+-- | The name of a quantity in a report.
 name :: LimitedQuantity -> Text
 name parameter = case parameter of
   Feed -> "the feed"
@@ -77,8 +78,8 @@ name parameter = case parameter of
   FilletRadius -> "the radius of a fillet"
   JoggleMeasure -> "a measure of a joggle"
 
--- | A parameter's value with its unit: mm\/min for the feed, turns a minute for the spindle, no
--- unit for a factor, else mm.
+-- | The value of a quantity with its unit: mm\/min for the feed, turns per minute for the spindle,
+-- no unit for a factor, mm for all others.
 written :: LimitedQuantity -> Double -> Text
 written parameter x = case parameter of
   Feed -> Decimal.short 4 x <> " mm/min"
@@ -86,19 +87,24 @@ written parameter x = case parameter of
   ScalingFactor -> Decimal.short 6 x
   _ -> Decimal.mm (Mm x)
 
--- | A number that has to be whole.
+-- | The kinds of parameters that must be whole numbers.
 data WholeNumber
   = ToolNumber
   | AuxiliaryCommand
   | PassCount
   | PeckCount
-  | -- | the points of one row of a pattern
+  | -- | how many points one row of a pattern has
     RowPointCount
-  | RowCount
-  | PointCount
-  | ItemNumber
-  | TableRowNumber
-  | ListPointNumber
+  | -- | how many rows a pattern has
+    RowCount
+  | -- | how many points a pattern on a circle has
+    PointCount
+  | -- | the number of an item of a list, from 1
+    ItemNumber
+  | -- | the number of a row of a table, from 1
+    TableRowNumber
+  | -- | the number of a point of a list that is used instead of a table, from 1
+    ListPointNumber
   deriving stock (Eq, Show)
 
 -- | The name of a whole number in a report.
@@ -115,7 +121,7 @@ wholeName number = case number of
   TableRowNumber -> "the number of a row"
   ListPointNumber -> "the number of a point"
 
--- | The range of a whole number; both limits are allowed.
+-- | The range of a whole number, with its limits included.
 data Range = UpTo Int | FromTo Int Int
   deriving stock (Eq, Show)
 
@@ -127,7 +133,8 @@ rangeText range = case range of
 
 -- | A function with an argument outside of its domain.
 data Domain
-  = TangentAtPole Rad
+  = -- | the tangent of an angle whose cosine is 0
+    TangentAtPole Rad
   | ArcSineOf Double
   | ArcCosineOf Double
   | -- | @atan2(0, 0)@
@@ -135,7 +142,7 @@ data Domain
   | RootOf Double
   deriving stock (Eq, Show)
 
--- | The name of the function, its argument, and the arguments that it takes.
+-- | The name of the function, the wrong argument, and the arguments that the function takes.
 domainTexts :: Domain -> (Text, Text, Text)
 domainTexts domain = case domain of
   TangentAtPole a ->

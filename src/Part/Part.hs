@@ -1,7 +1,7 @@
--- | The evaluated part: contours and operations as exact geometry in mm, with the regions of the
--- program that they come from.
+-- | The evaluated part: contours and operations as exact geometry in mm. Everything keeps the
+-- region of the program that it comes from.
 --
--- Nothing here depends on a machine. The part has no toolpaths: those are the next stage's.
+-- Nothing here depends on a machine. Toolpaths belong to the next stage.
 module Part.Part
   ( Part (..),
     Contour (..),
@@ -75,9 +75,9 @@ data Part = Part
     contours :: [Contour],
     -- | in the order of the tape
     operations :: [Operation],
-    -- | the curves of sections that were fitted to a table, with their names
+    -- | the curves whose sections were fitted to a table, with their names
     fittings :: [(Located Name, Fitting)],
-    -- | the values of the definitions in words, with the regions of their names
+    -- | the values of the definitions as text, each with the region of the defined name
     readings :: [(Region, Text)]
   }
   deriving stock (Eq, Show)
@@ -86,18 +86,18 @@ data Part = Part
 data Contour = Contour
   { contourName :: Located Name,
     ends :: Ends,
-    -- | segments, each of which begins where the one before it ends
+    -- | segments, each of which begins where the segment before it ends
     elements :: NonEmpty Element,
-    -- | the elements as written; empty after a transformation or a reversal
+    -- | the elements as the program writes them; empty after a transformation or a reversal
     writtenElements :: [ContourElement]
   }
   deriving stock (Eq, Show)
 
--- | An element of a contour as written.
+-- | An element of a contour as the program writes it.
 data ContourElement = ContourElement
   { elementRegion :: Region,
     elementCarrier :: ElementCarrier,
-    -- | the exact curve, if the element is one
+    -- | the exact curve, for an element that is a curve
     elementCurve :: Maybe PartCurve,
     elementFinish :: Finish,
     -- | the link to the element after it
@@ -105,29 +105,29 @@ data ContourElement = ContourElement
   }
   deriving stock (Eq, Show)
 
--- | A segment of a contour.
+-- | A segment of a contour, with the properties of the element or link that it comes from.
 data Element = Element
   { segment :: Segment,
-    -- | the region of the element or of the link that it comes from
+    -- | the region of that element or link
     origin :: Region,
     finish :: Finish,
-    -- | it continues the curve of the segment before it without a corner
+    -- | true if the segment continues the segment before it in the same element, without a corner
     continues :: Bool,
-    -- | it is one of the arcs and lines that approximate a curve
+    -- | true for one of the arcs and lines that approximate a curve
     ofCurve :: Bool,
-    -- | the bevels of the surface at its start and its end: angles from the axis of the tool in
-    -- radians
+    -- | the bevels of the surface at the segment's start and end, if it has any: angles from the
+    -- axis of the tool in radians
     bevel :: Maybe (Double, Double)
   }
   deriving stock (Eq, Show)
 
 -- | The modifiers of one element.
 data Finish = Finish
-  { -- | replaces the feed of the statement
+  { -- | the feed along the element, instead of that of the machining statement
     ownFeed :: Maybe (Located Feed),
-    -- | slow down at its end
+    -- | true if the cutter slows down at the element's end
     slow :: Bool,
-    -- | added to the allowance of the pass
+    -- | an allowance in addition to that of the pass
     allowance :: Mm
   }
   deriving stock (Eq, Show)
@@ -136,13 +136,13 @@ data Finish = Finish
 plainFinish :: Finish
 plainFinish = Finish {ownFeed = Nothing, slow = False, allowance = Mm 0}
 
--- | Groups segments that continue one another: each group is one line, arc or smooth curve.
+-- | Groups segments that continue one another. Each group is one line, one arc or one smooth curve.
 curveRuns :: [Element] -> [NonEmpty Element]
 curveRuns es = case es of
   [] -> []
   e : rest -> let (same, others) = span continues rest in (e :| same) : curveRuns others
 
--- | A contour in the opposite direction. A segment then continues the segment that continued it.
+-- | A contour in the opposite direction. If segment B continued segment A, A now continues B.
 reversedContour :: Contour -> Contour
 reversedContour c =
   c {elements = NonEmpty.reverse opposite, writtenElements = []}
@@ -154,8 +154,8 @@ reversedContour c =
         e {segment = Segment.reverse (segment e), bevel = fmap swap (bevel e), continues = next}
       )
 
--- | The segments of a contour as a polyarc. Strict, so that the polyarc does not retain the
--- elements.
+-- | The segments of a contour as a polyarc. Every segment is evaluated, so that the polyarc does
+-- not keep the elements in memory.
 polyarcOf :: Contour -> Polyarc.Polyarc
 polyarcOf contour = Polyarc.Polyarc (ends contour) (segment first :| segmentsOf others)
   where
@@ -164,11 +164,12 @@ polyarcOf contour = Polyarc.Polyarc (ends contour) (segment first :| segmentsOf 
       [] -> []
       e : rest -> let s = segment e in s `seq` (s : segmentsOf rest)
 
--- | A point, and its height above the top of the part: negative in the material.
+-- | A point of the plane and a height. Heights count from the top of the part, upwards; in the
+-- material they are negative.
 data SpacePoint = SpacePoint {plane :: Point, height :: Mm}
   deriving stock (Eq, Show)
 
--- | An operation of the machine.
+-- | One operation: machining, moves without cutting, or an auxiliary function.
 data Operation
   = Mill (Located Milling)
   | Pocket (Located Pocketing)
@@ -183,51 +184,58 @@ data Milling = Milling
   { contour :: Contour,
     work :: Work,
     side :: Located Side,
-    -- | of the cutter, or of the nose of a turning tool
+    -- | the radius of the cutter where it touches the part, or of the nose of a turning tool
     radius :: Mm,
-    -- | of a blade: the diameter of the wheel that swivels it
+    -- | only for a blade: the diameter of the wheel that swivels it
     gear :: Maybe Mm,
     tolerance :: Accuracy,
     feed :: Located Feed,
     approach :: [Stop],
     retract :: [Stop],
-    -- | the heights of the passes, from the highest one; empty when the cutter keeps its height
+    -- | the heights of the passes, from the highest to the lowest; empty when the cutter keeps its
+    -- height
     levels :: [Mm],
-    -- | the height at which nothing is in the way of the cutter
+    -- | the clearance height, at which rapid moves pass over everything
     clearance :: Maybe Mm,
+    -- | the feed of downward moves into the material
     plunge :: Maybe (Located Feed),
+    -- | the form of the lead-in, and its length or its radius
     leadIn :: Maybe (LeadForm, Mm),
     leadOut :: Maybe (LeadForm, Mm),
-    -- | the material that each pass leaves
+    -- | the allowance of each pass, in order
     allowances :: NonEmpty Mm,
+    -- | the form of the toolpath at outer corners
     corners :: Corners,
+    -- | climb or conventional milling, if the statement asks for one of them
     sense :: Maybe (Located CutSense),
-    -- | the sense of the spindle
+    -- | the sense in which the spindle rotates
     spindleSense :: Sense,
-    -- | the region that asks for cutter compensation by the control; without it, the compiler
-    -- computes the offset
+    -- | the region of the setting that leaves cutter compensation to the control; without it, the
+    -- compiler computes the offset
     controlCompensation :: Maybe Region,
     rest :: RestPolicy
   }
   deriving stock (Eq, Show)
 
--- | The treatment of rest material: corners, concave radii below the cutter's radius, gaps narrower
--- than the cutter.
+-- | The treatment of rest material. It remains in sharp inner corners, in concave arcs of a radius
+-- below the cutter's, and in gaps narrower than the cutter.
 data RestPolicy
-  = -- | an error: there is no toolpath
+  = -- | rest material is an error, and there is no toolpath
     Refused
-  | -- | a warning: the material remains
+  | -- | rest material remains, with a warning
     Allowed
   deriving stock (Eq, Show)
 
 -- | A closed contour whose inside is cleared.
 data Pocketing = Pocketing
-  { -- | the outline, milled inside, with the linking moves, depths, allowances and feeds of the
-    -- whole pocket. It has no leads, round corners, and no compensation by the control
+  { -- | the milling of the outline on its inside. Its linking moves, depths, allowances and feeds
+    -- are those of the whole pocket. It has round corners, no leads, and no compensation by the
+    -- control
     wall :: Milling,
-    -- | closed contours inside the outline, apart from it and from one another, that remain
+    -- | closed contours inside the outline whose material remains. They touch neither the outline
+    -- nor one another
     islands :: [Contour],
-    -- | the stepover: above 0, at most the diameter of the cutter
+    -- | above 0 and at most the diameter of the cutter
     stepover :: Mm
   }
   deriving stock (Eq, Show)
@@ -236,30 +244,31 @@ data Pocketing = Pocketing
 data Work = Milled | Turned
   deriving stock (Eq, Ord, Show)
 
--- | The chord error allowed.
+-- | The allowed chord error of a milling or turning.
 data Accuracy
-  = -- | in both directions, for chords between points of the toolpath
+  = -- | the same limit to both sides; the ends of the chords lie on the toolpath
     OnPath Mm
-  | -- | into the material, and out of it
+  | -- | the limit into the material, and the limit away from it
     Band Mm Mm
   deriving stock (Eq, Show)
 
--- | The chord error allowed into the material, and out of it.
+-- | The allowed chord errors: into the material, and away from it.
 deviationLimits :: Accuracy -> (Mm, Mm)
 deviationLimits accuracy = case accuracy of
   OnPath d -> (d, d)
   Band a b -> (a, b)
 
--- | Holes, in the order of drilling.
+-- | The drilling of holes.
 data Drilling = Drilling
-  { holes :: NonEmpty (Located Point),
-    -- | of the drill
+  { -- | the centres of the holes, in the order of drilling
+    holes :: NonEmpty (Located Point),
     drillRadius :: Mm,
     -- | the height of the bottom, below 0
     bottom :: Mm,
     -- | the height of moves between the holes
     travelHeight :: Mm,
-    -- | the largest depth before the drill is retracted
+    -- | the largest depth that is drilled before the drill is retracted; without it, each hole is
+    -- drilled in one move
     peckDepth :: Maybe Mm,
     drillFeed :: Located Feed
   }
@@ -267,40 +276,41 @@ data Drilling = Drilling
 
 -- | An auxiliary function of the machine.
 data Command
-  = -- | a sense, and a speed in turns a minute
+  = -- | the sense, and the speed in turns per minute if the program gives one
     SpindleOn Sense (Maybe Double)
   | SpindleOff
   | CoolantTo Switch
-  | Auxiliary Int
-  | -- | the number of the tool
+  | -- | the auxiliary function of the machine with this number
+    Auxiliary Int
+  | -- | the number of the new tool, and the tool
     ChangeTool Int Cutter
   deriving stock (Eq, Show)
 
--- | A tool, and its radius where it touches the part.
+-- | A tool: its kind, and its radius where it touches the part.
 data Cutter = Cutter {kind :: CutterKind, cutterRadius :: Mm}
   deriving stock (Eq, Show)
 
 -- | The kind of a tool.
 data CutterKind
-  = -- | with an upright flank
+  = -- | a cutter with a flank parallel to its axis
     MillingCutter
-  | -- | with a conical flank, narrowest at the tip
+  | -- | a cutter with a conical flank, narrowest at the tip
     ConeCutter
-  | -- | with a conical flank, widest at the tip
+  | -- | a cutter with a conical flank, widest at the tip
     DovetailCutter
-  | -- | swivels along the contour, driven by a wheel of this diameter
+  | -- | a blade that swivels along the contour, driven by a wheel of this diameter
     BladeCutter Mm
   | DrillingCutter
   | TurningCutter
   deriving stock (Eq, Show)
 
--- | A point to move to; without a height the cutter keeps its own.
+-- | The end of a move without cutting, and the speed. Without a level the cutter keeps its height.
 data Stop = Stop {place :: Located Point, level :: Maybe Mm, pace :: Pace}
   deriving stock (Eq, Show)
 
 -- | The speed of a move.
 data Pace
   = Rapid
-  | -- | a feed, with the region that sets it
+  | -- | a feed, with the region of the program that sets it
     At (Located Feed)
   deriving stock (Eq, Show)

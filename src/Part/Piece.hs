@@ -67,8 +67,8 @@ table env (Columns names written) = do
       Value.within at (NumberTable.cell rows k 0)
       [] <$ Value.within at (NumberTable.cell rows k 1)
 
--- | A curve recalculated by ciphers, from the left one to the right one, and then joggled, to a
--- side of its direction.
+-- | A curve that is recalculated by its ciphers, in the order of the text, and then joggled. All
+-- shifts go to the given side of the curve's direction.
 piece :: Environment -> PartCurve -> [Cipher] -> Located Side -> [Joggle] -> Eval PartCurve
 piece env base ciphers (Located _ side) joggles = do
   ciphered <- foldM (recalculated env base side') (exact base) ciphers
@@ -84,8 +84,9 @@ piece env base ciphers (Located _ side) joggles = do
 
 -- Ciphers
 
--- | A curve shifted by one cipher. A column has a value for every row of the base's table; it
--- follows the rows from curve to curve.
+-- | A curve that is shifted by one cipher. @base@ is the curve of the table, before all ciphers,
+-- and @lower@ the curve before this cipher. A column has a value for every row of the table; the
+-- rows keep their parameters from curve to curve.
 recalculated ::
   Environment ->
   PartCurve ->
@@ -110,7 +111,7 @@ recalculated env base side lower (Located at cipher) = do
       x <- Expression.number <$> Expression.evaluate env e
       Mm x <$ Value.within (region e) x
     column e = Exact.column lower <$> alongRows env base e
-    bevels e = Exact.column lower <$> (alongRows env base e >>= upright base e)
+    bevels e = Exact.column lower <$> (alongRows env base e >>= checkedBevels base e)
     square mu distance = case mu of
       Nothing -> pure distance
       Just e -> (`Exact.Square` distance) <$> bevels e
@@ -123,8 +124,8 @@ recalculated env base side lower (Located at cipher) = do
 mistake :: CurveMistake -> Eval a
 mistake = Evaluation.mistake . InCurve
 
--- | The values of an expression at the rows of a curve's table. An expression without the table's
--- columns is evaluated once.
+-- | The values of an expression at the rows of a curve's table. An expression that uses no column
+-- of the table is evaluated only once.
 alongRows :: Environment -> PartCurve -> Expr -> Eval (Vector Double)
 alongRows env base e
   | mentions names e = Vector.fromList <$> Evaluation.gather (map atRow [0 .. count - 1])
@@ -158,7 +159,8 @@ mentions names (Located _ e) = case e of
       Checked.Chosen _ x -> again x
       Checked.Ranked _ -> False
 
--- | A shifted curve; fails when the shift tears a corner open or folds the curve.
+-- | A curve that is shifted to a side by a distance. Fails when the shift opens a gap at a corner,
+-- or when the shifted curve turns back in a cusp.
 shiftedBy :: Region -> Carrier.Side -> Distance -> Exact.Curve -> Eval Exact.Curve
 shiftedBy at side distance lower = do
   let whole = Exact.shifted side distance lower
@@ -175,7 +177,8 @@ shiftedBy at side distance lower = do
           Rad a = Vec.signedAngle before after
        in Rad (abs a)
 
--- | The gap of a curve at a parameter; at 0, between its end and its start.
+-- | The gap between the spans of a curve at a parameter. At 0 it is the gap between the curve's end
+-- and its start.
 gapAt :: Exact.Curve -> Double -> Mm
 gapAt whole u = Vec.distance before (Exact.pointFrom Exact.After whole (max 0 u))
   where
@@ -183,8 +186,8 @@ gapAt whole u = Vec.distance before (Exact.pointFrom Exact.After whole (max 0 u)
 
 -- Joggles
 
--- | A curve with a joggle between two of its x coordinates (Kolsanova, control stops 15074 and
--- 14174).
+-- | A curve that is joggled to a side between its points with two x coordinates (Kolsanova, control
+-- stops 15074 and 14174).
 joggledBy :: Environment -> Carrier.Side -> Exact.Curve -> Joggle -> Eval Exact.Curve
 joggledBy env side lower (Located at (Joggle from to depth radius)) = do
   a <- parameterAtX env lower from
@@ -206,7 +209,7 @@ joggledBy env side lower (Located at (Joggle from to depth radius)) = do
     Left _ -> mistake (JoggleNowhere at)
     Right distance -> shiftedBy at side distance lower
 
--- | The parameter of a curve's only point with an x coordinate.
+-- | The parameter of a curve's point with this x coordinate. Fails unless there is exactly one.
 parameterAtX :: Environment -> Exact.Curve -> Expr -> Eval Double
 parameterAtX env lower e = do
   x <- Expression.number <$> Expression.evaluate env e
@@ -216,15 +219,16 @@ parameterAtX env lower e = do
       let points = map (Exact.at lower) us
        in mistake (JoggleCoordinate (region e) (Mm x) points (Curve.xRange lower))
 
--- | The depth or the radius of a joggle, above 0.
+-- | The depth or the radius of a joggle: above 0 and at most 'Tolerance.reach'.
 joggleMeasure :: Environment -> Expr -> Eval Mm
 joggleMeasure env e = do
   x <- Expression.number <$> Expression.evaluate env e
   when (x <= 0) (Evaluation.mistake (NotPositive (region e) Parameter.JoggleMeasure x))
   Mm x <$ Value.within (region e) x
 
--- | The largest radius r of a joggle of depth d within a length: its two ramps of √(d·(4r − d))
--- then take all of the length. Nothing when the radius would not be above half of the depth.
+-- | The largest radius r with which a joggle of depth d fits into a length. Its two ramps, of
+-- length √(d·(4r − d)) each, then fill the length. Nothing when r would be at most half of the
+-- depth.
 largestRadius :: Mm -> Mm -> Maybe Mm
 largestRadius depth@(Mm d) (Mm l) = if over r depth > 0.5 then Just r else Nothing
   where
@@ -232,24 +236,26 @@ largestRadius depth@(Mm d) (Mm l) = if over r depth > 0.5 then Just r else Nothi
 
 -- Bevels
 
--- | The bevels of an element's surface along its polyarc: stations in mm and angles in radians. A
--- line or a circle has one bevel.
+-- | The bevels of an element's surface along the element: pairs of a station in mm and an angle in
+-- radians. A curve has bevels along its polyarc. A line or a circle, for which no curve is given,
+-- has one bevel.
 bevelled :: Environment -> Maybe PartCurve -> Expr -> Eval [(Double, Double)]
 bevelled env on e = case on of
   Nothing -> do
     a <- Expression.number <$> Expression.evaluate env e
-    when (abs a >= steepest) (mistake (SteepBevel (region e) Nothing (Rad a)))
+    when (abs a >= bevelLimit) (mistake (SteepBevel (region e) Nothing (Rad a)))
     pure [(0, a)]
-  Just c -> Curve.alongPolyarc c <$> (alongRows env c e >>= upright c e)
+  Just c -> Curve.alongPolyarc c <$> (alongRows env c e >>= checkedBevels c e)
 
--- | Bevels at the rows of a curve's table; fails for one that is not below a right angle.
-upright :: PartCurve -> Expr -> Vector Double -> Eval (Vector Double)
-upright c e values = case find ((>= steepest) . abs . snd) (zip [1 ..] (Vector.toList values)) of
+-- | Bevels in radians at the rows of a curve's table. Fails for a bevel of a right angle or more.
+checkedBevels :: PartCurve -> Expr -> Vector Double -> Eval (Vector Double)
+checkedBevels c e values = case find ((>= bevelLimit) . abs . snd) numbered of
   Just (k, a) -> mistake (SteepBevel (region e) (if byRow then Just k else Nothing) (Rad a))
   Nothing -> pure values
   where
+    numbered = zip [1 ..] (Vector.toList values)
     byRow = mentions (map fst (tableColumns c)) e
 
--- | The limit of a bevel, in radians: just below a right angle.
-steepest :: Double
-steepest = pi / 2 - 1e-6
+-- | The upper limit of bevels in radians, not included. It is just below a right angle.
+bevelLimit :: Double
+bevelLimit = pi / 2 - 1e-6

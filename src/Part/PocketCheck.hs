@@ -1,5 +1,5 @@
--- | Checks of a pocket's contours: all of them are closed; the islands lie inside the outline,
--- apart from it and from one another.
+-- | Checks of a pocket's contours: all of them must be closed. The islands must lie inside the
+-- outline, and must touch neither the outline nor one another.
 module Part.PocketCheck
   ( misfits,
     halfWidth,
@@ -27,11 +27,11 @@ import Part.Part (Contour (..), Ends (..))
 import Part.Part qualified as Part
 import Part.PocketError (PocketMisfit (..))
 
--- | A contour, and the region in the statement that names it.
+-- | A contour, and the region of the pocket statement that names it.
 data Named = Named {mention :: Region, contour :: Contour}
 
--- | The faults of a pocket with this outline and these islands. Contours are compared only when all
--- of them are closed.
+-- | The faults of a pocket with this outline and these islands. Contours are compared with one
+-- another only if all of them are closed.
 misfits :: Named -> [Named] -> [PocketMisfit]
 misfits outline islands = case filter isOpen numbered of
   [] -> map meets meetings <> mapMaybe (misplaced outline islands) apart
@@ -47,8 +47,8 @@ misfits outline islands = case filter isOpen numbered of
     apart = [(k, n) | (k, n) <- drop 1 numbered, k `notElem` met]
     met = concat [[i, j] | (i, j, _) <- meetings]
 
--- | The fault of an island, with its number from 1, that meets no other contour. The whole of it
--- lies where its start lies.
+-- | The fault of an island outside of the outline or inside another island, given all islands and
+-- this one with its number from 1. The island meets no other contour, so one of its points decides.
 misplaced :: Named -> [Named] -> (Int, Named) -> Maybe PocketMisfit
 misplaced outline islands (k, island)
   | not (encloses outline) = Just (Outside (mention island) (nameOf island) (nameOf outline))
@@ -62,8 +62,8 @@ misplaced outline islands (k, island)
       ]
     encloses n = WindingNumber.encloses (Part.polyarcOf (contour n)) (startOf island)
 
--- | The common points of two numbered contours, one for each pair of segments, with the lower
--- number first.
+-- | The points in which two contours meet, with the numbers of both, the lower number first. Two
+-- segments give at most one point.
 crossings :: [(Int, Named)] -> [(Int, Int, Point)]
 crossings numbered =
   [ (i, j, p)
@@ -80,13 +80,14 @@ crossings numbered =
 segments :: Named -> [Segment]
 segments n = NonEmpty.toList (Polyarc.segments (Part.polyarcOf (contour n)))
 
+-- | The bounding box of a contour.
 boxOf :: Named -> BoundingBox
 boxOf n = foldl BoundingBox.union first others
   where
     first :| others = fmap BoundingBox.ofSegment (Polyarc.segments (Part.polyarcOf (contour n)))
 
--- | An upper bound for the distance of a point inside a contour from the contour: half of the
--- shorter side of its bounding box.
+-- | Half of the shorter side of a contour's bounding box. No point inside the contour is further
+-- from it.
 halfWidth :: Named -> Mm
 halfWidth n = let BoundingBox.BoundingBox l b r t = boxOf n in Mm (min (r - l) (t - b) / 2)
 
@@ -96,5 +97,6 @@ startOf n = Segment.start (Part.segment (NonEmpty.head (elements (contour n))))
 nameOf :: Named -> Name
 nameOf n = value (contourName (contour n))
 
+-- | The region of a contour's name in its definition.
 definition :: Named -> Region
 definition n = region (contourName (contour n))

@@ -14,18 +14,19 @@ import Geometry.Vec qualified as Vec
 import Part.ErrorText (at)
 import Report.Report (Label (..), Report (..), quote)
 
--- | A fault of a pocket; the region in the statement comes first.
+-- | A fault of a pocket. The region of the pocket statement that is wrong comes first in every
+-- constructor.
 data PocketMisfit
-  = -- | an open contour as the outline or an island: its name, and the region of its definition
+  = -- | an open contour as the outline or as an island: its name, and the region of its definition
     OpenContour Region Name Region
-  | -- | an island that lies outside of the outline: the names of both
+  | -- | an island that lies outside of the outline: the names of the island and of the outline
     Outside Region Name Name
-  | -- | an island that lies inside another one: the names of both
+  | -- | an island that lies inside another island: the names of the inner and of the outer island
     InIsland Region Name Name
-  | -- | an island that crosses or touches another contour of its pocket: the names of both, whether
-    -- the other one is the outline, and the point
+  | -- | an island that crosses or touches another contour of its pocket: the names of the island
+    -- and of the other contour, true if that is the outline, and a common point
     Meets Region Name Name Bool Point
-  | -- | a stepover above the diameter of the cutter: both
+  | -- | a stepover above the diameter of the cutter: the stepover and the diameter
     StepTooWide Region Mm Mm
   deriving stock (Eq, Show)
 

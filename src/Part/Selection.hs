@@ -1,7 +1,8 @@
 -- | The choice of one of several answers to a construction: near a point, on a side of a line,
 -- inside or outside a circle, first or last along a line or a curve.
 --
--- No choice looks at the axes, so an answer moves and turns with the drawing.
+-- No choice depends on the axes. So the same choice selects the same answer when the drawing is
+-- moved and rotated.
 module Part.Selection
   ( Answers (..),
     answerPoints,
@@ -30,23 +31,24 @@ import Part.Value (Argument (..), Value (..), fromOrigin)
 -- | The answers to a construction, and the means to choose among them.
 data Answers a = Answers
   { sought :: Sought,
-    -- | the answer in a report
+    -- | shows an answer in a report
     candidate :: a -> Candidate,
     -- | the point by which an answer is chosen
     keyPoint :: a -> Point,
-    -- | distances along a line or a curve; the first one tells the first and the last answer
+    -- | the functions to the distance of an answer along each line or curve of the construction.
+    -- The first function decides which answer is first and which is last
     stations :: [a -> Mm],
-    -- | the largest difference of two distances that counts as a tie
+    -- | two distances from a point that differ by at most this are a tie
     tie :: Mm,
     answers :: [a]
   }
 
--- | Points as answers, with a tie and the distances along lines or curves.
+-- | Points as answers, given the largest difference that is a tie and the functions for 'stations'.
 answerPoints :: Mm -> [Point -> Mm] -> [Point] -> Answers Point
 answerPoints tie stations answers =
   Answers {sought = SoughtPoint, candidate = APoint, keyPoint = id, stations, tie, answers}
 
--- | The answer that the arguments choose. Fails when there is none, or more than one.
+-- | The answer that the arguments choose. Fails unless the choice leaves exactly one.
 picked :: Region -> Answers a -> [Argument] -> Eval a
 picked region Answers {sought, candidate, keyPoint, stations, tie = Mm tie, answers} choice =
   case (answers, choice) of

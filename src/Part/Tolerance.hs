@@ -1,4 +1,5 @@
--- | The tolerances of parts: of links between elements, choices between solutions, and bevels.
+-- | The tolerances for evaluating a part: for links between elements, for choices between
+-- solutions, and for bevels.
 module Part.Tolerance
   ( sameLength,
     smallestFillet,
@@ -11,28 +12,29 @@ where
 
 import Base.Quantity (Mm (..), Rad (..))
 
--- | The largest difference of the lengths of two contours that makes the choice of the shorter one
--- a tie.
+-- | Two contours whose lengths differ by at most this are equally long: the choice of the shorter
+-- one is a tie.
 sameLength :: Mm
 sameLength = Mm 1e-6
 
--- | The smallest radius of a fillet. One that would have to be smaller does not fit.
+-- | The smallest radius that is suggested for a fillet that does not fit.
 smallestFillet :: Mm
 smallestFillet = Mm 1e-3
 
--- | The largest difference of the distances of two points from a third that makes the choice of the
--- nearer one a tie. Points on curves are exact to 'Geometry.Tolerance.curve' at best.
+-- | Two points whose distances from a third point differ by at most this are equally near: the
+-- choice of the nearer one is a tie. Points on curves have errors up to 'Geometry.Tolerance.curve'.
 nearTie :: Mm
 nearTie = Mm 1e-4
 
--- | The largest error of a bevel that is interpolated linearly between two points.
+-- | The largest error of linear interpolation between two bevels of an element.
 bevel :: Rad
 bevel = Rad 5e-5
 
--- | The largest gap between the ends of curves of measured points that join smoothly.
+-- | The largest gap at a smooth link. The link may join curves through measured points.
 smoothGap :: Mm
 smoothGap = Mm 1e-3
 
--- | The largest angle between the directions of curves of measured points that join smoothly: 0.1°.
+-- | The largest angle between the directions at a smooth link, 0.1°. The link may join curves
+-- through measured points.
 smoothTurn :: Rad
 smoothTurn = Rad 1.75e-3

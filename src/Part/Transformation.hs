@@ -1,5 +1,5 @@
--- | Transformations of operations. The contours, the points and the sides change; cutters, heights
--- and distances do not.
+-- | Transformations of operations. Contours, points and sides are transformed; cutters, heights and
+-- distances are not.
 module Part.Transformation
   ( operation,
   )
@@ -11,7 +11,7 @@ import Geometry.Transformation (Transformation)
 import Geometry.Transformation qualified as Transformation
 import Part.Part
 
--- | The image of an operation. A mirror swaps the left and the right side.
+-- | The image of an operation under a transformation. A reflection swaps the left and right side.
 operation :: Transformation -> Operation -> Operation
 operation s o = case o of
   Mill (Located at m) -> Mill (Located at (milling m))

@@ -1,4 +1,4 @@
--- | Values of the language, and the checks that every function makes of its results.
+-- | Values of the language, and the checks that functions make of their results.
 module Part.Value
   ( Value (..),
     Argument (..),
@@ -28,10 +28,11 @@ import Part.Evaluation qualified as Evaluation
 import Part.Parameter (Range (FromTo), WholeNumber)
 import Part.Part (Contour)
 
--- | A value of the language. Numbers are in units of mm, radians, minutes and turns.
+-- | A value of the language. Numbers are in mm, radians, minutes and turns, and in products of
+-- these units.
 data Value
   = Quantity Double
-  | -- | a point or a vector
+  | -- | a point of the plane, as the vector from (0, 0), or a vector
     Spatial Vec
   | -- | a point with a height
     SpaceValue Point Mm
@@ -45,15 +46,16 @@ data Value
   | CurveValue PartCurve
   deriving stock (Eq, Show)
 
--- | An argument: without a word before it, with one, or a word alone.
+-- | An argument of a function: a value, a value after a word such as @near@ or @left@, or one of
+-- the words @first@ and @last@.
 data Argument = Plain Value | Choosing Selector Value | Ranking Rank
   deriving stock (Eq, Show)
 
--- | A point or vector within the reach of machines.
+-- | A point or vector of at most 'Tolerance.reach' from (0, 0).
 spatial :: Region -> Vec -> Eval Value
 spatial region v = Spatial v <$ within region (Vec.norm v)
 
--- | A point with a height, both within the reach of machines.
+-- | A point with a height, each of at most 'Tolerance.reach' from 0.
 lifted :: Region -> Point -> Mm -> Eval Value
 lifted region p z@(Mm h) =
   SpaceValue p z <$ (within region (Vec.norm (offset p)) *> within region h)
@@ -66,13 +68,13 @@ within region x
   where
     Mm limit = Tolerance.reach
 
--- | A number; fails when it is not a number or infinite.
+-- | A number. Fails if the result of a computation is infinite or not a number.
 finite :: Region -> Double -> Eval Value
 finite region x
   | isNaN x || isInfinite x = Evaluation.mistake (TooLarge region)
   | otherwise = pure (Quantity x)
 
--- | The point at a vector's end when it starts at (0, 0).
+-- | The end of a vector that starts at (0, 0).
 fromOrigin :: Vec -> Point
 fromOrigin v = Vec.shift v (Vec.point 0 0)
 
@@ -80,7 +82,8 @@ fromOrigin v = Vec.shift v (Vec.point 0 0)
 offset :: Point -> Vec
 offset = Vec.to (Vec.point 0 0)
 
--- | A whole number from 1 to 10⁷, within 'Tolerance.equal'.
+-- | A whole number from 1 to 10⁷. Numbers within 'Tolerance.equal' of a whole number are rounded to
+-- it.
 whole :: Region -> WholeNumber -> Double -> Eval Int
 whole region what x
   | abs (x - fromIntegral n) > Tolerance.equal || n < 1 || x > 1e7 =

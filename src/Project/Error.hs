@@ -1,4 +1,5 @@
--- | Errors that concern a program as a whole: its machine, and that there is something to punch.
+-- | Errors that concern a program as a whole: its machine is missing or unknown, or there is
+-- nothing to punch.
 module Project.Error
   ( Error (..),
     toReport,
@@ -14,14 +15,16 @@ import Data.Text qualified as Text
 import Report.Report (Report (..), ReportPlace (..), report)
 import Report.Report qualified as Report
 
+-- | An error of a program as a whole. A region is that of the statement that names the machine; it
+-- is absent if the command line names the machine.
 data Error
-  = -- | neither the program nor the command line names a machine; the built-in machines
+  = -- | neither the program nor the command line names a machine: names of the built-in machines
     NoMachine [Text]
-  | -- | the region of the statement that names the machine, the unknown name, the built-in machines
+  | -- | no machine has this name: the region, the name, the names of the built-in machines
     UnknownMachine (Maybe Region) Text [Text]
-  | -- | a description that cannot be read: the region that names it, its name, the reason
+  | -- | a machine description that cannot be read: the region, the name of the file, the reason
     DescriptionMissing (Maybe Region) Text Text
-  | -- | a description with errors: the region that names it, its name, its text, the errors
+  | -- | a machine description with errors: the region, the name of the file, its text, the errors
     DescriptionWrong (Maybe Region) Text Text [Report]
   | -- | the program moves nothing
     NothingToPunch
@@ -76,7 +79,7 @@ toReport err = case err of
   where
     wrong = report Report.Error
 
--- | A report on a text in one line, with its position.
+-- | One line for a report on a file, given the file's name and text: line, column and title.
 inOneLine :: Text -> Text -> Report -> Text
 inOneLine file text r = case place r of
   InSource region ->

@@ -1,4 +1,4 @@
--- | The choices of one run of the compiler.
+-- | The choices of one run of the compiler: parameter values, machines, verification.
 module Project.Job
   ( Job (..),
     Verification (..),
@@ -20,22 +20,24 @@ import Toolpath.Toolpath (Toolpath)
 data Job = Job
   { -- | values for parameters of the program, by their names
     values :: [(Text, Text)],
-    -- | chooses the machines; without machines no tape is made
+    -- | chooses the machines for a part and its toolpath; without machines no tape is made
     machinesFor :: Part -> Toolpath -> Result Report Report [Machine],
     verification :: Verification
   }
 
--- | Verified tapes are read back and compared with the part.
+-- | The check of a tape. A verified tape is read back and its motions are compared with the part;
+-- an unverified one is only written.
 data Verification = Verified | Unverified
   deriving stock (Eq, Show)
 
--- | A verified tape for each of these machines; without names, for the machine that the program
--- names. It is an error if there is none.
+-- | A job that makes a verified tape for each of the named machines. Without names the machine is
+-- the one that the program names; it is an error if the program names none.
 forTargets :: [Text] -> [(Text, Text)] -> LoadedProgram -> Job
 forTargets names values loaded =
   Job {values, machinesFor = Target.targets (descriptions loaded) names, verification = Verified}
 
--- | A verified tape for the machine that the program names, if it names one.
+-- | A job that makes a verified tape for the machine that the program names, or no tape if the
+-- program names none.
 forOwnMachine :: [(Text, Text)] -> LoadedProgram -> Job
 forOwnMachine values loaded =
   Job {values, machinesFor = Target.ownMachines (descriptions loaded), verification = Verified}

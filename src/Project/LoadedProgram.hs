@@ -1,5 +1,5 @@
--- | A part program with the files that belong to it: what it imports, and the machine descriptions
--- that it names. An input sheet is loaded as the part program that it means.
+-- | A part program with the files that belong to it: the files that it imports and the machine
+-- descriptions that it names. An input sheet is converted to a part program when it is loaded.
 --
 -- Nothing here touches the disk: a 'Surface.Reader' supplies the texts. Names are not resolved and
 -- values are not computed; that is the work of the compiler passes.
@@ -33,7 +33,7 @@ import System.FilePath (takeDirectory, takeExtension)
 data LoadedProgram = LoadedProgram
   { -- | all texts, for the positions in reports
     source :: Source,
-    -- | one syntax tree, with each import replaced by the definitions that it brings
+    -- | one syntax tree, with each import replaced by the definitions of the imported file
     surface :: Result Report Report Surface.Program,
     -- | the region of each import, and the path of the file that it names
     imports :: [(Region, Text)],
@@ -60,6 +60,7 @@ load reader path text
           descriptions
         }
 
+-- | The part program that an input sheet describes.
 fromInputSheet :: FilePath -> Text -> LoadedProgram
 fromInputSheet path text =
   LoadedProgram
@@ -83,10 +84,10 @@ fromText path text = runIdentity (load withoutFiles (Text.unpack path) text)
   where
     withoutFiles = Surface.byName (const (pure (Left "only one text is looked at")))
 
--- | Is this the name of an input sheet?
+-- | Is this the name of an input sheet's file? It ends in @.sheet@.
 isInputSheet :: FilePath -> Bool
 isInputSheet = (== ".sheet") . takeExtension
 
--- | Drops the syntax tree, so that memory holds only what reports and file names need.
+-- | Drops the syntax tree. Reports and file names do not need it, and it takes much memory.
 withoutSurface :: LoadedProgram -> LoadedProgram
 withoutSurface loaded = loaded {surface = Result [] [] Nothing}

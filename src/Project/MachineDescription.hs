@@ -1,6 +1,8 @@
--- | The machines that a project can use: built in, or described in files of its own.
+-- | The machines that a program can be compiled for: the built-in machines, and those described in
+-- files of the user.
 --
--- The description files are loaded first, by whoever may read files; the look-up itself is pure.
+-- 'load' reads a description file with a function that its caller supplies. The functions that find
+-- a machine are pure and search the loaded files.
 module Project.MachineDescription
   ( Descriptions,
     load,
@@ -22,11 +24,12 @@ import Machine.Machine (Machine, MachineName (..))
 import Report.Report (Report)
 import System.FilePath ((</>))
 
--- | Description files by the names that the program or the command line gives them: each with its
--- text, or with the reason why it cannot be read.
+-- | Description files, by their names in the program or on the command line. Each has its text, or
+-- the reason why it cannot be read.
 type Descriptions = [(Text, Either Text Text)]
 
--- | Loads a description file whose name is relative to a folder.
+-- | Loads a description file, given a function that reads a file, a folder, and the file's name
+-- relative to the folder. Yields the name with the text, or with the reason why it cannot be read.
 load ::
   Monad m =>
   (FilePath -> m (Either Text Text)) ->
@@ -35,7 +38,8 @@ load ::
   m (Text, Either Text Text)
 load contents folder file = (file,) <$> contents (folder </> Text.unpack file)
 
--- | Is this the name of a description file rather than of a built-in machine?
+-- | Is this the name of a description file rather than of a built-in machine? Such a name contains
+-- a slash or ends in @.machine@.
 isFileName :: Text -> Bool
 isFileName name = Text.any (== '/') name || Text.isSuffixOf ".machine" name
 
@@ -43,7 +47,7 @@ isFileName name = Text.any (== '/') name || Text.isSuffixOf ".machine" name
 data Missing
   = -- | no built-in machine has this name
     NoSuchMachine
-  | -- | the description cannot be read, and why
+  | -- | the description cannot be read, for this reason
     NoDescription Text
   | -- | the description has errors: its text, and the reports
     BadDescription Text [Report]
@@ -58,7 +62,7 @@ find descriptions name
 findBuiltIn :: Text -> Either Missing Machine
 findBuiltIn name = maybe (Left NoSuchMachine) Right (BuiltIn.find (MachineName name))
 
--- | Finds a machine by the name of its description file, and reads the description.
+-- | Finds a description file by its name, and parses the machine that it describes.
 findDescribed :: Descriptions -> Text -> Either Missing Machine
 findDescribed descriptions file = case lookup file descriptions of
   Nothing -> Left (NoDescription "it was not looked for")

@@ -1,4 +1,4 @@
--- | The canonical layout of a program as a change of its text.
+-- | The change from a program's text to its formatted text.
 module Query.Formatting
   ( Change (..),
     change,
@@ -13,8 +13,8 @@ import Data.Text qualified as Text
 data Change = Change {region :: Region, newText :: Text}
   deriving stock (Eq, Show)
 
--- | The change from one text to another: the lines from the first difference to the last. Nothing
--- if the texts are equal.
+-- | The change from one text to another. It replaces the lines from the first difference to the
+-- last one. Nothing if the texts are equal.
 change :: Text -> Text -> Maybe Change
 change before after
   | before == after = Nothing
@@ -38,7 +38,7 @@ splitCommonPrefix a b = case (a, b) of
       let (front, as', bs') = splitCommonPrefix as bs in (x : front, as', bs')
   _ -> ([], a, b)
 
--- | The lines, each with its end: LF, CR or CR LF.
+-- | The lines of a text, each with its line end: LF, CR or CR LF.
 linesOf :: Text -> [Text]
 linesOf text
   | Text.null text = []

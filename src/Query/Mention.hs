@@ -1,4 +1,4 @@
--- | The names in a program: where each is mentioned, its meaning, its value.
+-- | The names in a program: the regions that mention them, their meanings and their values.
 module Query.Mention
   ( Mentions (..),
     Mention (..),
@@ -13,16 +13,17 @@ import Data.Text (Text)
 import Part.Part (Part)
 import Part.Part qualified as Part
 
--- | All mentions of names, and the values of the definitions: the region of the defined name, the
--- value as text.
+-- | All mentions of names, and the values of the definitions. A value is a text, beside the region
+-- of the name in the definition.
 data Mentions = Mentions {mentions :: [Mention], values :: [(Region, Text)]}
   deriving stock (Eq, Show)
 
--- | The facts of a program that cannot be checked.
+-- | No mentions and no values, as for a program that cannot be checked.
 none :: Mentions
 none = Mentions [] []
 
--- | The facts of a program that can be checked and evaluated.
+-- | The mentions that the checker found, with the values of the evaluated part. Yields 'none' for a
+-- program that cannot be checked.
 facts :: Maybe ([Mention], Part) -> Mentions
 facts known = case known of
   Nothing -> none

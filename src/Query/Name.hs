@@ -1,7 +1,7 @@
 -- | Answers about the name under the cursor.
 --
--- They come from the snapshot of the present text. If its errors hide the name, they come from the
--- last snapshot without errors.
+-- The answers come from the snapshot of the present text. If errors of the present text hide the
+-- name, the answers come from the last snapshot without errors.
 module Query.Name
   ( Hover (..),
     hover,
@@ -23,15 +23,15 @@ import Query.RegionMap qualified as RegionMap
 import Query.Snapshot (Snapshot)
 import Query.Snapshot qualified as Snapshot
 
--- | The name under the cursor, its value if it has one, its meaning.
+-- | The name under the cursor with its region, its value if it has one, and its meaning in words.
 data Hover = Hover {place :: Region, name :: Text, value :: Maybe Text, meaning :: Text}
   deriving stock (Eq, Show)
 
 -- | A region in one of the files of a source.
 data Target = Target {source :: Source, region :: Region}
 
--- | The name at an offset of the present text, from the present snapshot and the last one without
--- errors.
+-- | The name at an offset of the present text. The snapshots are that of the present text and the
+-- last one without errors.
 hover :: Snapshot -> Maybe Snapshot -> Int -> Maybe Hover
 hover now before at = shown <$> listToMaybe (found now before at)
   where
@@ -44,7 +44,8 @@ hover now before at = shown <$> listToMaybe (found now before at)
           meaning = Mention.meaning mention
         }
 
--- | The region in which the name at an offset is defined.
+-- | The region that defines the name at an offset of the present text. The snapshots are that of
+-- the present text and the last one without errors.
 definition :: Snapshot -> Maybe Snapshot -> Int -> Maybe Target
 definition now before at = listToMaybe (mapMaybe target (found now before at))
   where
@@ -56,10 +57,12 @@ definition now before at = listToMaybe (mapMaybe target (found now before at))
           Target (Snapshot.source now) <$> RegionMap.forward regionMap region
       _ -> Just Target {source, region}
 
--- | A mention under the cursor: the snapshot that has it; the map from the text of that snapshot to
--- the present text, if it is older; the region of the mention in the present text.
+-- | A mention under the cursor: the snapshot that contains it; for an older snapshot, the map from
+-- its text to the present text; the region of the mention in the present text.
 data Found = Found Snapshot (Maybe RegionMap) Mention Region
 
+-- | The mentions at an offset of the present text: that of the present snapshot first, then that of
+-- the last snapshot without errors.
 found :: Snapshot -> Maybe Snapshot -> Int -> [Found]
 found now before at = present <> maybe [] past before
   where
@@ -81,6 +84,6 @@ under facts at = case find (within (<)) (Mention.mentions facts) of
   where
     within before m = let Region from to = Mention.place m in from <= at && at `before` to
 
--- | Does a region lie in the program's own file?
+-- | Does a region lie in the program's own file, and not in an imported one?
 isOwn :: Source -> Region -> Bool
 isOwn source (Region from _) = from <= Text.length (Region.text source)

@@ -1,5 +1,6 @@
--- | A map of regions from an old text to a new one. The common prefix and suffix of the texts bound
--- the changed region; outside it every region has its counterpart.
+-- | A map of regions from an old text to a new one. The changed region of each text lies between
+-- the common prefix and the common suffix of the texts. Regions outside of it are mapped; regions
+-- that touch the change are not.
 module Query.RegionMap
   ( RegionMap,
     between,
@@ -14,12 +15,12 @@ import Data.Maybe qualified as Maybe
 import Data.Text (Text)
 import Data.Text qualified as Text
 
--- | Both texts are equal before the offset @same@, and from the offset @old@ of the old text and
--- @new@ of the new text to their ends.
+-- | The texts are equal up to the offset @same@. They are also equal from the offset @old@ of the
+-- old text and the offset @new@ of the new text to their ends.
 data RegionMap = RegionMap {same :: Int, old :: Int, new :: Int}
   deriving stock (Eq, Show)
 
--- | The map from an old text to a new one. A word that the change touches belongs to the change.
+-- | The map from an old text to a new one. A word that the change touches counts as changed.
 between :: Text -> Text -> RegionMap
 between before after =
   RegionMap
@@ -50,18 +51,20 @@ commonSuffix a b = (Text.takeEnd size a, Text.dropEnd size a, Text.dropEnd size 
       length
         (takeWhile id (zipWith (==) (Text.unpack (Text.reverse a)) (Text.unpack (Text.reverse b))))
 
+-- | Can a character be a part of a name or a number?
 isWordPart :: Char -> Bool
 isWordPart c = isAlphaNum c || c == '_'
 
--- | The region of the new text for a region of the old one, if it is unchanged.
+-- | The region of the new text that corresponds to a region of the old text. Nothing for a region
+-- that overlaps the change.
 forward :: RegionMap -> Region -> Maybe Region
 forward RegionMap {same, old, new} (Region from to)
   | to <= same = Just (Region from to)
   | from >= old = Just (Region (from - old + new) (to - old + new))
   | otherwise = Nothing
 
--- | The offset in the old text for an offset of the new one. At a pure deletion it is the offset
--- after the deleted text.
+-- | The offset in the old text that corresponds to an offset of the new text. Where text was only
+-- deleted, it is the offset after the deleted text. Nothing within the change.
 back :: RegionMap -> Int -> Maybe Int
 back RegionMap {same, old, new} at
   | at >= new = Just (at - new + old)

@@ -1,4 +1,4 @@
--- | A program at one moment, with all that its text means. Editors are answered from it.
+-- | A program at one moment, with everything that the answers to an editor need.
 module Query.Snapshot
   ( Snapshot (..),
     Check,
@@ -29,23 +29,23 @@ import Report.Report qualified as Report
 import Surface.Syntax (Program (..))
 import Prelude hiding (take)
 
--- | Finds the mistakes of a program: for editors the same as for the command line.
+-- | A function that finds the mistakes of a program. Editors and the command line use the same one.
 type Check = LoadedProgram -> Result Report Report Analysis
 
--- | Reports mistakes up to the limits of the machine that the program names. The values are those
--- of the program's parameters, by their names.
+-- | Checks a program up to the frames for the machine that it names. The values are those of the
+-- program's parameters, by their names.
 checkWith :: [(Text, Text)] -> Check
 checkWith values loaded = Compile.check (Job.forOwnMachine values loaded) loaded
 
 -- | A program at one moment.
 data Snapshot = Snapshot
-  { -- | the text, and the texts that it imports
+  { -- | the text of the program, and the texts that it imports
     source :: Source,
     -- | errors and warnings, in the order of the text
     reports :: [Report],
     -- | the syntax tree of the text itself, without what it imports
     program :: Program,
-    -- | the mentions of names, and the values of what the program defines
+    -- | the mentions of names, and the values of the definitions
     facts :: Mentions,
     -- | the region of each import, and the path of the file that it names
     imports :: [(Region, Text)]
@@ -76,8 +76,8 @@ take check loaded =
 isGood :: Snapshot -> Bool
 isGood = not . any Report.isError . reports
 
--- | The import that brings the file in which a region lies, directly or through other imports.
--- Nothing for a region of the program itself.
+-- | The import statement of the program that includes the file of a region, directly or through
+-- other imports. Nothing for a region of the program itself.
 importOf :: Snapshot -> Region -> Maybe Region
 importOf Snapshot {source, imports} = go (length imports)
   where

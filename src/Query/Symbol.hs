@@ -1,4 +1,5 @@
--- | The symbols of a program: its definitions and its machining statements.
+-- | The symbols of a program, for the outline in an editor: its definitions and its machining
+-- statements.
 module Query.Symbol
   ( DocumentSymbol (..),
     SymbolKind (..),
@@ -17,8 +18,8 @@ import Data.Text qualified as Text
 import Query.Snapshot (Snapshot (..))
 import Surface.Syntax (Program (..), Statement, Statement_ (..))
 
--- | A symbol: its name, a short addition, its kind, the region of the whole statement, and the
--- region of the name in it.
+-- | A symbol: its name, a short addition such as a parameter list, its kind, the region of the
+-- whole statement, and the region of the name within the statement.
 data DocumentSymbol = DocumentSymbol
   { name :: Text,
     detail :: Text,
@@ -32,12 +33,13 @@ data DocumentSymbol = DocumentSymbol
 data SymbolKind = Part' | Value | Function | Contour' | Machining
   deriving stock (Eq, Show, Enum, Bounded)
 
--- | The symbols in the order of the text. Settings have none.
+-- | The symbols of a program in the order of the text. Statements that only change a setting have
+-- no symbol.
 symbols :: Snapshot -> [DocumentSymbol]
 symbols Snapshot {source, program} = mapMaybe (symbol source) (statements program)
 
--- | The symbol of a definition is its name; that of a machining statement is its beginning, up to
--- the region that says what is machined.
+-- | The symbol of a statement, if it has one. A definition is shown by its name. A machining
+-- statement is shown by its text up to the side, the depth or the stepover.
 symbol :: Source -> Statement -> Maybe DocumentSymbol
 symbol source (Located whole s) = case s of
   Part name title -> definition Part' name (maybe "" value title)
@@ -82,10 +84,11 @@ symbol source (Located whole s) = case s of
             selection
           }
 
+-- | The names of a function's parameters in round brackets.
 parameterList :: NonEmpty (Located Name) -> Text
 parameterList parameters =
   "(" <> Text.intercalate ", " [n | Located _ (Name n) <- NonEmpty.toList parameters] <> ")"
 
--- | The text of a region on one line.
+-- | The text of a region, joined to one line with single spaces.
 slice :: Source -> Region -> Text
 slice source part = Text.unwords (concatMap Text.words (Region.linesIn source part))

@@ -1,4 +1,4 @@
--- | Laws of numbers that are written and read again.
+-- | Laws of numbers that are written as text and parsed again.
 module Base.DecimalSpec (spec) where
 
 import Base.Decimal qualified as Decimal
@@ -12,8 +12,8 @@ import Test.QuickCheck
 spec :: Spec
 spec = do
   describe "exact" $ do
-    -- Catches a reader or a writer with an error in the last bit.
-    prop "read again: a number that is written exactly is the same number" $
+    -- Catches an error in the last bit, of 'Decimal.exact' or of 'Decimal.parse'.
+    prop "is parsed as the same number" $
       forAll anyNumber $ \x ->
         Decimal.parse (Text.dropWhile (== '-') (Decimal.exact x)) === Just (abs x)
     prop "has no exponent and no minus zero" $
@@ -24,13 +24,13 @@ spec = do
         `shouldBe` ["0", "0", "0.1", "59.3", "-2.5", "0.001", "100", "0.3333333333333333"]
     it "rounds a number with more digits than a program allows" $
       (Decimal.parse (Decimal.exact 1e-30), Decimal.exact 5e-324) `shouldBe` (Just 1e-30, "0")
-  describe "unlike" $ do
+  describe "distinctMm" $ do
     it
-      "has enough decimals to tell two lengths apart (catches a radius of 3 mm into which 3 mm do \
-      \not fit)"
+      "has enough decimals to tell two lengths apart (catches the report that 3 mm do not fit into \
+      \a radius of 3 mm)"
       $ [Decimal.distinctMm (Mm 3) (Mm x) | x <- [2.5, 3, 2.9999, 2.99999, 3.000004, 3 - 1e-12]]
         `shouldBe` ["2.5 mm", "3 mm", "2.9999 mm", "2.99999 mm", "3.000004 mm", "3 mm"]
-  describe "amount" $ do
+  describe "parse" $ do
     it "is the nearest double, whatever the number of digits" $
       map
         Decimal.parse

@@ -11,8 +11,8 @@ import Test.QuickCheck
 spec :: Spec
 spec = do
   it
-    "suggests names within one edit for every three letters, nearest first (catches words that are \
-    \given up too early)"
+    "suggests names within one edit for every three letters, nearest first (catches names that are \
+    \discarded too early)"
     $ property . forAll word $ \wanted -> forAll (listOf (oneof [word, edited wanted])) $ \known ->
       let found = Name.nearest wanted known
           allowed = Text.length wanted `div` 3

@@ -12,8 +12,8 @@ spec :: Spec
 spec =
   describe "regions of a text" $ do
     it
-      "parts of lines have the words of the whole (catches a line that is cut at the column of \
-      \another line)"
+      "the lines of a region contain the words of its text (catches a line that is cut at the \
+      \column of another line)"
       $ property $
         forAll ((,,) <$> texts <*> texts <*> texts) $ \(above, inside, below) ->
           let source = Region.fromText "p.part" (above <> inside <> below)
@@ -23,7 +23,7 @@ spec =
                   Text.words
                   (Region.linesIn source (Region from (from + Text.length inside)))
                   === Text.words inside
-    it "parts of lines of an import have the words of the whole" $
+    it "the lines of a region in an imported file contain the words of its text" $
       property $
         forAll ((,,) <$> texts <*> texts <*> texts) $ \(own, above, inside) ->
           let source = Region.addFile "q.part" (above <> inside) (Region.fromText "p.part" own)

@@ -1,5 +1,5 @@
--- | Laws of curves from the text of a program to the toolpath: the part has the geometry of the
--- exact curve.
+-- | Laws of curves, from the text of a program to the toolpath: the part and the toolpath have the
+-- geometry of the exact curves.
 module Part.CurveSpec (spec) where
 
 import Base.Quantity (Mm (..), Rad (..))
@@ -36,7 +36,7 @@ spec :: Spec
 spec = do
   describe "a spline through the points of a circle" $ do
     it
-      "is milled like the circle (catches an offset of chords, a gap between the arcs that \
+      "is milled like the circle (catches an offset of chords, and a gap between the arcs that \
       \approximate a curve)"
       $ property $
         forAll ((,,) <$> elements ["outside", "inside"] <*> written 1 30 <*> shares) $
@@ -71,8 +71,8 @@ spec = do
             (a, b) -> counterexample (show (a, b)) False
   describe "a contour" $ do
     it
-      "of arcs keeps its arcs, forwards, reversed and moved (catches arcs that are approximated by \
-      \others)"
+      "of arcs keeps its arcs, also when it is reversed or transformed (catches arcs that are \
+      \approximated by other arcs)"
       $ property $
         forAll ((,,) <$> pathPoints <*> motion <*> shares) $ \(points, (s, _, (begin, rest)), ts) ->
           let text =
@@ -92,8 +92,8 @@ spec = do
                       ]
                 ]
     it
-      "of two curves that cross follows both, from crossing to crossing (catches a curve that is \
-      \followed beyond its crossing, or its other part)"
+      "of two curves that cross follows each curve from one intersection to the other (catches a \
+      \curve that is followed beyond the intersection, or whose wrong part is followed)"
       $ property $
         forAll crossing $ \(upper, lower) ->
           let text =
@@ -123,8 +123,10 @@ spec = do
                               (lengthBetween p q a + lengthBetween p q b)
                               (sum (map lengthOf segments))
                         _ -> counterexample (show corners) False
-    it "of curves reversed has the same geometry (catches a polyarc reversed arc by arc)" $
-      property $
+    it
+      "of curves has the same geometry when it is reversed (catches a reversed contour whose arcs \
+      \are not reversed)"
+      $ property $
         forAll ((,) <$> pathPoints <*> shares) $ \(points, ts) ->
           let text =
                 "part p\n"
@@ -143,8 +145,8 @@ spec = do
                         ]
   describe "a piece" . modifyMaxSuccess (const 50) $ do
     it
-      "transformed is the piece of the transformed curve, and a mirror swaps its sides (catches a \
-      \side or a column that is not transformed)"
+      "is transformed to the piece of the transformed curve, and a reflection swaps its sides \
+      \(catches a side or a column that is not transformed)"
       $ property $
         forAll ((,,) <$> pieceCase <*> motion <*> shares) $ \(c, (s, mirrors, (begin, rest)), ts) ->
           let plain = pieceText c
@@ -175,8 +177,8 @@ spec = do
             Just segments ->
               conjoin [Segment.at t s `offCurve` pieceOf c `atMost` 1.2e-5 | s <- segments, t <- ts]
     it
-      "is milled at the radius of the cutter, everywhere (catches an offset of an offset, a side \
-      \that the polyarc swaps)"
+      "is milled at the radius of the cutter from the exact curve (catches an offset of an \
+      \approximated offset, and a cut on the wrong side)"
       $ property $
         forAll ((,,,) <$> pieceCase <*> elements [LeftOf, RightOf] <*> written 0.5 6 <*> shares) $
           \(c, side, r, ts) ->
@@ -207,18 +209,23 @@ spec = do
 
 -- Numbers
 
+-- | Numbers, in mm, that differ by less than 10⁻⁴.
 near :: Double -> Double -> Property
 near a b = counterexample (show (a, b)) (abs (a - b) < 1e-4)
 
+-- | The first number is at most the second.
 atMost :: Double -> Double -> Property
 atMost a b = counterexample (show a <> " > " <> show b) (a <= b)
 
+-- | Two points less than this many mm apart.
 coincide :: Double -> Point -> Point -> Property
 coincide slack a b = counterexample (show (a, b)) (a `apart` b < slack)
 
+-- | The distance of two points in mm.
 apart :: Point -> Point -> Double
 apart a b = let Mm d = Vec.distance a b in d
 
+-- | The distance of a point from a curve in mm.
 offCurve :: Point -> Curve -> Double
 offCurve p c = p `apart` Curve.at c (Curve.nearest p c)
 
@@ -231,10 +238,12 @@ lengthBetween p q c = abs (at p - at q)
 lengthOf :: Segment -> Double
 lengthOf s = let Mm l = Segment.length s in l
 
+-- | Fractions of a segment's length, from 0 to 1.
 shares :: Gen [Double]
 shares = vectorOf 3 (choose (0, 1))
 
--- | A number with three decimals, as written.
+-- | A number between two limits, with at most three decimals, so that a program can contain it
+-- exactly.
 written :: Double -> Double -> Gen Double
 written a b = (/ 1000) . fromIntegral <$> choose (round (a * 1000), round (b * 1000) :: Int)
 
@@ -244,6 +253,7 @@ centreOf s = case s of
   Arc {Segment.centre = c} -> c
   Straight {Segment.start = p} -> p
 
+-- | The sign of a cross product of a curve's direction and a point on this side.
 signOf :: Side -> Double
 signOf side = case side of
   LeftOf -> 1
@@ -263,25 +273,26 @@ head' xs = case xs of
 
 -- | A line to a circle of radius 50, and the fillet between them.
 data Rounding = Rounding
-  { -- | the direction of the line, degrees
+  { -- | the direction of the line in degrees
     heading :: Double,
-    -- | the distance of the line from the circle's centre, to the left
+    -- | the signed distance of the line from the circle's centre: positive if the line lies to the
+    -- left of the centre
     offset :: Double,
     clockwise :: Bool,
     filletRadius :: Double,
     -- | the centre of the fillet
     middle :: Point,
-    -- | the start of the fillet
+    -- | the start of the fillet, on the line
     first :: Point,
     -- | the end of the fillet, on the circle
     touches :: Point,
-    -- | the angle at which the curve begins and ends, degrees
+    -- | the angle on the circle, in degrees, at which the curve begins and ends
     final :: Double
   }
   deriving stock (Show)
 
--- | With the line along x and the circle's centre in the origin, the fillet's centre is @h ∓ R@
--- high and @50 ± R@ away.
+-- | If the line is parallel to x at the height h and the circle's centre is the origin, the centre
+-- of the fillet lies at the height @h ∓ R@ and at the distance @50 ± R@ from the origin.
 rounding :: Gen Rounding
 rounding = do
   heading <- written 0 360
@@ -351,7 +362,7 @@ crossing = (,) <$> arched 1 <*> (reverse <$> arched (-1))
             (map (s *) (zipWith (*) [-1, 1, 1, 1, -1] (take 1 ends <> tops <> drop 1 ends)))
         )
 
--- | Points of a path that may be vertical and turn back, but does not cross itself.
+-- | Points of a path that may be vertical and reverse its direction, but does not cross itself.
 pathPoints :: Gen [Point]
 pathPoints = do
   n <- frequency [(1, pure 2), (3, choose (3, 8)), (1, choose (12, 16))]
@@ -374,9 +385,11 @@ pathPoints = do
     rounded' p = Vec.point (digits (Vec.x p)) (digits (Vec.y p))
     digits x = fromIntegral (round (x * 1000) :: Int) / 1000
 
+-- | The exact spline through points.
 exactly :: EndCondition -> [Point] -> Curve
 exactly ends = Curves.ok . Curve.spline ends . Vector.fromList
 
+-- | The statement that defines a spline through points, with this name.
 splineOf :: Text -> EndCondition -> [Point] -> Text
 splineOf name ends points =
   "curve "
@@ -389,11 +402,12 @@ splineOf name ends points =
 
 -- Pieces
 
--- | A recalculation as written: 1, 2, 4 or 6.
+-- | A cipher as the program writes it, with its numbers: 1, 2, 4 or 6.
 data Cipher = Evenly Double Double | Steady Double | Leaning Double | Rowwise Double
   deriving stock (Show)
 
--- | The rows of a table (a point, a bevel in degrees, a thickness in mm), the ciphers, the side.
+-- | A piece: the rows of its table (a point, a bevel in degrees, a thickness in mm), its ciphers
+-- and its side. A closed one has a closed spline.
 data PieceCase = PieceCase
   { table :: [(Point, Double, Double)],
     closed :: Bool,
@@ -442,6 +456,7 @@ pieceText c@PieceCase {table, closed} =
     )
     <> pieceNamed "edge" "skin" c
 
+-- | The statement that defines a contour of one element, a curve or piece.
 contourOf :: PieceCase -> Text -> Text
 contourOf c what =
   "contour k " <> (if closed c then "closed" else "open") <> " { " <> what <> " }\n"
@@ -449,6 +464,7 @@ contourOf c what =
 dropPart :: Text -> Text
 dropPart = Text.drop (Text.length "part p\n")
 
+-- | The statement that defines a piece with this name of a curve with this name.
 pieceNamed :: Text -> Text -> PieceCase -> Text
 pieceNamed name base PieceCase {ciphers, side'} =
   "piece "
@@ -466,7 +482,7 @@ pieceNamed name base PieceCase {ciphers, side'} =
       Leaning h -> "4(mu, " <> number h <> ")"
       Rowwise k -> "6(" <> number k <> " * t)"
 
--- | The piece by exact curves.
+-- | The piece computed with exact curves, without the language.
 pieceOf :: PieceCase -> Curve
 pieceOf PieceCase {table, closed, ciphers, side'} =
   foldl shifted (exactly (if closed then Periodic else Natural) [p | (p, _, _) <- table]) ciphers
@@ -483,7 +499,8 @@ pieceOf PieceCase {table, closed, ciphers, side'} =
       Rowwise k -> Pointwise (Curve.column c (column (\(_, _, t) -> k * t)))
     column f = Vector.fromList (map f table)
 
--- | A motion, whether it mirrors, and its text before and after the thing moved.
+-- | A motion of the plane, true for a reflection, and the call of the language that transforms a
+-- thing: its text before and after the thing.
 motion :: Gen (Transformation, Bool, (Text, Text))
 motion = do
   a <- written (-200) 200
@@ -514,8 +531,8 @@ motion = do
       )
     ]
 
--- | Checks that segments, transformed, follow others from the same start to the same end. Either
--- chain is within 10⁻⁵ mm of its curve.
+-- | Checks that the images of some segments follow others from the same start to the same end. The
+-- segments of both are within 10⁻⁵ mm of their exact curves.
 along :: Transformation -> [Double] -> [Segment] -> [Segment] -> Property
 along s ts before after =
   conjoin
@@ -536,6 +553,7 @@ along s ts before after =
 
 -- Programs
 
+-- | The first statements of a program, with a cutter of this radius in mm.
 header :: Double -> Text
 header r =
   "part p\ntool mill(diameter "

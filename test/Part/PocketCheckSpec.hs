@@ -1,4 +1,4 @@
--- | Pockets in the evaluated part.
+-- | Pockets in the evaluated part, and winding numbers.
 module Part.PocketCheckSpec (spec) where
 
 import Base.Quantity (Mm (..), Rad (..))
@@ -55,7 +55,7 @@ spec = do
     it "refuses rest material unless it is allowed" $
       fmap (Part.rest . Part.wall) (pocketOf ["pocket edge step 4 { }"])
         `shouldBe` Just Part.Refused
-    it "may be called pocket" $
+    it "may have an outline with the name pocket" $
       fmap
         Part.stepover
         (pocketOf ["contour pocket closed { ccw circle((0, 0), 40) }", "pocket pocket step 4 { }"])
@@ -71,7 +71,7 @@ spec = do
             operations ["mill edge inside { rest allowed }", "mill edge inside { }"]
       ]
         `shouldBe` [Part.Allowed, Part.Refused]
-  describe "winding" $ do
+  describe "the winding number" $ do
     prop
       "is the same on the chord of an arc as next to it (catches an arc that passes a point of its \
       \chord on the wrong side)"
@@ -96,9 +96,10 @@ spec = do
                 === if isReversed
                   then -1
                   else 1
-    -- Catches an arc that counts like its chord.
+    -- Catches an arc that is counted like its chord.
     prop
-      "is that of many chords (catches the segment of a circle forgotten, or on the wrong side)"
+      "is that of many chords (catches a circular segment that is left out, or added on the wrong \
+      \side of its chord)"
       $ forAll closedCase $ \c ->
         forAll
           ((,,,) <$> choose (0, 1000) <*> choose (0, 1) <*> choose (-8, 8) <*> choose (-8, 8))
@@ -137,6 +138,7 @@ pocketOf statements = case [p | Pocket (Located _ p) <- operations statements] o
   [p] -> Just p
   _ -> Nothing
 
+-- | The operations of a program with these statements after a common head.
 operations :: [Text] -> [Operation]
 operations statements =
   case Compile.evaluate [] (LoadedProgram.fromText "pocket.part" text) of

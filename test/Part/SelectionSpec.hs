@@ -1,6 +1,7 @@
--- | Laws of the choice among several answers: it is the same when the drawing is turned and moved,
--- and the opposite side in a mirror. A random drawing and its image are built in the language
--- itself; the program asserts that the answers agree, and the reports are the same.
+-- | Laws of the choice among several answers. When a drawing is rotated and moved, the choice
+-- selects the image of the answer. After a reflection it does so with left and right exchanged. A
+-- random drawing and its image are built in the language itself. The program asserts that the
+-- answers agree, and the reports must be the same.
 module Part.SelectionSpec (spec) where
 
 import Base.Result qualified as Result
@@ -17,8 +18,8 @@ import Test.QuickCheck
 spec :: Spec
 spec =
   describe
-    "an answer turns and moves with the drawing; in a mirror left and right change places (catches \
-    \a choice that looks at the axes)"
+    "an answer is rotated and moved with the drawing; a reflection exchanges left and right \
+    \(catches a choice that depends on the axes)"
     $ mapM_ law groups
   where
     law (group, kind, calls) =
@@ -41,7 +42,8 @@ spec =
 -- | The result of a construction.
 data Kind = Points | Lines | Circles
 
--- | Groups of constructions with their results. Names of the drawing end with #.
+-- | Groups of constructions: a title, the kind of their results, and the calls. The character # in
+-- a name is replaced by the number of the drawing.
 groups :: [(String, Kind, [Text])]
 groups =
   [ ( "intersection, with every choice",
@@ -135,13 +137,14 @@ turning =
   (\a x y -> "moved(rotated(x, " <> tenths a <> " deg), (" <> tenths x <> ", " <> tenths y <> "))")
     <$> choose (0, 3600) <*> choose (-500, 500) <*> choose (-500, 500)
 
--- | A mirror, as a call.
+-- | A reflection, as a call.
 mirroring :: Gen Text
 mirroring =
   (\a x -> "mirrored(x, line((" <> tenths x <> ", 0), " <> tenths a <> " deg))")
     <$> choose (0, 3600) <*> choose (-500, 500)
 
--- | The image of a drawing under a call.
+-- | The statements that define the image of drawing 0, with a number and the call that transforms
+-- it.
 images :: Int -> Text -> Text
 images n call =
   Text.unlines
@@ -154,6 +157,7 @@ images n call =
 number :: Int -> Text
 number = Text.pack . show
 
+-- | A number of tenths as a decimal number.
 tenths :: Int -> Text
 tenths n =
   (if n < 0 then "-" else "")
@@ -161,8 +165,8 @@ tenths n =
     <> "."
     <> Text.pack (show (abs n `mod` 10))
 
--- | An expression for the mirrored drawing: left and right are exchanged. A perpendicular still
--- turns to the left.
+-- | The expression for the reflected drawing, with left and right exchanged. A perpendicular always
+-- points to the left of its line, so the expression reverses it.
 exchanged :: Text -> Text
 exchanged =
   Text.replace "perpendicular(l#, p#)" "reversed(perpendicular(l#, p#))"
@@ -170,10 +174,11 @@ exchanged =
     . Text.replace "left" "right"
     . Text.replace "right" "LEFT"
 
+-- | The statement that defines the answer for the drawing with this number.
 answer :: Int -> Text -> Text
 answer n e = "let answer" <> number n <> " = " <> Text.replace "#" (number n) e
 
--- | Assertions that an answer is the image of the first one.
+-- | Assertions that the answer with this number is the image of answer 0.
 same :: Kind -> Int -> Text
 same kind n = Text.unlines $ case kind of
   Points -> ["assert distance(" <> there <> ", " <> image <> ") < 0.0001"]
@@ -194,6 +199,7 @@ same kind n = Text.unlines $ case kind of
     there = "answer" <> number n
     image = "image" <> number n <> "(answer0)"
 
+-- | The codes of the errors in a program of these parts.
 codesOf :: [Text] -> [ReportCode]
 codesOf parts = sort (map Report.code (Result.errors (Compile.analyse [] loaded)))
   where

@@ -31,12 +31,14 @@ import Toolpath.Toolpath qualified as Toolpath
 spec :: Spec
 spec = do
   describe "similarities" $ do
-    it "one after the other are one (catches angles that are added across a mirror)" $
-      property $
+    it
+      "compose to one similarity (catches angles that are added although one similarity is a \
+      \reflection)"
+      $ property $
         forAll ((,,) <$> similarity <*> similarity <*> somePoint) $ \(a, b, p) ->
           Transformation.point b (Transformation.point a p)
             `shouldBeNear` Transformation.point (Transformation.after b a) p
-    it "move the middle of an arc with it (catches an arc that keeps its sense in a mirror)" $
+    it "move the points of an arc with it (catches an arc that keeps its sense in a reflection)" $
       property $
         forAll ((,) <$> similarity <*> Generate.closedCase) $ \(s, c) ->
           conjoin
@@ -47,8 +49,8 @@ spec = do
             ]
   describe "the toolpath" $ do
     it
-      "of a milling transformed is the toolpath transformed (catches a side that a mirror does not \
-      \swap, a lead on the other side)"
+      "of a transformed milling is the transformed toolpath (catches a side that a reflection does \
+      \not swap, and a lead on the wrong side)"
       $ property $
         forAll ((,) <$> motion <*> (Generate.settings <*> (millingOf <$> Generate.closedCase))) $
           \(s, job) ->
@@ -61,7 +63,7 @@ spec = do
                 conjoin (zipWith (sameMove s) before after) .&&. length before === length after
               (Nothing, Nothing) -> property True
               (a, b) -> counterexample (show (fmap length a, fmap length b)) False
-    it "with an allowance is that of a larger cutter (catches an allowance taken off)" $
+    it "with an allowance is that of a larger cutter (catches an allowance that is subtracted)" $
       property $
         forAll ((,) <$> Generate.closedCase <*> choose (0.01, 0.4)) $ \(c, d) ->
           let job = millingOf c
@@ -69,8 +71,8 @@ spec = do
            in fmap (map Toolpath.segment) (movesOf job {Part.allowances = Mm d :| []})
                 === fmap (map Toolpath.segment) (movesOf job {Part.radius = Mm (r + d)})
     it
-      "climbs with the material on the right, whatever the direction of the contour (catches the \
-      \senses exchanged)"
+      "climbs with the material on the right, whatever the direction of the contour (catches climb \
+      \and conventional milling exchanged)"
       $ property $
         forAll Generate.closedCase $ \c ->
           let job =
@@ -85,8 +87,9 @@ spec = do
                         Toolpath.segment (longest moves)
                    in counterexample (show g) (materialRight c g)
   describe "a contour" $ do
-    it "begun elsewhere is the same contour (catches a segment lost or doubled)" $
-      property $
+    it
+      "that begins elsewhere is the same contour (catches a segment that is lost or occurs twice)"
+      $ property $
         forAll ((,) <$> Generate.closedCase <*> somePoint) $ \(c, p) ->
           let before = Part.contour (millingOf c)
               after = ContourElement.startingNear p before
@@ -115,8 +118,8 @@ spec = do
                 (show (begin, reached, nearest))
                 (abs (total before - total after) < 1e-6 && joined && reached <= nearest + 1e-6)
     it
-      "built on transformed points is the contour transformed (catches a construction that looks \
-      \at the axes)"
+      "built on transformed points is the transformed contour (catches a construction that depends \
+      \on the axes)"
       $ property $
         forAll ((,) <$> angles <*> corners) $ \((a, x, y), ps) ->
           let plain = contourOf id ps
@@ -161,6 +164,7 @@ spec = do
 here :: a -> Located a
 here = Located (Region 0 0)
 
+-- | Two points less than 10⁻⁶ mm apart.
 shouldBeNear :: Point -> Point -> Property
 shouldBeNear a b = let Mm d = Vec.distance a b in counterexample (show (a, b)) (d < 1e-6)
 
@@ -169,7 +173,7 @@ shouldBeNear a b = let Mm d = Vec.distance a b in counterexample (show (a, b)) (
 somePoint :: Gen Point
 somePoint = Vec.point <$> choose (-200, 200) <*> choose (-200, 200)
 
--- | A motion of the plane, mirrored or not.
+-- | A translation, a rotation, a reflection, or a composition of these.
 motion :: Gen Transformation
 motion =
   oneof
@@ -179,6 +183,7 @@ motion =
       Transformation.after <$> motion <*> motion
     ]
 
+-- | A motion, a scaling, or a composition of both.
 similarity :: Gen Transformation
 similarity =
   oneof
@@ -195,14 +200,16 @@ segmentsOf c = map Part.segment (NonEmpty.toList (Part.elements (Part.contour (m
 millingOf :: Case -> Milling
 millingOf = Generate.job
 
+-- | The moves of a milling, whose cutter begins at the start of the contour.
 movesOf :: Milling -> Maybe [Toolpath.Move]
 movesOf job = movesOfOperation (beginning job) (Mill (here job))
 
--- | The start of the contour.
+-- | The start of the contour that is milled.
 beginning :: Milling -> Point
 beginning job = Segment.start (Part.segment (NonEmpty.head (Part.elements (Part.contour job))))
 
--- | The cuts and leads of an operation. Approaches that gouge are ignored.
+-- | The cuts and retracts of an operation, with their leads. The cutter begins at the point.
+-- Errors, such as an approach that gouges, are ignored.
 movesOfOperation :: Point -> Operation -> Maybe [Toolpath.Move]
 movesOfOperation at operation =
   fmap
@@ -213,15 +220,17 @@ movesOfOperation at operation =
       Toolpath.Cutting {Toolpath.cut, Toolpath.retract} -> NonEmpty.toList cut <> retract
       _ -> []
 
+-- | The second move is the image of the first one.
 sameMove :: Transformation -> Toolpath.Move -> Toolpath.Move -> Property
 sameMove s a b = sameSegment s (Toolpath.segment a) (Toolpath.segment b)
 
+-- | The second segment is the image of the first one, at four of its points.
 sameSegment :: Transformation -> Segment -> Segment -> Property
 sameSegment s a b =
   conjoin
     [Segment.at t b `shouldBeNear` Transformation.point s (Segment.at t a) | t <- [0, 0.3, 0.7, 1]]
 
--- | Tells whether the cutter is outside of the contour.
+-- | Is the cutter outside of the contour?
 isOutside :: Case -> Bool
 isOutside = Generate.outside
 
@@ -230,7 +239,7 @@ longest moves = snd (maximum' [(l, m) | m <- moves, let Mm l = Segment.length (T
   where
     maximum' = foldr1 (\a b -> if fst a >= fst b then a else b)
 
--- | Tells whether the contour lies to the right of the middle of a cut.
+-- | Does the contour lie to the right of the middle of a cut?
 materialRight :: Case -> Segment -> Bool
 materialRight c g = Vec.cross (Segment.directionAt 0.5 g) (Vec.to middle foot) < 0
   where
@@ -249,10 +258,11 @@ materialRight c g = Vec.cross (Segment.directionAt 0.5 g) (Vec.to middle foot) <
 
 -- Programs
 
+-- | An angle in degrees, and the two components of a vector in mm.
 angles :: Gen (Double, Double, Double)
 angles = (,,) <$> written 400 <*> written 300 <*> written 300
   where
-    -- Three decimals, as written.
+    -- At most three decimals, so that a program can contain the number exactly.
     written n = (/ 1000) . fromIntegral <$> choose (-1000 * n, 1000 * n :: Int)
 
 -- | Corners of a counter-clockwise polygon, and a link or modifier for each.

@@ -1,4 +1,4 @@
--- | A new layout as a change of the differing lines.
+-- | The change from a text to its formatted text.
 module Query.FormattingSpec (spec) where
 
 import Base.Region (Region (..))
@@ -21,6 +21,7 @@ spec = do
     Formatting.change "a\nb  \nc\n" "a\nb\nc\n"
       `shouldBe` Just Change {region = Region 2 6, newText = "b\n"}
 
+-- | The text after a change.
 applied :: Text -> Change -> Text
 applied old (Change (Region from to) new) = Text.take from old <> new <> Text.drop to old
 

@@ -23,19 +23,19 @@ spec = do
       hovered "let f(x) = x\nlet b = ^f(1)\n" `shouldBe` Just ("f", Nothing)
       hovered "let f(x) = ^x\n" `shouldBe` Just ("x", Nothing)
       hovered "let b = ^sqrt(4)\n" `shouldBe` Just ("sqrt", Nothing)
-    it "has no answer for numbers, words of the language and unknown names" $
+    it "has no answer for numbers, keywords and unknown names" $
       map hovered ["let b = ^4\n", "^let b = 4\n", "let b = ^c\n"]
         `shouldBe` [Nothing, Nothing, Nothing]
   describe "definition" $ do
     it "leads from a use to the defined name" $
       defined "let a = 1\nlet b = ^a\n" `shouldBe` Just "a@4"
-    it "leads to the parameter within a function, and to the definition above outside" $ do
+    it "leads to the parameter inside a function, and to the statement above outside of it" $ do
       defined "let a = 1\nlet f(a) = ^a\n" `shouldBe` Just "a@16"
       defined "let f(a) = a\nlet a = 1\nlet b = ^a\n" `shouldBe` Just "a@17"
     it "leads into the list of a repetition" $
       defined "contour k closed {\n  for a in [1] {\n    cw circle((^a, 0), 1)\n  }\n}\n"
         `shouldBe` Just "a@25"
-    it "names of the language have none" $
+    it "has no answer for names of the language" $
       defined "let b = ^pi\n" `shouldBe` Nothing
   describe "while the text is broken" $ do
     it "a definition with a syntax error keeps its last meaning" $ do
@@ -43,20 +43,23 @@ spec = do
           text = header <> "let aa = (41 mm\nlet b = aa\n"
       (Name.hover (look text) (Just (look sound)) (offsetOf "= aa" text + 2) >>= value)
         `shouldBe` Just "41 mm"
-    it "the last text without errors answers for names outside the change" $ do
+    it "names outside the change keep their definitions in the last text without errors" $ do
       let sound = header <> "let aa = 1\nlet f(x) = x + aa\nlet c = 2\n"
           text = header <> "let aa = 1\nlet f(x = x + aa\nlet c = 2\n"
           asked = Name.definition (look text) (Just (look sound)) (offsetOf "+ aa" text + 2)
       fmap region asked `shouldBe` Just (Region (offsetOf "aa" text) (offsetOf "aa" text + 2))
 
+-- | The first statements of a program.
 header :: Text
 header =
   "part p\nmachine lkp-01f\ntool mill(diameter 2 mm)\nfeed 60 mm/min\ntolerance 0.02 mm\nfrom (0, \
   \0)\n"
 
+-- | The snapshot of a text.
 look :: Text -> Snapshot
 look = Snapshot.take (Snapshot.checkWith []) . LoadedProgram.fromText "a.part"
 
+-- | The offset of the first occurrence of a word in a text.
 offsetOf :: Text -> Text -> Int
 offsetOf word = Text.length . fst . Text.breakOn word
 

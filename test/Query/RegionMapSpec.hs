@@ -24,18 +24,19 @@ spec = do
           | from < to ->
             RegionMap.back (RegionMap.between old new) there === Just from
         _ -> property True
-  prop "in the same text every region stays" . forAll text' $ \text ->
+  prop "between equal texts every region is unchanged" . forAll text' $ \text ->
     forAll (stretch text) $ \region ->
       RegionMap.forward (RegionMap.between text text) region === Just region
-  it "a word that grows is another word" $
+  it "a word that becomes longer has no counterpart" $
     RegionMap.forward (RegionMap.between "let ab = 1" "let abc = 1") (Region 4 6) `shouldBe` Nothing
-  it "the words beside it are the same" $
+  it "a word after a word that becomes longer is moved" $
     RegionMap.forward (RegionMap.between "let ab = cd" "let abc = cd") (Region 9 11)
       `shouldBe` Just (Region 10 12)
 
 text' :: Gen Text
 text' = Text.pack <$> listOf (elements "ab 🙂\n")
 
+-- | A region of a text.
 stretch :: Text -> Gen Region
 stretch text = do
   from <- chooseInt (0, Text.length text)

@@ -22,7 +22,7 @@ spec = do
                    (Contour', "outline", ""),
                    (Machining, "mill outline outside", "")
                  ]
-  it "lists a definition whose other half is missing" $
+  it "lists a definition with a syntax error" $
     map name (outline "part p\nlet a = (1,\nlet b = 2\n") `shouldBe` ["p", "a", "b"]
   it "every name lies within its statement" $ do
     text <- readText "examples/flange.part"
@@ -31,6 +31,7 @@ spec = do
            in start (whole s) <= from && to <= end (whole s)
     filter (not . isWithin) (outline text) `shouldBe` []
 
+-- | The symbols of a program.
 outline :: Text -> [DocumentSymbol]
 outline text =
   Symbol.symbols (Snapshot.take (Snapshot.checkWith []) (LoadedProgram.fromText "a.part" text))
