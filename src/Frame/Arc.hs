@@ -1,10 +1,10 @@
 -- | Arcs in whole pulses: the frames of an exact arc on a machine with circular interpolation.
 --
--- The ends of an arc are rounded as absolute positions. Its centre becomes the grid point about
--- which the rounded arc deviates least from the exact one: candidates are the grid points near the
--- exact centre, and near the point that is equally far from both rounded ends. An arc for which no
--- grid point will do is halved. If that does not help, or if its centre does not fit its field, it
--- is divided into chords.
+-- A grid point is a position in whole pulses. The ends of an arc are rounded to the nearest grid
+-- points. Its centre becomes the grid point about which the rounded arc deviates least from the
+-- exact one. Candidates are the grid points near the exact centre, and near the point that is
+-- equally far from both rounded ends. When all of them exceed the tolerance, the arc is halved.
+-- When halving does not help, or the centre does not fit its field, it is divided into chords.
 --
 -- Read "Frame.Arc.Context" first. "Frame.Arc.Centre" lists the grid points, "Frame.Arc.Attempt"
 -- chooses among them, "Frame.Arc.Deviation" measures, "Frame.Arc.Quadrant" cuts an arc at the axes.
@@ -37,8 +37,9 @@ import Geometry.Segment (Segment (Straight))
 import Geometry.Segment qualified as Segment
 import Geometry.Vec (Point)
 
--- | Steps along a segment, from its rounded beginning to its rounded end. Given are the ends of the
--- chords of a segment from a rounded position on, for parts that cannot be arcs.
+-- | Steps along a segment at a constant height. They begin at the segment's rounded start, the
+-- given position in pulses, and end at its rounded end. The function divides parts that cannot be
+-- arcs into chords: it takes the rounded start of a part, and returns the ends of its chords.
 steps ::
   Grid ->
   ArcTolerance ->
@@ -54,7 +55,7 @@ steps grid tolerance chordsOf height =
 mostHalvings :: Int
 mostHalvings = 5
 
--- | Steps along a segment that may still be halved a number of times.
+-- | Steps along a segment, which may be halved at most the given number of times.
 halved :: Int -> ArcContext -> Pulses3 -> Segment -> [ArcStep]
 halved halvings context begin s = case s of
   Straight _ _ -> asLine
@@ -81,8 +82,8 @@ halved halvings context begin s = case s of
           middle = Context.roundedPoint context (Segment.end front)
        in halved (halvings - 1) context begin front <> halved (halvings - 1) context middle back
 
--- | Steps of a rounded arc about the best of the candidates for its centre. Those near the exact
--- centre have priority.
+-- | Steps of a rounded arc about the best grid point. Grid points near the exact centre have
+-- priority. Nothing when all candidates exceed the tolerance.
 asArcs :: ArcContext -> RoundedArc -> Maybe [ArcStep]
 asArcs context arc =
   listToMaybe
@@ -91,8 +92,8 @@ asArcs context arc =
         [Centre.nearCentres context arc, Centre.remoteCentres context arc]
     )
 
--- | True for an arc whose centre fits its field from the beginning and from every other point of
--- the arc. A centre for which this is false could be used for some parts of the arc only.
+-- | True for an arc whose centre fits its field, whether it is counted from the arc's start or from
+-- any other point of the arc. Otherwise only some parts of the arc could be frames.
 isCentreFitting :: ArcContext -> Pulses3 -> Point -> Mm -> Bool
 isCentreFitting context (Pulses3 x y _) centre (Mm r) =
   abs (i - x) < largest

@@ -1,5 +1,6 @@
--- | Curves on machines with circular interpolation. The arcs in a run approximate its curve to
--- 'Tolerance.curve'. Far fewer arcs are enough within the tolerance of a job.
+-- | Curves on machines with circular interpolation. A run, the moves along one curve, consists of
+-- arcs and lines that approximate the curve to 'Tolerance.curve'. Within the tolerance of a job far
+-- fewer arcs are enough; this module fits them.
 module Frame.ArcFitting
   ( RunPart (..),
     divisions,
@@ -21,9 +22,9 @@ import Machine.Machine (Axis (..), Machine)
 import Machine.Machine qualified as Machine
 import Toolpath.Toolpath (Move (segment))
 
--- | Largest distance of the fitted arcs from the curve: the smaller one of the two bounds. If that
--- is nearly 0, as in a band on one side of the contour, it is 'leastShare' of a pulse. The excess
--- is then subtracted from the error allowed for rounding, see 'roundingAllowance'.
+-- | Largest distance of the fitted arcs from the curve: the smaller one of the bounds on both
+-- sides, but at least 'leastShare' of a pulse. The smaller bound is nearly 0 for a tolerance on one
+-- side of the contour only. Then 'roundingAllowance' is smaller by the excess.
 fitTolerance :: Machine -> Bounds -> Mm
 fitTolerance machine bounds =
   max (times leastShare (Machine.planeResolution machine)) (min (left bounds) (right bounds))
@@ -32,7 +33,8 @@ fitTolerance machine bounds =
 leastShare :: Double
 leastShare = 0.1
 
--- | Error allowed for rounding: one pulse, less what the fitted arcs exceed the bounds by.
+-- | Error allowed for rounding: one pulse, less the amount by which the fitted arcs may exceed the
+-- bounds.
 roundingAllowance :: Machine -> Bounds -> Mm
 roundingAllowance machine bounds =
   minus
@@ -47,10 +49,10 @@ data RunPart
     Arcs (NonEmpty Segment)
   deriving stock (Eq, Show)
 
--- | Alternative divisions of a level run into parts, of which the one with the fewest frames is to
--- be taken. The first has only fitted arcs. If the centres of some arcs of the run do not fit their
--- fields, the second has chords for these moves and fitted arcs for the others, and the third has
--- chords for the whole run.
+-- | Alternative divisions of a level run into parts; the caller chooses the one with the fewest
+-- frames. The first consists of fitted arcs only. If the centres of some arcs of the run do not fit
+-- their fields, the second has chords for these moves and fitted arcs for the others, and the third
+-- has chords for the whole run.
 divisions :: Machine -> Bounds -> NonEmpty Move -> NonEmpty [RunPart]
 divisions machine bounds run
   | or kinds && (any isRemoteBend fitted || length fitted <= mostTried) =
@@ -60,23 +62,25 @@ divisions machine bounds run
   where
     fitted = fit run
     moves = NonEmpty.toList run
-    -- A line is treated like the arc before it.
+    -- True for moves that become chords in the second division. A line becomes what the arc before
+    -- it becomes.
     kinds = drop 1 (scanl (\before m -> fromMaybe before (isRemote (segment m))) False moves)
     part ms@((isRemotePart, _) :| _)
       | isRemotePart = Chords (fmap snd ms)
       | otherwise = Arcs (fit (fmap snd ms))
     fit = arcs (fitTolerance machine bounds)
-    -- True for an arc whose centre does not fit its field; none for a line.
+    -- True for an arc whose centre does not fit its field; Nothing for a line.
     isRemote s = case s of
       Straight _ _ -> Nothing
       Arc {start, centre} -> Just (Segment.radius centre start >= largestRadius)
-    -- An arc that deviates less from its chord becomes a line, wherever its centre is.
+    -- True for a fitted arc whose centre does not fit its field, unless its sagitta is so small
+    -- that it becomes a line.
     isRemoteBend s =
       isRemote s == Just True && Segment.sagitta s >= times 0.5 (Machine.planeResolution machine)
-    -- Lower bound for the number of chords, against that for the frames of the fitted arcs. A chord
-    -- deviates from a fitted arc by at most both bounds and twice the error of the fit. A chord
-    -- across the joint of two arcs counts for both. A remote bend is divided into chords itself,
-    -- which deviate by a fraction of a pulse.
+    -- Compares a lower bound of the number of chords of the whole run with the number of frames of
+    -- the first division. A chord deviates from a fitted arc by at most the sum of both bounds and
+    -- twice the error of the fit. A chord across the joint of two arcs counts for both. In the
+    -- first division a remote bend becomes chords, which deviate by a fraction of a pulse.
     mayNeedFewerChords =
       sum (fmap (leastChords band) fitted) - length fitted
         < sum
@@ -88,7 +92,7 @@ divisions machine bounds run
        in times (fromIntegral n) (minimum [Machine.resolutionOf machine axis | axis <- [X, Y]])
 
 -- | Largest number of fitted arcs for which other divisions are tried although the centres of all
--- fitted arcs fit. With more arcs they would take longer than everything else.
+-- fitted arcs fit. With more arcs the attempts would take longer than the rest of the compilation.
 mostTried :: Int
 mostTried = 1000
 
@@ -101,7 +105,8 @@ leastChords sagitta s = case s of
     let Mm r = Segment.radius centre start
      in max 1 (ceiling (abs a / (2 * acos (max (-1) (1 - sagitta / r)))))
 
--- | Arcs and lines within a distance of a run, with the same ends; never more than the run has.
+-- | Arcs and lines within a distance of a run, with the same ends, and at most as many as the run
+-- has.
 arcs :: Mm -> NonEmpty Move -> NonEmpty Segment
 arcs tolerance run =
   case NonEmpty.nonEmpty (filter ((> Mm 0) . Segment.length) (map segment (NonEmpty.toList run))) of

@@ -1,12 +1,13 @@
--- | Braking sections: frames that slow down before a lower feed, for machines that do not do so by
--- themselves.
+-- | Braking sections: frames that slow down before a lower feed, for machines that do not slow down
+-- by themselves.
 --
--- To slow down from the feed v to v₂ a machine needs the length @(v² − v₂²) / 2a@. So at the
--- distance s before a lower feed v₂ it may run at @√(v₂² + 2as)@ at most. Where a move is faster,
--- it is cut, and the frames from there to the lower feed are marked as braking.
+-- With the deceleration a, a machine needs the length @(v² − v₂²) / 2a@ to slow down from the feed
+-- v to v₂. At the distance s before a lower feed v₂ it may run at @√(v₂² + 2as)@ at most. A faster
+-- move is cut where it reaches this limit, and the frames from there to the lower feed are marked
+-- as braking.
 --
--- A machine without such a mark has slow frames only. The program asks for them at the end of an
--- element, and they take the length @v² / 2a@ at the lowest feed code.
+-- On a machine whose frames have no such mark, the end of a move can only run at the lowest feed
+-- code, over the length @v² / 2a@. The program asks for this at the ends of elements.
 module Frame.Braking
   ( applied,
   )
@@ -34,14 +35,15 @@ applied machine instructions = case brakingForm (Machine.braking machine) of
   SlowFrames -> concatMap (slowedAtEnd machine) instructions
   BrakedFrames least -> withBrakedFrames machine least instructions
 
--- | Feed of a move in mm/s as the machine gives it; the feed asked for on machines whose codes
--- depend on the direction.
+-- | Feed of a move in mm/s, as the machine gives it. On machines whose feed depends on the
+-- direction it is the feed asked for.
 obtained :: Machine -> Move -> Double
 obtained machine m = case pace m of
   Rapid -> let Feed v = FeedCode.rapidFeed machine in v / 60
   At (Located _ asked) -> let Feed v = nearestFeed machine asked in v / 60
 
--- | Feed that the machine gives for the feed asked for, limited to its range.
+-- | Feed that the machine gives for the feed asked for, limited to the machine's range. On machines
+-- whose feed depends on the direction it is the feed asked for.
 nearestFeed :: Machine -> Feed -> Feed
 nearestFeed machine (Feed asked) = case Machine.feedMeasure (Machine.feeds machine) of
   LeadingAxis -> Feed asked
@@ -82,7 +84,7 @@ divided instruction parts = case instruction of
 
 -- Frames that are marked as braking ---------------------------------------------------------------
 
--- | Limit that the later moves set at some point of the toolpath.
+-- | Limit that the moves after a point of the toolpath set for the feed there.
 data FeedLimit = FeedLimit
   { -- | square of the highest feed there, in (mm/s)²
     square :: Double,
@@ -96,8 +98,8 @@ data FeedLimit = FeedLimit
 -- mm/s at the end of the section, the number of the section.
 data BrakingEnd = BrakingEnd {brakingLength :: Double, to :: Double, within :: Int}
 
--- | Instructions with the marked frames before every lower feed. At the end of an element with
--- braking, and at the end of the program, the feed has to come down to @least@.
+-- | Instructions with the braking sections before every lower feed divided off. At the end of an
+-- element with braking, and at the end of the program, the feed has to come down to @least@.
 withBrakedFrames :: Machine -> Feed -> [Instruction] -> [Instruction]
 withBrakedFrames machine least instructions = concatMap cut marked
   where
@@ -137,8 +139,8 @@ withBrakedFrames machine least instructions = concatMap cut marked
 brakedAtEnd :: NonEmpty Move -> [Move]
 brakedAtEnd ms = map Toolpath.withoutBraking (NonEmpty.init ms) <> [NonEmpty.last ms]
 
--- | Braking at the end of a move, from the limit after it, and the limit before it. The third
--- argument is the feed in mm/s at the end of an element with braking.
+-- | From the limit at the end of a move: the limit at its start, and the braking section at its
+-- end. The second argument is the feed in mm/s at the end of an element with braking.
 mark :: Machine -> Double -> FeedLimit -> Move -> (FeedLimit, (Move, BrakingEnd))
 mark machine slow after m
   | l <= 0 = (limit, (m, BrakingEnd 0 (target limit) (section limit)))

@@ -54,22 +54,23 @@ chordTolerance machine job = \run ->
     then onCurve
     else segmentTolerance side job (segment (NonEmpty.head run))
   where
-    -- Both are the same for all runs of a job, so they are computed once per job.
+    -- These two values are the same for all runs of a job, so they are computed once per job.
     side = fromRight Nothing (Toolpath.leadingSide job)
     onCurve = OnCurve (curveBounds machine side job)
 
--- | Chord error that remains of a tolerance when the ends of the chords are rounded to whole
--- pulses: rounding moves an end by up to half the diagonal of a pulse. At least 0; a relative
--- 'Tolerance.equal' is subtracted for the rounding of doubles.
+-- | Chord error that a tolerance allows when the ends of the chords are rounded to whole pulses:
+-- the tolerance less half the diagonal of a pulse, but at least 0. The result is reduced by the
+-- share 'Tolerance.equal' for the rounding of doubles.
 remainder :: Machine -> Mm -> Mm
 remainder machine tolerance =
   times
     (1 - Tolerance.equal)
     (max (Mm 0) (minus tolerance (times (sqrt 0.5) (Machine.planeResolution machine))))
 
--- | Bounds for the chords of a curve. A chord inside of the material has the curve on the cutter's
--- side. The arcs of a curve are approximations themselves, so 'Tolerance.curve' is subtracted
--- first. Heights keep the smaller of the two side bounds, but need not be finer than a pulse.
+-- | Bounds for the chords of a curve. Where a chord lies inside of the material, the curve is on
+-- the cutter's side of it. The arcs of a curve are approximations themselves, so 'Tolerance.curve'
+-- is subtracted from the tolerance. Heights have the smaller one of the bounds to the left and to
+-- the right, but at least a pulse.
 curveBounds :: Machine -> Maybe Carrier.Side -> Milling -> Chording.Bounds
 curveBounds machine side job =
   Chording.Bounds
@@ -87,8 +88,8 @@ curveBounds machine side job =
       (Part.Band a b, Nothing) -> let d = sideless a b in (less d, less d)
     less d = max (Mm 0) (minus d Tolerance.curve)
 
--- | Allowed chord error of one segment. In a band the two sides of an arc have different
--- tolerances, and which of them is towards its centre depends on the side of the cutter.
+-- | Allowed chord error of one segment. A band has different tolerances into the material and
+-- out of it. The cutter's side decides which of the two is towards the centre of an arc.
 segmentTolerance :: Maybe Carrier.Side -> Milling -> Segment -> ChordTolerance
 segmentTolerance leading job s = case (Part.tolerance job, s) of
   (Part.OnPath d, _) -> Sagitta d
@@ -101,13 +102,13 @@ segmentTolerance leading job s = case (Part.tolerance job, s) of
       | otherwise -> ArcBand a b
     Nothing -> Sagitta (sideless a b)
 
--- | Tolerance for both sides where the side of the cutter is unknown: the smaller side of a band,
--- or the other one if that is 0.
+-- | Tolerance where the side of the cutter is unknown: the smaller one of a band's two tolerances,
+-- or the larger one if the smaller one is 0.
 sideless :: Mm -> Mm -> Mm
 sideless a b = if a > Mm 0 && b > Mm 0 then min a b else max a b
 
--- | Chord error raised to what the rounding of the ends leaves of one pulse, where the tolerance
--- asks for less. A band with one side that wide stays as it is.
+-- | Chord error, raised to the one that 'remainder' gives for a tolerance of one pulse, if it is
+-- smaller. A band stays as it is when one of its sides is that wide.
 raisedToRounding :: Machine -> ChordTolerance -> ChordTolerance
 raisedToRounding machine tolerance = case tolerance of
   Sagitta y -> Sagitta (max least y)
@@ -177,8 +178,8 @@ bandChords machine toward away s = case s of
           centre
 
 -- | Number of frames for a run, from the ends of its chords: each chord is split to fit the fields
--- of a frame. The number may be too small by one for each chord. The given ends are read only for a
--- curve.
+-- of a frame. The number may be too small by one for each chord. Only for a curve are the given
+-- ends used.
 frameCount :: Machine -> ChordTolerance -> NonEmpty Move -> [PathPosition] -> Int
 frameCount machine tolerance run chordEnds = case tolerance of
   Sagitta y -> equalChords y
@@ -215,7 +216,7 @@ chordCount machine (Mm y) segment = case segment of
         byPulse = ceiling (l / pulse)
      in max 1 (if step * r < pulse then byPulse else bySagitta)
 
--- | Share of a step that may be missing in a count of steps. Without it a step that fits a whole
--- number of times would give one chord more by the rounding of doubles.
+-- | Share of a step that is ignored when steps are counted. Without it the rounding of doubles
+-- would add a chord where a step fits a whole number of times.
 countSlack :: Double
 countSlack = 1e-9

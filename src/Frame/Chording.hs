@@ -1,10 +1,10 @@
 -- | Longest chords along a run of moves. A run is a curve without corners that consists of several
--- lines and arcs. Each chord begins where the last one ended and reaches as far along the run as
+-- lines and arcs. Each chord begins where the one before ends, and reaches as far along the run as
 -- the bounds allow, across any number of arcs.
 --
 -- The method is known from polyline simplification as cone intersection (Sklansky and Gonzalez,
 -- 1980). A chord has to pass every point of the run within the bounds, so each point leaves a
--- sector of directions for the chord. The chord can be continued as long as the intersection of
+-- sector of directions for the chord. The chord can be lengthened as long as the intersection of
 -- these sectors is not empty. An arc narrows the sector at its end and where its tangent is
 -- parallel to an edge of the sector; no points are sampled.
 --
@@ -36,9 +36,9 @@ data Bounds = Bounds
     left :: Mm,
     -- | to the right of the chord
     right :: Mm,
-    -- | above and below the chord, compared at equal shares of the length
+    -- | above and below the chord: between its height and the run's at the same share of the length
     rise :: Mm,
-    -- | length along the run that every chord may have, whatever the other bounds say
+    -- | length along the run that every chord may have, even if it exceeds the other bounds
     shortest :: Mm
   }
   deriving stock (Eq, Show)
@@ -73,9 +73,9 @@ data RunPoint = RunPoint {point :: Point, level :: Double, rest :: [MoveRest]}
 
 -- Choice of the chords ----------------------------------------------------------------------------
 
--- | Ends of the chords of a run; the end of the run itself is given. The thorough plans take
--- longer, and can save a chord only where the run bends to both sides. They are tried where one
--- chord less makes a difference.
+-- | Ends of the chords of a run; the last argument is the end of the run. The thorough plans take
+-- longer, and can save a chord only on a run that bends to both sides. They are tried when the
+-- chords are so few that one less matters.
 ends :: Int -> Bounds -> NonEmpty MoveRest -> RunPoint -> [RunPoint]
 ends limit bounds run final =
   if count > limit then widest chosen else kept <> equalised chosen kept others
@@ -110,9 +110,10 @@ mostEqualised = 256
 bisections :: Int
 bisections = 5
 
--- | Chords of nearly equal length in place of the @others@ at the end of a plan. Greedy chords are
--- as long as the bounds allow, so the last one is a short remainder. Bisection finds the tightest
--- limits that need no more chords; under these the last chord is about as long as the rest.
+-- | Chords of nearly equal length in place of @others@, the last chords of a plan; the chords
+-- before them are @kept@. Greedy chords are as long as the bounds allow, so the last one is a short
+-- remainder. Bisection finds the tightest limits that need no more chords. Under these limits the
+-- last chord is about as long as the others.
 equalised :: ChordPlan -> [RunPoint] -> [RunPoint] -> [RunPoint]
 equalised plan kept others = go bisections (1 - 1 / fromIntegral (length others)) 1 others
   where
@@ -131,17 +132,18 @@ bendsBothWays run = any (> 0) sweeps && any (< 0) sweeps
   where
     sweeps = [s | MoveRest {segment = Arc {sweep = Rad s}} <- NonEmpty.toList run]
 
--- | One way to divide a run into chords.
+-- | A division of a run into chords.
 data ChordPlan = ChordPlan
-  { begin :: RunPoint,
+  { -- | the start of the run
+    begin :: RunPoint,
     -- | ends of the chords under the full bounds
     widest :: [RunPoint],
     -- | ends of the chords from a point on, under limits of the given tightness (see 'limitsOf')
     chordsFrom :: Double -> RunPoint -> [RunPoint]
   }
 
--- | Plans for a run: with all ends on the run, and with ends beside it where the bounds differ. The
--- last argument turns the ends of a plan into those of the original run.
+-- | Plans for a run: with all ends on the run and, if the bounds differ, with ends beside it. The
+-- last argument converts the ends of chords on a reversed run into those of the original run.
 plans :: EndSearch -> Bounds -> NonEmpty MoveRest -> ([RunPoint] -> [RunPoint]) -> [ChordPlan]
 plans search bounds run restore =
   [ ChordPlan {begin, widest = chordsFrom 1 begin, chordsFrom}
@@ -172,17 +174,19 @@ reversed run =
 
 -- | Part of a move in which the end of a chord is looked for.
 data EndSearch
-  = -- | its end, or a point after a beginning that the chord can reach
+  = -- | its end; or points within it, if the chord can reach its start
     AtEnds
-  | -- | every point, also where the chord can reach neither the beginning nor the end
+  | -- | all points, even if the chord can reach neither its start nor its end
     Anywhere
   deriving stock (Eq)
 
 -- | Bounds in mm, made tighter by a common factor.
 data Limits = Limits
-  { leftOf :: Double,
+  { -- | largest distance of the run to the left of a chord
+    leftOf :: Double,
+    -- | largest distance of the run to the right of a chord
     rightOf :: Double,
-    -- | distance of the points where chords meet from the run, to the right
+    -- | distance from the run to the points where chords meet, positive to the right
     aside :: Double,
     -- | above and below the chord
     rising :: Double,
@@ -219,8 +223,8 @@ chords limits p
   | null (rest p) = []
   | otherwise = let next = furthest limits p in next : chords limits next
 
--- | End of a chord at fraction @t@ of the first move of a run. The run is given twice: by its first
--- move, and whole.
+-- | End of a chord at fraction @t@ of the first move of a run. The arguments are this move, the
+-- fraction, and the run.
 pointOn :: Limits -> MoveRest -> Double -> [MoveRest] -> RunPoint
 pointOn limits move t run =
   RunPoint
@@ -229,8 +233,8 @@ pointOn limits move t run =
       rest = if t >= 1 then drop 1 run else move {from = t} : drop 1 run
     }
 
--- | Point where chords meet at fraction @t@ of the first move of a run, from the point of the run
--- there: @aside@ to its right, but on the run at its end.
+-- | Point where two chords meet near fraction @t@ of the first move of a run. It lies 'aside' to
+-- the right of the run's point @on@ at this fraction. At the end of the run it is the run's end.
 meeting :: Limits -> MoveRest -> Double -> Point -> [MoveRest] -> Point
 meeting limits move t on run
   | t >= 1 && null (drop 1 run) || aside limits == 0 = on
@@ -257,30 +261,33 @@ advanced limits distance p = case rest p of
 
 -- The sector of directions ------------------------------------------------------------------------
 
--- | Beginning of a chord: the point, its height in mm, and the direction of the run there.
+-- | Start of a chord: the point, its height in mm, and the direction of the run there.
 data Viewpoint = Viewpoint {eye :: Point, eyeLevel :: Double, forward :: Vec}
 
--- | Directions that a chord can take from a viewpoint to pass the run within the limits, up to some
--- point of the run. Directions are angles in radians from 'forward', counter-clockwise.
+-- | Directions in which a chord from a viewpoint passes the run within the limits, up to some point
+-- of the run. Directions are angles in radians from 'forward', counter-clockwise.
 data Sector = Sector
-  { leastDirection :: Double,
+  { -- | the least and the largest of these directions
+    leastDirection :: Double,
     mostDirection :: Double,
     -- | slopes that keep the heights within the limits, in mm per mm along the run
     leastSlope :: Double,
     mostSlope :: Double,
-    -- | direction of the run at this point, and its extremes up to there
+    -- | direction of the run at this point, and its extremes up to this point
     heading :: Double,
     leastHeading :: Double,
     mostHeading :: Double,
     -- | length of the run up to this point in mm
     travelled :: Double,
-    -- | side on which a chord to this point would leave the sector
+    -- | side on which a chord to this point would be out of the sector
     miss :: Miss,
-    -- | angle or slope by which it would leave the sector; at most 0 for a chord within the limits
+    -- | angle or slope by which a chord to this point would be out of the sector; at most 0 for a
+    -- chord within the limits
     excess :: Double
   }
 
--- | Position of a chord relative to the sector, by direction and by slope; 'EQ' is within.
+-- | Position of a chord relative to the sector, by direction and by slope: 'LT' is below, 'EQ'
+-- within, 'GT' above.
 data Miss = Miss Ordering Ordering
   deriving stock (Eq)
 
@@ -321,9 +328,10 @@ furthest limits p = case rest p of
           Just (l, end) | l >= least limits -> end
           _ -> advanced limits (least limits) p
 
--- | Last point of a run that a chord can reach, with the length of the run up to there; the best so
--- far is given. A chord may miss a point and still reach a later one, so the search goes on until
--- the sector is closed or the run has turned too far.
+-- | Last point of a run that a chord can reach, with the length of the run up to this point. The
+-- third argument is the last one found so far, the fourth one the sector at the start of the run. A
+-- chord may miss a point and still reach a later one. Therefore the search ends only when the
+-- sector is closed or the run has turned too far.
 furthestReachable ::
   Limits ->
   Viewpoint ->
@@ -345,7 +353,7 @@ furthestReachable limits view best before run = case run of
       found u =
         Just (travelled before + lengthBetween (from move) u move, pointOn limits move u run)
 
--- | Move that a chord from the viewpoint may end in.
+-- | A move in which a chord from a viewpoint may end, with all that the search in it needs.
 data Outlook = Outlook
   { limits :: Limits,
     view :: Viewpoint,
@@ -354,11 +362,12 @@ data Outlook = Outlook
     move :: MoveRest,
     -- | the run that begins with the move
     run :: [MoveRest],
+    -- | the directions in which the move touches the limits
     tangents :: Tangents
   }
 
--- | Last fraction of a move that a chord can reach, from the last fraction to be tried and its
--- sector.
+-- | Last fraction of a move that a chord can reach. The second argument is the last fraction to be
+-- tried, with its sector.
 lastReachable :: Outlook -> (Double, Sector) -> Maybe Double
 lastReachable outlook@Outlook {limits, view, before, move} (t, after) = case search limits of
   AtEnds
@@ -376,9 +385,9 @@ lastReachable outlook@Outlook {limits, view, before, move} (t, after) = case sea
           <> [(from move, before)]
       )
 
--- | Last fraction that a chord can reach, from fractions with their sectors in descending order.
--- Between two neighbouring fractions the direction of the chord changes monotonically. The lowest
--- fraction itself does not count.
+-- | Last fraction that a chord can reach. The list has fractions with their sectors, in descending
+-- order. Between two neighbouring fractions the direction of the chord changes monotonically. The
+-- lowest fraction itself is not a result.
 lastBetween :: (Double -> Sector) -> [(Double, Sector)] -> Maybe Double
 lastBetween sectorOf marks = case marks of
   (high, atHigh) : earlier@((low, atLow) : _)
@@ -428,9 +437,9 @@ lastWithin function (first, atFirst) (final, atFinal) =
             else (low + high) / 2
         secant = low + (high - low) * (a / (a - b))
 
--- | Fractions of a move, in descending order, at which the direction from the viewpoint to the
--- meeting point changes its sense of rotation. At these the line of sight is tangent to the circle
--- on which the chords meet. Only fractions below @t@ are listed.
+-- | Fractions of a move below @t@, in descending order, at which the direction from the viewpoint
+-- to the point where chords meet changes its sense of rotation. There this line is tangent to the
+-- circle on which chords meet.
 turningPoints :: Limits -> Viewpoint -> MoveRest -> Double -> [Double]
 turningPoints limits view move t = case segment move of
   Straight _ _ -> []
@@ -449,8 +458,8 @@ turningPoints limits view move t = case segment move of
           ]
      in sortOn negate fractions
 
--- | Fraction of a move at which the run has turned by the largest angle for one chord; 1 if it does
--- not turn that far.
+-- | Fraction of a move at which the run has turned by the largest angle that one chord may span; 1
+-- if it does not turn so far.
 turnLimit :: Limits -> Sector -> MoveRest -> Double
 turnLimit limits before move = case segment move of
   Straight _ _ -> 1
@@ -462,15 +471,17 @@ turnLimit limits before move = case segment move of
       | signum s * (heading before + s * (1 - from move) - end) <= Tolerance.equal = 1
       | otherwise = max (from move) (from move + (end - heading before) / s)
 
--- | Directions of lines from the viewpoint that an arc overshoots by exactly the limit, to the left
--- and to the right of the line. The arc is parallel to such a line at its furthest point.
+-- | Directions of lines from the viewpoint from which the furthest point of an arc has exactly the
+-- allowed distance, to the left or to the right of the line. There the arc is parallel to the line.
 data Tangents = Tangents {onLeft :: [Double], onRight :: [Double]}
 
+-- | The tangents to a move.
 tangentsTo :: Limits -> Viewpoint -> MoveRest -> Tangents
 tangentsTo limits view move =
   Tangents {onLeft = touching (-1) (leftOf limits), onRight = touching 1 (rightOf limits)}
   where
-    -- Only a clockwise arc overshoots to the left, only a counter-clockwise one to the right.
+    -- The furthest point to the left can only be on a clockwise arc, to the right only on a
+    -- counter-clockwise one.
     touching :: Double -> Double -> [Double]
     touching sense y = case segment move of
       Arc {start, centre, sweep = Rad s}
@@ -482,7 +493,8 @@ tangentsTo limits view move =
           [let Rad toCentre = Vec.signedAngle (forward view) away in toCentre - asin sine]
       _ -> []
 
--- | Sector at fraction @t@ of a move, with the verdict on the chord to the meeting point there.
+-- | Sector at fraction @t@ of a move. Its fields 'miss' and 'excess' are those of the chord to the
+-- point where chords meet near this fraction.
 sectorAt :: Outlook -> Double -> Sector
 sectorAt Outlook {limits, view, before, move, run, tangents} t =
   Sector
@@ -530,13 +542,13 @@ sectorAt Outlook {limits, view, before, move, run, tangents} t =
         )
     after = headingAt move (heading before) t
 
--- | Direction of the run at fraction @t@ of a move, from that at the beginning of the move.
+-- | Direction of the run at fraction @t@ of a move, given the direction at the start of the move.
 headingAt :: MoveRest -> Double -> Double -> Double
 headingAt move before t = case segment move of
   Straight _ _ -> before
   Arc {sweep = Rad s} -> before + s * (t - from move)
 
--- | Position of a number relative to an interval; 'EQ' is within.
+-- | Position of a number relative to an interval: 'LT' is below, 'EQ' within, 'GT' above.
 side :: Double -> Double -> Double -> Ordering
 side low high x
   | x < low = LT

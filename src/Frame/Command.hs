@@ -1,9 +1,9 @@
 -- | Commands of the part program as words of a machine, and the frames that hold them.
 --
 -- A command for which a machine has no word becomes a warning, because the operator can carry it
--- out by hand. Only an auxiliary command without a word is an error, and so is a number that does
--- not fit its word. Commands are pending until the next move, whose frame holds them if no word
--- would occur twice in it.
+-- out by hand. An auxiliary command without a word is an error; so is a number that does not fit
+-- its word. Commands are pending until the next move, and are put into its frame. A command whose
+-- word is pending already first gives the pending ones a frame of their own.
 module Frame.Command
   ( Translation (..),
     translated,
@@ -48,13 +48,13 @@ import Part.Part qualified as Part
 
 -- | Words of a machine for a command, and the reports about it.
 data Translation = Translation
-  { -- | the words with their numbers
+  { -- | the words with their numbers; none when the machine has no word, or a number is unknown
     numbers :: [(CommandName, Int)],
     warnings :: [Warning],
     errors :: [Error]
   }
 
--- | Words for a command with their numbers.
+-- | Words for a command of the program, and the reports about it.
 translated :: Machine -> Located Command -> Translation
 translated machine (Located region c) = case wordsFor (Machine.commandWords machine) c of
   [] -> case c of
@@ -72,7 +72,7 @@ translated machine (Located region c) = case wordsFor (Machine.commandWords mach
             n > most
         ]
 
--- | Words that a machine has for a command; none if the operator has to carry it out.
+-- | Words that a machine has for a command. None when the operator has to carry it out.
 wordsFor :: CommandWords -> Command -> [CommandWord]
 wordsFor table c = case c of
   Part.SpindleOn Clockwise _ -> spindleClockwise table
@@ -83,7 +83,7 @@ wordsFor table c = case c of
   Part.Auxiliary _ -> auxiliary table
   Part.ChangeTool _ _ -> toolChange table
 
--- | Device that a command switches.
+-- | Kind of a command, for reports.
 kindOf :: Command -> CommandKind
 kindOf c = case c of
   Part.Auxiliary _ -> AuxiliaryCommand
@@ -185,9 +185,9 @@ compensationOff machine =
 data Pending = Pending {asked :: Region, given :: [(CommandName, Int)]}
   deriving stock (Eq, Show)
 
--- | Add the words of a command to the pending ones. No word may occur twice in a frame. The result
--- has the groups that now need frames of their own, and the group that is pending after that. If
--- the command itself repeats a word, it is divided into several groups.
+-- | Adds the words of a command to the pending ones. No word may occur twice in a frame. The result
+-- is the groups of words that need frames of their own now, and the group that is pending then. A
+-- command that repeats a word is divided into several groups.
 add ::
   Machine ->
   Region ->
@@ -209,7 +209,8 @@ add machine region commandWords pending = case (withoutRepetition commandWords, 
         ws : others | fst o `notElem` map fst ws -> (o : ws) : others
         others -> [o] : others
 
--- | Words sorted into the order of the layout, and of the bits in the service track of a word.
+-- | Words in the order in which the machine's frame has them, as words of their own or as bits in
+-- the service track of other words.
 inOrder :: Machine -> [(CommandName, Int)] -> [(CommandName, Int)]
 inOrder machine = sortOn (\(o, _) -> elemIndex o names)
   where

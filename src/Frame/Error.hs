@@ -1,7 +1,7 @@
 {-# OPTIONS_GHC -O0 #-}
 
--- | Errors and warnings of the step from the toolpath to frames: requests that a machine cannot
--- carry out, or carries out in another manner than asked.
+-- | Errors and warnings of the step from the toolpath to frames: requests of the program that a
+-- machine cannot carry out, or carries out differently.
 --
 -- The constructors hold regions and facts. Words appear only in 'toReport' and 'warningReport'.
 module Frame.Error
@@ -24,24 +24,26 @@ import Machine.Machine qualified as Machine
 import Report.Report (Report (..), ReportPlace (..), report)
 import Report.Report qualified as Report
 
--- | Reason why no frames are made. The region is that of the text in the part program.
+-- | Reason why no frames are made. Every error has the region of the part program that causes it.
 data Error
   = -- | a feed along the path without a feed code: the feed asked for, the lowest and the highest
     -- feed of the machine
     FeedOutOfRange Region Feed Feed Feed
-  | -- | a feed that the leading axis cannot give: the feed asked for, the pulses per second that it
-    -- needs; the lowest and the highest frequency of the machine, each with its feed along an axis
+  | -- | a feed for which the leading axis would need a frequency that the machine does not have: the
+    -- feed asked for, and this frequency in pulses per second; the lowest and the highest frequency
+    -- of the machine, each with its feed along an axis
     FrequencyOutOfRange Region Feed Double (Double, Feed) (Double, Feed)
   | -- | a point further from the zero of the part than the given limit
     OutOfReach Region Point Mm
-  | -- | a milling statement whose tolerance and one pulse reach the radius of its cutter: the
-    -- tolerance, the radius
+  | -- | a milling statement in which the sum of the tolerance and one pulse is not below the radius
+    -- of the cutter: the tolerance, the radius
     ToleranceTooLarge Region Mm Mm
-  | -- | a number of a command, and the highest one of the machine; 0 if it has none
+  | -- | a number of a command that is too high for the machine, and the highest one that it has; 0
+    -- if it has no such command
     NoSuchCommand Region CommandKind Int Int
   | -- | more than the given number of frames
     TooManyFrames Region Int
-  | -- | more than the given number of contours; the region is that of the first one too many
+  | -- | more than the given number of contours; the region is that of the first contour beyond it
     TooManyContours Region Int
   | -- | a move along an axis that the machine does not have
     NoSuchAxis Region Axis
@@ -53,7 +55,7 @@ data Error
     DiameterOutOfRange Region Mm
   deriving stock (Eq, Ord, Show)
 
--- | Difference between the request and the frames.
+-- | Difference between a request of the program and the frames.
 data Warning
   = -- | the feed asked for, the lowest and the highest feed obtained
     FeedDiffers Region Feed Feed Feed
@@ -69,7 +71,7 @@ data Warning
     SpindleSpeedMissing Region
   deriving stock (Eq, Ord, Show)
 
--- | Device that a command switches.
+-- | What a command concerns: spindle, coolant, tool, or an auxiliary function.
 data CommandKind = SpindleCommand | CoolantCommand | ToolCommand | AuxiliaryCommand
   deriving stock (Eq, Ord, Show)
 

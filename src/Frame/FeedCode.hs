@@ -23,7 +23,7 @@ import Geometry.Segment qualified as Segment
 import Machine.Machine (FeedChoice (..), FeedCode, FeedMeasure (..), Machine)
 import Machine.Machine qualified as Machine
 
--- | Code for a feed in a frame of the given length. The code in the frame itself is not used.
+-- | Code for a feed in a frame of the given length. The code that the frame holds is ignored.
 codeFor :: Machine -> Feed -> Frame -> Mm -> FeedChoice
 codeFor machine v f l = Machine.choose machine (codeValue machine v f l)
 
@@ -47,9 +47,9 @@ feedOf machine f l = case motion f of
         (\x -> Feed (maybe x (\n -> 60 * x / n) (pulsesPerMm machine f l)))
         (Machine.valueOf machine (feedCode f))
 
--- | Pulses of the leading axis per mm of the path; none on a machine whose codes are feeds along
--- the path. On an arc the leading axis changes, so pulses along the path itself are counted. A
--- frame without length counts as a move along an axis.
+-- | Pulses of the leading axis per mm of the path. Nothing on a machine whose codes are feeds along
+-- the path. On an arc the leading axis changes, so the pulses of a move along an axis are taken,
+-- and also for a frame without length.
 pulsesPerMm :: Machine -> Frame -> Mm -> Maybe Double
 pulsesPerMm machine f (Mm l) = case Machine.feedMeasure (Machine.feeds machine) of
   AlongPath -> Nothing
@@ -68,7 +68,8 @@ frameLength machine f = case motion f of
   where
     plane = Segment.length (Frame.segment machine 0 f)
 
--- | Code for a feed in a frame. The lowest or the highest code for a feed outside of their range.
+-- | Code for a feed in a frame. For a feed outside of the machine's range it is the lowest or the
+-- highest code.
 nearestCode :: Machine -> Feed -> Frame -> FeedCode
 nearestCode machine v f = case Machine.choose machine asked of
   Given code _ -> code

@@ -3,8 +3,8 @@
 -- | Frames: what a controller does at once, in whole pulses along the axes of the part.
 --
 -- The module owns the frame, the program of frames and the rules that every frame of a machine
--- keeps. It refuses nothing by itself: 'violations' lists the rules that are broken. Positions in
--- mm are derived from pulses here and nowhere else.
+-- keeps; 'violations' lists the broken rules. Positions in mm are derived from pulses here and
+-- nowhere else.
 module Frame.Frame
   ( Frame (..),
     FrameMotion (..),
@@ -46,7 +46,7 @@ data Frame = Frame
     centre :: {-# UNPACK #-} Pulses2,
     -- | feed code; 0 for a frame without motion and for 'Rapid'
     feedCode :: FeedCode,
-    -- | the frame slows down to its feed
+    -- | True when the frame is marked as braking: the cutter slows down to the feed of the frame
     braking :: Bool,
     -- | commands with their numbers, in the order of the layout's words; each at most once
     commands :: [(CommandName, Int)]
@@ -57,8 +57,8 @@ data Frame = Frame
 data FrameMotion
   = -- | none: the frame holds only commands
     NoMotion
-  | -- | rapid move, on machines that have a motion of its own for it; on all others a rapid move
-    -- is a straight one with the highest feed code
+  | -- | rapid move, on machines that have a word for it; on all others a rapid move is a straight
+    -- line with the highest feed code
     Rapid
   | -- | straight line
     Linear
@@ -82,7 +82,7 @@ commandFrame given =
 isMoving :: Frame -> Bool
 isMoving f = motion f /= NoMotion
 
--- | Frame with the reason for it.
+-- | Frame with its purpose and its origin in the part program.
 data PlannedFrame = PlannedFrame
   { frame :: Frame,
     role :: Role,
@@ -130,9 +130,9 @@ centreOf :: Machine -> Pulses3 -> Frame -> Point
 centreOf machine (Pulses3 x y z) f =
   let Pulses2 i j = centre f in position machine (Pulses3 (x + i) (y + j) z)
 
--- | Line or arc in mm that a frame describes in the plane, from the given position on. Rounding may
--- make the radii at the two ends of an arc differ. The segment turns about the centre of the frame
--- and ends where the frame ends.
+-- | Line or arc in mm that a frame describes in the plane, from the given position on. An arc has
+-- the centre of the frame and ends where the frame ends, so by rounding the radii at its two ends
+-- may differ.
 segment :: Machine -> Pulses3 -> Frame -> Segment
 segment machine at f = case motion f of
   Circular sense
@@ -171,8 +171,8 @@ data Violation
 violations :: Machine -> [Frame] -> [Violation]
 violations machine = concat . zipWith (frameViolations machine) [1 ..]
 
--- | Rules that a frame with the given number breaks. Nearly all frames keep every rule, so the
--- result for them is found without building a list.
+-- | Rules that a frame with the given number breaks. Nearly all frames keep every rule; for them no
+-- list is built.
 frameViolations :: Machine -> Int -> Frame -> [Violation]
 frameViolations machine n f
   | null fields && null feeds && null motions && null repeated && not isEmpty = []
@@ -196,6 +196,7 @@ capacityFaults machine n f =
   where
     Pulses3 x y z = increment f
 
+-- | Feed codes that the machine does not have, or that the frame's motion does not take.
 feedCodeFaults :: Machine -> Int -> Frame -> [Violation]
 feedCodeFaults machine n f = case motion f of
   NoMotion -> [NoSuchFeedCode n (feedCode f) | feedCode f /= FeedCode 0]
@@ -205,6 +206,7 @@ feedCodeFaults machine n f = case motion f of
   where
     unknown = [NoSuchFeedCode n (feedCode f) | isNothing (Machine.valueOf machine (feedCode f))]
 
+-- | Motions that the machine does not have, or that contradict the frame's increments or centre.
 motionFaults :: Machine -> Int -> Frame -> [Violation]
 motionFaults machine n f = case motion f of
   NoMotion -> [NoSuchMotion n | increment f /= 0 || centre f /= 0]
@@ -224,6 +226,7 @@ motionFaults machine n f = case motion f of
     Pulses3 _ _ z = increment f
     Pulses2 i j = centre f
 
+-- | Commands that the machine cannot encode, or that occur twice.
 commandFaults :: Machine -> Int -> Frame -> [Violation]
 commandFaults machine n f =
   [ UnknownCommand n o

@@ -30,7 +30,7 @@ import Part.Part (Pace (..))
 -- | Facts about the machine that are the same for all frames.
 data FrameContext = FrameContext
   { machine :: Machine,
-    -- | a code gives the same feed in every frame
+    -- | True when a code gives the same feed along the path in every frame
     isAlongPath :: Bool,
     -- | axes that the machine does not have
     missingAxes :: [Axis],
@@ -94,8 +94,8 @@ errors findings =
 feedSlack :: Double
 feedSlack = 0.1
 
--- | One warning for each feed of the program that some frame misses by more than 'feedSlack', with
--- the range of the feeds obtained for it.
+-- | One warning for each feed of the program from which some frame differs by more than
+-- 'feedSlack', with the range of the feeds obtained for it.
 warnings :: FrameFindings -> [Warning]
 warnings findings =
   [ FeedDiffers region (Feed v) (Feed low) (Feed high)
@@ -103,11 +103,12 @@ warnings findings =
       max (v - low) (high - v) > (feedSlack + Tolerance.equal) * v
   ]
 
--- | Check the next frame. Given are its feed in the program, 'Rapid' where the compiler sets the
--- feed itself, and the position at its end.
+-- | Adds the findings in the next frame. The arguments are its feed in the program, 'Rapid' where
+-- the compiler sets the feed itself, the position at its end, and the frame.
 check :: FrameContext -> Pace -> Pulses3 -> PlannedFrame -> FrameFindings -> FrameFindings
 check context asked at p = checkPosition context at p . checkFeed context asked (frame p)
 
+-- | Adds the finding in the feed of a frame.
 checkFeed :: FrameContext -> Pace -> Frame -> FrameFindings -> FrameFindings
 checkFeed context asked f before = case asked of
   Rapid -> before
@@ -117,6 +118,7 @@ checkFeed context asked f before = case asked of
     | otherwise ->
       checkNewFeed context (region, v) f before {lastPace = asked, lastCode = feedCode f}
 
+-- | Adds the finding in the feed of a frame, given the region that asks for the feed, and the feed.
 checkNewFeed :: FrameContext -> (Region, Feed) -> Frame -> FrameFindings -> FrameFindings
 checkNewFeed FrameContext {machine, isAlongPath} key@(region, v) f before =
   case (FeedCode.codeFor machine v f l, FeedCode.feedOf machine f l) of
@@ -141,9 +143,11 @@ checkNewFeed FrameContext {machine, isAlongPath} key@(region, v) f before =
         (low, FeedCode.feedAlongAxis machine low)
         (high, FeedCode.feedAlongAxis machine high)
 
+-- | The range that contains two ranges.
 united :: FeedRange -> FeedRange -> FeedRange
 united (FeedRange a b) (FeedRange c d) = FeedRange (min a c) (max b d)
 
+-- | Adds the findings in the axes of a frame, and in the position at its end.
 checkPosition :: FrameContext -> Pulses3 -> PlannedFrame -> FrameFindings -> FrameFindings
 checkPosition FrameContext {machine, missingAxes, largestPositions} at p before
   | not (any isUsed missingAxes) && all isFitting largestPositions = before

@@ -71,8 +71,8 @@ quantise :: Machine -> Toolpath -> Result Warning Error FrameProgram
 quantise
   machine
   path@Toolpath {Toolpath.start = Located startRegion (SpacePoint startPoint startHeight)} =
-    -- These errors are evaluated before there are frames; else they would keep the whole toolpath
-    -- in memory while the frames are made.
+    -- These errors are evaluated before the frames are made. Otherwise they would keep the whole
+    -- toolpath in memory while the frames are made.
     foldr seq () (tooCoarse <> tooMany) `seq` case errorsOf tooCoarse tooMany made of
       [] -> Result warnings [] (Just (FrameProgram begin frames))
       problems
@@ -100,8 +100,8 @@ quantise
       startWarnings = startWarning machine startRegion startPoint begin
       warnings = nubOrd (startWarnings <> warningsOf made)
 
--- | All errors, without repetition. Given are the errors of the tolerances, those of the number of
--- contours, and the final state.
+-- | All errors, each once. The arguments are the errors of the tolerances, those of the number of
+-- contours, and the state after the last instruction.
 errorsOf :: [Error] -> [Error] -> Making -> [Error]
 errorsOf tooCoarse tooMany made =
   nubOrd
@@ -120,13 +120,14 @@ errorsOf tooCoarse tooMany made =
         Nothing -> FrameCheck.errors (frameFindings made)
       | otherwise = []
 
--- | Warnings of the frames and of the commands, from the final state.
+-- | Warnings of the frames and of the commands, from the state after the last instruction.
 warningsOf :: Making -> [Warning]
 warningsOf made =
   FrameCheck.warnings (frameFindings made)
     <> InstructionCheck.heightWarnings (instructionFindings made)
     <> commandWarnings made
 
+-- | Warnings of the commands.
 commandWarnings :: Making -> [Warning]
 commandWarnings made = concatMap Command.warnings (reverse (translations made))
 
@@ -183,11 +184,11 @@ data Context = Context
     frameContext :: FrameCheck.FrameContext
   }
 
--- | State after the instructions so far. Each instruction is used once, so none of them is kept in
--- memory.
+-- | State after the instructions so far. It keeps none of them in memory.
 data Making = Making
-  { -- | position of the cutter, and the region of the program that has led there
+  { -- | position of the cutter
     at :: Pulses3,
+    -- | region of the part program that asks for the last move or command
     here :: Region,
     -- | commands that no frame holds yet
     pending :: Maybe Pending,
@@ -195,8 +196,9 @@ data Making = Making
     latest :: [PlannedFrame],
     -- | all commands, the latest first
     translations :: [Translation],
-    -- | number of frames, and the region of the first frame that is too many
+    -- | number of frames
     count :: Int,
+    -- | origin of the first frame beyond the allowed number
     tooManyFrom :: Maybe Region,
     instructionFindings :: InstructionCheck.InstructionFindings,
     frameFindings :: FrameCheck.FrameFindings
@@ -230,8 +232,8 @@ framesOf context !made instructions = case instructions of
     -- The frames of the last instruction are in the list already.
     emptied = made {latest = []}
 
--- | Make the frames of the next instruction. Commands go into the frame of the next move if there
--- is room for them. Once the frames are too many or cannot be made, no more are added.
+-- | Makes the frames of the next instruction. The words of commands wait for the frame of the next
+-- move. When frames are too many or a point is out of reach, no more moves become frames.
 next :: Context -> Making -> Instruction -> Making
 next context@Context {machine, instructionContext} made instruction = case instruction of
   Words region translation ->
@@ -256,15 +258,15 @@ next context@Context {machine, instructionContext} made instruction = case instr
             }
     | otherwise -> made {instructionFindings = findings}
   where
-    -- The chords are counted here before frames are made of them.
+    -- The number of frames is checked here, before the frames are made.
     findings =
       InstructionCheck.check instructionContext instruction chordEnds (instructionFindings made)
     chordEnds = case instruction of
       Words _ _ -> []
       Run {tolerance, run} -> chordEndsOf machine tolerance run
 
--- | Add the frames after the last move: one for the commands that are still pending, and those that
--- end every program of the machine.
+-- | Adds the frames after the last move: one for the commands that are still pending, and those
+-- that end every program of the machine.
 ended :: Context -> Making -> Making
 ended context@Context {machine} made =
   foldl'
@@ -272,7 +274,7 @@ ended context@Context {machine} made =
     (maybe made (addCommands context made) (pending made))
     [Pending {asked = here made, given} | given <- Command.finalFrames machine]
 
--- | Add a frame that holds only commands.
+-- | Adds a frame that holds only commands.
 addCommands :: Context -> Making -> Pending -> Making
 addCommands context made Pending {asked, given} =
   addFrame
@@ -282,7 +284,7 @@ addCommands context made Pending {asked, given} =
     (PlannedFrame (Frame.commandFrame given) Commanding asked (Mm 0))
     made
 
--- | Add the frame of a step, with the pending commands. A step that moves nothing has no frame.
+-- | Adds the frame of a step, with the pending commands. A step without motion has no frame.
 addStep :: Context -> Instruction -> Making -> ArcStep -> Making
 addStep context@Context {machine} instruction made step = case instruction of
   Words _ _ -> made
@@ -298,8 +300,8 @@ addStep context@Context {machine} instruction made step = case instruction of
               (PlannedFrame f' role (origin m) cutterRadius)
               made {pending = Nothing}
 
--- | Add a frame. Given are its feed in the program, 'Part.Rapid' where the compiler sets it, and
--- the position at its end.
+-- | Adds a frame. The second argument is its feed in the program, 'Part.Rapid' where the compiler
+-- sets the feed; the third one is the position at its end.
 addFrame :: Context -> Pace -> Pulses3 -> PlannedFrame -> Making -> Making
 addFrame Context {frameContext} feed end !p made =
   made
@@ -313,7 +315,7 @@ addFrame Context {frameContext} feed end !p made =
       frameFindings = FrameCheck.check frameContext feed end p (frameFindings made)
     }
 
--- | Frame of a step from a position; none for a step that moves nothing.
+-- | Frame of a step from a position. Nothing for a step without motion.
 frameOf :: Machine -> FeedMode -> Pace -> Pulses3 -> ArcStep -> Maybe Frame
 frameOf machine feedMode pace begin ArcStep {target, turnsAbout} = case turnsAbout of
   Nothing
@@ -384,8 +386,8 @@ curveSteps context begin bounds run =
         (ArcFitting.divisions (machine context) bounds run)
     )
 
--- | Position at the end of a part of a run, and its steps. The given move of the run has its
--- height.
+-- | Position at the end of a part of a run, and its steps. The third argument is a move of the run;
+-- it gives the height, the feed and the origin.
 partSteps ::
   Context -> Bounds -> Move -> Pulses3 -> RunPart -> (Pulses3, [ArcStep])
 partSteps context@Context {machine} bounds m begin part = case part of
@@ -407,7 +409,7 @@ partSteps context@Context {machine} bounds m begin part = case part of
     level = fst (heights m)
     lastOr p ps = fromMaybe p (listToMaybe (reverse ps))
 
--- | Steps along one segment, whose chords take all but the geometry from the given move.
+-- | Steps along one segment, as arcs or as chords. The move gives all but the geometry.
 segmentSteps ::
   Context -> ArcTolerance -> ChordTolerance -> Move -> Pulses3 -> Segment -> [ArcStep]
 segmentSteps Context {machine, grid} tolerance chordError m =

@@ -45,13 +45,13 @@ data Instruction
     -- them
     Words Region Translation
 
--- | Origin of the feed of a run.
+-- | The feed with which a run is made.
 data FeedMode
-  = -- | the feed of the moves in the program
+  = -- | the feed that the program gives
     AsProgrammed
-  | -- | the lowest feed code
+  | -- | the machine's lowest feed code
     LowestCode
-  | -- | slowing down to a feed, in frames that are marked as braking
+  | -- | this feed, in frames that are marked as braking
     BrakingTo Feed
   deriving stock (Eq, Show)
 
@@ -96,7 +96,7 @@ ofBlock machine n b = case b of
               milled machine (Retracting n) job retract
             ]
 
--- | Runs outside of milling: one for each move, with no chord error.
+-- | Runs outside of milling: one for each move. All moves are straight, so the chord error is 0.
 straightRuns :: Role -> Mm -> [Move] -> [Instruction]
 straightRuns r radius = map (Run r (Sagitta (Mm 0)) radius AsProgrammed . (:| []))
 
@@ -116,8 +116,8 @@ roleInPocket n m
   | otherwise = Cutting n
 
 -- | Instructions for a pass with cutter compensation: the control gets the edge of the part, and
--- the words that switch compensation on and off. Every move of the edge is a run of its own, also
--- along a curve. If the machine cannot be given these words, only their errors remain.
+-- the words that switch compensation on and off. Every move of the edge is a run of its own, even
+-- along a curve. If the machine has no such words, the instructions consist of their errors only.
 compensated :: Machine -> Int -> Region -> Milling -> Sent -> [Instruction]
 compensated machine n asked job edge
   | null (Command.errors on) =

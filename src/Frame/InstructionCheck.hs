@@ -47,9 +47,10 @@ mostFrames = 1000000
 -- | Facts that are the same for all instructions.
 data InstructionContext = InstructionContext
   { machine :: Machine,
-    -- | the feed of a frame does not depend on its direction
+    -- | True when the feed of a frame does not depend on its direction
     isAlongPath :: Bool,
-    -- | the tape has a field for z, but the source mentions no axis that moves there
+    -- | True when the tape has a field for z, but the source of the machine description mentions no
+    -- axis z
     isHeightUncertain :: Bool,
     -- | error for the start of the toolpath, if it is out of reach
     startError :: Maybe Error
@@ -73,7 +74,7 @@ data InstructionFindings = InstructionFindings
     withoutCode :: [Error],
     -- | points out of reach, at most one for each run
     outOfReach :: [Error],
-    -- | number of frames, as far as it is known before they are made
+    -- | number of frames, as estimated before they are made
     count :: Int,
     -- | error for the run with which the frames become too many
     tooMany :: Maybe Error,
@@ -93,8 +94,8 @@ noFindings =
       uncertainHeight = Nothing
     }
 
--- | True as long as all points are in reach and the frames are not too many, so that the frames can
--- be made.
+-- | True when all points so far are in reach and the frames are not too many, so that the frames
+-- can be made.
 isBounded :: InstructionFindings -> Bool
 isBounded findings = null (outOfReach findings) && null (tooMany findings)
 
@@ -110,8 +111,8 @@ boundErrors findings = reverse (outOfReach findings) <> maybeToList (tooMany fin
 heightWarnings :: InstructionFindings -> [Warning]
 heightWarnings = maybeToList . uncertainHeight
 
--- | Check the next instruction. The ends of the chords of its run are given; they are evaluated
--- only along a curve on a machine without arcs.
+-- | Adds the findings in the next instruction. The third argument is the ends of the chords of its
+-- run; they are evaluated only along a curve on a machine without arcs.
 check ::
   InstructionContext ->
   Instruction ->
@@ -128,6 +129,7 @@ check context instruction chordEnds before = case instruction of
       chordEnds
       (checkReach context run (checkHeights context run (checkFeed context feedMode run before)))
 
+-- | Adds the error of a feed without a code.
 checkFeed ::
   InstructionContext ->
   FeedMode ->
@@ -149,6 +151,7 @@ checkFeed context feedMode moves before = case (feedMode, asked) of
   where
     asked = pace (NonEmpty.head moves)
 
+-- | Adds the warning about the first move in z that the machine may not have.
 checkHeights :: InstructionContext -> NonEmpty Move -> InstructionFindings -> InstructionFindings
 checkHeights context moves before
   | isHeightUncertain context,
@@ -160,6 +163,7 @@ checkHeights context moves before
       }
   | otherwise = before
 
+-- | Adds the error of the first point of a run that is out of reach.
 checkReach :: InstructionContext -> NonEmpty Move -> InstructionFindings -> InstructionFindings
 checkReach context moves before
   | null (startError context) && all (isSurelyInReach . segment) moves = before
@@ -176,8 +180,8 @@ checkReach context moves before
           <|> reachError (origin m) (Vec.point r t)
           <|> startError context
 
--- | True for a segment within reach, tested by the full circle of an arc. False does not mean that
--- the arc itself is out of reach.
+-- | True for a segment that is certainly within reach: a line with both ends, or an arc with its
+-- full circle.
 isSurelyInReach :: Segment -> Bool
 isSurelyInReach s = case s of
   Straight a b -> isInReach 0 a && isInReach 0 b
@@ -189,12 +193,13 @@ isInReach margin p = max (abs (Vec.x p)) (abs (Vec.y p)) <= limit - margin
   where
     Mm limit = Tolerance.reach
 
+-- | The error of a point that is out of reach.
 reachError :: Region -> Point -> Maybe Error
 reachError region p =
   if isInReach 0 p then Nothing else Just (OutOfReach region p Tolerance.reach)
 
--- | Count the frames of a run as far as that is possible without making them. On a machine with
--- arcs a level run counts as one frame, so the count is a lower bound there.
+-- | Adds the number of frames of a run, without making them. On a machine with arcs a level run
+-- counts as one frame, so the number is a lower bound there.
 counted ::
   InstructionContext ->
   ChordTolerance ->

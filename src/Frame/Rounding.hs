@@ -59,10 +59,10 @@ isFlat (m :| more) = case heights m of
       n : others -> case heights n of
         (Mm a, Mm b) -> a == z && b == z && go z others
 
--- | Ends of the frames for a straight move, from its first position in pulses and its exact ends.
--- The move is divided into the fewest equal parts whose increments fit their fields; each end is
--- rounded by itself. Fields for absolute positions take a move of any length, so there it stays
--- whole.
+-- | Ends of the frames for a straight move, given by its start in pulses and its exact ends. The
+-- move is divided into the fewest equal parts whose increments fit their fields, and each end is
+-- rounded by itself. A field for absolute positions takes a move of any length, so the move is not
+-- divided.
 split :: Machine -> Pulses3 -> (PathPosition, PathPosition) -> [Pulses3]
 split machine begin ((a, za), (b, zb)) = case Machine.measure (Machine.layout machine) of
   Positions -> [finish]

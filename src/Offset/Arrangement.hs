@@ -1,15 +1,15 @@
 {-# OPTIONS_GHC -O2 #-}
 
 -- | Planar arrangement of closed polyarcs: they are cut at all their self-intersections, and
--- every edge gets the winding numbers of both its sides.
+-- every edge gets the winding numbers on its left and on its right.
 --
--- This module decides the cases outside general position: coinciding segments, intersections at
--- vertices, touching circles. Points that agree within a tolerance become one node. Segments
--- between the same two nodes with the same sagitta become one edge with a multiplicity. The
--- half-edges at each node are sorted by angle, and the winding numbers are propagated from edge to
--- edge (de Berg et al., "Computational Geometry", chapter 8). 'arrange' refuses an arrangement
--- whose winding numbers contradict each other at a node: then the half-edges are in the wrong
--- order.
+-- This module handles polyarcs whose segments coincide, touch or intersect at vertices. Points that
+-- agree within a tolerance become one node. Segments between the same two nodes with the same
+-- sagitta become one edge with a multiplicity. Every edge has two half-edges, one leaving each of
+-- its nodes. The half-edges at each node are sorted by angle, and the winding numbers are
+-- propagated from edge to edge (de Berg et al., "Computational Geometry", chapter 8). 'arrange'
+-- refuses an arrangement whose winding numbers contradict each other at a node: then the
+-- half-edges are in the wrong order.
 module Offset.Arrangement
   ( Arrangement,
     arrange,
@@ -43,28 +43,42 @@ import Offset.SegmentIntersection (Visitor (..))
 import Offset.SegmentIntersection qualified as SegmentIntersection
 import Offset.WindingNumber qualified as WindingNumber
 
--- | A directed edge between two nodes. @times@ counts its segments in this direction minus those
--- in the opposite direction. @segment@ is the number of the original segment.
-data Edge = Edge {from :: Int, to :: Int, times :: Int, bulge :: Double, segment :: Int}
+-- | A directed edge between two nodes.
+data Edge = Edge
+  { -- | the node at which it begins
+    from :: Int,
+    -- | the node at which it ends
+    to :: Int,
+    -- | the number of its segments in this direction less those in the opposite direction
+    times :: Int,
+    -- | @tan(sweep/4)@, 0 for a line
+    bulge :: Double,
+    -- | the number of the first segment of the polyarcs that runs along it in this direction
+    segment :: Int
+  }
 
+-- | An arrangement. Nodes and edges are numbered from 0.
 data Arrangement = Arrangement
-  { chain :: ClosedPolyarcs,
+  { -- | the polyarcs
+    chain :: ClosedPolyarcs,
+    -- | x and y of the nodes, in mm
     nodes :: Vector (Double, Double),
-    -- | The node of every vertex of the polyarcs.
+    -- | the node of every vertex of the polyarcs
     vertexNodes :: PrimArray Int,
     edges :: Vector Edge,
-    -- | The half-edges that leave each node, counter-clockwise. Half-edge @2e@ leaves the
-    -- beginning of edge @e@, and @2e + 1@ its end.
+    -- | the half-edges that leave each node, counter-clockwise; half-edge @2e@ leaves the node at
+    -- which edge @e@ begins, @2e + 1@ the one at which it ends
     rings :: IntMap (Vector Int),
-    -- | The winding number on the left of every edge.
+    -- | the winding number on the left of every edge
     lefts :: IntMap Int,
-    -- | Pairs of segments that cross between their ends.
+    -- | pairs of segments that cross between their ends
     proper :: [(Int, Int)]
   }
 
--- | Builds the arrangement. Points within the tolerance (mm) become one node. The bounding boxes
--- must be inflated by at least the tolerance. The result is Nothing when the winding numbers
--- contradict each other.
+-- | Builds the arrangement of polyarcs, given the tolerance (mm) and the segments' bounding-box
+-- tree, whose boxes are inflated by at least the tolerance. Points whose coordinates differ by at
+-- most four tolerances become one node. The result is Nothing when the winding numbers contradict
+-- each other.
 arrange :: Double -> ClosedPolyarcs -> SegmentBoxTree -> Maybe Arrangement
 arrange tolerance c boxes
   | isConsistent arrangement = Just arrangement
@@ -93,9 +107,9 @@ arrange tolerance c boxes
           proper = pairs
         }
 
--- | The points at which each segment is cut, and the pairs of segments that cross between their
--- ends. Arcs are also cut at their leftmost points, so that the leftmost point of every
--- connected component is a node.
+-- | The cuts, each with the number of the segment and the point, and the pairs of segments that
+-- cross between their ends. Arcs are also cut at their leftmost points, so that the leftmost point
+-- of every connected component is a node.
 intersections ::
   Double ->
   ClosedPolyarcs ->
@@ -136,8 +150,8 @@ intersections tolerance c boxes = runST $ do
       where
         b = indexPrimArray (ClosedPolyarcs.bulges c) i
 
--- | The coordinates of the nodes, the node of every vertex, and for each segment the nodes at
--- which it is cut.
+-- | The coordinates of the nodes, the node of every vertex, and for each segment the nodes of its
+-- cuts, in no order.
 nodesOf ::
   Double ->
   ClosedPolyarcs ->
@@ -156,7 +170,7 @@ nodesOf tolerance c cuts =
       ]
         <> [(x, y, n + k) | (k, (_, x, y)) <- zip [0 ..] cuts]
     clusters = concatMap (clustered snd3 . sortOn snd3) (clustered fst3 (sortOn fst3 points))
-    -- Groups consecutive values whose difference is at most four tolerances.
+    -- Divides sorted points where a coordinate grows by more than four tolerances.
     clustered f ps = case ps of
       [] -> []
       p : rest -> let (same, others) = grab f (f p) rest in (p : same) : clustered f others
@@ -170,7 +184,7 @@ nodesOf tolerance c cuts =
     fst3 (x, _, _) = x
     snd3 (_, y, _) = y
     number (_, _, i) = i
-    -- A vertex keeps its exact coordinates.
+    -- The node of a vertex has the vertex's exact coordinates.
     position ps = let (x, y, _) = foldr1 (\p q -> if number p < number q then p else q) ps in (x, y)
     ids =
       runPrimArray'
@@ -242,8 +256,8 @@ alongChord c coordinates i node =
      in (x - indexPrimArray (ClosedPolyarcs.xs c) i) * dx
           + (y - indexPrimArray (ClosedPolyarcs.ys c) i) * dy
 
--- | Merges slices between the same nodes with the same sagitta into one edge. Slices that cancel,
--- as many forwards as backwards, give no edge.
+-- | Merges slices between the same nodes with the same sagitta into one edge. When as many slices
+-- run forwards as backwards, they cancel and give no edge.
 merged :: Double -> Vector (Double, Double) -> [(Int, Int, Int, Double)] -> [Edge]
 merged tolerance coordinates cut =
   concatMap
@@ -280,8 +294,9 @@ merged tolerance coordinates cut =
         second (_, i, _) = i
         net = sum [if forth then 1 else -1 | (forth, _, _) <- list] :: Int
 
--- | The half-edges of a node, sorted counter-clockwise. The order begins after the widest angular
--- gap; at the leftmost node of a component it begins after the gap on the left.
+-- | The half-edges of a node, sorted counter-clockwise. The order begins after the widest angle
+-- between two neighbours. At the leftmost node of a component this is the angle that contains the
+-- direction to the left.
 ring :: Vector (Double, Double) -> Vector Edge -> [Int] -> [Int]
 ring coordinates es halves = case halves of
   [_] -> halves
@@ -298,8 +313,9 @@ ring coordinates es halves = case halves of
         (\a b -> (b - a, (a + b) / 2))
         angles
         (drop 1 angles <> map (+ 2 * pi) (take 1 angles))
-    -- Two half-edges that leave a leftmost point straight up and straight down have an equally wide
-    -- gap on their right. The last gap is the left one, so it gets preference.
+    -- The middle of the widest gap. When the half-edges leave straight up and straight down, the
+    -- gaps on the left and on the right are equally wide. The left one is the last, so the last
+    -- gap gets preference.
     cut =
       snd
         ( maximumBy
@@ -313,8 +329,8 @@ ring coordinates es halves = case halves of
     angleFrom :: Double -> Double -> Double
     angleFrom from' angle =
       let t = angle - from' in t - 2 * pi * fromIntegral (floor (t / (2 * pi)) :: Int)
-    -- Half-edges with nearly equal directions are compared by how far to the left they lie a short
-    -- distance from the node.
+    -- Half-edges with nearly equal directions are compared a short distance from the node: the one
+    -- further to the left comes later.
     order (_, a, (dx, dy, l, k)) (_, b, (dx', dy', l', k'))
       | abs (a - b) > tie = compare a b
       | otherwise =
@@ -337,12 +353,12 @@ ring coordinates es halves = case halves of
           si = 2 * g * q
        in (ux * co + uy * si, uy * co - ux * si, l, 4 * g * q / l)
 
--- | Directions that differ by less than this angle (radians) may have been exchanged by rounding.
+-- | The order of directions that differ by less than this angle (radians) may be wrong by rounding.
 tie :: Double
 tie = 1e-3
 
--- | Propagates the winding numbers over each connected component, starting at its leftmost node,
--- whose left side is outside the component.
+-- | The winding number on the left of every edge. It is propagated over each connected component
+-- from its leftmost node, on whose left is the outside of the component.
 propagated :: Vector (Double, Double) -> Vector Edge -> IntMap (Vector Int) -> IntMap Int
 propagated coordinates es ordered =
   foldl'
@@ -356,7 +372,7 @@ propagated coordinates es ordered =
           IntMap.notMember (h `div` 2) known ->
           propagate known [(h, outside k)]
       _ -> known
-    -- The winding number that all other components give to this node.
+    -- The winding number of all other components at node k.
     outside k =
       let (x, y) = coordinates Vector.! k
           own = IntMap.lookup k components
@@ -406,7 +422,7 @@ propagated coordinates es ordered =
     go right (h : more) = (h, right) : go (right + gain h) more
     gain h = let m = times (es Vector.! (h `div` 2)) in if even h then m else -m
 
--- | The connected component of every node, named by one of its nodes.
+-- | The connected component of every node: the least number of its nodes.
 componentsOf :: Vector Edge -> IntMap (Vector Int) -> IntMap Int
 componentsOf es ordered =
   foldl'
@@ -446,7 +462,7 @@ sides a h = if even h then (left, left - m) else (left - m, left)
     left = IntMap.findWithDefault 0 (h `div` 2) (lefts a)
     m = times (edges a Vector.! (h `div` 2))
 
--- | The least and the largest winding number of all faces. The unbounded face has the number 0.
+-- | The least and the largest winding number of all faces, among them the unbounded one with 0.
 windingNumbers :: Arrangement -> (Int, Int)
 windingNumbers a =
   foldl'
@@ -454,8 +470,9 @@ windingNumbers a =
     (0, 0)
     (concat [[l, r] | e <- [0 .. Vector.length (edges a) - 1], let (l, r) = sides a (2 * e)])
 
--- | Two segments that intersect. Prefers a pair that crosses between its ends; otherwise takes
--- the first pair that meets where the winding number leaves the given bounds.
+-- | Two segments that intersect, given the least and the largest allowed winding number. Prefers a
+-- pair that crosses between its ends. Otherwise the first segment has a winding number out of
+-- bounds on one side, and the second one, not a neighbour, meets it at a node.
 intersectingSegments :: (Int, Int) -> Arrangement -> Maybe (Int, Int)
 intersectingSegments (low, high) a =
   listToMaybe
@@ -472,9 +489,9 @@ intersectingSegments (low, high) a =
            ]
     )
 
--- | The loops that bound the reachable faces. With sense counter-clockwise the wanted number is
--- on the left of an edge; with sense clockwise the wanted number less one is on its right. The
--- result is Nothing when a loop does not close.
+-- | The loops that bound the reachable faces. Their edges are, for the sense counter-clockwise,
+-- those with the wanted winding number on their left; for the sense clockwise, those with the
+-- wanted number less one on their right. The result is Nothing when a loop does not close.
 loops :: Sense -> Int -> Arrangement -> Maybe OffsetLoops
 loops sense wanted a =
   toLoops . map vertices
@@ -490,7 +507,7 @@ loops sense wanted a =
       Just (e, rest) -> do
         (loop, rest') <- follow e e rest
         (loop :) <$> closedLoops rest'
-    -- A loop that does not return to its first edge is invalid.
+    -- Nothing when the loop does not return to its first edge.
     follow first e rest = case next e of
       Just e'
         | e' == first -> Just ([e], rest)
@@ -498,7 +515,7 @@ loops sense wanted a =
           (more, rest') <- follow first e' (IntSet.delete e' rest)
           Just (e : more, rest')
       _ -> Nothing
-    -- The next edge of the same face: the neighbour of this edge at the node where it ends.
+    -- The next edge of the reachable face: the neighbour of edge e at the node where e ends.
     next e = do
       halves <- IntMap.lookup (to (edges a Vector.! e)) (rings a)
       k <- Vector.elemIndex (2 * e + 1) halves
@@ -526,7 +543,8 @@ toLoops made =
   where
     listed f = primArrayFromList (map f (concat made))
 
--- | The vertex at which consecutive edges of one segment begin: x, y, bulge, number of the segment.
+-- | Consecutive edges of one segment as one vertex of a loop: x and y of its start, its bulge, and
+-- the number of the segment.
 loopVertex :: Arrangement -> NonEmpty.NonEmpty Int -> (Double, Double, Double, Int)
 loopVertex a run = (x, y, joined, i)
   where
@@ -535,7 +553,7 @@ loopVertex a run = (x, y, joined, i)
     (x, y) = nodes a Vector.! from e
     (x', y') = nodes a Vector.! to e'
     i = segment e
-    -- A complete segment gets its original bulge.
+    -- True when the edges are the whole segment. It keeps its bulge.
     isEntire =
       indexPrimArray (vertexNodes a) i == from e
         && indexPrimArray (vertexNodes a) (i + 1) == to e'

@@ -1,10 +1,10 @@
 {-# OPTIONS_GHC -O2 #-}
 
 -- | Independent check of the offset kernel: one point of every loop keeps the requested distance
--- from the source.
+-- from the source, that is, the contours that were offset.
 --
--- The check uses the source contours and the finished loops only. It does not depend on the
--- algorithm that made the loops (McConnell et al., "Certifying algorithms").
+-- The check uses the source and the finished loops only. It does not depend on the algorithm that
+-- made the loops (McConnell et al., "Certifying algorithms").
 module Offset.Certificate
   ( Clearance (..),
     isClear,
@@ -21,20 +21,26 @@ import Geometry.Index.SegmentBoxTree qualified as SegmentBoxTree
 import Offset.Loop (OffsetLoops)
 import Offset.Loop qualified as Loop
 
--- | The distances by which a point is judged, in mm. @slack@ is the permitted error. @least@ is
--- the distance required from every segment, and @largest@ the largest distance of all segments.
--- @distance@ gives each segment's own distance, which holds on the cutter's side between the
--- segment's ends.
+-- | The requirement on the cutter's centre. Distances are in mm.
 data Clearance = Clearance
-  { slack :: Double,
+  { -- | permitted error
+    slack :: Double,
+    -- | distance required from every segment of the source; also the smallest one that 'distance'
+    -- gives
     leastDistance :: Double,
+    -- | largest distance that 'distance' gives
     largestDistance :: Double,
+    -- | distance required from a segment, by its number, of points on the cutter's side of it whose
+    -- nearest point of the segment is not an end
     distance :: Int -> Double,
+    -- | sense of an outer contour around the cutter: counter-clockwise when the cutter is on the
+    -- left of the source
     sense :: Sense
   }
 
 -- | True when the midpoint of a loop's first segment keeps the required distance from every
--- segment of the source.
+-- segment of the source. The arguments are the source with its bounding-box tree, and the loops
+-- with the number of one of them.
 isClear :: Clearance -> ClosedPolyarcs -> SegmentBoxTree -> OffsetLoops -> Int -> Bool
 isClear measure source boxes l k = uncurry (isFarFrom measure source boxes) (witness l k)
 
@@ -54,7 +60,7 @@ coversSource measure source l k =
   where
     (x, y) = witness l k
 
--- | The distance required from a segment, in mm.
+-- | The distance of a segment of the source, in mm.
 required :: Clearance -> ClosedPolyarcs -> Int -> Double
 required measure source i =
   distance measure (fromIntegral (indexPrimArray (ClosedPolyarcs.sources source) i))
@@ -105,9 +111,9 @@ isLeftOf c i x y
   where
     b = indexPrimArray (ClosedPolyarcs.bulges c) i
 
--- | Passes on the distance of a point from a segment, and the distance (mm) between the foot of
--- the perpendicular and the nearer end of the segment. The second number is zero or negative
--- when the nearest point is an end.
+-- | The distance (mm) of a point from a segment, passed to a continuation together with the
+-- distance (mm) of the nearest point from the nearer end of the segment. The second number is zero
+-- or negative when the nearest point is an end.
 fromPoint :: ClosedPolyarcs -> Int -> Double -> Double -> (Double -> Double -> r) -> r
 fromPoint c i x y k
   | b == 0 = ClosedPolyarcs.chord c i $ \ux uy ->
@@ -133,7 +139,7 @@ fromPoint c i x y k
     (gx, gy) = ClosedPolyarcs.gradient c i x y (,)
     (px, py) = ClosedPolyarcs.gradient c i x0 y0 (,)
     (qx, qy) = ClosedPolyarcs.gradient c i x1 y1 (,)
-    -- The signed distances of the foot from the radii to both ends.
+    -- The smaller one of the nearest point's signed distances from the radii to both ends.
     inSector =
       0.5
         * min (signum b * (px * gy - py * gx)) (signum b * (gx * qy - gy * qx))

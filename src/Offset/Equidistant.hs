@@ -1,9 +1,10 @@
 -- | The equidistant (offset) of a contour of lines and arcs: the path of the centre of a cutter
 -- that rolls along one side of it.
 --
--- The path is made of the loops of "Offset.Kernel", which carry a certificate; its coordinates come
--- from the elements of the contour ("Offset.SourceOffset"). Where the cutter does not fit, the
--- result is an obstacle, or the paths that the centre can take and the rest material beside them.
+-- The path is made from the certified loops of "Offset.Kernel". Its coordinates come from the
+-- elements of the contour ("Offset.SourceOffset"). Where the cutter does not fit, 'styled' returns
+-- the obstacle; 'reachable' returns the paths that the cutter's centre can take and the rest
+-- material between them.
 module Offset.Equidistant
   ( OffsetSegment (..),
     Origin (..),
@@ -60,12 +61,12 @@ import Offset.Tolerance qualified as Tolerance
 import Offset.TrimmedOffset (TrimmedOffset (TrimmedOffset))
 import Offset.TrimmedOffset qualified as TrimmedOffset
 
--- | The equidistant at a radius in mm, in the order of the contour, with arcs about outer corners.
--- The radius is not negative.
+-- | The equidistant for a cutter's radius, which is not negative, with arcs about outer corners.
+-- Its segments are in the order of the contour.
 equidistant :: Side -> Mm -> Polyarc -> Either Obstacle (NonEmpty OffsetSegment)
 equidistant = styled CornerStyle {sharp = False, extra = const (Mm 0)}
 
--- | The equidistant with a style of corners.
+-- | The equidistant with a style of corners and extra distances.
 styled :: CornerStyle -> Side -> Mm -> Polyarc -> Either Obstacle (NonEmpty OffsetSegment)
 styled style side radius contour = case attempt source of
   Right path -> Right path
@@ -73,7 +74,7 @@ styled style side radius contour = case attempt source of
   where
     source = SourceOffset.fromContour style side radius contour
 
--- | The equidistant, or the first reason against it.
+-- | The equidistant, or the first reason why the cutter does not fit.
 attempt :: OffsetSource -> Either Cause (NonEmpty OffsetSegment)
 attempt source = case Obstacle.localCauses source of
   cause : _ -> Left cause
@@ -86,15 +87,16 @@ attempt source = case Obstacle.localCauses source of
     | otherwise ->
       Left (Obstacle.collision source (connected source (TrimmedOffset.untrimmed source)))
   where
-    -- A cutter that just fits has no area around it in which its centre could be.
+    -- In a slot as wide as the cutter the centre can move along a line, and the kernel finds no
+    -- region. It does for a slightly smaller cutter.
     smaller = source {radius = minus (radius source) Tolerance.clearance}
     fitting = if radius smaller > Mm 0 then TrimmedOffset.whole smaller source else Nothing
 
--- | The cusps of a contour into which a path does not lead, since it changes from one element to
--- the next there.
+-- | The crevices beside a path: cusps of the contour that the cutter cannot enter. The path goes on
+-- from the element before such a cusp to the one after it, without an arc about the vertex.
 crevices :: OffsetSource -> [OffsetSegment] -> [Cause]
 crevices source path
-  -- Without cusps the path need not be in memory at once.
+  -- The path of a contour without cusps is not examined here, so it is never in memory as a whole.
   | any (SourceOffset.isCusp source) [0 .. elementCount source - 1] =
     [ InnerCorner i j (Segment.end (elements source Vector.! i))
       | (p, q) <- zip path (drop 1 path <> around),
@@ -106,8 +108,8 @@ crevices source path
   where
     around = if SourceOffset.ends source == Closed then take 1 path else []
 
--- | The path of a point, which has no radius: elements at their own extra distances, joined by
--- straight lines.
+-- | The path of a cutter with radius 0: the elements at their extra distances, joined by straight
+-- lines where the distance changes.
 pointed :: OffsetSource -> [OffsetSegment]
 pointed source = concatMap along [0 .. elementCount source - 1]
   where
@@ -119,8 +121,9 @@ pointed source = concatMap along [0 .. elementCount source - 1]
     cutsAfter i =
       SourceOffset.cutsAt source i (movedElement source i) (movedElement source (next source i))
 
--- | A path whose segments have a length and join exactly. A cutter that just fits into an arc does
--- not move there; beside a contour of such arcs alone it is at one point.
+-- | The path without segments of no length, and with exact joints. A cutter that just fits into an
+-- arc does not move there, so the segment is left out. Beside a contour of such arcs alone the
+-- path is one segment of no length.
 connected :: OffsetSource -> [OffsetSegment] -> NonEmpty OffsetSegment
 connected source =
   maybe
@@ -129,8 +132,8 @@ connected source =
     . NonEmpty.nonEmpty
     . filter ((> Tolerance.coincident) . Segment.length . segment)
 
--- | The largest radius below the one asked that fits everywhere, by bisection: a smaller cutter
--- than one that fits fits, too.
+-- | The largest cutter radius, below the requested one, that fits everywhere. Nothing when not even
+-- a tiny cutter fits. Found by bisection: every cutter smaller than a fitting one fits too.
 largestFitting :: OffsetSource -> Maybe Mm
 largestFitting source
   | fits smallest = Just (largestOf fits smallest (radius source))
@@ -141,23 +144,25 @@ largestFitting source
       Right _ -> True
       Left _ -> False
 
--- | The largest radius that fits, between one that does and one that does not.
+-- | The largest radius that fits, between one that fits and one that does not.
 largestOf :: (Mm -> Bool) -> Mm -> Mm -> Mm
 largestOf fits low high = fst (BinarySearch.bisect Tolerance.resolution fits low high)
 
 -- Reachable paths ---------------------------------------------------------------------------------
 
--- | Rest material: what stops the cutter, the position of its centre then, and the bounds of the
--- material.
+-- | A part of the contour that the cutter does not reach.
 data UnreachedPart = UnreachedPart
-  { stop :: Obstacle,
+  { -- | why the cutter does not reach it, and the largest cutter that passes
+    stop :: Obstacle,
+    -- | where the cutter's centre is when it is stopped
     cutterCentre :: Point,
+    -- | the material that remains there
     restMaterial :: RestMaterial
   }
   deriving stock (Eq, Show)
 
--- | The paths that the centre can take beside a contour, in its order, and the rest material at
--- each gap between them. The radius is positive.
+-- | The paths that the cutter's centre can take beside a contour, in the contour's order, and the
+-- parts of the contour that they leave out. The radius is positive.
 reachable :: CornerStyle -> Side -> Mm -> Polyarc -> ([TrimmedOffset], [UnreachedPart])
 reachable style side radius contour =
   ( if sharp style then map (sharpened asked) paths else paths,
@@ -165,7 +170,7 @@ reachable style side radius contour =
   )
   where
     asked = SourceOffset.fromContour style side radius contour
-    -- Round corners reach furthest.
+    -- With round corners the cutter's centre reaches more positions than with sharp ones.
     rolling = asked {style = style {sharp = False}}
     paths = TrimmedOffset.along rolling
     gaps = gapsOf rolling paths
@@ -178,8 +183,8 @@ reachable style side radius contour =
           restMaterial = IntMap.findWithDefault Unbounded k material
         }
 
--- | A path with sharp corners instead of round ones where these are whole and nothing is in the
--- way of the tips.
+-- | A path with sharp corners in place of round ones. A corner stays round when its arc is trimmed,
+-- or when the cutter on the two lines would cut another element.
 sharpened :: OffsetSource -> TrimmedOffset -> TrimmedOffset
 sharpened source =
   \path -> path {TrimmedOffset.pieces = corner =<< TrimmedOffset.pieces path}
@@ -196,9 +201,9 @@ sharpened source =
           a :| [b]
       _ -> p :| []
 
--- | The reachable paths of a cutter that also goes down slots of just its own width. There is no
--- area in which its centre could be, but a line: the path of a cutter that is smaller by
--- 'Tolerance.clearance'.
+-- | The reachable paths of a cutter that also enters slots exactly as wide as itself. In such a
+-- slot its centre can only move along a line, and the kernel finds no region. When there are such
+-- slots, the paths are those of a cutter whose radius is smaller by 'Tolerance.clearance'.
 reachableFitting :: CornerStyle -> Side -> Mm -> Polyarc -> ([TrimmedOffset], [UnreachedPart])
 reachableFitting style side radius contour
   | less > Mm 0 && minus (lengthOf smaller) (lengthOf own) > Tolerance.ignoredSlot = smaller
@@ -211,11 +216,12 @@ reachableFitting style side radius contour
       total
         [Segment.length (segment p) | w <- paths, p <- NonEmpty.toList (TrimmedOffset.pieces w)]
 
--- | A gap at which a path leaves out a part of the contour: the reason, and the cutter there.
+-- | A gap, at which a path leaves out a part of the contour: the reason, and what the cutter
+-- touches there.
 data Gap = Gap {reason :: Cause, touching :: Touching}
 
--- | The gaps of paths: where a path changes from one element to another one that does not follow,
--- or ends before the contour does.
+-- | The gaps of paths. At a gap a path goes on from one element to another one that does not follow
+-- it on the contour, or it begins or ends elsewhere than the contour.
 gapsOf :: OffsetSource -> [TrimmedOffset] -> [Gap]
 gapsOf source = concatMap gapsAlong
   where
@@ -237,7 +243,7 @@ gapsOf source = concatMap gapsAlong
         (front, back) = (Segment.start (segment first), Segment.end (segment final))
     stopped o o' p = Gap (Collision (numberOf o) (numberOf o') p) (Touching o o' p)
 
--- | The gap between two consecutive pieces of a path, if there is one.
+-- | The gap between two consecutive segments of a path, if there is one.
 gapBetween :: OffsetSource -> OffsetSegment -> OffsetSegment -> [Gap]
 gapBetween source p q =
   [Gap c (Touching (origin p) (origin q) (Segment.end (segment p))) | c <- inTheWay]
@@ -269,8 +275,8 @@ gapBetween source p q =
           Rad smooth = Tolerance.smoothAngle
        in abs turned > smooth
 
--- | True if all the numbered elements are arcs around this point with the cutter's radius. The
--- cutter's centre does not move while the cutter follows them.
+-- | True when all elements with these numbers are arcs about the point, with the cutter's radius,
+-- and there is at least one. The cutter cuts them while its centre does not move.
 isSpent :: OffsetSource -> Point -> [Int] -> Bool
 isSpent source p numbers = not (null numbers) && all standsStill numbers
   where
@@ -280,8 +286,8 @@ isSpent source p numbers = not (null numbers) && all standsStill numbers
          in Mm (abs d) <= Tolerance.clearance && Vec.distance p centre <= Tolerance.clearance
       Straight _ _ -> False
 
--- | The largest cutter, smaller than the one asked, that each cause does not stop, by the number of
--- the cause from 0.
+-- | For each cause, by its number from 0, the largest cutter radius that it does not stop. All are
+-- below the requested radius. Found by bisection.
 largestPast :: OffsetSource -> [Cause] -> Int -> Maybe Mm
 largestPast source causes =
   \k -> if IntSet.member k passSmallest then Just (bisect k smallest asked everywhere) else Nothing
@@ -302,7 +308,7 @@ largestPast source causes =
               below = halvings low middling,
               above = halvings middling high
             }
-    -- The causes that do not stop a cutter of this radius, and whose elements are on some path.
+    -- The causes that do not stop a cutter of this radius, and whose elements it can reach.
     passing r =
       IntSet.fromDistinctAscList
         [ k
@@ -319,12 +325,19 @@ largestPast source causes =
         on =
           IntSet.fromList
             [numberOf (origin p) | w <- found, p <- NonEmpty.toList (TrimmedOffset.pieces w)]
-    -- A smaller cutter does not come into a corner either.
+    -- No cutter reaches into an inner corner, however small it is.
     between c = case c of
       Concave i _ -> Just [i]
       Collision i j _ -> Just [min i j, max i j]
       InnerCorner {} -> Nothing
 
--- | The causes that a cutter in the middle between two radii passes, and the same for both halves.
--- Each is computed once for all causes.
-data Halving = Halving {middling :: Mm, passed :: ~IntSet, below, above :: ~Halving}
+-- | A step of the bisection between two radii, as a lazy tree that all causes share: each radius is
+-- examined at most once.
+data Halving = Halving
+  { -- | the radius in the middle
+    middling :: Mm,
+    -- | the causes that do not stop a cutter of this radius
+    passed :: ~IntSet,
+    -- | the steps for the smaller and the larger half
+    below, above :: ~Halving
+  }

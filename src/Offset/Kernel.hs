@@ -5,14 +5,15 @@
 --
 -- The reachable region lies on the same side of every contour: inside an outer contour and outside
 -- its islands, or outside all contours. The raw offset ("Offset.RawOffset") moves the contours to
--- that side and keeps all self-intersections. It deforms continuously with the distance, so its
--- winding number is the wanted number exactly at the reachable positions, and always differs from
--- it in the same direction elsewhere. The reachable region is therefore found by winding numbers
--- (Chen and McMains, "Polygon offsetting by computing winding numbers", 2005).
+-- that side and keeps all self-intersections. It deforms continuously as the distance grows from 0.
+-- Therefore its winding number has one known value at exactly the reachable positions. At all other
+-- positions it is larger, or at all of them smaller (Chen and McMains, "Polygon offsetting by
+-- computing winding numbers", 2005).
 --
--- In general position "Offset.Trimming" needs a single traversal of the raw offset. Where segments
--- touch or coincide, "Offset.Arrangement" first cuts all of them. Every loop must pass the check of
--- "Offset.Certificate" before it is returned. Otherwise the kernel refuses with 'Uncertain'.
+-- When the segments of the raw offset only cross each other between their ends (general position),
+-- "Offset.Trimming" finds the region in a single traversal. Where segments touch or coincide,
+-- "Offset.Arrangement" first cuts all of them. Every loop must pass the check of
+-- "Offset.Certificate" before it is returned; otherwise the kernel answers 'Uncertain'.
 module Offset.Kernel
   ( Corners (..),
     OffsetRequest (..),
@@ -49,12 +50,15 @@ import Offset.Trimming qualified as Trimming
 import Offset.WindingNumber (Outward (..))
 import Offset.WindingNumber qualified as WindingNumber
 
--- | A request: the side, the style of corners, the distance of the centre (mm, not negative), and
--- an additional distance for each segment. Segments are numbered through all contours.
+-- | A request for an offset.
 data OffsetRequest = OffsetRequest
-  { side :: Side,
+  { -- | the cutter's side of every contour, as seen in its direction of travel
+    side :: Side,
     corners :: Corners,
+    -- | distance of the cutter's centre from the contours; not negative
     distance :: Mm,
+    -- | additional distance from a segment, not negative, by the segment's number; segments are
+    -- numbered from 0 through all contours
     extra :: Maybe (Int -> Mm)
   }
 
@@ -62,16 +66,18 @@ data OffsetRequest = OffsetRequest
 roundOffset :: Side -> Mm -> OffsetRequest
 roundOffset side distance = OffsetRequest {side, corners = Round, distance, extra = Nothing}
 
--- | The loops, in the direction of travel of the source, and the raw offset of which they are
--- parts.
+-- | The loops that bound the region, and the raw offset from which they were cut. Both have the
+-- contours' direction of travel.
 data ReachableRegion = ReachableRegion {loops :: OffsetLoops, raw :: ClosedPolyarcs}
 
+-- | A reason why there is no offset.
 data OffsetFault
-  = -- | two segments of the source intersect; they are numbered through all contours
+  = -- | two segments of the contours intersect; they are numbered from 0 through all contours
     SelfIntersecting Int Int
-  | -- | a contour is nested in the others against its sense
+  | -- | the senses of the contours do not fit their nesting: outermost contours must have one
+    -- sense, and islands the opposite one
     WrongNesting
-  | -- | no result passed its certificate
+  | -- | no computed result passed the check of "Offset.Certificate"
     Uncertain
   deriving stock (Eq, Show)
 
@@ -112,8 +118,8 @@ rawOffset request contours = fst (rawOf problem chain)
 isOpen :: [FlatPolyarc] -> Bool
 isOpen = any ((== Open) . FlatPolyarc.ends)
 
--- | The original number of a segment. An open contour is traversed forwards and then backwards,
--- so its segments have two numbers.
+-- | The number of a segment in the given contours, by its number in the flat arrays. An open
+-- contour is traversed forwards and then backwards there, so each of its segments has two numbers.
 originalNumber :: [FlatPolyarc] -> Int -> Int
 originalNumber contours
   | isOpen contours = \i -> if i >= count then 2 * count - 1 - i else i
@@ -121,7 +127,7 @@ originalNumber contours
   where
     count = sum (map FlatPolyarc.size contours)
 
--- | The parameters that all contours share, and the contours as flat arrays.
+-- | The request in the form in which the kernel works on it, and the contours as flat arrays.
 problemOf :: OffsetRequest -> [FlatPolyarc] -> (Problem, ClosedPolyarcs)
 problemOf request contours = (problem, chain)
   where
@@ -149,7 +155,7 @@ problemOf request contours = (problem, chain)
           distances = \i -> d + more i,
           rawOf = if largest == 0 then unmoved else raw
         }
-    -- At the distance 0 no joints are needed.
+    -- At the distance 0 the raw offset is the contours themselves, with their smooth joints marked.
     unmoved c = let (_, marked) = raw c in (marked, marked)
     signed = case side request of
       LeftOf -> -1
@@ -173,8 +179,8 @@ problemOf request contours = (problem, chain)
           (\i -> signed * limited c i)
           (\i -> signed * requested c i)
           c
-    -- Towards its centre an arc moves by its radius at most; a larger additional distance would
-    -- leave its sector.
+    -- An additional distance moves an arc towards its centre by no more than its radius. Moved
+    -- further, it would leave its sector.
     limited c i
       | requestedDistance > d && signed * indexPrimArray (ClosedPolyarcs.bulges c) i < 0 =
         min requestedDistance (max d (0.5 * ClosedPolyarcs.diameter c i))
@@ -183,32 +189,38 @@ problemOf request contours = (problem, chain)
         requestedDistance = requested c i
     requested c i = d + more (fromIntegral (indexPrimArray (ClosedPolyarcs.sources c) i))
 
--- | The sense of an outer contour whose reachable side is its left or right one.
+-- | The sense of an outer contour whose inside is on a side of it.
 senseOf :: Side -> Sense
 senseOf s = case s of
   LeftOf -> CounterClockwise
   RightOf -> Clockwise
 
--- | The parameters that all contours share: the sense in which the outer boundary of the
--- reachable region is traversed, the tolerance for rounding, the least, the largest and each
--- segment's distance (all in mm), and the function that makes the raw offset.
+-- | The parameters that all contours share. Distances are in mm.
 data Problem = Problem
-  { sense :: Sense,
+  { -- | the sense in which the outer boundary of the reachable region is traversed
+    sense :: Sense,
+    -- | the tolerance for rounding, in mm
     rounding :: Double,
+    -- | the smallest distance of all segments
     least :: Double,
+    -- | the largest distance of all segments
     widest :: Double,
+    -- | the distance of a segment, by its number in the flat arrays
     distances :: Int -> Double,
+    -- | the raw offset of contours, and the contours with their smooth joints marked
     rawOf :: ClosedPolyarcs -> (ClosedPolyarcs, ClosedPolyarcs)
   }
 
--- | The reachable region of contours. Computes their raw offset first.
+-- | The reachable region of contours, given the wanted winding number. Computes their raw offset
+-- first.
 regionOfContours :: Problem -> Int -> ClosedPolyarcs -> Either OffsetFault ReachableRegion
 regionOfContours problem wanted c =
   let raws@(_, source) =
         rawOf problem c
    in regionOf problem wanted raws (SegmentBoxTree.build (rounding problem) source)
 
--- | The loops of a raw offset, given with its source and the source's bounding-box tree.
+-- | The reachable region, given the wanted winding number, the raw offset with the contours from
+-- which it was made, and the bounding-box tree of these contours.
 regionOf ::
   Problem ->
   Int ->
@@ -242,8 +254,9 @@ regionOf problem wanted (untrimmed, source) sourceBoxes =
           Certificate.distance = distances,
           Certificate.sense = sense
         }
-    -- When one cutter position covers the whole source except the tips of its corners, the winding
-    -- numbers of unreachable positions equal those of reachable ones.
+    -- A loop that fails the check makes the answer invalid, with one exception. Where the cutter
+    -- reaches every segment of a single contour at once, unreachable positions can have the wanted
+    -- winding number. Loops around such positions are removed.
     certified answer
       | all isSound loops' = Just found
       | ClosedPolyarcs.loopCount source == 1 && all (\k -> isSound k || isCovering k) loops' =
@@ -261,18 +274,18 @@ isArtefact tolerance answer k =
   Loop.size answer k <= 4
     && abs (FlatPolyarc.area (Loop.polyarc answer k)) <= tolerance * tolerance
 
--- | True when one of several contours bounds a region too small for the cutter. If a cutter
--- covers such a region completely, the winding number would count it as reachable; computed
--- separately, it gives no loop.
+-- | True when an outer contour, one of several, bounds a region too small for the cutter. The
+-- winding numbers of all contours together would count such a region as reachable where the cutter
+-- covers it completely. The offset of this contour alone has no loops.
 isUnreachable :: Problem -> ClosedPolyarcs -> Int -> Bool
 isUnreachable problem c w = ClosedPolyarcs.loopCount c > 1 && isOuter && isSmall && hasNoLoops
   where
     o = ClosedPolyarcs.toFlatPolyarc c w
     area = FlatPolyarc.area o
-    -- If every segment is at most d away from one point, the area seen from that point is at most
-    -- d/2 times the total length of the segments.
+    -- If one point is at most d away from every segment, the enclosed area is at most d/2 times the
+    -- total length of the segments. In a larger region no cutter position reaches every segment.
     isSmall = let Mm l = FlatPolyarc.length o in abs area <= 0.5 * widest problem * l * (1 + 1e-9)
-    -- The winding number on the left of this contour if it were the only one.
+    -- The second value is the winding number on the left of this contour alone.
     (isOuter, left) = case sense problem of
       CounterClockwise -> (area > 0, 1)
       Clockwise -> (area < 0, 0)
@@ -280,9 +293,9 @@ isUnreachable problem c w = ClosedPolyarcs.loopCount c > 1 && isOuter && isSmall
       Right region -> Loop.count (loops region) == 0
       Left _ -> False
 
--- | The winding number of the reachable region as seen from the left of the source: 1 when the
--- outermost contour is counter-clockwise, else 0. Refuses a source that intersects itself or
--- whose contours are nested against their sense.
+-- | The wanted winding number: the one on the left of every contour, and so on the left of every
+-- loop of the result. It is 1 when the outermost contours are counter-clockwise, else 0. Refuses
+-- contours that intersect or whose senses do not fit their nesting.
 wantedNumber ::
   Double ->
   Sense ->
@@ -327,8 +340,9 @@ wantedNumber tolerance sense open source boxes
           )
             <$> WindingNumber.leftExcess e
 
--- | The same number from an arrangement, for a source in special position. The first argument makes
--- the fault of two segments that intersect; the second one is the number of an unbounded region.
+-- | The wanted winding number from an arrangement, for contours whose segments touch or coincide.
+-- The first argument makes the fault for two segments that intersect. The second one is the answer
+-- when the contours enclose nothing.
 numberByArrangement ::
   (Int -> Int -> OffsetFault) ->
   Int ->

@@ -1,6 +1,7 @@
 {-# OPTIONS_GHC -O2 #-}
 
--- | Closed loops that bound the region the cutter's centre can reach, in flat arrays.
+-- | Closed loops of lines and arcs, which bound the region that the cutter's centre can reach, in
+-- flat arrays.
 module Offset.Loop
   ( OffsetLoops (..),
     none,
@@ -22,14 +23,18 @@ import Geometry.FlatPolyarc (FlatPolyarc (FlatPolyarc))
 import Geometry.FlatPolyarc qualified as FlatPolyarc
 import Geometry.Polyarc (Ends (..))
 
--- | Consecutive loops. @raws@ gives each segment the number of the segment of the raw offset of
--- which it is a part.
+-- | The loops, one after the other. Segment @i@ leads from vertex @i@ to the next vertex of its
+-- loop.
 data OffsetLoops = OffsetLoops
-  { -- | the index of each loop's first vertex, followed by the total count of vertices
+  { -- | the index of each loop's first vertex, followed by the number of all vertices
     starts :: PrimArray Int,
+    -- | x of the vertices, in mm
     xs :: PrimArray Double,
+    -- | y of the vertices, in mm
     ys :: PrimArray Double,
+    -- | @tan(sweep/4)@ of the segments, 0 for a line
     bulges :: PrimArray Double,
+    -- | for each segment the number of the segment of the raw offset from which it was cut
     raws :: PrimArray Int32
   }
 
@@ -60,11 +65,11 @@ untrimmed c =
       ]
     gathered a = primArrayFromList (map (indexPrimArray a) (concat ranges))
 
--- | The count of loops.
+-- | The number of loops.
 count :: OffsetLoops -> Int
 count l = sizeofPrimArray (starts l) - 1
 
--- | The count of segments of a loop.
+-- | The number of segments of a loop.
 size :: OffsetLoops -> Int -> Int
 size l k = indexPrimArray (starts l) (k + 1) - indexPrimArray (starts l) k
 
@@ -79,7 +84,7 @@ polyarc l k = FlatPolyarc Closed (cut (xs l)) (cut (ys l)) (cut (bulges l))
 polyarcs :: OffsetLoops -> [FlatPolyarc]
 polyarcs l = map (polyarc l) [0 .. count l - 1]
 
--- | The enclosed area in mm². Clockwise loops count as holes.
+-- | The enclosed area in mm². The area inside a clockwise loop is subtracted.
 area :: OffsetLoops -> Double
 area = sum . map FlatPolyarc.area . polyarcs
 

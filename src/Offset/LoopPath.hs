@@ -1,13 +1,13 @@
 {-# LANGUAGE BangPatterns #-}
 
--- | The toolpath from the loops of the kernel.
+-- | The toolpath beside a contour, made from the loops of the kernel.
 --
--- A loop lists segments with the elements of the contour that they are offsets of. Its vertices are
--- exact to rounding, and arcs over half a turn or cut in between are several segments of it. Here
--- each run of segments of one element becomes one segment again, and its coordinates come from the
--- element ("Offset.SourceOffset"): a vertex that agrees with an exact point of the element's offset
--- is replaced by this point. A vertex where the offsets of two distant elements intersect keeps the
--- kernel's coordinates.
+-- Each segment of a loop is a part of the offset of one element of the contour. Its vertices are
+-- exact to rounding. Arcs over half a turn, and segments that the kernel has cut, are several
+-- segments of the loop. Here consecutive segments of one element become one segment again. Its
+-- coordinates come from the element ("Offset.SourceOffset"): a vertex that agrees with an exact
+-- point of the element's offset is replaced by this point. A vertex where the offsets of two
+-- distant elements intersect keeps the kernel's coordinates.
 module Offset.LoopPath
   ( LoopRegion (..),
     region,
@@ -59,16 +59,20 @@ import Offset.SourceOffset
   )
 import Offset.Tolerance qualified as Tolerance
 
--- | Loops of the kernel, the raw offset that they are parts of, and the number of the element for
--- each segment of the flat contour.
+-- | A region, given by the kernel's loops. The flat contour is the contour with arcs over half a
+-- turn divided into two.
 data LoopRegion = LoopRegion
-  { contourEnds :: Ends,
+  { -- | whether the contour is open or closed
+    contourEnds :: Ends,
+    -- | the loops that bound the region
     loops :: OffsetLoops,
+    -- | the raw offset from which the loops were cut
     raw :: ClosedPolyarcs,
+    -- | the number of the contour's element for each segment of the flat contour
     numbers :: PrimArray Int
   }
 
--- | The region that the cutter's centre can reach; nothing for a contour that intersects itself.
+-- | The region that the cutter's centre can reach. Nothing for a contour that intersects itself.
 region :: OffsetSource -> Maybe LoopRegion
 region source = case Kernel.offset (request source numbers) [flat] of
   Right found ->
@@ -85,17 +89,18 @@ region source = case Kernel.offset (request source numbers) [flat] of
   where
     (flat, numbers) = FlatPolyarc.fromSegments (ends source) (elements source)
 
--- | The raw offset, before any of it is cut away, as one loop.
+-- | The raw offset as one loop, nothing of it trimmed.
 rawRegion :: OffsetSource -> LoopRegion
 rawRegion source = LoopRegion {contourEnds = ends source, loops = Loop.untrimmed raw, raw, numbers}
   where
     raw = Kernel.rawOffset (request source numbers) [flat]
     (flat, numbers) = FlatPolyarc.fromSegments (ends source) (elements source)
 
--- | The number of segments of the flat contour, in which arcs over half a turn are two segments.
+-- | The number of segments of the flat contour.
 flatCount :: LoopRegion -> Int
 flatCount = sizeofPrimArray . numbers
 
+-- | The request to the kernel, given the elements' numbers for the segments of the flat contour.
 request :: OffsetSource -> PrimArray Int -> Kernel.OffsetRequest
 request OffsetSource {style, side, radius, elements} numbers =
   Kernel.OffsetRequest
@@ -108,29 +113,34 @@ request OffsetSource {style, side, radius, elements} numbers =
           else Just (extra style . indexPrimArray numbers)
     }
 
--- | A segment of a loop, or consecutive segments of one arc.
+-- | A run: one segment of a loop, or consecutive segments on one arc.
 data Run = Run
-  { origin :: Origin,
-    -- | index of its first segment in the flat contour, in which an open contour is traversed
-    -- forwards and then backwards
+  { -- | the element or corner of the contour of which it is the offset
+    origin :: Origin,
+    -- | number of its first segment in the flat contour; an open contour of @n@ segments is
+    -- traversed there and back, so its numbers go up to @2n − 1@
     flat :: Int,
-    -- | joins both halves of an arc over half a turn
+    -- | True when it joins the two halves of an arc over half a turn
     isInterior :: Bool,
-    -- | on the asked side of an open contour; all runs beside a closed one
+    -- | True when it lies on the cutter's side of the contour. False only for an open contour:
+    -- on its other side and about its ends
     isBeside :: Bool,
-    -- | joins the offsets of two elements at an inner corner, and is an offset of none
+    -- | True when it is a line that joins the offsets of two elements at an inner corner
     isConnecting :: Bool,
+    -- | the point where it begins
     from :: {-# UNPACK #-} Point,
+    -- | the point where it ends
     to :: {-# UNPACK #-} Point,
     -- | signed sweep in radians; 0 for a line
     turned :: Double
   }
 
--- | The runs of a loop in order, and the origin of the run before the first one.
+-- | The runs once around a loop, and the origin of the run before the first one. Connecting lines
+-- before the first run are skipped.
 data Circuit = Circuit {before :: Origin, runs :: [Run]}
 
--- | The runs of a loop, by the loop's number. They begin with a run that is not beside the contour
--- or, when there is none, with the one of the least origin.
+-- | The runs of a loop, by the loop's number. The first one is a run that is not beside the
+-- contour. When there is none, it is the run with the least origin.
 circuit :: LoopRegion -> Int -> Circuit
 circuit r k = circuitFrom r a z (fromMaybe (leastStart r a z) beyond)
   where
@@ -138,7 +148,8 @@ circuit r k = circuitFrom r a z (fromMaybe (leastStart r a z) beyond)
     a = indexPrimArray (Loop.starts (loops r)) k
     z = indexPrimArray (Loop.starts (loops r)) (k + 1)
 
--- | The runs of the raw offset of a contour at whose corners the cutter passes.
+-- | The runs of the raw offset that are beside the contour, without connecting lines. The cutter
+-- passes all corners of the contour.
 rawCircuit :: LoopRegion -> Circuit
 rawCircuit r
   | z == 0 = Circuit (Along 0) []
@@ -147,8 +158,9 @@ rawCircuit r
     full = circuitFrom r 0 z 0
     z = if Loop.count (loops r) == 0 then 0 else indexPrimArray (Loop.starts (loops r)) 1
 
--- | The first segment of the run with the least origin, among those from @a@ to before @z@. A run
--- around the end of the numbers begins before it, unless it is a full circle.
+-- | The first segment of the run with the least origin, among the segments from @a@ to @z − 1@ of a
+-- loop. When this run continues from the last segment to the first one, it begins near the end of
+-- the numbers, unless it is a full circle.
 leastStart :: LoopRegion -> Int -> Int -> Int
 leastStart r a z = if first == a then backwards a (z - 1) else first
   where
@@ -164,7 +176,8 @@ leastStart r a z = if first == a then backwards a (z - 1) else first
       | i > a && originAt r i == origin && flatAt r i <= flatAt r start = backwards i (i - 1)
       | otherwise = start
 
--- | The runs once around the segments from @a@ to before @z@, beginning at one of them.
+-- | The runs of the loop with the segments from @a@ to @z − 1@. The last argument is the segment
+-- with which they begin.
 circuitFrom :: LoopRegion -> Int -> Int -> Int -> Circuit
 circuitFrom r a z begin = Circuit (earlier begin) (go begin (z - a))
   where
@@ -179,7 +192,7 @@ circuitFrom r a z begin = Circuit (earlier begin) (go begin (z - a))
       where
         after = if i + 1 == z then a else i + 1
 
--- | The run of one segment of a loop, which ends at a vertex.
+-- | The run of one segment of a loop. The last argument is the number of the vertex where it ends.
 runAt :: LoopRegion -> Int -> Int -> Run
 runAt r i j =
   Run
@@ -199,23 +212,28 @@ runAt r i j =
     l = loops r
     vertex k = Vec.point (indexPrimArray (Loop.xs l) k) (indexPrimArray (Loop.ys l) k)
 
--- | The number of the segment of the raw offset that a segment of a loop is a part of.
+-- | The number of the segment of the raw offset from which a segment of a loop was cut.
 rawAt :: LoopRegion -> Int -> Int
 rawAt r i = fromIntegral (indexPrimArray (Loop.raws (loops r)) i)
 
+-- | The marks of that segment of the raw offset.
 markAt :: LoopRegion -> Int -> Word8
 markAt r i = indexPrimArray (ClosedPolyarcs.marks (raw r)) (rawAt r i)
 
+-- | True of a segment about a corner.
 isAroundAt :: LoopRegion -> Int -> Bool
 isAroundAt r i = ClosedPolyarcs.hasMark ClosedPolyarcs.aroundMark (markAt r i)
 
+-- | True of a line that connects the offsets of two elements at an inner corner.
 isConnectingAt :: LoopRegion -> Int -> Bool
 isConnectingAt r i = ClosedPolyarcs.hasMark ClosedPolyarcs.connectingMark (markAt r i)
 
--- | The number of the segment of the flat contour. An open contour is traversed there and back.
+-- | The number, in the flat contour, of the segment from which a segment of a loop comes. For an
+-- open contour of @n@ segments the numbers from @n@ on are those of the traversal back.
 flatAt :: LoopRegion -> Int -> Int
 flatAt r i = fromIntegral (indexPrimArray (ClosedPolyarcs.sources (raw r)) (rawAt r i))
 
+-- | The element or corner from which a segment of a loop comes.
 originAt :: LoopRegion -> Int -> Origin
 originAt r i = if isAroundAt r i then Around element else Along element
   where
@@ -223,16 +241,18 @@ originAt r i = if isAroundAt r i then Around element else Along element
     n = sizeofPrimArray (numbers r)
     element = indexPrimArray (numbers r) (if k < n then k else 2 * n - 1 - k)
 
--- | Excludes the way back along an open contour, and the arcs about its ends.
+-- | True of a segment on the cutter's side of the contour: not on the traversal back along an open
+-- contour, and not on the arcs about its ends.
 isBesideAt :: LoopRegion -> Int -> Bool
 isBesideAt r i = contourEnds r == Closed || flatAt r i < (if isAroundAt r i then n - 1 else n)
   where
     n = sizeofPrimArray (numbers r)
 
--- | The segments of a path along runs. The structure is the request that the kernel answered: its
--- radius may be smaller than that of the source by 'Tolerance.clearance', for a cutter that just
--- fits. The first segment follows a run of the given origin when the path is closed. Segments are
--- not chained yet: neighbours may differ by 'Tolerance.coincident' where they join.
+-- | The segments of a path along runs. The first argument is the offset that the kernel computed,
+-- the second one the offset whose coordinates are wanted. They differ for a cutter that just fits:
+-- the first radius is then smaller by 'Tolerance.clearance'. The third argument is the origin of
+-- the run before the first one, for a closed path. Where two segments join, their ends may differ
+-- by up to 'Tolerance.coincident'.
 path :: OffsetSource -> OffsetSource -> Maybe Origin -> [Run] -> [OffsetSegment]
 path structure source previous runs = case joined (filter (not . isNegligible structure) runs) of
   [] -> []
@@ -247,7 +267,7 @@ path structure source previous runs = case joined (filter (not . isNegligible st
     joint = jointBetween structure source
     segmentOf = exactSegment structure source
 
--- | Makes one run of consecutive runs along one arc.
+-- | Joins consecutive runs along one arc.
 joined :: [Run] -> [Run]
 joined runs = case runs of
   p : q : more
@@ -256,8 +276,9 @@ joined runs = case runs of
     | otherwise -> p : joined (q : more)
   _ -> runs
 
--- | What the kernel leaves at a corner that counts as smooth, between both halves of an arc, or at
--- a slight inner corner where an intersection is lost in rounding.
+-- | True of a run that is no part of the path: an arc about a corner that counts as smooth, or a
+-- short line between the two halves of an arc or at an inner corner. The kernel makes such lines
+-- where rounding hides an intersection.
 isNegligible :: OffsetSource -> Run -> Bool
 isNegligible structure run = case origin run of
   Around i -> turned run /= 0 && cornerAt structure i == Smooth || isInterior run && isShort
@@ -265,8 +286,9 @@ isNegligible structure run = case origin run of
   where
     isShort = Vec.distance (from run) (to run) <= Tolerance.clearance
 
--- | The cuts of two neighbouring elements that join at a smooth or slight corner; nothing for other
--- neighbours, and where the kernel found another intersection of both.
+-- | The lengths to cut off two neighbouring segments of a path that join at a smooth or slight
+-- corner. The first offset is the one that the kernel computed, the second one gives the lengths.
+-- Nothing for all other neighbours, and when the kernel joined both elsewhere.
 jointBetween :: OffsetSource -> OffsetSource -> Origin -> Run -> Maybe Cuts
 jointBetween structure source p run = case (p, origin run) of
   (Along i, Along j)
@@ -287,11 +309,13 @@ jointBetween structure source p run = case (p, origin run) of
         Mm r = distanceAt structure i
         Mm close = Tolerance.coincident
         angle = indexPrimArray (turnings structure) i
-        -- The element's own end is near enough to where it is cut.
+        -- The distance between the point where the kernel joined both and the end of the first
+        -- element's offset.
         distance = Vec.distance (from run) (Segment.end (movedElement structure i))
 
--- | The segment of a run. Its ends are cut by the given lengths, or are the ends of the exact
--- offset, or, where these are not the run's, its own.
+-- | The segment of a run. The first offset is the one that the kernel computed, the second one
+-- gives the coordinates. The lengths, if any, are cut off the exact segment's start and end.
+-- Without a length, an end that agrees with the run's end is exact; otherwise it is the run's.
 exactSegment :: OffsetSource -> OffsetSource -> Maybe Double -> Run -> Maybe Double -> OffsetSegment
 exactSegment structure source front run back = OffsetSegment (origin run) $ case origin run of
   Along i
@@ -301,12 +325,12 @@ exactSegment structure source front run back = OffsetSegment (origin run) $ case
     | turned run /= 0 -> both (`cornerArc` i)
     | otherwise -> Straight (snapped i (from run)) (snapped i (to run))
   where
-    -- Mostly both are one, and the segment is needed once only.
+    -- Mostly both offsets are the same, and the segment is computed once.
     both f =
       let exact = f source
           structural = if radius structure == radius source then exact else f structure
        in partOf front run back structural exact
-    -- The exact point of the corner that is closest to a vertex.
+    -- The exact point of the corner that agrees with a vertex, or the vertex itself.
     snapped i p
       | Vec.isNear p nearest = snd pair
       | otherwise = p
@@ -314,7 +338,8 @@ exactSegment structure source front run back = OffsetSegment (origin run) $ case
         pair@(nearest, _) = minimumBy (comparing (Vec.distance p . fst)) points
         points = zip (cornerPoints structure i) (cornerPoints source i)
 
--- | The part of an exact segment that a run covers, given the one of the structure.
+-- | The part of an exact segment that a run covers. The first of both segments belongs to the
+-- offset that the kernel computed, the second one to the offset whose coordinates are wanted.
 partOf :: Maybe Double -> Run -> Maybe Double -> Segment -> Segment -> Segment
 partOf front run back structural exact
   | startsThere && endsThere = whole
@@ -331,7 +356,7 @@ partOf front run back structural exact
     b = fromMaybe 0 back
     start = if startsThere then Segment.start whole else from run
     end = if endsThere then Segment.end whole else to run
-    -- The sweep between both ends that is nearest to the run's.
+    -- The sweep from start to end that is nearest to the run's sweep.
     sweepNear centre =
       let Rad least = Vec.signedAngle (Vec.to centre start) (Vec.to centre end)
        in Rad (least + 2 * pi * fromIntegral (round ((turned run - least) / (2 * pi)) :: Int))

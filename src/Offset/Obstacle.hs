@@ -2,9 +2,10 @@
 
 -- | The reasons why a cutter does not fit beside a contour.
 --
--- A concave arc and an inner corner are seen at the element itself. A collision with a distant
--- element is found by the distance between the raw offset and the contour; it is looked for only
--- after the kernel has found that the cutter does not reach every element.
+-- A concave arc and an inner corner are found without the other elements. A collision with a
+-- distant element is found by the distance between the raw offset and the contour. This takes
+-- longer, so it is done only after the kernel has found that the cutter does not reach every
+-- element.
 module Offset.Obstacle
   ( Obstacle (..),
     Cause (..),
@@ -31,23 +32,23 @@ import Geometry.Vec (Point)
 import Offset.SourceOffset
 import Offset.Tolerance qualified as Tolerance
 
--- | A reason why a cutter does not fit, and the largest radius that fits, if there is one.
+-- | A reason why a cutter does not fit, and the largest cutter radius that fits, if there is one.
 data Obstacle = Obstacle {cause :: Cause, largest :: Maybe Mm}
   deriving stock (Eq, Show)
 
--- | A reason, with elements by their numbers from 0.
+-- | A reason why a cutter does not fit. Elements of the contour are given by their numbers from 0.
 data Cause
-  = -- | a concave arc of this radius
+  = -- | a concave arc and its radius, which is smaller than the cutter's
     Concave Int Mm
-  | -- | a corner towards the cutter between two elements, and its vertex
+  | -- | a corner that turns towards the cutter: the elements before and after it, and its vertex
     InnerCorner Int Int Point
-  | -- | on its way along the first element the cutter would cut the second one; the centre of the
-    -- cutter there
+  | -- | on its path along the first element the cutter would cut the second one; the point is the
+    -- position of its centre there
     Collision Int Int Point
   deriving stock (Eq, Show)
 
--- | The obstacles at single elements and corners, the most telling ones first: concave arcs, inner
--- corners, and elements that are too short between slight inner corners.
+-- | The obstacles at single elements and corners: first concave arcs, then inner corners, then
+-- elements that are too short between slight inner corners.
 localCauses :: OffsetSource -> [Cause]
 localCauses source =
   [Concave i r | i <- numbers, Just r <- [tooTight source i]]
@@ -59,7 +60,8 @@ localCauses source =
   where
     numbers = [0 .. elementCount source - 1]
 
--- | The radius of an arc towards the cutter that is smaller than its distance.
+-- | The radius of an element that is a concave arc, if it is smaller than the offset's distance
+-- from it.
 tooTight :: OffsetSource -> Int -> Maybe Mm
 tooTight source i = case elements source Vector.! i of
   Arc {start, centre, sweep = Rad angle}
@@ -69,7 +71,8 @@ tooTight source i = case elements source Vector.! i of
       Just old
   _ -> Nothing
 
--- | The corners at elements whose offset is no longer than what both of its corners cut off.
+-- | The corners at elements whose offset is no longer than the lengths that the corners at its ends
+-- cut off.
 tooShort :: OffsetSource -> [Cause]
 tooShort source = go 0 frontOfFirst (movedElement source 0)
   where
@@ -87,8 +90,9 @@ tooShort source = go 0 frontOfFirst (movedElement source 0)
         corner = InnerCorner a (next source a) (Segment.end s)
         a = if front > 0 && (i > 0 || back <= 0) then (i - 1) `mod` count else i
 
--- | The deepest point at which the cutter, on a path along all elements, would cut the contour.
--- When there is none the path intersects itself elsewhere; then its start is named.
+-- | The collision at the point where a cutter on a path along all elements would cut the contour
+-- deepest. When it cuts nowhere, the path only intersects itself; then the start of the path is the
+-- point, and its element is given twice.
 collision :: OffsetSource -> NonEmpty OffsetSegment -> Cause
 collision source path
   | null found =
@@ -99,8 +103,9 @@ collision source path
   where
     found = gouges source (NonEmpty.toList path)
 
--- | The points at which the cutter, on segments of an offset, would cut the contour: the distance
--- of the centre from the contour, the elements of the segment and of the contour, the centre.
+-- | The points at which a cutter on segments of an offset would cut the contour. Each result has
+-- the distance of its centre from the contour, the number of the segment's element, the number of
+-- the element that it cuts, and the position of its centre.
 gouges :: OffsetSource -> [OffsetSegment] -> [(Mm, Int, Int, Point)]
 gouges source = concatMap gougesOf
   where

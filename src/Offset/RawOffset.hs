@@ -1,14 +1,15 @@
 {-# LANGUAGE BangPatterns #-}
 {-# OPTIONS_GHC -O2 #-}
 
--- | The raw offset: every segment is moved to its side and joined to the next.
+-- | The raw offset: every segment is moved sideways by its distance and joined to the next one.
 --
--- An outer corner gets an arc about the vertex, or two lines up to the intersection of the
--- tangents. A smooth joint gets nothing. At an inner corner two sufficiently long lines are cut at
--- their intersection; other segments are connected by a straight line. When the distance exceeds
--- the radius of an arc, the arc keeps its bulge and then runs backwards. The raw offset deforms
--- continuously as the distance grows from 0. Its winding numbers therefore show what the cutter's
--- centre can reach (Chen and McMains, "Polygon offsetting by computing winding numbers", 2005).
+-- Segments at an outer corner are joined by an arc about the vertex, or by two lines up to the
+-- intersection of the tangents. At an inner corner two sufficiently long lines are cut at their
+-- intersection; other segments are joined by a straight line. At a smooth joint the moved segments
+-- meet. When the distance exceeds the radius of an arc, the arc keeps its bulge and then runs
+-- backwards. The raw offset deforms continuously as the distance grows from 0. Its winding numbers
+-- therefore show what the cutter's centre can reach (Chen and McMains, "Polygon offsetting by
+-- computing winding numbers", 2005).
 module Offset.RawOffset
   ( Corners (..),
     raw,
@@ -22,12 +23,13 @@ import Data.Word (Word8)
 import Geometry.ClosedPolyarcs (ClosedPolyarcs (ClosedPolyarcs))
 import Geometry.ClosedPolyarcs qualified as ClosedPolyarcs
 
--- | The form of outer corners. 'Sharp' applies to changes of direction up to 120°; larger ones
--- are round.
+-- | The form of outer corners: an arc about the vertex, or two lines. A corner that turns by more
+-- than 120° is always round.
 data Corners = Round | Sharp
   deriving stock (Eq, Show)
 
--- | Arrays that are filled from index 0: x, y, bulge, marks, number of the source segment.
+-- | The arrays of a raw offset while they are written: x and y of the vertices, bulges and marks of
+-- the segments, and the numbers of the segments from which they were made.
 data Filling s
   = Filling
       (MutablePrimArray s Double)
@@ -36,17 +38,30 @@ data Filling s
       (MutablePrimArray s Word8)
       (MutablePrimArray s Int32)
 
--- | The kind of joint between two segments: no corner; a change of distance without a corner; an
--- outer corner; an inner corner cut at the intersection; an inner corner connected over the
--- vertex.
-data Joint = Smooth | Step | Outer | Trimmed | Over
+-- | The kind of joint between two moved segments.
+data Joint
+  = -- | no corner, and one distance: they meet
+    Smooth
+  | -- | no corner, but two distances: a line across joins them
+    Step
+  | -- | an outer corner: an arc or two lines go round the vertex
+    Outer
+  | -- | an inner corner between two lines, which are cut at their intersection
+    Trimmed
+  | -- | any other inner corner: a line joins the end of one segment to the start of the next
+    Over
   deriving stock (Eq)
 
 -- | The raw offset of closed polyarcs, and the polyarcs with their smooth joints marked. The
--- first function gives each segment's distance (mm), the second one the radius of the arc about
--- its ends; both are positive to the right of the direction of travel. @uneven@ says that the
--- distances differ. Segments shorter than the tolerance (mm) are omitted. Two directions are
--- equal when the sine of their angle is at most the smoothness.
+-- arguments are, in order:
+--
+-- * the tolerance: shorter segments (mm) are omitted;
+-- * the smoothness: two directions are equal when the sine of their angle is at most this;
+-- * the form of outer corners;
+-- * True when the segments' distances differ;
+-- * each segment's distance in mm, positive to the right of the direction of travel;
+-- * the radius, with the same sign, of arcs about each segment's ends; it may be larger than the
+--   distance.
 raw ::
   Double ->
   Double ->
@@ -111,7 +126,8 @@ raw !tolerance !smoothness corners uneven distance corner !c = runST $ do
   pure (result, c {ClosedPolyarcs.marks = marks'})
 {-# INLINE raw #-}
 
--- | Copies a polyarc's first vertex after its last segment, and marks its first and last segment.
+-- | Copies the vertex at the first index, where a polyarc begins, to the second one, just after its
+-- last segment. Marks the first and the last segment.
 closeUp :: Filling s -> Int -> Int -> ST s ()
 closeUp (Filling rx ry rb rm rs) k k' = do
   readPrimArray rx k >>= writePrimArray rx k'
@@ -124,7 +140,9 @@ closeUp (Filling rx ry rb rm rs) k k' = do
   m' <- readPrimArray rm (k' - 1)
   writePrimArray rm (k' - 1) (m' + ClosedPolyarcs.lastMark)
 
--- | Offsets one polyarc. Writes from the given index on, and returns the next free index.
+-- | Writes the raw offset of one polyarc. The arguments up to the polyarcs are those of 'raw'; then
+-- follow the marks of the polyarcs' segments, the arrays to write to, the polyarc's first vertex,
+-- its repeated vertex, and the first free index. The result is the next free index.
 offsetPolyarc ::
   Double ->
   Double ->
@@ -160,8 +178,8 @@ offsetPolyarc
             const (closing, bend, cut)
     where
       bulge i = indexPrimArray (ClosedPolyarcs.bulges c) i
-      -- The unit directions at both ends, and the length of the chord. The tangents deviate from
-      -- the chord by half the sweep.
+      -- The unit directions at the start and at the end of segment i, and the length of its chord.
+      -- They deviate from the chord by half the sweep.
       tangents i k =
         let x0 = indexPrimArray (ClosedPolyarcs.xs c) i
             y0 = indexPrimArray (ClosedPolyarcs.ys c) i
@@ -189,11 +207,12 @@ offsetPolyarc
         Smooth ->
           readPrimArray marks i >>= \m -> writePrimArray marks i (m + ClosedPolyarcs.smoothMark)
         _ -> pure ()
-      -- The joint between the end of segment i and segment j: its kind, tan(θ/4) of an outer
-      -- corner, and the length by which lines are cut. restI and restJ are the lengths that both
-      -- lines still have. The direction of a chord is only known to the rounding of its ends. So a
-      -- corner counts as smooth when it moves no adjacent offset sideways by more than the
-      -- rounding.
+      -- The joint between segment i, which ends in the direction (ax, ay), and segment j, which
+      -- starts in the direction (bx, by): its kind, tan(θ/4) of an outer corner that turns by θ,
+      -- and the length by which both lines of an inner corner are cut. restI and restJ are the
+      -- lengths that earlier cuts leave of both lines. Rounding of the vertices changes the
+      -- direction of a chord. Therefore a corner counts as smooth when it moves no offset point by
+      -- more than the tolerance.
       joint i j ax ay bx by shorter restI restJ k
         | dt > 0
             && ( abs cr <= smoothness
@@ -201,10 +220,10 @@ offsetPolyarc
                      && abs (cr * d) * (abs cr + abs (bulge i) + abs (bulge j)) <= tolerance
                ) =
           k (if di == dj then Smooth else Step) 0 0
-        -- The direction reverses here: a cusp. With different distances a cusp that is open
-        -- towards the cutter's side is joined over the vertex, because the cutter cannot get into
-        -- it. With one common distance every cusp can be treated as an outer corner, because the
-        -- path round it cannot be reached.
+        -- The direction reverses here: a cusp. With different distances a cusp that is open towards
+        -- the cutter is an inner corner, because the cutter cannot enter it. With one common
+        -- distance every cusp can be treated as an outer corner: an arc about the tip of an open
+        -- cusp lies in the unreachable region, so trimming removes it.
         | dt < 0 && abs (cr * d) <= tolerance =
           k
             ( if uneven
@@ -225,8 +244,8 @@ offsetPolyarc
           cr = ax * by - ay * bx
           dt = ax * bx + ay * by
           cut = abs (d * cr / (1 + dt))
-          -- Both lines need this length, so that what is cut off lies beside them. With one common
-          -- distance, everything beyond is blocked anyway.
+          -- The least length of both lines for which cutting them is right: the part cut off then
+          -- lies beside them. With one common distance all points beyond are unreachable anyway.
           needed
             | uneven = max cut (if dt > 0 then abs (d * cr) else abs d)
             | otherwise = cut
@@ -237,9 +256,9 @@ offsetPolyarc
         writePrimArray rb k b
         writePrimArray rm k (m :: Word8)
         writePrimArray rs k (indexPrimArray (ClosedPolyarcs.sources c) s)
-      -- Segment i with its directions, the length of its chord, the length cut off at its
-      -- beginning, and the mark of a smooth beginning. The joint at the end of the polyarc was
-      -- computed at the start.
+      -- Writes segment i and all that follow, from index k on. The arguments are the segment's
+      -- directions at its start and its end, its chord's length, the length cut off at its start,
+      -- the mark of a smooth start, and the joint at the end of the polyarc.
       go !i !k !sx !sy !ex !ey !l !cut !beginMark closing
         | i == e - 1 = case closing () of
           (kind, bend, back) ->
@@ -253,7 +272,7 @@ offsetPolyarc
                   markSmooth (i + 1) kind
                   segment i (i + 1) k sx sy ex ey l cut cut' beginMark kind bend $ \k' beginMark' ->
                     go (i + 1) k' sx' sy' ex' ey' l' cut' beginMark' closing
-      -- Writes a segment and its joint to the next.
+      -- Writes segment i and its joint to segment j, of the given kind and bend.
       segment !i !j !k !sx !sy !ex !ey !l !cut !cut' !beginMark kind !bend next = do
         let d = dist i
             b = bulge i
@@ -263,8 +282,8 @@ offsetPolyarc
             vy = indexPrimArray (ClosedPolyarcs.ys c) (i + 1)
             fx = vx + d * ey
             fy = vy - d * ex
-            -- The radius of an arc with its centre on the left grows when the arc moves to the
-            -- right.
+            -- Compares the length of the moved line, or the chord of the moved arc. An arc whose
+            -- centre is on the left grows when it moves to the right.
             isLongEnough =
               if b == 0
                 then l - cut - cut' > tolerance
@@ -276,8 +295,8 @@ offsetPolyarc
           Smooth -> next k1 endMark
           Step -> put k1 fx fy 0 ClosedPolyarcs.aroundMark i >> next (k1 + 1) 0
           Trimmed -> next k1 0
-          -- With uneven distances the connection passes through the vertex, because positions
-          -- further out may be reachable.
+          -- With different distances a straight line could run through the material to its other
+          -- side. Two lines through the vertex cannot.
           Over
             | uneven ->
               put k1 fx fy 0 ClosedPolyarcs.connectingMark i
@@ -294,7 +313,7 @@ offsetPolyarc
             let gx = vx + radius * ey
                 gy = vy - radius * ex
                 endMark' = (if radius == d then endMark else 0) + ClosedPolyarcs.aroundMark
-            -- bend is tan(θ/4). Up to 120° the tangents intersect at wide·tan(θ/2) from both ends.
+            -- With bend = tan(θ/4), both tangents intersect at radius·tan(θ/2) from the arc's ends.
             k3 <-
               if corners == Sharp && abs bend <= tan (pi / 6) + 1e-9 && d == dj
                 then do

@@ -1,9 +1,9 @@
--- | The bounds of the rest material beside a contour: what a cutter cannot reach.
+-- | The boundaries of the rest material beside a contour, which a cutter cannot reach.
 --
--- At a gap of a path the cutter leaves the contour, and touches it again farther on. Between both
--- there is a stretch of the contour that no path touches. Stretches and edges of the cutter in turn
--- bound the material. They are followed from gap to gap until the boundary closes; where two edges
--- of the cutter intersect, it changes from one to the other.
+-- At a gap of a path the cutter leaves the contour and touches it again farther on. Between these
+-- two positions lies a stretch of the contour that no path touches. The boundary of the material
+-- consists of such stretches and of edges of the cutter in turn. It is followed from gap to gap
+-- until it closes. Where two edges of the cutter intersect, it changes from one edge to the other.
 module Offset.RestMaterial
   ( RestMaterial (..),
     Touching (..),
@@ -34,21 +34,22 @@ import Offset.TrimmedOffset qualified as TrimmedOffset
 
 -- | The rest material at a gap.
 data RestMaterial
-  = -- | a closed boundary of stretches of the contour and edges of the cutter; the last segment is
-    -- the cutter's edge at this gap
+  = -- | material inside a closed boundary of stretches of the contour and edges of the cutter; the
+    -- last segment is the cutter's edge at this gap
     Within (NonEmpty Segment)
-  | -- | the same material as at another gap, given by the cutter's centre there
+  | -- | the material that is listed at another gap, where the cutter's centre is at this point
     SameAs Point
   | -- | material whose boundary was not found
     Unbounded
   deriving stock (Eq, Show)
 
--- | The cutter at a gap: the elements or corners that it touches before and after the gap, and its
--- centre.
+-- | The cutter at a gap: the elements or corners of the contour that it touches before and after
+-- the gap, and the position of its centre.
 data Touching = Touching {before :: Origin, after :: Origin, centreAt :: Point}
 
--- | The rest material beside a contour at the gaps of its paths, by the numbers of the gaps from 0.
--- A gap without an entry has no boundary.
+-- | The rest material beside a contour, by the numbers of the gaps from 0. The arguments are the
+-- cutter's side, the contour, the paths beside it, and their gaps. A gap without an entry is at
+-- material whose boundary was not found.
 restMaterials :: Side -> Polyarc -> [TrimmedOffset] -> [Touching] -> IntMap.IntMap RestMaterial
 restMaterials side contour paths gaps =
   IntMap.union
@@ -68,7 +69,7 @@ restMaterials side contour paths gaps =
         | (k, g) <- zip [0 ..] gaps,
           let at = centreAt g
       ]
-    -- The gaps whose material one stretch and one edge bound.
+    -- The material at gaps where one stretch and the cutter's edge at the gap bound it.
     alone =
       IntMap.fromList
         [ found
@@ -78,10 +79,12 @@ restMaterials side contour paths gaps =
             found <- materials side (Vector.singleton (Bound s k at))
         ]
     isSameElement (Position i _) (Position j _) = i == j
-    -- Where the cutter leaves the contour at the other gaps, and its centre; where it arrives.
+    -- For the remaining gaps: the position at which the cutter leaves the contour, with its centre,
+    -- by gap; and the gap by the position at which the cutter touches the contour again.
     open = IntMap.fromList [(k, (a, at)) | (k, a, _, at) <- numbered, IntMap.notMember k alone]
     arrivals = Map.fromList [(b, k) | (k, _, b, _) <- numbered, IntMap.notMember k alone]
-    -- All bounds of the same material, if a gap has the least number of its gaps. It comes last.
+    -- All stretches from gap to gap until they return to the given gap, if it has the least number
+    -- of these gaps. The stretch that ends at the given gap is the last.
     boundary first = go IntSet.empty [] first
       where
         go seen found k = do
@@ -100,12 +103,13 @@ restMaterials side contour paths gaps =
       (found, _) -> found
 
 -- | A stretch of the contour that no path touches, and the gap at its end: the gap's number, and
--- the cutter's centre.
+-- the position of the cutter's centre there.
 data Bound = Bound {along :: NonEmpty Segment, gap :: Int, cutterAt :: Point}
 
--- | The materials between bounds, each of which continues with the next one after its gap. Where
--- edges of the cutter intersect there are several. Each is listed at the gap before its first
--- stretch.
+-- | The rest materials of a cycle of stretches: the cutter's edge at the end of each stretch leads
+-- to the start of the next one. Where edges of the cutter intersect there are several materials.
+-- Each is listed with its boundary at the gap before its first stretch, and as the same material at
+-- the gaps before its other stretches.
 materials :: Side -> Vector Bound -> [(Int, RestMaterial)]
 materials side bounds = go IntSet.empty [0 .. Vector.length bounds - 1]
   where
@@ -120,9 +124,10 @@ materials side bounds = go IntSet.empty [0 .. Vector.length bounds - 1]
             <> go (IntSet.union (IntSet.fromList others) done) more
         | otherwise -> go done more
 
--- | The boundary of the material that begins with a stretch, and the numbers of the other stretches
--- in it. After each stretch it follows the cutter's edge to the next stretch, or to another edge.
--- Material beyond the contour, where the cutter touches it from the other side, is left out.
+-- | The boundary that begins with the numbered stretch of a cycle, and the numbers of the other
+-- stretches in it. After each stretch it follows the cutter's edge to the next stretch, or to the
+-- intersection with another edge. Nothing when it encloses an area on the wrong side of the
+-- contour.
 boundaryFrom :: Side -> Vector Bound -> Int -> Maybe (NonEmpty Segment, [Int])
 boundaryFrom side bounds first =
   follow (4 * count) [] (stretchAt first) first (edges Vector.! first)
@@ -136,9 +141,9 @@ boundaryFrom side bounds first =
         (cutterAt (bounds Vector.! i))
         (Segment.end (NonEmpty.last (stretchAt i)))
         (Segment.start (NonEmpty.head (stretchAt (next i))))
-    -- Along the contour, the cutter's centre is on the cutter's side.
+    -- The material is on the cutter's side of the stretches, and outside the cutter's edge.
     edge = Segment.arc (if side == LeftOf then Clockwise else CounterClockwise)
-    -- Follows the rest of an edge, given by its number, in a limited number of steps.
+    -- Follows the boundary from the remaining part of edge i on, for a limited number of steps.
     follow :: Int -> [Int] -> NonEmpty Segment -> Int -> Segment -> Maybe (NonEmpty Segment, [Int])
     follow steps others done i rest
       | steps <= 0 = Nothing
@@ -153,8 +158,8 @@ boundaryFrom side bounds first =
       | otherwise = Nothing
       where
         closed = done <> (rest :| [])
-    -- The other edges that intersect the rest of an edge: the fraction along it, the number of the
-    -- other edge, the fraction along that one.
+    -- The intersections of the remaining part of edge i with the other edges: the fraction along
+    -- this part, the number of the other edge, the fraction along the other edge.
     crossed i rest =
       [ (t, j, u)
         | j <- [0 .. count - 1],
@@ -164,14 +169,15 @@ boundaryFrom side bounds first =
           Just t <- [inside rest p],
           Just u <- [inside other p]
       ]
-    -- An intersection nearer to an end is the end.
+    -- The fraction along an edge at a point. Nothing within the clearance of an end of the edge.
     inside e p =
       let t = Segment.fraction e p
           Mm l = Segment.length e
           Mm least = Tolerance.clearance
        in if t * l > least && (1 - t) * l > least then Just t else Nothing
 
--- | A position on a contour: the number of an element, and a fraction of its length from 0 to 1.
+-- | A position on a contour: the number of an element from 0, and a fraction of its length from 0
+-- to 1.
 data Position = Position Int Double
   deriving stock (Eq, Ord)
 
@@ -181,13 +187,14 @@ touchedAt elements at o = case o of
   Around i -> Position i 1
   Along i -> Position i (foot elements i at)
 
--- | The point of an element that is closest to a point, as a fraction of its length.
+-- | The fraction of an element's length at which the element is nearest to a point, from 0 to 1.
 foot :: Vector Segment -> Int -> Point -> Double
 foot elements i p =
   let s = elements Vector.! i in max 0 (min 1 (Segment.fraction s (snd (Distance.nearest p s))))
 
--- | The contour from one position to a later one. There is nothing when a path goes along it, when
--- both are one point, or when an open contour ends between them.
+-- | The stretch of a contour from one position to another one, given the segments of the paths
+-- by the element that they belong to. Nothing when a path touches it, when both positions are one
+-- point, or when an open contour ends between them.
 stretchBetween ::
   IntMap.IntMap [OffsetSegment] ->
   Ends ->

@@ -1,12 +1,12 @@
 {-# LANGUAGE BangPatterns #-}
 {-# OPTIONS_GHC -O2 -fno-full-laziness #-}
 
--- | Intersections of two segments (lines and arcs): proper crossings, and, to within rounding,
--- ends that lie on the other segment and points of contact. The caller's 'Visitor' decides how
--- to handle the latter two.
+-- | Intersections of two segments (lines and arcs). They are of three kinds: the segments cross
+-- between their ends; an end of one lies on the other; the segments touch between their ends. The
+-- latter two are decided within a tolerance. The caller's 'Visitor' has an action for each kind.
 --
--- Arcs are handled through the power of a point with respect to their circle; the circle's centre
--- is not needed.
+-- Arcs are handled through the power of a point with respect to their circle
+-- ("Geometry.ClosedPolyarcs"); the circle's centre is not needed.
 module Offset.SegmentIntersection
   ( Visitor (..),
     meet,
@@ -19,21 +19,22 @@ import Data.Primitive.PrimArray
 import Geometry.ClosedPolyarcs (ClosedPolyarcs)
 import Geometry.ClosedPolyarcs qualified as ClosedPolyarcs
 
--- | The actions for each kind of meeting.
+-- | The actions for each kind of intersection. Segments and vertices are given by number.
 data Visitor s = Visitor
-  { -- | the first segment and the parameter along its chord (0 to 1), the second segment
-    -- likewise, the point, and the cross product of the two directions. Its sign says to which
-    -- side the second segment crosses
+  { -- | for two segments that cross between their ends: the first segment and the fraction of the
+    -- crossing along its chord, the second segment and its fraction, x and y of the point in mm,
+    -- and a number with the sign of the cross product of both directions. The sign is positive
+    -- when the second segment crosses to the left of the first
     crossing :: Int -> Double -> Int -> Double -> Double -> Double -> Double -> ST s (),
-    -- | a segment, and a vertex that lies on it
+    -- | for an end that lies on a segment: the segment, and the vertex at the end
     resting :: Int -> Int -> ST s (),
-    -- | two segments that touch between their ends, and the point of contact
+    -- | for two segments that touch between their ends: both segments, x and y of the point in mm
     touching :: Int -> Int -> Double -> Double -> ST s ()
   }
 
--- | Reports all meetings of two different segments to the visitor, except the vertex that
--- neighbours share. The first segment comes before the second. The tolerance (mm) covers
--- rounding; the bounding boxes of segments that meet within it must overlap.
+-- | Reports all intersections of two different segments to the visitor, except the vertex that
+-- neighbours share. The number of the first segment is less than that of the second. The tolerance
+-- (mm) covers rounding.
 meet :: Double -> ClosedPolyarcs -> Visitor s -> Int -> Int -> ST s ()
 meet !tolerance !c visitor = pair
   where
@@ -46,8 +47,9 @@ meet !tolerance !c visitor = pair
     mark m k = ClosedPolyarcs.hasMark m (indexPrimArray (ClosedPolyarcs.marks c) k)
 {-# INLINE meet #-}
 
--- | True for neighbours that meet at their common vertex only: their joint is smooth, or both are
--- lines that do not fold back. Always False in a polyarc of two segments.
+-- | True for neighbours that certainly meet at their common vertex only: their joint is smooth, or
+-- both are lines that do not fold back. False when the first one begins a polyarc and may have the
+-- other end in common as well.
 meetsOnlyAtJoint :: Double -> ClosedPolyarcs -> Int -> Int -> Bool
 meetsOnlyAtJoint tolerance c i j
   | ClosedPolyarcs.hasMark ClosedPolyarcs.firstMark (indexPrimArray (ClosedPolyarcs.marks c) i) =
@@ -61,8 +63,8 @@ meetsOnlyAtJoint tolerance c i j
       (\ux uy -> ClosedPolyarcs.chord c j (\vx vy -> not (foldsBack tolerance ux uy vx vy)))
 {-# INLINE meetsOnlyAtJoint #-}
 
--- | True when the second of two vectors leads back along the first, so that the end of one lies
--- on the other.
+-- | True when the second of two consecutive chords leads back along the first within the tolerance
+-- (mm), so that the end of one lies on the other.
 foldsBack :: Double -> Double -> Double -> Double -> Double -> Bool
 foldsBack tolerance ux uy vx vy =
   ux * vx + uy * vy < 0 && cross * cross <= tolerance * tolerance * (if uu > vv then uu else vv)
@@ -72,12 +74,13 @@ foldsBack tolerance ux uy vx vy =
     vv = vx * vx + vy * vy
 {-# INLINE foldsBack #-}
 
+-- | True of a segment that is an arc.
 isArc :: ClosedPolyarcs -> Int -> Bool
 isArc c k = indexPrimArray (ClosedPolyarcs.bulges c) k /= 0
 {-# INLINE isArc #-}
 
--- | Meetings of two neighbours, or of the first and the last segment of possibly different
--- polyarcs.
+-- | Intersections of two segments of which the second follows the first, or the first one begins a
+-- polyarc and the second one ends a polyarc, perhaps another one.
 adjacent :: Double -> ClosedPolyarcs -> Visitor s -> Int -> Int -> ST s ()
 adjacent !tolerance !c visitor !i !j
   | after && before = when (isArc c i || isArc c j) (sharingEnds tolerance c visitor i j)
@@ -85,7 +88,8 @@ adjacent !tolerance !c visitor !i !j
   | before = neighbours tolerance c visitor j i i
   | otherwise = unconnected tolerance c visitor i j
   where
-    -- True when the second segment begins at the end of the first.
+    -- True when the second segment begins where the first ends; 'before' is True when it ends where
+    -- the first begins.
     after = j == i + 1
     mark m k = ClosedPolyarcs.hasMark m (indexPrimArray (ClosedPolyarcs.marks c) k)
     before =
@@ -97,7 +101,7 @@ adjacent !tolerance !c visitor !i !j
     at a = indexPrimArray a (j + 1) == indexPrimArray a i
 {-# NOINLINE adjacent #-}
 
--- | Meetings of two segments that are not neighbours. It is inlined where the visitor is known.
+-- | Intersections of two segments that are not neighbours. Inlined where the visitor is known.
 unconnected :: Double -> ClosedPolyarcs -> Visitor s -> Int -> Int -> ST s ()
 unconnected !tolerance !c visitor = pair
   where
@@ -114,7 +118,7 @@ unconnected !tolerance !c visitor = pair
     bySize !i !j = arcs tolerance c visitor (crossingAt c visitor i j) i j
 {-# INLINE unconnected #-}
 
--- | Meetings of two lines that are not neighbours.
+-- | Intersections of two lines that are not neighbours.
 lines' :: Double -> ClosedPolyarcs -> Visitor s -> Int -> Int -> ST s ()
 lines' !tolerance !c visitor !i !j =
   ClosedPolyarcs.chord c i $ \ux uy -> ClosedPolyarcs.chord c j $ \vx vy -> do
@@ -122,13 +126,13 @@ lines' !tolerance !c visitor !i !j =
         y i' = indexPrimArray (ClosedPolyarcs.ys c) i'
         !wx = x j - x i
         !wy = y j - y i
-        -- Twice the areas of the triangles between a line and the ends of the other.
+        -- Twice the signed areas of the triangles between one line and an end of the other line.
         !startJ = ux * wy - uy * wx
         !den = ux * vy - uy * vx
         !endJ = startJ + den
         !startI = wx * vy - wy * vx
         !endI = startI - den
-        -- Slightly more than the tolerance, so that doubtful cases are examined more closely.
+        -- Bounds, slightly too large, of the areas at which an end is within the tolerance.
         !nearU = tolerance * (abs ux + abs uy)
         !nearV = tolerance * (abs vx + abs vy)
         areApart a b near = if a > 0 then a > near && b > near else a < -near && b < -near
@@ -145,7 +149,7 @@ lines' !tolerance !c visitor !i !j =
         else rests tolerance c visitor i j
 {-# INLINE lines' #-}
 
--- | Reports the ends of both segments that lie on the other segment.
+-- | Reports the ends of each of two segments that lie on the other one.
 rests :: Double -> ClosedPolyarcs -> Visitor s -> Int -> Int -> ST s ()
 rests !tolerance !c visitor !i !j = do
   when (liesOn tolerance c j i) (resting visitor j i)
@@ -153,7 +157,7 @@ rests !tolerance !c visitor !i !j = do
   when (liesOn tolerance c i j) (resting visitor i j)
   when (liesOn tolerance c i (j + 1)) (resting visitor i (j + 1))
 
--- | True when an end of one segment lies on the other.
+-- | True when an end of one of two segments lies on the other one.
 eitherRests :: Double -> ClosedPolyarcs -> Int -> Int -> Bool
 eitherRests tolerance c i j =
   liesOn tolerance c i j
@@ -161,7 +165,7 @@ eitherRests tolerance c i j =
     || liesOn tolerance c j i
     || liesOn tolerance c j (i + 1)
 
--- | True when a vertex lies on a segment.
+-- | True when vertex @k@ lies on segment @i@, within the tolerance (mm).
 liesOn :: Double -> ClosedPolyarcs -> Int -> Int -> Bool
 liesOn !tolerance !c !i !k =
   ClosedPolyarcs.chord c i $ \ux uy ->
@@ -185,9 +189,9 @@ liesOn !tolerance !c !i !k =
                 && abs (ClosedPolyarcs.power c i px py)
                   <= tolerance * (ClosedPolyarcs.diameter c i + tolerance)
 
--- | True when a line and an arc are certainly disjoint: the parallelogram over the arc's chord
--- through its apex lies on one side of the line, or the line lies on one side of the
--- parallelogram.
+-- | True when line @i@ and arc @j@ are certainly disjoint. The arc lies between its chord and the
+-- parallel line through its apex. Either both of these lie on one side of the line, as long as the
+-- chord is, or the line lies beyond one of them.
 isDisjoint :: Double -> ClosedPolyarcs -> Int -> Int -> Bool
 isDisjoint !tolerance !c !i !j =
   above nearLine arcStart arcEnd rise
@@ -205,13 +209,13 @@ isDisjoint !tolerance !c !i !j =
     !wx = x j - x i
     !wy = y j - y i
     !turning = ux * dy - uy * dx
-    -- Twice the areas of the triangles between the line and the arc's ends, and the largest
-    -- addition for the arc's apex.
+    -- Twice the signed areas of the triangles between the line and the arc's ends, and what the
+    -- height of the apex adds to them.
     !arcStart = ux * wy - uy * wx
     !arcEnd = arcStart + turning
     !rise = -0.5 * b * (ux * dx + uy * dy)
-    -- Twice the areas of the triangles between the chord and the line's ends, positive on the arc's
-    -- side, and the corresponding value of the arc's apex.
+    -- Twice the signed areas of the triangles between the chord and the line's ends, positive on
+    -- the arc's side, and the same area for the arc's apex.
     !sign = if b > 0 then 1 else -1
     !lineStart = sign * (dx * wy - dy * wx)
     !lineEnd = lineStart + sign * turning
@@ -222,11 +226,12 @@ isDisjoint !tolerance !c !i !j =
     {-# INLINE above #-}
 {-# INLINE isDisjoint #-}
 
--- | Meetings of a line and an arc that are not neighbours. The power of a point on the line is
--- @aa·s² + 2·half·s + c0@, where s is measured from a point near the arc.
+-- | Intersections of line @i@ and arc @j@ that are not neighbours. @report@ gets the fraction of a
+-- crossing along the line. The power of a point on the line is @aa·s² + 2·half·s + c0@, where the
+-- fraction s is measured from the foot of the perpendicular from the arc's start.
 --
--- At a crossing angle α the error of the point is the tolerance divided by sin α. A crossing nearer
--- than that to an end is examined by @closely@.
+-- At a crossing angle α the error of the point is the tolerance divided by sin α. When a crossing
+-- is nearer than that to an end of a segment, @closely@ examines both crossings.
 lineArc :: Double -> ClosedPolyarcs -> Visitor s -> (Double -> ST s ()) -> Int -> Int -> ST s ()
 lineArc !tolerance !c visitor report !i !j
   | disc < -verge = pure ()
@@ -298,7 +303,7 @@ lineArc !tolerance !c visitor report !i !j
         else try (q / aa) >> try (if half == 0 then -(q / aa) else c0 / q)
 {-# INLINE lineArc #-}
 
--- | Reports a crossing of a line and an arc, given its parameter along the line.
+-- | Reports the crossing of line @i@ and arc @j@ at the fraction @s@ along the line.
 crossingAlong :: ClosedPolyarcs -> Visitor s -> Int -> Int -> Double -> ST s ()
 crossingAlong c visitor !i !j !s = ClosedPolyarcs.chord c i $ \ux uy -> do
   let !px = indexPrimArray (ClosedPolyarcs.xs c) i + s * ux
@@ -308,7 +313,7 @@ crossingAlong c visitor !i !j !s = ClosedPolyarcs.chord c i $ \ux uy -> do
   crossing visitor i s j t px py cross
 {-# INLINE crossingAlong #-}
 
--- | Reports a crossing of two arcs at a point.
+-- | Reports the crossing of arcs @i@ and @j@ at a point.
 crossingAt :: ClosedPolyarcs -> Visitor s -> Int -> Int -> Double -> Double -> ST s ()
 crossingAt c visitor !i !j !px !py = do
   let !s = parameter c i px py
@@ -330,20 +335,25 @@ crossingAt c visitor !i !j !px !py = do
   crossing visitor i s j t px py cross
 {-# INLINE crossingAt #-}
 
--- | The verdict on an intersection of two carriers: on both segments, not on both, or undecidable
--- within the tolerance.
-data Verdict = Crosses | Passes | Doubtful
+-- | The verdict on an intersection of two segments' carriers.
+data Verdict
+  = -- | it is on both segments
+    Crosses
+  | -- | it is not on both segments
+    Passes
+  | -- | it is nearer to an end of a segment than rounding allows to decide
+    Doubtful
   deriving stock (Eq)
 
--- | Reports the certain crossings of two candidates. If one of them is doubtful, runs the close
--- examination instead.
+-- | Reports those of two intersections of carriers that are on both segments. If one of them is
+-- doubtful, the first argument examines both instead.
 reportCertain :: ST s () -> Verdict -> ST s () -> Verdict -> ST s () -> ST s ()
 reportCertain closely first reportFirst second reportSecond
   | first == Doubtful || second == Doubtful = closely
   | otherwise = when (first == Crosses) reportFirst >> when (second == Crosses) reportSecond
 {-# INLINE reportCertain #-}
 
--- | True when a point lies within a distance of an end of a segment.
+-- | True when a point lies within a distance (mm) of an end of a segment.
 nearEnds :: ClosedPolyarcs -> Int -> Double -> Double -> Double -> Bool
 nearEnds c i within px py = near i || near (i + 1)
   where
@@ -353,7 +363,8 @@ nearEnds c i within px py = near i || near (i + 1)
        in dx * dx + dy * dy <= within * within
 {-# INLINE nearEnds #-}
 
--- | Meetings of two arcs that are not neighbours, the one with the smaller circle first.
+-- | Intersections of two arcs that are not neighbours, the one with the smaller circle first.
+-- @report@ gets x and y of a crossing.
 arcs ::
   Double ->
   ClosedPolyarcs ->
@@ -378,8 +389,9 @@ arcs !tolerance !c visitor report !i !j
   where
     !x0 = indexPrimArray (ClosedPolyarcs.xs c) i
     !y0 = indexPrimArray (ClosedPolyarcs.ys c) i
-    -- The difference of both powers is a linear function. Its zero set is the radical axis, on
-    -- which the circles intersect.
+    -- The difference of the powers of a point with respect to both circles is a linear function of
+    -- the point. It is zero on the radical axis, on which the circles intersect. (gx, gy) is its
+    -- gradient.
     !gx =
       ClosedPolyarcs.gradient
         c
@@ -396,12 +408,12 @@ arcs !tolerance !c visitor report !i !j
         (\_ ay -> ClosedPolyarcs.gradient c j x0 y0 (\_ by -> ay - by))
     !gg = gx * gx + gy * gy
     !dist = 0.5 * sqrt gg
-    -- Twice the increase of the squared half-length of the common chord, for each mm of overlap of
-    -- the circles.
+    -- When the circles overlap by 1 mm more, the square of half their common chord grows by twice
+    -- this.
     !opening = 0.5 * ClosedPolyarcs.diameter c i * ClosedPolyarcs.diameter c j / (2 * dist)
     !g0 = -(ClosedPolyarcs.power c j x0 y0)
-    -- A point of the radical axis. Along the axis the first circle's power is gg·s² + 2·half·s +
-    -- c0.
+    -- A point of the radical axis. At the point that is s gradients further along the axis, the
+    -- power with respect to the first circle is gg·s² + 2·half·s + c0.
     !lx = x0 - g0 * gx / gg
     !ly = y0 - g0 * gy / gg
     !half = ClosedPolyarcs.gradient c i lx ly (\ax ay -> 0.5 * (ay * gx - ax * gy))
@@ -447,7 +459,8 @@ arcs !tolerance !c visitor report !i !j
         else try (q / gg) >> try (if half == 0 then -(q / gg) else c0 / q)
 {-# INLINE arcs #-}
 
--- | Meetings of two segments where the second begins at the end of the first, at a vertex.
+-- | Intersections of segments @i@ and @j@, of which the second begins where the first ends, other
+-- than this common vertex. The last argument is the number of the vertex.
 neighbours :: Double -> ClosedPolyarcs -> Visitor s -> Int -> Int -> Int -> ST s ()
 neighbours !tolerance !c visitor !i !j !vertex
   | bi == 0 && bj == 0 =
@@ -465,12 +478,13 @@ neighbours !tolerance !c visitor !i !j !vertex
     farEnds = do
       when (liesOn tolerance c j i) (resting visitor j i)
       when (liesOn tolerance c i (j + 1)) (resting visitor i (j + 1))
-    -- True when the region between two segments that meet twice is no wider than the rounding. It
-    -- is estimated from the squared distance of the two points, and half the relative curvature.
+    -- True when the region between two segments that meet twice is no wider than the tolerance. The
+    -- width is estimated from the squared distance hh of the two points, and half the difference
+    -- of the curvatures.
     isThin hh bend = hh <= tolerance * tolerance || hh * bend <= 16 * tolerance
     vx0 = indexPrimArray (ClosedPolyarcs.xs c) vertex
     vy0 = indexPrimArray (ClosedPolyarcs.ys c) vertex
-    -- The second point in which a line through the vertex intersects the circle of an arc.
+    -- Reports the second intersection of a line and an arc that meet at the vertex.
     other l arc lineIsSecond =
       ClosedPolyarcs.chord c l $ \ux uy -> ClosedPolyarcs.gradient c arc vx0 vy0 $ \gx gy -> do
         let step = -(gx * ux + gy * uy) / (ux * ux + uy * uy)
@@ -492,13 +506,15 @@ neighbours !tolerance !c visitor !i !j !vertex
               px
               py
               (ClosedPolyarcs.gradient c arc px py (\hx hy -> signed c arc (ux * hx + uy * hy)))
+    -- Reports the second intersection of two arcs that meet at the vertex.
     otherOfArcs =
       ClosedPolyarcs.gradient c i vx0 vy0 $ \ax ay ->
         ClosedPolyarcs.gradient c j vx0 vy0 $ \bx by -> do
           let gx = ax - bx
               gy = ay - by
               gg = gx * gx + gy * gy
-              -- The vertex, mirrored along the radical axis.
+              -- The second intersection of both circles: the mirror image of the vertex about the
+              -- line through both centres.
               k = (ay * gx - ax * gy) / gg
               px = vx0 + k * gy
               py = vy0 - k * gx
@@ -541,8 +557,8 @@ neighbours !tolerance !c visitor !i !j !vertex
               )
 {-# NOINLINE neighbours #-}
 
--- | Meetings of two segments that share both ends and are not both lines: they coincide, or meet
--- nowhere else.
+-- | Intersections of two segments that share both ends and are not both lines. When they coincide,
+-- the start of the second is reported as lying on the first; otherwise they meet nowhere else.
 sharingEnds :: Double -> ClosedPolyarcs -> Visitor s -> Int -> Int -> ST s ()
 sharingEnds !tolerance !c visitor !i !j =
   -- The bulge of an arc changes its sign when the arc is reversed.
@@ -558,9 +574,10 @@ sharingEnds !tolerance !c visitor !i !j =
       )
       $ resting visitor i j
 
--- | True when a point of the circle belongs to the arc, that is, it lies on the arc's side of the
--- chord. Near the ends of a flat arc rounding would decide that. So a point of a flat arc is
--- compared with the chord's ends instead; the rest of the circle is far away.
+-- | True when a point of an arc's circle belongs to the arc, that is, it lies on the arc's side of
+-- the chord. Near the ends of a flat arc rounding would decide that. Therefore a point of a flat
+-- arc's circle belongs to the arc when its foot on the chord lies between the chord's ends, and it
+-- is nearer to the chord than the chord is long.
 isOnArc :: ClosedPolyarcs -> Int -> Double -> Double -> Bool
 isOnArc c i px py = ClosedPolyarcs.chord c i $ \ux uy ->
   let ax = px - indexPrimArray (ClosedPolyarcs.xs c) i
@@ -572,7 +589,7 @@ isOnArc c i px py = ClosedPolyarcs.chord c i $ \ux uy ->
    in if abs b > 0.1 then aside * b < 0 else along > 0 && along < square && abs aside < square
 {-# INLINE isOnArc #-}
 
--- | The parameter of a point of a segment along its chord, from 0 to 1.
+-- | The fraction along a segment's chord, from 0 to 1, of the foot of a point of the segment.
 parameter :: ClosedPolyarcs -> Int -> Double -> Double -> Double
 parameter c i px py = ClosedPolyarcs.chord c i $ \ux uy ->
   ( ux * (px - indexPrimArray (ClosedPolyarcs.xs c) i)
@@ -581,7 +598,7 @@ parameter c i px py = ClosedPolyarcs.chord c i $ \ux uy ->
     / (ux * ux + uy * uy)
 {-# INLINE parameter #-}
 
--- | Changes a number's sign on a clockwise arc.
+-- | The number with its sign changed if the arc is clockwise.
 signed :: ClosedPolyarcs -> Int -> Double -> Double
 signed c i a = if indexPrimArray (ClosedPolyarcs.bulges c) i < 0 then -a else a
 {-# INLINE signed #-}

@@ -1,8 +1,8 @@
 {-# LANGUAGE BangPatterns #-}
 {-# OPTIONS_GHC -O2 -fno-full-laziness #-}
 
--- | Self-intersections of closed polyarcs in general position, that is, between the ends of
--- segments and not along a common stretch.
+-- | Self-intersections of closed polyarcs in general position: segments cross between their ends,
+-- and do not touch or coincide.
 module Offset.SelfIntersection
   ( SelfIntersections (..),
     SearchResult (..),
@@ -25,22 +25,28 @@ import Geometry.Index.SegmentBoxTree qualified as SegmentBoxTree
 import Offset.SegmentIntersection (Visitor (..))
 import Offset.SegmentIntersection qualified as SegmentIntersection
 
--- | For each intersection four reals: x, y, and its parameters along the chords of both segments.
--- Each intersection h has two occurrences, @2h@ and @2h + 1@, one on either segment. @segments@
--- holds twice the segment number, plus 1 where the occurrence decreases the winding number.
+-- | The intersections, numbered from 0. Intersection @h@ occurs twice: occurrence @2h@ on its first
+-- segment, and @2h + 1@ on its second one.
 data SelfIntersections = SelfIntersections
-  { count :: Int,
+  { -- | number of intersections
+    count :: Int,
+    -- | four numbers for each intersection: x and y in mm, and the fractions along the chords of
+    -- its first and second segment
     reals :: PrimArray Double,
+    -- | for each occurrence twice the segment's number, plus 1 where the winding number on the left
+    -- of the segment decreases
     segments :: PrimArray Int32
   }
 
+-- | The result of 'find'.
 data SearchResult
-  = SearchResult SelfIntersections
-  | -- | somewhere, to within rounding, a segment ends on another one or touches it
+  = -- | all intersections
+    SearchResult SelfIntersections
+  | -- | not in general position: to within rounding, a segment ends on another one or touches it
     NotGeneral
 
--- | Finds all self-intersections. The tolerance (mm) covers rounding; the bounding boxes are
--- inflated by it.
+-- | Finds all self-intersections. The tolerance (mm) covers rounding; the boxes of the bounding-box
+-- tree are inflated by it.
 find :: Double -> ClosedPolyarcs -> SegmentBoxTree -> SearchResult
 find !tolerance !c !boxes = runST $ do
   state <- newPrimArray 2
@@ -100,8 +106,9 @@ properCrossing tolerance c boxes = runST $ do
     (SegmentIntersection.meet tolerance c visitor)
   readMutVar found
 
--- | Makes room for one more intersection. The first allocation has room for @capacity@; later ones
--- double it. Unused room costs no memory, but copying costs time.
+-- | Makes room for intersection @k@ in the arrays of reals and of segments. The first allocation
+-- has room for @capacity@ intersections; later ones double it. A large first one costs little,
+-- since untouched memory is not used; copying costs time.
 grow ::
   Int ->
   MutVar s (MutablePrimArray s Double) ->
@@ -117,14 +124,14 @@ grow capacity rs ss k = do
     resizeMutablePrimArray r (4 * more) >>= writeMutVar rs
     resizeMutablePrimArray g (2 * more) >>= writeMutVar ss
 
--- | The two segments of an intersection.
+-- | The numbers of the two segments of an intersection.
 segmentPair :: SelfIntersections -> Int -> (Int, Int)
 segmentPair c h = (half (2 * h), half (2 * h + 1))
   where
     half k = fromIntegral (indexPrimArray (segments c) k) `quot` 2
 
--- | True if the winding number on the left of a segment decreases by one where it passes this
--- intersection. The number is that of the occurrence: 2h or 2h + 1 for intersection h.
+-- | True when the winding number on the left of a segment decreases by one at an occurrence, given
+-- by its number. Otherwise it increases by one.
 decreases :: SelfIntersections -> Int -> Bool
 decreases c o = odd (indexPrimArray (segments c) o)
 {-# INLINE decreases #-}

@@ -1,9 +1,10 @@
--- | The exact offset of each element of a contour by itself, and of each of its corners.
+-- | The exact offset of each single element of a contour, and of each of its corners.
 --
--- A line is moved along its normal; an arc keeps its centre and changes its radius; the centre of a
--- cutter rounds an outer corner on an arc about the corner. All coordinates of a toolpath come from
--- here: they are functions of the contour alone, so that they do not drift. This module does not
--- decide which parts of an offset the cutter can reach. "Offset.Kernel" does.
+-- A line is moved along its normal. An arc keeps its centre and changes its radius. The cutter's
+-- centre rounds an outer corner on an arc about the vertex. All coordinates of a toolpath beside a
+-- contour come from here. They depend on the contour alone, so rounding errors do not add up along
+-- the path. This module does not decide which parts of an offset the cutter can reach;
+-- "Offset.Kernel" does.
 module Offset.SourceOffset
   ( -- * The request
     CornerStyle (..),
@@ -54,18 +55,20 @@ import Offset.Tolerance qualified as Tolerance
 
 -- | The shape of outer corners, and the allowances of single elements.
 data CornerStyle = CornerStyle
-  { -- | two lines to the intersection of both offsets instead of an arc about the corner; a corner
-    -- that turns by more than 120° is rounded all the same
+  { -- | True: two lines to the intersection of both offsets; False: an arc about the vertex.
+    -- Corners that turn by more than 120° get an arc in any case
     sharp :: Bool,
     -- | additional distance from an element, by its number from 0; not negative
     extra :: Int -> Mm
   }
 
--- | A contour with the request for its offset.
+-- | A contour, and the offset of it that is wanted.
 data OffsetSource = OffsetSource
   { style :: CornerStyle,
+    -- | the cutter's side of the contour
     side :: Side,
-    -- | distance of the offset where an element has no extra distance; not negative
+    -- | the cutter's radius, not negative; the offset's distance from an element is the sum of it
+    -- and the element's extra distance
     radius :: Mm,
     -- | elements of the contour in order; at least one
     elements :: Vector Segment,
@@ -75,7 +78,7 @@ data OffsetSource = OffsetSource
     turnings :: PrimArray Double
   }
 
--- | The request for the offset of a contour.
+-- | The offset of a contour on a side of it, for a cutter's radius.
 fromContour :: CornerStyle -> Side -> Mm -> Polyarc -> OffsetSource
 fromContour style side radius (Polyarc ends segments) =
   OffsetSource {style, side, radius, elements, ends, turnings = generatePrimArray count turning}
@@ -95,7 +98,7 @@ fromContour style side radius (Polyarc ends segments) =
 elementCount :: OffsetSource -> Int
 elementCount = Vector.length . elements
 
--- | The number of the element after another one; after the last one it is the first.
+-- | The number of the element that follows the given one. The first one follows the last one.
 next :: OffsetSource -> Int -> Int
 next source i = if i + 1 == elementCount source then 0 else i + 1
 
@@ -129,8 +132,8 @@ numberOf origin = case origin of
   Along i -> i
   Around i -> i
 
--- | An element at its distance. An arc whose radius is not larger than a distance towards its
--- centre becomes a point.
+-- | The offset of one element. An arc that is moved towards its centre by its radius or more
+-- becomes a point.
 movedElement :: OffsetSource -> Int -> Segment
 movedElement source i = case elements source Vector.! i of
   Straight a b ->
@@ -144,8 +147,8 @@ movedElement source i = case elements source Vector.! i of
   where
     Mm r = distanceAt source i
 
--- | A segment without a length at its start and a length at its end, in mm. Their sum is smaller
--- than the segment's length.
+-- | Cuts lengths in mm off the start and off the end of a segment. The sum of both lengths is
+-- smaller than the segment's length.
 shortened :: Double -> Double -> Segment -> Segment
 shortened front back s
   | front + back <= 0 = s
@@ -153,19 +156,20 @@ shortened front back s
   where
     Mm l = Segment.length s
 
--- | The corner after an element.
+-- | The kind of a corner between two elements.
 data Corner
-  = -- | the end of an open contour
+  = -- | none: an open contour ends here
     NoCorner
   | -- | the direction changes by no more than 'Tolerance.smoothAngle'
     Smooth
-  | -- | turns towards the cutter so little that no more than 'Tolerance.smallestRest' remains in
-    -- the corner; lines before and after it are shortened by this length, @r·tan(θ/2)@, in mm.
-    -- Curves through measured points have such corners
+  | -- | turns towards the cutter by a small angle θ: the gap between the vertex and the cutter's
+    -- edge is at most 'Tolerance.smallestRest'. The offsets of lines before and after it are
+    -- shortened by this length, @r·tan(θ/2)@ in mm. Curves through measured points have such
+    -- corners
     Slight Double
-  | -- | turns towards the cutter, which does not reach into the corner
+  | -- | turns towards the cutter, and the cutter does not reach into the corner
     Blocked
-  | -- | turns away from the cutter, or back to where it came from
+  | -- | turns away from the cutter, or by half a turn
     Outer
   deriving stock (Eq)
 
@@ -188,9 +192,9 @@ cornerAt source i
             then Just (r * tan (abs turned / 2))
             else Nothing
 
--- | Whether the contour turns back after an element. A fold of the material is rounded like an
--- outer corner; a crevice between two arcs that curve away from each other is not. Only the
--- kernel's loop tells which of both it is.
+-- | True when the contour turns back after an element: its direction changes by half a turn. The
+-- vertex is either the tip of a thin piece of material, which the cutter goes round, or the end of
+-- a crevice that the cutter cannot enter. Only the kernel's loop shows which it is.
 isCusp :: OffsetSource -> Int -> Bool
 isCusp source i = pi - abs (indexPrimArray (turnings source) i) <= smooth
   where
@@ -203,7 +207,8 @@ data Cuts = Cuts {back :: Double, front :: Double}
 noCuts :: Cuts
 noCuts = Cuts 0 0
 
--- | The cuts at the corner after an element, given the moved elements before and after it.
+-- | The lengths cut off at the corner after an element, given the offsets of the elements before
+-- and after it. Only a slight corner has any.
 cutsAt :: OffsetSource -> Int -> Segment -> Segment -> Cuts
 cutsAt source i before after = case cornerAt source i of
   Slight t -> meeting t before after
@@ -212,10 +217,10 @@ cutsAt source i before after = case cornerAt source i of
   Blocked -> noCuts
   NoCorner -> noCuts
 
--- | The distances, along two segments, of their intersection from the end of the first one and the
--- start of the second one, in mm. Lines are cut by the given length. Arcs meet near it: three steps
--- of Newton's method, which replace both by their tangents, leave the rounding error only. When
--- they leave the segments, these are cut as lines are.
+-- | The lengths in mm to cut off the end of one segment and the start of the next one, so that both
+-- meet at their intersection. For two lines both lengths are @t@. With an arc they are near @t@:
+-- three steps of Newton's method, which replace the segments by their tangents, leave the rounding
+-- error only. When a step leaves the segments, both lengths are @t@.
 meeting :: Double -> Segment -> Segment -> Cuts
 meeting t before after = case (before, after) of
   (Straight _ _, Straight _ _) -> Cuts t t
@@ -234,8 +239,8 @@ meeting t before after = case (before, after) of
         a' = a - Vec.cross gap v / Vec.cross u v
         b' = b - Vec.cross u gap / Vec.cross u v
 
--- | The arc of the centre about the corner after an element, at the larger distance of both
--- elements.
+-- | The arc on which the cutter's centre rounds the corner after an element. Its radius is the
+-- larger one of both elements' distances.
 cornerArc :: OffsetSource -> Int -> Segment
 cornerArc source i =
   Segment.arc
@@ -250,15 +255,16 @@ cornerArc source i =
       LeftOf -> Clockwise
       RightOf -> CounterClockwise
 
--- | The point at a distance from the corner after an element, on the cutter's side of a direction.
+-- | The point at a distance from the corner after an element, on the cutter's side and square to a
+-- direction of length 1.
 beside :: OffsetSource -> Int -> Mm -> Vec.Vec -> Point
 beside source i (Mm r) direction =
   Vec.shift
     (Vec.scale (leftward (side source) * r) (Vec.left direction))
     (Segment.end (elements source Vector.! i))
 
--- | The points at which lines about the corner after an element can start or end: beside the
--- corner at both distances, at right angles to both elements, and the tip of a sharp corner.
+-- | The points at which the offset's lines at the corner after an element can start or end. They
+-- lie square to both elements at both elements' distances; a sharp corner has its tip as well.
 cornerPoints :: OffsetSource -> Int -> [Point]
 cornerPoints source i =
   [beside source i r direction | direction <- [before, after], r <- [r1, r2]]
@@ -269,8 +275,8 @@ cornerPoints source i =
     r1 = distanceAt source i
     r2 = distanceAt source (next source i)
 
--- | The line from one distance to the other beside the corner after an element, when both differ
--- and the cutter passes the corner.
+-- | The line from the distance of an element to the distance of the next one, beside the corner
+-- between them. There is none when both distances are equal or the cutter does not pass the corner.
 cornerStep :: OffsetSource -> Int -> Maybe Segment
 cornerStep source i = case cornerAt source i of
   Smooth -> step
@@ -290,7 +296,7 @@ cornerStep source i = case cornerAt source i of
     r1 = distanceAt source i
     r2 = distanceAt source (next source i)
 
--- | Both lines of a sharp corner, if the corner after an element is one.
+-- | The two lines of the offset at the corner after an element, if it is a sharp corner.
 sharpCorner :: OffsetSource -> Int -> Maybe (Segment, Segment)
 sharpCorner source i
   | cornerAt source i == Outer && isSharp source i =
@@ -303,7 +309,8 @@ sharpCorner source i
     at = beside source i (distanceAt source i)
     top = tip source i
 
--- | Sharp corners have one distance on both sides, and turn by at most 120°.
+-- | True when the offset of the corner after an element is sharp: this is asked for, both elements
+-- have one distance, and the corner turns by at most 120°.
 isSharp :: OffsetSource -> Int -> Bool
 isSharp source i =
   sharp (style source)

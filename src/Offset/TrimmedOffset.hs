@@ -1,7 +1,8 @@
 -- | The paths that the centre of a cutter can take beside a contour, cut from the kernel's loops.
 --
--- "Offset.Kernel" says which parts of an offset can be reached, "Offset.LoopPath" makes segments of
--- its loops. This module puts the segments into paths, and says whether a path misses nothing.
+-- "Offset.Kernel" finds the parts of an offset that can be reached, and "Offset.LoopPath" makes
+-- segments of its loops. This module makes paths of the segments, and decides whether a path
+-- leaves out a part of the contour.
 module Offset.TrimmedOffset
   ( TrimmedOffset (..),
     along,
@@ -39,22 +40,24 @@ import Offset.SourceOffset
 import Offset.SourceOffset qualified as SourceOffset
 import Offset.Tolerance qualified as Tolerance
 
--- | A path of the centre without a gap, closed or from end to end.
+-- | A connected path of the cutter's centre.
 data TrimmedOffset = TrimmedOffset
-  { ends :: Ends,
+  { -- | whether the path is open or closed
+    ends :: Ends,
+    -- | the segments of the path in order, each starting exactly where the one before ends
     pieces :: NonEmpty OffsetSegment,
-    -- | the elements of the contour that stop the cutter before and after an open path; nothing
-    -- where the contour ends
+    -- | the elements of the contour, by number from 0, that stop the cutter at the start and at the
+    -- end of an open path; nothing at an end of the contour, and for a closed path
     stops :: (Maybe Int, Maybe Int)
   }
   deriving stock (Eq, Show)
 
--- | The paths beside a contour, in its order. A contour that intersects itself has none.
+-- | The paths beside a contour, in the contour's order. A contour that intersects itself has none.
 along :: OffsetSource -> [TrimmedOffset]
 along source = maybe [] (pathsIn source source) (LoopPath.region source)
 
--- | The paths in a region, with the coordinates of a source; the first request is the one that the
--- kernel answered.
+-- | The paths in a region. The first offset is the one for which the kernel computed the region;
+-- the second one gives the coordinates, and its radius may be a little larger.
 pathsIn :: OffsetSource -> OffsetSource -> LoopPath.LoopRegion -> [TrimmedOffset]
 pathsIn structure source region =
   sortOn
@@ -70,12 +73,13 @@ pathsIn structure source region =
           | Just ps <- [NonEmpty.nonEmpty (LoopPath.path structure source (Just before) runs)]
         ]
 
--- | Let each piece begin exactly at the end of the one before it.
+-- | The segments with exact joints: each starts where the one before ends.
 chained :: Ends -> NonEmpty OffsetSegment -> NonEmpty OffsetSegment
 chained = Polyarc.closeGaps segment (\s p -> p {segment = s})
 
--- | The runs of a loop that are beside an open contour, stretch by stretch, each with the run
--- before it and the one after it. The first run is not beside the contour.
+-- | The stretches of a loop that lie on the cutter's side of an open contour, each with the run
+-- before it and the run after it. The arguments are the loop's first run, which does not lie there,
+-- and the other runs.
 stretches :: Run -> [Run] -> [(Run, NonEmpty Run, Run)]
 stretches first = go first
   where
@@ -90,7 +94,8 @@ stretches first = go first
           (before, r :| more, after) : go after (drop 1 others)
         | otherwise -> go r rest
 
--- | The open path along a stretch, given the number of segments of the flat contour.
+-- | The open path along a stretch, given both offsets of 'pathsIn', the number of segments of the
+-- flat contour, and the stretch with the runs before and after it.
 openPath :: OffsetSource -> OffsetSource -> Int -> (Run, NonEmpty Run, Run) -> Maybe TrimmedOffset
 openPath structure source count (before, runs, after) =
   pathOf <$> NonEmpty.nonEmpty (LoopPath.path structure source Nothing (NonEmpty.toList runs))
@@ -104,19 +109,20 @@ openPath structure source count (before, runs, after) =
               stopAt (count - 1) after (flat (NonEmpty.last runs) == count - 1)
             )
         }
-    -- The arc about the contour's own end, next to the element that ends there, stops nothing.
+    -- Where the contour itself ends, the run beyond is the arc about its end, which stops nothing.
     stopAt end other endsThere = case LoopPath.origin other of
       Around _ | flat other == end, endsThere -> Nothing
       o -> Just (numberOf o)
 
--- | The pieces along a contour that the cutter reaches everywhere: there is one path,
--- it misses nothing but arcs that have shrunk to a point, and nothing stops the cutter at the ends
--- of an open contour. Corners are not looked at. It is empty when all elements are such arcs. The
--- coordinates are those of the source; the kernel is asked about the structure.
+-- | The segments of the offset, when the cutter reaches every element of the contour: there is one
+-- path, it leaves out only arcs whose offset is a point, and nothing stops the cutter at the ends
+-- of an open contour. Inner corners are not examined. The list is empty when the offset of every
+-- element is a point. The first offset is the one that the kernel computes; the second one gives
+-- the coordinates, and its radius may be a little larger.
 whole :: OffsetSource -> OffsetSource -> Maybe [OffsetSegment]
 whole structure source = case LoopPath.region structure of
   Just region -> case pathsIn structure source region of
-    -- The check whether there is one path only would keep it in memory.
+    -- The checks of the next case would keep the whole path in memory.
     path : _ | isUncut region -> Just (NonEmpty.toList (pieces path))
     [path]
       | SourceOffset.ends source == ends path,
@@ -130,14 +136,15 @@ whole structure source = case LoopPath.region structure of
     nothingLeft
       | all (hasShrunk structure) [0 .. elementCount structure - 1] = Just []
       | otherwise = Nothing
-    -- The path begins or ends where the contour does, but for arcs that have shrunk.
+    -- True when nothing stops the cutter at the path's ends but elements whose offset is a point.
     isOpenAtEnds path =
       maybe True (< firstOf path) (fst (stops path))
         && maybe True (> finalOf path) (snd (stops path))
     firstOf = numberOf . origin . NonEmpty.head . pieces
     finalOf = numberOf . origin . NonEmpty.last . pieces
 
--- | Nothing of the raw offset was cut away: its segments are the loop, in order.
+-- | True when nothing of the raw offset was cut away: its segments are those of the only loop, in
+-- the same order.
 isUncut :: LoopPath.LoopRegion -> Bool
 isUncut region =
   Loop.count loops == 1
@@ -147,7 +154,8 @@ isUncut region =
     count = sizeofPrimArray (Loop.raws loops)
     loops = LoopPath.loops region
 
--- | The numbers do not decrease, and elements without a number have shrunk to a point.
+-- | True when the numbers of elements do not decrease, and the offset of every element that is not
+-- among them is a point.
 isInOrder :: OffsetSource -> [Int] -> Bool
 isInOrder source numbers =
   and (zipWith (<=) numbers (drop 1 numbers))
@@ -156,7 +164,7 @@ isInOrder source numbers =
     everything = IntSet.fromList [0 .. elementCount source - 1]
     found = IntSet.fromList numbers
 
--- | An element whose offset is a point.
+-- | True of an element whose offset is a point.
 hasShrunk :: OffsetSource -> Int -> Bool
 hasShrunk source i = case elements source Vector.! i of
   Straight a b -> Vec.isNear a b
@@ -164,7 +172,7 @@ hasShrunk source i = case elements source Vector.! i of
     let Mm d = minus (Segment.radius centre start) (distanceAt source i)
      in Mm (abs d) <= Tolerance.clearance
 
--- | The offset before anything is cut away, of a contour at whose corners the cutter passes.
+-- | The raw offset, nothing of it trimmed. The cutter passes all corners of the contour.
 untrimmed :: OffsetSource -> [OffsetSegment]
 untrimmed source = LoopPath.path source source previous runs
   where

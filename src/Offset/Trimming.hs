@@ -1,12 +1,12 @@
 {-# LANGUAGE BangPatterns #-}
 {-# OPTIONS_GHC -O2 #-}
 
--- | Trims a raw offset in general position: the loops that bound the region with the wanted
--- winding number.
+-- | Trims a raw offset in general position, and returns the loops that bound the region with the
+-- wanted winding number.
 --
--- Traverses the polyarcs once, from a point where the winding number is known, and updates the
--- number at each self-intersection. Keeps the slices with the wanted number on their left, and
--- joins them at the intersections.
+-- Each polyarc is traversed once from a point where the winding number is known. The number is
+-- updated at each self-intersection. Slices, the parts between consecutive intersections, are kept
+-- when the number on their left is the wanted one, and joined at the intersections.
 module Offset.Trimming
   ( trim,
   )
@@ -26,13 +26,14 @@ import Offset.SelfIntersection qualified as SelfIntersection
 import Offset.WindingNumber (Extreme (..), Outward (..))
 import Offset.WindingNumber qualified as WindingNumber
 
--- | The loops that have the wanted winding number on their left. The result is Nothing when the
--- polyarcs are not in general position: two intersections coincide within the tolerance (mm), a
--- polyarc has a cusp at its outermost point, or the winding numbers contradict each other.
+-- | The loops that have the wanted winding number on their left. The arguments are the tolerance
+-- (mm), the wanted number, the polyarcs with their bounding-box tree, and their self-intersections.
+-- The result is Nothing when two intersections coincide within the tolerance, a polyarc runs back
+-- along itself at its leftmost or rightmost point, or the winding numbers contradict each other.
 trim :: Double -> Int -> ClosedPolyarcs -> SegmentBoxTree -> SelfIntersections -> Maybe OffsetLoops
 trim !tolerance !wanted !c !boxes !xs = do
-  -- For each polyarc: the winding number on its left at its leftmost point, and at its rightmost
-  -- point.
+  -- For each polyarc its leftmost point with the winding number on its left there. A single polyarc
+  -- has its rightmost point too.
   outermost <- traverse outside [0 .. ClosedPolyarcs.loopCount c - 1]
   if total == 0
     then uncut wanted c outermost
@@ -63,8 +64,8 @@ trim !tolerance !wanted !c !boxes !xs = do
       b <- leftExcess rightmost
       pure (leftmost, base + a, if single then Just (rightmost, b) else Nothing)
 
--- | The polyarcs without self-intersection that have the wanted number on their left. A single
--- polyarc is returned without a copy.
+-- | The loops when there are no self-intersections: the polyarcs that have the wanted number on
+-- their left. A single polyarc is not copied.
 uncut :: Int -> ClosedPolyarcs -> [(Extreme, Int, Maybe (Extreme, Int))] -> Maybe OffsetLoops
 uncut wanted c outermost
   | any (\(_, left, rightmost) -> maybe False ((/= left) . snd) rightmost) outermost = Nothing
@@ -97,9 +98,9 @@ uncut wanted c outermost
           | w <- kept
         ]
 
--- | Sorts the occurrences by segment and by position on the segment (counting sort, then
--- insertion). Fills @begins@ with the index of each segment's first occurrence, and @order@
--- with the occurrences. @begins@ needs two entries more than there are segments.
+-- | Sorts the occurrences by segment (counting sort) and by position on the segment (insertion
+-- sort). Fills @order@ with the sorted occurrences, and @begins@ with the index in @order@ of each
+-- segment's first occurrence. @begins@ needs two entries more than there are segments.
 sortOccurrences ::
   ClosedPolyarcs ->
   SelfIntersections ->
@@ -121,8 +122,8 @@ sortOccurrences c xs begins order = do
           writePrimArray begins i (a + v)
           accumulate (i + 1) (a + v)
   accumulate 2 0
-  -- Entry s + 1 holds the index for the next occurrence of segment s. In the end it is the index of
-  -- the first occurrence of segment s + 1.
+  -- While occurrences are placed, entry s + 1 of begins is the index for the next occurrence of
+  -- segment s. In the end it is the index of the first occurrence of segment s + 1.
   forM' total $ \o -> do
     let s = segmentOf o
         t = parameterOf xs o
@@ -143,11 +144,11 @@ sortOccurrences c xs begins order = do
       found <- traverse (readPrimArray order) [from .. to - 1]
       zipWithM_ (writePrimArray order) [from ..] (sortOn (parameterOf xs . fromIntegral) found)
   where
-    -- True when insertion would take too long because the segments have many occurrences each, as
-    -- where all segments meet in the centre of a circle.
+    -- True when the segments have so many occurrences that insertion would take too long, for
+    -- example where all segments meet in the centre of a circle.
     isMany = 2 * SelfIntersection.count xs > 32 * sizeofPrimArray (ClosedPolyarcs.xs c)
 
--- | The parameter of an occurrence along its segment's chord, from 0 to 1.
+-- | The fraction along its segment's chord at which an occurrence lies, from 0 to 1.
 parameterOf :: SelfIntersections -> Int -> Double
 parameterOf xs o = indexPrimArray (SelfIntersection.reals xs) (2 * o + 2 - (if odd o then 1 else 0))
 {-# INLINE parameterOf #-}
@@ -161,13 +162,14 @@ forM' n f = go 0
       | otherwise = f i >> go (i + 1)
 {-# INLINE forM' #-}
 
--- | True when no two intersections on a segment coincide.
+-- | True when no two intersections that follow each other on a segment coincide within the
+-- tolerance (mm).
 areDistinct :: Double -> SelfIntersections -> PrimArray Int32 -> PrimArray Int32 -> Int -> Bool
 areDistinct tolerance xs begins order n = go 0 1
   where
     total = 2 * SelfIntersection.count xs
     at o k = indexPrimArray (SelfIntersection.reals xs) (4 * (fromIntegral o `quot` 2) + k)
-    -- The argument i is at most the segment of the occurrence q − 1.
+    -- Compares the occurrences at q − 1 and q. Segment i is not after the segment of the former.
     go !i !q
       | q >= total = True
       | i < n && fromIntegral (indexPrimArray begins (i + 1)) <= q - 1 = go (i + 1) q
@@ -177,8 +179,10 @@ areDistinct tolerance xs begins order n = go 0 1
             b = indexPrimArray order q
          in (abs (at a 0 - at b 0) > tolerance || abs (at a 1 - at b 1) > tolerance) && go i (q + 1)
 
--- | Computes the winding number on the left after every occurrence of a polyarc. The result is
--- False when the number at the rightmost point contradicts the known one.
+-- | Fills @lefts@ with the winding number on the left of a polyarc after each of its occurrences,
+-- in the order of @order@. The last argument is the polyarc's number, with its leftmost point, the
+-- winding number there, and perhaps its rightmost point. The result is False when the computed
+-- winding number at the rightmost point differs from the known one.
 propagate ::
   ClosedPolyarcs ->
   SelfIntersections ->
@@ -216,8 +220,9 @@ propagate c xs begins order lefts (w, (leftmost, left, rightmost)) = do
         writePrimArray lefts q (fromIntegral v')
         go (if q + 1 == z then a else q + 1) (k + 1 :: Int) v'
 
--- | Joins the slices that are kept into loops. A slice runs from one occurrence to the next along
--- its polyarc.
+-- | Joins slices with the wanted number on their left into loops. A slice runs from one occurrence
+-- to the next along its polyarc. Marks the slices in @lefts@ as visited. The result is Nothing when
+-- a slice leads to one without the wanted number.
 joinSlices ::
   Int ->
   ClosedPolyarcs ->
@@ -266,8 +271,8 @@ joinSlices wanted c xs begins order lefts outermost = do
           l' <- copy (ClosedPolyarcs.firstVertex c w) l
           pure (l', made + 1)
         | otherwise = pure (l, made)
-      -- Follows the polyarc from occurrence q to the next one, then continues at the partner of
-      -- that occurrence.
+      -- Follows the polyarc from occurrence q to the next one. Then it continues at the same
+      -- intersection on the other segment.
       follow !q0 !q !l = do
         writePrimArray lefts q visited
         w <- if single then pure 0 else fromIntegral <$> readPrimArray polyarcOf q

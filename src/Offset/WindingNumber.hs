@@ -1,8 +1,8 @@
 {-# LANGUAGE BangPatterns #-}
 {-# OPTIONS_GHC -O2 #-}
 
--- | Winding numbers of closed polyarcs: at a point, and on the left of a polyarc at its outermost
--- points.
+-- | Winding numbers of closed polyarcs: around a point, and on the left of a polyarc at its
+-- leftmost and rightmost points. Counter-clockwise polyarcs count as positive.
 module Offset.WindingNumber
   ( at,
     contribution,
@@ -20,14 +20,14 @@ import Geometry.Index.SegmentBoxTree (SegmentBoxTree)
 import Geometry.Index.SegmentBoxTree qualified as SegmentBoxTree
 import Geometry.Tolerance qualified as Tolerance
 
--- | The counter-clockwise winding number of the polyarcs around a point that does not lie on
--- them.
+-- | The winding number of the polyarcs around a point that does not lie on them, given the
+-- polyarcs' bounding-box tree.
 at :: ClosedPolyarcs -> SegmentBoxTree -> Double -> Double -> Int
 at c boxes px py =
   SegmentBoxTree.around boxes (-1e300) py px py 0 (\total i -> total + contribution c px py i)
 
--- | The contribution of one segment: the crossing of its chord with a ray from the point to the
--- left, and ±1 when the point lies between an arc and its chord.
+-- | The contribution of one segment to the winding number around a point: ±1 when its chord crosses
+-- the ray from the point to the left, plus ±1 when the point lies between an arc and its chord.
 contribution :: ClosedPolyarcs -> Double -> Double -> Int -> Int
 contribution c px py i = crossed + between
   where
@@ -45,7 +45,7 @@ contribution c px py i = crossed + between
       if b /= 0 && aside * b < 0 && ClosedPolyarcs.power c i px py < 0
         then (if b > 0 then 1 else -1)
         else 0
-    -- A point on the chord counts as a point with a slightly smaller x, as above; a point on a
+    -- A point on the chord counts as slightly left of it, as in the comparisons above. A point on a
     -- horizontal chord counts as slightly above it.
     aside
       | side /= 0 = side
@@ -53,24 +53,30 @@ contribution c px py i = crossed + between
       | otherwise = x1 - x0
 {-# INLINE contribution #-}
 
--- | A point of a polyarc: its segment, the parameter along the chord, and its coordinates.
--- @leftMore@ is the winding number on the left of the polyarc minus the number outside, 1 or 0.
--- It is Nothing where the polyarc runs back along itself. A polyarc may have cusps: an arc
--- whose radius is smaller than the distance runs backwards, and the offset folds back at its
--- end.
+-- | The leftmost or the rightmost point of a polyarc.
 data Extreme = Extreme
-  { segment :: Int,
+  { -- | the number of the segment on which it lies
+    segment :: Int,
+    -- | the fraction along the segment's chord, from 0 to 1
     parameter :: Double,
+    -- | in mm
     x :: Double,
+    -- | in mm
     y :: Double,
+    -- | the winding number on the left of the polyarc less the number just outside the point, 1 or
+    -- 0; Nothing where the polyarc runs back along itself
     leftExcess :: Maybe Int
   }
 
+-- | The direction in which the outermost point is looked for.
 data Outward = Leftmost | Rightmost
   deriving stock (Eq)
 
--- | The leftmost or rightmost point of a polyarc. Runs of segments whose bounding box lies
--- further in are skipped.
+-- | The leftmost or rightmost point of a polyarc, given by its number. Runs of segments whose
+-- common bounding box lies further inside are skipped.
+--
+-- The polyarc may have cusps: the raw offset of an arc whose radius is smaller than the distance
+-- runs backwards, and folds back at the arc's ends.
 extreme :: Outward -> ClosedPolyarcs -> SegmentBoxTree -> Int -> Extreme
 extreme outward c boxes w = go start start 0 (1e300 :: Double)
   where
@@ -113,10 +119,12 @@ extreme outward c boxes w = go start start 0 (1e300 :: Double)
                       else go (i + 1) best1 t1 least1
       where
         boxSide = SegmentBoxTree.segmentBoxWithMargin boxes i outermost
-    -- Nearer to an end than this fraction of the chord, the vertex itself is the outermost point.
+    -- When the outermost point of an arc is nearer to an end than this fraction of its chord, the
+    -- vertex at this end is taken instead.
     endMargin = Tolerance.negligibleShare
-    -- The outermost vertex of the run of segments with the outermost bounding box. It is a bound:
-    -- runs that do not reach it are skipped.
+    -- A bound on the x of the outermost point (negated for the rightmost one): the outermost vertex
+    -- of the run of segments whose bounding box reaches furthest out. Runs that do not reach it are
+    -- skipped.
     bound =
       let i = furthest start start 1e300
        in foldl'
@@ -133,7 +141,7 @@ extreme outward c boxes w = go start start 0 (1e300 :: Double)
          in if boxSide < least
               then furthest (SegmentBoxTree.nextRun i) i boxSide
               else furthest (SegmentBoxTree.nextRun i) best least
-    -- The outermost side of a bounding box.
+    -- The x of a bounding box's outermost side, negated for the rightmost point.
     outermost lx _ hx _ = case outward of
       Leftmost -> lx
       Rightmost -> -hx
@@ -155,7 +163,7 @@ extreme outward c boxes w = go start start 0 (1e300 :: Double)
         c
         i
         (\dx _ -> let b = indexPrimArray (ClosedPolyarcs.bulges c) i in (1 - b * b) / (4 * b) * dx)
-    -- When the polyarc turns left at its outermost vertex, its inside is on its left.
+    -- The excess at a vertex: 1 when the polyarc turns left there, else 0.
     atVertex i
       | abs cross > 1e-9 * size = Just (if cross > 0 then 1 else 0)
       | ix * ox + iy * oy < 0 =
@@ -172,8 +180,8 @@ extreme outward c boxes w = go start start 0 (1e300 :: Double)
         ox = ClosedPolyarcs.chord c i (\dx dy -> dx * (1 - b * b) + dy * 2 * b)
         oy = ClosedPolyarcs.chord c i (\dx dy -> dy * (1 - b * b) - dx * 2 * b)
         cross = ix * oy - iy * ox
-        -- At a cusp the outgoing segment lies to the left of the incoming one when it curves more
-        -- to the left.
+        -- The difference of the curvatures of the outgoing segment and the reversed incoming one.
+        -- At a cusp it is positive when the outgoing segment lies to the left of the incoming one.
         bent = bend previous + bend i
         -- Two segments whose curvatures differ by less than this fraction may be one segment
         -- traversed in both directions.

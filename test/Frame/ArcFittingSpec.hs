@@ -68,7 +68,7 @@ spec = describe "a curve" $ do
               (show (cuts "lki-fm", cuts "lkp-01f"))
               (fmap Just (cuts "lki-fm") <= fmap (Just . (+ 2)) (cuts "lkp-01f"))
   it
-    "keeps the machine's rules, and closes (catches arcs that are cut off at the end of their run)"
+    "keeps the machine's rules, and ends where it begins (catches arcs cut off at the end of a run)"
     $ thirtyTimes $
       forAll Run.curveCase $ \c -> onMachine (Part.OnPath (Mm 0.02)) c $ \m _ program ->
         Frame.violations m (map frame (Frame.plannedFrames program))

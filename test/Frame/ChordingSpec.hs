@@ -167,14 +167,14 @@ spec = do
                 Just program ->
                   let frames = map Frame.frame (Frame.plannedFrames program)
                       (quick, slow) = span ((== FeedCode 9) . feedCode) frames
-                      wayOf f =
+                      travelOf f =
                         let Mm d =
                               Vec.distance (Vec.point 0 0) (Frame.position lkp01f (increment f))
                          in d
                    in counterexample (show (map feedCode frames)) $
                         not (null quick)
                           && all ((== FeedCode 1) . feedCode) slow
-                          && abs (sum (map wayOf slow) - 1.6) <= 0.05
+                          && abs (sum (map travelOf slow) - 1.6) <= 0.05
     it
       "follow the same runs on a contour in the opposite sense (catches arcs that continue the \
       \wrong neighbour)"

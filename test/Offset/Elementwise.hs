@@ -1,8 +1,8 @@
 -- | The equidistant element by element: the oracle of "Offset.Equidistant".
 --
--- Each element is moved to its side, and each corner is passed by a rule about its two elements
--- alone. Nothing is trimmed and no winding number is counted, so this is right only where the
--- cutter fits. It shares no code with "Offset.SourceOffset" and "Offset.LoopPath".
+-- Each element is moved sideways, and each corner is passed by a rule about its two elements alone.
+-- Nothing is trimmed and no winding number is counted, so the result is right only where the cutter
+-- fits. The module shares no code with "Offset.SourceOffset" and "Offset.LoopPath".
 module Offset.Elementwise
   ( elementwise,
   )
@@ -20,7 +20,7 @@ import Geometry.Tolerance qualified as Tolerance
 import Geometry.Vec qualified as Vec
 import Offset.Equidistant (CornerStyle (..), OffsetSegment (..), Origin (..))
 
--- | The equidistant of a contour at whose elements and corners the cutter passes.
+-- | The equidistant of a contour whose elements and corners the cutter can all pass.
 elementwise :: CornerStyle -> Side -> Mm -> Polyarc -> NonEmpty OffsetSegment
 elementwise style side radius (Polyarc ends segments) =
   maybe
@@ -35,17 +35,21 @@ elementwise style side radius (Polyarc ends segments) =
         | i <- [0 .. count - 1 - (if ends == Open then 1 else 0)],
           let j = (i + 1) `mod` count
       ]
-    way i = moved side (radiusAt style radius i) i (segments NonEmpty.!! i)
+    alongElement i = moved side (radiusAt style radius i) i (segments NonEmpty.!! i)
     before i
       | i > 0 = Just (corners !! (i - 1))
       | ends == Open = Nothing
       | otherwise = Just (last corners)
     after i = if i < length corners then Just (corners !! i) else Nothing
     pieces i =
-      shortened (maybe 0 (\c -> front c) (before i)) (maybe 0 (\c -> back c) (after i)) (way i) :
+      shortened
+        (maybe 0 (\c -> front c) (before i))
+        (maybe 0 (\c -> back c) (after i))
+        (alongElement i) :
       maybe [] passing (after i)
 
--- | The pieces that pass a corner, and the lengths in mm that it cuts off before and after it.
+-- | The segments that pass a corner, and the lengths in mm that the corner cuts off the segments
+-- before and after it.
 data Corner = Corner {passing :: [OffsetSegment], back, front :: Double}
 
 radiusAt :: CornerStyle -> Mm -> Int -> Mm
@@ -91,40 +95,40 @@ corner style side radius i j before after
       LeftOf -> Clockwise
       RightOf -> CounterClockwise
 
--- | The lengths that two segments lose at their intersection near a slight corner, by Newton's
--- method.
+-- | The lengths cut off two segments at their intersection near a slight corner, by Newton's
+-- method. For two lines both are @t@.
 meeting :: Double -> Segment -> Segment -> (Double, Double)
-meeting t before behind = case (before, behind) of
+meeting t before after = case (before, after) of
   (Straight _ _, Straight _ _) -> (t, t)
   _ -> go (3 :: Int) t t
   where
     Mm l = Segment.length before
-    Mm l' = Segment.length behind
+    Mm l' = Segment.length after
     go n a b
       | n == 0 = (a, b)
       | a' > 0 && a' < min l (2 * t) && b' > 0 && b' < min l' (2 * t) = go (n - 1) a' b'
       | otherwise = (t, t)
       where
         (k, k') = (1 - a / l, b / l')
-        (u, v) = (Segment.directionAt k before, Segment.directionAt k' behind)
-        gap = Vec.to (Segment.at k before) (Segment.at k' behind)
+        (u, v) = (Segment.directionAt k before, Segment.directionAt k' after)
+        gap = Vec.to (Segment.at k before) (Segment.at k' after)
         a' = a - Vec.cross gap v / Vec.cross u v
         b' = b - Vec.cross u gap / Vec.cross u v
 
--- | A piece without a length at its start and a length at its end, in mm.
+-- | Cuts lengths in mm off the start and off the end of a segment.
 shortened :: Double -> Double -> OffsetSegment -> OffsetSegment
-shortened front back way
-  | front + back <= 0 = way
+shortened front back p
+  | front + back <= 0 = p
   | otherwise =
-    way
+    p
       { segment =
           snd
-            (Segment.cutAt (front / (l - back)) (fst (Segment.cutAt (1 - back / l) (segment way))))
+            (Segment.cutAt (front / (l - back)) (fst (Segment.cutAt (1 - back / l) (segment p))))
       }
   where
-    Mm l = Segment.length (segment way)
+    Mm l = Segment.length (segment p)
 
--- | An element moved to its side.
+-- | The offset of one element.
 moved :: Side -> Mm -> Int -> Segment -> OffsetSegment
 moved side (Mm r) number s = case s of
   Straight a b ->

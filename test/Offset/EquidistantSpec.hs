@@ -8,6 +8,7 @@ import Data.List.NonEmpty qualified as NonEmpty
 import Generate (Case (..), Motion (..))
 import Generate qualified
 import Geometry.Carrier (Circle (Circle), Sense (..), Side (..))
+import Geometry.Carrier qualified as Carrier
 import Geometry.Distance qualified as Distance
 import Geometry.Polyarc (Ends (..), Polyarc (..))
 import Geometry.Polyarc qualified as Polyarc
@@ -31,8 +32,8 @@ spec = do
       $ property $
         forAll Generate.closedCase distanceLaw
     it
-      "both agree: the kernel's loops and the offset element by element are one path, piece by \
-      \piece (catches a coordinate that drifts, a piece that is lost or belongs to another element)"
+      "agreement: the path equals the offset made element by element, segment for segment (catches \
+      \a lost segment, or one with the wrong element)"
       $ property $
         forAll anyContour $ \(contour', side', radius') ->
           forAll styles (agreementLaw contour' side' radius')
@@ -40,69 +41,69 @@ spec = do
       property $
         forAll Generate.openCase distanceLaw
     it
-      "clearance: no piece comes nearer to any element, by closed form (catches an arc that \
-      \continues beyond its end)"
+      "clearance: no segment of the path is nearer to any element than the radius (catches an arc \
+      \that continues beyond its end)"
       $ property $
         forAll Generate.closedCase clearanceLaw
     it
-      "continuity: every piece begins where the one before ends, a closed path closes (catches a \
-      \missing corner arc)"
+      "continuity: every segment begins where the one before ends, also the first of a closed path \
+      \(catches a missing corner arc)"
       $ property $
         forAll Generate.closedCase continuityLaw
     it
-      "reversal: the other side of the reversed contour is the reversed path (catches a side that \
-      \depends on the sense of an arc)"
+      "reversal: the path on the other side of the reversed contour is the reversed path (catches \
+      \a side that depends on the sense of an arc)"
       $ property $
         forAll Generate.closedCase reversalLaw
     it
-      "motion: moving, turning and mirroring the part does so to the path (catches a formula that \
-      \knows the axes)"
+      "motion: a translated, rotated or mirrored contour has the translated, rotated or mirrored \
+      \path (catches a formula that depends on the axes)"
       $ property $
         forAll Generate.closedCase $ \c -> forAll Generate.motion (motionLaw c)
     it
-      "length: outside of a closed contour it is L + 2πR, inside L − 2πR (catches an arc walked \
-      \the long way round)"
+      "length: outside of a closed contour it is L + 2πR, inside L − 2πR, where L is the contour's \
+      \length (catches an arc in the wrong sense)"
       $ property $
         forAll Generate.smoothCase lengthLaw
-    it "reaches contours with hollows, with corners, and with the cutter on either side" $
+    it "covers contours with arcs of both senses, with corners, and cutters on both sides" $
       checkCoverage $
         forAll Generate.closedCase $ \c ->
           cover
             25
-            (hollow c)
-            "hollow"
+            (hasBothSenses c)
+            "both senses"
             (cover 25 (any isCorner (pieces c)) "corner" (cover 25 (side c == LeftOf) "left" True))
-    it "length, with sharp corners (catches a corner arc of another radius or sweep)" $
+    it "length, contours with corners (catches a corner arc of another radius or sweep)" $
       property $
-        forAll Generate.closedCase $ \c -> not (cutOff c) ==> lengthLaw c
+        forAll Generate.closedCase $ \c -> not (hasSlightCorner c) ==> lengthLaw c
     it
-      "slight inner corners: the ways along two arcs, or an arc and a line, meet where both are at \
-      \the radius (catches arcs cut as lines are)"
+      "slight inner corners: the offsets of two arcs, or of an arc and a line, meet at the radius \
+      \from both (catches arcs that are cut like lines)"
       $ property slightCornerLaw
   describe "obstacles" $ do
     it
-      "the largest cutter that fits does fit, and one a little larger does not (catches a search \
-      \that stops early)"
+      "the largest cutter that fits does fit, and one a little larger does not (catches a \
+      \bisection that stops early)"
       $ property $
         forAll (Generate.contour <$> Generate.closedCase) $ \c ->
           forAll (elements [LeftOf, RightOf]) (largestLaw c)
-    it "a concave radius below the cutter's is named" $
+    it "a concave arc with a radius below the cutter's is reported" $
       causeOf LeftOf 6 (circle CounterClockwise 5) `shouldBe` Just (Concave 0 (Mm 5), 5)
-    it "a cutter that just fits into a circle stands still in its centre" $
+    it "a cutter that just fits into a circle does not move in it" $
       fmap (fmap segmentLength) (Equidistant.equidistant LeftOf (Mm 5) (circle CounterClockwise 5))
         `shouldBe` Right (0 :| [])
-    it "an inner corner is named, and no cutter fits" $
+    it "an inner corner is reported, and no cutter fits" $
       fmap fst (causeOf LeftOf 2 square) `shouldBe` Just (InnerCorner 0 1 (Vec.point 10 0))
-    it "a slot of 8 whose walls are far apart in the contour stops a cutter of 10" $
+    it "a slot 8 mm wide, whose walls are far apart along the contour, stops a cutter of 10 mm" $
       causeOf RightOf 5 keyhole `shouldSatisfy` \case
         Just (Collision {}, fits) -> abs (fits - 4) < 1e-5
         _ -> False
-    it "the far end of an open contour stops a cutter where it begins" $
+    it "the last element of an open contour stops a cutter at the start of the contour" $
       causeOf LeftOf 14 hook `shouldSatisfy` \case
-        -- Its end is then as far from the centre as its beginning.
+        -- The contour's end is then as far from the cutter's centre as the contour's start.
         Just (Collision 0 2 _, fits) -> abs (fits - 12.33589) < 1e-4
         _ -> False
-    it "a cutter of 8 goes down a slot of 8" $
+    it "a cutter of 8 mm enters a slot 8 mm wide" $
       causeOf RightOf 4 keyhole `shouldBe` Nothing
     it "a radius of 0 gives the contour itself" $
       fmap (fmap segment) (Equidistant.equidistant LeftOf (Mm 0) square)
@@ -144,38 +145,35 @@ continuityLaw c =
 
 reversalLaw :: Case -> Property
 reversalLaw c =
-  case Equidistant.equidistant (other (side c)) (radius c) (Polyarc.reverse (contour c)) of
+  case Equidistant.equidistant opposite (radius c) (Polyarc.reverse (contour c)) of
     Left o -> counterexample (show o) False
     Right back ->
-      sameWalk
+      samePath
         (map (Segment.reverse . segment) (NonEmpty.toList back))
         (map segment (NonEmpty.toList (pieces c)))
-
-other :: Side -> Side
-other s = case s of
-  LeftOf -> RightOf
-  RightOf -> LeftOf
+  where
+    opposite = Carrier.oppositeSide (side c)
 
 motionLaw :: Case -> Motion -> Property
 motionLaw c m = case Equidistant.equidistant side' (radius c) moved of
   Left o -> counterexample (show o) False
   Right ps ->
-    sameWalk
+    samePath
       (map segment (NonEmpty.toList ps))
       (map (Generate.move m . segment) (NonEmpty.toList (pieces c)))
   where
     moved = Polyarc (ends (contour c)) (fmap (Generate.move m) (segments (contour c)))
-    side' = if mirrored m then other (side c) else side c
+    side' = if mirrored m then Carrier.oppositeSide (side c) else side c
 
--- | Corners of both shapes, with allowances of single elements now and then.
+-- | Sharp or round corners, and extra distances, which are sometimes different from 0.
 styles :: Gen (Bool, [Double])
 styles =
   (,)
     <$> arbitrary
       <*> frequency [(2, pure [0]), (1, vectorOf 3 (elements [0, 0.5, 1]))]
 
--- | Contours with a side and a radius: smooth ones and ones with corners, in which the cutter fits,
--- and degenerate ones, in which a small cutter fits now and then.
+-- | Contours with a side and a radius: smooth ones and ones with corners, beside which the cutter
+-- fits, and degenerate ones, beside which it fits sometimes.
 anyContour :: Gen (Polyarc, Side, Mm)
 anyContour = oneof [whole <$> Generate.closedCase, whole <$> Generate.openCase, small]
   where
@@ -185,7 +183,7 @@ anyContour = oneof [whole <$> Generate.closedCase, whole <$> Generate.openCase, 
       share <- elements [0.01, 0.1, 1]
       pure (Reachable.contour s, Reachable.side s, Mm (share * Reachable.radius s))
 
--- | The path is that of the oracle where the cutter fits.
+-- | Where the cutter fits, the path is that of the oracle "Offset.Elementwise".
 agreementLaw :: Polyarc -> Side -> Mm -> (Bool, [Double]) -> Property
 agreementLaw contour' side' radius' (isSharp, extras) =
   case Equidistant.styled style side' radius' contour' of
@@ -208,9 +206,9 @@ agreementLaw contour' side' radius' (isSharp, extras) =
       (Straight a b, Straight a' b') -> apart a a' < 1e-9 && apart b b' < 1e-9
       _ -> False
 
--- | Compares two paths; the first segment may differ.
-sameWalk :: [Segment] -> [Segment] -> Property
-sameWalk as bs =
+-- | Two paths consist of the same segments. They may begin with different ones.
+samePath :: [Segment] -> [Segment] -> Property
+samePath as bs =
   length as === length bs .&&. conjoin [counterexample (show a) (any (alike a) bs) | a <- as]
   where
     alike a b =
@@ -218,9 +216,9 @@ sameWalk as bs =
         && apart (Segment.end a) (Segment.end b) < 1e-6
         && apart (Segment.at 0.5 a) (Segment.at 0.5 b) < 1e-6
 
--- | Whether a corner turns slightly towards the cutter. The path is shorter there.
-cutOff :: Case -> Bool
-cutOff c =
+-- | True when a corner turns slightly towards the cutter. The path is shorter there.
+hasSlightCorner :: Case -> Bool
+hasSlightCorner c =
   or
     [ turned * (if side c == LeftOf then 1 else -1) > 1e-6
       | (a, b) <- zip ss (drop 1 ss <> take 1 ss),
@@ -238,8 +236,8 @@ lengthLaw c = counterexample (show (len, old, r)) (abs (len - (old + sign * 2 * 
     outside = (Polyarc.signedArea (contour c) > 0) == (side c == RightOf)
     sign = if outside then 1 else -1
 
--- | At a corner between two elements, at least one of them an arc, that is so slight that the
--- cutter passes it, the centre is at the radius from both.
+-- | Two elements, at least one of them an arc, join at a corner so slight that the cutter passes
+-- it. There the cutter's centre is at the radius from both elements.
 slightCornerLaw :: Property
 slightCornerLaw =
   forAll (choose (2e-7, 0.0039)) $ \turned ->
@@ -261,7 +259,7 @@ slightCornerLaw =
     bend =
       frequency
         [(1, pure 0), (4, (\sign old -> sign / old) <$> elements [-1, 1] <*> choose (12, 300))]
-    -- From a point in a direction, 4 mm long.
+    -- An element 4 mm long with a start, a direction there, and a curvature.
     from at u bent
       | bent == 0 = Straight at (Vec.shift (Vec.scale 4 u) at)
       | otherwise =
@@ -273,10 +271,11 @@ slightCornerLaw =
                 centre = c,
                 sweep = Rad (4 * bent)
               }
-    isAway way s =
-      let Mm d = carrier s (Segment.end way) in counterexample (show (s, d)) (abs (d - r) < 1e-9)
-    -- From the line or the circle that carries an element.
-    carrier s p = case s of
+    isAway path s =
+      let Mm d = toCarrier s (Segment.end path)
+       in counterexample (show (s, d)) (abs (d - r) < 1e-9)
+    -- The distance of a point from the line or the circle on which an element lies.
+    toCarrier s p = case s of
       Straight a b -> Mm (abs (Vec.cross (Vec.unit (Vec.to a b)) (Vec.to a p)))
       Arc {start, centre} ->
         let Mm d =
@@ -304,14 +303,14 @@ causeOf s r c = case Equidistant.equidistant s (Mm r) c of
   Right _ -> Nothing
 
 circle :: Sense -> Double -> Polyarc
-circle turn r =
+circle sense r =
   Polyarc
     Closed
-    (Segment.fullCircle turn (Circle (Vec.point 3 4) (Mm r)) (Vec.point (3 + r) 4) :| [])
+    (Segment.fullCircle sense (Circle (Vec.point 3 4) (Mm r)) (Vec.point (3 + r) 4) :| [])
 
--- | A contour with arcs of both senses.
-hollow :: Case -> Bool
-hollow c =
+-- | True for a contour with arcs of both senses.
+hasBothSenses :: Case -> Bool
+hasBothSenses c =
   any ((> 0) . sweepOf) (segments (contour c)) && any ((< 0) . sweepOf) (segments (contour c))
   where
     sweepOf s = case s of
@@ -351,8 +350,8 @@ keyhole =
   where
     neck = -20 + sqrt (20 * 20 - 4 * 4)
 
--- | A wall with its inside on the left that comes back below its own start: a line, an arc of more
--- than three quarters of a turn, a line.
+-- | An open contour that returns below its own start: a line, an arc of more than three quarters of
+-- a turn, a line.
 hook :: Polyarc
 hook =
   Polyarc

@@ -1,16 +1,13 @@
--- | Whether an answer of the offset kernel is right, by naive distances and winding numbers at many
--- places.
+-- | The laws of the offset kernel as functions of one problem. Most compare the kernel's result
+-- with the distances and winding numbers of "Offset.Naive" at many points.
 module Offset.Judge
   ( Verdict (..),
-    judge,
-    consistent,
-    rounds,
+    reach,
+    sameness,
+    composition,
     identity,
     uncrossed,
-    stays,
-    answer,
-    scaleOf,
-    apart,
+    zero,
   )
 where
 
@@ -22,6 +19,7 @@ import Data.Maybe (listToMaybe, mapMaybe)
 import Data.Word (Word64)
 import Generate.Outline (Case (..), Family (..), turned)
 import Geometry.Carrier (Side (..))
+import Geometry.Carrier qualified as Carrier
 import Geometry.Distance qualified as Distance
 import Geometry.FlatPolyarc (FlatPolyarc)
 import Geometry.FlatPolyarc qualified as FlatPolyarc
@@ -35,41 +33,50 @@ import Offset.Loop qualified as Loop
 import Offset.Naive (Piece (..))
 import Offset.Naive qualified as Naive
 
+-- | The verdict of a law on one problem.
 data Verdict
-  = -- | so many places were looked at
-    Right' Int
-  | -- | rightly at fault
+  = -- | the law holds
+    Holds
+  | -- | the kernel refused the problem, and nothing was compared
     Refused
-  | Wrong String
+  | -- | the law is broken; a description
+    Broken String
   deriving stock (Eq, Show)
 
-answer :: Case -> Either OffsetFault Kernel.ReachableRegion
-answer c =
+-- | 'Holds' without descriptions of broken laws, else the first of them.
+verdictOf :: [String] -> Verdict
+verdictOf = maybe Holds Broken . listToMaybe
+
+-- | The kernel's result for a problem.
+result :: Case -> Either OffsetFault Kernel.ReachableRegion
+result c =
   Kernel.offset (Kernel.roundOffset (side c) (Mm (radius c))) {Kernel.extra = more} (outlines c)
   where
     more = case extras c of
       [] -> Nothing
       es -> Just (\i -> Mm (es !! (i `mod` length es)))
 
--- | Lengths are measured by this: the largest coordinate and the radius.
+-- | The size of a problem in mm, to which the allowed errors are proportional: the sum of the
+-- largest coordinate and the distances.
 scaleOf :: Case -> Double
 scaleOf c =
   radius c
     + maximum (0 : extras c)
     + maximum (1e-3 : [max (abs x) (abs y) | o <- outlines c, (x, y, _) <- FlatPolyarc.vertices o])
 
-judge :: Case -> Verdict
-judge c = case answer c of
-  _ | illConditioned c && not (null (extras c)) -> Right' 0
-  Left Uncertain -> Wrong "uncertain"
+-- | The boundary of the result has the required distance from the source. A point lies inside the
+-- result exactly if it lies in the free region of the source and is far enough from the source. A
+-- source that does not intersect itself is not refused.
+reach :: Case -> Verdict
+reach c = case result c of
+  _ | illConditioned c && not (null (extras c)) -> Holds
+  Left Uncertain -> Broken "uncertain"
   Left fault
-    | sound c -> Wrong ("fault of a sound source: " <> show fault)
-    | apart c -> Wrong ("fault of a source whose segments keep apart: " <> show fault)
-    | SelfIntersecting i j <- fault, not (meeting i j) -> Wrong ("no crossing: " <> show fault)
+    | sound c -> Broken ("fault of a sound source: " <> show fault)
+    | areApart c -> Broken ("fault of a source whose segments are apart: " <> show fault)
+    | SelfIntersecting i j <- fault, not (meeting i j) -> Broken ("no crossing: " <> show fault)
     | otherwise -> Refused
-  Right reach -> case places c reach of
-    Left problem -> Wrong problem
-    Right n -> Right' n
+  Right region -> maybe Holds Broken (brokenAt c region)
   where
     segments = concatMap (FlatPolyarc.segments . straightened) (outlines c)
     meeting i j =
@@ -77,16 +84,15 @@ judge c = case answer c of
             Distance.distance (Distance.segments (segments !! i) (segments !! j))
        in d < 1e-5 * scaleOf c
 
--- | Whether the answer does not depend on how the same is asked.
-consistent :: Case -> Verdict
-consistent c = case answer c of
+-- | The result for a rotated, mirrored or moved problem, for other first vertices and for reversed
+-- polyarcs is the corresponding one.
+sameness :: Case -> Verdict
+sameness c = case result c of
   Left _ -> Refused
-  Right reach ->
-    maybe
-      (Right' 1)
-      Wrong
-      ( firstOf
-          ( (if illConditioned c then [] else exactly reach)
+  Right region ->
+    verdictOf
+      ( concat
+          ( (if illConditioned c then [] else exactly region)
               <> [ same "start" (started 1),
                    same "start" (started 3),
                    same "reversed" (map FlatPolyarc.reverse (outlines c)),
@@ -95,31 +101,36 @@ consistent c = case answer c of
           )
       )
     where
-      firstOf = listToMaybe . concat
       started k = map (fromVertex k) (outlines c)
-      total = Loop.area (Kernel.loops reach)
+      total = Loop.area (Kernel.loops region)
       size = scaleOf c
       same name os
         | name == ("start" :: String) && any ((== Open) . FlatPolyarc.ends) (outlines c) = []
         | not (null (extras c)) || illConditioned c = []
         | otherwise =
-          case answer
-            c {outlines = os, side = if name == "reversed" then other (side c) else side c} of
+          case result
+            c
+              { outlines = os,
+                side = if name == "reversed" then Carrier.oppositeSide (side c) else side c
+              } of
             Left fault -> [name <> ": " <> show fault]
             Right r
               | abs (abs (Loop.area (Kernel.loops r)) - abs total) <= 1e-8 * size * perimeter -> []
               | otherwise ->
                 [name <> " area " <> show (Loop.area (Kernel.loops r)) <> " not " <> show total]
       perimeter =
-        size + sum [l | o <- Loop.polyarcs (Kernel.loops reach), let Mm l = FlatPolyarc.length o]
+        size + sum [l | o <- Loop.polyarcs (Kernel.loops region), let Mm l = FlatPolyarc.length o]
       exactly r =
-        [ twin "quarter" quarter False r,
-          twin "half" (quarter . quarter) False r,
-          twin "mirror" mirror True r
+        [ sameDigits "quarter" quarter False r,
+          sameDigits "half" (quarter . quarter) False r,
+          sameDigits "mirror" mirror True r
         ]
-      twin name f flipped r =
-        case answer
-          c {outlines = map f (outlines c), side = if flipped then other (side c) else side c} of
+      sameDigits name f flipped r =
+        case result
+          c
+            { outlines = map f (outlines c),
+              side = if flipped then Carrier.oppositeSide (side c) else side c
+            } of
           Left fault -> [name <> ": " <> show fault]
           Right r'
             | cyclic (map f (Loop.polyarcs (Kernel.loops r)))
@@ -149,37 +160,30 @@ consistent c = case answer c of
       canonical vs =
         let n = length vs; best = snd (minimum (zip vs [0 ..])) in take n (drop best (cycle vs))
 
-other :: Side -> Side
-other s = case s of
-  LeftOf -> RightOf
-  RightOf -> LeftOf
-
--- | Begun at another vertex.
+-- | A polyarc that begins at vertex k.
 fromVertex :: Int -> FlatPolyarc -> FlatPolyarc
 fromVertex k o =
   FlatPolyarc.fromVertices
     (FlatPolyarc.ends o)
     (let (a, b) = splitAt k (FlatPolyarc.vertices o) in b <> a)
 
--- | Circles of next to nothing but a gap, whose radius depends on the last digits of the gap.
+-- | True for a problem with nearly full circles. Their radii depend on the last digits of the gap
+-- between their ends.
 illConditioned :: Case -> Bool
 illConditioned c = or [abs b > 100 | o <- outlines c, (_, _, b) <- FlatPolyarc.vertices o]
 
--- | In two steps as in one; and in, out, in as in.
-rounds :: Case -> Verdict
-rounds c = case answer c of
+-- | Two offsets that follow each other have the area of one by the sum of the distances. An offset,
+-- its inverse, and the offset again have the area of the first offset.
+composition :: Case -> Verdict
+composition c = case result c of
   Left _ -> Refused
-  Right reach ->
+  Right region ->
     if illConditioned c || not (null (extras c))
-      then Right' 0
-      else
-        maybe
-          (Right' 1)
-          Wrong
-          (listToMaybe (steps <> (if family c == Cells then [] else back reach)))
+      then Holds
+      else verdictOf (steps <> (if family c == Cells then [] else back region))
     where
       size = scaleOf c
-      total = Loop.area (Kernel.loops reach)
+      total = Loop.area (Kernel.loops region)
       go s d os = Kernel.loops <$> Kernel.offset (Kernel.roundOffset s (Mm d)) os
       steps =
         close
@@ -190,7 +194,7 @@ rounds c = case answer c of
       back r =
         close
           "there and back"
-          ( go (other (side c)) (radius c) (Loop.polyarcs (Kernel.loops r))
+          ( go (Carrier.oppositeSide (side c)) (radius c) (Loop.polyarcs (Kernel.loops r))
               >>= go (side c) (radius c) . Loop.polyarcs
           )
       close name r = case r of
@@ -199,22 +203,21 @@ rounds c = case answer c of
           | abs (Loop.area l - total) <= 1e-7 * size * size -> []
           | otherwise -> [name <> " area " <> show (Loop.area l) <> " not " <> show total]
 
--- | Out and in again by less than a cutter that is known to fit: by what a larger one has swept. It
--- has no hollow, no inner corner and no gap that is too narrow, but islands and hollows of all
--- kinds.
+-- | An offset and its inverse give the polyarcs again, when a larger cutter fits everywhere. Such
+-- polyarcs are themselves an offset and its inverse: no concave arc, inner corner or slot of them
+-- is too narrow.
 identity :: Case -> Verdict
-identity c = case answer c >>= offset' (other (side c)) (radius c) . loopsOf of
+identity c = case result c >>= offset' (Carrier.oppositeSide (side c)) (radius c) . loopsOf of
   Left _ -> Refused
-  Right reach
-    | illConditioned c || null (loopsOf reach) -> Right' 0
-    | otherwise ->
-      maybe (Right' 1) Wrong (listToMaybe (concatMap (again (loopsOf reach)) [0.9, 0.35]))
+  Right region
+    | illConditioned c || null (loopsOf region) -> Holds
+    | otherwise -> verdictOf (concatMap (again (loopsOf region)) [0.9, 0.35])
   where
     loopsOf = Loop.polyarcs . Kernel.loops
     offset' s d = Kernel.offset (Kernel.roundOffset s (Mm d))
     again swept part =
       case offset' (side c) (part * radius c) swept
-        >>= offset' (other (side c)) (part * radius c) . loopsOf of
+        >>= offset' (Carrier.oppositeSide (side c)) (part * radius c) . loopsOf of
         Left fault -> [show part <> ": " <> show fault]
         Right back ->
           let same :: String -> ([FlatPolyarc] -> Double) -> Double -> [String]
@@ -235,25 +238,21 @@ identity c = case answer c >>= offset' (other (side c)) (radius c) . loopsOf of
                   (\os -> sum [l | o <- os, let Mm l = FlatPolyarc.length o])
                   (1e-6 * scaleOf c)
 
--- | Whether no two segments of the answer cross between their ends.
+-- | No two segments of the result cross between their ends.
 uncrossed :: Case -> Verdict
-uncrossed c = case answer c of
+uncrossed c = case result c of
   Left _ -> Refused
-  Right reach ->
+  Right region ->
     let segments =
-          concatMap (FlatPolyarc.segments . straightened) (Loop.polyarcs (Kernel.loops reach))
-     in maybe
-          (Right' (length segments))
-          Wrong
-          ( listToMaybe
-              [ show a <> " crosses " <> show b <> " at " <> show p
-                | a : more <- tails segments,
-                  b <- more,
-                  p <- Distance.intersections a b,
-                  all (clearly p) [a, b],
-                  slant a b p
-              ]
-          )
+          concatMap (FlatPolyarc.segments . straightened) (Loop.polyarcs (Kernel.loops region))
+     in verdictOf
+          [ show a <> " crosses " <> show b <> " at " <> show p
+            | a : more <- tails segments,
+              b <- more,
+              p <- Distance.intersections a b,
+              all (clearly p) [a, b],
+              slant a b p
+          ]
   where
     clearly p s =
       all
@@ -267,37 +266,33 @@ uncrossed c = case answer c of
         )
         > 1e-3
 
--- | Whether an offset by nothing keeps the area; and the length, but where sides lie along one
--- another: what has no width is no boundary.
-stays :: Case -> Verdict
-stays c = case answer c {radius = 0} of
+-- | An offset by 0 keeps the area. It keeps the length, too, unless segments touch or coincide:
+-- coinciding segments are no boundary.
+zero :: Case -> Verdict
+zero c = case result c {radius = 0} of
   Left _ -> Refused
-  Right reach ->
+  Right region ->
     let same :: String -> (FlatPolyarc -> Double) -> Double -> [String]
         same name f allowed =
           [ name <> " " <> show (total os) <> " not " <> show (total (outlines c))
-            | let os = Loop.polyarcs (Kernel.loops reach); total = sum . map f,
+            | let os = Loop.polyarcs (Kernel.loops region); total = sum . map f,
               abs (total os - total (outlines c)) > allowed
           ]
-     in maybe
-          (Right' 1)
-          Wrong
-          ( listToMaybe
-              ( same "area" FlatPolyarc.area (1e-9 * scaleOf c * scaleOf c)
-                  <> ( if apart c
-                         then
-                           same
-                             "length"
-                             (\o -> let Mm l = FlatPolyarc.length o in l)
-                             (1e-8 * scaleOf c)
-                         else []
-                     )
-              )
+     in verdictOf
+          ( same "area" FlatPolyarc.area (1e-9 * scaleOf c * scaleOf c)
+              <> ( if areApart c
+                     then
+                       same
+                         "length"
+                         (\o -> let Mm l = FlatPolyarc.length o in l)
+                         (1e-8 * scaleOf c)
+                     else []
+                 )
           )
 
--- | Whether all segments keep clearly apart but for the vertices that they share.
-apart :: Case -> Bool
-apart c =
+-- | True when all segments are clearly apart, except at the vertices that they share.
+areApart :: Case -> Bool
+areApart c =
   notElem True [b /= 0 && abs b < 1e-5 | o <- outlines c, (_, _, b) <- FlatPolyarc.vertices o]
     && and [clear (i, a) (j, b) | (i, a) : more <- tails numbered, (j, b) <- more]
   where
@@ -317,32 +312,29 @@ apart c =
     back :: Segment -> Segment
     back s = snd (Segment.cutAt 0.00001 s)
 
--- | Arcs that are nearly their chords are chords: distances by centres lose their digits there.
+-- | Replaces nearly straight arcs by their chords: distances from their centres lose too many
+-- digits.
 straightened :: FlatPolyarc -> FlatPolyarc
 straightened o =
   FlatPolyarc.fromVertices
     (FlatPolyarc.ends o)
     [(x, y, if abs b < 2e-6 then 0 else b) | (x, y, b) <- FlatPolyarc.vertices o]
 
--- | The result's boundary is everywhere as far from the source as asked; and whether a place is
--- free by the result is whether it is free and far enough by the source: beside the boundary, and
--- at random.
-places :: Case -> Kernel.ReachableRegion -> Either String Int
-places c reach =
-  maybe
-    (Right (length spots))
-    Left
-    (firstJust boundary result <|> firstJust beside spots <|> firstJust thin loops)
+-- | The first broken condition of 'reach', tested along the boundary of the result, at points just
+-- beside it, and at random points.
+brokenAt :: Case -> Kernel.ReachableRegion -> Maybe String
+brokenAt c region =
+  firstJust boundary offsets <|> firstJust beside spots <|> firstJust thin loops
   where
     firstJust f = listToMaybe . mapMaybe f
-    loops = Loop.polyarcs (Kernel.loops reach)
-    result = concatMap Naive.pieces loops
+    loops = Loop.polyarcs (Kernel.loops region)
+    offsets = concatMap Naive.pieces loops
     sources = concatMap Naive.pieces (outlines c)
     isOpen = any ((== Open) . FlatPolyarc.ends) (outlines c)
     scale = scaleOf c
     near = 2e-9 * scale
     d = radius c
-    -- What the walls of a pocket ask for holds inside it.
+    -- The distances of a pocket's walls hold inside the pocket only.
     tooNear (x, y) =
       or
         [ Naive.blocked leftward d ps x y
@@ -358,16 +350,16 @@ places c reach =
             )
         )
         (outlines c)
-        . walks (outlines c)
+        . withDistances (outlines c)
         $ map (d +) (cycle (if null (extras c) then [0] else extras c))
-    walks os es = case os of
+    withDistances os es = case os of
       [] -> []
       o : rest ->
         let ps =
               Naive.pieces o
             (mine, others) = splitAt (length ps) es
          in [(p, e) | (p, e) <- zip ps mine, abs (x0 p - x1 p) + abs (y0 p - y1 p) > 1e-9 * scale] :
-            walks rest others
+            withDistances rest others
     backwards (Piece ax ay bx by b, e) = (Piece bx by ax ay (-b), e)
     blocked = case side c of
       LeftOf -> free c - 1
@@ -388,7 +380,7 @@ places c reach =
     spots =
       concat
         [ [(x - h * ny, y + h * nx), (x + h * ny, y - h * nx)]
-          | p <- result,
+          | p <- offsets,
             t <- [0.04, 0.6],
             let (x, y, nx, ny) = on p t
         ]
@@ -418,7 +410,7 @@ places c reach =
       where
         far = Naive.distance sources x y
         start = if isOpen then free c else Naive.winding sources x y
-        number = Naive.winding result x y
+        number = Naive.winding offsets x y
         expected =
           if start == free c && (if null (extras c) then far > d else not (tooNear (x, y)))
             then free c
@@ -431,14 +423,14 @@ places c reach =
         corners
     margin = 1.3 * (d + maximum (0 : extras c)) + 0.1 * (hx - lx)
     scattered =
-      pairs (randoms (fromIntegral (length result) + truncate (1e6 * abs (sum (map fst corners)))))
+      pairs (randoms (fromIntegral (length offsets) + truncate (1e6 * abs (sum (map fst corners)))))
     pairs us = case us of
       u : v : more ->
         (lx - margin + u * (hx - lx + 2 * margin), ly - margin + v * (hy - ly + 2 * margin)) :
         pairs more
       _ -> []
 
--- | A place of a piece, and the direction there.
+-- | The point at a fraction of a segment's sweep or length, and the unit direction there.
 on :: Piece -> Double -> (Double, Double, Double, Double)
 on (Piece ax ay bx by b) t
   | b == 0 = (ax + t * dx, ay + t * dy, dx / l, dy / l)
@@ -452,12 +444,12 @@ on (Piece ax ay bx by b) t
     (dx, dy) = (bx - ax, by - ay)
     l = sqrt (dx * dx + dy * dy)
     half = 2 * atan b
-    -- The chord to the place is turned from the whole chord by half of what is left of the sweep.
+    -- The chord to the point deviates from the whole chord by half the remaining sweep.
     m = sin (t * half) / sin half
     (co, si) = (cos ((1 - t) * half), sin ((1 - t) * half))
     (co', si') = (cos ((1 - 2 * t) * half), sin ((1 - 2 * t) * half))
 
--- | Numbers from 0 to 1.
+-- | Pseudo-random numbers from 0 to 1, from a seed.
 randoms :: Word64 -> [Double]
 randoms = map unit . drop 1 . iterate step . (+ 88172645463325252)
   where

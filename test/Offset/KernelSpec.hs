@@ -1,4 +1,4 @@
--- | The laws of the offset kernel. Each says which bug it would catch.
+-- | The laws of the offset kernel. Each law names the bug that it catches.
 module Offset.KernelSpec (spec) where
 
 import Base.Quantity (Mm (..))
@@ -11,7 +11,8 @@ import Geometry.ClosedPolyarcs qualified as ClosedPolyarcs
 import Geometry.FlatPolyarc (FlatPolyarc)
 import Geometry.FlatPolyarc qualified as FlatPolyarc
 import Geometry.Polyarc (Ends (..))
-import Offset.Judge (Verdict (..), consistent, identity, judge, rounds, stays, uncrossed)
+import Offset.Judge (Verdict (..))
+import Offset.Judge qualified as Judge
 import Offset.Kernel (Corners (..), OffsetFault (..), OffsetRequest (..))
 import Offset.Kernel qualified as Kernel
 import Offset.Loop qualified as Loop
@@ -27,92 +28,92 @@ spec = do
   describe "laws of the offset kernel" $ do
     each
       count
-      "reach: whether a place is free is whether it is far enough, and the boundary is at the \
-      \distance asked (catches a slice that is kept with the wrong number)"
+      "reach: a point lies inside the result exactly if it is far enough from the contours, and \
+      \the boundary is at the distance (catches a slice kept with the wrong winding number)"
       Generate.problem
-      judge
+      Judge.reach
     each
       (count `div` 3)
-      "reach, beside open outlines (catches an end that is not gone round)"
+      "reach, beside open contours (catches an end without an arc about it)"
       Generate.open
-      judge
+      Judge.reach
     each
       (count `div` 3)
-      "uneven: where segments ask for different distances, each holds beside its own segment \
-      \(catches a step where there is none)"
+      "uneven: when segments have different distances, each holds beside its own segment (catches \
+      \a missing line between two distances)"
       Generate.uneven
-      judge
+      Judge.reach
     each
       (count `div` 3)
-      "sameness: quarter turns and mirrors give the same loops digit for digit, another start, \
-      \motion and reversal the same area (catches an order round a node that knows the axes)"
+      "sameness: rotation by quarter turns and mirroring change no digit of the loops; another \
+      \first vertex, motion and reversal keep the area (catches an order of edges that depends on \
+      \the axes)"
       Generate.problem
-      consistent
+      Judge.sameness
     each
       (count `div` 6)
-      "sameness, beside open outlines (catches a side that counts from one end)"
+      "sameness, beside open contours (catches a side that depends on the first end)"
       Generate.open
-      consistent
+      Judge.sameness
     each
       (count `div` 3)
-      "composition: by a and then by b is by a + b; there, back and there is there (catches loops \
-      \in loops that are each taken by themselves)"
+      "composition: an offset by a and then by b is one by a + b; an offset, its inverse and the \
+      \offset again is the offset (catches nested contours of one sense that are accepted)"
       Generate.problem
-      rounds
+      Judge.composition
     each
       (count `div` 3)
-      "identity: out and in again, where hollows, corners and gaps have room for a larger cutter, \
-      \is as before, concave or not (catches an arc that is cut to another one)"
+      "identity: an offset and its inverse give the contours again, when a larger cutter fits \
+      \everywhere (catches a trimmed arc with the bulge of the whole arc)"
       Generate.problem
-      identity
+      Judge.identity
     each
       (count `div` 3)
-      "uncrossed: no segments of an answer cross (catches a loop that takes in a vertex of another \
-      \one)"
+      "uncrossed: no two segments of a result cross (catches a loop with a vertex of another one)"
       Generate.problem
-      uncrossed
-    it "nothing: an offset by nothing is the outline itself (catches a joint that leaves a trace)" $
+      Judge.uncrossed
+    it "zero: the offset by 0 is the contour itself (catches a joint that adds a segment)" $
       property . forAll Generate.simple $ \o -> forAll (elements [LeftOf, RightOf]) $ \s ->
         fmap (map FlatPolyarc.vertices) (loopsOf s 0 [o]) === Right [FlatPolyarc.vertices o]
     each
       (count `div` 3)
-      "nothing, whatever the outlines: an offset by nothing keeps area and length (catches an arc \
-      \that is lost where nothing moves)"
+      "zero, for all contours: the offset by 0 keeps area and length (catches an arc that is lost \
+      \at the distance 0)"
       Generate.problem
-      stays
+      Judge.zero
     it
-      "Steiner, with arcs: the same round what one cutter leaves (catches an arc that keeps its \
-      \radius)"
+      "Steiner, with arcs: the same formulas hold around an offset of a convex polygon (catches an \
+      \arc that keeps its radius)"
       $ property . forAll Generate.convex $ \vs ->
         forAll (choose (0.01, 5)) $ \r -> forAll (choose (0.01, 5)) $ \r' ->
           case loopsOf RightOf r' [Generate.loop vs] of
             Right [o] -> steiner o r
             other -> counterexample (show other) False
     it
-      "Steiner: round a convex outline the area is A + LR + πR², the length L + 2πR (catches a \
+      "Steiner: around a convex polygon the area is A + LR + πR², the length L + 2πR (catches a \
       \corner that is cut off)"
       $ property . forAll Generate.convex $ \vs ->
         forAll (choose (0.01, 5)) $ \r -> steiner (Generate.loop vs) r
     it
-      "back: in after out is the identity for a convex outline (catches two sides that move to the \
-      \same one)"
+      "back: an offset of a convex polygon outwards and then inwards is the polygon (catches two \
+      \sides of the cutter that give one side of the contour)"
       $ property . forAll Generate.convex $ \vs -> forAll (choose (0.01, 5)) $ \r ->
         let o = Generate.loop vs
          in fmap (sum . map FlatPolyarc.area) (loopsOf RightOf r [o] >>= loopsOf LeftOf r)
               `nearly` Right (FlatPolyarc.area o)
-    it "crossed: two sides that cross are named (catches a source that is taken for simple)" $
+    it "crossed: two sides that cross are reported (catches a self-intersection that is accepted)" $
       property (forAll bowTie crossedLaw)
     it
-      "far out: short arcs that go over into lines leave no corners, nor are any made and cut off \
-      \again (catches directions that are compared more finely than they are known)"
+      "far out: short arcs tangent to lines give no corners, neither in the result nor in the raw \
+      \offset (catches a comparison of directions that is finer than their rounding)"
       $ do
         let made = Kernel.offset (Kernel.roundOffset RightOf (Mm 3)) [lobes 10000]
         fmap (map FlatPolyarc.size . found) made `shouldBe` Right [20000]
-        fmap (\reach -> sizeofPrimArray (ClosedPolyarcs.xs (Kernel.raw reach))) made
+        fmap (\region -> sizeofPrimArray (ClosedPolyarcs.xs (Kernel.raw region))) made
           `shouldBe` Right (20000 + 1)
     it
-      "round a cusp, wherever the walk begins: outside it as it is (catches an arc that seems \
-      \outermost just before its end)"
+      "cusp: the area beside a contour with a cusp does not depend on its first vertex (catches an \
+      \outermost point just before the end of an arc)"
       $ let horn =
               [ (-20.625495970237296, -11.829756256299746, 0),
                 (-20.625495970237296, -10.329756256299746, 0),
@@ -122,8 +123,8 @@ spec = do
             areaFrom k = areaOf LeftOf 0.5 [Generate.loop (drop k horn <> take k horn)]
          in mapM_ (\k -> areaFrom k `nearly` areaFrom 0) [1 .. 3]
     it
-      "comes upon everything that degenerates: repeated vertices, spikes, sides along one another, \
-      \touching outlines, whole numbers, arcs of next to nothing and of nearly a whole turn"
+      "covers degenerate contours: repeated vertices, spikes, vertices on straight lines, touching \
+      \contours, integer coordinates, nearly straight arcs and nearly full circles"
       $ [ name
           | (name, has) <- degenerate,
             length
@@ -132,43 +133,42 @@ spec = do
         ]
         `shouldBe` []
   describe "slots, pockets and islands" $ do
-    it "a gap of exactly the cutter's width is closed" $
+    it "a cutter exactly as wide as a slot has no loop" $
       loopsOf LeftOf 1 [Generate.loop [(0, 0, 0), (10, 0, 0), (10, 2, 0), (0, 2, 0)]]
         `shouldBe` Right []
-    it "a cutter of an arc's own radius stands still in its centre: nothing to walk" $
+    it "a cutter with the radius of a round pocket has no loop" $
       loopsOf LeftOf 2 [circle 2] `shouldBe` Right []
     it
-      "a cutter much larger than a round pocket finds no place (catches a loop that turns inside \
-      \out)"
+      "a cutter much larger than a round pocket has no loop (catches a loop that turns inside out)"
       $ map (\r -> loopsOf LeftOf r [circle 2]) [2.5, 4, 10, 1000] `shouldBe` replicate 4 (Right [])
-    it "nor one that covers all of a pocket but its corners" $
+    it "a cutter that covers all of a pocket but its corners has no loop" $
       loopsOf LeftOf 0.7 [lens] `shouldBe` Right []
-    it "a pocket too small does not spoil the one beside it" $
+    it "a pocket that is too small does not change the result of the one beside it" $
       areaOf LeftOf 1 [square 0 0 10, turned 1 0 (20, 5) (circle 0.4)] `nearly` Right 64
-    it "an island is gone round in a pocket" $
+    it "the cutter goes around an island in a pocket" $
       areaOf LeftOf 1 [square 0 0 10, FlatPolyarc.reverse (square 4 4 2)]
         `nearly` Right (64 - (4 + 8 + pi))
-    it "islands by themselves are gone round from outside" $
+    it "the cutter goes around islands without a pocket" $
       areaOf LeftOf 1 [FlatPolyarc.reverse (square 0 0 2), FlatPolyarc.reverse (square 10 0 2)]
         `nearly` Right (-(2 * (4 + 8 + pi)))
-    it "islands nearer than the cutter is wide are one" $
+    it "islands with a gap narrower than the cutter have one common loop" $
       fmap
         length
         (loopsOf LeftOf 1 [FlatPolyarc.reverse (square 0 0 2), FlatPolyarc.reverse (square 3 0 2)])
         `shouldBe` Right 1
-    it "an outline in another one the wrong way is misplaced" $
+    it "a contour inside another one of the same sense is refused" $
       loopsOf LeftOf 1 [square 0 0 10, square 4 4 2] `shouldBe` Left WrongNesting
-    it "corners that touch, and sides, are no fault" $
+    it "contours that touch at corners or along sides are accepted" $
       fmap length (loopsOf RightOf 0.25 [square 0 0 1, square 1 1 1, square 1 0 1])
         `shouldBe` Right 1
-    it "sharp corners stay where the ways meet" $
+    it "sharp corners are at the intersections of the offset lines" $
       fmap
         (map FlatPolyarc.vertices . found)
         (Kernel.offset (Kernel.roundOffset RightOf (Mm 1)) {corners = Sharp} [square 0 0 2])
         `nearly'` [(-1, -1), (3, -1), (3, 3), (-1, 3)]
     it
-      "into a cusp nothing reaches: what is asked for there is not asked for behind it (catches a \
-      \way round a cusp that opens to the cutter)"
+      "a larger distance inside a crevice does not hold on the other side of the material (catches \
+      \an arc about a cusp that is open towards the cutter)"
       $ fmap
         (maximum . concatMap (\o -> [y | (_, y, _) <- FlatPolyarc.vertices o]) . found)
         ( Kernel.offset
@@ -181,10 +181,10 @@ spec = do
             ]
         )
         `nearly` Right 2.5
-    it "an open line is gone round on both sides and at both ends" $
+    it "the loop of an open line is on both sides of it and about both ends" $
       areaOf LeftOf 1 [FlatPolyarc.fromVertices Open [(0, 0, 0), (5, 0, 0)]]
         `nearly` Right (-(10 + pi))
-    it "the side of an open line does not matter but for the way round" $
+    it "the side of an open contour changes only the sense of its loop" $
       areaOf RightOf 1 [FlatPolyarc.fromVertices Open [(0, 0, 0), (5, 0, 0), (5, 5, 0)]]
         `nearly` Right (20 + pi - 1 + pi / 4)
 
@@ -207,15 +207,15 @@ lobes n =
 
 -- | A law for @count@ random problems. A failure reports the seeds of the problems that break it.
 each :: Int -> String -> Gen Case -> (Case -> Verdict) -> Spec
-each count title gen law = it title (filter wrong verdicts `shouldBe` [])
+each count title gen law = it title (filter isBroken verdicts `shouldBe` [])
   where
     verdicts = [(seed, law (unGen gen (mkQCGen seed) 30)) | seed <- [1 .. count]]
-    wrong (_, v) = case v of
-      Wrong _ -> True
-      Right' _ -> False
+    isBroken (_, v) = case v of
+      Broken _ -> True
+      Holds -> False
       Refused -> False
 
--- | Kinds of degenerate cases that the generator must produce.
+-- | Kinds of degenerate contours that the generator must produce, with their tests.
 degenerate :: [(String, Case -> Bool)]
 degenerate =
   [ ("repeated vertices", anyVertex (\_ (x, y, _) (x', y', _) -> (x, y) == (x', y'))),
@@ -225,7 +225,7 @@ degenerate =
             b1 == 0 && b' == 0 && (x, y) == (x', y') && (x, y) /= (x1, y1)
         )
     ),
-    ( "straight on",
+    ( "vertices on straight lines",
       anyVertex
         ( \(x, y, b) (x1, y1, b1) (x2, y2, _) ->
             b == 0
@@ -234,7 +234,7 @@ degenerate =
               && (x1 - x) * (x2 - x1) + (y1 - y) * (y2 - y1) > 0
         )
     ),
-    ( "outlines that touch",
+    ( "contours that touch",
       \c ->
         or
           [ (x, y) == (x', y')
@@ -243,7 +243,7 @@ degenerate =
               (x', y', _) <- FlatPolyarc.vertices p
           ]
     ),
-    ( "an outline that touches itself",
+    ( "a contour that touches itself",
       \c ->
         or
           [ (x, y) == (x', y')
@@ -255,15 +255,15 @@ degenerate =
               not (i == 0 && j == length vs - 1)
           ]
     ),
-    ( "whole numbers",
+    ( "integer coordinates",
       anyVertex
         ( \_ (x, y, _) _ ->
             all (\v -> v == fromIntegral (round v :: Int)) [x, y] && x /= 0 && y /= 0
         )
     ),
-    ("arcs of next to nothing", anyVertex (\_ (_, _, b) _ -> b /= 0 && abs b < 1e-5)),
-    ("arcs of nearly a whole turn", anyVertex (\_ (_, _, b) _ -> abs b > 1e3)),
-    ( "a gap or a hollow of the cutter's size",
+    ("nearly straight arcs", anyVertex (\_ (_, _, b) _ -> b /= 0 && abs b < 1e-5)),
+    ("nearly full circles", anyVertex (\_ (_, _, b) _ -> abs b > 1e3)),
+    ( "a slot or a pocket of the cutter's size",
       \c -> family c == Cells && radius c `elem` [0.5, 1, 1.5, 2]
     )
   ]
@@ -304,7 +304,7 @@ square x y a = Generate.loop [(x, y, 0), (x + a, y, 0), (x + a, y + a, 0), (x, y
 circle :: Double -> FlatPolyarc
 circle r = Generate.loop [(-r, 0, 1), (r, 0, 1)]
 
--- | Two right-angled corners, joined by lines and round ends.
+-- | A square with two opposite corners rounded.
 lens :: FlatPolyarc
 lens =
   turned
@@ -321,6 +321,7 @@ lens =
         ]
     )
 
+-- | Steiner's formulas for the offset by r around a convex contour.
 steiner :: FlatPolyarc -> Double -> Property
 steiner o r = case loopsOf RightOf r [o] of
   Right [q] ->
@@ -335,8 +336,8 @@ steiner o r = case loopsOf RightOf r [o] of
           )
   other -> counterexample (show other) False
 
--- | A simple polygon in which two neighbouring vertices are exchanged so that their sides cross:
--- the polygon, and the two sides.
+-- | A simple polygon in which two neighbouring vertices are exchanged, so that two sides cross; and
+-- the numbers of these sides.
 bowTie :: Gen (FlatPolyarc, Int, Int)
 bowTie = do
   o <- Generate.simple
@@ -357,7 +358,7 @@ crossing a b c d = side' a b c * side' a b d < 0 && side' c d a * side' c d b < 
 side' :: (Double, Double) -> (Double, Double) -> (Double, Double) -> Double
 side' (ax, ay) (bx, by) (cx, cy) = (bx - ax) * (cy - ay) - (by - ay) * (cx - ax)
 
--- | The reported sides cross. Other sides may cross as well.
+-- | The reported sides cross. They may be others than those of 'bowTie'.
 crossedLaw :: (FlatPolyarc, Int, Int) -> Property
 crossedLaw (o, _, _) = case loopsOf LeftOf 0.1 [o] of
   Left (SelfIntersecting i j) ->

@@ -1,5 +1,5 @@
--- | Distance and winding number of outlines, segment after segment with angles and centres: what
--- the offset kernel is judged by, and shares nothing with.
+-- | Distances and winding numbers of polyarcs, computed from all segments with angles and centres.
+-- The laws compare the offset kernel with them; they share no code with it.
 module Offset.Naive
   ( Piece (..),
     pieces,
@@ -18,6 +18,7 @@ import Geometry.FlatPolyarc qualified as FlatPolyarc
 data Piece = Piece {x0, y0, x1, y1, bulge :: Double}
   deriving stock (Eq, Show)
 
+-- | The segments of a polyarc.
 pieces :: FlatPolyarc -> [Piece]
 pieces o =
   [ Piece
@@ -32,13 +33,15 @@ pieces o =
     at = indexPrimArray
     next i = if i + 1 == sizeofPrimArray (FlatPolyarc.xs o) then 0 else i + 1
 
--- | From a point to the nearest place of all.
+-- | The distance of a point from the nearest of some segments.
 distance :: [Piece] -> Double -> Double -> Double
 distance ps x y = minimum (1 / 0 : map (\p -> toPiece p x y) ps)
 
--- | Whether a point is too near to a closed or doubled walk of pieces that ask for different
--- distances, from the side (1 left, −1 right): beside a piece its own distance holds, about a
--- corner away from that side the larger one of both, and the least of all everywhere.
+-- | True when a point is too near to a closed polyarc, or to an open one traversed there and back,
+-- whose segments have different distances. The arguments are the side of the cutter (1 left,
+-- −1 right), the least distance, and the segments with their distances. On the cutter's side,
+-- between a segment's ends, its own distance holds. About an outer corner the larger one of both
+-- distances holds. The least distance holds everywhere.
 blocked :: Double -> Double -> [(Piece, Double)] -> Double -> Double -> Bool
 blocked side least ps x y = any near ps || or (zipWith corner ps (drop 1 ps <> take 1 ps))
   where
@@ -58,8 +61,8 @@ blocked side least ps x y = any near ps || or (zipWith corner ps (drop 1 ps <> t
           (vx, vy) = direction q (-1)
           turn = ux * vy - uy * vx
           (wx, wy) = (x - x0 q, y - y0 q)
-          -- Two arcs that meet in a cusp turn to the side from which they bend away; a fold has no
-          -- side.
+          -- A cusp between two arcs is an outer corner on the side away from which they curve. A
+          -- cusp between arcs of equal and opposite curvature is an outer corner on either side.
           bend = side * (curvature p + curvature q)
           outer = side * turn < -1e-9 || (abs turn <= 1e-9 && ux * vx + uy * vy < 0 && bend >= 0)
        in outer && ux * wx + uy * wy > 0 && vx * wx + vy * wy < 0 && norm wx wy < max d e
@@ -70,6 +73,7 @@ blocked side least ps x y = any near ps || or (zipWith corner ps (drop 1 ps <> t
           l = norm (bx - ax) (by - ay)
        in (((bx - ax) * cos h - (by - ay) * sin h) / l, ((by - ay) * cos h + (bx - ax) * sin h) / l)
 
+-- | The distance of a point from a segment.
 toPiece :: Piece -> Double -> Double -> Double
 toPiece p@(Piece ax ay bx by b) x y
   | l == 0 = toStart
@@ -85,7 +89,7 @@ toPiece p@(Piece ax ay bx by b) x y
     r = norm (x - cx) (y - cy)
     within = onSweep p x y
 
--- | Whether the way round from an arc's start to a point's direction is no longer than its sweep.
+-- | True when the direction from an arc's centre to a point is within the arc's sweep.
 onSweep :: Piece -> Double -> Double -> Bool
 onSweep p@(Piece ax ay _ _ b) x y
   | b > 0 = (if turn < 0 then turn + 2 * pi else turn) <= sweep
@@ -99,7 +103,8 @@ onSweep p@(Piece ax ay _ _ b) x y
         ((ax - cx) * (y - cy) - (ay - cy) * (x - cx))
         ((ax - cx) * (x - cx) + (ay - cy) * (y - cy))
 
--- | Of an arc that is nearly its chord, as a parabola; of a line.
+-- | The distance of a point from a line, or from a nearly straight arc, which is treated as a
+-- parabola.
 toFlat :: Piece -> Double -> Double -> Double
 toFlat (Piece ax ay bx by b) x y = iterate newton start !! 4 `seq` norm (u - best) (v - height best)
   where
@@ -117,7 +122,7 @@ toFlat (Piece ax ay bx by b) x y = iterate newton start !! 4 `seq` norm (u - bes
 norm :: Double -> Double -> Double
 norm a b = sqrt (a * a + b * b)
 
--- | Centre and radius of an arc, positive when it is walked counter-clockwise.
+-- | Centre and radius of an arc. The radius of a clockwise arc is negative.
 circle :: Piece -> (Double, Double, Double)
 circle (Piece ax ay bx by b) =
   ( 0.5 * (ax + bx) - k * (by - ay),
@@ -127,7 +132,8 @@ circle (Piece ax ay bx by b) =
   where
     k = (1 - b * b) / (4 * b)
 
--- | How often all go round a point, by the angles in which it sees the chords.
+-- | The winding number of segments around a point: the sum of the angles in which the chords appear
+-- from it, corrected for the arcs.
 winding :: [Piece] -> Double -> Double -> Int
 winding ps x y = round (sum (map angle ps) / (2 * pi))
   where
@@ -136,7 +142,7 @@ winding ps x y = round (sum (map angle ps) / (2 * pi))
         + (if b /= 0 && between p x y then 2 * pi * signum b else 0)
     seen ux uy vx vy = atan2 (ux * vy - uy * vx) (ux * vx + uy * vy)
 
--- | Whether a point lies between an arc and its chord.
+-- | True when a point lies between an arc and its chord.
 between :: Piece -> Double -> Double -> Bool
 between p@(Piece ax ay bx by b) x y
   | side * b >= 0 = False

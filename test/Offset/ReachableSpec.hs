@@ -1,5 +1,5 @@
--- | The laws of reachable paths beside a contour in which the cutter does not fit everywhere. Each
--- says which bug it would catch.
+-- | The laws of reachable paths beside contours where the cutter may not fit everywhere. Each law
+-- names the bug that it catches.
 module Offset.ReachableSpec (spec, Subject (..), subject, reached, laws) where
 
 import Base.Quantity (Mm (..), Rad (..), plus)
@@ -36,7 +36,7 @@ import Test.Hspec
 import Test.QuickCheck
 
 spec :: Spec
-spec = describe "laws of what can be reached" $ do
+spec = describe "laws of reachable paths" $ do
   mapM_
     ( \(title, law) ->
         it
@@ -47,13 +47,12 @@ spec = describe "laws of what can be reached" $ do
     )
     laws
   it
-    "covers gaps at corners, in concave arcs and between elements (the cases are what they are \
-    \meant to be)"
+    "covers gaps at inner corners, at concave arcs and between distant elements"
     $ checkCoverage . forAll subject $ \s ->
       let causes = map (cause . stop) (snd (reached s))
-       in cover 30 (not (null causes)) "rests"
+       in cover 30 (not (null causes)) "rest material"
             . cover 20 (any isCorner causes) "corners"
-            . cover 0.5 (or [True | SameAs _ <- map restMaterial (snd (reached s))]) "passages"
+            . cover 0.5 (or [True | SameAs _ <- map restMaterial (snd (reached s))]) "several gaps"
             . cover
               10
               ( ends (contour s) == Closed
@@ -61,7 +60,7 @@ spec = describe "laws of what can be reached" $ do
                   && notElem Unbounded (map restMaterial (snd (reached s)))
               )
               "bounded"
-            . cover 2 (any isHollow causes) "hollows"
+            . cover 2 (any isConcave causes) "concave arcs"
             $ cover 5 (any isCollision causes) "collisions" True
 
 -- | A contour with the side and the radius in mm of a cutter that may not fit everywhere.
@@ -73,11 +72,11 @@ type Law = Subject -> [String]
 
 laws :: [(String, Law)]
 laws =
-  [ ( "ways: everywhere at the cutter's radius, each piece from where the one before ends (catches \
-      \a piece of the wrong loop)",
-      waysLaw
+  [ ( "paths: every point is at the cutter's radius, and each segment begins where the one before \
+      \ends (catches a segment of the wrong loop)",
+      pathsLaw
     ),
-    ( "whole: a point at the radius beside an element, and no nearer to another one, is on a path \
+    ( "whole: a point at the radius from an element, and further from all others, is on a path \
       \(catches a path that is lost)",
       wholeLaw
     ),
@@ -85,23 +84,24 @@ laws =
       \a gap that is not reported)",
       reportedLaw
     ),
-    ( "middle: there the cutter touches what stops it (catches the position of another gap)",
-      middleLaw
+    ( "centre: where the cutter is stopped, it touches the elements that stop it (catches the \
+      \centre at another gap)",
+      centreLaw
     ),
     ( "material: beside a closed contour, exactly the points that are farther than the radius from \
       \all paths are rest material (catches edges of the cutter that intersect)",
       materialLaw
     ),
-    ( "boundary: it is closed, from where the cutter touches the one element to where it touches \
-      \the other (catches an arc the other way round)",
+    ( "boundary: it is closed, and its last segment is the cutter's edge at the gap (catches an \
+      \edge in the wrong sense)",
       boundaryLaw
     ),
-    ( "largest: a cutter of that radius is not stopped there, a slightly larger one is (catches a \
-      \search from the wrong end)",
+    ( "largest: a cutter of the reported radius is not stopped there, a slightly larger one is \
+      \(catches a bisection that is left out)",
       largestLaw
     ),
-    ( "evaluated: with sharp corners and with other distances there are paths and rest material, \
-      \too, to their last digit (catches a part that is missing)",
+    ( "evaluated: with sharp corners and with different distances all paths and rest materials can \
+      \be evaluated (catches a crash in a lazy part)",
       evaluatedLaw
     )
   ]
@@ -173,6 +173,7 @@ straightened o =
 style :: CornerStyle
 style = CornerStyle {sharp = False, extra = const (Mm 0)}
 
+-- | The reachable paths, and the parts of the contour that are not reached.
 reached :: Subject -> ([TrimmedOffset], [UnreachedPart])
 reached s = Equidistant.reachable style (side s) (Mm (radius s)) (contour s)
 
@@ -197,11 +198,10 @@ distanceTo p s = let Mm d = Distance.toPoint p s in d
 gap :: Point -> Point -> Double
 gap p q = let Mm d = Vec.distance p q in d
 
--- | Every piece keeps the radius, and the pieces of a path join.
-waysLaw :: Law
-waysLaw s = concatMap way (fst (reached s))
+pathsLaw :: Law
+pathsLaw s = concatMap ofPath (fst (reached s))
   where
-    way w =
+    ofPath w =
       let ps = map segment (NonEmpty.toList (pieces w))
        in [ "a gap of " <> show (gap (Segment.end a) (Segment.start b))
             | (a, b) <-
@@ -220,8 +220,8 @@ waysLaw s = concatMap way (fst (reached s))
                    abs (d - radius s) > slack s
                ]
 
--- | Points at the radius beside the elements, with the number of the element and the distance from
--- the closest other one.
+-- | Points at the radius from the elements, on the cutter's side. Each has the number of the
+-- element and the distance from the nearest other element.
 beside :: Subject -> [(Int, Point, Double)]
 beside s =
   [ (i, p, minimum (1 / 0 : [distanceTo p o | (j, o) <- numbered, j /= i]))
@@ -234,7 +234,7 @@ beside s =
     left = if side s == LeftOf then 1 else -1
     moved e t =
       Vec.shift (Vec.scale (left * radius s) (Vec.left (Segment.directionAt t e))) (Segment.at t e)
-    -- No point at the centre of an arc, or beyond it.
+    -- The point beside fraction t of an element; none at the centre of an arc, or beyond it.
     aside e t
       | gap (moved e 0) (moved e 0.5) > 1e-5 && distanceTo (moved e t) e > radius s - slack s =
         Just (moved e t)
@@ -245,10 +245,10 @@ wholeLaw s =
   [ "not on a path: " <> show p <> " beside " <> show i
     | (i, p, near) <- beside s,
       near > radius s + 1e-5,
-      all (\w -> all ((> slack s) . distanceTo p . segment) (pieces w)) ways
+      all (\w -> all ((> slack s) . distanceTo p . segment) (pieces w)) paths
   ]
   where
-    ways = fst (reached s)
+    paths = fst (reached s)
 
 reportedLaw :: Law
 reportedLaw s =
@@ -259,15 +259,15 @@ reportedLaw s =
       <> " is "
       <> show near
       <> " from another one"
-    | not (null ways),
+    | not (null paths),
       null rests,
       (i, p, near) <- take 1 [b | b@(_, _, near) <- beside s, near < radius s - 1e-3]
   ]
   where
-    (ways, rests) = reached s
+    (paths, rests) = reached s
 
-middleLaw :: Law
-middleLaw s =
+centreLaw :: Law
+centreLaw s =
   concatMap
     ( \r ->
         [ "rest " <> show (cause (stop r)) <> " at " <> show (cutterCentre r) <> ": " <> show d
@@ -278,7 +278,7 @@ middleLaw s =
     (snd (reached s))
   where
     n = length (elementsOf s)
-    -- A concave arc stops the cutter where it touches both neighbours.
+    -- A concave arc stops the cutter where the cutter touches the elements before and after it.
     touched c = case c of
       Concave i _ -> [(i + n - 1) `mod` n, (i + 1) `mod` n]
       InnerCorner i j _ -> [i, j]
@@ -286,22 +286,22 @@ middleLaw s =
 
 materialLaw :: Law
 materialLaw s
-  | ends (contour s) == Open || null ways || any ((== Unbounded) . restMaterial) rests = []
+  | ends (contour s) == Open || null paths || any ((== Unbounded) . restMaterial) rests = []
   | otherwise =
-    [ "stays " <> show stays <> ", reported " <> show told <> " at " <> show p
-      | p <- places,
-        let far = minimum (map (distanceTo p) wayPieces),
+    [ "remains " <> show remains <> ", reported " <> show reported <> " at " <> show p
+      | p <- points,
+        let far = minimum (map (distanceTo p) pathSegments),
         abs (far - radius s) > 1e-5,
-        let stays = far > radius s,
-        let told = any ((/= 0) . WindingNumber.about p) outlines,
-        stays /= told
+        let remains = far > radius s,
+        let reported = any ((/= 0) . WindingNumber.about p) boundaries,
+        remains /= reported
     ]
   where
-    (ways, rests) = reached s
-    wayPieces = map segment (concatMap (NonEmpty.toList . pieces) ways)
-    outlines = [NonEmpty.toList outline | Within outline <- map restMaterial rests]
+    (paths, rests) = reached s
+    pathSegments = map segment (concatMap (NonEmpty.toList . pieces) paths)
+    boundaries = [NonEmpty.toList boundary | Within boundary <- map restMaterial rests]
     -- Points on the cutter's side of the contour, nearer to it than the radius.
-    places =
+    points =
       [ p
         | e <- elementsOf s,
           t <- [0.1, 0.3, 0.5, 0.7, 0.9],
@@ -325,11 +325,11 @@ boundaryLaw s = concatMap one (snd (reached s))
     one r = case restMaterial r of
       Unbounded -> []
       SameAs p ->
-        [ "the other place is none of them"
+        [ "no rest material is listed at that centre"
           | null [() | o <- rests, cutterCentre o == p, Within _ <- [restMaterial o]]
         ]
-      Within outline@(first :| more) ->
-        let chain = NonEmpty.toList outline
+      Within boundary@(first :| more) ->
+        let chain = NonEmpty.toList boundary
          in [ "a gap of " <> show (gap (Segment.end a) (Segment.start b))
               | (a, b) <- zip chain (more <> [first]),
                 gap (Segment.end a) (Segment.start b) > slack s
@@ -339,7 +339,7 @@ boundaryLaw s = concatMap one (snd (reached s))
                      gap centre (cutterCentre r) > slack s
                        || abs (gap centre start - radius s) > slack s
                  ]
-              <> [ "it takes in the cutter: " <> show (cause (stop r))
+              <> [ "it contains the cutter: " <> show (cause (stop r))
                    | edge <- take 1 (reverse chain),
                      WindingNumber.about
                        (Vec.interpolate (-0.5) (cutterCentre r) (Segment.at 0.5 edge))
@@ -363,20 +363,20 @@ largestLaw s = concatMap one (nub (map stop (snd (reached s))))
   where
     one o = case (cause o, largest o) of
       (InnerCorner {}, Nothing) -> []
-      (InnerCorner {}, Just r) -> ["a corner let through " <> show r]
+      (InnerCorner {}, Just r) -> ["a cutter fits into a corner: " <> show r]
       (c, Nothing) ->
-        ["no cutter fits but one of a thousandth: " <> show c | not (stopped c (Mm 1e-3))]
+        ["a cutter of radius 0.001 fits: " <> show c | not (stopped c (Mm 1e-3))]
       (c, Just r)
         | r >= Mm (radius s) -> ["not smaller: " <> show r]
-        | stopped c r -> ["stopped all the same: " <> show (c, r)]
+        | stopped c r -> ["stopped: " <> show (c, r)]
         | not (stopped c (plus r (Mm 1e-4))) && plus r (Mm 1e-4) < Mm (radius s) ->
           ["a larger one is not stopped: " <> show (c, r)]
         | otherwise -> []
-    -- The cause is named again, or its elements are not reached at all.
+    -- True when the cause is reported again, or its elements are not reached at all.
     stopped c r =
-      let (ways, rests) = Equidistant.reachable style (side s) r (contour s)
-       in any (sameAs c . cause . stop) rests || any (\e -> not (isOn ways e)) (about c)
-    isOn ways i = or [number (origin p) == i | w <- ways, p <- NonEmpty.toList (pieces w)]
+      let (paths, rests) = Equidistant.reachable style (side s) r (contour s)
+       in any (sameAs c . cause . stop) rests || any (\e -> not (isOn paths e)) (about c)
+    isOn paths i = or [number (origin p) == i | w <- paths, p <- NonEmpty.toList (pieces w)]
     number o = case o of
       Along i -> i
       Around i -> i
@@ -404,12 +404,12 @@ evaluatedLaw s =
       length (show answer) < 0
   ]
 
-isCorner, isHollow, isCollision :: Cause -> Bool
+isCorner, isConcave, isCollision :: Cause -> Bool
 isCorner c = case c of
   InnerCorner {} -> True
   Concave {} -> False
   Collision {} -> False
-isHollow c = case c of
+isConcave c = case c of
   Concave {} -> True
   InnerCorner {} -> False
   Collision {} -> False

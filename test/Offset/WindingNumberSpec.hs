@@ -1,4 +1,4 @@
--- | Winding numbers, bounding-box trees and arrangements, compared with naive counts.
+-- | Laws of winding numbers, bounding-box trees and arrangements.
 module Offset.WindingNumberSpec (spec) where
 
 import Generate.Outline qualified as Generate
@@ -16,7 +16,7 @@ import Test.QuickCheck
 spec :: Spec
 spec = do
   describe "winding numbers" $ do
-    it "are those of the naive count (catches an arc whose inside is forgotten)" $
+    it "are those of the naive count (catches a region between arc and chord that is left out)" $
       property . forAll Generate.problem $ \c -> forAll samplePoints $ \ps ->
         let os = Generate.outlines c
             chain = ClosedPolyarcs.fromFlatPolyarcs 1e-14 os
@@ -34,7 +34,7 @@ spec = do
                   )
                 | (x, y) <- map at ps
               ]
-    it "are so on the chord of an arc (catches a point that belongs to neither side)" $
+    it "are right on the chord of an arc (catches a point that belongs to neither side)" $
       let chain =
             ClosedPolyarcs.fromFlatPolyarcs
               1e-14
@@ -48,16 +48,16 @@ spec = do
           ]
             `shouldBe` [1, 1, 1, 1, 1, 1]
     it
-      "beside the outermost places of a simple outline are those of its sense (catches an arc \
-      \taken for its chord)"
+      "at the leftmost and rightmost points of a simple polyarc follow from its sense (catches an \
+      \arc taken for its chord)"
       $ property . forAll Generate.simple $ \o ->
         let chain = ClosedPolyarcs.fromFlatPolyarcs 1e-14 [o]
             bs = SegmentBoxTree.build 1e-14 chain
          in map (\w -> leftExcess (WindingNumber.extreme w chain bs 0)) [Leftmost, Rightmost]
               === [Just 1, Just 1]
     it
-      "and also where its outermost place is a cusp (catches a walk that is taken to go back along \
-      \itself, a cusp's side)"
+      "at a leftmost or rightmost point that is a cusp follow from the sense (catches a cusp whose \
+      \sides are exchanged)"
       $ checkCoverage . forAll horn $ \o ->
         let chain = ClosedPolyarcs.fromFlatPolyarcs 1e-14 [o]
             bs = SegmentBoxTree.build 1e-14 chain
@@ -66,14 +66,13 @@ spec = do
          in cover 30 (any atTip ends) "at the tip" $
               map leftExcess ends
                 === (if FlatPolyarc.area o > 0 then [Just 1, Just 1] else [Just 0, Just 0])
-    it "a circle is leftmost in the middle of an arc" $
+    it "at the leftmost point of a circle are found in the middle of an arc" $
       let chain = ClosedPolyarcs.fromFlatPolyarcs 1e-14 [Generate.loop [(0, -1, 1), (0, 1, 1)]]
           e = WindingNumber.extreme Leftmost chain (SegmentBoxTree.build 0 chain) 0
        in (segment e, x e, abs (y e) < 1e-15, leftExcess e) `shouldBe` (1, -1, True, Just 1)
-  describe "boxes" $
+  describe "a bounding-box tree" $
     it
-      "around a place are those that a look at all of them finds (catches a level that is cut \
-      \short)"
+      "finds the segments whose boxes overlap a box (catches a level of the tree that is cut short)"
       $ property . forAll Generate.simple $ \o ->
         forAll (choose (-8, 8)) $ \px ->
           forAll (choose (-8, 8)) $ \py -> forAll (choose (0, 4)) $ \r ->
@@ -87,19 +86,20 @@ spec = do
              in reverse (SegmentBoxTree.around bs (px - r) (py - r) (px + r) (py + r) [] (flip (:)))
                   === filter hit [0 .. FlatPolyarc.size o - 1]
   describe "arrangements" $ do
-    it "of a square that is walked twice has the numbers 0 and 2" $
+    it "of a square that is traversed twice has the numbers 0 and 2" $
       numbersOf [square 0 0 1, square 0 0 1] `shouldBe` Just (0, 2)
-    it "of squares side by side, walked alike, has 0 and 1" $
+    it "of squares side by side, of one sense, has the numbers 0 and 1" $
       numbersOf [square 0 0 1, square 1 0 1] `shouldBe` Just (0, 1)
-    it "of a square and the same one walked back has nothing" $
+    it "of a square and the reversed square has the number 0 only" $
       numbersOf [square 0 0 1, FlatPolyarc.reverse (square 0 0 1)] `shouldBe` Just (0, 0)
-    it "of a figure of eight has both senses" $
+    it "of a figure of eight has the numbers −1 and 1" $
       numbersOf [Generate.loop [(0, 0, 0), (1, 1, 0), (2, 2, 0), (2, 0, 0), (1, 1, 0), (0, 2, 0)]]
         `shouldBe` Just (-1, 1)
     it
-      "of something inside, beside lines that cancel out (catches lines that cancel out and stay)"
+      "of a square beside a line traversed there and back has the numbers 0 and 1 (catches lines \
+      \that cancel out and remain)"
       $ numbersOf [square 5 (-1) 2, Generate.loop [(0, 0, 0), (4, 0, 0)]] `shouldBe` Just (0, 1)
-    it "whose leftmost place is smooth (catches an order that begins on the right)" $
+    it "whose leftmost node is smooth has the right numbers (catches an order that begins right)" $
       numbersOf
         [ Generate.loop [(0, 0, 1), (2, 0, 0), (2, 1, 0), (0, 1, 0)],
           Generate.loop [(0, 0, 1), (2, 0, 0), (2, 1, 0), (0, 1, 0)]
@@ -108,8 +108,8 @@ spec = do
   where
     samplePoints = vectorOf 20 ((,) <$> choose (0, 1) <*> choose (0, 1)) :: Gen [(Double, Double)]
 
--- | A closed polyarc between two arcs that touch at the origin and a line. It begins at any
--- vertex, has any direction, and is traversed in either sense.
+-- | A closed polyarc of two arcs that meet at the origin in a cusp, and a line. Its first vertex,
+-- its direction and its sense are random.
 horn :: Gen FlatPolyarc
 horn = do
   low <- oneof [pure 0, choose (-0.8, 0.7)]
@@ -130,6 +130,7 @@ horn = do
       o = Generate.loop (drop start corners <> take start corners)
   pure (if back then FlatPolyarc.reverse o else o)
 
+-- | The least and the largest winding number of the arrangement of polyarcs.
 numbersOf :: [FlatPolyarc] -> Maybe (Int, Int)
 numbersOf os =
   Arrangement.windingNumbers <$> Arrangement.arrange 1e-12 chain (SegmentBoxTree.build 1e-12 chain)

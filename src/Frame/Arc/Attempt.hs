@@ -2,7 +2,7 @@
 -- The loops carry more than ten numbers; this option keeps them unboxed.
 {-# OPTIONS_GHC -O2 -fmax-worker-args=40 #-}
 
--- | Rounded arcs about given grid points, and the choice of the best one.
+-- | Rounded arcs about given grid points, and the choice of the best grid point.
 module Frame.Arc.Attempt
   ( bestAbout,
     isNearlyStraight,
@@ -44,12 +44,14 @@ data Attempt = Attempt {steps :: [ArcStep], deviation :: Double}
 -- | Attempt with the rank of its grid point among all that are tried, from 0.
 data Ranked = Ranked {rank :: Int, attempted :: Attempt}
 
--- | Steps of an arc about the best of some grid points; none if no grid point will do.
+-- | Steps of an arc about the best of some grid points. Nothing when all of them exceed the
+-- tolerance.
 --
--- Grid points about which the whole arc is one frame have priority; of these the one with the least
--- deviation is taken, and the first one if several are equal. Only a grid point that passes all
--- quick estimates is attempted exactly. The search begins with the one that seems best. If none of
--- them will do, the fewest steps are taken, and of equally many those with the least deviation.
+-- Grid points about which the whole arc is one frame have priority. The one with the least
+-- deviation is chosen, and the first of several equal ones. The grid point with the least estimate
+-- is attempted first; another one is attempted only when its estimates are better. When no single
+-- frame is within the tolerance, the attempt with the fewest steps is chosen, and among these the
+-- one with the least deviation.
 bestAbout :: ArcContext -> RoundedArc -> [Pulses2] -> Maybe [ArcStep]
 bestAbout context arc centres
   | Just ends <- Estimate.endsOf (grid context) arc,
@@ -60,6 +62,7 @@ bestAbout context arc centres
   where
     wholes = filter (Centre.isOneFrame context arc) centres
 
+-- | Steps of the attempt with the fewest steps; among these, of the one with the least deviation.
 fewestSteps :: [Attempt] -> Maybe [ArcStep]
 fewestSteps attempts = case attempts of
   [] -> Nothing
@@ -68,9 +71,10 @@ fewestSteps attempts = case attempts of
   where
     cost a = (length (steps a), deviation a)
 
--- | Grid point with the least estimated deviation, and its rank.
+-- | Grid point with the least estimated deviation, and its rank; none among no grid points.
 data Likeliest = None | Likeliest Int Pulses2
 
+-- | The grid point with the least estimated deviation.
 likeliest :: ArcEnds -> [Pulses2] -> Likeliest
 likeliest ends = go 0 None (1 / 0)
   where
@@ -85,7 +89,8 @@ likeliest ends = go 0 None (1 / 0)
         | None <- best -> go (k + 1) (Likeliest k c) least more
         | otherwise -> go (k + 1) best least more
 
--- | Attempt with the least deviation about some grid points, from the first attempt.
+-- | Attempt with the least deviation about some grid points. The last argument is the attempt about
+-- the likeliest one, if it is within the tolerance.
 leastDeviation ::
   ArcContext -> RoundedArc -> ArcEnds -> [Pulses2] -> Maybe Ranked -> Maybe Ranked
 leastDeviation context arc ends = go 0
@@ -99,6 +104,7 @@ leastDeviation context arc ends = go 0
         | isBetter context arc ends b k c, Just a <- ranked context arc k c -> Just a
         | otherwise -> best
 
+-- | Attempt about a grid point with its rank.
 ranked :: ArcContext -> RoundedArc -> Int -> Pulses2 -> Maybe Ranked
 ranked context arc k c = Ranked k <$> attempt context arc c
 
@@ -121,17 +127,16 @@ isBetter context arc ends best k c =
         all (isLess . Deviation.linearErrorAt frameArc) samples
           && isLess (linear (Deviation.sampledDeviation frameArc))
 
--- | Fractions of a sweep between its ends; those first at which the deviation is likely to be
--- large.
+-- | Fractions of a sweep. Those at which the deviation is likely to be large come first.
 samples :: [Double]
 samples = [4 / 8, 2 / 8, 6 / 8, 1 / 8, 7 / 8, 3 / 8, 5 / 8]
 
 -- One attempt -------------------------------------------------------------------------------------
 
--- | Step of an attempt: its ends, the arc between them, and whether that is replaced by a line.
+-- | Step of an attempt: its ends, the arc between them, and True when a line replaces this arc.
 data Leg = Leg {from :: Pulses2, to :: Pulses2, arcAlong :: Segment, isStraight :: Bool}
 
--- | Arc about a grid point, if the machine can run it within the tolerance.
+-- | Attempt about a grid point, if the machine can run the arc within the tolerance.
 attempt :: ArcContext -> RoundedArc -> Pulses2 -> Maybe Attempt
 attempt context arc c
   | null ends || isClosed && length ends == 1 && not isFullCircle = Nothing
@@ -157,22 +162,24 @@ attempt context arc c
     deviations = map (Deviation.deviationOf (tolerance context) (exact arc) . arcAlong) legs
     isNear leg d = isStraight leg || isWithinTolerance (tolerance context) d
     Mm r = radius arc
-    -- Rounding moves an end by up to a pulse, and the centre beside it as well.
+    -- Rounding moves each end and the centre by up to a pulse, which changes the sweep.
     sweepSlack = min (pi / 2) (4 * pulse (grid context) / r)
 
+-- | True when one frame of the machine can be a full circle.
 allowsFullCircle :: ArcContext -> Bool
 allowsFullCircle context = case Machine.arcs (machine (grid context)) of
   NoArcs -> False
   Arcs {Machine.fullCircle} -> fullCircle
 
+-- | True for deviations within a tolerance.
 isWithinTolerance :: ArcTolerance -> ArcDeviation -> Bool
 isWithinTolerance allowed d =
   Mm (linear d) <= linearError allowed
     && Mm (inward d) <= inwards allowed
     && Mm (outward d) <= outwards allowed
 
--- | Step between two grid points about the grid point @c@. An arc that a cut has left nearly
--- straight becomes a line.
+-- | Step between two grid points about the grid point @c@. When a cut at an axis has left a nearly
+-- straight arc, the step is a line.
 legBetween :: ArcContext -> RoundedArc -> Pulses2 -> Pulses2 -> Pulses2 -> Leg
 legBetween context arc c from to =
   Leg
@@ -237,8 +244,9 @@ swept s = case s of
 isNearlyStraight :: ArcContext -> Segment -> Bool
 isNearlyStraight context s = Segment.sagitta s < Mm (0.5 * pulse (grid context))
 
--- | True if straight steps through some grid points stay within the tolerance of an arc. A sagitta
--- of half a pulse and the rounding of the ends together exceed a pulse, so this has to be tested.
+-- | True when straight steps through some grid points stay within the tolerance of an arc. Even for
+-- a nearly straight arc this has to be tested: its sagitta of up to half a pulse, together with the
+-- rounding of the ends, can exceed a pulse.
 isStraightEnough :: ArcContext -> Segment -> [Pulses2] -> Bool
 isStraightEnough context exact stops = case exact of
   Straight _ _ -> True

@@ -53,12 +53,13 @@ square most = [Pulses2 di dj | di <- [-most .. most], dj <- [-most .. most]]
 isWithin :: Pulses -> Pulses2 -> Pulses2 -> Bool
 isWithin most (Pulses2 i j) (Pulses2 k l) = abs (i - k) <= most && abs (j - l) <= most
 
--- | Grid points further from the exact centre about which the whole arc is one frame and its middle
--- is within the tolerance. They are for arcs for which none of 'nearCentres' will do.
+-- | Grid points further from the exact centre, about which the whole arc is one frame and its
+-- middle is within the tolerance. They are tried when all of 'nearCentres' exceed the tolerance.
 --
--- Consider a centre that is off by n towards the middle of an arc of the sweep 2h, and by t across.
--- Then the middle is off by @(1 − cos h)·n + sin h·t@ and the end by @2·sin h·t@, besides the
--- rounding of the beginning. So @(1 − cos h)·n@ is at most 3/2 of the tolerance and that rounding.
+-- Consider an arc of the sweep 2h about a centre that is displaced by n towards the arc's middle
+-- and by t across. Besides the rounding of the start, this displaces the middle by
+-- @(1 − cos h)·n + sin h·t@ and the end by @2·sin h·t@. Both are at most the sum of the tolerance
+-- and the rounding of the start. Therefore @(1 − cos h)·n@ is at most 3/2 of this sum.
 remoteCentres :: ArcContext -> RoundedArc -> [Pulses2]
 remoteCentres context arc
   | begin arc == finish arc = []
@@ -82,12 +83,12 @@ remoteCentres context arc
         )
     errorInMiddle = Estimate.errorInMiddle (grid context) arc
 
--- | Largest distance in pulses of 'remoteCentres', in x and in y. An arc of so small a sweep that
--- centres further away would do has enough suitable ones within this distance.
+-- | Largest distance in pulses of 'remoteCentres' from the exact centre, in x and in y. For an arc
+-- of small sweep even centres further away are suitable, but enough are within this distance.
 remoteReach :: Pulses
 remoteReach = 8
 
--- | True if one frame can hold the whole arc about a grid point.
+-- | True when one frame can hold the whole arc about a grid point.
 isOneFrame :: ArcContext -> RoundedArc -> Pulses2 -> Bool
 isOneFrame context arc c = case Machine.arcs (machine (grid context)) of
   NoArcs -> False

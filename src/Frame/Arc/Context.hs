@@ -53,9 +53,10 @@ data ArcTolerance = ArcTolerance
   { -- | for steps that are arcs: radially, if the control keeps the radius of the beginning or
     -- changes it linearly to that of the end
     linearError :: Mm,
-    -- | for all steps, towards the centre, whichever of its radii the control uses at any point
+    -- | for all steps, towards the centre, whether the control uses the radius of the beginning or
+    -- of the end at a point
     inwards :: Mm,
-    -- | the same away from the centre
+    -- | like 'inwards', but away from the centre
     outwards :: Mm
   }
   deriving stock (Eq, Show)
@@ -66,6 +67,7 @@ data ArcContext = ArcContext
     tolerance :: ArcTolerance,
     -- | ends of the chords of a segment, from the rounded position where it begins
     chordsOf :: Pulses3 -> Segment -> [Pulses3],
+    -- | height of the arc
     height :: Mm
   }
 
@@ -75,17 +77,23 @@ roundedPoint context p = Rounding.rounded (machine (grid context)) (p, height co
 
 -- | Exact arc with its rounded ends.
 data RoundedArc = RoundedArc
-  { begin :: Pulses3,
+  { -- | rounded start
+    begin :: Pulses3,
+    -- | rounded end
     finish :: Pulses3,
+    -- | the exact arc
     exact :: Segment,
-    -- | centre, radius and sweep in radians of the exact arc
+    -- | centre of the exact arc
     centre :: Point,
+    -- | radius of the exact arc
     radius :: Mm,
+    -- | sweep of the exact arc in radians, positive counter-clockwise
     sweep :: Double,
+    -- | sense of the exact arc
     sense :: Sense
   }
 
--- | End of a step, and for an arc its sense and its centre, counted from the beginning of the step;
--- none for a straight step.
+-- | A straight or circular step: the position at its end; for an arc also its sense, and its centre
+-- in pulses from the beginning of the step.
 data ArcStep = ArcStep {target :: Pulses3, turnsAbout :: Maybe (Sense, Pulses2)}
   deriving stock (Eq, Show)

@@ -4,8 +4,8 @@
 -- | Radial deviation of the arc in a frame from the exact arc.
 --
 -- The rounded ends of an arc usually have different distances from the rounded centre. A control
--- goes from the first radius to the second: linearly at best, in one jump at worst. Both cases are
--- measured.
+-- changes the radius from the first to the second: linearly at best, in one jump at worst. Both
+-- cases are measured.
 module Frame.Arc.Deviation
   ( FrameArc (..),
     ArcDeviation (..),
@@ -44,8 +44,8 @@ data FrameArc = FrameArc
     exactRadius :: Double
   }
 
--- | Frame's arc (second argument) together with the exact arc (first argument); none if either of
--- them is a line.
+-- | The exact arc (first argument) and a frame's arc (second argument) in one record; none if
+-- either of them is a line.
 frameArcOf :: Segment -> Segment -> Maybe FrameArc
 frameArcOf exact ofFrame = case (exact, ofFrame) of
   (Arc {start = p, centre = c}, Arc {start = a, end = b, centre = m, sweep = Rad turned}) ->
@@ -71,9 +71,9 @@ frameArcOf exact ofFrame = case (exact, ofFrame) of
 data ArcDeviation = ArcDeviation
   { -- | if the control keeps the radius of the beginning, or changes it linearly to that of the end
     linear :: Double,
-    -- | towards the centre, whichever of the two radii the control uses at any point
+    -- | towards the centre, whether the control uses the first or the second radius at a point
     inward :: Double,
-    -- | the same away from the centre
+    -- | like 'inward', but away from the centre
     outward :: Double
   }
 
@@ -85,10 +85,10 @@ deviationOf tolerance exact ofFrame =
     (\arc -> fromMaybe (sampledDeviation arc) (deviationAtEnds tolerance arc))
     (frameArcOf exact ofFrame)
 
--- | Deviation at the ends of an arc, if that is provably the largest one and the arc stays within
--- the smaller tolerance whatever the control does. Between the ends the deviation is interpolated
--- linearly, up to @φ²·v/8@ for a centre that is off by v and a sweep φ. The bound used here is
--- twice that, for the terms of second order in v.
+-- | Deviation at the ends of an arc, if it is provably the largest one, and the arc stays within
+-- the smaller one of the tolerances 'inwards' and 'outwards'. For a centre that is off by v and a
+-- sweep φ, the deviation between the ends differs from linear interpolation by up to @φ²·v/8@. The
+-- bound used here is twice as large, to cover the terms of second order in v.
 deviationAtEnds :: ArcTolerance -> FrameArc -> Maybe ArcDeviation
 deviationAtEnds tolerance arc
   | abs (turned arc) < 1
@@ -136,9 +136,11 @@ sampledDeviation arc =
         then filter (< 1) [share toward, share (if toward > 0 then toward - pi else toward + pi)]
         else []
 
+-- | The larger one of two deviations, field by field.
 larger :: ArcDeviation -> ArcDeviation -> ArcDeviation
 larger (ArcDeviation a b d) (ArcDeviation a' b' d') = ArcDeviation (max a a') (max b b') (max d d')
 
+-- | The fractions at which the sweep is sampled.
 eighths :: [Double]
 eighths = [k / 8 | k <- [1 .. 8]]
 

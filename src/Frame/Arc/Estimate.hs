@@ -24,7 +24,7 @@ import Geometry.Carrier (Sense (..))
 import Geometry.Carrier qualified as Carrier
 import Geometry.Vec qualified as Vec
 
--- | Rounded ends of an arc and its exact circle, in mm, and what the estimate needs of them.
+-- | Rounded ends of an arc and its exact circle, and numbers for the estimates. All are in mm.
 data ArcEnds = ArcEnds
   { -- | resolution of the axes
     stepX :: Double,
@@ -41,10 +41,10 @@ data ArcEnds = ArcEnds
     -- | distances of the rounded ends from the exact circle, positive outside
     beginError :: Double,
     finishError :: Double,
-    -- | difference of the directions from the exact centre to the middle and to the beginning
+    -- | unit direction from the exact centre to the arc's middle less that to its start
     halfX :: Double,
     halfY :: Double,
-    -- | difference of the directions from the exact centre to the end and to the beginning
+    -- | unit direction from the exact centre to the arc's end less that to its start
     wholeX :: Double,
     wholeY :: Double
   }
@@ -82,9 +82,9 @@ endsOf grid arc
     Mm toA = Vec.distance (centre arc) a
     Mm toB = Vec.distance (centre arc) b
 
--- | Estimated deviation in mm of an arc about a grid point: the largest of those at its middle and
--- at its end with the radius of the beginning, and at its middle with a linear change of the
--- radius.
+-- | Estimated deviation in mm of an arc about a grid point. It is the largest of three: at the
+-- middle and at the end when the control keeps the first radius, and at the middle when it changes
+-- the radius linearly.
 --
 -- About a centre that is off by a vector v, the deviation is @e + v·(u − u₀)@ where the exact
 -- radius has the direction u. Here e is the deviation at the beginning and u₀ the direction there.
@@ -99,8 +99,7 @@ estimate
       y = fromIntegral j * stepY - exactY
       half = beginError + x * halfX + y * halfY
       whole = beginError + x * wholeX + y * wholeY
-      -- At the end the linear change has made up for the whole difference, in the middle for half
-      -- of it.
+      -- A linear change of the radius adds half the difference of both radii at the middle.
       between = abs (half + 0.5 * (finishError - whole))
       larger a b = if a > b then a else b
 {-# INLINE estimate #-}
@@ -131,7 +130,7 @@ errorAtBegin
       y = my + (beginY - my) - exactY
 {-# INLINE errorAtBegin #-}
 
--- | The whole arc about a grid point as one frame.
+-- | The whole arc about a grid point as the arc of one frame.
 frameArcAbout :: ArcEnds -> Sense -> Pulses2 -> FrameArc
 frameArcAbout
   ArcEnds {stepX, stepY, beginX, beginY, finishX, finishY, exactX, exactY, exactRadius}
@@ -163,9 +162,9 @@ frameArcAbout
         _ -> short
 {-# INLINE frameArcAbout #-}
 
--- | Exact deviation in the middle of an arc about a grid point, without trigonometry: the middle
--- lies on the perpendicular to the chord between the directions of the ends. The result is meant to
--- be applied to many grid points between the same ends.
+-- | Exact deviation in mm in the middle of an arc about a grid point, without trigonometry: the
+-- direction to the middle is square to the difference of the unit directions to the ends. Apply
+-- the first two arguments once, and the result to many grid points.
 errorInMiddle :: Grid -> RoundedArc -> Pulses2 -> Double
 errorInMiddle grid arc =
   let a = Context.gridPoint grid (xy (begin arc))

@@ -22,11 +22,12 @@ import Geometry.Vec qualified as Vec
 import Machine.Machine (Arcs (..), Axis (..), Machine)
 import Machine.Machine qualified as Machine
 
--- | Points in which the axes through a grid point near the centre of a circle cross the circle, as
--- signed distances from that grid point in pulses.
+-- | Crossings of a circle with the axes through a grid point near its centre, as distances from the
+-- grid point in pulses: positive to the right and upwards, negative to the left and downwards.
 data Crossings = Crossings {right :: Pulses, left :: Pulses, up :: Pulses, down :: Pulses}
 
--- | Crossings of a circle, from its radius and exact centre, with the axes through a grid point.
+-- | Crossings of a circle, given by its radius and exact centre, with the axes through a grid
+-- point.
 crossings :: Grid -> Mm -> Point -> Pulses2 -> Crossings
 crossings grid (Mm r) exactCentre c =
   Crossings
@@ -43,9 +44,9 @@ crossings grid (Mm r) exactCentre c =
       let Mm p = Machine.resolutionOf (machine grid) axis
        in Pulses (max 1 (round ((sqrt (max 0 (r * r - across * across)) - sign * along) / p)))
 
--- | Ends of the frames of an arc about the grid point @c@, from @begin@ to @finish@: its end, and
--- for a control with quadrants every crossing before it. Empty if one turn about this centre does
--- not lead to the end.
+-- | Ends of the frames of an arc about the grid point @c@, from @begin@ to @finish@. They are the
+-- arc's end and, when the control's arcs have to stay within a quadrant, every crossing before it.
+-- Empty when one turn about @c@ does not lead to the end.
 frameEnds :: Machine -> Crossings -> Sense -> Pulses2 -> Pulses2 -> Pulses2 -> [Pulses2]
 frameEnds machine at sense c begin finish = case Machine.arcs machine of
   NoArcs -> []
