@@ -1,11 +1,13 @@
 {-# LANGUAGE BangPatterns #-}
 {-# OPTIONS_GHC -O2 #-}
 
--- | Distances of segments in plain numbers, as bounds: a faster twin of "Geometry.Distance".
+-- | Distances of segments and bounds of them, computed on unpacked coordinates: a faster
+-- counterpart of "Geometry.Distance".
 --
--- The proof compares whole motions with whole elements. For nearly all pairs a few products decide
--- that they are far enough apart, or near enough. An answer that depends on less than 'unsure' is
--- left to the exact comparison of "Geometry.Distance".
+-- The proof of a tape compares motions with elements of the part. For nearly every pair a bound
+-- shows that the two are near enough or far enough apart. A predicate that is true "only if"
+-- something is certain allows for the rounding error 'unsure'; where it is false, the caller
+-- compares exactly by "Geometry.Distance".
 module Geometry.Distance.Fast
   ( spot,
     isLine,
@@ -37,16 +39,16 @@ import Data.List (foldl', sort)
 import Geometry.Segment (Segment)
 import Geometry.Segment.Fast
 
--- | Uncertainty of all decisions in this module in mm. Products of coordinates are exact to less
--- than a hundredth of it.
+-- | Allowance for rounding errors in the decisions of this module, in mm. Rounding errors in
+-- products of coordinates are less than a hundredth of it.
 unsure :: Double
 unsure = 1e-8
 
--- | Distance larger than all others.
+-- | Infinite distance: there is no point or no bound.
 never :: Double
 never = 1 / 0
 
--- | Distance of a point from a segment in mm.
+-- | Distance, in mm, of a point, given by x and y, from a segment.
 distance :: Segment -> Double -> Double -> Double
 distance segment !px !py = case coordinates segment of
   LineAt ax ay bx by ->
@@ -66,9 +68,9 @@ distance segment !px !py = case coordinates segment of
     | inSector segment px py -> abs (hypotenuse (px - cx) (py - cy) - r)
     | otherwise -> min (hypotenuse (px - ax) (py - ay)) (hypotenuse (px - bx) (py - by))
 
--- | False only if a point is further than @most@ from a segment whose length is @long@. Compares
--- the distance from the segment's start, from which no point of the segment is further than
--- @long@.
+-- | False only if a point, given by x and y, is further than @most@ from a segment whose length is
+-- @long@. Only the distance from the segment's start is computed: no point of the segment is
+-- further than @long@ from it.
 mayLieWithin :: Double -> Double -> Segment -> Double -> Double -> Bool
 mayLieWithin most long segment !px !py = case coordinates segment of
   LineAt ax ay _ _ -> about (px - ax) (py - ay)
@@ -79,7 +81,8 @@ mayLieWithin most long segment !px !py = case coordinates segment of
 {-# INLINE mayLieWithin #-}
 
 -- | False only if every point of the first segment, whose length is @long@, is further than @most@
--- from the carrier of the second. Compares the distance of the first segment's start.
+-- from the carrier of the second segment. Only the distance of the first segment's start is
+-- computed.
 mayComeWithin :: Double -> Double -> Segment -> Segment -> Bool
 mayComeWithin most long e t = case coordinates t of
   LineAt px py qx qy ->
@@ -95,7 +98,8 @@ mayComeWithin most long e t = case coordinates t of
     (x, y) = begin e
 {-# INLINE mayComeWithin #-}
 
--- | Least distance of two segments in mm, or less by no more than rounding; 0 if they intersect.
+-- | Least distance, in mm, between two segments; 0 if they intersect. The result is exact, or
+-- smaller by a rounding error.
 apart :: Segment -> Segment -> Double
 apart a b
   | cross a b = 0
@@ -105,8 +109,9 @@ apart a b
       LineAt ax ay bx by -> min (distance other ax ay) (distance other bx by)
       ArcAt ax ay bx by _ _ _ _ -> min (distance other ax ay) (distance other bx by)
 
--- | Lower bound of the distance of two segments: the distance of the second from the carrier of
--- the first. It is exact if the second lies beside the first.
+-- | Lower bound of the distance, in mm, between two segments: the distance of the second segment
+-- from the carrier of the first. It is exact if the nearest point of the second has its foot on the
+-- first.
 apartAtLeast :: Segment -> Segment -> Double
 apartAtLeast t e = case coordinates t of
   LineAt px py qx qy -> case across px py qx qy e of
@@ -120,10 +125,10 @@ apartAtLeast t e = case coordinates t of
       | high < r -> r - high
       | otherwise -> 0
 
--- | Closed interval.
+-- | Closed interval of distances in mm.
 data Span = Span Double Double
 
--- | Least and greatest distance of a segment from a point.
+-- | Least and greatest distance of a segment from a point, given by x and y.
 spanFrom :: Double -> Double -> Segment -> Span
 spanFrom !px !py e = case coordinates e of
   LineAt ax ay bx by ->
@@ -142,8 +147,9 @@ spanFrom !px !py e = case coordinates e of
               (if onLine (r / off) then off + r else max a b)
           else Span r r
 
--- | Least and greatest signed distance of a segment from a line through two points, positive on
--- its left; 0 if the points coincide.
+-- | Least and greatest signed distance of a segment from the line through two points, positive to
+-- its left; both 0 if the points coincide. The arguments are x and y of the two points, and the
+-- segment.
 across :: Double -> Double -> Double -> Double -> Segment -> Span
 across px py qx qy e
   | l <= 0 = Span 0 0
@@ -164,8 +170,9 @@ across px py qx qy e
     iy = (qy - py) / l
     height x y = ix * (y - py) - iy * (x - px)
 
--- | Least distance at a common normal of the first segment and the second, which is an arc;
--- 'never' without one.
+-- | Distance, in mm, of two segments along a normal of the first that passes through the centre of
+-- the second, an arc; the smaller one if there are two such normals. 'never' if there is none or if
+-- the second segment is a line.
 normals :: Segment -> Segment -> Double
 normals a b = case (coordinates a, coordinates b) of
   (LineAt ax ay bx by, ArcAt _ _ _ _ cx cy _ _) ->
@@ -183,8 +190,8 @@ normals a b = case (coordinates a, coordinates b) of
      in if e > 0 then min (from 1) (from (-1)) else never
   _ -> never
 
--- | True of segments that intersect. At a mere contact there is an end or a common normal, which
--- 'apart' also compares.
+-- | True if two segments intersect. At a tangent contact, rounding may make it false; 'apart' then
+-- finds the contact at an end or on a common normal.
 cross :: Segment -> Segment -> Bool
 cross a b = case (coordinates a, coordinates b) of
   (LineAt ax ay bx by, LineAt cx cy dx dy) ->
@@ -218,8 +225,9 @@ cross a b = case (coordinates a, coordinates b) of
            in inSector a x y && inSector b x y
      in e > 0 && abs along <= r && (meets 1 || meets (-1))
 
--- | Upper bound of the distance of any point of the first segment from the second. It is exact if
--- the first runs beside the second, or around one of its ends.
+-- | Upper bound, in mm, of the distance of any point of the first segment from the second segment.
+-- It is exact if every point of the first has its foot on the second, and also if the nearest point
+-- of the second is always the same end.
 furthest :: Segment -> Segment -> Double
 furthest e t =
   min
@@ -232,8 +240,9 @@ furthest e t =
   where
     fromEnds ax ay bx by = min (fromPoint e ax ay) (fromPoint e bx by)
 
--- | Upper bound of the distance of any point of a segment from any of several others; 'never' if
--- an end of the segment is further than @most@ from one of them.
+-- | Upper bound, in mm, of the distance of any point of a segment from each of several others.
+-- 'never' if an end of the segment is further than @most@ from one of the others. A bound up to
+-- @most@ need not be the smallest that is known.
 furthestFrom :: Double -> Segment -> [Segment] -> Double
 furthestFrom most e ts
   | all endsNear ts = foldl' (\far t -> max far (enough t)) 0 ts
@@ -244,8 +253,8 @@ furthestFrom most e ts
       LineAt ax ay bx by -> distance t ax ay <= most && distance t bx by <= most
       ArcAt ax ay bx by _ _ _ _ -> distance t ax ay <= most && distance t bx by <= most
 
--- | True only if every point of the first segment lies within a distance of the second. The start
--- of the first is compared before all else, since it decides most cases.
+-- | True only if every point of the first segment lies within @most@ of the second segment. The
+-- start of the first segment is tested before everything else, since it decides most cases.
 isWithin :: Double -> Segment -> Segment -> Bool
 isWithin most e t = atBegin && (beside e t <= most || fromEnds)
   where
@@ -256,13 +265,14 @@ isWithin most e t = atBegin && (beside e t <= most || fromEnds)
       LineAt ax ay _ _ -> distance t ax ay <= most
       ArcAt ax ay _ _ _ _ _ _ -> distance t ax ay <= most
 
--- | True only if every point of a line, or of an arc of at most 'aCorner', surely lies within a
--- distance of some others.
+-- | True only if every point of a segment lies within @most@ of some others. Always false for an
+-- arc with a sweep above 'largestSweep'.
 --
--- Others that join without a gap are one curve. As seen along the line, or from the arc's
--- centre, that curve begins before the segment's start and ends after its end, so it passes
--- every point between. Its distance from the segment's carrier never exceeds the distance asked.
--- The curve is too short to go round the arc's centre.
+-- A run of others that join without a gap is one curve. It must begin before the segment's start
+-- and end after its end, or the reverse: along the line, or by the angle at the arc's centre. Such
+-- a curve crosses the normal at every point of the segment. There its distance from the point is
+-- its distance from the segment's carrier, which must not exceed @most@ anywhere on the curve. For
+-- an arc, the curve must also be too short to go around the far side of the centre.
 isAccompanied :: Double -> [Segment] -> Segment -> Bool
 isAccompanied most others t = case coordinates t of
   LineAt px py qx qy
@@ -275,14 +285,14 @@ isAccompanied most others t = case coordinates t of
             ( \x y ->
                 let f =
                       along x y
-                 in if f <= 0 then Before else if f >= l then Behind else Amidst
+                 in if f <= 0 then Before else if f >= l then After else Between
             )
             (across px py qx qy)
             (\(Span low high) _ -> low >= negate most' && high <= most')
             others
   ArcAt ax ay bx by cx cy r s
-    | abs s <= aCorner ->
-      let place x y =
+    | abs s <= largestSweep ->
+      let positionOf x y =
             bearing
               ax
               ay
@@ -293,16 +303,16 @@ isAccompanied most others t = case coordinates t of
               s
               x
               y
-              ( \behind before alongBegin ->
-                  if behind <= 0 && alongBegin > 0
+              ( \pastStart beforeEnd alongStart ->
+                  if pastStart <= 0 && alongStart > 0
                     then Before
                     else
-                      if before <= 0 && (bx - cx) * (x - cx) + (by - cy) * (y - cy) > 0
-                        then Behind
-                        else Amidst
+                      if beforeEnd <= 0 && (bx - cx) * (x - cx) + (by - cy) * (y - cy) > 0
+                        then After
+                        else Between
               )
        in chain
-            place
+            positionOf
             (spanFrom cx cy)
             (\(Span low high) long -> long < low && r - low <= most' && high - r <= most')
             others
@@ -310,49 +320,51 @@ isAccompanied most others t = case coordinates t of
   where
     most' = most - 2 * unsure
 
--- | True if some of the curves, each beginning where the one before ends, lead without a gap from
--- before one end to after the other, and satisfy a condition on their interval of distances and
--- their length.
+-- | True if a run of consecutive curves leads without a gap past both ends of a segment and
+-- satisfies a condition. @positionOf@ gives the position of a point relative to the two ends, and
+-- @spanOf@ the distances of a curve from the segment's carrier. The condition is on the interval of
+-- these distances over the run, and on its length.
 chain ::
-  (Double -> Double -> Stand) ->
+  (Double -> Double -> Position) ->
   (Segment -> Span) ->
   (Span -> Double -> Bool) ->
   [Segment] ->
   Bool
-chain place spanOf fits = start
+chain positionOf spanOf fits = start
   where
     start es = case es of
       [] -> False
-      e : _ -> let (x, y) = begin e in go (place x y) never (negate never) 0 x y es
-    -- From where the curve is past one end, what it has kept to and how far it has gone since it
-    -- was there.
-    go :: Stand -> Double -> Double -> Double -> Double -> Double -> [Segment] -> Bool
+      e : _ -> let (x, y) = begin e in go (positionOf x y) never (negate never) 0 x y es
+    -- The position of the run's last point that is past an end; since then, the interval of
+    -- distances and the length; and the point at which the next curve must begin.
+    go :: Position -> Double -> Double -> Double -> Double -> Double -> [Segment] -> Bool
     go from !low !high !long !x !y es = case es of
       [] -> False
       e : more -> case (begin e, finish e) of
         ((bx, by), (fx, fy))
           | not (bx == x && by == y) -> start es
-          | from == Amidst -> go there never (negate never) 0 fx fy more
+          | from == Between -> go there never (negate never) 0 fx fy more
           | there == from -> go there never (negate never) 0 fx fy more
-          | there == Amidst -> go from low' high' long' fx fy more
+          | there == Between -> go from low' high' long' fx fy more
           | otherwise -> fits (Span low' high') long' || go there never (negate never) 0 fx fy more
           where
-            there = place fx fy
+            there = positionOf fx fy
             Span a b = spanOf e
             low' = min low a
             high' = max high b
             long' = long + lengthOf e
 {-# INLINE chain #-}
 
--- | Position of a point relative to the two ends of a segment.
-data Stand = Before | Amidst | Behind
+-- | Position of a point relative to the two ends of a segment: before the start, between both, or
+-- after the end.
+data Position = Before | Between | After
   deriving stock (Eq)
 
--- | Largest sweep in radians of an arc that 'isAccompanied' treats.
-aCorner :: Double
-aCorner = 1
+-- | Largest sweep, in radians, of an arc that 'isAccompanied' examines.
+largestSweep :: Double
+largestSweep = 1
 
--- | Greatest distance of a point of a segment from a point.
+-- | Greatest distance, in mm, of a segment's points from a point, given by x and y.
 fromPoint :: Segment -> Double -> Double -> Double
 fromPoint e px py = case coordinates e of
   LineAt ax ay bx by -> max (hypotenuse (ax - px) (ay - py)) (hypotenuse (bx - px) (by - py))
@@ -366,8 +378,9 @@ fromPoint e px py = case coordinates e of
               then ends
               else max ends r
 
--- | Same bound as 'furthest', if every point of the first segment has its foot on the second, or
--- lies past an end of it by no more than 'overlap'; otherwise 'never'.
+-- | Upper bound, in mm, of the distance of any point of the first segment from the second. It is
+-- 'never' unless every point of the first has its foot on the second, or lies past an end of the
+-- second by at most 'overlap'.
 beside :: Segment -> Segment -> Double
 beside e t = case (coordinates e, coordinates t) of
   (LineAt ax ay bx by, LineAt {}) -> max (distance t ax ay) (distance t bx by)
@@ -413,27 +426,31 @@ beside e t = case (coordinates e, coordinates t) of
     | abs z <= pi || isWhole z ->
       let off = hypotenuse (cx - dx) (cy - dy)
           away x y = hypotenuse (x - dx) (y - dy)
-          -- From the centre of the other its range has its extremes at its ends and on the line of
-          -- both centres.
+          -- The first arc's distance from the centre of the second is extreme at the ends of the
+          -- first arc and on the line of both centres.
           onLine sense =
             let f =
                   sense * r / off
              in off > 0 && inSector e (cx + f * (cx - dx)) (cy + f * (cy - dy))
-          !behind = onLine 1
-          !before = onLine (-1)
+          !hasFarPoint = onLine 1
+          !hasNearPoint = onLine (-1)
           !high =
             max
               (max (abs (away ax ay - q)) (abs (away bx by - q)))
               ( max
-                  (if behind then abs (off + r - q) else 0)
-                  (if before then abs (abs (off - r) - q) else 0)
+                  (if hasFarPoint then abs (off + r - q) else 0)
+                  (if hasNearPoint then abs (abs (off - r) - q) else 0)
               )
           near =
             min
               (min (away ax ay) (away bx by))
-              (min (if behind then off + r else never) (if before then abs (off - r) else never))
-          -- The point furthest past an end of the other is an end or lies square to the line to
-          -- that end.
+              ( min
+                  (if hasFarPoint then off + r else never)
+                  (if hasNearPoint then abs (off - r) else never)
+              )
+          -- The point of the first arc that is furthest past an end of the second arc is an end of
+          -- the first. Otherwise, the line from the first centre to it is square to the line from
+          -- the second centre to that end.
           squarePast x y sense =
             let f =
                   sense * r / q
@@ -453,12 +470,13 @@ beside e t = case (coordinates e, coordinates t) of
        in if q > 0 then aside high past near q else never
   _ -> never
 
--- | Upper bound of a point's distance from a segment, by its distance from the carrier and its
--- distance past the end.
+-- | Upper bound, in mm, of the distance of some points from a segment. The arguments are the
+-- largest distance of the points from the segment's carrier, their largest distance past an end,
+-- their least distance from the centre of an arc, and its radius. For a line the radius is 0.
 --
--- For an arc, the distance from the end is known from the distance ρ of the point from the
--- centre and the radius r: its square is @(ρ − r)² + 4·ρ·r·sin²(φ/2)@. If @sin φ@ is at most a
--- hundredth, that is less than @(ρ − r)² + 1.001·(r/ρ)·(ρ·sin φ)²@.
+-- Let a point have the distance ρ from the centre of an arc with the radius r, and lie past its end
+-- by the angle φ. The square of its distance from the end is @(ρ − r)² + 4·ρ·r·sin²(φ/2)@. If
+-- @sin φ@ is at most a hundredth, this is less than @(ρ − r)² + 1.001·(r/ρ)·(ρ·sin φ)²@.
 aside :: Double -> Double -> Double -> Double -> Double
 aside high past near r
   | past <= 0 = high
@@ -472,26 +490,30 @@ aside high past near r
 overlap :: Double
 overlap = 0.1
 
--- | Distance of a point past the ends of an arc of at most half a turn, or of a full circle; 0
--- inside the sector, 'never' on the opposite side.
+-- | Distance, in mm, of a point, given by x and y, past the nearer end of an arc: its distance from
+-- the ray from the centre through that end. It is 0 inside the sector. On the side of the centre
+-- opposite to an arc of at most a quarter turn it is 'never'. The arc sweeps at most half a turn,
+-- or is a full circle.
 pastArc :: Segment -> Double -> Double -> Double
 pastArc t !px !py = case coordinates t of
   LineAt {} -> never
   ArcAt ax ay bx by cx cy r s
     | isWhole s -> 0
-    | otherwise -> bearing ax ay bx by cx cy s px py $ \behind before along ->
+    | otherwise -> bearing ax ay bx by cx cy s px py $ \pastStart beforeEnd along ->
       if abs s <= pi / 2 && along < 0
         then never
-        else max 0 (max (negate behind) (negate before) / r)
+        else max 0 (max (negate pastStart) (negate beforeEnd) / r)
 
--- | True only if every point of a segment surely lies within a distance of one of several others.
--- Each other consists of segments and counts only if a test says so; the test is evaluated last.
+-- | True only if every point of a segment lies within @reach@ of one of several others. Each
+-- of the others is a list of segments, given by @segmentsOf@; a point must lie within @reach@ of
+-- all of these. Only others for which @counts@ is true are used; this is tested last.
 isCovered :: Double -> (a -> [Segment]) -> (a -> Bool) -> [a] -> Segment -> Bool
-isCovered reach coursesOf counts others e =
-  any (covers e) others || go others (parts e (concatMap coursesOf others))
+isCovered reach segmentsOf counts others e =
+  any (covers e) others || go others (parts e (concatMap segmentsOf others))
   where
-    covers part other = all (isWithin (reach - 2 * unsure) part) (coursesOf other) && counts other
-    -- The others lie in the order of the parts, as a rule.
+    covers part other = all (isWithin (reach - 2 * unsure) part) (segmentsOf other) && counts other
+    -- The others usually come in the order of the parts, so each search begins where the previous
+    -- one succeeded.
     go ahead ps = case ps of
       [] -> False
       [part] -> covered ahead part
@@ -501,8 +523,9 @@ isCovered reach coursesOf counts others e =
     covered ahead part = any (covers part) ahead || any (covers part) others
 {-# INLINE isCovered #-}
 
--- | Bounds of the greatest distance of a segment's points from several others. The distance from
--- one of them is the greatest distance from its segments; the least over all others counts.
+-- | Lower and upper bound, in mm, of the greatest distance of a segment's points from several
+-- others. Each of the others is a list of segments: the distance from it is the greatest distance
+-- from one of them. A point's distance from the others is the least of these.
 range :: [[Segment]] -> Segment -> (Double, Double)
 range others e = (maximum (map from points) - unsure, maximum (map to pieces) + 2 * unsure)
   where
@@ -520,8 +543,9 @@ range others e = (maximum (map from points) - unsure, maximum (map to pieces) + 
     least = foldl' min never
     most = foldl' max 0
 
--- | Points of the first segment, beside its ends, at which its distance from the second may be
--- greatest: on the line of both centres, or square to a line.
+-- | Points of the first segment, other than its ends, at which its distance from the second may be
+-- greatest. For two arcs they lie on the line of both centres; for a line and an arc, the line is
+-- square to the direction from the arc's centre.
 summits :: Segment -> Segment -> [(Double, Double)]
 summits e t = case (coordinates e, coordinates t) of
   (ArcAt _ _ _ _ cx cy r _, ArcAt _ _ _ _ dx dy _ _) ->
@@ -541,16 +565,16 @@ summits e t = case (coordinates e, coordinates t) of
     both cx cy ux uy =
       [(x, y) | sense <- [1, -1], let x = cx + sense * ux; y = cy + sense * uy, inSector e x y]
 
--- | Parts of a segment between the points at which the nearest of several others may change: the
--- feet of their ends. Empty if there is no such point, or if there would be more than
--- 'mostParts' parts.
+-- | Parts of a segment, divided at the feet of the ends of several others. At these feet, another
+-- of the others may become the nearest. Empty if no foot lies on the segment, or if there are more
+-- than 'mostParts' feet.
 parts :: Segment -> [Segment] -> [Segment]
 parts e others = case marks of
   [] -> []
   _ -> if null (drop mostParts marks) then zipWith (between e) (0 : marks) (marks <> [1]) else []
   where
     marks = rising (sort (feet others))
-    -- Those one behind the other have an end in common.
+    -- Where one of the others begins at the end of the previous one, this end counts once.
     feet ts = case ts of
       [] -> []
       t : u : more
@@ -568,32 +592,34 @@ parts e others = case marks of
       a : more -> a : rising more
       [] -> []
 
--- | Greatest count of parts that are examined one by one.
+-- | Greatest count of feet for which 'parts' divides a segment.
 mostParts :: Int
 mostParts = 64
 
--- | True only if a segment surely lies to the left of the carrier of an element (second argument),
--- or to its right.
+-- | True only if every point of the first segment lies to the left of the carrier of the second
+-- segment. The left of a counter-clockwise arc is the inside of its circle.
 isLeftOf :: Segment -> Segment -> Bool
 isLeftOf t e = case coordinates e of
   LineAt ax ay bx by -> case across ax ay bx by t of Span low _ -> low > unsure
   ArcAt _ _ _ _ cx cy r s ->
     if s > 0 then isInside cx cy (r - unsure) t else isOutside cx cy (r + unsure) t
 
--- | True only if a segment surely lies to the right of the carrier of an element, its second
--- argument.
+-- | True only if every point of the first segment lies to the right of the carrier of the second
+-- segment.
 isRightOf :: Segment -> Segment -> Bool
 isRightOf t e = case coordinates e of
   LineAt ax ay bx by -> case across ax ay bx by t of Span _ high -> high < -unsure
   ArcAt _ _ _ _ cx cy r s ->
     if s > 0 then isOutside cx cy (r + unsure) t else isInside cx cy (r - unsure) t
 
--- | True if all points of a segment are nearer to a point than a distance, or further.
+-- | True if all points of a segment lie inside a circle, or outside of it. The circle is given by x
+-- and y of its centre and by its radius.
 isInside, isOutside :: Double -> Double -> Double -> Segment -> Bool
 isInside cx cy r t = case spanFrom cx cy t of Span _ high -> high < r
 isOutside cx cy r t = case spanFrom cx cy t of Span low _ -> low > r
 
--- | False only if the foot of a point lies before the start of a segment or after its end.
+-- | False only if the foot of a point, given by x and y, lies before the start of a segment or
+-- after its end. Always true for an arc of more than half a turn.
 spansAbout :: Segment -> Double -> Double -> Bool
 spansAbout e !px !py = case coordinates e of
   LineAt ax ay bx by -> let t = shareOf ax ay bx by px py in t >= -1e-9 && t <= 1 + 1e-9

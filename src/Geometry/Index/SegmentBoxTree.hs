@@ -8,12 +8,12 @@
 -- around each eight such boxes, and so on. Consecutive segments are close in space, so nothing is
 -- sorted. Boxes of single segments are computed when needed, which costs less than storing them.
 --
--- A chain that advances in a fixed direction throughout does not meet itself. Each box therefore
--- stores in which of eight directions all that it contains advances, and the search for pairs skips
--- such a box and two such neighbours.
+-- A chain whose segments all advance in one direction does not meet itself. For each box the tree
+-- stores in which of eight directions all of its segments advance. The search for pairs skips the
+-- inside of a box with such a direction, and two neighbouring boxes with a direction in common.
 --
--- The tree for things of any type is "Geometry.Index.BoxTree". It would store the boxes of single
--- segments, and cannot know about directions.
+-- "Geometry.Index.BoxTree" is the tree for things of any type. It stores the boxes of single things
+-- and no directions.
 module Geometry.Index.SegmentBoxTree
   ( SegmentBoxTree,
     build,
@@ -39,14 +39,15 @@ import GHC.Exts (Double (D#), Int (I#), uncheckedIShiftRL#, (>=##))
 import Geometry.ClosedPolyarcs (ClosedPolyarcs)
 import Geometry.ClosedPolyarcs qualified as ClosedPolyarcs
 
--- | The levels are stored one after the other, the lowest first.
+-- | The tree. Its arrays contain the boxes of all levels one after the other, the lowest level
+-- first.
 data SegmentBoxTree = SegmentBoxTree
   { chain :: ClosedPolyarcs,
     -- | in mm; every box is enlarged by it
     margin :: Double,
     -- | of each box: least x, least y, largest x, largest y
     sides :: PrimArray Double,
-    -- | of each box: the directions in which its content advances, as bits
+    -- | of each box: the directions in which all of its segments advance, as bits
     directions :: PrimArray Word8,
     -- | the first box of each level
     begins :: PrimArray Int,
@@ -56,14 +57,14 @@ data SegmentBoxTree = SegmentBoxTree
     highest :: Int
   }
 
--- | The number of segments, or of boxes, in one box.
+-- | The number of segments in a box of the lowest level, and of lower boxes in any other box.
 fan :: Int
 fan = 8
 
 -- Boxes -------------------------------------------------------------------------------------
 
--- | The box of a segment with the margin, passed to a continuation: least x, least y, largest x,
--- largest y.
+-- | The box of the segment with an index, enlarged by the margin and passed to a continuation:
+-- least x, least y, largest x, largest y.
 segmentBoxWithMargin :: SegmentBoxTree -> Int -> (Double -> Double -> Double -> Double -> r) -> r
 segmentBoxWithMargin bs i k =
   segmentBox (chain bs) i (\lx ly hx hy -> k (lx - m) (ly - m) (hx + m) (hy + m))
@@ -94,7 +95,8 @@ reaches :: Double -> Double -> Int
 reaches (D# a) (D# b) = I# (a >=## b)
 {-# INLINE reaches #-}
 
--- | True when a segment starts at a vertex: it is not the repeated first vertex of a loop.
+-- | True when a segment starts at the vertex with an index. None starts at the repeated first
+-- vertex of a loop.
 present :: ClosedPolyarcs -> Int -> Bool
 present c i =
   not
@@ -106,7 +108,7 @@ runBoxOf :: SegmentBoxTree -> Int -> (Double -> Double -> Double -> Double -> r)
 runBoxOf bs i = boxAt (sides bs) (i `shiftR` 3)
 {-# INLINE runBoxOf #-}
 
--- | The first segment of the next run.
+-- | The index of the first segment of the run after the one to which a segment belongs.
 nextRun :: Int -> Int
 nextRun i = (i `shiftR` 3 + 1) `shiftL` 3
 {-# INLINE nextRun #-}
@@ -127,7 +129,7 @@ boxAt a k next =
 
 -- Construction ------------------------------------------------------------------------------
 
--- | Build the tree of all segments with a margin in mm.
+-- | Build the tree of all segments, with boxes enlarged by a margin in mm.
 build :: Double -> ClosedPolyarcs -> SegmentBoxTree
 build !m !c = runST $ do
   let n = sizeofPrimArray (ClosedPolyarcs.xs c)
@@ -145,7 +147,7 @@ build !m !c = runST $ do
       <*> pure (primArrayFromList levels)
       <*> pure (length levels - 1)
 
--- | The numbers of boxes of all levels, from the lowest.
+-- | The numbers of boxes of all levels from the lowest on, given that of the lowest.
 levelSizes :: Int -> [Int]
 levelSizes count
   | count == 1 = [1]
@@ -154,7 +156,7 @@ levelSizes count
 -- | The sides and directions of boxes while they are written.
 data Boxes s = Boxes (MutablePrimArray s Double) (MutablePrimArray s Word8)
 
--- | Write a box with an index and its directions.
+-- | Write the box with an index: least x, least y, largest x, largest y, and its directions.
 putBox :: Boxes s -> Int -> Double -> Double -> Double -> Double -> Int -> ST s ()
 putBox (Boxes sides directions) !k !lx !ly !hx !hy !w = do
   writePrimArray sides (4 * k) lx
@@ -222,7 +224,7 @@ most a b = if a > b then a else b
 {-# INLINE least #-}
 {-# INLINE most #-}
 
--- | A box extended by the segments from @a@ to before @e@, passed to a continuation.
+-- | A box extended by the segments from @a@ to @e − 1@, passed to a continuation.
 runBox ::
   ClosedPolyarcs ->
   Int ->
@@ -249,9 +251,10 @@ runBox c a e lx0 ly0 hx0 hy0 k = go a lx0 ly0 hx0 hy0
         y = indexPrimArray (ClosedPolyarcs.ys c) (i + 1)
 {-# INLINE runBox #-}
 
--- | The directions, of eight, in which all segments from @a@ to before @e@ advance, as bits. Only
--- the two next to the direction from the first vertex to the last are tested. Every segment must
--- advance so far beyond the margin @m@ that its predecessors and successors cannot meet it.
+-- | Those of the eight directions in which all segments from @a@ to @e − 1@ advance, as bits. Only
+-- two are tested: the axis and the diagonal that are nearest to the direction from the first vertex
+-- to the last. Every segment must advance by 32 times the margin @m@, so that the enlarged boxes of
+-- its predecessors and successors cannot meet it.
 headings :: Double -> ClosedPolyarcs -> Int -> Int -> Int
 headings !m !c !a !e = go a (2 * enough) (2 * enough)
   where
@@ -296,17 +299,19 @@ allDirections = 255
 
 -- Pairs -------------------------------------------------------------------------------------
 
--- | Visit all pairs of segments that may meet and whose boxes overlap, the earlier segment first,
--- as long as @continues@ is true.
+-- | Visit all pairs of segments that may meet and whose boxes overlap. Each pair is visited once,
+-- the earlier segment first. The search ends when @continues@ is false.
 pairs :: SegmentBoxTree -> ST s Bool -> (Int -> Int -> ST s ()) -> ST s ()
 pairs bs@SegmentBoxTree {chain = c, margin = m, sides, directions, highest} continues visit = do
-  -- The boxes of the segments of some runs, each run in the slot of its number modulo 'fan' or in a
-  -- spare slot; and which run each slot holds.
+  -- A cache of the boxes of single segments, with one run in each slot. A run belongs into the slot
+  -- with its index modulo 'fan', or into the spare slot 'fan'. @held@ has the run of each slot, or
+  -- −1.
   near <- Near <$> newPrimArray (answer + 1) <*> newPrimArray answer
   held <- newPrimArray (fan + 1)
   setPrimArray held 0 (fan + 1) (-1)
   let !grid = gridOf bs
-      -- Visit the pairs inside box @a@ of level @l@, and those between its boxes @a@ and @b@.
+      -- 'within' visits the pairs inside box @a@ of level @l@, 'between' those of a segment in box
+      -- @a@ with one in box @b@ of this level.
       within !l !a
         | direction (at l + a) /= 0 = pure ()
         | l == 0 =
@@ -337,8 +342,9 @@ pairs bs@SegmentBoxTree {chain = c, margin = m, sides, directions, highest} cont
             found near >>= visits (fan * a) (fan * slot a) (fan * b) (fan * other)
         | otherwise =
           boxAt sides (at l + b) (across (l - 1) (fan * a) (min (size (l - 1)) (fan * a + fan)) b)
-      -- Visit the pairs of the boxes of level @l@ inside box @a@ of the next level; those of boxes
-      -- @i@ to before @e@ with the boxes inside box @b@ of the next level.
+      -- 'among' visits the pairs among the boxes of level @l@ that belong to box @a@ of the next
+      -- level. 'across' visits the pairs of boxes @i@ to @e − 1@ of level @l@ with those that
+      -- belong to box @b@ of the next level. 'follow' pairs box @i@ with boxes @j@ to @e − 1@.
       among !l !a = go (fan * a)
         where
           !e = min (size l) (fan * a + fan)
@@ -363,8 +369,8 @@ pairs bs@SegmentBoxTree {chain = c, margin = m, sides, directions, highest} cont
         when (r' /= r) $ do
           writePrimArray held s r
           fill bs grid near s r
-      -- Visit the pairs in a set. The segments count from @a@ and @b@, their boxes from @p@ and
-      -- @q@.
+      -- Visit the pairs in a set, as 'amongThem' numbers them. The segments of the first run count
+      -- from @a@, those of the second from @b@; their boxes in the slots count from @p@ and @q@.
       visits !a !p !b !q !set
         | set == 0 = pure ()
         | otherwise = do
@@ -383,11 +389,12 @@ pairs bs@SegmentBoxTree {chain = c, margin = m, sides, directions, highest} cont
 {-# INLINE pairs #-}
 
 -- | A grid of 2²⁹ steps over the box of all segments: half the number of steps in 1 mm, and half of
--- what is added to x and y in steps.
+-- the numbers that are added to x and y in steps.
 --
--- A corner is a word that contains both coordinates in steps. Above each of them is one bit more.
--- It is set in the upper corner of a box; when a lower corner is subtracted, the bit of a
--- coordinate remains set where the lower one is not the larger.
+-- A corner of a box is one machine word that contains both coordinates in steps. Above each
+-- coordinate is one further bit, which is set in upper corners only. When a lower corner is
+-- subtracted from an upper one, the bit of a coordinate remains set exactly where the lower
+-- coordinate is not the larger one.
 data Grid = Grid {halfSteps :: Double, addX :: Double, addY :: Double}
 
 -- | The grid of a tree. Coordinates are far enough above 0 for rounding not to make one negative.
@@ -397,25 +404,26 @@ gridOf bs = boundingBox bs $ \lx ly hx hy ->
       steps = if w > 0 then 268435456 / w else 0
    in Grid {halfSteps = steps, addX = 134217728 - steps * lx, addY = 134217728 - steps * ly}
 
--- | A coordinate in mm, converted to steps.
+-- | A coordinate x or y, converted from mm to steps.
 stepX, stepY :: Grid -> Double -> Double
 stepX g x = 2 * (x * halfSteps g + addX g)
 stepY g y = 2 * (y * halfSteps g + addY g)
 {-# INLINE stepX #-}
 {-# INLINE stepY #-}
 
--- | The lower and the upper corner of a box from coordinates in steps, rounded outwards.
+-- | The word of a lower and of an upper corner, from coordinates in steps. The corners are rounded
+-- outwards.
 least', largest' :: Double -> Double -> Int
 least' x y = truncate x .|. truncate y `unsafeShiftL` 32
 largest' x y = truncate (x + 2147483649) .|. truncate (y + 2147483649) `unsafeShiftL` 32
 {-# INLINE least' #-}
 {-# INLINE largest' #-}
 
--- | The lower and the upper corners of boxes, in slots of eight. After the lower ones comes a set
--- of boxes or pairs, as bits: the answer of the last query.
+-- | The lower corners of boxes and the upper ones, in slots of eight boxes. After the lower corners
+-- comes the answer of the last query: a set of boxes or pairs, as bits.
 data Near s = Near (MutablePrimArray s Int) (MutablePrimArray s Int)
 
--- | The set that the last query found.
+-- | The answer of the last query.
 found :: Near s -> ST s Int
 found (Near lows _) = readPrimArray lows answer
 {-# INLINE found #-}
@@ -424,7 +432,8 @@ found (Near lows _) = readPrimArray lows answer
 answer :: Int
 answer = fan * (fan + 1)
 
--- | True when two boxes overlap by more than a step of the grid.
+-- | True when two boxes, by their indices in the slots, overlap by more than the rounding to the
+-- grid.
 surely :: Near s -> Int -> Int -> ST s Bool
 surely (Near lows highs) !p !q = do
   low <- readPrimArray lows p
@@ -435,8 +444,8 @@ surely (Near lows highs) !p !q = do
     apart = 0x0000000300000003
 {-# INLINE surely #-}
 
--- | True when the boxes of two segments overlap, to a few units in the last place, which are far
--- below the margin. All coordinates are doubled.
+-- | True when the boxes of two segments, enlarged by the margin @m@, overlap. Rounding errors are a
+-- few units in the last place, far less than the margin. All coordinates are doubled.
 exactly :: Double -> ClosedPolyarcs -> Int -> Int -> Bool
 exactly !m !c !i !j =
   twice i $ \lx ly hx hy -> twice j $ \px py qx qy -> px <= hx && lx <= qx && py <= hy && ly <= qy
@@ -460,7 +469,7 @@ exactly !m !c !i !j =
 {-# NOINLINE exactly #-}
 
 -- | Write the corners of the boxes of run @r@ into slot @s@. A vertex at which no segment starts
--- gets a box that overlaps none.
+-- gets a box that overlaps no other.
 fill :: SegmentBoxTree -> Grid -> Near s -> Int -> Int -> ST s ()
 fill SegmentBoxTree {chain = c, margin = m} Grid {halfSteps, addX, addY} (Near !lows !highs) !s !r =
   go (fan * s) begin (stepsX begin) (stepsY begin)
@@ -498,7 +507,8 @@ fill SegmentBoxTree {chain = c, margin = m} Grid {halfSteps, addX, addY} (Near !
       writePrimArray highs k high
 {-# NOINLINE fill #-}
 
--- | 1 when box @k@ overlaps the box with these corners, else 0; without a branch.
+-- | 1 when box @k@ of the slots overlaps the box with the corners @low@ and @high@, else 0; without
+-- a branch.
 touches :: MutablePrimArray s Int -> MutablePrimArray s Int -> Int -> Int -> Int -> ST s Int
 touches lows highs !k !low !high = do
   low' <- readPrimArray lows k
@@ -507,11 +517,13 @@ touches lows highs !k !low !high = do
   pure $! (both `shiftRL` 63) .&. (both `shiftRL` 31)
 {-# INLINE touches #-}
 
+-- | The logical shift of a word to the right.
 shiftRL :: Int -> Int -> Int
 shiftRL (I# a) (I# k) = I# (uncheckedIShiftRL# a k)
 {-# INLINE shiftRL #-}
 
--- | Find the boxes of slot @s@ that overlap a box: bit @i@ is box @i@ of the slot.
+-- | Find the boxes of slot @s@ that overlap the box with the corners @low@ and @high@. Bit @i@ of
+-- the answer is box @i@ of the slot.
 against :: Near s -> Int -> Int -> Int -> ST s ()
 against (Near !lows !highs) !s !low !high = go (begin + fan - 1) 0
   where
@@ -523,7 +535,8 @@ against (Near !lows !highs) !s !low !high = go (begin + fan - 1) 0
         go (k - 1) (set + set + hit)
 {-# NOINLINE against #-}
 
--- | Find the overlapping pairs in slot @s@: bit @8·i + j@ is the pair of its boxes @i@ and @j@.
+-- | Find the overlapping pairs of boxes in slot @s@. Bit @8·i + j@ of the answer is the pair of
+-- boxes @i@ and @j@ of the slot, with @i < j@.
 amongThem :: Near s -> Int -> ST s ()
 amongThem (Near !lows !highs) !s = first (fan * s + fan - 2) 0
   where
@@ -542,7 +555,8 @@ amongThem (Near !lows !highs) !s = first (fan * s + fan - 2) 0
       second (k .|. (fan - 1)) 0
 {-# NOINLINE amongThem #-}
 
--- | Find the overlapping pairs of the boxes @some@, a set, of slot @s@ with those of slot @other@.
+-- | Find the overlapping pairs of a box of slot @s@ and one of slot @other@. Of slot @s@, only the
+-- boxes in the set @some@ are tested. Bit @8·i + j@ of the answer is the pair of boxes @i@ and @j@.
 overlapping :: Near s -> Int -> Int -> Int -> ST s ()
 overlapping (Near !lows !highs) !s !some !other = first some 0
   where
@@ -574,7 +588,8 @@ overlaps a k lx ly hx hy =
 
 -- Segments in a box -------------------------------------------------------------------------
 
--- | A strict left fold over the segments whose boxes overlap a box, in order.
+-- | A strict left fold over the segments whose enlarged boxes overlap a box, in order. The box is
+-- given by its least x, least y, largest x and largest y.
 around :: SegmentBoxTree -> Double -> Double -> Double -> Double -> a -> (a -> Int -> a) -> a
 around SegmentBoxTree {chain = c, margin = m, sides, begins, counts, highest} lx ly hx hy start f =
   go highest 0 start
