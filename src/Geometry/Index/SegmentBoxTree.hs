@@ -300,7 +300,8 @@ allDirections = 255
 -- Pairs -------------------------------------------------------------------------------------
 
 -- | Visit all pairs of segments that may meet and whose boxes overlap. Each pair is visited once,
--- the earlier segment first. The search ends when @continues@ is false.
+-- the earlier segment first. The search ends early if @continues@, which is run now and then, is
+-- false.
 pairs :: SegmentBoxTree -> ST s Bool -> (Int -> Int -> ST s ()) -> ST s ()
 pairs bs@SegmentBoxTree {chain = c, margin = m, sides, directions, highest} continues visit = do
   -- A cache of the boxes of single segments, with one run in each slot. A run belongs into the slot
