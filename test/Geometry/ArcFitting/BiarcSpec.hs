@@ -30,19 +30,21 @@ import Test.QuickCheck
 spec :: Spec
 spec = do
   describe "biarcs between two ends" $ do
-    it "biarc: it has the ends and directions given, and no kink (catches a joint off its place)" $
-      property $
+    it
+      "biarc: has the given ends and end directions and no kink (catches a joint at a wrong point)"
+      $ property $
         forAll pair joinLaw
     it
-      "biarc: there is one for all directions less than square to the chord (catches a formula \
-      \that parallel directions break)"
+      "biarc: exists for all directions at less than 90° to the chord (catches a formula that \
+      \fails for parallel directions)"
       $ property $
         forAll (posesWithin 1.57) $ \(a, b) -> counterexample "none" (isJust (Biarc.join a b))
-    it "biarc: backwards it is the same (catches a ratio that favours one end)" $
+    it "biarc: is the same from either end (catches a ratio that favours one end)" $
       property $
         forAll (posesWithin 1.5) backwardsLaw
     it
-      "biarc: what bends to one side stays so (catches equal chords where the angles differ much)"
+      "biarc: of ends that bend to one side bends to this side (catches equal chords where the \
+      \angles differ much)"
       $ property $
         forAll oneSided oneSidedLaw
     it "is one line between collinear ends, and one arc between the ends of an arc" $ do
@@ -63,13 +65,13 @@ spec = do
       Biarc.join (Vec.point 0 0, Vec.vec (-1) 0) (Vec.point 4 0, Vec.vec (-1) 0) `shouldBe` Nothing
   describe "biarcs through points" $ do
     it
-      "through: in order through every point, without a kink, and closed (catches a direction that \
-      \a neighbour does not share)"
+      "through: passes every point in order without a kink, closed or open (catches a direction \
+      \that differs between neighbours)"
       $ property $
         forAll ((,) <$> elements [Open, Closed] <*> scattered) (uncurry throughLaw)
     it
       "through: points of a circle give the circle, points of a line the line (catches a direction \
-      \that is only nearly the circle's)"
+      \that is only nearly that of the circle)"
       $ property $
         forAll ((,) <$> elements [Open, Closed] <*> onCircle) (uncurry circleLaw)
     it "joins two points by a line, or by a circle if closed" $ do
@@ -84,17 +86,17 @@ spec = do
         `shouldBe` Biarc.through Closed (Vec.point 0 0 :| [Vec.point 4 0, Vec.point 4 3])
   describe "biarcs along a curve" $ do
     it
-      "approximate: every point of the curve is near the arcs (catches a deviation seen at too few \
-      \points)"
+      "approximate: every point of the curve is near the arcs (catches a deviation that is \
+      \measured at too few points)"
       $ property $
         forAll fitCase curveLaw
     it
-      "approximate: every point of the arcs is near the curve (catches an arc the long way round)"
+      "approximate: every point of the arcs is near the curve (catches an arc around the far side)"
       $ property $
         forAll fitCase arcsLaw
     it
-      "approximate: so it is where the curve turns back within a radius far below the tolerance \
-      \(catches an arc that overshoots)"
+      "approximate: every point of the arcs is near a curve that turns back within a radius far \
+      \below the tolerance (catches an arc that overshoots)"
       $ property $
         forAll nearCusp arcsLaw
     it
@@ -103,16 +105,16 @@ spec = do
       $ property $
         forAll fitCase kinkLaw
     it
-      "approximate: hardly more than the best choice among 64 joints needs (catches a step that \
-      \stops early)"
+      "approximate: needs hardly more biarcs than the best choice among 64 joints (catches a step \
+      \that stops early)"
       $ property $
         forAll fitCase fewLaw
     it
-      "along cubics: hardly more than the best choice among 64 joints needs (catches a step that \
-      \stops early)"
+      "along cubics: needs hardly more biarcs than the best choice among 64 joints (catches a step \
+      \that stops early)"
       $ property $
         forAll smoothCubic fewOnCubicsLaw
-    it "approximate: 10 m at 1e-5 mm (catches distances that lose their digits)" $
+    it "approximate: keeps 1e-5 mm on a curve of 10 m (catches distances that lose digits)" $
       property $
         withMaxSuccess 10 $
           forAll large curveLaw

@@ -25,8 +25,7 @@ spec :: Spec
 spec =
   describe "biarcs along cubics" $ do
     it
-      "every point of the curve is near the arcs (catches a maximum between the ends of a span \
-      \that is left out)"
+      "every point of the curve is near the arcs (catches a maximum within a span that is ignored)"
       $ property $
         forAll fitCase curveLaw
     it
@@ -51,8 +50,8 @@ spec =
         )
         `shouldBe` Just 1
     it
-      "the generator reaches corners, sharp turns, kinks and spans that many arcs or a part of one \
-      \take"
+      "the generator reaches corners, sharp turns, kinks, and spans that need many arcs or a part \
+      \of one"
       $ checkCoverage $
         forAll fitCase $ \(FitCase _ tolerance c) ->
           let n = length (arcsOf tolerance c)

@@ -26,31 +26,31 @@ spec :: Spec
 spec =
   describe "biarcs along polyarcs" $ do
     it
-      "every point of the chain is near the arcs (catches an extremum within a piece that is left \
-      \out)"
+      "every point of the polyarc is near the arcs (catches an extremum within a segment that is \
+      \ignored)"
       $ property $
         forAll fitCase chainLaw
     it
-      "every point of the arcs is near the chain (catches an arc that overshoots where the chain \
-      \turns back)"
+      "every point of the arcs is near the polyarc (catches an arc that overshoots where the \
+      \polyarc turns back)"
       $ property $
         forAll fitCase arcsLaw
     it
-      "from the beginning to the end, no kink but at corners (catches a direction that only one \
-      \side has)"
+      "the arcs run from start to end, with no kink but at corners (catches a direction that only \
+      \one side has)"
       $ property $
         forAll fitCase smoothLaw
     it "needs few more biarcs than the general fit (catches a bound that is far too large)" $
       property $
         forAll fitCase fewLaw
     it
-      "smoothed, a chain is near itself and turns at its corners only (catches a kink that is \
-      \left, an arc beyond a corner)"
+      "a smoothed polyarc is near the original and has kinks at its corners only (catches a kink \
+      \that remains, and an arc beyond a corner)"
       $ property $
         forAll fitCase smoothedLaw
     it
-      "smoothed, a chain without kinks keeps all of its ends that are not within an arc (catches a \
-      \chain that is put anew)"
+      "a smoothed polyarc without kinks keeps all vertices that do not lie on a merged arc \
+      \(catches a polyarc that is fitted again)"
       $ property $
         forAll (fitCase `suchThat` hasCornersOnly) keptLaw
     it "the generator reaches corners, and arcs that replace many arcs or a part of one" $

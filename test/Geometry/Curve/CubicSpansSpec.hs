@@ -19,20 +19,20 @@ spec :: Spec
 spec =
   describe "cubic approximation of curves" $ do
     it
-      "every point of a shifted curve is near them (catches a stretch whose middle alone is looked \
-      \at)"
+      "their points are within the tolerance of a shifted curve (catches an interval that is \
+      \tested at its middle only)"
       $ property $
         forAll ((,) <$> shifted <*> ((10 **) <$> choose (-7, -3))) (uncurry nearLaw)
     it
-      "every point of a long shallow bevel is near them (catches halves that are taken to be as \
-      \near as half the way lets expect)"
+      "their points are within the tolerance of a long shallow bevel (catches halves that are not \
+      \measured)"
       $ once (nearAt [k / 400 | k <- [0 .. 400]] shallow 2.05934e-4)
     it
-      "they join, and run from the beginning of the curve to its end (catches a half that is left \
+      "they join without gaps from the start of the curve to its end (catches a half that is left \
       \out)"
       $ property $
         forAll shifted joinedLaw
-    it "the cubics of a spline are its own, exactly" $
+    it "those of an unshifted spline are its own cubics, exactly" $
       property $
         forAll Generate.smooth $ \c ->
           fmap (\(Mm d, _, _) -> d) (Curve.cubics (Mm 1e-7) c) === Just 0

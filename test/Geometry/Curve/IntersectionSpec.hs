@@ -13,8 +13,8 @@ import Test.QuickCheck
 spec :: Spec
 spec =
   it
-    "a place beside a crossing of curves, lines and circles leads to the crossing (catches one \
-    \that stays on the chain of a curve)"
+    "refining a point near an intersection gives the exact intersection (catches one on the \
+    \polyarc that represents a curve)"
     $ property $
       forAll Curves.gentle $ \curve -> forAll (Curves.parameterOf curve <$> choose (0, 1)) $ \u ->
         forAll

@@ -37,8 +37,8 @@ spec :: Spec
 spec = do
   describe "a shift" $ do
     it
-      "by a constant moves every place by it along the normal (catches a normal that is not of \
-      \length 1)"
+      "by a constant moves every point by this distance along the normal (catches a normal that is \
+      \not of length 1)"
       $ property $
         forAll Generate.anyCurve $ \c ->
           forAll ((,,) <$> choose (-4, 4) <*> choose (-1, 1) <*> Generate.parameter) $
@@ -50,7 +50,7 @@ spec = do
                       u
                       (Curve.shifted LeftOf (Square (constantColumn mu c) (Constant (Mm h))) c)
                in alike 1e-6 out (Vec.scale (h / cos mu) (Curve.normal c u))
-    it "stays at its distance from the curve (catches a distance along the ordinate)" $
+    it "stays at its distance from the curve (catches a distance along y)" $
       property $
         forAll Generate.gentle $ \c ->
           forAll ((,) <$> choose (-0.5, 0.5) <*> Generate.parameter) $ \(k, t) ->
@@ -79,7 +79,7 @@ spec = do
                     let Mm d' =
                           Curve.shiftDistance (Curve.shifted LeftOf (Square mu (Pointwise h)) c) u
                 ]
-    it "grows evenly along the true length (catches a length by the parameter)" $
+    it "grows in proportion to arc length (catches a growth by the parameter)" $
       property $
         forAll Generate.anyCurve $ \c ->
           forAll ((,,) <$> choose (-4, 4) <*> choose (-4, 4) <*> Generate.parameter) $
@@ -96,8 +96,8 @@ spec = do
                     (displacement c u grown)
                     (Vec.scale (h1 + (h2 - h1) * share) (Curve.normal c u))
     it
-      "that grows between two places keeps its distances before and behind them (catches ends that \
-      \are exchanged)"
+      "that grows between two points is constant before and after them (catches ends that are \
+      \exchanged)"
       $ property $
         forAll Generate.gentle $ \c ->
           forAll
@@ -125,7 +125,7 @@ spec = do
                     | u >= ub = h2
                     | otherwise = h1 + (h2 - h1) * chordSum c ua u / chordSum c ua ub
                in near' 1e-5 (-d) expected
-    it "that grows between two places has corners there (catches marks that are forgotten)" $
+    it "that grows between two points has corners there (catches a curve without breaks there)" $
       property $
         forAll Generate.gentle $ \c ->
           forAll ((,) <$> choose (0.05, 0.4) <*> choose (0.5, 0.95)) $ \(a, b) ->
@@ -138,14 +138,14 @@ spec = do
                   )
                   === [fst ends, snd ends]
     it
-      "the derivatives are those of the place, through all layers (catches an order too few, a \
-      \term of a product)"
+      "its derivatives are those of its points, through all layers (catches a missing order, and a \
+      \missing term of a product)"
       $ property $
         forAll (Generate.layered 3 Generate.anyCurve) $ \c ->
           forAll (choose (0.05, 0.95)) $ \share ->
             forAll (elements (smoothStretches c)) $ \(a, b) ->
               derivativesLaw c (a + (b - a) * share) (0.01 * (b - a))
-    it "the curvature is that of a circle through three near points (catches a wrong sign)" $
+    it "its curvature is that of a circle through three near points (catches a wrong sign)" $
       property $
         forAll (Generate.layered 2 Generate.gentle) $ \c ->
           forAll (choose (0.05, 0.95)) $ \share ->
@@ -158,7 +158,7 @@ spec = do
 
   describe "shifts in sequence" $ do
     it
-      "by a and by b are one by a + b, square to a surface too (catches a normal taken from below)"
+      "by a and then by b are one shift by a + b (catches a normal of the curve below)"
       $ property $
         forAll Generate.smooth $ \c ->
           forAll
@@ -171,8 +171,8 @@ spec = do
                   u = Generate.parameterOf c t
                in close 1e-6 (Curve.at (by b (by a c)) u) (Curve.at (by (a + b) c) u)
     it
-      "2, 4, 1 is each step by itself, with normals and lengths found by differences (catches \
-      \layers in the wrong order)"
+      "by the cipher 2, 4, 1 agree with each shift computed from differences (catches layers in \
+      \the wrong order)"
       $ property $
         forAll Generate.gentle $ \c ->
           forAll ((,) <$> Generate.columnOf c 0.1 0.4 <*> Generate.columnOf c 1 3) $ \(mu, h) ->
@@ -180,12 +180,12 @@ spec = do
               sequenceLaw c mu h (BasisCurve.at row)
 
   describe "equivalent shifts" $ do
-    it "a growth from h to h is the constant h (catches a growth that begins with what it adds)" $
+    it "a growth from h to h is the constant h (catches a growth that begins with the difference)" $
       property $
         forAll Generate.anyCurve $ \c -> forAll (choose (-4, 4)) $ \h ->
           sameShift c (Growing Growth {from = Mm h, to = Mm h, between = Nothing}) (Constant (Mm h))
     it
-      "a column that is the same everywhere is a constant, exactly (catches a spline that swings)"
+      "a column of equal values is a constant, exactly (catches a spline that oscillates)"
       $ property $
         forAll Generate.anyCurve $ \c ->
           forAll (choose (-4, 4)) $ \h -> forAll Generate.parameter $ \t ->
@@ -196,8 +196,10 @@ spec = do
       property $
         forAll Generate.anyCurve $ \c -> forAll (Generate.columnOf c 1 9) $ \h ->
           sameShift c (Bevelled (constantColumn 0 c) h (Mm 0)) (Constant (Mm 0))
-    it "to the right is to the left by the negative distance (catches a side that is forgotten)" $
-      property $
+    it
+      "a shift to the right is one to the left by the negative distance (catches a side that is \
+      \ignored)"
+      $ property $
         forAll Generate.anyCurve $ \c ->
           forAll ((,) <$> Generate.distance 3 c <*> Generate.parameter) $ \(d, t) ->
             let u = Generate.parameterOf c t
@@ -207,7 +209,7 @@ spec = do
 
   describe "a joggle" $ do
     it
-      "is nothing outside, its depth in the middle, continuous everywhere (catches a ramp that \
+      "is 0 outside its interval, its depth in the middle, and continuous (catches a ramp that \
       \runs backwards)"
       $ property $
         forAll Generate.gentle $ \c ->
@@ -247,8 +249,8 @@ spec = do
                               ]
                             .&&. Curve.corners s === []
     it
-      "on a straight line has ramps of arcs of its radius, half of the depth each (catches a wrong \
-      \length of the ramp)"
+      "on a straight line has ramps of two arcs, each half of the depth (catches a wrong length of \
+      \the ramp)"
       $ property $
         forAll ((,) <$> choose (0.5, 3) <*> choose (0.6, 4)) $ \(d, k) ->
           forAll (elements [1, -1]) $ \flip' -> forAll (choose (0.01, 0.99)) $ \t ->
@@ -274,8 +276,10 @@ spec = do
         `shouldBe` Left (LongJoggle (times 2 (Curve.ramp (joggle 2 14))) (Mm 20))
 
   describe "shifts that do not fit" $ do
-    it "the vertex of a parabola y = x²/2p takes p and no more (catches a fold between two rows)" $
-      property $
+    it
+      "the vertex of a parabola y = x²/2p can be shifted inwards by p at most (catches a cusp \
+      \between two rows)"
+      $ property $
         forAll ((,,) <$> choose (2, 30) <*> choose (-0.4, -0.05) <*> choose (0.05, 0.4)) $
           \(p, left, right) ->
             forAll (choose (0.5, 2)) $ \k ->
@@ -294,8 +298,8 @@ spec = do
                         .&&. near' 1e-9 (mm (requested f)) (k * p)
                         .&&. close 1e-4 (place f) (Vec.point 0 0)
     it
-      "is found just when the distance passes the radius somewhere (catches a layer that is not \
-      \looked at)"
+      "a cusp is found if and only if a distance exceeds the radius of curvature (catches a layer \
+      \that is not tested)"
       $ property $
         forAll (Generate.layered 1 (oneof [Generate.ring, Generate.gentle])) $ \c ->
           forAll (choose (0.5, 2)) $ \k ->
@@ -357,7 +361,7 @@ spec = do
           forAll (Generate.columnOf c 0 2) $ \col ->
             let s = Curve.shifted RightOf (Pointwise col) c
              in isNothing (Curve.firstCusp s) ==> Curve.corners s === Curve.corners c
-    it "change evenly along pieces where these touch (catches a column by the parameter)" $
+    it "change in proportion to arc length on tangent spans (catches a column by the parameter)" $
       property $
         forAll touching $ \c ->
           forAll (Generate.columnOf c 0 2) $ \col -> forAll (elements [1, 2]) $ \u ->

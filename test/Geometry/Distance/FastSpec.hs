@@ -14,23 +14,23 @@ import Test.QuickCheck
 
 spec :: Spec
 spec = do
-  it "the distance of a point is the exact one (catches a foot beyond an end)" $
+  it "distance: of a point is the exact one (catches a foot beyond an end)" $
     property $
       forAll ((,) <$> point <*> segment) $ \(p, s) ->
         let Mm d = Distance.toPoint p s
             found = FastDistance.distance s (Vec.x p) (Vec.y p)
          in counterexample (show (d, found)) (abs (d - found) <= 1e-9)
   it
-    "two are as far apart as they are, or not told to be further (catches a crossing or a normal \
-    \that is forgotten)"
+    "apart: of two segments is the exact distance (catches a missing intersection, and a missing \
+    \normal)"
     $ property $
       forAll pair $ \(a, b) ->
         let Distance.ClosestPoint (Mm d) _ = Distance.segments a b
             found = FastDistance.apart a b
          in counterexample (show (d, found)) (found <= d + 1e-9 && found >= d - 1e-6)
   it
-    "no point of one is further from the other than is told (catches an arc that bulges between \
-    \its ends)"
+    "furthest: no point of one segment is further from the other (catches an arc that is measured \
+    \at its ends only)"
     $ property $
       forAll pair $ \(a, b) ->
         let told = FastDistance.furthest a b
@@ -42,8 +42,10 @@ spec = do
                 ]
          in classify (told < sampled + 1e-3) "tight" $
               counterexample (show (told, sampled)) (told >= sampled - 1e-9)
-  it "what is surely covered is covered (catches a part between two that belongs to neither)" $
-    property $
+  it
+    "isCovered: is true only of segments without an uncovered part (catches a part between two \
+    \others)"
+    $ property $
       forAll ((,) <$> oneof [pure <$> segment, chain] <*> choose (0.5, 12)) $ \(others, r) ->
         forAll (beside r others) $ \s ->
           forAll (choose (0.9, 1.3)) $ \share ->
@@ -54,14 +56,18 @@ spec = do
                   counterexample
                     (show gaps)
                     (not surely || all (\(from, to) -> to - from < 1e-6) gaps)
-  it "two are as far apart as is told at least (catches a bulge that comes nearer than both ends)" $
-    property $
+  it
+    "apartAtLeast: is a lower bound of the distance (catches an arc that is nearest between its \
+    \ends)"
+    $ property $
       forAll pair $ \(a, b) ->
         let Distance.ClosestPoint (Mm d) _ = Distance.segments a b
             told = FastDistance.apartAtLeast a b
          in classify (told > d - 1e-6) "tight" $ counterexample (show (d, told)) (told <= d + 1e-9)
-  it "what may come near is not left out (catches a length that is not added)" $
-    property $
+  it
+    "mayComeWithin, mayLieWithin: are true of everything within reach (catches a length that is \
+    \not added)"
+    $ property $
       forAll ((,) <$> pair <*> choose (0, 20)) $ \((a, b), r) ->
         let Distance.ClosestPoint (Mm d) _ = Distance.segments a b
             Mm long = Segment.length a
@@ -73,8 +79,8 @@ spec = do
                   && (e > r || FastDistance.mayLieWithin r long a (Vec.x p) (Vec.y p))
               )
   it
-    "what is surely accompanied is covered (catches a curve that goes round the other way, and one \
-    \with a gap)"
+    "isAccompanied: is true only of segments without an uncovered part (catches a curve around the \
+    \far side, and one with a gap)"
     $ property $
       forAll ((,,) <$> chain <*> choose (0.5, 12) <*> arbitrary) $ \(others, r, backwards) ->
         forAll (oneof [beside r others, wayAlong r others]) $ \s ->
@@ -89,8 +95,8 @@ spec = do
                     (show (gaps others, gaps some))
                     (all (\ss -> not (surely ss) || null (gaps ss)) [others, some])
   it
-    "is divided where the foot of a point lies (catches parts that do not meet, or that make less \
-    \than the whole)"
+    "divided: divides a segment at the foot of a point (catches parts that do not meet, or that \
+    \are less than the segment)"
     $ property $
       forAll ((,) <$> point <*> segment) $ \(p, s) ->
         case FastDistance.divided (Vec.x p) (Vec.y p) s of
@@ -107,8 +113,10 @@ spec = do
                     && case s of
                       Straight _ _ -> abs (apart p (Segment.end q) - away) < 1e-6
                       Arc {} -> True
-  it "what surely lies on a side lies there with every point (catches an arc judged by its ends)" $
-    property $
+  it
+    "isLeftOf, isRightOf: are true only if every point lies on the side (catches an arc that is \
+    \tested at its ends only)"
+    $ property $
       forAll pair $ \(t, e) ->
         let points = [Segment.at (fromIntegral k / 200) t | k <- [0 .. 200 :: Int]]
          in counterexample

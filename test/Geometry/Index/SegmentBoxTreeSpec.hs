@@ -19,7 +19,7 @@ import Test.QuickCheck hiding (tolerance)
 
 spec :: Spec
 spec = describe "the pair search of a tree" $ do
-  it "finds all pairs that meet (catches a run that is taken for one that advances)" $
+  it "finds all pairs that meet (catches a run that is wrongly taken to advance in one direction)" $
     withMaxSuccess 1000 . forAll polyarcs $ \os ->
       let c = ClosedPolyarcs.fromFlatPolyarcs tolerance os
           expected = meetings AllPairs c
