@@ -130,7 +130,7 @@ parabola points = Unshifted <$> BasisCurve.parabola points
 
 -- | Curve of consecutive spans. The second argument has the parameters of the table's rows, rising.
 fromShapes :: NonEmpty SpanShape -> Vector Double -> Either CurveFault Curve
-fromShapes pieces parameters = Unshifted <$> BasisCurve.fromShapes pieces parameters
+fromShapes shapes parameters = Unshifted <$> BasisCurve.fromShapes shapes parameters
 
 -- | Curve of consecutive lines and arcs. The rows of its table are the ends of the segments; the
 -- end of a closed curve is not repeated.

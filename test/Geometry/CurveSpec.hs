@@ -1,5 +1,5 @@
--- | Laws of unshifted curves: they pass through their points with the required smoothness, have
--- the right length, and the searches on them find what exists.
+-- | Laws of curves through tables: their points and smoothness, their arc length, and the searches
+-- for points on them.
 module Geometry.CurveSpec (spec) where
 
 import Base.Quantity (Mm (..), Rad (..), minus)
@@ -140,8 +140,8 @@ spec = do
         forAll shiftedTwice $ \c ->
           let rows = map BasisCurve.at (toList (BasisCurve.rows (Curve.base c)))
               Mm l = Curve.length c
-              places = nub (sort (rows <> Curve.breaks c))
-              byChords = sum (zipWith (chordsBetween c) places (drop 1 places))
+              breaks = nub (sort (rows <> Curve.breaks c))
+              byChords = sum (zipWith (chordsBetween c) breaks (drop 1 breaks))
            in counterexample (show (l, byChords)) (abs (l - byChords) < 1e-7)
     it "is exact for lines and arcs" $
       property $
@@ -210,7 +210,7 @@ spec = do
               found = Curve.atX x c
               side u = Vec.x (Curve.at c u) > x
               bs = Curve.breaks c
-              -- Crossings between neighbouring samples, without the breaks.
+              -- Intervals between neighbouring samples, none of which contains a break.
               steps =
                 [ (a', a' + step)
                   | (a, b) <- zip bs (drop 1 bs),
@@ -371,21 +371,21 @@ circleOf n r =
       | k <- [0 .. n - 1]
     ]
 
--- | Same table with another end condition.
+-- | Spline through a random table, with the end condition changed by a function.
 tableWith :: (EndCondition -> EndCondition) -> Gen Curve
 tableWith f = do
   Table ends points <- Generate.winding
   pure (splineOf (f ends) points)
 
--- | Positions at both ends, approached from within the curve.
+-- | Parameters of both ends, with the side from which the curve approaches each.
 endPositions :: Curve -> [(Approach, Double)]
 endPositions c = [(After, 0), (Before, Curve.domain c)]
 
--- | Chord of the span that starts at a parameter; at the end, of the last span.
+-- | Length of the chord of the span that starts at a parameter; at the end, that of the last span.
 chord :: Curve -> Double -> Double
 chord c u = Exts.toList (BasisCurve.chords (Curve.base c)) !! min (Curve.spans c - 1) (truncate u)
 
--- | First and second derivatives by chord length.
+-- | First and second derivative by chord length, given the length of the span's chord.
 firstBy, secondBy :: Double -> TaylorExpansion -> Vec
 firstBy h (V2 a b) =
   Vec.scale (1 / h) (Vec.vec (PowerSeries.coefficient 1 a) (PowerSeries.coefficient 1 b))
@@ -402,23 +402,27 @@ periodicLaw c =
         let leaving = Curve.expansion After 2 c u
     ]
 
--- | Arc length up to a parameter: Richardson extrapolation of two chord sums.
+-- | Arc length up to a parameter.
 chordSum :: Curve -> Double -> Double
 chordSum c u = sum [chordsBetween c a (min b u) | (a, b) <- zip bs (drop 1 bs), a < u]
   where
     bs = Curve.breaks c
 
--- | Chord sum over a smooth stretch; its error falls with the square of the count of chords.
+-- | Arc length of a smooth stretch: Richardson extrapolation of two sums of chords, whose error
+-- falls with the square of the count of chords.
 chordsBetween :: Curve -> Double -> Double -> Double
 chordsBetween c a b = fine + (fine - chords 300) / 3
   where
     fine = chords 600
     chords n =
-      let place k =
+      let pointAt k =
             if k == n
               then Curve.pointFrom Before c b
               else Curve.at c (a + (b - a) * fromIntegral k / fromIntegral n)
-       in sum [let Mm d = Vec.distance (place k) (place (k + 1)) in d | k <- [0 .. n - 1 :: Int]]
+       in sum
+            [ let Mm d = Vec.distance (pointAt k) (pointAt (k + 1)) in d
+              | k <- [0 .. n - 1 :: Int]
+            ]
 
 -- | Consecutive spans, shifted by a column and then by a constant that is too small for a cusp.
 shiftedTwice :: Gen Curve
@@ -440,7 +444,7 @@ spanLength s = case s of
   Round (Arc {start, centre, sweep = Rad a}) -> let Mm r = Vec.distance centre start in r * abs a
   Round (Straight p q) -> let Mm d = Vec.distance p q in d
 
--- | Points 3–13 of the blade's template.
+-- | Points 3–13 of the template of the turbine blade.
 template :: Curve
 template =
   Generate.ok . Curve.parabola . Exts.fromList $

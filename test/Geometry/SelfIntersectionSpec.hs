@@ -58,7 +58,7 @@ spec = describe "a contour" $ do
                 )
                 === (away == 0)
 
--- | The points at which segments that are not neighbours meet, pair by pair.
+-- | The pairs of segments, not neighbours, that meet, with the points at which they do.
 meetings :: Polyarc -> [Point]
 meetings (Polyarc ends ss) =
   [ p

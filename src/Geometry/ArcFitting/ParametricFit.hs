@@ -117,14 +117,14 @@ follow curve tolerance stretch = go initial (final initial - start)
     go w step
       | at w < final w =
         let toEnd = final w - at w
-            Trial {reached, pieces} = longestBiarc w (if toEnd <= 4 * step then toEnd else step)
+            Trial {reached, biarc} = longestBiarc w (if toEnd <= 4 * step then toEnd else step)
             next =
               w
                 { at = reached,
-                  pose = (Segment.end (NonEmpty.last pieces), heading w reached),
+                  pose = (Segment.end (NonEmpty.last biarc), heading w reached),
                   ahead = dropWhile ((<= reached) . snd) (ahead w)
                 }
-         in NonEmpty.toList pieces <> go next (reached - at w)
+         in NonEmpty.toList biarc <> go next (reached - at w)
       | otherwise = []
 
 -- | Parameter at which a biarc ends on the curve, and the segments of the biarc.
@@ -133,9 +133,9 @@ data FitStep = FitStep Double (NonEmpty Segment)
 -- | Longest biarc within a tolerance of a stretch that ends at the parameter @final@. It starts at
 -- the parameter @at@ with a given position and direction; @step@ is tried first.
 oneBiarc :: Mm -> ParametricCurve -> Double -> Double -> (Point, Vec) -> Double -> FitStep
-oneBiarc (Mm tolerance) curve final at pose step = FitStep reached pieces
+oneBiarc (Mm tolerance) curve final at pose step = FitStep reached biarc
   where
-    Trial {reached, pieces} =
+    Trial {reached, biarc} =
       longestBiarc
         FitState {curve, aim = tolerance * (1 - Tolerance.deviationShare), final, at, pose, ahead}
         step
@@ -154,7 +154,7 @@ heading w u
 
 -- | Biarc that was tried: the parameter at its end, its segments, and its largest distance from
 -- the curve.
-data Trial = Trial {reached :: Double, pieces :: NonEmpty Segment, distance :: Double}
+data Trial = Trial {reached :: Double, biarc :: NonEmpty Segment, distance :: Double}
 
 -- | Longest biarc within the tolerance, by a bracketing search that begins with a given step. On a
 -- smooth curve the deviation grows with the third power of the step. By this rule the next step is
@@ -220,10 +220,10 @@ try :: FitState -> Double -> Trial
 try w v
   | Vec.isNear p q = measured (Straight p q :| [])
   | otherwise = case tried [usual] of
-    (d, _, pieces) : _ | d <= aim w -> measured pieces
+    (d, _, segments) : _ | d <= aim w -> measured segments
     _ -> case tried (map (* usual) [1, 0.7, 1.4, 0.5, 2, 0.35, 2.8, 0.25, 4] <> breaking) of
       [] -> Trial v (Straight p q :| []) (8 * aim w)
-      some -> let (_, _, pieces) = refineRatio (6 :: Int) 1.4 (least some) in measured pieces
+      some -> let (_, _, segments) = refineRatio (6 :: Int) 1.4 (least some) in measured segments
   where
     u = at w
     p = fst (pose w)
@@ -231,9 +231,9 @@ try w v
     end = (q, heading w v)
     usual = Biarc.ratio (pose w) end
     tried rs =
-      [ (sampledDistance pieces, r, pieces)
+      [ (sampledDistance segments, r, segments)
         | r <- rs,
-          Just pieces <- [Biarc.joinWith r (pose w) end]
+          Just segments <- [Biarc.joinWith r (pose w) end]
       ]
     least some = minimumBy (comparing (\(d, _, _) -> d)) some
     -- Refines the ratio by shrinking steps, where that can reach the tolerance.
@@ -260,17 +260,17 @@ try w v
     parts = [(max u lo, min v hi) | (lo, hi) <- takeWhile ((< v) . fst) (ahead w), hi > u]
     middles = concatMap snd stations
     stations = [(part, samplePoints (place (curve w)) 0.5 part) | part <- sampleCounts w v parts]
-    sampledDistance pieces = maximum (map (distanceTo pieces . snd) middles)
-    measured pieces
-      | sampledDistance pieces > aim w = Trial v pieces (sampledDistance pieces)
+    sampledDistance segments = maximum (map (distanceTo segments . snd) middles)
+    measured segments
+      | sampledDistance segments > aim w = Trial v segments (sampledDistance segments)
       | otherwise =
         Trial
           v
-          pieces
+          segments
           ( deviation
               (place (curve w))
               (aim w)
-              pieces
+              segments
               ( (u, p) :
                 concat
                   [ interleaved ms (samplePoints (place (curve w)) 0 part)
@@ -310,7 +310,7 @@ samplePoints point back (n, (a, b)) =
 
 -- | Distance, in mm, from a point to the nearest of some segments.
 distanceTo :: NonEmpty Segment -> Point -> Double
-distanceTo pieces p = let Mm d = minimum (fmap (Distance.toPoint p) pieces) in d
+distanceTo segments p = let Mm d = minimum (fmap (Distance.toPoint p) segments) in d
 
 -- | Largest distance, in mm, between segments and a curve. The curve is given by a function of the
 -- parameter and by sample points in order. The distance is measured at the sample points, near the
@@ -318,21 +318,21 @@ distanceTo pieces p = let Mm d = minimum (fmap (Distance.toPoint p) pieces) in d
 -- feet of the samples on the segments jump or reverse, because then some point of the segments may
 -- be far from the curve.
 deviation :: (Double -> Point) -> Double -> NonEmpty Segment -> [(Double, Point)] -> Double
-deviation point aim pieces points
-  | largest > aim || isCovered point aim pieces feet = largest
+deviation point aim segments points
+  | largest > aim || isCovered point aim segments feet = largest
   | otherwise = 1 / 0
   where
-    feet = [(w, p, lengthAtFoot pieces p) | (w, p) <- points]
-    Mm half = Segment.length (NonEmpty.head pieces)
+    feet = [(w, p, lengthAtFoot segments p) | (w, p) <- points]
+    Mm half = Segment.length (NonEmpty.head segments)
     atJoint =
       [ let w = a + (b - a) * (half - s) / (t - s) in (w, distance w)
-        | length pieces > 1,
+        | length segments > 1,
           ((a, _, s), (b, _, t)) <- zip feet (drop 1 feet),
           s < half,
           half < t
       ]
-    known = sort ([(w, distanceTo pieces p) | (w, p) <- points] <> atJoint)
-    distance w = distanceTo pieces (point w)
+    known = sort ([(w, distanceTo segments p) | (w, p) <- points] <> atJoint)
+    distance w = distanceTo segments (point w)
     largest =
       maximum
         ( map snd known
@@ -376,7 +376,7 @@ highest distance aim remaining one@(a, da) two@(b, db) three@(c, dc)
 -- | True if the feet of a curve's points move forwards along the segments without a jump. Where a
 -- foot moves much farther than its point, the interval is bisected.
 isCovered :: (Double -> Point) -> Double -> NonEmpty Segment -> [(Double, Point, Double)] -> Bool
-isCovered point aim pieces feet = and (zipWith (isSteady (20 :: Int)) feet (drop 1 feet))
+isCovered point aim segments feet = and (zipWith (isSteady (20 :: Int)) feet (drop 1 feet))
   where
     isSteady remaining one@(a, p, s) two@(b, q, t)
       | t < s - smallestStep = False
@@ -388,12 +388,12 @@ isCovered point aim pieces feet = and (zipWith (isSteady (20 :: Int)) feet (drop
          in isSteady (remaining - 1) one middle && isSteady (remaining - 1) middle two
       where
         Mm far = Vec.distance p q
-    at w = let p = point w in (w, p, lengthAtFoot pieces p)
+    at w = let p = point w in (w, p, lengthAtFoot segments p)
     smallestStep = 0.1 * aim
 
 -- | Length, in mm, along segments up to the point of them that is nearest to a given point.
 lengthAtFoot :: NonEmpty Segment -> Point -> Double
-lengthAtFoot pieces p = go 0 (NonEmpty.toList pieces) (1 / 0, 0)
+lengthAtFoot segments p = go 0 (NonEmpty.toList segments) (1 / 0, 0)
   where
     go before list best@(nearest, _) = case list of
       [] -> snd best

@@ -42,10 +42,10 @@ import Geometry.Tolerance qualified as Tolerance
 import Geometry.Vec qualified as Vec
 
 -- | Polyarc in arrays, with its arc length in mm as the parameter. @stations@ are the arc lengths
--- at the starts of the segments; the last entry is the whole length. @pieces@ has seven numbers per
--- segment: x and y of the start, the unit directions at the start and at the end, and the curvature
--- in 1/mm, positive to the left.
-data SegmentTable = SegmentTable {stations :: Vector Double, pieces :: Vector Double}
+-- at the starts of the segments; the last entry is the whole length. @entries@ has seven numbers
+-- per segment: x and y of the start, the unit directions at the start and at the end, and the
+-- curvature in 1/mm, positive to the left.
+data SegmentTable = SegmentTable {stations :: Vector Double, entries :: Vector Double}
 
 -- | Arcs and lines within a tolerance of a polyarc. The tolerance holds from the polyarc to the
 -- result and from the result to the polyarc. The fit is greedy: each biarc is as long as possible.
@@ -153,7 +153,7 @@ tableOf segments =
           (+)
           0
           (Unboxed.fromListN n (map (\s -> let Mm l = Segment.length s in l) list)),
-      pieces =
+      entries =
         Unboxed.create
           (Mutable.unsafeNew (7 * n) >>= \array -> array <$ foldM_ (writeSegment array) 0 list)
     }
@@ -187,17 +187,17 @@ station chain = Unboxed.unsafeIndex (stations chain)
 beginning :: SegmentTable -> Int -> Pose
 beginning chain i = Pose (part 0) (part 1) (part 2) (part 3)
   where
-    part k = Unboxed.unsafeIndex (pieces chain) (7 * i + k)
+    part k = Unboxed.unsafeIndex (entries chain) (7 * i + k)
 
 -- | Unit direction at the end of a segment.
 ending :: SegmentTable -> Int -> (Double, Double)
 ending chain i =
-  (Unboxed.unsafeIndex (pieces chain) (7 * i + 4), Unboxed.unsafeIndex (pieces chain) (7 * i + 5))
+  (Unboxed.unsafeIndex (entries chain) (7 * i + 4), Unboxed.unsafeIndex (entries chain) (7 * i + 5))
 {-# INLINE ending #-}
 
 -- | Curvature of a segment in 1/mm, positive to the left.
 curvature :: SegmentTable -> Int -> Double
-curvature chain i = Unboxed.unsafeIndex (pieces chain) (7 * i + 6)
+curvature chain i = Unboxed.unsafeIndex (entries chain) (7 * i + 6)
 
 -- | True if the polyarc has a corner at the start of a segment other than the first.
 hasCorner :: SegmentTable -> Int -> Bool

@@ -55,10 +55,10 @@ import Geometry.Tolerance qualified as Tolerance
 -- found at once. The worst case is three sections: they take about n³/27 evaluations of a section
 -- (300 rows take a tenth of a second, 1000 rows a second or two).
 fit :: NonEmpty SectionKind -> Mm -> PointTable -> NonEmpty Section
-fit kinds (Mm tolerance) t = fmap piece (simplest t steps (bottleneck steps))
+fit kinds (Mm tolerance) t = fmap section (simplest t steps (bottleneck steps))
   where
     steps = layers t (toList (NonEmpty.nub (NonEmpty.sort kinds))) tolerance
-    piece (i, j, k) = let (d, c) = best t k i j in sectionBetween t i j c (Mm d)
+    section (i, j, k) = let (d, c) = best t k i j in sectionBetween t i j c (Mm d)
 
 -- | Section between two rows (indices from 0) with a shape and its largest deviation.
 sectionBetween :: PointTable -> Int -> Int -> SectionShape -> Mm -> Section
@@ -176,10 +176,10 @@ sections :: PointTable -> [[Int]] -> Either SectionFault (NonEmpty Section)
 sections t chosen = case NonEmpty.nonEmpty chosen of
   Nothing -> Left NoSections
   Just some -> do
-    pieces <- traverse section (NonEmpty.zip (1 :| [2 ..]) some)
-    checkAll checkJoined (zip3 [1 ..] (1 : map final (toList pieces)) (toList pieces))
-    let ends = final (NonEmpty.last pieces)
-    if ends == rows t then Right pieces else Left (EndsEarly ends (rows t))
+    found <- traverse section (NonEmpty.zip (1 :| [2 ..]) some)
+    checkAll checkJoined (zip3 [1 ..] (1 : map final (toList found)) (toList found))
+    let ends = final (NonEmpty.last found)
+    if ends == rows t then Right found else Left (EndsEarly ends (rows t))
   where
     checkJoined (number, before, p) =
       if first p == before then Right () else Left (NotJoined number (first p) before)
@@ -213,7 +213,7 @@ data Deviation = Deviation
 
 -- | Deviations of all rows. A row in two sections is listed once, with the earlier section.
 deviations :: PointTable -> NonEmpty Section -> [Deviation]
-deviations t pieces = concat (zipWith onOne [1 ..] (toList pieces))
+deviations t fitted = concat (zipWith onOne [1 ..] (toList fitted))
   where
     onOne number p =
       [ Deviation k number (Mm (deviationFrom p (row t (k - 1))))

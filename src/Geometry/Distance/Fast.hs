@@ -527,16 +527,16 @@ isCovered reach segmentsOf counts others e =
 -- others. Each of the others is a list of segments: the distance from it is the greatest distance
 -- from one of them. A point's distance from the others is the least of these.
 range :: [[Segment]] -> Segment -> (Double, Double)
-range others e = (maximum (map from points) - unsure, maximum (map to pieces) + 2 * unsure)
+range others e = (maximum (map from points) - unsure, maximum (map to divisions) + 2 * unsure)
   where
-    pieces = case parts e (concat others) of
+    divisions = case parts e (concat others) of
       [] -> [e]
       some -> some
     to part = least [most [furthest part t | t <- ts] | ts <- others]
     points =
       begin e :
         [ p
-          | part <- pieces,
+          | part <- divisions,
             p <- at part 0.5 : finish part : concatMap (concatMap (summits part)) others
         ]
     from (x, y) = least [most [distance t x y | t <- ts] | ts <- others]

@@ -1,6 +1,6 @@
--- | Laws of sections through a table. Each names the bug that it catches. The tests find the
--- optimum by trying all splits of a table, and every section by golden-section search of its
--- one free number.
+-- | Laws of sections through a table; each names the bug that it catches. The tests find the
+-- optimum by trying all divisions of a table into sections. They find each section by
+-- golden-section search for its one parameter.
 module Geometry.Curve.SectionFitSpec (spec) where
 
 import Base.Quantity (Mm (..), Rad (..))
@@ -190,8 +190,7 @@ kinds = do
   some <- sublistOf [LineKind, ParabolaKind, ArcKind]
   pure (fromMaybe everyKind (NonEmpty.nonEmpty some))
 
--- | Rows of a curve that nearly consists of a few sections; x rises or falls, and some sections
--- are steep.
+-- | Rows of a curve that nearly consists of a few sections, some of them steep. x rises or falls.
 noisyTable :: Int -> Int -> Gen Case
 noisyTable low high = do
   n <- choose (low, high)
@@ -290,7 +289,7 @@ equation p x = case Section.formula p of
           _ -> True
      in if r > 1e5 then Section.height p x else if above then Vec.y m + h else Vec.y m - h
 
--- | Comparison with all splits of a small table, with every kind for each section.
+-- | Comparison with all divisions of a small table into sections, with every kind for each section.
 bestLaw :: NonEmpty SectionKind -> Case -> Property
 bestLaw ks c@(Case ps tolerance) =
   counterexample
@@ -307,10 +306,10 @@ bestLaw ks c@(Case ps tolerance) =
       minimum
         [maximum (map (\(_, _, ds) -> minimum (map snd ds)) s) | s <- splits, length s == fewest]
 
--- | No split keeps the largest deviation with a smaller sum of ranks. The optimum is known to
--- 1e-5 only. Of splits that may be better by less than that, the simplest counts. It is
--- compared only with splits that are certainly as good: they contain the section with the
--- largest deviation, and no other section comes close to it.
+-- | No division of the table keeps the largest deviation with a smaller sum of ranks. The optimum
+-- is known to 1e-5 only. The fit may therefore be the simplest division within that of the optimum.
+-- It is compared only with divisions that are certainly as good: they contain the section with the
+-- largest deviation, and no other section comes close to this deviation.
 simplestLaw :: NonEmpty SectionKind -> Case -> Property
 simplestLaw ks c@(Case ps tolerance) =
   counterexample
@@ -354,7 +353,7 @@ allSplits ks tolerance ps = from' 0
       | otherwise =
         [(k, d) | k <- nub (sort (toList ks)), let d = leastDeviation k rows, d <= tolerance + 1e-9]
 
--- | Least possible largest deviation of a kind of section through the end rows.
+-- | Least possible largest deviation of a section of some kind through the first and the last row.
 leastDeviation :: SectionKind -> [Point] -> Double
 leastDeviation k rows = case k of
   LineKind -> largestOf (const 0)
@@ -372,7 +371,7 @@ leastDeviation k rows = case k of
           | q <- drop 1 (take (length rows - 1) rows)
         ]
     limit = pi / 2 - atan (abs ((y2 - y1) / (x2 - x1)))
-    -- From the line to the circle whose ends make the angle t with the chord.
+    -- Rise from the chord to the arc whose ends make the angle t with the chord.
     bulge t x
       | abs t < 1e-6 =
         let m = (y2 - y1) / (x2 - x1) in t * (x - x1) * (x2 - x) * (1 + m * m) / abs (x2 - x1)
@@ -398,7 +397,7 @@ goldenSection low high f = go (120 :: Int) low high
         u = a + 0.382 * (b - a)
         v = a + 0.618 * (b - a)
 
--- | One curve, and rows on it.
+-- | A line, parabola or arc, and rows on it.
 exactTable :: Gen (SectionFormula, SectionKind, [Point])
 exactTable = do
   n <- choose (5, 30)

@@ -1,5 +1,5 @@
--- | Laws of shifts: where they move a curve, how several of them combine, and where they do not
--- fit.
+-- | Laws of shifts: to where they move a curve, how several of them combine, and where they are too
+-- large.
 module Geometry.Curve.ShiftSpec (spec) where
 
 import Base.Quantity (Mm (..), Rad (..), minus, plus, times)
@@ -259,15 +259,15 @@ spec = do
                 joggle = Joggle {begins = 0.1, ends = 0.9, depth = Mm (flip' * d), radius = Mm r}
                 s = Curve.shifted LeftOf (Generate.ok (Curve.fitJoggle joggle c)) c
                 Mm l = Curve.ramp joggle
-                place x = Curve.at s (x / 100)
+                pointAt x = Curve.at s (x / 100)
                 lowCentre = Vec.point 10 (flip' * r)
                 highCentre = Vec.point (10 + l) (flip' * (d - r))
                 on centre p = let Mm v = Vec.distance centre p in near' 1e-9 v r
-             in on lowCentre (place (10 + t * l / 2))
-                  .&&. on highCentre (place (10 + l / 2 + t * l / 2))
-                  .&&. near' 1e-9 (Vec.y (place (10 + l / 2))) (flip' * d / 2)
-                  .&&. near' 1e-9 (Vec.y (place (90 - l / 2))) (flip' * d / 2)
-                  .&&. on (Vec.point 90 (flip' * r)) (place (90 - t * l / 2))
+             in on lowCentre (pointAt (10 + t * l / 2))
+                  .&&. on highCentre (pointAt (10 + l / 2 + t * l / 2))
+                  .&&. near' 1e-9 (Vec.y (pointAt (10 + l / 2))) (flip' * d / 2)
+                  .&&. near' 1e-9 (Vec.y (pointAt (90 - l / 2))) (flip' * d / 2)
+                  .&&. on (Vec.point 90 (flip' * r)) (pointAt (90 - t * l / 2))
     it "does not fit when its radius is too small, or its ramps too long" $ do
       let c = Generate.ok (Curve.polyline (Exts.fromList [Vec.point 0 0, Vec.point 100 0]))
           joggle d r = Joggle {begins = 0.4, ends = 0.6, depth = Mm d, radius = Mm r}
@@ -309,12 +309,12 @@ spec = do
                       | (a, b) <- smoothStretches c,
                         t <- [0.001, 1 .. 200]
                     ]
-                asked' = k / most
+                distance = k / most
                 above =
                   Curve.shifted
                     RightOf
                     (Constant (Mm 0.01))
-                    (Curve.shifted LeftOf (Constant (Mm asked')) c)
+                    (Curve.shifted LeftOf (Constant (Mm distance)) c)
              in most > 1e-3
                   && abs (k - 1)
                     > 0.01
@@ -363,7 +363,7 @@ spec = do
              in isNothing (Curve.firstCusp s) ==> Curve.corners s === Curve.corners c
     it "change in proportion to arc length on tangent spans (catches a column by the parameter)" $
       property $
-        forAll touching $ \c ->
+        forAll tangentSpans $ \c ->
           forAll (Generate.columnOf c 0 2) $ \col -> forAll (elements [1, 2]) $ \u ->
             let s = Curve.shifted LeftOf (Pointwise col) c
                 rate approach =
@@ -381,7 +381,7 @@ spec = do
 displacement :: Curve -> Double -> Curve -> Vec
 displacement c u s = Vec.to (Curve.at c u) (Curve.at s u)
 
--- | Column with one constant value.
+-- | Column with the same value for every row.
 constantColumn :: Double -> Curve -> Curve.Column
 constantColumn v c =
   Curve.column c (Exts.fromList (map (const v) (toList (BasisCurve.rows (Curve.base c)))))
@@ -393,12 +393,12 @@ sameShift c d e = forAll (elements [LeftOf, RightOf]) $ \side -> forAll Generate
         Generate.parameterOf c t
    in close 1e-9 (Curve.at (Curve.shifted side d c) u) (Curve.at (Curve.shifted side e c) u)
 
--- | Shares of the radius of curvature that fit, also when added.
+-- | Share of the radius of curvature by which a curve can be shifted twice in sequence.
 radiusShare :: Gen Double
 radiusShare = choose (-0.4, 0.4)
 
--- | Stretches without a change of formula. On curves of lines and arcs, columns change theirs at
--- the rows.
+-- | Stretches of a curve over which no formula changes. On a curve of lines and arcs, the formulas
+-- of columns change at the rows.
 smoothStretches :: Curve -> [(Double, Double)]
 smoothStretches c =
   let bs =
@@ -406,7 +406,8 @@ smoothStretches c =
           (sort (Curve.breaks c <> map BasisCurve.at (toList (BasisCurve.rows (Curve.base c)))))
    in filter (\(a, b) -> b - a > 1e-6) (zip bs (drop 1 bs))
 
--- | First and second derivatives, against Richardson extrapolation of two differences.
+-- | The first and the second derivative at a parameter equal the Richardson extrapolation of
+-- difference quotients.
 derivativesLaw :: Curve -> Double -> Double -> Property
 derivativesLaw c u e =
   alike (1e-4 * (1 + Vec.norm first)) first byFirst
@@ -435,10 +436,10 @@ circleCurvature p q r = 2 * Vec.cross (Vec.to p q) (Vec.to q r) / (norm p q * no
   where
     norm s t = Vec.norm (Vec.to s t)
 
--- | Constant, bevelled and growing shifts in sequence, each against a normal that is computed
--- from differences of the curve before.
+-- | A constant, a bevelled and a growing shift in sequence move a point as far as shifts along
+-- normals that are computed from difference quotients of the curve below.
 sequenceLaw :: Curve -> Curve.Column -> Curve.Column -> Double -> Property
-sequenceLaw c mu h u = close 1e-4 (Curve.at third u) byHand
+sequenceLaw c mu h u = close 1e-4 (Curve.at third u) expected
   where
     first = Curve.shifted LeftOf (Constant (Mm 0.5)) c
     second = Curve.shifted RightOf (Bevelled mu h (Mm 0.2)) first
@@ -460,7 +461,7 @@ sequenceLaw c mu h u = close 1e-4 (Curve.at third u) byHand
             <> [0]
         )
     grown = 0.3 + 0.6 * chordSum second 0 u / chordSum second 0 (Curve.domain second)
-    byHand =
+    expected =
       step second grown (step first (-(value h * tan (value mu) + 0.2)) (step c 0.5 (Curve.at c u)))
 
 -- | Arc length between two parameters: Richardson extrapolation of two chord sums.
@@ -470,15 +471,15 @@ chordSum c from' to' =
   where
     stretch a b = let fine = chords a b 400 in fine + (fine - chords a b 200) / 3
     chords a b n =
-      let place' k =
+      let pointAt k =
             if k == n
               then Curve.pointFrom Before c b
               else Curve.at c (a + (b - a) * fromIntegral k / fromIntegral n)
-       in sum [mm (Vec.distance (place' k) (place' (k + 1))) | k <- [0 .. n - 1 :: Int]]
+       in sum [mm (Vec.distance (pointAt k) (pointAt (k + 1))) | k <- [0 .. n - 1 :: Int]]
 
--- | Line, arc and line in tangent contact.
-touching :: Gen Curve
-touching = do
+-- | A line, an arc and a line, each tangent to the next.
+tangentSpans :: Gen Curve
+tangentSpans = do
   r <- choose (10, 40)
   sweep <- choose (0.3, 1.5)
   let centre = Vec.point 20 r

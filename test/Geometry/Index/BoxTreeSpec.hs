@@ -118,7 +118,7 @@ box = do
         else b
     )
 
--- | Several groups of boxes that are close to each other.
+-- | Several groups of boxes; the boxes of a group are close to each other.
 alike :: Gen [(Int, BoundingBox)]
 alike = zip [0 ..] . concat <$> listOf (point >>= \p -> listOf (near p))
   where
@@ -126,7 +126,7 @@ alike = zip [0 ..] . concat <$> listOf (point >>= \p -> listOf (near p))
       (\a b w -> BoundingBox.inflate (Mm w) (BoundingBox.ofPoints (Vec.shift (Vec.vec a b) p) []))
         <$> choose (-3, 3) <*> choose (-3, 3) <*> choose (0, 4)
 
--- | Numbered boxes; the numbers of them make trees of one to four levels.
+-- | Boxes with numbers from 0, of such a count that their trees have one to four levels.
 boxes :: Gen [(Int, BoundingBox)]
 boxes = do
   n <- oneof [choose (0, 20), choose (60, 70), choose (500, 600)]
