@@ -153,7 +153,7 @@ fitCase = oneof [splined, bent, through, polygon]
       maybe
         polygon
         (\ss -> (\t -> FitCase "polygon" t ss) <$> tolerance)
-        (NonEmpty.nonEmpty (zipWith Straight place (drop 1 place)))
+        (NonEmpty.nonEmpty (zipWith Straight vertices (drop 1 vertices)))
 
 arcsOf :: FitCase -> [Segment]
 arcsOf (FitCase _ tolerance segments) =
