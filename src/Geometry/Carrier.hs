@@ -1,7 +1,7 @@
 -- | Carriers: the directed line and the circle on which a segment lies.
 --
--- The module also owns the two senses of an arc, the two sides of a direction of travel, and the
--- signs of both in formulas: positive is counter-clockwise and left.
+-- The module also owns the two senses of an arc and the two sides of a direction of travel, with
+-- their signs in formulas. Counter-clockwise and left are positive.
 module Geometry.Carrier
   ( Carrier (..),
 
@@ -72,8 +72,8 @@ data Circle = Circle {centre :: {-# UNPACK #-} Point, radius :: Mm}
 data Sense = Clockwise | CounterClockwise
   deriving stock (Eq, Ord, Show, Enum, Bounded)
 
--- | The sign of a sense: +1 counter-clockwise, −1 clockwise. It is also the sign of the side on
--- which the centre lies.
+-- | The sign of a sense: +1 counter-clockwise, −1 clockwise. It is also the 'sideSign' of the side
+-- on which the arc's centre lies.
 senseSign :: Sense -> Double
 senseSign t = case t of
   Clockwise -> -1
@@ -83,15 +83,16 @@ senseSign t = case t of
 senseOf :: Rad -> Sense
 senseOf (Rad sweep) = if sweep > 0 then CounterClockwise else Clockwise
 
--- | The sweep in a sense that leads to the same direction as an angle in [−π, π]. It lies in
--- [0, 2π) counter-clockwise and in (−2π, 0] clockwise.
+-- | The sweep of an arc in a given sense, by the angle from its start to its end in [−π, π]. The
+-- sweep is that angle, or differs from it by a full turn. It lies in [0, 2π) counter-clockwise and
+-- in (−2π, 0] clockwise.
 sweepInSense :: Sense -> Rad -> Rad
 sweepInSense t (Rad short) = Rad $ case t of
   CounterClockwise | short < 0 -> short + 2 * pi
   Clockwise | short > 0 -> short - 2 * pi
   _ -> short
 
--- | The left or the right of a direction of travel.
+-- | A side of a direction of travel: left or right.
 data Side = LeftOf | RightOf
   deriving stock (Eq, Show, Enum, Bounded)
 
@@ -101,23 +102,24 @@ sideSign side = case side of
   LeftOf -> 1
   RightOf -> -1
 
--- | The other side.
+-- | The opposite side.
 oppositeSide :: Side -> Side
 oppositeSide side = case side of
   LeftOf -> RightOf
   RightOf -> LeftOf
 
--- | The sense of an arc whose centre lies on a side of it.
+-- | The sense of an arc whose centre lies on the given side.
 senseTowards :: Side -> Sense
 senseTowards side = case side of
   LeftOf -> CounterClockwise
   RightOf -> Clockwise
 
--- | The sense of an arc whose centre lies on the other side: an offset on this side rounds a
--- corner in this sense.
+-- | The sense of an arc whose centre lies on the side opposite to the given one. An offset to the
+-- given side rounds corners in this sense.
 senseAwayFrom :: Side -> Sense
 senseAwayFrom = senseTowards . oppositeSide
 
--- | The point at a distance on a side of a point, across a direction of length 1.
+-- | The point at a distance from a given point, square to a direction of length 1, on a side of
+-- that direction.
 beside :: Side -> Mm -> Vec -> Point -> Point
 beside side (Mm d) forward = Vec.shift (Vec.scale (sideSign side * d) (Vec.left forward))

@@ -5,13 +5,14 @@
 -- same flat arrays. After the last segment of a loop its first vertex is repeated, so that every
 -- segment ends at the next vertex. No arc sweeps more than a half circle.
 --
--- They are made from several "Geometry.FlatPolyarc"s, each of which is normalised: tiny
--- segments are omitted, and flat arcs become lines. One set of arrays lets a single bounding-box
--- tree ("Geometry.Index.SegmentBoxTree") cover all loops.
+-- The loops are made from several "Geometry.FlatPolyarc"s, each of which is normalised: tiny
+-- segments are omitted, and flat arcs become lines. Since all loops share one set of arrays, a
+-- single bounding-box tree ("Geometry.Index.SegmentBoxTree") covers them.
 --
 -- Arcs are handled by chord and bulge alone. The power of a point @p@ with respect to the circle of
--- an arc from @a@ to @b@ is @(p − a)·(p − b) + κ·(b − a)×(p − a)@ with @κ = (β² − 1)/2β@. For an
--- almost straight arc it keeps its digits, where a centre would lose them.
+-- an arc from @a@ to @b@ with the bulge β is @(p − a)·(p − b) + κ·(b − a)×(p − a)@ with
+-- @κ = (β² − 1)/2β@. This formula stays exact for an almost straight arc, whose distant centre
+-- would lose digits.
 module Geometry.ClosedPolyarcs
   ( ClosedPolyarcs (..),
     fromFlatPolyarcs,
@@ -67,7 +68,7 @@ data ClosedPolyarcs = ClosedPolyarcs
     marks :: PrimArray Word8,
     -- | the index of the input segment from which each segment comes
     sources :: PrimArray Int32,
-    -- | the first vertex of each loop, and the number of all vertices
+    -- | the first vertex of each loop, then the number of all vertices
     loopHeads :: PrimArray Int
   }
 
@@ -93,11 +94,11 @@ smoothMark = 1
 repeatedMark :: Word8
 repeatedMark = 2
 
--- | The mark of an arc about a corner of the source.
+-- | The mark of an offset's arc that rounds a corner of its source.
 aroundMark :: Word8
 aroundMark = 4
 
--- | The mark of a segment that connects two offset segments through a corner of the source.
+-- | The mark of a segment that connects two segments of an offset through a corner of its source.
 connectingMark :: Word8
 connectingMark = 8
 
@@ -116,9 +117,10 @@ hasMark m w = w .&. m /= 0
 
 -- Construction ------------------------------------------------------------------------------
 
--- | The loops of closed polyarcs. Arcs above a half circle are divided into two. Segments no longer
--- than @tolerance@, in mm, are omitted, and arcs with no larger sagitta become lines. A loop of
--- fewer than two segments is omitted. The sources count the segments of all inputs.
+-- | The loops of closed polyarcs. Arcs above a half circle are divided into two. Segments whose
+-- chord and sagitta are at most @tolerance@, in mm, are omitted; other arcs with such a sagitta
+-- become lines. A loop of fewer than two segments is omitted. 'sources' counts the segments of all
+-- inputs from 0.
 fromFlatPolyarcs :: Double -> [FlatPolyarc] -> ClosedPolyarcs
 fromFlatPolyarcs tolerance polyarcs = runST $ do
   let room = sum (map vertexBound polyarcs)
@@ -176,10 +178,10 @@ writeVertex out !k !x !y !b !source = do
 writeSegments :: Double -> Arrays s -> Int -> Int -> FlatPolyarc -> ST s Int
 writeSegments tolerance out k source polyarc@(FlatPolyarc _ px py pb)
   | sizeofPrimArray px == 0 = pure k
-  | isPlain tolerance px py pb = copySegments out k source polyarc
+  | isNormalised tolerance px py pb = copySegments out k source polyarc
   | otherwise = normaliseSegments tolerance out k source polyarc
 
--- | 'writeSegments' of a polyarc that needs no normalisation, as most do.
+-- | 'writeSegments' of a polyarc that needs no normalisation. Most polyarcs need none.
 copySegments :: Arrays s -> Int -> Int -> FlatPolyarc -> ST s Int
 copySegments out !k !source (FlatPolyarc _ px py pb) = do
   copyPrimArray (vertexXs out) k px 0 n
@@ -243,10 +245,10 @@ closeLoop out loop k end source = do
   writePrimArray (segmentMarks out) end repeatedMark
   writePrimArray (loopStarts out) loop k
 
--- | True when every segment is longer than @tolerance@, every arc has a larger sagitta, and none is
--- above a half circle.
-isPlain :: Double -> PrimArray Double -> PrimArray Double -> PrimArray Double -> Bool
-isPlain !tolerance !px !py !pb =
+-- | True when every chord is longer than @tolerance@, the sagitta of every arc is larger than it,
+-- and no arc is above a half circle.
+isNormalised :: Double -> PrimArray Double -> PrimArray Double -> PrimArray Double -> Bool
+isNormalised !tolerance !px !py !pb =
   go 0 (indexPrimArray px (n - 1)) (indexPrimArray py (n - 1)) (indexPrimArray pb (n - 1))
   where
     !n = sizeofPrimArray px
@@ -322,8 +324,9 @@ toFlatPolyarc c w = FlatPolyarc Closed (cut (xs c)) (cut (ys c)) (cut (bulges c)
   where
     cut a = clonePrimArray a (firstVertex c w) (repeatedVertex c w - firstVertex c w)
 
--- | Unconnected segments, each in a loop of its own that is not closed: the first has index 0, the
--- next 2, and so on. Each is given by x and y of its start, x and y of its end, and its bulge.
+-- | Unconnected segments, each in a loop of its own that is not closed. The first segment has the
+-- index 0, the next one 2, and so on. Each segment is given by x and y of its start, x and y of its
+-- end, and its bulge.
 fromSeparateSegments :: [(Double, Double, Double, Double, Double)] -> ClosedPolyarcs
 fromSeparateSegments ss =
   ClosedPolyarcs
@@ -361,7 +364,8 @@ power c i px py = ax * bx + ay * by + (b * b - 1) / (2 * b) * ((x1 - x0) * ay - 
     by = py - y1
 {-# INLINE power #-}
 
--- | The gradient of 'power' at a point, passed to a continuation: twice the vector from the centre.
+-- | The gradient of 'power' at a point, passed to a continuation: twice the vector from the centre
+-- of the arc to the point.
 gradient :: ClosedPolyarcs -> Int -> Double -> Double -> (Double -> Double -> r) -> r
 gradient c i px py k =
   k (px - x0 + px - x1 - kappa * (y1 - y0)) (py - y0 + py - y1 + kappa * (x1 - x0))
@@ -393,9 +397,10 @@ diameter c i =
 
 -- | The bulge of the part of a segment between two points on it.
 --
--- With the vectors @a@ and @b@ from the arc's centre to the points, @tan(θ/2)@ is
--- @|a×b| / (|a||b| + a·b)@, or @(|a||b| − a·b) / |a×b|@ where that keeps more digits, up to a half
--- circle. Then @tan(θ/4) = p / (q + √(p² + q²))@ for @tan(θ/2) = p/q@.
+-- With the vectors @a@ and @b@ from the arc's centre to the points, the part's sweep θ, at most a
+-- half circle, has @tan(θ/2) = |a×b| / (|a||b| + a·b)@. Where @a·b@ is negative,
+-- @(|a||b| − a·b) / |a×b|@ is more exact. The bulge follows from @tan(θ/2) = p/q@ as
+-- @tan(θ/4) = p / (q + √(p² + q²))@.
 partialBulge :: ClosedPolyarcs -> Int -> Double -> Double -> Double -> Double -> Double
 partialBulge c i px py qx qy
   | b == 0 = 0

@@ -1,14 +1,14 @@
 -- | Planar curves given by point tables, span shapes or segments, and their shifts (the ciphers of
 -- the Ural paper), without sampling.
 --
--- A curve maps a parameter from 0 to its span count to a point. A shift adds a layer: it moves
--- every point of the curve below along the left normal, by a distance that is itself a function of
--- the parameter. Power series through all layers give points, directions and curvatures, so
--- rounding is the only error. A shift of a curve with a corner leaves a gap or an overlap there;
--- this module does not close it, links are the caller's task.
+-- A curve maps a parameter, from 0 to the count of its spans, to a point. A shift adds a layer: it
+-- moves every point of the curve below along its normal, by a distance that is a function of the
+-- parameter. Points, directions and curvatures are computed by power series through all layers, so
+-- rounding is the only error. A shift of a curve with a corner leaves a gap or an overlap at the
+-- corner. This module does not close it; the caller inserts a link.
 --
--- This module is the interface of the folder. The fields of 'BasisCurve', 'Knot', 'Column' and
--- 'Cusp' are read through the modules of these types.
+-- This module is the interface of the folder "Geometry.Curve". It does not export the fields of
+-- 'BasisCurve', 'Knot', 'Column' and 'Cusp'; these are read through the modules of the types.
 module Geometry.Curve
   ( -- * Types
     Curve,
@@ -118,31 +118,32 @@ import Prelude hiding (length)
 
 -- | Polyline through the points. It is closed when the last point equals the first.
 polyline :: Vector Point -> Either CurveFault Curve
-polyline points = Plain <$> BasisCurve.polyline points
+polyline points = Unshifted <$> BasisCurve.polyline points
 
--- | Cubic spline through the points, parametrised by chord length.
+-- | Cubic spline through the points, with continuous second derivatives by chord length.
 spline :: EndCondition -> Vector Point -> Either CurveFault Curve
-spline ends points = Plain <$> BasisCurve.spline ends points
+spline ends points = Unshifted <$> BasisCurve.spline ends points
 
 -- | Chain of parabolas y(x) through points 1–3, 3–5, and so on. The count of points is odd.
 parabola :: Vector Point -> Either CurveFault Curve
-parabola points = Plain <$> BasisCurve.parabola points
+parabola points = Unshifted <$> BasisCurve.parabola points
 
--- | Curve of consecutive spans with the given rising parameters of the table's rows.
+-- | Curve of consecutive spans. The second argument has the parameters of the table's rows, rising.
 fromShapes :: NonEmpty SpanShape -> Vector Double -> Either CurveFault Curve
-fromShapes pieces parameters = Plain <$> BasisCurve.fromShapes pieces parameters
+fromShapes shapes parameters = Unshifted <$> BasisCurve.fromShapes shapes parameters
 
--- | Curve of consecutive lines and arcs. The rows of its table are the ends of the segments.
+-- | Curve of consecutive lines and arcs. The rows of its table are the ends of the segments; the
+-- end of a closed curve is not repeated.
 fromSegments :: NonEmpty Segment -> Either CurveFault Curve
-fromSegments segments = Plain <$> BasisCurve.fromSegments segments
+fromSegments segments = Unshifted <$> BasisCurve.fromSegments segments
 
 -- | Curve of consecutive lines and arcs whose rows are the given points, in order. Each point is
 -- an end of a segment. A closed curve need not repeat the first point at the end of the table.
 fromSegmentsAt :: NonEmpty Segment -> Vector Point -> Either CurveFault Curve
-fromSegmentsAt segments points = Plain <$> BasisCurve.fromSegmentsAt segments parameters
+fromSegmentsAt segments points = Unshifted <$> BasisCurve.fromSegmentsAt segments parameters
   where
-    -- Finds the row's parameter: the next segment that starts at the point, else the end of the
-    -- last segment.
+    -- Finds the parameter of each row. The row lies at the start of the next segment that starts at
+    -- its point; if there is none, at the end of the last segment.
     parameters =
       Vector.unfoldrN
         (Vector.length points)
@@ -155,7 +156,7 @@ fromSegmentsAt segments points = Plain <$> BasisCurve.fromSegmentsAt segments pa
       ([], _ : _) -> Just (u, (u, [], []))
       (_, []) -> Nothing
 
--- | Column with one value for each row of the curve's table, interpolated in the same way as the
+-- | Column with one value for each row of the curve's table, interpolated by the same method as the
 -- points.
 column :: Curve -> Vector Double -> Column
 column curve = Column.column (base curve)
@@ -169,12 +170,12 @@ columnAt :: Curve -> Column -> Double -> Double
 columnAt curve c u =
   PowerSeries.value (Column.series 0 (base curve) c (ShiftedCurve.spanPoint After u curve))
 
--- | Row values of the curve, reordered for its reverse.
+-- | Values of the rows of a curve's table, in the order of the rows of the reversed curve.
 inReverseOrder :: Curve -> Vector Double -> Vector Double
 inReverseOrder curve = BasisCurve.inReverseOrder (base curve)
 
--- | Shift distance of a joggle. Refuses a radius that is not above half of the depth, and ramps
--- that do not fit between the two parameters of the curve that is shifted.
+-- | Shift distance of a joggle on a curve. It is a fault if the joggle's radius is not above half
+-- of its depth, or if its two ramps are longer than the curve between its two parameters.
 fitJoggle :: Joggle -> Curve -> Either CurveFault Distance
 fitJoggle joggle@Joggle {begins, ends, depth = Mm depth, radius = Mm r} curve
   | r <= 0 || abs depth >= 2 * r = Left DeepJoggle
@@ -184,11 +185,11 @@ fitJoggle joggle@Joggle {begins, ends, depth = Mm depth, radius = Mm r} curve
     needed = times 2 (ramp joggle)
     available = minus (lengthAt curve ends) (lengthAt curve begins)
 
--- | Segments of an unshifted curve that consists of lines and arcs only and has at least one arc.
--- Each segment starts exactly where the one before ends.
+-- | Segments of an unshifted curve that consists of lines and arcs only and has at least one arc;
+-- nothing for any other curve. Each segment starts exactly where the one before ends.
 toSegments :: Curve -> Maybe (NonEmpty Segment)
 toSegments curve = case curve of
-  Plain b -> BasisCurve.asSegments b
+  Unshifted b -> BasisCurve.asSegments b
   Shifted {} -> Nothing
 
 -- | Cubic spans in x and y within a tolerance of the curve, and the bound of their error; see
@@ -204,25 +205,25 @@ spans curve = BasisCurve.count (base curve)
 at :: Curve -> Double -> Point
 at = pointFrom After
 
--- | Point at a parameter, approached from before or from after it. The two differ where a shift
--- has opened a corner.
+-- | Point at a parameter, approached from smaller or from larger parameters. Both points differ
+-- where a shift has opened a corner.
 pointFrom :: Approach -> Curve -> Double -> Point
 pointFrom approach curve u = TaylorExpansion.position (expansion approach 0 curve u)
 
--- | Unit tangent at the point that 'at' gives.
+-- | Unit tangent at the point that 'at' gives for a parameter.
 tangent :: Curve -> Double -> Vec
 tangent = PointSearch.unitTangent After
 
--- | Unit tangent just before or just after a parameter. On a closed curve the start continues the
--- end.
+-- | Unit tangent just before or just after a parameter. On a closed curve, the tangent before the
+-- start is that at the end, and the tangent after the end is that at the start.
 tangentFrom :: Approach -> Curve -> Double -> Vec
 tangentFrom = PointSearch.unitTangentAcrossSeam
 
--- | Left unit normal.
+-- | Left unit normal at a parameter.
 normal :: Curve -> Double -> Vec
 normal curve u = Vec.left (tangent curve u)
 
--- | Curvature in 1/mm, positive where the curve bends to the left.
+-- | Curvature at a parameter in 1/mm, positive where the curve bends to the left.
 curvature :: Curve -> Double -> Double
 curvature curve u = TaylorExpansion.curvature (expansion After 2 curve u)
 
@@ -243,7 +244,7 @@ end curve = pointFrom Before curve (domain curve)
 isClosed :: Curve -> Bool
 isClosed = PointSearch.isClosed
 
--- | True arc length. Gaps that a shift opens at corners do not count.
+-- | Arc length of the whole curve. Gaps that a shift opens at corners do not count.
 length :: Curve -> Mm
 length curve = ArcLength.total (ShiftedCurve.arcLength curve)
 
@@ -255,11 +256,11 @@ lengthAt curve = ArcLength.lengthAt (ShiftedCurve.arcLength curve)
 parameterAtLength :: Curve -> Mm -> Double
 parameterAtLength curve = ArcLength.parameterAt (ShiftedCurve.arcLength curve)
 
--- | Distance to the left by which the outermost shift moves the point at a parameter; 0 for a
--- curve without shifts.
+-- | Distance by which the outermost shift moves the point at a parameter, positive to the left; 0
+-- for a curve without shifts.
 shiftDistance :: Curve -> Double -> Mm
 shiftDistance curve u = case curve of
-  Plain _ -> Mm 0
+  Unshifted _ -> Mm 0
   Shifted layer lower _ ->
     let s = ShiftedCurve.spanPoint After u curve
      in Mm
@@ -270,7 +271,7 @@ shiftDistance curve u = case curve of
 -- | Curve in the opposite direction.
 reversed :: Curve -> Curve
 reversed curve = case curve of
-  Plain b -> Plain (BasisCurve.reversed b)
+  Unshifted b -> Unshifted (BasisCurve.reversed b)
   Shifted layer lower _ ->
     let lower' = reversed lower
      in shifted
@@ -278,11 +279,11 @@ reversed curve = case curve of
           (ShiftDistance.reversed (base lower) (base lower') (distance layer))
           lower'
 
--- | Image of a curve under a similarity. Distances are scaled with it; a reflection swaps their
--- sides.
+-- | Image of a curve under a similarity. Shift distances are scaled with the curve. A reflection
+-- exchanges the sides of the shifts.
 transformed :: Transformation -> Curve -> Curve
 transformed s curve = case curve of
-  Plain b -> Plain (BasisCurve.transformed s b)
+  Unshifted b -> Unshifted (BasisCurve.transformed s b)
   Shifted layer lower _ ->
     let lower' = transformed s lower
         side' = if Transformation.mirrors s then otherSide (side layer) else side layer
@@ -297,7 +298,7 @@ factor s =
           (Transformation.point s (Vec.point reach 0))
    in k / reach
   where
-    -- Chosen so large that rounding in a large displacement is negligible.
+    -- A long distance, so that the rounding of large coordinates has little effect on the factor.
     reach = 1024
 
 -- | Opposite side.

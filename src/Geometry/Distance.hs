@@ -30,7 +30,7 @@ import Geometry.Vec qualified as Vec
 toPoint :: Point -> Segment -> Mm
 toPoint p segment = fst (nearest p segment)
 
--- | The distance from a point to a segment, and the nearest point of the segment.
+-- | The distance from a point to a segment, and the point of the segment that is nearest.
 nearest :: Point -> Segment -> (Mm, Point)
 nearest p segment
   | hasFoot && Segment.hasFootOf segment p = (Vec.distance p foot, foot)
@@ -39,7 +39,7 @@ nearest p segment
   where
     toStart = Vec.distance p (Segment.start segment)
     toEnd = Vec.distance p (Segment.end segment)
-    -- A line without a length has no foot, nor has the centre of an arc.
+    -- No point has a foot on a line without a length, nor the centre of an arc on that arc.
     (hasFoot, foot) = case segment of
       Straight a b -> (a /= b, Vec.interpolate (Segment.fraction segment p) a b)
       Arc {start, centre} ->
@@ -47,7 +47,7 @@ nearest p segment
             out = Vec.to centre p
          in (Vec.norm out > 0, Vec.shift (Vec.scale (r / Vec.norm out) out) centre)
 
--- | The fraction of a segment's length, from 0 to 1, at which it is nearest to a point.
+-- | The fraction of a segment's length, from 0 to 1, at which the segment is nearest to a point.
 nearestFraction :: Point -> Segment -> Double
 nearestFraction p segment
   | Segment.hasFootOf segment p = Segment.fraction segment p
@@ -58,8 +58,9 @@ nearestFraction p segment
 data ClosestPoint = ClosestPoint {distance :: Mm, nearestPoint :: Point}
   deriving stock (Eq, Show)
 
--- | The least distance of two segments. It occurs at an end of one of them, at an intersection, or
--- on a common normal: at the foot of an arc's centre on a line, or on the line of two centres.
+-- | The least distance between two segments. It occurs at an end of one of them, at an
+-- intersection, or on a common normal. Such a normal passes through the foot of an arc's centre on
+-- a line, or through the centres of two arcs.
 segments :: Segment -> Segment -> ClosestPoint
 segments a b = minimumBy (comparing distance) (map fromA onA <> map fromB onB)
   where
@@ -68,8 +69,8 @@ segments a b = minimumBy (comparing distance) (map fromA onA <> map fromB onB)
     onA = Segment.start a : Segment.end a : filter (Segment.hasFootOf a) (normals a b <> common a b)
     onB = Segment.start b : Segment.end b : filter (Segment.hasFootOf b) (normals b a)
 
--- | The points on the first segment's carrier at which its normal is also a normal of the second
--- segment, an arc.
+-- | The points on the first segment's carrier at which its normal passes through the centre of the
+-- second segment, an arc.
 normals :: Segment -> Segment -> [Point]
 normals a b = case (a, b) of
   (Straight p q, Arc {centre}) | p /= q -> [Vec.interpolate (Segment.fraction a centre) p q]
@@ -81,23 +82,23 @@ normals a b = case (a, b) of
   _ -> []
 
 -- | The points at which two segments cross or touch, to 'Tolerance.coincident'. Segments that
--- overlap on one carrier give those of their ends that lie on the other.
+-- overlap on one carrier give those of their ends that lie on the other segment.
 intersections :: Segment -> Segment -> [Point]
 intersections a b = filter (\p -> reaches a p && reaches b p) (common a b)
   where
     reaches s p = toPoint p s <= Tolerance.coincident
 
--- | The common points of two segments' carriers. When the carriers are the same, the ends of both
--- segments represent the overlap.
+-- | The common points of two segments' carriers. When both segments have the same carrier, their
+-- four ends are returned, which include the ends of an overlap.
 common :: Segment -> Segment -> [Point]
 common a b = case Intersection.carriers <$> Segment.carrier a <*> Segment.carrier b of
   Nothing -> []
   Just Same -> [Segment.start a, Segment.end a, Segment.start b, Segment.end b]
   Just intersection -> Intersection.points intersection
 
--- | The sections of a segment, as ranges of fractions of its length, that are further than
--- @reach@ from all other segments. They are exact: they end where the segment meets the boundary of
--- the others' neighbourhoods.
+-- | The parts of a segment that are further than @reach@ from all other segments, as ranges of
+-- fractions of its length. They are exact: each ends where the segment meets the boundary of the
+-- neighbourhood of another segment.
 uncovered :: Mm -> [Segment] -> Segment -> [(Double, Double)]
 uncovered reach others segment = gaps 0 (sort (concatMap covered others))
   where
@@ -115,11 +116,13 @@ uncovered reach others segment = gaps 0 (sort (concatMap covered others))
         marks = sort (0 : 1 : filter isInside (map (Segment.fraction segment) boundary))
         isInside t = t > 0 && t < 1
         boundary = ends <> concatMap (common segment) (neighbourhood reach other)
-        -- For a reach of 0 the circles about the ends are points, which intersect nothing.
+        -- For a reach of 0, the circles about the ends of the other segment are points. Points have
+        -- no intersections, so the ends are added.
         ends = [p | reach <= Mm 0, p <- [Segment.start other, Segment.end other]]
 
--- | Segments that include the boundary of a segment's neighbourhood: circles about its ends, and
--- its offsets on both sides, for an arc as full circles.
+-- | Segments that contain the boundary of a segment's neighbourhood, the region within @reach@ of
+-- it. They are circles about its ends and its offsets to both sides; the offsets of an arc are full
+-- circles.
 neighbourhood :: Mm -> Segment -> [Segment]
 neighbourhood reach@(Mm d) segment =
   disc (Segment.start segment) <> disc (Segment.end segment) <> beside

@@ -1,7 +1,7 @@
 -- | The carriers of a contour's elements.
 --
 -- An element lies on a line, on a circle with a sense, on a curve, or it is a single point. A
--- 'Geometry.Carrier.Carrier' is a line or a circle without a sense, which does not suffice here:
+-- 'Geometry.Carrier.Carrier' does not suffice for elements: its circles have no sense, while
 -- fillets and links depend on the direction of travel.
 module Geometry.ElementCarrier
   ( ElementCarrier (..),
@@ -41,8 +41,8 @@ ofSegment s = case s of
   Arc {start, centre, sweep} ->
     OnCircle (Carrier.senseOf sweep) (Circle centre (Segment.radius centre start))
 
--- | Segments on the carrier that include all of it that lies in a bounding box. A line is cut to
--- the box with a margin of 1 mm; circles and curves are given whole.
+-- | Segments of the carrier that contain all of its points inside a bounding box. A line is cut
+-- beyond the box; circles and curves are returned whole.
 segmentsWithin :: BoundingBox -> ElementCarrier -> NonEmpty Segment
 segmentsWithin box carrier = case carrier of
   OnLine l -> lineWithin box l :| []
@@ -51,7 +51,7 @@ segmentsWithin box carrier = case carrier of
   OnCurve p -> MeasuredPolyarc.segments p
   AtPoint p -> Straight p p :| []
 
--- | The shortest segment of a line onto which a bounding box, with a margin of 1 mm, projects.
+-- | The projection onto a line of a bounding box with a margin of 1 mm.
 lineWithin :: BoundingBox -> Line -> Segment
 lineWithin box l = Straight (at (minimum corners)) (at (maximum corners))
   where
@@ -59,6 +59,6 @@ lineWithin box l = Straight (at (minimum corners)) (at (maximum corners))
     corners = [positionAlong l (Vec.point x y) | x <- [left, right], y <- [bottom, top]]
     at (Mm s) = Vec.shift (Vec.scale s (Carrier.direction l)) (Carrier.from l)
 
--- | The position of a point's foot along a line, in mm from the first point of the line.
+-- | The signed distance along a line from its first point to the foot of a point.
 positionAlong :: Line -> Point -> Mm
 positionAlong l p = Mm (Vec.dot (Carrier.direction l) (Vec.to (Carrier.from l) p))

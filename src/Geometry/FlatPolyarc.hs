@@ -4,8 +4,8 @@
 -- for a line, positive for a counter-clockwise arc, ±1 for a half circle. Arcs above a half circle
 -- are stored as two segments, so that no bulge is large and every chord has a length.
 --
--- The arrays are unboxed: a vertex takes 24 bytes, a segment in a list 64 to 88. They
--- are made from a "Geometry.Polyarc", or written vertex by vertex.
+-- The arrays are unboxed: a vertex takes 24 bytes, while a segment in a list takes 64 to 88. A flat
+-- polyarc is made from a "Geometry.Polyarc" or from its vertices.
 module Geometry.FlatPolyarc
   ( FlatPolyarc (..),
     fromVertices,
@@ -88,7 +88,7 @@ reverse o@FlatPolyarc {ends} =
       Open -> if i == n - 1 then 0 else -(PrimArray.indexPrimArray (bulges o) (n - 2 - i))
 
 -- | The area that a closed polyarc encloses, in mm²; positive when it is counter-clockwise. It is
--- the area of the polygon of chords (shoelace formula) and those between arcs and chords:
+-- the area of the polygon of chords (shoelace formula) plus the areas between arcs and chords,
 -- @c²·(s − sin s)/(8·sin²(s/2))@ for a chord @c@ and a sweep @s@.
 area :: FlatPolyarc -> Double
 area o = folded o $ \x0 y0 x1 y1 b ->
@@ -103,11 +103,11 @@ area o = folded o $ \x0 y0 x1 y1 b ->
     square a = a * a
     between cc b
       | b == 0 = 0
-      -- The first terms of the power series: the formula below cancels for small bulges.
+      -- The first terms of the power series. The formula below would lose digits for small bulges.
       | abs b < 1e-3 = cc * b / 3 * (1 + b * b / 5)
       | otherwise = let s = 4 * atan b in cc * (s - sin s) / (8 * square (sin (s / 2)))
 
--- | The length along all segments.
+-- | The sum of the segments' lengths.
 length :: FlatPolyarc -> Mm
 length o = Mm . folded o $ \x0 y0 x1 y1 b ->
   let chord = sqrt ((x1 - x0) * (x1 - x0) + (y1 - y0) * (y1 - y0))
@@ -117,8 +117,8 @@ length o = Mm . folded o $ \x0 y0 x1 y1 b ->
           let s = 4 * atan (abs b)
            in if s < 1e-6 then chord * (1 + s * s / 24) else chord * s / (2 * sin (s / 2))
 
--- | The sum of a measure over the segments. Its arguments are x and y of the start, x and y of the
--- end, and the bulge.
+-- | The sum of a measure over the segments. The arguments of the measure are x and y of a segment's
+-- start, x and y of its end, and its bulge.
 folded :: FlatPolyarc -> (Double -> Double -> Double -> Double -> Double -> Double) -> Double
 folded o f = go 0 0
   where
@@ -135,14 +135,14 @@ folded o f = go 0 0
               (total + f (at (xs o) i) (at (ys o) i) (at (xs o) j) (at (ys o) j) (at (bulges o) i))
 {-# INLINE folded #-}
 
--- | The flat form of a polyarc, and for each of its segments the index of the polyarc's segment,
--- from 0.
+-- | The flat form of a polyarc. The second result has, for each segment of the flat form, the index
+-- (from 0) of the polyarc's segment from which it comes.
 fromPolyarc :: Polyarc -> (FlatPolyarc, PrimArray Int)
 fromPolyarc (Polyarc ends ss) =
   fromSegments ends (Vector.fromListN (NonEmpty.length ss) (NonEmpty.toList ss))
 
--- | The flat form of a polyarc with at least one segment, given as a vector; and for each of its
--- segments the index of the vector's segment.
+-- | The flat form of a polyarc, given as a vector of at least one segment. The second result has,
+-- for each segment of the flat form, the index in the vector of the segment from which it comes.
 fromSegments :: Ends -> Vector Segment -> (FlatPolyarc, PrimArray Int)
 fromSegments ends ss = runST $ do
   let room = Vector.foldl' (\k s -> if isOverHalf s then k + 2 else k + 1) 1 ss
@@ -176,7 +176,7 @@ fromSegments ends ss = runST $ do
   bulges <- PrimArray.unsafeFreezePrimArray pb
   (FlatPolyarc {ends, xs, ys, bulges},) <$> PrimArray.unsafeFreezePrimArray numbers
 
--- | True of an arc above a half circle, which becomes two segments.
+-- | True for an arc above a half circle, which becomes two segments.
 isOverHalf :: Segment -> Bool
 isOverHalf s = case s of
   Straight _ _ -> False

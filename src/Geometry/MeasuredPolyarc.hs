@@ -1,10 +1,11 @@
 -- | Polyarcs with a table of arc lengths: the chains of lines and arcs that represent curves.
 --
--- A position on one is its distance from the start along the polyarc, its station, in mm. The table
--- and the array of segments give a point by its station in logarithmic time, which a list cannot.
--- They are made from segments or from a "Geometry.FlatPolyarc".
+-- A position on such a polyarc is given by its station: the distance from the start along the
+-- polyarc, in mm. The table and an array of segments give the point at a station in logarithmic
+-- time. A "Geometry.Polyarc", which is a list, would take linear time.
 --
--- The module also owns intersections and distances of two polyarcs, given as lists of segments.
+-- The module also computes intersections and distances of two polyarcs that are given as lists of
+-- segments.
 module Geometry.MeasuredPolyarc
   ( MeasuredPolyarc,
     fromSegments,
@@ -54,8 +55,9 @@ import Geometry.Vec (Point, Vec)
 import Geometry.Vec qualified as Vec
 import Prelude hiding (length)
 
--- | At least one segment, each starting where the previous one ends; and the stations of their
--- starts and of the end, computed when first needed.
+-- | A chain of at least one segment, each of which starts where the previous one ends; and a table
+-- of the stations at which the segments start, followed by that of the end. The table is computed
+-- when it is first needed.
 data MeasuredPolyarc = MeasuredPolyarc {chain :: Vector Segment, table :: ~(Unboxed.Vector Double)}
   deriving stock (Eq, Show)
 
@@ -68,8 +70,8 @@ fromVector chain = MeasuredPolyarc {chain, table = Unboxed.scanl' (+) 0 lengths}
   where
     lengths = Unboxed.convert (Vector.map (\s -> let Mm l = Segment.length s in l) chain)
 
--- | The polyarc of an open flat one with at least two vertices. Consecutive segments share their
--- points in memory.
+-- | The polyarc of an open 'FlatPolyarc' with at least two vertices. Consecutive segments share
+-- their common point in memory.
 fromFlatPolyarc :: FlatPolyarc -> MeasuredPolyarc
 fromFlatPolyarc flat = fromVector (Vector.unfoldrN (n - 1) segment (0, vertex 0))
   where
@@ -101,11 +103,11 @@ start = Segment.start . Vector.head . chain
 end :: MeasuredPolyarc -> Point
 end = Segment.end . Vector.last . chain
 
--- | The length along all segments.
+-- | The sum of the segments' lengths.
 length :: MeasuredPolyarc -> Mm
 length = Mm . Unboxed.last . table
 
--- | The stations at which the segments start, and that of the end; in mm.
+-- | The stations at which the segments start, then the station of the end; in mm.
 stations :: MeasuredPolyarc -> [Double]
 stations = Unboxed.toList . table
 
@@ -113,14 +115,15 @@ stations = Unboxed.toList . table
 isClosed :: MeasuredPolyarc -> Bool
 isClosed p = Vec.isNear (start p) (end p)
 
--- | The index of the segment that contains a station, and the fraction of its length there.
+-- | The index, from 0, of the segment that contains a station, and the fraction of the segment's
+-- length at the station. A station outside of the polyarc gives the nearer end.
 locate :: MeasuredPolyarc -> Mm -> (Int, Double)
 locate p (Mm s) = (i, if l <= 0 then 0 else max 0 (min 1 ((s - table p Unboxed.! i) / l)))
   where
     i = BinarySearch.lastAtMost (Vector.length (chain p)) s (table p)
     l = table p Unboxed.! (i + 1) - table p Unboxed.! i
 
--- | The point at a station; the nearer end for a station outside of the polyarc.
+-- | The point at a station. A station outside of the polyarc gives the nearer end.
 at :: MeasuredPolyarc -> Mm -> Point
 at p s = let (i, t) = locate p s in Segment.at t (chain p Vector.! i)
 
@@ -128,7 +131,8 @@ at p s = let (i, t) = locate p s in Segment.at t (chain p Vector.! i)
 directionAt :: MeasuredPolyarc -> Mm -> Vec
 directionAt p s = let (i, t) = locate p s in Segment.directionAt t (chain p Vector.! i)
 
--- | The station nearest to a point. The time is linear in the number of segments.
+-- | The station of the polyarc's point that is nearest to a given point. The time is linear in the
+-- number of segments.
 nearestStation :: MeasuredPolyarc -> Point -> Mm
 nearestStation p q = Mm (table p Unboxed.! best + Distance.nearestFraction q segment * l)
   where
@@ -137,8 +141,8 @@ nearestStation p q = Mm (table p Unboxed.! best + Distance.nearestFraction q seg
     segment = chain p Vector.! best
     Mm l = Segment.length segment
 
--- | The segments from one station to a later one, the first and the last cut there. A part no
--- longer than 'Tolerance.coincident' at either end is omitted.
+-- | The segments from one station to a later one; the first and the last are cut at these stations.
+-- A part no longer than 'Tolerance.coincident' is omitted, unless it is the only one.
 segmentsBetween :: MeasuredPolyarc -> Mm -> Mm -> [Segment]
 segmentsBetween p a b =
   [ part i
@@ -156,9 +160,12 @@ segmentsBetween p a b =
             then snd (Segment.cutAt (t1 / (if i == i2 && t2 < 1 then t2 else 1)) front)
             else front
 
--- | The intersections of two polyarcs, in the order of the first. Polyarcs that represent curves
--- differ from them by up to 'Tolerance.curve'. They therefore count as touching when they come
--- within twice that distance, and two intersections where they touch count as one.
+-- | The intersections of two polyarcs, in order along the first.
+--
+-- A polyarc that represents a curve deviates from it by up to 'Tolerance.curve'. Two polyarcs that
+-- do not cross therefore count as touching when they come within twice that tolerance. Two
+-- neighbouring crossings count as one if they are less than 'longestTouch' apart and the polyarcs
+-- are within that distance at the middle between them.
 intersections :: NonEmpty Segment -> NonEmpty Segment -> [Point]
 intersections a b = case mergeTouching (crossings a b) of
   [] | closest <- nearest a b, distance closest <= slack -> [nearestPoint closest]
@@ -175,10 +182,10 @@ intersections a b = case mergeTouching (crossings a b) of
       [] -> []
     midway p q = at whole (times 0.5 (plus (nearestStation whole p) (nearestStation whole q)))
     toOther p = minimum [Distance.toPoint p g | g <- NonEmpty.toList b]
-    -- Curves that stay together for longer overlap rather than touch.
+    -- Curves that stay together over a longer distance overlap; they do not merely touch.
     longestTouch = Mm 0.5
 
--- | The points at which two polyarcs cross or touch, in the order of the first.
+-- | The points at which two polyarcs cross or touch, in order along the first.
 crossings :: NonEmpty Segment -> NonEmpty Segment -> [Point]
 crossings a b =
   distinct
@@ -191,17 +198,17 @@ crossings a b =
     closeTo s =
       BoxTree.within (BoundingBox.inflate Tolerance.coincident (BoundingBox.ofSegment s)) tree
     inOrder s ps = map snd (nubOrd [(Segment.fraction s p, p) | p <- ps])
-    -- Both segments at a joint give the point there, with different rounding errors.
+    -- A crossing at a joint is found from both segments, with different rounding errors.
     distinct ps = case ps of
       [] -> []
       p : rest -> p : distinct (filter (\q -> Vec.distance p q > sameWithin) rest)
     sameWithin = plus Tolerance.coincident Tolerance.coincident
 
--- | The least distance of two polyarcs.
+-- | The least distance between two polyarcs.
 leastDistance :: NonEmpty Segment -> NonEmpty Segment -> Mm
 leastDistance a b = distance (nearest a b)
 
--- | The least distance of two polyarcs, and the point of the first at which it occurs.
+-- | The least distance between two polyarcs, and the point of the first at which it occurs.
 nearest :: NonEmpty Segment -> NonEmpty Segment -> ClosestPoint
 nearest a b =
   fromMaybe

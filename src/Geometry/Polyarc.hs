@@ -1,9 +1,9 @@
 -- | Polyarcs: chains of segments, open or closed. Each segment starts where the previous one ends.
 --
 -- This is the basic representation, a list of segments; contours, toolpaths and frames are built
--- from it. Three others are made from it where a list is too slow: "Geometry.MeasuredPolyarc" for
--- positions by arc length, "Geometry.FlatPolyarc" for the offset kernel's input and output, and
--- "Geometry.ClosedPolyarcs" for the inside of the kernel.
+-- from it. Where a list is too slow, it is converted to one of three others:
+-- "Geometry.MeasuredPolyarc" for positions by arc length, "Geometry.FlatPolyarc" for the input and
+-- output of the offset kernel, and "Geometry.ClosedPolyarcs" for the computation inside it.
 module Geometry.Polyarc
   ( Polyarc (..),
     Ends (..),
@@ -32,7 +32,7 @@ data Ends = Open | Closed
 data Polyarc = Polyarc {ends :: Ends, segments :: NonEmpty Segment}
   deriving stock (Eq, Show)
 
--- | The sum of the segments' lengths.
+-- | The length of the polyarc.
 length :: Polyarc -> Mm
 length = total . map Segment.length . NonEmpty.toList . segments
 

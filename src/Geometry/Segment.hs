@@ -55,8 +55,8 @@ data Segment
       }
   deriving stock (Eq, Ord, Show)
 
--- | The arc about a centre from a start to an end in a sense. Its sweep is less than 2π, and 0 when
--- both ends lie in one direction from the centre.
+-- | The arc in a sense about a centre from a start to an end. Its sweep is less than 2π in size. It
+-- is 0 when both ends lie in the same direction from the centre.
 arc :: Sense -> Point -> Point -> Point -> Segment
 arc sense centre start end = Arc {start, end, centre, sweep}
   where
@@ -67,8 +67,8 @@ fullCircle :: Sense -> Circle -> Point -> Segment
 fullCircle sense (Circle centre _) start =
   Arc {start, end = start, centre, sweep = Rad (Carrier.senseSign sense * 2 * pi)}
 
--- | The 'arc' about a centre from a start to an end, or the full circle when both are equal, as in
--- frames.
+-- | The 'arc' in a sense about a centre from a start to an end, or the full circle when start and
+-- end are equal. Frames describe arcs in this form.
 arcOrCircle :: Sense -> Point -> Point -> Point -> Segment
 arcOrCircle sense centre start end
   | start == end = fullCircle sense (Circle centre (radius centre start)) start
@@ -135,8 +135,9 @@ at t segment
       | s /= 0 && abs s < flat -> onFlatArc a b s
       | otherwise -> Vec.shift (Vec.rotate (Rad (t * s)) (Vec.to centre a)) centre
   where
-    -- A point computed from a distant centre would be as inexact as the centre. The chord from the
-    -- start to the point is @2·r·sin(t·φ/2)@ long and rotated by @(t − 1)·φ/2@ from the full chord.
+    -- A point computed from a distant centre would be as inexact as the centre. With the sweep φ,
+    -- the chord from the start to the point is @2·r·sin(t·φ/2)@ long, and rotated by
+    -- @(t − 1)·φ/2@ from the chord of the whole arc.
     onFlatArc a b s =
       let share = sin (t * s / 2) / sin (s / 2)
           chord = Vec.rotate (Rad ((t - 1) * s / 2)) (Vec.to a b)
@@ -170,13 +171,13 @@ directionAt t segment = case segment of
 tangent :: Rad -> Vec -> Vec
 tangent (Rad s) out = Vec.unit (Vec.scale (signum s) (Vec.left out))
 
--- | True when the foot of a point lies on the segment and not before or after it. For an arc: the
--- point lies in its sector.
+-- | True when the foot of a point lies on the segment, not before or after it. On an arc, this
+-- means that the point lies in the arc's sector.
 hasFootOf :: Segment -> Point -> Bool
 hasFootOf segment p = let t = fraction segment p in t >= 0 && t <= 1
 
--- | The fraction of the length at which the foot of a point lies. It is negative before a line and
--- above 1 after it; for an arc it lies in [0, 2π/sweep).
+-- | The fraction of the length at which the foot of a point lies. For a line it is negative before
+-- the start and above 1 after the end; for an arc of sweep φ it lies in [0, 2π/|φ|).
 fraction :: Segment -> Point -> Double
 fraction segment p = case segment of
   Straight a b -> let u = Vec.to a b in Vec.dot u (Vec.to a p) / Vec.dot u u
@@ -219,9 +220,8 @@ offset side d@(Mm distance) segment = case segment of
       Mm new = offsetRadius side d sweep (Mm old)
       moved p = Vec.shift (Vec.scale (new / old) (Vec.to centre p)) centre
 
--- | The radius of an arc's offset at a distance on a side: smaller on the side of the centre, and
--- negative when the offset has passed the centre. The arguments are side, distance, sweep and
--- radius.
+-- | The radius of an arc's offset, by side, distance, sweep and radius. It is smaller than the
+-- arc's radius on the side of the centre, and negative when the offset has passed the centre.
 offsetRadius :: Side -> Mm -> Rad -> Mm -> Mm
 offsetRadius side (Mm d) (Rad s) (Mm r)
   | signum s == Carrier.sideSign side = Mm (r - d)

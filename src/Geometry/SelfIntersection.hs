@@ -1,8 +1,8 @@
 -- | The self-intersections of a polyarc of the part: a report for the user names the first one.
 --
--- Candidates come from the kernel's bounding-box tree, neighbours are tested separately, and the
--- exact test is 'Distance.intersections'. The self-intersections of raw offsets, which are data and
--- not faults, belong to "Offset.SelfIntersection".
+-- The bounding-box tree of the offset kernel finds candidates, pairs of neighbours are added, and
+-- 'Distance.intersections' decides. Raw offsets also intersect themselves, but that is no mistake
+-- of the user: "Offset.SelfIntersection" finds those intersections.
 module Geometry.SelfIntersection
   ( firstSelfIntersection,
     firstSelfIntersectionBy,
@@ -32,12 +32,12 @@ import Geometry.Tolerance qualified as Tolerance
 import Geometry.Vec (Point)
 import Geometry.Vec qualified as Vec
 
--- | The first two segments of a polyarc, by index, that cross or touch elsewhere than at a common
--- joint, and the point.
+-- | The indices, from 0, of the first two segments of a polyarc that cross or touch elsewhere than
+-- at a common joint; and the point at which they do.
 firstSelfIntersection :: Polyarc -> Maybe (Int, Int, Point)
 firstSelfIntersection (Polyarc ends ss) = firstSelfIntersectionBy id ends ss
 
--- | 'firstSelfIntersection' for a list of things, by the segment of each.
+-- | 'firstSelfIntersection' for a list of things, each of which has a segment.
 firstSelfIntersectionBy :: (a -> Segment) -> Ends -> NonEmpty a -> Maybe (Int, Int, Point)
 firstSelfIntersectionBy get ends things =
   case concatMap found (neighbours chain <> closeBy chain) of
@@ -51,14 +51,15 @@ firstSelfIntersectionBy get ends things =
       a : more -> let s = get a in s `seq` Just (s, more)
     found (i, j) = [(i, j, p) | p <- crossingsOf chain i j]
 
--- | The segments of a polyarc with constant access.
+-- | The segments of a polyarc in a vector, for access by index.
 data Chain = Chain {ends :: Ends, segments :: Vector Segment}
 
 -- | The number of segments.
 count :: Chain -> Int
 count = Vector.length . segments
 
--- | True when the first segment joins the last at the start of a closed polyarc.
+-- | True when the indices are those of the first and the last segment of a closed polyarc, which
+-- join at its start.
 isClosingPair :: Chain -> Int -> Int -> Bool
 isClosingPair chain i j = ends chain == Closed && i == 0 && j == count chain - 1
 
@@ -108,9 +109,9 @@ closeBy chain
       let i = fromIntegral (indexPrimArray (ClosedPolyarcs.sources loops) k)
        in if i < sizeofPrimArray numbers then indexPrimArray numbers i else -1
 
--- | True when two neighbours sweep little and their directions at the joint differ little. The
--- first then lies in a cone before the joint and the second in the opposite cone, so they meet only
--- at the joint.
+-- | True when two neighbours sweep at most 1 radian each and their directions at the joint differ
+-- by at most 0.1 radian. The first then lies in a cone before the joint and the second in the
+-- opposite cone, so they meet only at the joint.
 goesStraightOn :: Segment -> Segment -> Bool
 goesStraightOn a b =
   sweepsLittle a && sweepsLittle b && abs (Vec.cross u v) <= steepness * Vec.dot u v
@@ -126,8 +127,8 @@ goesStraightOn a b =
       Straight _ _ -> True
       Arc {sweep = Rad t} -> abs t <= 1
 
--- | True when two neighbours are lines, long enough for certainty, and the second does not run back
--- along the first: they meet only at their joint.
+-- | True when two neighbours are lines much longer than 'Tolerance.coincident', and the second does
+-- not run back along the first. Such lines meet only at their joint.
 meetAtCorner :: Segment -> Segment -> Bool
 meetAtCorner a b = case (a, b) of
   (Straight p q, Straight _ r)
@@ -138,11 +139,13 @@ meetAtCorner a b = case (a, b) of
   where
     isLong v = Vec.norm v > 100 * (let Mm least = Tolerance.coincident in least)
 
--- | The tangent of the cones' half angle, 0.1 rad.
+-- | The tangent of 0.1 rad, by which directions may differ in 'goesStraightOn' and from exactly
+-- opposite directions in 'meetAtCorner'.
 steepness :: Double
 steepness = 0.10033467208545055
 
--- | The middle of the shorter of two neighbours, when the neighbours run back along each other.
+-- | The middle of the shorter of two neighbours, if it lies on the longer one: then one runs back
+-- along the other.
 retraced :: Segment -> Segment -> [Point]
 retraced s other = [middle | Distance.toPoint middle longer <= Tolerance.coincident]
   where

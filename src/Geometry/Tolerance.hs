@@ -1,6 +1,6 @@
 -- | The tolerances of geometry: every small number with which "Geometry" compares, by name.
 --
--- Tolerances of a stage that serve a purpose of its own are in that stage: "Offset.Tolerance",
+-- Tolerances for the purposes of a single stage are in its folder: "Offset.Tolerance",
 -- "Part.Tolerance" and "Toolpath.Tolerance".
 module Geometry.Tolerance
   ( -- * Points and numbers
@@ -37,22 +37,23 @@ where
 
 import Base.Quantity (Mm (..), Rad (..))
 
--- | The largest distance of points that count as one. Coordinates of a part 20 m long are exact to
--- 4·10⁻¹² mm as doubles; the square roots of constructions lose half of the digits at worst.
+-- | The largest distance between points that count as one. As doubles, the coordinates of a part
+-- 20 m long are exact to 4·10⁻¹² mm. The square roots of constructions lose half of the digits at
+-- worst.
 coincident :: Mm
 coincident = Mm 1e-6
 
--- | The largest difference of numbers that count as equal, in the units in which they are held: mm,
--- radians, minutes or none.
+-- | The largest difference of numbers that count as equal, in the unit of the numbers: mm, radians,
+-- minutes or none.
 equal :: Double
 equal = 1e-9
 
--- | The largest coordinate or radius: 1 km. More is a slip of the pen, and more than the other
--- tolerances are made for.
+-- | The largest coordinate or radius: 1 km. A larger one is taken for a mistake of the user; it
+-- would also be too large for the other tolerances.
 reach :: Mm
 reach = Mm 1e6
 
--- | The share of a segment's length that is negligible.
+-- | The share of a segment's length below which a part of the segment is negligible.
 negligibleShare :: Double
 negligibleShare = 1e-9
 
@@ -60,7 +61,7 @@ negligibleShare = 1e-9
 smoothAngle :: Rad
 smoothAngle = Rad 1e-7
 
--- | The largest sine between the directions of parallel lines.
+-- | The largest sine of the angle between lines that count as parallel.
 parallel :: Double
 parallel = 1e-12
 
@@ -69,28 +70,30 @@ parallel = 1e-12
 kink :: Rad
 kink = Rad 1e-3
 
--- | The largest distance between the centres of fillets that count as one. Two are found where a
--- fillet touches a curve at a joint of its segments.
+-- | The largest distance between the centres of fillets that count as one. A fillet that touches a
+-- curve at a joint of two segments is found from both.
 sameFillet :: Mm
 sameFillet = Mm 1e-5
 
--- | The largest distance between the feet of an intersection on two curves.
+-- | The largest distance between a point's feet on two curves for which the point counts as an
+-- intersection of the curves.
 crossing :: Mm
 crossing = Mm 1e-8
 
--- | The largest deviation of the arcs that represent a curve.
+-- | The largest deviation of a polyarc from the curve that it represents.
 curve :: Mm
 curve = Mm 1e-5
 
--- | The largest error of the arc length of each panel, where doubles hold as many digits.
+-- | The largest error of the arc length of one panel in "Geometry.Numeric.ArcLength".
 arcLength :: Mm
 arcLength = Mm 1e-9
 
--- | The share of a panel's length below which its error is lost in the rounding of the speed.
+-- | The share of a panel's arc length that is always accepted as its error, because the rounding
+-- errors of the speed can be as large.
 arcLengthShare :: Double
 arcLengthShare = 1e-12
 
--- | The largest error of a parameter; a span has a parameter interval of 1.
+-- | The largest error of a curve's parameter, which rises by 1 from one end of a span to the other.
 parameter :: Double
 parameter = 1e-12
 
@@ -113,15 +116,16 @@ oneArc = Rad 1e-9
 halfTurn :: Rad
 halfTurn = Rad (pi + 1e-9)
 
--- | The share of a tolerance that is reserved because a deviation is measured at finitely many
--- points.
+-- | The share of a tolerance that is reserved where a deviation is measured at sample points, since
+-- it may be larger between them.
 deviationShare :: Double
 deviationShare = 0.02
 
--- | The share of a tolerance that is reserved for rounding where the deviation has a bound.
+-- | The share of a tolerance that is reserved for rounding errors where a formula bounds the
+-- deviation.
 roundingShare :: Double
 roundingShare = 1e-3
 
--- | The smallest step along a curve, as a share of a span.
+-- | The smallest step of arc fitting along a curve, as a share of a span's parameter interval.
 finestStep :: Double
 finestStep = 1e-6

@@ -31,15 +31,16 @@ import Linear.Matrix (M22, (!*), (!*!), (*!!))
 import Linear.V2 (V2 (..))
 import Linear.Vector ((^+^), (^-^))
 
--- | @p ↦ M·p + t@, where M is a multiple of an orthogonal matrix. The scale factor and the
--- reflection are functions of M. They are kept beside it because they are exact there, while the
--- determinant of a rotation is 1 only to rounding.
+-- | The map @p ↦ M·p + t@, where M is a multiple of an orthogonal matrix. The scale factor and the
+-- reflection could be computed from the determinant of M, but only to rounding. They are stored
+-- because they must be exact.
 data Transformation = Transformation
   { matrix :: M22 Double,
     -- | in mm
     displacement :: V2 Double,
-    -- | above 0
+    -- | the scale factor, above 0
     factor :: Double,
+    -- | True when M includes a reflection
     mirrored :: Bool
   }
   deriving stock (Eq, Show)
@@ -52,7 +53,7 @@ identity = aboutOrigin False (Rad 0) 1
 translation :: Vec -> Transformation
 translation v = identity {displacement = fromVec v}
 
--- | The rotation about a point, counter-clockwise when positive.
+-- | The rotation about a point by an angle, counter-clockwise positive.
 rotation :: Rad -> Point -> Transformation
 rotation a = about (aboutOrigin False a 1)
 
@@ -66,7 +67,8 @@ reflection axis = about (aboutOrigin True (Rad (2 * direction)) 1) (Carrier.from
 scaling :: Double -> Point -> Transformation
 scaling k = about (aboutOrigin False (Rad 0) k)
 
--- | A reflection in the x axis or none, then a rotation about the origin, then a scaling.
+-- | A reflection in the x axis if the first argument is true, then a rotation about the origin,
+-- then a scaling.
 aboutOrigin :: Bool -> Rad -> Double -> Transformation
 aboutOrigin mirrored (Rad a) factor =
   Transformation {matrix = factor *!! orthogonal, displacement = V2 0 0, factor, mirrored}
@@ -76,11 +78,11 @@ aboutOrigin mirrored (Rad a) factor =
       | mirrored = V2 (V2 c s) (V2 s (-c))
       | otherwise = V2 (V2 c (-s)) (V2 s c)
 
--- | The transformation with the same matrix that has a point as its fixed point.
+-- | The transformation with the matrix of another one that leaves a given point in its position.
 about :: Transformation -> Point -> Transformation
 about t p = t {displacement = fromPoint p ^-^ (matrix t !* fromPoint p)}
 
--- | The product of two transformations: the second one is applied first.
+-- | The product of two transformations. The second argument is applied first.
 after :: Transformation -> Transformation -> Transformation
 after b a =
   Transformation
@@ -90,7 +92,7 @@ after b a =
       mirrored = mirrored b /= mirrored a
     }
 
--- | True when the transformation exchanges left and right.
+-- | True when the transformation includes a reflection, which exchanges left and right.
 mirrors :: Transformation -> Bool
 mirrors = mirrored
 
@@ -107,7 +109,7 @@ fromVec (Vec x y) = V2 x y
 point :: Transformation -> Point -> Point
 point t p = let V2 x y = apply t (fromPoint p) in Vec.point x y
 
--- | The image of a line, with the direction of travel.
+-- | The image of a line, directed as the image of its direction.
 line :: Transformation -> Line -> Line
 line t (Line p q) = Line (point t p) (point t q)
 

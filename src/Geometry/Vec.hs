@@ -3,7 +3,7 @@
 -- A point is a position and a vector a displacement; only differences of points are vectors. Both
 -- are flat records of two doubles, not @V2 Double@ of the library @linear@: a program has millions
 -- of them, and a flat record is unpacked into the data that contains it (docs/dependencies.md has
--- the figures). What is polymorphic or three-dimensional uses @linear@.
+-- the figures). Polymorphic and three-dimensional vectors are those of @linear@.
 module Geometry.Vec
   ( Point (..),
     Vec (..),
@@ -75,7 +75,7 @@ shift (Vec vx vy) (Point px py) = Point (px + vx) (py + vy)
 add :: Vec -> Vec -> Vec
 add (Vec ax ay) (Vec bx by) = Vec (ax + bx) (ay + by)
 
--- | The multiple of a vector.
+-- | A vector multiplied by a number.
 scale :: Double -> Vec -> Vec
 scale k (Vec ax ay) = Vec (k * ax) (k * ay)
 
@@ -96,12 +96,12 @@ cross (Vec ax ay) (Vec bx by) = ax * by - ay * bx
 norm :: Vec -> Double
 norm v = sqrt (dot v v)
 
--- | The vector of length 1 in the same direction. The zero vector gives components that are no
--- numbers.
+-- | The vector of length 1 in the direction of a vector. For the zero vector the components are
+-- NaN.
 unit :: Vec -> Vec
 unit v = scale (1 / norm v) v
 
--- | The vector rotated by 90° counter-clockwise: the left normal, as long as the vector.
+-- | The vector rotated by 90° counter-clockwise: the left normal, of the same length.
 left :: Vec -> Vec
 left (Vec ax ay) = Vec (Prelude.negate ay) ax
 
@@ -109,7 +109,7 @@ left (Vec ax ay) = Vec (Prelude.negate ay) ax
 rotate :: Rad -> Vec -> Vec
 rotate (Rad a) v = add (scale (cos a) v) (scale (sin a) (left v))
 
--- | The vector with a length and an angle, which counts counter-clockwise from the x axis.
+-- | The vector with a given length and a given angle from the x axis, counter-clockwise positive.
 polar :: Mm -> Rad -> Vec
 polar (Mm r) (Rad a) = vec (r * cos a) (r * sin a)
 
@@ -129,7 +129,7 @@ distance a b = Mm (norm (to a b))
 interpolate :: Double -> Point -> Point -> Point
 interpolate t a b = shift (scale t (to a b)) a
 
--- | True of two points no further apart than 'Tolerance.coincident'.
+-- | True when two points are no further apart than 'Tolerance.coincident'.
 isNear :: Point -> Point -> Bool
 isNear a b = distance a b <= Tolerance.coincident
 

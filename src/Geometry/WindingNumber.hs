@@ -16,8 +16,9 @@ import Geometry.Vec qualified as Vec
 -- | The winding number of closed chains of segments about a point, counter-clockwise positive. The
 -- order of the segments does not matter. For a point on a segment the number is arbitrary.
 --
--- It is that of the chords, the sum of the angles that they subtend, corrected by each arc that has
--- the point between itself and its chord.
+-- The sum of the angles that the chords subtend at the point gives the winding number of the
+-- polygon of chords. Each arc that has the point between itself and its chord adds one turn to it
+-- or takes one away.
 about :: Foldable f => Point -> f Segment -> Int
 about p segments = round (angles / (2 * pi)) + corrections
   where
@@ -40,7 +41,8 @@ about p segments = round (angles / (2 * pi)) + corrections
         | otherwise -> 0
     from = Vec.to p . start
     to = Vec.to p . end
-    -- Both functions must compute the side of the chord identically.
+    -- Positive when the point lies to the left of the chord, negative to the right. 'subtended' and
+    -- 'correction' must agree on it even for a point very near the chord.
     side s = Vec.cross (from s) (to s)
 
 -- | True when a point lies inside a closed polyarc of either sense.

@@ -1,6 +1,6 @@
--- | Reference distances for the judges of laws, in mm. They are computed with the vectors and
--- matrices of @linear@, and the distance from an arc by the angle from its middle, so that they
--- have nothing in common with the formulas of "Geometry.Distance".
+-- | Reference distances for tests, in mm. They share no formula with "Geometry.Distance": they are
+-- computed with the vectors and matrices of @linear@, and the distance from an arc by the angle
+-- from the arc's middle.
 module Geometry.Apart
   ( apart,
     away,
@@ -33,10 +33,10 @@ apart s point = case s of
     p = vector point
     rotation a = V2 (V2 (cos a) (-(sin a))) (V2 (sin a) (cos a))
 
--- | The distance of two points.
+-- | The distance between two points.
 away :: Point -> Point -> Double
 away a b = distance (vector a) (vector b)
 
--- | The coordinates of a point.
+-- | The position vector of a point.
 vector :: Point -> V2 Double
 vector p = V2 (Vec.x p) (Vec.y p)

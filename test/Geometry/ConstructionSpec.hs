@@ -20,7 +20,7 @@ import Test.QuickCheck
 spec :: Spec
 spec = do
   describe "intersections" $ do
-    it "lie on both curves, or the gap is right (catches a swapped radius)" $
+    it "lie on both carriers, or the gap is right (catches a swapped radius)" $
       property $
         forAll ((,) <$> circle <*> circle) $ \(a@(Circle c1 (Mm r1)), b@(Circle c2 (Mm r2))) ->
           case Intersection.circles a b of
@@ -34,8 +34,8 @@ spec = do
             CrossingOnce _ -> property False
             Same -> property False
     it
-      "lie on both curves, even if one of them is almost a line (catches points that are computed \
-      \from a distant centre)"
+      "lie on both circles, even if one is almost a line (catches points that are computed from a \
+      \distant centre)"
       $ property $
         forAll ((,,) <$> circle <*> choose (4, 8) <*> choose (-0.9, 0.9)) $
           \(b@(Circle c (Mm r)), power, share) ->

@@ -1,5 +1,5 @@
--- | Laws of unshifted curves: they pass through their points with the required smoothness, have
--- the right length, and the searches on them find what exists.
+-- | Laws of curves through tables: their points and smoothness, their arc length, and the searches
+-- for points on them.
 module Geometry.CurveSpec (spec) where
 
 import Base.Quantity (Mm (..), Rad (..), minus)
@@ -33,7 +33,7 @@ import Test.QuickCheck
 spec :: Spec
 spec = do
   describe "curves through tables" $ do
-    it "pass through every row at its parameter (catches a span that takes the next row's number)" $
+    it "pass through every row at its parameter (catches a span between the wrong rows)" $
       property $
         forAll Generate.anyCurve $ \c ->
           conjoin
@@ -41,8 +41,8 @@ spec = do
               | row <- toList (BasisCurve.rows (Curve.base c))
             ]
     it
-      "a spline has the same derivatives by the chord on both sides of a row (catches a wrong \
-      \right side of its system)"
+      "a spline has equal derivatives by chord length on both sides of a row (catches a wrong \
+      \right-hand side of its equations)"
       $ property $
         forAll Generate.smooth periodicLaw
     it "a natural spline has no curvature at its ends (catches an end that is clamped)" $
@@ -54,8 +54,8 @@ spec = do
                 let v = secondBy (chord c u) (Curve.expansion approach 2 c u)
             ]
     it
-      "a clamped spline sets out and arrives in its directions, at one mm for a mm of the chord \
-      \(catches a direction by the parameter)"
+      "a clamped spline has the given end directions, and 1 mm per mm of chord as its speed there \
+      \(catches a derivative by the parameter)"
       $ property $
         forAll ((,) <$> choose (-3, 3) <*> choose (-3, 3)) $ \(a, b) ->
           let from = Vec.polar (Mm 1) (Rad a)
@@ -67,8 +67,8 @@ spec = do
                       let v = firstBy (chord c u) (Curve.expansion approach 1 c u)
                   ]
     it
-      "a closed spline goes over into itself at its joint (catches a corner of the cyclic system \
-      \left out)"
+      "a closed spline has equal derivatives at its end and its start (catches a cyclic system \
+      \without its corner)"
       $ property $
         forAll Generate.ring $ \c ->
           let n = Curve.domain c
@@ -89,7 +89,7 @@ spec = do
                   1e-9
                   (Curve.at c (Generate.parameterOf c t))
                   (Curve.at c' (Generate.parameterOf c t))
-    it "parabolas give the parabola that the points lie on (catches fractions of the wrong span)" $
+    it "points of one parabola give this parabola (catches fractions of the wrong span)" $
       property $
         forAll ((,,) <$> choose (-0.05, 0.05) <*> choose (-2, 2) <*> choose (-9, 9)) $ \(a, b, c) ->
           forAll (choose (1, 4)) $ \k -> forAll (vectorOf (2 * k + 1) (choose (1, 9))) $ \steps ->
@@ -113,8 +113,8 @@ spec = do
             areClose
             [(-0.00722596, 1.1707467, -27.504988), (-0.00460579, 0.8200501, -16.220749)]
     it
-      "a circle given by 60 points is one to 1e-4 mm, shifted by anything (catches a spline that \
-      \flattens at its joint)"
+      "a periodic spline through 60 points of a circle, shifted or not, is a circle to 1e-4 mm \
+      \(catches a spline that is flat at its start)"
       $ property $
         forAll ((,) <$> choose (-20, 20) <*> choose (0, 60)) $ \(d, u) ->
           let c = Curve.shifted Curve.LeftOf (Curve.Constant (Mm d)) (circleOf 60 50)
@@ -126,7 +126,7 @@ spec = do
       abs (l - 100 * pi) `shouldSatisfy` (< 1e-6)
 
   describe "arc length" $ do
-    it "is as long as many chords tell (catches a panel that is accepted too early)" $
+    it "equals the sum of many chords (catches a panel that is accepted too early)" $
       property $
         forAll (Generate.layered 2 Generate.anyCurve) $ \c -> forAll Generate.parameter $ \t ->
           let u = Generate.parameterOf c t
@@ -134,14 +134,14 @@ spec = do
               byChords = chordSum c u
            in counterexample (show (l, byChords)) (abs (l - byChords) < 1e-6)
     it
-      "is as long between the rows of a column, which lie within spans, of a curve shifted once \
-      \more (catches a panel across a row)"
+      "equals the sum of many chords where rows of a column lie within spans (catches a panel \
+      \across such a row)"
       $ property $
         forAll shiftedTwice $ \c ->
           let rows = map BasisCurve.at (toList (BasisCurve.rows (Curve.base c)))
               Mm l = Curve.length c
-              places = nub (sort (rows <> Curve.breaks c))
-              byChords = sum (zipWith (chordsBetween c) places (drop 1 places))
+              breaks = nub (sort (rows <> Curve.breaks c))
+              byChords = sum (zipWith (chordsBetween c) breaks (drop 1 breaks))
            in counterexample (show (l, byChords)) (abs (l - byChords) < 1e-7)
     it "is exact for lines and arcs" $
       property $
@@ -158,16 +158,19 @@ spec = do
               Mm l = Curve.length c
               t = x / p
            in counterexample (show l) (abs (l - p / 2 * (t * sqrt (1 + t * t) + asinh t)) < 1e-8)
-    it "is walked back to the parameter that it came from (catches a piece too far)" $
-      property $
+    it
+      "leads back to the parameter from which it was computed (catches the panel after the right \
+      \one)"
+      $ property $
         forAll (Generate.layered 2 Generate.anyCurve) $ \c -> forAll Generate.parameter $ \t ->
           let u = Generate.parameterOf c t
               back = Curve.parameterAtLength c (Curve.lengthAt c u)
            in counterexample (show (u, back)) (abs (back - u) < 1e-7)
 
   describe "searches on a curve" $ do
-    it "nearest: no point of the curve is nearer (catches a foot that is taken for the first one)" $
-      property $
+    it
+      "nearest: no sample of the curve is nearer (catches the first foot in place of the nearest)"
+      $ property $
         forAll (Generate.layered 1 Generate.anyCurve) $ \c ->
           forAll ((,) <$> choose (-150, 150) <*> choose (-150, 150)) $ \(x, y) ->
             let p = Vec.point x y
@@ -185,7 +188,7 @@ spec = do
                     ]
              in counterexample (show (found, sampled)) (minus found sampled <= Mm 1e-9)
     it
-      "nearest: a place on a spline that bends back lies on it (catches samples that pass over a \
+      "nearest: a point on a spline with sharp bends is its own foot (catches samples that skip a \
       \bend)"
       $ property $
         forAll Generate.zigzag $ \c -> forAll Generate.parameter $ \t ->
@@ -193,21 +196,21 @@ spec = do
               u = Curve.nearest p c
            in counterexample (show (p, u)) (Vec.distance p (Curve.at c u) <= Mm 1e-6)
     it
-      "nearest: of a place on the curve it is that place (catches samples that are not made exact)"
+      "nearest: a point on the curve is its own foot (catches samples that are not refined)"
       $ property $
         forAll Generate.gentle $ \c -> forAll Generate.parameter $ \t ->
           let u = Generate.parameterOf c t
            in counterexample (show u) (abs (Curve.nearest (Curve.at c u) c - u) < 1e-6)
     it
-      "at an abscissa: every answer lies there, and no crossing is left out (catches an answer of \
-      \another span)"
+      "atX: every result has the given x, and no crossing is missing (catches a result of another \
+      \span)"
       $ property $
         forAll (Generate.layered 1 Generate.anyCurve) $ \c -> forAll Generate.parameter $ \t ->
           let x = Vec.x (Curve.at c (Generate.parameterOf c t)) + 1e-4
               found = Curve.atX x c
               side u = Vec.x (Curve.at c u) > x
               bs = Curve.breaks c
-              -- Crossings between neighbouring samples, without the breaks.
+              -- Intervals between neighbouring samples, none of which contains a break.
               steps =
                 [ (a', a' + step)
                   | (a, b) <- zip bs (drop 1 bs),
@@ -231,7 +234,7 @@ spec = do
                       side a /= side b
                   ]
     it
-      "just beside a corner that turns back there are two places, however close (catches two \
+      "atX: near a corner that turns back there are two points, however close (catches two \
       \crossings taken for one)"
       $ length
         ( Curve.atX
@@ -241,7 +244,7 @@ spec = do
             )
         )
         `shouldBe` 2
-    it "of a stretch that runs straight up its ends are told (catches samples between them)" $
+    it "atX: a vertical stretch gives its two ends (catches samples between them)" $
       fmap
         (Curve.atX 0)
         ( Curve.polyline
@@ -250,22 +253,23 @@ spec = do
         `shouldSatisfy` \case
           Right [a, b] -> abs (a - 1) < 1e-6 && abs (b - 2) < 1e-6
           _ -> False
-    it "just short of a turn there are two places (catches a turn between two samples)" $
-      property $
+    it
+      "atX: just before an extremum in x there are two points (catches an extremum between two \
+      \samples)"
+      $ property $
         forAll Generate.ring $ \c -> forAll (choose (0.001, 0.02)) $ \short ->
           let xs = [Vec.x (Curve.at c (Generate.parameterOf c (k / 5000))) | k <- [0 .. 5000]]
               x = maximum xs - short
               sides = map (> x) xs
            in length (Curve.atX x c) === length (filter id (zipWith (/=) sides (drop 1 sides)))
     it
-      "at an abscissa that it only touches there is one place (catches the place that is counted \
-      \twice)"
+      "atX: at an extremum in x there is one point (catches a point that is counted twice)"
       $ Curve.atX 50 (circleOf 60 50) `shouldSatisfy` \case
         [0] -> True
         [0, u] -> abs (u - 60) < 1e-6
         _ -> False
     it
-      "corners: a polyline has them where it turns, a spline nowhere (catches ends that are taken \
+      "corners: a polyline has them at its kinks, a spline nowhere (catches ends that are taken \
       \for corners)"
       $ property $
         forAll Generate.polyline $ \c ->
@@ -286,8 +290,8 @@ spec = do
         )
         `shouldBe` [0, 1, 2, 3]
     it
-      "a spline that turns straight back has a direction at its turn (catches a division by a \
-      \speed of zero)"
+      "a spline that reverses its direction has a tangent there (catches a division by a speed of \
+      \0)"
       $ do
         let c = splineOf Natural [Vec.point 0 0, Vec.point 10 0, Vec.point 0 0]
         (Curve.tangentFrom Before c 1, Curve.tangentFrom After c 1) `shouldSatisfy` \(a, b) ->
@@ -295,8 +299,8 @@ spec = do
 
   describe "transformed and reversed curves" $ do
     it
-      "a similarity moves every place of a curve, shifts and all (catches a distance that does not \
-      \grow with the rest)"
+      "a similarity maps every point of a curve with its shifts (catches a shift distance that is \
+      \not scaled)"
       $ property $
         forAll (Generate.layered 3 Generate.anyCurve) $ \c ->
           forAll Generate.similarity $ \s -> forAll Generate.parameter $ \t ->
@@ -306,14 +310,14 @@ spec = do
                   (Curve.at (Curve.transformed s c) u)
                   (Transformation.point s (Curve.at c u))
     it
-      "a reversed curve passes the same places the other way (catches a column that is not \
+      "a reversed curve passes the same points in reverse order (catches a column that is not \
       \reversed)"
       $ property $
         forAll (Generate.layered 3 Generate.anyCurve) $ \c -> forAll Generate.parameter $ \t ->
           let u = Generate.parameterOf c t
               n = Curve.domain c
            in close 1e-6 (Curve.pointFrom Before (Curve.reversed c) (n - u)) (Curve.at c u)
-    it "every kind of curve occurs" $
+    it "the generator reaches every kind of curve" $
       checkCoverage $
         forAll Generate.anyCurve $ \c ->
           cover 5 (Curve.isClosed c) "closed" $
@@ -367,21 +371,21 @@ circleOf n r =
       | k <- [0 .. n - 1]
     ]
 
--- | Same table with another end condition.
+-- | Spline through a random table, with the end condition changed by a function.
 tableWith :: (EndCondition -> EndCondition) -> Gen Curve
 tableWith f = do
   Table ends points <- Generate.winding
   pure (splineOf (f ends) points)
 
--- | Positions at both ends, approached from within the curve.
+-- | Parameters of both ends, with the side from which the curve approaches each.
 endPositions :: Curve -> [(Approach, Double)]
 endPositions c = [(After, 0), (Before, Curve.domain c)]
 
--- | Chord of the span that starts at a parameter; at the end, of the last span.
+-- | Length of the chord of the span that starts at a parameter; at the end, that of the last span.
 chord :: Curve -> Double -> Double
 chord c u = Exts.toList (BasisCurve.chords (Curve.base c)) !! min (Curve.spans c - 1) (truncate u)
 
--- | First and second derivatives by chord length.
+-- | First and second derivative by chord length, given the length of the span's chord.
 firstBy, secondBy :: Double -> TaylorExpansion -> Vec
 firstBy h (V2 a b) =
   Vec.scale (1 / h) (Vec.vec (PowerSeries.coefficient 1 a) (PowerSeries.coefficient 1 b))
@@ -398,23 +402,27 @@ periodicLaw c =
         let leaving = Curve.expansion After 2 c u
     ]
 
--- | Arc length up to a parameter: Richardson extrapolation of two chord sums.
+-- | Arc length up to a parameter.
 chordSum :: Curve -> Double -> Double
 chordSum c u = sum [chordsBetween c a (min b u) | (a, b) <- zip bs (drop 1 bs), a < u]
   where
     bs = Curve.breaks c
 
--- | Chord sum over a smooth stretch; its error falls with the square of the count of chords.
+-- | Arc length of a smooth stretch: Richardson extrapolation of two sums of chords, whose error
+-- falls with the square of the count of chords.
 chordsBetween :: Curve -> Double -> Double -> Double
 chordsBetween c a b = fine + (fine - chords 300) / 3
   where
     fine = chords 600
     chords n =
-      let place k =
+      let pointAt k =
             if k == n
               then Curve.pointFrom Before c b
               else Curve.at c (a + (b - a) * fromIntegral k / fromIntegral n)
-       in sum [let Mm d = Vec.distance (place k) (place (k + 1)) in d | k <- [0 .. n - 1 :: Int]]
+       in sum
+            [ let Mm d = Vec.distance (pointAt k) (pointAt (k + 1)) in d
+              | k <- [0 .. n - 1 :: Int]
+            ]
 
 -- | Consecutive spans, shifted by a column and then by a constant that is too small for a cusp.
 shiftedTwice :: Gen Curve
@@ -436,7 +444,7 @@ spanLength s = case s of
   Round (Arc {start, centre, sweep = Rad a}) -> let Mm r = Vec.distance centre start in r * abs a
   Round (Straight p q) -> let Mm d = Vec.distance p q in d
 
--- | Points 3–13 of the blade's template.
+-- | Points 3–13 of the template of the turbine blade.
 template :: Curve
 template =
   Generate.ok . Curve.parabola . Exts.fromList $

@@ -13,7 +13,7 @@ import Test.QuickCheck
 
 spec :: Spec
 spec = describe "a flat polyarc" $ do
-  it "of a circle has its area and length, however it is divided" $
+  it "of a circle has the area and length of the circle, however it is divided" $
     property . forAll (choose (2, 60)) $ \k -> forAll (choose (0.1, 10)) $ \r ->
       let o =
             Generate.Outline.loop
@@ -42,8 +42,10 @@ spec = describe "a flat polyarc" $ do
     property . forAll Generate.Outline.open $ \c ->
       map (FlatPolyarc.reverse . FlatPolyarc.reverse) (Generate.Outline.outlines c)
         === map lastless (Generate.Outline.outlines c)
-  it "of a polyarc is as long (catches an arc divided at the wrong point)" $
-    property . forAll Generate.closedCase $ \c ->
+  it
+    "is as long as the polyarc of which it is made (catches an arc that is divided at the wrong \
+    \point)"
+    $ property . forAll Generate.closedCase $ \c ->
       let contour = Generate.contour c
           (o, numbers) = FlatPolyarc.fromPolyarc contour
           Mm whole =

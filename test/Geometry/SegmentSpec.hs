@@ -17,8 +17,8 @@ spec = do
     $ forAll flatArc $ \arc -> forAll share $ \t ->
       Vec.distance (Segment.at t arc) (Segment.at (1 - t) (Segment.reverse arc)) `atMost` Mm 1e-11
   it
-    "points on very flat arcs are as high above the chord as an arc is (catches a line instead of \
-    \the arc)"
+    "points on very flat arcs have the height of an arc above the chord (catches a line in place \
+    \of the arc)"
     $ forAll flatArc $ \arc -> forAll share $ \t -> case arc of
       Arc {start, end, sweep = Rad s} ->
         let c = Vec.to start end

@@ -18,8 +18,8 @@ import Test.QuickCheck
 spec :: Spec
 spec = describe "a contour" $ do
   it
-    "crosses itself where two of its segments do that are not neighbours (catches bounding boxes \
-    \without an arc's sagitta, and the closing segment of an open one)"
+    "intersects itself where two segments meet that are not neighbours (catches bounding boxes \
+    \without the sagitta, and a closing segment of an open contour)"
     $ property $
       forAll contour $ \c ->
         let found = SelfIntersection.firstSelfIntersection c
@@ -29,7 +29,7 @@ spec = describe "a contour" $ do
               . cover 20 (null meet) "apart"
               . counterexample (show (found, take 3 meet))
               $ null meet || isJust found
-  it "crosses itself nowhere else (catches neighbours that meet where they are joined)" $
+  it "intersects itself nowhere else (catches neighbours that meet at their joint)" $
     property $
       forAll contour $ \c -> case SelfIntersection.firstSelfIntersection c of
         Just (i, j, p) ->
@@ -38,8 +38,8 @@ spec = describe "a contour" $ do
             (i < j && all (\k -> Distance.toPoint p (segments c NonEmpty.!! k) <= Mm 1e-6) [i, j])
         Nothing -> property True
   it
-    "of two lines crosses itself where the second runs back along the first, and at no other \
-    \angle (catches a reversal that is taken for a corner)"
+    "of two lines intersects itself only if the second runs back along the first (catches a \
+    \reversal that is taken for a corner)"
     $ property $
       forAll
         ( (,,,)
@@ -58,7 +58,7 @@ spec = describe "a contour" $ do
                 )
                 === (away == 0)
 
--- | The points at which segments that are not neighbours meet, pair by pair.
+-- | The pairs of segments, not neighbours, that meet, with the points at which they do.
 meetings :: Polyarc -> [Point]
 meetings (Polyarc ends ss) =
   [ p

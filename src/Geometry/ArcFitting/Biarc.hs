@@ -4,11 +4,13 @@
 -- Derivation, in the complex plane in which the chord runs from 0 to 1. Let the start direction
 -- have the angle α and the end direction the angle β. The chord of an arc bisects the angle between
 -- its end directions. With the direction γ at the joint and the chords @c@ and @r·c@ of the two
--- arcs, @c·e^{i(α+γ)/2} + r·c·e^{i(γ+β)/2} = 1@. Hence, with @w = e^{iα/2} + r·e^{iβ/2}@: @γ =
--- −2·arg w@, @c = 1/|w|@, and the joint is @(1 + r·e^{i(α−β)/2}) / |w|²@. For α and β in (−π, π)
--- each ratio r gives one biarc; equal chords are the default. Equal tangent lengths, the other
--- usual choice, have no solution where the two directions are parallel and perpendicular to the
--- chord. The two choices differ by third-order terms of the angles.
+-- arcs, @c·e^{i(α+γ)/2} + r·c·e^{i(γ+β)/2} = 1@. With @w = e^{iα/2} + r·e^{iβ/2}@ it follows that
+-- @γ = −2·arg w@, @c = 1/|w|@, and the joint is @(1 + r·e^{i(α−β)/2}) / |w|²@.
+--
+-- For α and β in (−π, π) each chord ratio r gives one biarc; equal chords are the default. The
+-- other usual choice is equal tangent lengths. It has no solution where the end directions are
+-- parallel to each other and perpendicular to the chord. The two choices differ by third-order
+-- terms of the angles.
 module Geometry.ArcFitting.Biarc
   ( -- * Between two ends
     join,
@@ -36,10 +38,10 @@ import Geometry.Vec qualified as Vec
 -- Between two ends ------------------------------------------------------------------------------
 
 -- | Biarc from one point and unit direction to another: two segments, or one where a line or a
--- single arc suffices. The chords are equal, except where that would give an S-shape to a curve
--- that bends to one side. Then the arc at the end with the smaller angle to the chord gets a
--- chord up to four times as long. Nothing if the points coincide, or if an arc would sweep more
--- than half a turn.
+-- single arc suffices. The chords of both arcs are equal, except where equal chords would give an
+-- S-shape to a curve that bends to one side. In this case the arc at the end with the smaller angle
+-- to the chord of the biarc gets a chord up to four times as long. Nothing if the points coincide,
+-- or if an arc would sweep more than half a turn.
 join :: (Point, Vec) -> (Point, Vec) -> Maybe (NonEmpty Segment)
 join from to = joinWith (ratio from to) from to
 
@@ -54,7 +56,7 @@ joinWith r from@(p, _) to@(q, _) = do
     (alpha, beta) = chordAngles from to
     gamma = -2 * atan2 (sin (alpha / 2) + r * sin (beta / 2)) (cos (alpha / 2) + r * cos (beta / 2))
     halfDifference = (alpha - beta) / 2
-    -- The square of |w|.
+    -- |w|², in the notation of the derivation above.
     square = 1 + r * r + 2 * r * cos halfDifference
     chord = Vec.to p q
     joint =
@@ -81,8 +83,9 @@ chordAngles (p, s) (q, t) = (a, b)
     Rad a = Vec.signedAngle (Vec.to p q) s
     Rad b = Vec.signedAngle (Vec.to p q) t
 
--- | Chord ratio that 'join' uses: 1, or the ratio that avoids an S-shape. It keeps the direction
--- at the joint at least half of each end's angle away from that end's direction.
+-- | Ratio of the second arc's chord to the first one's that 'join' uses: 1, or the ratio that
+-- avoids an S-shape. The latter makes each arc sweep at least half of the angle between the chord
+-- of the biarc and the direction at the arc's end.
 ratio :: (Point, Vec) -> (Point, Vec) -> Double
 ratio from to
   | alpha * beta >= 0 || limited == gamma = 1
@@ -105,12 +108,15 @@ arcBySweep p q sweep
 -- Through points --------------------------------------------------------------------------------
 
 -- | Smooth chain of arcs and lines through points in order; a closed chain returns to the first
--- point. The direction at a point is that of the circle through the point and its two
--- neighbours; at the ends of an open chain, that of the circle through the first or the last
--- three points. Where this circle would sweep more than half a turn between two of them (a
--- sharp corner), the direction bisects the angle. Two points give a line or, in a closed chain,
--- the circle through both. Consecutive points that coincide count once; a single point gives a
--- line of no length.
+-- point.
+--
+-- The direction at a point is that of the circle through the point and its two neighbours. At an
+-- end of an open chain it is that of the circle through the first or the last three points. At a
+-- sharp corner, where the circle would sweep more than half a turn between two of its points, the
+-- direction is the mean of the directions to and from the point.
+--
+-- Two points give a line or, in a closed chain, the circle through both. Consecutive points that
+-- coincide count once. A single point gives a line of length 0.
 through :: Ends -> NonEmpty Point -> NonEmpty Segment
 through ends points = case distinctPoints ends points of
   p :| [] -> Straight p p :| []
@@ -130,7 +136,8 @@ through ends points = case distinctPoints ends points of
   where
     segmentsBetween a b = maybe [Straight (fst a) (fst b)] NonEmpty.toList (join a b)
 
--- | Drops points that coincide with the one before.
+-- | Drops points that coincide with the previous one; in a closed chain also last points that
+-- coincide with the first.
 distinctPoints :: Ends -> NonEmpty Point -> NonEmpty Point
 distinctPoints ends (first :| others) = first :| withoutLast (withoutRepeats first others)
   where
@@ -157,8 +164,8 @@ openDirections ps = case (ps, reverse ps) of
   where
     mirrored a b t = Vec.rotate (Vec.signedAngle t (Vec.to a b)) (Vec.unit (Vec.to a b))
 
--- | Direction at the middle one of three points. On their circle, the angle between tangent and
--- chord equals the opposite angle of the triangle.
+-- | Direction at the middle one of three points; see 'through'. On the circle through the points,
+-- the angle between a tangent and a chord equals the opposite angle of the triangle.
 tangentAt :: Point -> Point -> Point -> Vec
 tangentAt a b c
   | not (Vec.isNear a c) && Vec.dot circleTangent ab >= 0 && Vec.dot circleTangent bc >= 0 =

@@ -1,4 +1,4 @@
--- | Growing array of the vertices of an open polyarc.
+-- | Growing array of the vertices of an open polyarc, to which arc fitting appends.
 module Geometry.ArcFitting.Builder
   ( Vertices,
     new,
@@ -40,7 +40,7 @@ push (Vertices ref) x y bulge = do
   PrimArray.writePrimArray array' (3 * n + 2) bulge
   writeSTRef ref (Buffer (n + 1) array')
 
--- | Polyarc of all vertices. The array must not be written afterwards.
+-- | Open polyarc of all vertices. No vertex may be appended afterwards.
 polyarc :: Vertices s -> ST s FlatPolyarc
 polyarc (Vertices ref) = do
   Buffer n array <- readSTRef ref

@@ -6,12 +6,12 @@
 -- Take the frame of an arc's start, with x along its direction and y to its left. The circle with
 -- the curvature k is the zero set of @F = y − k·(x² + y²)/2@. Where @|k·F|@ is well below 1, a
 -- point is at most @|F|·(1 + |k·F|)@ away from the circle. On a cubic, F is a polynomial of degree
--- 6. Chebyshev economization reduces it to degree 3, whose maximum is known, plus a small
--- remainder.
+-- 6. Chebyshev economization reduces it to degree 3, plus a small remainder; the maximum of a cubic
+-- is known in closed form.
 --
--- This bounds the distance from the curve to the arc. As long as the curve runs forwards in the
--- directions of both ends of the arc, its feet on the arc cover the arc without a jump. Then the
--- same bound holds from the arc to the curve.
+-- This bounds the distance from the curve to the arc. If the curve runs forwards in the directions
+-- of both ends of the arc, the feet of its points cover the arc without a gap. Then the same bound
+-- holds from the arc to the curve.
 module Geometry.ArcFitting.CubicFit
   ( approximate,
   )
@@ -32,9 +32,10 @@ import Geometry.FlatPolyarc (FlatPolyarc)
 import Geometry.Tolerance qualified as Tolerance
 import Geometry.Vec qualified as Vec
 
--- | Arcs and lines within a tolerance of the curve with these spans in x and y; the distance is
--- bounded in both directions. The biarcs are as long as possible, as in
--- 'ParametricFit.approximate'. The speed must not vanish at the ends of spans.
+-- | Arcs and lines within a tolerance of the curve whose spans have the given cubics in x and in y.
+-- The tolerance holds from the curve to the arcs and from the arcs to the curve. Each biarc is as
+-- long as possible, as in 'ParametricFit.approximate'. The speed must not vanish at the ends of
+-- spans.
 approximate :: Mm -> Cubics -> Cubics -> FlatPolyarc
 approximate (Mm tolerance) xs ys = runST $ do
   vertices <- Builder.new
@@ -82,7 +83,7 @@ approximate (Mm tolerance) xs ys = runST $ do
             u
     aim = tolerance * (1 - Tolerance.roundingShare)
 
--- | True if a cubic is linear. A span between two corners that is linear in x and y is a line.
+-- | True if a cubic is linear. A span that is linear in x and in y is a line.
 isStraight :: Cubic -> Bool
 isStraight (Cubic _ _ c d) = c == 0 && d == 0
 
@@ -95,7 +96,7 @@ hasCorner xs ys k =
     b = poseAt xs ys k 0
     Rad kink = Tolerance.kink
 
--- | Position and direction in a span.
+-- | Position and direction in a span, by its index and the local parameter from 0 to 1.
 poseAt :: Cubics -> Cubics -> Int -> Double -> Pose
 poseAt xs ys i t = Pose (Spline.value a t) (Spline.value b t) (vx / v) (vy / v)
   where
@@ -106,8 +107,8 @@ poseAt xs ys i t = Pose (Spline.value a t) (Spline.value b t) (vx / v) (vy / v)
     v = sqrt (vx * vx + vy * vy)
 {-# INLINE poseAt #-}
 
--- | Position and direction at a parameter of a stretch, given its span. Where spans meet, the
--- direction is the mean of both.
+-- | Position and direction at a parameter of the stretch of spans @from@ to @to − 1@, given the
+-- parameter's span. Where two spans meet, the direction is the mean of both.
 poseWithin :: Cubics -> Cubics -> Int -> Int -> Int -> Double -> Pose
 poseWithin xs ys from to i u
   | i >= to = poseAt xs ys (to - 1) 1
@@ -121,8 +122,8 @@ poseWithin xs ys from to i u
           s = sqrt (sx * sx + sy * sy)
        in b {dx = sx / s, dy = sy / s}
 
--- | Bounds of the distances of a biarc's two arcs from the curve between two parameters. A bound
--- above the limit only says that the limit is exceeded.
+-- | Bounds of the distances of a biarc's two arcs from the curve between two parameters, each given
+-- with its span and pose. A result above the limit @largest@ need not be a bound.
 biarcDistances ::
   Cubics ->
   Cubics ->
@@ -154,12 +155,13 @@ biarcDistances xs ys largest first u from _ v to pair
     !one = fastArc from (bend1 pair) (if single pair then to else joint pair)
     !two = fastArc (joint pair) (bend2 pair) to
 
--- | Position on the curve (its span and the local parameter), and the bound of the distance up to
--- this position.
+-- | Position on the curve, by its span and the local parameter; and the bound of the distance from
+-- the arc up to this position.
 data Reached = Reached Int Double Double
 
--- | Advances along one arc and bounds the distance: to the normal at the arc's end or, for the
--- last arc, to a given parameter.
+-- | Advances on the curve along one arc and bounds their distance. It ends where the curve crosses
+-- the normal at the arc's end or, if the arc is the @final@ one, at the parameter @v@. It also ends
+-- once the bound exceeds @largest@.
 advance :: Cubics -> Cubics -> Double -> Double -> Bool -> FastArc -> Reached -> Reached
 advance xs ys largest v final f (Reached i0 a0 d0) = go i0 a0 d0
   where
@@ -174,7 +176,7 @@ advance xs ys largest v final f (Reached i0 a0 d0) = go i0 a0 d0
         b = if whole then v - fromIntegral i else 1
         x = Spline.at xs i
         y = Spline.at ys i
-        -- Signed distance of the curve beyond the normal at the arc's end.
+        -- Signed distance of the curve from the normal at the arc's end, positive beyond it.
         ahead t =
           (Spline.value x t - px (limit f)) * dx (limit f)
             + (Spline.value y t - py (limit f)) * dy (limit f)
@@ -187,8 +189,8 @@ advance xs ys largest v final f (Reached i0 a0 d0) = go i0 a0 d0
         bound = distanceBound f x y
     larger d e = if e <= d then d else e
 
--- | Bound of the distance between a cubic's interval and an arc; infinite where the cubic might
--- not run forwards.
+-- | Bound of the distance between an arc and a cubic span over the local parameters from @a@ to
+-- @b@; infinite where the span might not run forwards.
 distanceBound :: FastArc -> Cubic -> Cubic -> Double -> Double -> Double
 distanceBound f (Cubic p0 p1 p2 p3) (Cubic q0 q1 q2 q3) a b
   | isForwardsFrom x1 y1
@@ -203,7 +205,8 @@ distanceBound f (Cubic p0 p1 p2 p3) (Cubic q0 q1 q2 q3) a b
     ty = dy (origin f)
     k = abs (bend f)
     h = 0.5 * bend f
-    -- The interval in the arc's frame, with a local parameter from 0 to 1.
+    -- Coefficients of the interval as a cubic in a parameter from 0 to 1, relative to the arc's
+    -- start: first in the axes of the plane, then in the frame of the arc's start.
     ux0 = p0 + a * (p1 + a * (p2 + a * p3)) - px (origin f)
     uy0 = q0 + a * (q1 + a * (q2 + a * q3)) - py (origin f)
     ux1 = w * (p1 + a * (2 * p2 + 3 * a * p3))
@@ -253,8 +256,8 @@ largestCubic c0 c1 c2 c3
     q = if c2 > 0 then -(c2 + sqrt square) else sqrt square - c2
     inside t d = if t > 0 && t < 1 then greater d (abs (c0 + t * (c1 + t * (c2 + t * c3)))) else d
 
--- | Spans @from@ to @to − 1@ as a parametric curve. The caller passes few spans, because the
--- general fit costs more per span.
+-- | Spans @from@ to @to − 1@ as a parametric curve for the general fit, whose cost grows with the
+-- number of spans.
 parametricCurve :: Cubics -> Cubics -> Int -> Int -> ParametricCurve
 parametricCurve xs ys from to =
   ParametricCurve

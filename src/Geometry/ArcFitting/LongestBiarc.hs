@@ -1,8 +1,8 @@
 {-# LANGUAGE BangPatterns #-}
 
 -- | Greedy arc fitting along a smooth stretch of a curve: each biarc is as long as the tolerance
--- allows. This is the common part for all curves whose deviation from a biarc is known in
--- closed form.
+-- allows. It serves all curves for which a formula bounds the deviation from a biarc: cubics in
+-- "Geometry.ArcFitting.CubicFit" and polyarcs in "Geometry.ArcFitting.PolyarcFit".
 module Geometry.ArcFitting.LongestBiarc
   ( ParameterRange (..),
     Spans (..),
@@ -24,8 +24,8 @@ import Geometry.Segment qualified as Segment
 import Geometry.Vec (Point, Vec)
 import Geometry.Vec qualified as Vec
 
--- | Range of parameters: the span in which it starts, its start and its end, and the first step
--- to try.
+-- | Range of parameters: the span in which it begins, its begin and its end, and the first step to
+-- try.
 data ParameterRange = ParameterRange
   { inSpan :: Int,
     begin :: Double,
@@ -33,18 +33,21 @@ data ParameterRange = ParameterRange
     step :: Double
   }
 
--- | Upper bounds of the distance between the curve and each of the two arcs of a biarc, in both
--- directions; infinite where no bound is known.
+-- | Upper bounds, in mm, of the distances between the curve and the two arcs of a biarc. They hold
+-- from the curve to the arcs and from the arcs to the curve. A bound is infinite where none is
+-- known.
 data ArcDistances = ArcDistances Double Double
 
--- | Curve of consecutive spans. A parameter at which two spans meet belongs to the later span.
+-- | Curve of consecutive spans, given by functions. A parameter at which two spans meet belongs to
+-- the later span.
 data Spans = Spans
-  { -- | span of a parameter, given a span that is not after it
+  { -- | index of the span that contains a parameter; the first argument is this span or an earlier
+    -- one
     seek :: Int -> Double -> Int,
     -- | pose at a parameter, given its span; where spans meet, the direction is the mean of both
     pose :: Int -> Double -> Pose,
     -- | distances of a biarc from the curve between two parameters, each given with its span and
-    -- pose; a result above the first argument only says that this limit is exceeded
+    -- pose; the first argument is a limit, and a result above it need not be a bound
     arcDistances ::
       Double ->
       Int ->
@@ -55,18 +58,19 @@ data Spans = Spans
       Pose ->
       FastBiarc ->
       ArcDistances,
-    -- | biarc from a pose by the general fit, with a step to try; used where no step succeeds
+    -- | biarc by the general fit of "Geometry.ArcFitting.ParametricFit", from a parameter with its
+    -- position and direction and with a first step; used where no step succeeds
     fallback :: Double -> (Point, Vec) -> Double -> FitStep,
-    -- | True if no biarc between two parameters, each given with its span and pose, can stay
-    -- within a distance
+    -- | True if no biarc between two parameters, each given with its span and pose, can stay within
+    -- a distance, the first argument
     isHopeless :: Double -> Int -> Double -> Pose -> Int -> Double -> Pose -> Bool,
     -- | True to try longer biarcs with other chord ratios where the curvature changes unevenly;
-    -- this saves a tenth of the biarcs where there are few
+    -- this saves a tenth of the biarcs on curves of few spans
     triesLonger :: Bool
   }
 
--- | Writes the biarcs along a range, each as long as the tolerance @aim@ allows. The vertex at
--- the end of the range is left to the caller, because the next range starts with it.
+-- | Appends the biarcs along a range, each as long as the tolerance @aim@, in mm, allows. The
+-- vertex at the end of the range is not appended, because the next range starts with it.
 along :: Vertices s -> Double -> ParameterRange -> Spans -> ST s ()
 along
   vertices
@@ -88,8 +92,9 @@ along
             (1 / 0)
             1
             (if final - u <= 1.5 * step then final else u + step)
-      -- Bracketing search between the longest biarc within the tolerance so far (@u@ if there is
-      -- none) and the nearest parameter that failed.
+      -- Bracketing search for the end of the biarc that starts at @u@. It lies between the longest
+      -- success so far (@u@ if there is none) and the nearest failure; @v@ is tried next, with the
+      -- chord ratio @r@.
       bracket !remaining !i !u !from before !success !failed !r !v
         | v <= u || remaining <= 0 = settle i u from before success
         | d <= aim =
@@ -154,8 +159,8 @@ along
                 mapM_ writeSegment (NonEmpty.toList segments)
                   >> (let j = seek i v in go j v (pose j v) (v - u) 0)
               | otherwise -> pure ()
-      -- If the curvature changes unevenly, a longer biarc can succeed although shorter ones
-      -- fail.
+      -- Tries biarcs beyond the one that was found: where the curvature changes unevenly, a longer
+      -- one can succeed although shorter ones fail.
       lengthen !i !u !from before !j !v !to !pair !step
         | not triesLonger
             || v >= final
@@ -208,13 +213,15 @@ along
         Arc {sweep = Rad a} -> tan (a / 4)
 {-# INLINE along #-}
 
--- | Biarc within the tolerance: the parameter at its end, and the factor of its chord ratio.
+-- | Biarc within the tolerance: the parameter at its end, and the factor by which its chord ratio
+-- differs from the default.
 data Success = Success {reach :: Double, chords :: Double}
 
--- | Previous biarc: its step, and the rate of change of its curvature, both by the parameter.
+-- | Previous biarc: its length in the parameter, and the change of curvature from its first arc to
+-- its second, divided by this length.
 data Previous = Previous {lastStep :: Double, lastRate :: Double}
 
--- | Relative change of that rate from one biarc to the next below which the curvature changes
+-- | Relative change of 'lastRate' from one biarc to the next up to which the curvature changes
 -- evenly.
 evenRate :: Double
 evenRate = 0.25
@@ -223,11 +230,12 @@ evenRate = 0.25
 maxTries :: Int
 maxTries = 20
 
--- | Share of the tolerance from which on a biarc is long enough.
+-- | Share of the tolerance: a biarc that deviates by at least this much is long enough.
 longEnough :: Double
 longEnough = 0.9
 
--- | Relative step between success and failure below which a biarc is long enough.
+-- | Largest gap between success and failure, relative to the biarc's length, at which the search
+-- ends.
 narrowBracket :: Double
 narrowBracket = 0.03
 

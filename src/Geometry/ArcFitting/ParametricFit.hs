@@ -25,10 +25,11 @@ import Geometry.Tolerance qualified as Tolerance
 import Geometry.Vec (Point, Vec)
 import Geometry.Vec qualified as Vec
 
--- | Curve over a rising parameter.
+-- | Curve given by functions of a rising parameter.
 data ParametricCurve = ParametricCurve
-  { place :: Double -> Point,
-    -- | unit direction; both sides differ only where one span continues into the next
+  { -- | point at a parameter
+    place :: Double -> Point,
+    -- | unit direction at a parameter, from either side; both sides differ only where spans meet
     direction :: OneSided -> Double -> Vec,
     -- | parameter at the start of the curve
     begin :: Double,
@@ -36,20 +37,22 @@ data ParametricCurve = ParametricCurve
     breaks :: NonEmpty Double
   }
 
--- | Side from which a direction is taken: at the end of what comes before a point, or at the
--- start of what follows.
+-- | Side from which a direction at a point is taken: at the end of the curve before the point, or
+-- at the start of the curve after it.
 data OneSided = Arriving | Leaving
   deriving stock (Eq, Show)
 
--- | Stretch of a curve without corners: consecutive spans.
+-- | Stretch of a curve without corners: consecutive spans, each by its first and last parameter.
 type Stretch = NonEmpty (Double, Double)
 
--- | Arcs and lines within a tolerance of a curve; the distance is bounded in both directions. The
--- fit is greedy: each biarc is as long as possible. The result has one group per stretch
--- between corners; within a group the directions agree. The ends of the biarcs lie on the curve
--- and have its direction; at a kink that is no corner, the mean of both directions. Where the
--- curve has no usable direction, a line over the share 'Tolerance.finestStep' of a span is
--- used. A biarc costs some dozens of curve points, and a few more for each span that it passes.
+-- | Arcs and lines within a tolerance of a curve. The tolerance holds from the curve to the arcs
+-- and from the arcs to the curve. The fit is greedy: each biarc is as long as possible. The result
+-- has one group of segments for each stretch between corners; within a group there is no kink.
+--
+-- The ends of the biarcs lie on the curve and have its direction; at a kink that is no corner, the
+-- mean of the directions on both sides. Where no biarc succeeds, a line over the share
+-- 'Tolerance.finestStep' of a span is used. A biarc costs some dozens of curve points, and a few
+-- more for each span that it passes.
 approximate :: Mm -> ParametricCurve -> NonEmpty (NonEmpty Segment)
 approximate (Mm tolerance) curve =
   case concatMap (long . follow curve tolerance) (NonEmpty.toList (stretches curve)) of
@@ -81,19 +84,23 @@ stretches curve =
             Vec.signedAngle (direction curve Arriving u) (direction curve Leaving u)
        in Rad (abs jump) > Tolerance.kink
 
--- | State of the fit along one stretch: the largest deviation to aim at, the end of the stretch,
--- the current parameter and pose, and the spans that lie ahead.
+-- | State of the fit along one stretch.
 data FitState = FitState
   { curve :: ParametricCurve,
+    -- | largest allowed deviation at sample points, in mm
     aim :: Double,
+    -- | parameter at the end of the stretch
     final :: Double,
+    -- | parameter at which the next biarc starts
     at :: Double,
+    -- | position and direction there
     pose :: (Point, Vec),
+    -- | spans that end after @at@
     ahead :: [(Double, Double)]
   }
 
--- | Segments along a stretch. When the end is near, the whole rest is tried first: a longer biarc
--- can succeed where a shorter one fails.
+-- | Segments along a stretch, within a tolerance in mm. When the end is near, a biarc to the end is
+-- tried first: a longer biarc can succeed where a shorter one fails.
 follow :: ParametricCurve -> Double -> Stretch -> [Segment]
 follow curve tolerance stretch = go initial (final initial - start)
   where
@@ -109,33 +116,33 @@ follow curve tolerance stretch = go initial (final initial - start)
         }
     go w step
       | at w < final w =
-        let rest = final w - at w
-            Trial {reached, pieces} = longestBiarc w (if rest <= 4 * step then rest else step)
+        let toEnd = final w - at w
+            Trial {reached, biarc} = longestBiarc w (if toEnd <= 4 * step then toEnd else step)
             next =
               w
                 { at = reached,
-                  pose = (Segment.end (NonEmpty.last pieces), heading w reached),
+                  pose = (Segment.end (NonEmpty.last biarc), heading w reached),
                   ahead = dropWhile ((<= reached) . snd) (ahead w)
                 }
-         in NonEmpty.toList pieces <> go next (reached - at w)
+         in NonEmpty.toList biarc <> go next (reached - at w)
       | otherwise = []
 
--- | Biarc, and the parameter at which it ends on the curve.
+-- | Parameter at which a biarc ends on the curve, and the segments of the biarc.
 data FitStep = FitStep Double (NonEmpty Segment)
 
--- | One biarc of a stretch that ends at the parameter @final@: it starts at a parameter with the
--- position and direction of the biarc before, and a first step to try.
+-- | Longest biarc within a tolerance of a stretch that ends at the parameter @final@. It starts at
+-- the parameter @at@ with a given position and direction; @step@ is tried first.
 oneBiarc :: Mm -> ParametricCurve -> Double -> Double -> (Point, Vec) -> Double -> FitStep
-oneBiarc (Mm tolerance) curve final at pose step = FitStep reached pieces
+oneBiarc (Mm tolerance) curve final at pose step = FitStep reached biarc
   where
-    Trial {reached, pieces} =
+    Trial {reached, biarc} =
       longestBiarc
         FitState {curve, aim = tolerance * (1 - Tolerance.deviationShare), final, at, pose, ahead}
         step
     ahead = takeWhile ((< final) . fst) (dropWhile ((<= at) . snd) (zip (begin curve : ends) ends))
     ends = NonEmpty.toList (breaks curve)
 
--- | Direction at a joint; where spans meet, the mean of both sides.
+-- | Direction of the curve at a parameter; where spans meet, the mean of both sides.
 heading :: FitState -> Double -> Vec
 heading w u
   | u >= final w = arriving
@@ -147,16 +154,17 @@ heading w u
 
 -- | Biarc that was tried: the parameter at its end, its segments, and its largest distance from
 -- the curve.
-data Trial = Trial {reached :: Double, pieces :: NonEmpty Segment, distance :: Double}
+data Trial = Trial {reached :: Double, biarc :: NonEmpty Segment, distance :: Double}
 
--- | Longest biarc within the tolerance, by a bracketing search. On a smooth curve the deviation
--- grows with the third power of the step. The next step is extrapolated by this rule, and kept
--- between the longest success and the shortest failure.
+-- | Longest biarc within the tolerance, by a bracketing search that begins with a given step. On a
+-- smooth curve the deviation grows with the third power of the step. By this rule the next step is
+-- extrapolated; it is kept between the longest success and the shortest failure.
 longestBiarc :: FitState -> Double -> Trial
 longestBiarc w first = tryLonger (search (24 :: Int) Nothing Nothing first)
   where
     u = at w
-    -- On a coarse scale a longer biarc can succeed where shorter ones fail.
+    -- If the biarc covers a sixteenth of the remaining stretch or more, longer biarcs are tried:
+    -- one of them can succeed where shorter ones fail.
     tryLonger best
       | final w - u > 16 * (reached best - u) = best
       | otherwise =
@@ -206,16 +214,16 @@ longestBiarc w first = tryLonger (search (24 :: Int) Nothing Nothing first)
             min (final w) (u + least)
        in Trial v (Straight (fst (pose w)) (place (curve w) v) :| []) 0
 
--- | Biarc to a parameter, with its deviation. Where the default chord ratio fails, other ratios
--- are tried, among them those that put the joint where spans meet.
+-- | Biarc from the current position to a parameter, with its deviation. If the default chord ratio
+-- fails, other ratios are tried. Some of them put the joint near a point at which spans meet.
 try :: FitState -> Double -> Trial
 try w v
   | Vec.isNear p q = measured (Straight p q :| [])
   | otherwise = case tried [usual] of
-    (d, _, pieces) : _ | d <= aim w -> measured pieces
+    (d, _, segments) : _ | d <= aim w -> measured segments
     _ -> case tried (map (* usual) [1, 0.7, 1.4, 0.5, 2, 0.35, 2.8, 0.25, 4] <> breaking) of
       [] -> Trial v (Straight p q :| []) (8 * aim w)
-      some -> let (_, _, pieces) = refineRatio (6 :: Int) 1.4 (least some) in measured pieces
+      some -> let (_, _, segments) = refineRatio (6 :: Int) 1.4 (least some) in measured segments
   where
     u = at w
     p = fst (pose w)
@@ -223,9 +231,9 @@ try w v
     end = (q, heading w v)
     usual = Biarc.ratio (pose w) end
     tried rs =
-      [ (sampledDistance pieces, r, pieces)
+      [ (sampledDistance segments, r, segments)
         | r <- rs,
-          Just pieces <- [Biarc.joinWith r (pose w) end]
+          Just segments <- [Biarc.joinWith r (pose w) end]
       ]
     least some = minimumBy (comparing (\(d, _, _) -> d)) some
     -- Refines the ratio by shrinking steps, where that can reach the tolerance.
@@ -236,7 +244,7 @@ try w v
           (remaining - 1)
           (sqrt factor)
           (least (best : tried [r / sqrt factor, r * sqrt factor]))
-    -- Only for few spans: a curve with many is no chain of lines and arcs.
+    -- Such ratios help on chains of lines and arcs. A curve of more than eight spans is none.
     breaking = case drop 1 parts of
       inner
         | length inner <= 8 ->
@@ -252,17 +260,17 @@ try w v
     parts = [(max u lo, min v hi) | (lo, hi) <- takeWhile ((< v) . fst) (ahead w), hi > u]
     middles = concatMap snd stations
     stations = [(part, samplePoints (place (curve w)) 0.5 part) | part <- sampleCounts w v parts]
-    sampledDistance pieces = maximum (map (distanceTo pieces . snd) middles)
-    measured pieces
-      | sampledDistance pieces > aim w = Trial v pieces (sampledDistance pieces)
+    sampledDistance segments = maximum (map (distanceTo segments . snd) middles)
+    measured segments
+      | sampledDistance segments > aim w = Trial v segments (sampledDistance segments)
       | otherwise =
         Trial
           v
-          pieces
+          segments
           ( deviation
               (place (curve w))
               (aim w)
-              pieces
+              segments
               ( (u, p) :
                 concat
                   [ interleaved ms (samplePoints (place (curve w)) 0 part)
@@ -272,8 +280,9 @@ try w v
           )
     interleaved as bs = concat (zipWith (\a b -> [a, b]) as bs)
 
--- | Counts of sample points for parts of spans, in proportion to their share of the parameter or
--- of the length, whichever is larger.
+-- | Counts of sample points for the parts of spans between the current parameter and @v@, each with
+-- its part. A count is proportional to the part's share of the parameter range or of the length,
+-- whichever is larger.
 sampleCounts :: FitState -> Double -> [(Double, Double)] -> [(Int, (Double, Double))]
 sampleCounts w v parts = case parts of
   [one] -> [(8, one)]
@@ -286,8 +295,9 @@ sampleCounts w v parts = case parts of
       [let Mm d = Vec.distance (place (curve w) a) (place (curve w) b) in d | (a, b) <- parts]
     whole = sum chords
 
--- | Sample points of a curve over a part of a span, shifted back by a share of their spacing. The
--- spacing is uneven, so that the samples cannot stay in phase with a wave.
+-- | Sample points of a curve over a part of a span, with their parameters, shifted back by a share
+-- of their spacing. The spacing is uneven, so that the samples cannot all fall on the zeros of a
+-- periodic deviation.
 samplePoints :: (Double -> Point) -> Double -> (Int, (Double, Double)) -> [(Double, Point)]
 samplePoints point back (n, (a, b)) =
   [ let u =
@@ -298,30 +308,31 @@ samplePoints point back (n, (a, b)) =
   where
     uneven f = f + 0.2 * f * (1 - f)
 
--- | Distance from a point to the nearest of some segments.
+-- | Distance, in mm, from a point to the nearest of some segments.
 distanceTo :: NonEmpty Segment -> Point -> Double
-distanceTo pieces p = let Mm d = minimum (fmap (Distance.toPoint p) pieces) in d
+distanceTo segments p = let Mm d = minimum (fmap (Distance.toPoint p) segments) in d
 
--- | Largest distance between segments and a curve that is given by points along it: at the
--- points, near the joint of the segments, and at every maximum between the points. Infinite
--- where the feet on the segments jump or reverse, because then some point of the segments may
+-- | Largest distance, in mm, between segments and a curve. The curve is given by a function of the
+-- parameter and by sample points in order. The distance is measured at the sample points, near the
+-- joint of the segments, and at every maximum between the samples. The result is infinite if the
+-- feet of the samples on the segments jump or reverse, because then some point of the segments may
 -- be far from the curve.
 deviation :: (Double -> Point) -> Double -> NonEmpty Segment -> [(Double, Point)] -> Double
-deviation point aim pieces points
-  | largest > aim || isCovered point aim pieces feet = largest
+deviation point aim segments points
+  | largest > aim || isCovered point aim segments feet = largest
   | otherwise = 1 / 0
   where
-    feet = [(w, p, lengthAtFoot pieces p) | (w, p) <- points]
-    Mm half = Segment.length (NonEmpty.head pieces)
+    feet = [(w, p, lengthAtFoot segments p) | (w, p) <- points]
+    Mm half = Segment.length (NonEmpty.head segments)
     atJoint =
       [ let w = a + (b - a) * (half - s) / (t - s) in (w, distance w)
-        | length pieces > 1,
+        | length segments > 1,
           ((a, _, s), (b, _, t)) <- zip feet (drop 1 feet),
           s < half,
           half < t
       ]
-    known = sort ([(w, distanceTo pieces p) | (w, p) <- points] <> atJoint)
-    distance w = distanceTo pieces (point w)
+    known = sort ([(w, distanceTo segments p) | (w, p) <- points] <> atJoint)
+    distance w = distanceTo segments (point w)
     largest =
       maximum
         ( map snd known
@@ -332,8 +343,9 @@ deviation point aim pieces points
               (drop 2 known)
         )
 
--- | Maximum near the middle one of three neighbouring values, if the middle value is the largest
--- and large enough to matter. Successive parabolic interpolation, until it yields nothing new.
+-- | Maximum of a distance near the middle one of three neighbouring samples, by successive
+-- parabolic interpolation. It is the middle sample itself unless that is the largest of the three
+-- and at least 0.3 of the tolerance @aim@. A sample is a parameter and the distance there.
 highest ::
   (Double -> Double) ->
   Double ->
@@ -361,10 +373,10 @@ highest distance aim remaining one@(a, da) two@(b, db) three@(c, dc)
     again = highest distance aim (remaining - 1)
     max' x y = if snd x > snd y then x else y
 
--- | True if the feet of a curve's points move along the segments without a jump. Where a foot
--- moves much farther than its point, the interval is bisected.
+-- | True if the feet of a curve's points move forwards along the segments without a jump. Where a
+-- foot moves much farther than its point, the interval is bisected.
 isCovered :: (Double -> Point) -> Double -> NonEmpty Segment -> [(Double, Point, Double)] -> Bool
-isCovered point aim pieces feet = and (zipWith (isSteady (20 :: Int)) feet (drop 1 feet))
+isCovered point aim segments feet = and (zipWith (isSteady (20 :: Int)) feet (drop 1 feet))
   where
     isSteady remaining one@(a, p, s) two@(b, q, t)
       | t < s - smallestStep = False
@@ -376,12 +388,12 @@ isCovered point aim pieces feet = and (zipWith (isSteady (20 :: Int)) feet (drop
          in isSteady (remaining - 1) one middle && isSteady (remaining - 1) middle two
       where
         Mm far = Vec.distance p q
-    at w = let p = point w in (w, p, lengthAtFoot pieces p)
+    at w = let p = point w in (w, p, lengthAtFoot segments p)
     smallestStep = 0.1 * aim
 
--- | Length along segments up to the foot of a point.
+-- | Length, in mm, along segments up to the point of them that is nearest to a given point.
 lengthAtFoot :: NonEmpty Segment -> Point -> Double
-lengthAtFoot pieces p = go 0 (NonEmpty.toList pieces) (1 / 0, 0)
+lengthAtFoot segments p = go 0 (NonEmpty.toList segments) (1 / 0, 0)
   where
     go before list best@(nearest, _) = case list of
       [] -> snd best

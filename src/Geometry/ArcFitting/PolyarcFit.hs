@@ -1,5 +1,5 @@
 {-# LANGUAGE BangPatterns #-}
--- The inner loop has more than ten unboxed arguments, which the default limit would box.
+-- The inner loop has more than ten unboxed arguments; under the default limit they would be boxed.
 {-# OPTIONS_GHC -O2 -fno-full-laziness -fmax-worker-args=40 #-}
 
 -- | Arc fitting of polyarcs by biarcs, with an error bound in closed form.
@@ -10,8 +10,8 @@
 -- than a quarter turn, F has at most one extremum. It lies where the slope @F′ = d_y − k·(x·d_x +
 -- y·d_y)@ is 0; this slope is nearly linear from one end to the other.
 --
--- As long as the polyarc runs forwards in the directions of both ends of the arc, its feet on the
--- arc cover the arc without a jump. Then the same bound holds from the arc to the polyarc.
+-- If the polyarc runs forwards in the directions of both ends of the arc, the feet of its points
+-- cover the arc without a gap. Then the same bound holds from the arc to the polyarc.
 module Geometry.ArcFitting.PolyarcFit
   ( approximate,
     smoothed,
@@ -41,14 +41,15 @@ import Geometry.Segment qualified as Segment
 import Geometry.Tolerance qualified as Tolerance
 import Geometry.Vec qualified as Vec
 
--- | Polyarc over its arc length in mm. @stations@ are the arc lengths at the starts of the
--- segments and, as the last entry, the whole length. @pieces@ has seven numbers per segment:
--- the start point, the unit directions at the start and at the end, and the curvature (1/mm).
-data SegmentTable = SegmentTable {stations :: Vector Double, pieces :: Vector Double}
+-- | Polyarc in arrays, with its arc length in mm as the parameter. @stations@ are the arc lengths
+-- at the starts of the segments; the last entry is the whole length. @entries@ has seven numbers
+-- per segment: x and y of the start, the unit directions at the start and at the end, and the
+-- curvature in 1/mm, positive to the left.
+data SegmentTable = SegmentTable {stations :: Vector Double, entries :: Vector Double}
 
--- | Arcs and lines within a tolerance of a polyarc; the distance is bounded in both directions.
--- The fit is greedy: each biarc is as long as possible. Corners are kept. Every segment of the
--- input must have a length.
+-- | Arcs and lines within a tolerance of a polyarc. The tolerance holds from the polyarc to the
+-- result and from the result to the polyarc. The fit is greedy: each biarc is as long as possible.
+-- Corners are kept. Every segment of the input must have a length.
 approximate :: Mm -> NonEmpty Segment -> FlatPolyarc
 approximate (Mm tolerance) segments = runST $ do
   vertices <- Builder.new
@@ -86,7 +87,7 @@ approximate (Mm tolerance) segments = runST $ do
     n = Unboxed.length (stations chain) - 1
     end = Segment.end (NonEmpty.last segments)
     aim = tolerance * (1 - Tolerance.roundingShare)
-    -- The general fit looks at no more than 64 segments ahead of the current one.
+    -- The general fit considers the current segment and the 63 after it.
     generalFit to u =
       let i =
             min (to - 1) (BinarySearch.lastAtMost n u (stations chain))
@@ -96,9 +97,10 @@ approximate (Mm tolerance) segments = runST $ do
             (station chain (min to (i + 64)))
             u
 
--- | Polyarc with kinks at corners only, within a tolerance of the given one. Stretches between
--- corners without kinks are kept, with neighbouring arcs on one circle merged. Stretches with
--- kinks are replaced by the result of 'approximate'.
+-- | Polyarc within a tolerance of a given one that has no kinks except at corners. A kink is a
+-- change of direction above 'Tolerance.smoothAngle', a corner one above 'Tolerance.kink'. Stretches
+-- between corners that have no kink are kept, but neighbouring arcs on one circle are merged.
+-- Stretches with kinks are replaced by the result of 'approximate'.
 smoothed :: Mm -> NonEmpty Segment -> NonEmpty Segment
 smoothed tolerance (first :| others) = groups (first :| []) first False others
   where
@@ -124,8 +126,8 @@ smoothed tolerance (first :| others) = groups (first :| []) first False others
           (MeasuredPolyarc.fromFlatPolyarc (approximate tolerance (NonEmpty.reverse before)))
       | otherwise = NonEmpty.reverse before
 
--- | Merges two consecutive arcs into one arc of at most half a turn, if they lie on one circle
--- within rounding.
+-- | One arc of at most half a turn in place of two consecutive arcs, if both lie on one circle to
+-- rounding.
 mergedArc :: Segment -> Segment -> Maybe Segment
 mergedArc s next = case (s, next) of
   (Arc {start, centre, sweep = Rad a}, Arc {end, sweep = Rad b})
@@ -142,7 +144,7 @@ mergedArc s next = case (s, next) of
     bend both =
       let Rad t = Vec.signedAngle (Segment.endDirection next) (Segment.endDirection both) in t
 
--- | Arrays of a polyarc.
+-- | Table of a polyarc.
 tableOf :: NonEmpty Segment -> SegmentTable
 tableOf segments =
   SegmentTable
@@ -151,7 +153,7 @@ tableOf segments =
           (+)
           0
           (Unboxed.fromListN n (map (\s -> let Mm l = Segment.length s in l) list)),
-      pieces =
+      entries =
         Unboxed.create
           (Mutable.unsafeNew (7 * n) >>= \array -> array <$ foldM_ (writeSegment array) 0 list)
     }
@@ -185,17 +187,17 @@ station chain = Unboxed.unsafeIndex (stations chain)
 beginning :: SegmentTable -> Int -> Pose
 beginning chain i = Pose (part 0) (part 1) (part 2) (part 3)
   where
-    part k = Unboxed.unsafeIndex (pieces chain) (7 * i + k)
+    part k = Unboxed.unsafeIndex (entries chain) (7 * i + k)
 
--- | Direction at the end of a segment.
+-- | Unit direction at the end of a segment.
 ending :: SegmentTable -> Int -> (Double, Double)
 ending chain i =
-  (Unboxed.unsafeIndex (pieces chain) (7 * i + 4), Unboxed.unsafeIndex (pieces chain) (7 * i + 5))
+  (Unboxed.unsafeIndex (entries chain) (7 * i + 4), Unboxed.unsafeIndex (entries chain) (7 * i + 5))
 {-# INLINE ending #-}
 
--- | Curvature of a segment in 1/mm.
+-- | Curvature of a segment in 1/mm, positive to the left.
 curvature :: SegmentTable -> Int -> Double
-curvature chain i = Unboxed.unsafeIndex (pieces chain) (7 * i + 6)
+curvature chain i = Unboxed.unsafeIndex (entries chain) (7 * i + 6)
 
 -- | True if the polyarc has a corner at the start of a segment other than the first.
 hasCorner :: SegmentTable -> Int -> Bool
@@ -205,8 +207,8 @@ hasCorner chain k = not (dx b * ex + dy b * ey > 0 && abs (ex * dy b - ey * dx b
     b = beginning chain k
     Rad kink = Tolerance.kink
 
--- | Segment below @to@ that contains an arc length, given a segment that is not after it;
--- galloping (exponential) search followed by binary search.
+-- | Index of the segment, below @to@, that contains the arc length @u@; @from@ is this segment or
+-- an earlier one. Galloping (exponential) search followed by binary search.
 seekFrom :: SegmentTable -> Int -> Int -> Double -> Int
 seekFrom chain to from u = gallop from 1
   where
@@ -222,7 +224,7 @@ seekFrom chain to from u = gallop from 1
       where
         middle = (low + high) `div` 2
 
--- | Pose at a distance along a segment from a pose on it, given the segment's curvature.
+-- | Pose at the distance @s@ along a segment from a pose on it; @k@ is the segment's curvature.
 poseAlong :: Double -> Pose -> Double -> Pose
 poseAlong k (Pose x y ux uy) s
   | k == 0 = Pose (x + s * ux) (y + s * uy) ux uy
@@ -238,8 +240,8 @@ poseAlong k (Pose x y ux uy) s
     n = sin (0.5 * k * s)
     chord = 2 * n / k
 
--- | Pose at an arc length in a stretch, given its segment. Where segments meet, the direction is
--- the mean of both.
+-- | Pose at an arc length in the stretch of segments @from@ to @to − 1@, given the segment that
+-- contains it. Where two segments meet, the direction is the mean of both.
 poseWithin :: SegmentTable -> Int -> Int -> Int -> Double -> Pose
 poseWithin chain from to i u
   | u >= station chain to = arriving (to - 1)
@@ -264,8 +266,8 @@ poseWithin chain from to i u
           l = sqrt (sx * sx + sy * sy)
        in b {dx = sx / l, dy = sy / l}
 
--- | Bounds of the distances of a biarc's two arcs from the polyarc between two arc lengths, given
--- their segments. A bound above the limit only says that the limit is exceeded.
+-- | Bounds of the distances of a biarc's two arcs from the polyarc between two arc lengths, each
+-- given with its segment and pose. A result above the limit @largest@ need not be a bound.
 biarcDistances ::
   SegmentTable ->
   Double ->
@@ -301,7 +303,8 @@ biarcDistances chain largest first u from final v to pair
     _ -> unknown
   | otherwise = unknown
   where
-    -- Uses the polyarc's own direction, not the mean of both where segments meet.
+    -- Where segments meet, the polyarc continues in the direction of the later segment, not in the
+    -- mean direction, in which the biarc starts.
     start =
       Reached
         first
@@ -323,8 +326,8 @@ biarcDistances chain largest first u from final v to pair
       | otherwise = abs (above (bend2 pair) (joint pair) p) > largest
       where
         !p = beginning chain (first + k * (final - first) `quot` 4)
-    -- Tests the vertices one by one: against the first arc up to its end, then against the second
-    -- arc.
+    -- Tests the vertices one by one: against the first arc up to the normal at its end, then
+    -- against the second arc.
     isAnyVertexFar i
       | i > final = False
       | single pair
@@ -340,9 +343,9 @@ biarcDistances chain largest first u from final v to pair
                || isAnyFarFromSecond (i + 1)
            )
 
--- | True if a vertex between two positions, given with their segments and poses, is farther than
--- a distance from every biarc between them. All these biarcs lie between two circles through
--- both positions: one with the start direction, one with the end direction.
+-- | True if a vertex between two positions is farther than @largest@ from every biarc between them.
+-- The positions are given with their segments and poses. All biarcs between them lie between two
+-- circles through both positions: one has the start direction, the other the end direction.
 isTooFar :: SegmentTable -> Double -> Int -> Double -> Pose -> Int -> Double -> Pose -> Bool
 isTooFar chain largest first _ from final _ to =
   max (abs bendA) (abs bendB) * largest < slack / 2 && go 1
@@ -366,22 +369,24 @@ isTooFar chain largest first _ from final _ to =
 testedVertices :: Int
 testedVertices = 8
 
--- | F differs from the distance by less than half of this share.
+-- | Allowance of 'isTooFar', as a share of the distance. F differs from the distance by less than
+-- half of it.
 slack :: Double
 slack = 0.05
 
--- | Segment, arc length and pose of a position on the polyarc, and the bound of the distance up
--- to this position.
+-- | Position on the polyarc, by its segment, its arc length and its pose; and the bound of the
+-- distance from the arc up to this position.
 data Reached = Reached Int Double Pose Double
 
--- | Advances along one arc and bounds the distance: to the normal at the arc's end or, for the
--- last arc, to a given position with its pose.
+-- | Advances on the polyarc along one arc and bounds their distance. It ends where the polyarc
+-- crosses the normal at the arc's end or, if the arc is the @final@ one, at the arc length @v@ with
+-- the pose @to@. It also ends once the bound exceeds @largest@.
 advance :: SegmentTable -> Double -> Double -> Pose -> Bool -> FastArc -> Reached -> Reached
 advance !chain !largest !v !to !final !f (Reached i0 u0 begin d0) =
   go i0 u0 (px begin) (py begin) (dx begin) (dy begin) (level f begin) (abs (level f begin))
   where
-    -- Passes the pose as plain numbers, with F at the pose and the largest F so far, because this
-    -- loop runs once per segment and biarc.
+    -- The arguments are the segment, the arc length, the pose as four numbers, F at the pose, and
+    -- the largest |F| so far. They are unboxed, because this loop runs once per segment and biarc.
     go !i !u !x !y !hx !hy !here !greatestLevel
       | end >= v = finish i u (Pose x y hx hy) (larger d0 (distanceOfLevel f greatestLevel))
       | otherwise = case beginning chain (i + 1) of
@@ -390,7 +395,7 @@ advance !chain !largest !v !to !final !f (Reached i0 u0 begin d0) =
             finishAtNormal i u end p arriving (larger d0 (distanceOfLevel f greatestLevel))
           | not (runsForwards f p && runsForwards f arriving) ->
             Reached (i + 1) end arriving (1 / 0)
-          -- Tests for an inner extremum only if there can be one; there seldom is.
+          -- Tests for an inner extremum above @greater@ only if there can be one, which is rare.
           | abs here + 1.5 * abs m * (end - u) > greater,
             e <- extreme here m (slope f arriving) (hx * ey - hy * ex) (end - u),
             e > greater ->
@@ -409,13 +414,13 @@ advance !chain !largest !v !to !final !f (Reached i0 u0 begin d0) =
               | otherwise = go (i + 1) end nx ny kx ky there now
       where
         !end = station chain (i + 1)
-    -- Ends in the segment that contains the last position.
+    -- Ends in segment @i@, which contains the arc length @v@.
     finish !i !u !p !d
       | final = Reached i v to (larger d (distanceBound f p to (v - u)))
       | beyond f to < 0 = Reached i v to (1 / 0)
       | otherwise = finishAtNormal i u v p to d
     {-# NOINLINE finish #-}
-    -- Ends at the normal of the arc's end, which crosses this segment.
+    -- Ends where segment @i@ crosses the normal at the arc's end.
     finishAtNormal !i !u !w !p !q !d = Reached i (u + s) c (larger d (distanceBound f p c s))
       where
         s = newton (clamped ((u - w) * from / (beyond f q - from)))
@@ -429,17 +434,18 @@ advance !chain !largest !v !to !final !f (Reached i0 u0 begin d0) =
     {-# NOINLINE finishAtNormal #-}
     larger d e = if e <= d then d else e
 
--- | Signed distance of a position beyond the normal at an arc's end.
+-- | Signed distance of a position from the normal at an arc's end, positive beyond it.
 beyond :: FastArc -> Pose -> Double
 beyond f p = (px p - px (limit f)) * dx (limit f) + (py p - py (limit f)) * dy (limit f)
 {-# INLINE beyond #-}
 
--- | F of an arc's circle at a position.
+-- | F of an arc's circle at a position; see the derivation at the top.
 level :: FastArc -> Pose -> Double
 level f = above (bend f) (origin f)
 {-# INLINE level #-}
 
--- | F of the circle that starts at a pose with a given curvature.
+-- | F at a position, of the circle that has the given curvature and passes the first pose in its
+-- direction.
 above :: Double -> Pose -> Pose -> Double
 above k from p = uy * dx from - ux * dy from - 0.5 * k * (ux * ux + uy * uy)
   where
@@ -447,8 +453,8 @@ above k from p = uy * dx from - ux * dy from - 0.5 * k * (ux * ux + uy * uy)
     uy = py p - py from
 {-# INLINE above #-}
 
--- | Bound of the distance between an arc and a part of a segment, given by its two poses and its
--- length; infinite where the segment might not run forwards.
+-- | Bound of the distance between an arc and a part of a segment, given by the two poses at its
+-- ends and its length. Infinite if the part might not run forwards.
 distanceBound :: FastArc -> Pose -> Pose -> Double -> Double
 distanceBound f p q l
   | runsForwards f p && runsForwards f q =
@@ -464,14 +470,15 @@ distanceBound f p q l
     to = level f q
     greater a b = if a > b then a else b
 
--- | Bound of the distance for a value of F; infinite where no bound is known.
+-- | Bound of the distance from an arc for a value of |F|; infinite where no bound is known.
 distanceOfLevel :: FastArc -> Double -> Double
 distanceOfLevel f d = if k * d < 0.2 then d * (1 + k * d) else 1 / 0
   where
     k = abs (bend f)
 {-# INLINE distanceOfLevel #-}
 
--- | True if a pose runs forwards in the directions of both ends of an arc.
+-- | True if the direction of a pose makes less than a quarter turn with the directions of both ends
+-- of an arc.
 runsForwards :: FastArc -> Pose -> Bool
 runsForwards f p =
   along > 0 && along * cosine f + (dy p * dx (origin f) - dx p * dy (origin f)) * sine f > 0
@@ -479,16 +486,18 @@ runsForwards f p =
     along = dx p * dx (origin f) + dy p * dy (origin f)
 {-# INLINE runsForwards #-}
 
--- | Derivative of F along a pose.
+-- | Derivative of F by arc length at a pose, in its direction.
 slope :: FastArc -> Pose -> Double
 slope f p =
   (dy p * dx (origin f) - dx p * dy (origin f))
     - bend f * ((px p - px (origin f)) * dx p + (py p - py (origin f)) * dy p)
 {-# INLINE slope #-}
 
--- | Extremum of F between two positions, given F at the first, the slopes at both, the sine of
--- the sweep between them, and their distance. The square of the sine corrects the parabola. The
--- result is 0 where there is no extremum, and never more than @|F| + 3/2·|slope|·length@.
+-- | Absolute value of the extremum of F between two positions on a segment; 0 if there is none. The
+-- arguments are F at the first position, the slopes at both, the sine of the sweep between them,
+-- and the length between them. The extremum is that of a parabola, corrected by the square of the
+-- sine. The result is at most @|F| + 3/2·|slope|·length@ with F and the slope at the first
+-- position.
 extreme :: Double -> Double -> Double -> Double -> Double -> Double
 extreme from m n sweepSine l
   | m * n < 0 = abs (from - 0.5 * m * m * l / (n - m) * (1 + 2 * sweepSine * sweepSine))

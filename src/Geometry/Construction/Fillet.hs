@@ -23,13 +23,13 @@ import Geometry.Tolerance qualified as Tolerance
 import Geometry.Vec (Point)
 import Geometry.Vec qualified as Vec
 
--- | A fillet by its centre, its start and its end.
+-- | A fillet by its centre (@middle@), its start and its end.
 data Fillet = Fillet {middle :: Point, start :: Point, end :: Point}
   deriving stock (Eq, Show)
 
 -- | All fillets of a radius and sense from the first carrier to the second. Between lines and
--- circles there are at most two. On a curve, a fillet must touch within the segment from whose
--- carrier it was constructed.
+-- circles there are at most two. A curve is treated segment by segment: a fillet to the carrier of
+-- a segment counts only if it touches that segment.
 between :: Mm -> Sense -> ElementCarrier -> ElementCarrier -> [Fillet]
 between radius sense a b = case (a, b) of
   (OnCurve p, OnCurve q) ->
@@ -50,6 +50,7 @@ between radius sense a b = case (a, b) of
     fillets = ofPair radius sense
     isOn p s = Distance.toPoint p s <= Tolerance.coincident
 
+-- | The segments of a curve.
 segmentsOf :: MeasuredPolyarc -> [Segment]
 segmentsOf = NonEmpty.toList . MeasuredPolyarc.segments
 
@@ -60,8 +61,8 @@ closePairs radius p q = [(s, g) | s <- segmentsOf p, g <- BoxTree.within (around
     tree = BoxTree.index BoundingBox.ofSegment (segmentsOf q)
     around s = BoundingBox.inflate (plus radius radius) (BoundingBox.ofSegment s)
 
--- | The fillets without duplicates: one that touches where two segments of a curve join is found
--- from both.
+-- | The fillets without duplicates. A fillet that touches a curve at a joint of two segments is
+-- found from both.
 distinct :: [Fillet] -> [Fillet]
 distinct fillets = case fillets of
   [] -> []
@@ -100,7 +101,8 @@ touch radius sense carrier c = case carrier of
   OnCircle t (Circle o rc@(Mm r)) ->
     Just (Vec.shift (Vec.scale (side * r) (Vec.unit (Vec.to o c))) o)
     where
-      -- The smaller circle lies inside; a fillet around the circle touches it on the far side.
+      -- In equal senses, the smaller circle lies inside the larger one. If the fillet is the larger
+      -- one, it touches the circle on the side opposite to the fillet's centre.
       side = if t == sense && radius > rc then -1 else 1
   OnCurve _ -> Nothing
   AtPoint _ -> Nothing

@@ -20,16 +20,19 @@ import Prelude hiding (lines)
 
 -- | The position of two carriers relative to each other.
 data Intersection
-  = -- | no common point; the least distance between them
+  = -- | no common point; the least distance between the two
     Apart Mm
-  | Touching Point
-  | Crossing Point Point
-  | CrossingOnce Point
+  | -- | a common tangent at one point
+    Touching Point
+  | -- | two common points
+    Crossing Point Point
+  | -- | the common point of two lines
+    CrossingOnce Point
   | -- | the same carrier, to 'Tolerance.coincident'
     Same
   deriving stock (Eq, Show)
 
--- | The common points, as far as they are finitely many.
+-- | The common points; none for 'Same', where they are infinitely many.
 points :: Intersection -> [Point]
 points intersection = case intersection of
   Apart _ -> []
@@ -65,8 +68,9 @@ lines a b
     t = Vec.cross (Vec.to (from a) (from b)) v / sine
     Mm h = Carrier.signedDistance a (from b)
 
--- | The intersection of a line and a circle. Two points come in the order of the line. They touch
--- when the centre is as far from the line as the radius, to 'Tolerance.coincident'.
+-- | The intersection of a line and a circle. Two points come in the order of the line. The line
+-- touches the circle when its distance from the centre equals the radius, to
+-- 'Tolerance.coincident'.
 lineCircle :: Line -> Circle -> Intersection
 lineCircle l (Circle c (Mm r))
   | abs (abs h - r) <= tolerance = Touching foot
@@ -80,7 +84,8 @@ lineCircle l (Circle c (Mm r))
     along s = Vec.shift (Vec.scale s (Carrier.direction l)) foot
 
 -- | The intersection of two circles. The first of two points lies to the left of the direction from
--- the first centre to the second. Concentric circles are apart by the difference of their radii.
+-- the first centre to the second. Concentric circles with different radii are 'Apart' by the
+-- difference of the radii.
 circles :: Circle -> Circle -> Intersection
 circles (Circle c1 (Mm r1)) (Circle c2 (Mm r2))
   | d <= tolerance && abs (r1 - r2) <= tolerance = Same

@@ -18,20 +18,21 @@ import Geometry.Tolerance qualified as Tolerance
 import Geometry.Vec (Point)
 import Geometry.Vec qualified as Vec
 
--- | A condition on a circle of a given radius.
+-- | A condition on a circle: the point through which it passes, or the line or circle that it
+-- touches, with the side on which it lies.
 data Touched
   = Through Point
   | LeftOf Line
   | RightOf Line
-  | -- | both lie outside each other
+  | -- | neither circle lies inside the other
     OutsideOf Circle
-  | -- | one lies inside the other
+  | -- | one circle lies inside the other; the larger one may be either
     InsideOf Circle
   deriving stock (Eq, Show)
 
 -- | The directed lines that touch the first circle and then the second. A circle of radius 0 is a
--- point. Each circle comes with the senses that it may have; a counter-clockwise circle lies to the
--- left of the line.
+-- point. Each circle comes with the senses that it may have. A counter-clockwise circle lies to the
+-- left of the line, a clockwise one to the right.
 tangentLines :: ([Sense], Circle) -> ([Sense], Circle) -> [Line]
 tangentLines (sensesA, a) (sensesB, b) =
   distinct

@@ -1,8 +1,8 @@
 -- | Unshifted curves: consecutive spans, each of them a cubic in x and in y, or an arc.
 --
--- The parameter runs from 0 to the count of spans, with a range of 1 for each span. A base keeps
--- the rows of the table from which it was made, so that columns of numbers can be interpolated in
--- the same way as the points.
+-- The parameter runs from 0 to the count of spans, by 1 over each span. A base keeps the rows of
+-- the table from which it was made, so that columns of numbers can be interpolated by the same
+-- method as the points.
 module Geometry.Curve.BasisCurve
   ( BasisCurve (..),
     SpanList (..),
@@ -59,12 +59,13 @@ import Linear.V2 (V2 (..))
 
 -- | Unshifted curve with the rows of its table.
 data BasisCurve = BasisCurve
-  { method :: CurveKind,
+  { -- | interpolation by which the points became spans
+    method :: CurveKind,
     -- | rows of the table in the curve's direction; evaluated on demand
     rows :: ~(Vector Knot),
-    -- | spans, at least one
+    -- | at least one span
     spanList :: SpanList,
-    -- | True if the end is the beginning
+    -- | True if the curve ends where it begins
     closed :: Bool,
     -- | arc length along the base; read through 'arcLength'
     lengthTable :: ~ArcLength
@@ -79,7 +80,7 @@ data SpanList
     Mixed (Vector Span)
   deriving stock (Eq, Show)
 
--- | Interpolation by which the points became spans.
+-- | Interpolation of a curve through points.
 data CurveKind
   = -- | a straight line from each row to the next
     Polyline
@@ -101,7 +102,7 @@ data EndCondition
     Periodic
   deriving stock (Eq, Show)
 
--- | Point of the table with its parameter on the curve.
+-- | Row of the table: a point with its parameter on the curve.
 data Knot = Knot {at :: Double, knotPoint :: Point}
   deriving stock (Eq, Show)
 
@@ -130,7 +131,7 @@ data CurveFault
     LongJoggle Mm Mm
   deriving stock (Eq, Show)
 
--- | Makes a base of spans and adds its arc length.
+-- | Base with the given fields and the table of its arc length.
 makeBase :: CurveKind -> Bool -> Vector Knot -> SpanList -> BasisCurve
 makeBase method closed rows spanList = base
   where
@@ -161,8 +162,8 @@ spans base = case spanList base of
     Vector.generate (Spline.count xs) (\i -> Polynomial (Spline.at xs i) (Spline.at ys i))
   Mixed parts -> parts
 
--- | Lines and arcs of a base that consists of them and has at least one arc. Spans join within a
--- tolerance; the segments that are given join exactly.
+-- | Segments of a base that consists of lines and arcs only and has at least one arc; nothing for
+-- any other base. The base's spans join to a tolerance; the segments join exactly.
 asSegments :: BasisCurve -> Maybe (NonEmpty Segment)
 asSegments base = case spanList base of
   Cubical _ _ -> Nothing
@@ -178,7 +179,7 @@ asSegments base = case spanList base of
       | Segment.start s == p = s
       | otherwise = s {Segment.start = p}
 
--- | Stores spans as cubics if all of them are polynomial.
+-- | List of the given spans: cubics if all of them are polynomial.
 toSpanList :: Vector Span -> SpanList
 toSpanList parts = case traverse polynomial parts of
   Just both ->
@@ -204,9 +205,9 @@ polyline points = do
         (\i -> Spline.line (part (points Vector.! i)) (part (points Vector.! (i + 1))))
     {-# INLINE lineCubics #-}
 
--- | Cubic spline parametrised by chord length, with continuous second derivatives by chord
--- length. At clamped ends the derivative by chord length is the given direction. A periodic
--- spline may repeat its first point at the end or not.
+-- | Cubic spline through the points, with continuous second derivatives by chord length. At clamped
+-- ends the first derivative by chord length is the given direction. The points of a periodic spline
+-- may repeat the first one at the end or not.
 spline :: EndCondition -> Vector Point -> Either CurveFault BasisCurve
 spline ends points = case ends of
   Natural -> do
@@ -259,7 +260,7 @@ distances points =
     (Vector.zipWith (\p q -> let Mm d = Vec.distance p q in d) points (Vector.drop 1 points))
 
 -- | Distances between neighbouring rows, in mm. For a closed base whose last row does not repeat
--- the first, the closing distance follows.
+-- the first, the distance from the last row to the first is added.
 chords :: BasisCurve -> Unboxed.Vector Double
 chords base
   | closed base && not (isLoop points) = distances (Vector.snoc points (Vector.head points))
@@ -267,7 +268,7 @@ chords base
   where
     points = Vector.map knotPoint (rows base)
 
--- | Position of the middle row of each parabola, as a fraction of its span.
+-- | Position of the middle row of each parabola: the local parameter, from 0 to 1, in its span.
 fractions :: BasisCurve -> Vector Double
 fractions base =
   Vector.generate
@@ -303,19 +304,21 @@ parabola points
   where
     x i = Vec.x (points Vector.! i)
     sense = signum (x 1 - x 0)
-    -- Points with equal x lie on no parabola y(x), whatever their distance.
+    -- Points with equal x do not lie on one parabola y(x), even if they are far apart.
     advance p q = sense * (Vec.x q - Vec.x p) - (let Mm d = Tolerance.coincident in d)
     middle i = (x (2 * i + 1) - x (2 * i)) / (x (2 * i + 2) - x (2 * i))
 
--- | Base of consecutive spans with the given rising parameters of the table's rows.
+-- | Base of consecutive spans. The second argument has the parameters of the table's rows, rising.
 fromShapes :: NonEmpty SpanShape -> Vector Double -> Either CurveFault BasisCurve
 fromShapes = ofSpans . vector Span.fromShape
 
--- | Base of consecutive lines and arcs with the given rising parameters of the table's rows.
+-- | Base of consecutive lines and arcs. The second argument has the parameters of the table's rows,
+-- rising.
 fromSegmentsAt :: NonEmpty Segment -> Vector Double -> Either CurveFault BasisCurve
 fromSegmentsAt = ofSpans . vector Span.fromSegment
 
--- | Base of consecutive spans with the given rising parameters of the rows.
+-- | Base of consecutive spans, with the rising parameters of the table's rows. It is a fault if
+-- spans do not join or if the parameters are not in order.
 ofSpans :: Vector Span -> Vector Double -> Either CurveFault BasisCurve
 ofSpans parts parameters = do
   checkJoined parts
@@ -368,14 +371,14 @@ vector f list = Vector.unfoldrN (NonEmpty.length list) next (NonEmpty.toList lis
       [] -> Nothing
       a : rest -> let b = f a in b `seq` Just (b, rest)
 
--- | Base of at least one span. The spans must join.
+-- | Base of at least one span with the given rows. The spans must join.
 chain :: Vector Knot -> Vector Span -> BasisCurve
 chain rows parts = makeBase Joined (Vec.isNear first lastPoint) rows (toSpanList parts)
   where
     (first, _) = Span.ends (Vector.head parts)
     (_, lastPoint) = Span.ends (Vector.last parts)
 
--- | Checks that each span has a length and begins where the one before ends. A span may end where
+-- | Checks that each span has a length and begins where the previous one ends. A span may end where
 -- it begins, as a full circle does.
 checkJoined :: Vector Span -> Either CurveFault ()
 checkJoined parts
@@ -390,7 +393,7 @@ checkJoined parts
     n = Vector.length parts
     span' i = parts Vector.! (i - 1)
 
--- | Checks that there are enough points and that neighbours differ.
+-- | Checks that there are at least @needed@ points and that no two neighbours coincide.
 checkDistinct :: Int -> Vector Point -> Either CurveFault ()
 checkDistinct needed points
   | Vector.length points < needed = Left (TooFew needed)
@@ -409,7 +412,7 @@ isLoop points = case (points Vector.!? 0, points Vector.!? (Vector.length points
   (Just p, Just q) -> Vector.length points > 2 && Vec.isNear p q
   _ -> False
 
--- | Rows at the ends of the spans.
+-- | Rows with the given points, at the ends of the spans.
 rowsAtEnds :: Vector Point -> Vector Knot
 rowsAtEnds = Vector.imap (\i p -> Knot {at = fromIntegral i, knotPoint = p})
 
@@ -476,13 +479,14 @@ reversed base =
 mapSpans :: (Vector Span -> Vector Span) -> BasisCurve -> SpanList
 mapSpans f base = toSpanList (f (spans base))
 
--- | Row values in the order of the reversed base.
+-- | Values of the rows of a base, in the order of the rows of the reversed base.
 inReverseOrder :: BasisCurve -> Vector a -> Vector a
 inReverseOrder base values
   | lacksRepeatedStart base = Vector.cons (Vector.head values) (Vector.reverse (Vector.tail values))
   | otherwise = Vector.reverse values
 
--- | True if the base is closed and its first row, at parameter 0, is not repeated at the end.
+-- | True if the base is closed, its first row is at the parameter 0, and no row repeats it at the
+-- end.
 lacksRepeatedStart :: BasisCurve -> Bool
 lacksRepeatedStart base =
   case (rows base Vector.!? 0, rows base Vector.!? (Vector.length (rows base) - 1)) of

@@ -1,9 +1,9 @@
--- | Columns: numbers given for every row of a table, interpolated in the same way and over the
--- same parameter as the points. Polylines interpolate linearly, parabolas by parabolas, splines
--- by splines.
+-- | Columns: numbers given for every row of a curve's table and interpolated between the rows. The
+-- interpolation is that of the points: linear on a polyline, by parabolas on a chain of parabolas,
+-- by a spline on a spline.
 --
--- On a base of spans that were given one by one, the parameter's speed jumps from span to span.
--- There the column is a cubic spline by arc length, natural or, on a closed base, periodic.
+-- On a base of spans that were given one by one, the speed jumps from span to span. There the
+-- column is a cubic spline by arc length: a natural one, or a periodic one on a closed base.
 module Geometry.Curve.Column
   ( Column (..),
     Interpolation (..),
@@ -36,13 +36,13 @@ data Column = Column {values :: Vector Double, interpolation :: Interpolation}
 
 -- | Interpolation of a column between the rows.
 data Interpolation
-  = -- | a cubic for every span of the base
+  = -- | a cubic for every span of the base, over the local parameter from 0 to 1
     BySpan Cubics
-  | -- | the arc lengths (mm) of the knots, both ends included, and a cubic for each interval
+  | -- | the arc lengths (mm) at the rows, and a cubic for each interval between two of them
     ByLength (Unboxed.Vector Double) Cubics
   deriving stock (Eq, Show)
 
--- | Column with one value for each row of the base. A different count is a fault of the program.
+-- | Column with one value for each row of the base. Any other count is a bug of the caller.
 column :: BasisCurve -> Vector Double -> Column
 column base values
   | Vector.length values /= Vector.length (BasisCurve.rows base) =
@@ -76,7 +76,7 @@ column base values
       Parabola -> BySpan (Spline.parabolas (BasisCurve.fractions base) flat)
       Joined -> byLength base values
 
--- | Spline by arc length along the base. A single value is constant along the base.
+-- | Spline through the values by arc length along the base; a single value gives a constant.
 byLength :: BasisCurve -> Vector Double -> Interpolation
 byLength base values = case Vector.toList values of
   [] -> BySpan (Spline.generate (BasisCurve.count base) (const (Cubic 0 0 0 0)))
@@ -115,7 +115,7 @@ byLength base values = case Vector.toList values of
             (Unboxed.fromList (Vector.toList vs))
         )
 
--- | Power series of the value about a position, up to the given order.
+-- | Power series of a column's value about a position, up to the given order.
 series :: Int -> BasisCurve -> Column -> SpanPoint -> PowerSeries
 series n base c spanPoint = case interpolation c of
   BySpan cubics -> Spline.series n (Spline.at cubics (number spanPoint)) (local spanPoint)
@@ -141,19 +141,19 @@ series n base c spanPoint = case interpolation c of
             (TaylorExpansion.speed (BasisCurve.expansion n base spanPoint))
       fraction = PowerSeries.scale (1 / width) (PowerSeries.plusConstant (-from) lengthSeries)
 
--- | Rising parameters of the base at which one cubic follows another, apart from the ends of the
--- base's spans.
+-- | Rising parameters at which one cubic of a spline by arc length follows another: those of the
+-- rows. None for any other column, whose cubics change only where the base's spans do.
 knots :: BasisCurve -> Column -> [Double]
 knots base c = case interpolation c of
   BySpan _ -> []
   ByLength _ _ -> map BasisCurve.at (Vector.toList (BasisCurve.rows base))
 
--- | Index of the interval that contains a length; outside of all intervals, that of the nearer
--- one.
+-- | Index of the interval that contains an arc length; for a length outside of all intervals, the
+-- first or the last index.
 intervalAt :: Double -> Unboxed.Vector Double -> Int
 intervalAt s stations = BinarySearch.lastAtMost (Unboxed.length stations - 1) s stations
 
--- | Column with scaled values, on the given base.
+-- | Column on the given base with its values multiplied by a factor.
 scaled :: BasisCurve -> Double -> Column -> Column
 scaled base k c = column base (Vector.map (k *) (values c))
 

@@ -1,9 +1,9 @@
--- | Cubic spans of a curve: the curve's own, or a cubic approximation of a shifted curve.
+-- | Cubic spans of a curve: the curve's own spans, or a cubic approximation of a shifted curve.
 --
--- An interval of width h has the Hermite cubic with the points P and the derivatives V at both
--- ends. At the fraction t it differs from a smooth curve by t²(1−t)²·(c + d(t−½) + …). At the
--- middle, the difference of the points is c/16 and that of the derivatives is d/16. Halving an
--- interval divides c by 16 and d by 32.
+-- The approximation consists of Hermite cubics: each has the points and the derivatives of the
+-- curve at both ends of an interval. At the fraction t of the interval it differs from a smooth
+-- curve by t²(1−t)²·(c + d(t−½) + …). At the middle, the points differ by c/16 and the derivatives
+-- by d/16. Halving an interval divides c by 16 and d by 32.
 module Geometry.Curve.CubicSpans
   ( along,
   )
@@ -21,13 +21,13 @@ import Geometry.Numeric.PowerSeries qualified as PowerSeries
 import Geometry.Tolerance qualified as Tolerance
 import Linear.V2 (V2 (..))
 
--- | Cubic spans in x and in y within a tolerance of the curve, and the bound of their error.
--- Polynomial spans of an unshifted curve are returned as they are, with the bound 0. Nothing
--- for an unshifted curve with arcs, for a curve whose speed vanishes or nearly does, and where
--- 'maxHalvings' halvings do not suffice.
+-- | Cubic spans in x and in y within a tolerance of the curve, and the bound of their error in mm.
+-- Polynomial spans of an unshifted curve are returned as they are, with the bound 0. The result is
+-- nothing for an unshifted curve with arcs, for a shifted curve whose speed is 0 or nearly 0, and
+-- where 'maxHalvings' halvings do not suffice.
 along :: Mm -> Curve -> Maybe (Mm, Cubics, Cubics)
 along (Mm tolerance) curve = case curve of
-  Plain b -> case spanList b of
+  Unshifted b -> case spanList b of
     Cubical xs ys -> Just (Mm 0, xs, ys)
     Mixed _ -> Nothing
   Shifted {} -> do
@@ -62,7 +62,7 @@ along (Mm tolerance) curve = case curve of
 maxHalvings :: Int
 maxHalvings = 24
 
--- | Point and derivative (mm per unit of the parameter) at a parameter: x, y, x′, y′.
+-- | Point, in mm, and derivative, in mm per unit of the parameter, at a parameter: x, y, x′, y′.
 data Node = Node Double Double Double Double
 
 -- | Speed at a node, in mm per unit of the parameter.
@@ -86,10 +86,10 @@ between nodeAt begin first end final =
 middle :: Double -> Double -> Double
 middle a b = 0.5 * (a + b)
 
--- | Cubic in x and in y.
+-- | Span with a cubic in x and one in y.
 data Span = Span {inX :: Cubic, inY :: Cubic}
 
--- | Hermite cubics between the ends of an interval.
+-- | Hermite cubics over an interval.
 hermiteSpan :: Interval -> Span
 hermiteSpan Interval {begin, end, first = Node px py vx vy, final = Node qx qy wx wy} =
   Span {inX = hermite px qx (h * vx) (h * wx), inY = hermite py qy (h * vy) (h * wy)}
@@ -97,10 +97,11 @@ hermiteSpan Interval {begin, end, first = Node px py vx vy, final = Node qx qy w
     h = end - begin
     hermite p q v w = Cubic p v (3 * (q - p) - 2 * v - w) (2 * (p - q) + v + w)
 
--- | True if the Hermite cubics of both halves of an interval are within the tolerance. The
--- differences that are expected of the halves, from those of the whole interval, must be at most
--- half of the tolerance; the measured differences of each half must be within it. Both tests use
--- the even term (the point at the middle) and the odd term (the derivative there).
+-- | True if the Hermite cubics of both halves of an interval are within the tolerance. There are
+-- two tests, which use the difference of the points at the middle of an interval and that of the
+-- derivatives there. First, the differences of the whole interval must promise that those of its
+-- halves are at most half of the tolerance. Second, the measured differences of each half must be
+-- within the tolerance.
 areHalvesNear :: Double -> Interval -> Interval -> Interval -> Bool
 areHalvesNear tolerance interval firstHalf secondHalf =
   points <= 8 * tolerance && derivatives <= 16 * tolerance && all isNear [firstHalf, secondHalf]
@@ -111,8 +112,8 @@ areHalvesNear tolerance interval firstHalf secondHalf =
     -- the middle, 1/16.
     oddShare = 16 * sqrt 5 / 250
 
--- | Differences between curve and Hermite cubic at the middle of an interval: of the points in
--- mm, and of the derivatives in mm per interval.
+-- | Differences between curve and Hermite cubic at the middle of an interval: that of the points in
+-- mm, and that of the derivatives in mm per interval.
 difference :: Interval -> (Double, Double)
 difference
   Interval

@@ -1,5 +1,5 @@
--- | Cusps of shifted curves. A shift towards the centre of curvature is limited by the radius of
--- curvature. Beyond it, the shifted curve runs backwards between two cusps.
+-- | Cusps of shifted curves. Where a curve is shifted towards its centre of curvature by more than
+-- the radius of curvature, the shifted curve runs backwards between two cusps.
 module Geometry.Curve.Cusp
   ( Cusp (..),
     firstCusp,
@@ -21,10 +21,11 @@ import Geometry.Vec (Point)
 import Geometry.Vec qualified as Vec
 import Linear.V2 (V2 (..))
 
--- | Point of the largest overshoot in the innermost shift that does not fit.
+-- | Point at which a shift exceeds the radius of curvature by the largest factor.
 data Cusp = Cusp
   { -- | number of the shift, counted from 1 at the innermost
     layer :: Int,
+    -- | parameter on the curve
     parameter :: Double,
     -- | point on the curve that is shifted
     place :: Point,
@@ -35,16 +36,18 @@ data Cusp = Cusp
   }
   deriving stock (Eq, Show)
 
--- | Finds the cusp of a curve. Nothing if every shift d to the left satisfies @1 − d·κ > 0@. Only
--- smooth stretches are tested, not the corners between them.
+-- | Cusp of the innermost shift that has one. Nothing if every shift d, positive to the left, of a
+-- curve with the curvature κ satisfies @1 − d·κ > 0@ everywhere. Only smooth stretches are tested,
+-- not the corners between them.
 firstCusp :: Curve -> Maybe Cusp
 firstCusp curve = case curve of
-  Plain _ -> Nothing
+  Unshifted _ -> Nothing
   Shifted top lower _ -> case firstCusp lower of
     Just found -> Just found
     Nothing -> cuspOfLayer top lower curve
 
--- | Cusp of the outermost shift alone: the layer, the curve below it, and the whole curve.
+-- | Cusp of the outermost shift alone. The arguments are its layer, the curve below, and the whole
+-- curve.
 cuspOfLayer :: Layer -> Curve -> Curve -> Maybe Cusp
 cuspOfLayer top lower whole
   | overshoot >= 1 =
@@ -72,8 +75,8 @@ cuspOfLayer top lower whole
             expansion
             (PointSearch.positionWithin stretch whole parameter)
         )
-    -- Candidates for the maximum: the samples, maxima between them, and local minima of the speed,
-    -- where the curve bends most.
+    -- Candidates for the maximum of @d·κ@ on a stretch: the samples, the maxima between them, and
+    -- the local minima of the speed of the curve below, near which the curvature is large.
     candidates s =
       [ (s, u, shareAt s u)
         | u <- PointSearch.samples s <> maxima s <> speedMinima lower whole s
@@ -89,7 +92,8 @@ cuspOfLayer top lower whole
         (\u -> slopes (snd (productAt s 2 u)))
         [(u, fst (slopes (snd (productAt s 1 u)))) | u <- PointSearch.samples s]
 
--- | Parameters of the local minima of a curve's speed within a stretch of its shift.
+-- | Parameters, within a stretch, of the local minima of a curve's speed. The arguments are this
+-- curve, its shift, and a stretch of the shift.
 speedMinima :: Curve -> Curve -> (Double, Double) -> [Double]
 speedMinima lower whole stretch =
   RootFinding.rising slope [(u, fst (slope u)) | u <- PointSearch.samples stretch]
@@ -104,12 +108,12 @@ speedMinima lower whole stretch =
             )
     square a = PowerSeries.multiply a a
 
--- | First and second derivative of a power series.
+-- | First and second derivative of a power series at its parameter.
 slopes :: PowerSeries -> (Double, Double)
 slopes g = (PowerSeries.coefficient 1 g, 2 * PowerSeries.coefficient 2 g)
 
--- | Power series of @d·κ@ about a parameter, up to the given order, and True; or, where the curve
--- that is shifted has no speed, the series of d alone, and False.
+-- | Power series of @d·κ@ about a parameter, up to the given order, and true. Where the speed of
+-- the curve that is shifted is 0, the power series of d alone, and false.
 productSeries :: Int -> Layer -> Curve -> Curve -> (Double, Double) -> Double -> (PowerSeries, Bool)
 productSeries n top lower whole stretch u
   | Mm (Vec.norm (TaylorExpansion.velocity expansion)) > Tolerance.stationary =

@@ -1,8 +1,8 @@
 -- | Refinement of intersections of curves, lines and circles from a nearby starting point.
 --
--- Curves are first intersected through their arc approximations, which differ from them by up to
--- 'Tolerance.curve'. Newton's method then leads to the exact intersection: each step goes to the
--- intersection of the tangents at both foot points.
+-- The starting point is an intersection of the polyarcs that approximate the curves to
+-- 'Tolerance.curve'. Newton's method leads from it to the exact intersection of the curves: each
+-- step goes to the intersection of the tangents at both feet of the current point.
 module Geometry.Curve.Intersection
   ( Foot,
     onLine,
@@ -21,7 +21,8 @@ import Geometry.Tolerance qualified as Tolerance
 import Geometry.Vec (Point, Vec)
 import Geometry.Vec qualified as Vec
 
--- | Foot of the perpendicular from a point to a curve, and the unit tangent there.
+-- | Function that gives the foot of the perpendicular from a point to a curve, and the unit tangent
+-- of the curve at the foot.
 type Foot = Point -> (Point, Vec)
 
 -- | Foot on a line.
@@ -34,13 +35,13 @@ onCircle (Circle c (Mm r)) p = (Vec.shift (Vec.scale r out) c, Vec.left out)
   where
     out = Vec.unit (Vec.to c p)
 
--- | Foot on a curve; at an end of the curve, the nearest point.
+-- | Foot on a curve: the point of the curve that is nearest, which may be an end.
 onCurve :: Curve -> Foot
 onCurve c p = let u = Curve.nearest p c in (Curve.at c u, Curve.tangent c u)
 
--- | Intersection of two curves near a point that is within 'Tolerance.curve' of both. Returns
--- this point unchanged where there is no intersection nearby, where a curve ends, and where the
--- curves are nearly parallel.
+-- | Intersection of two curves near a point that is within 'Tolerance.curve' of both. The point is
+-- returned unchanged if there is no intersection nearby, for example because a curve ends, or if
+-- the curves are nearly parallel.
 refine :: Foot -> Foot -> Point -> Point
 refine footA footB initial = newton (8 :: Int) initial
   where
@@ -54,8 +55,8 @@ refine footA footB initial = newton (8 :: Int) initial
         (a, u) = footA p
         (b, v) = footB p
         sine = Vec.cross u v
-        -- Bound of the distance between the starting point and the exact intersection, for two
-        -- curves that meet at this angle; the factor 8 allows for their curvature.
+        -- Bound of the distance from the starting point to the exact intersection, for two curves
+        -- that meet at this angle. The factor 8 allows for their curvature.
         reach = times (8 / abs sine) Tolerance.curve
     -- Curves that meet at an angle with a smaller sine count as parallel.
     smallestSine = 1e-5

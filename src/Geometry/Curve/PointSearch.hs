@@ -2,8 +2,8 @@
 -- corners.
 --
 -- Every smooth stretch is sampled at equal steps of the parameter. The search for the nearest point
--- adds samples where the curve bends. Newton's method with bisection then refines the results
--- between samples. Two solutions between neighbouring samples can be missed.
+-- adds samples where the curve bends. Where neighbouring samples enclose a solution, Newton's
+-- method with bisection finds it. Two solutions between neighbouring samples may both be missed.
 module Geometry.Curve.PointSearch
   ( nearest,
     atX,
@@ -52,8 +52,8 @@ sampleSteps = 8
 positionWithin :: (Double, Double) -> Curve -> Double -> SpanPoint
 positionWithin (_, b) curve u = ShiftedCurve.spanPoint (if u >= b then Before else After) u curve
 
--- | Parameter of the point nearest to a given point. Of several equally near points the first is
--- taken.
+-- | Parameter of the curve's point that is nearest to a given point; the first one if several are
+-- equally near.
 nearest :: Point -> Curve -> Double
 nearest p curve =
   fst
@@ -74,8 +74,8 @@ nearest p curve =
       let jet = ShiftedCurve.expansionAt 1 curve (positionWithin stretch curve u)
        in (u, TaylorExpansion.position jet, TaylorExpansion.velocity jet)
     best = minimum [Vec.distance p q | (_, found) <- sampled, (_, q, _) <- found]
-    -- Refines each minimum of the distance that neighbouring samples enclose, unless it is
-    -- certainly farther away than the best sample.
+    -- Finds each minimum of the distance that two neighbouring samples enclose, unless the minimum
+    -- is certainly larger than the distance of the best sample.
     feet (stretch, found) =
       [ ( u,
           Vec.distance
@@ -97,7 +97,8 @@ nearest p curve =
         v = TaylorExpansion.velocity jet
         acceleration = Vec.vec (2 * PowerSeries.coefficient 2 x) (2 * PowerSeries.coefficient 2 y)
 
--- | Inserts samples by bisection where the direction changes much between neighbours.
+-- | Samples with further ones inserted, by bisection, where the direction changes by more than
+-- 'largestChange' between neighbours. A sample is a parameter, the point and the velocity there.
 refineSamples ::
   (Double -> (Double, Point, Vec)) ->
   [(Double, Point, Vec)] ->
@@ -143,10 +144,10 @@ atX abscissa curve = distinct (concatMap found (stretches curve))
           | otherwise = roots rest
         roots [(a, 0)] = [a]
         roots _ = []
-    -- Differences within rounding count as zero.
+    -- Differences up to 'Tolerance.equal' count as 0.
     deviation v = if abs (v - abscissa) <= Tolerance.equal then 0 else v - abscissa
-    -- Consecutive solutions between which the curve keeps the given x are one solution, or the two
-    -- ends of a vertical stretch. Solutions between which the curve departs from x stay separate.
+    -- Merges consecutive solutions between which the curve has the given x. They become one
+    -- solution, or the two ends of a vertical stretch.
     distinct us = case us of
       [] -> []
       a : rest ->
@@ -190,8 +191,8 @@ isClosed curve = Vec.isNear (end After 0) (end Before (ShiftedCurve.domain curve
       TaylorExpansion.position
         (ShiftedCurve.expansionAt 0 curve (ShiftedCurve.spanPoint approach u curve))
 
--- | Unit tangent just before or just after a parameter. On a closed curve the start continues the
--- end.
+-- | Unit tangent just before or just after a parameter. On a closed curve, the tangent before the
+-- start is that at the end, and the tangent after the end is that at the start.
 unitTangentAcrossSeam :: Approach -> Curve -> Double -> Vec
 unitTangentAcrossSeam approach curve u
   | approach == Before && u <= 0 && isClosed curve =
@@ -200,9 +201,9 @@ unitTangentAcrossSeam approach curve u
     unitTangent After curve 0
   | otherwise = unitTangent approach curve u
 
--- | Unit tangent just before or just after a parameter; at an end of the curve, the one-sided
--- tangent. Where the speed vanishes it is the limit. Where a shift has collapsed a stretch to a
--- point it is the tangent of the curve below.
+-- | Unit tangent just before or just after a parameter; at an end of the curve, the tangent of the
+-- curve there. Where the speed is 0, the tangent is the limit from the given side. Where a shift
+-- has collapsed a stretch to a point, it is the tangent of the curve below.
 unitTangent :: Approach -> Curve -> Double -> Vec
 unitTangent approach curve u = case TaylorExpansion.direction approach (expansion 1) of
   Just d -> d
@@ -210,6 +211,6 @@ unitTangent approach curve u = case TaylorExpansion.direction approach (expansio
     Just d -> d
     Nothing -> case curve of
       Shifted _ lower _ -> unitTangent approach lower u
-      Plain _ -> Crash.bug "a span that is a point"
+      Unshifted _ -> Crash.bug "a span that is a point"
   where
     expansion n = ShiftedCurve.expansionAt n curve (ShiftedCurve.spanPoint approach u curve)

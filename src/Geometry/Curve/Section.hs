@@ -1,8 +1,8 @@
 -- | Sections: lines, parabolas and circular arcs y(x) through two rows of a table.
 --
--- A parabola or an arc through two given rows has one free number t. At every x between the ends, y
--- rises with t. The largest deviation in y is therefore least where two rows deviate equally to
--- opposite sides, or where t is at a limit of its range.
+-- The parabolas through two given rows form a family with one parameter t, and so do the arcs. At
+-- every x between the ends, y rises with t. The largest deviation in y is therefore least for a t
+-- at which two rows deviate equally to opposite sides, or at a limit of the range of t.
 module Geometry.Curve.Section
   ( -- * Tables
     PointTable,
@@ -54,7 +54,7 @@ data PointTableFault
     OutOfOrder Int
   deriving stock (Eq, Show)
 
--- | Makes a table of points if x rises strictly or falls strictly.
+-- | Table of at least two points, if x rises strictly or falls strictly.
 table :: [Point] -> Either PointTableFault PointTable
 table points = case points of
   p : q : _ ->
@@ -146,14 +146,15 @@ formula p = case curve p of
 deviationFrom :: Section -> Point -> Double
 deviationFrom p q = height p (Vec.x q) - Vec.y q
 
--- | Parabola through three points, relative to the chord from the first to the last.
+-- | Shape of the parabola through three points, relative to the chord from the first to the last.
 parabola :: Point -> Point -> Point -> SectionShape
 parabola a m b = Parabola ((up - x * h / w) / (x * (x - w)))
   where
     Chord w h = chordOf a b
     Chord x up = chordOf a m
 
--- | True if an arc with this angle is straight within the tolerance.
+-- | True if an arc with this angle between chord and arc, in radians, counts as a line by
+-- 'Tolerance.straight'.
 isFlat :: Double -> Bool
 isFlat t = Rad (2 * abs t) <= Tolerance.straight
 
@@ -190,16 +191,16 @@ data Chord = Chord Double Double
 chordOf :: Point -> Point -> Chord
 chordOf a b = Chord (Vec.x b - Vec.x a) (Vec.y b - Vec.y a)
 
--- | Rise in y of a section at a distance in x from its first end.
+-- | Difference in y between a section's point at a distance @x@ from its first end, and that end.
 rise :: Chord -> SectionShape -> Double -> Double
 rise chord@(Chord w h) c x = case c of
   Line -> x * h / w
   Parabola a -> x * h / w + a * x * (x - w)
   Arc (Rad t) -> arcRise chord (tan t) x
 
--- | Rise of an arc, given the tangent of its angle with the chord. The circles through (0, 0) and
--- (w, h) are @μ·(x·(x − w) + y·(y − h)) + x·h − y·w = 0@ with the tangent μ. The arc is the
--- root that tends to the chord for μ → 0.
+-- | 'rise' of an arc, given the tangent of its angle with the chord. The circles through (0, 0) and
+-- (w, h) are @μ·(x·(x − w) + y·(y − h)) + x·h − y·w = 0@, where |μ| is this tangent. The arc is the
+-- solution y that tends to the chord for μ → 0.
 arcRise :: Chord -> Double -> Double -> Double
 arcRise (Chord w h) tangent x = 2 * q / (p + signum w * sqrt (max 0 (p * p - 4 * mu * q)))
   where
@@ -208,15 +209,15 @@ arcRise (Chord w h) tangent x = 2 * q / (p + signum w * sqrt (max 0 (p * p - 4 *
     q = mu * x * (x - w) + x * h
 {-# INLINE arcRise #-}
 
--- | Best section of a kind between two rows (indices from 0), and the largest deviation of the
--- rows between.
+-- | Section of a kind between two rows (indices from 0) with the least largest deviation; and this
+-- deviation, in mm, of the rows between.
 best :: PointTable -> SectionKind -> Int -> Int -> (Double, SectionShape)
 best t k i j = let (worst, c, _) = bestWithin (1 / 0) Nothing t k i j in (worst, c)
 
--- | Best section of a kind between two rows, if its deviation does not exceed the limit;
--- otherwise a lower bound of the deviation, itself above the limit. The third result is the
--- pair of rows that proves the deviation. Passing this pair for a slightly longer section saves
--- most of the work.
+-- | As 'best', but only exact up to a limit: if the least largest deviation exceeds the limit, the
+-- first result is a lower bound of it, also above the limit. The third result is the pair of rows
+-- that determines the first result. This pair is a good initial pair, the second argument, for a
+-- slightly longer section: it saves most of the work.
 bestWithin ::
   Double ->
   Maybe (Int, Int) ->
@@ -266,8 +267,8 @@ bestWithin limit initialPair t@(PointTable xs ys) k i j = case k of
     up m = Vector.unsafeIndex ys m - Vector.unsafeIndex ys i
     relative c m = rise chord c (across m) - up m
 
--- | Rows strictly between two others with the lowest and the highest value. The values are 0 if
--- there are no rows between.
+-- | Rows strictly between two others with the lowest and the highest value, and these values. The
+-- values are 0 if there are no rows between.
 extremes :: Int -> Int -> (Int -> Double) -> (Int, Double, Int, Double)
 extremes i j value
   | j <= i + 1 = (i, 0, i, 0)
@@ -282,12 +283,14 @@ extremes i j value
         v = value m
 {-# INLINE extremes #-}
 
--- | Minimax fit of the free number by single exchange (Remez): returns the least largest
--- deviation, the free number, and the two rows that determine it. At the optimum the deviations
--- of two rows balance. A row with a larger deviation replaces the row of the pair on the same
--- side. The balanced deviation rises with every exchange, so the iteration ends; it also ends
--- once the deviation exceeds the limit. It takes about four rounds, or one or two from a good
--- initial pair.
+-- | Minimax fit of the parameter t by single exchange (Remez): the least largest deviation, the
+-- parameter, and the two rows that determine it.
+--
+-- @balance@ gives the t for which two rows deviate equally to opposite sides, and @deviation@ the
+-- deviation of a row for a t. At the optimum, two rows balance and no other row deviates more. As
+-- long as another row deviates more, it replaces the row of the pair on the same side. The balanced
+-- deviation rises with every exchange, so the iteration ends; it also ends once this deviation
+-- exceeds the limit. It takes about four rounds, or one or two from a good initial pair.
 minimax ::
   Double ->
   Maybe (Int, Int) ->
@@ -313,9 +316,10 @@ minimax limit initialPair balance deviation i j =
         worst = max (-vLow) vHigh
 {-# INLINE minimax #-}
 
--- | Root of a rising function by the Illinois variant of the false-position method, to nearly
--- full precision. Returns the end of the range if there is no sign change. The Illinois rule
--- halves the value at an end that was kept, so that both ends move.
+-- | Root of a rising function between @−limit@ and @limit@, to nearly full precision, by the
+-- Illinois variant of the false-position method. If the function has no sign change, the result is
+-- the end of the range at which it is nearer to 0. The Illinois rule halves the function's value at
+-- an end of the bracket that did not move, so that this end moves next.
 root :: Double -> (Double -> Double) -> Double
 root limit f
   | f (-limit) >= 0 = -limit

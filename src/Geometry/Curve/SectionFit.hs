@@ -34,13 +34,14 @@ import Geometry.Tolerance qualified as Tolerance
 
 -- Choice of sections ---------------------------------------------------------------------------
 
--- | Fewest sections of the given kinds within a tolerance in y. Among these fits, the largest
--- deviation is least. Among those, the sections are simplest: each has the simplest kind that
--- keeps the largest deviation, the sum of the kinds' ranks is least, and then the sum of the
--- deviations. A fit always exists, because a line joins any two neighbouring rows.
+-- | Fewest sections of the given kinds within a tolerance in y. Of the fits with the fewest
+-- sections, those with the least largest deviation are taken. Of these, the one with the simplest
+-- sections is the result: each section has the simplest kind that keeps the largest deviation, and
+-- the sum of the kinds' ranks is least; then the sum of the deviations decides. A fit always
+-- exists, because a line joins any two neighbouring rows.
 --
--- A section that deviates by more than /twice/ the tolerance d is not extended; no fit is lost by
--- this pruning. Proof: let a section A start at row i, end after row j and keep within d. Let B be
+-- A section that deviates by more than /twice/ the tolerance d is not extended. This pruning loses
+-- no fit. Proof: let a section A start at row i, end after row j and keep within d. Let B be
 -- the best section of its kind from i to j, with the largest deviation D. The difference of two
 -- parabolas, or of two arcs that are single-valued in x, is monotone from some point on after their
 -- second common point (the sine of an arc's slope is linear in x). B deviates by D to one side at
@@ -48,30 +49,31 @@ import Geometry.Tolerance qualified as Tolerance
 -- result. If D > d, then A − B has its second zero between these rows. It is at least D − d at the
 -- later one, and no smaller at row j; but there it is at most d. So D is at most 2·d.
 --
--- With n rows, and sections over at most m of them at twice the tolerance, n·m pairs of rows are
--- tested. Most pairs are rejected by the two rows that rejected the previous pair; the others take
--- one or two passes over the rows between. A single section over the whole table is found at once.
--- The worst case is three sections, at about n³/27 times a pass (300 rows take a tenth of a second,
--- 1000 rows a second or two).
+-- With n rows, and sections of at most m rows within twice the tolerance, n·m pairs of first and
+-- last rows are tested. Most pairs are rejected by the two rows that rejected the previous pair;
+-- the others take one or two passes over the rows between. A single section over the whole table is
+-- found at once. The worst case is three sections: they take about n³/27 evaluations of a section
+-- (300 rows take a tenth of a second, 1000 rows a second or two).
 fit :: NonEmpty SectionKind -> Mm -> PointTable -> NonEmpty Section
-fit kinds (Mm tolerance) t = fmap piece (simplest t steps (bottleneck steps))
+fit kinds (Mm tolerance) t = fmap section (simplest t steps (bottleneck steps))
   where
     steps = layers t (toList (NonEmpty.nub (NonEmpty.sort kinds))) tolerance
-    piece (i, j, k) = let (d, c) = best t k i j in sectionBetween t i j c (Mm d)
+    section (i, j, k) = let (d, c) = best t k i j in sectionBetween t i j c (Mm d)
 
 -- | Section between two rows (indices from 0) with a shape and its largest deviation.
 sectionBetween :: PointTable -> Int -> Int -> SectionShape -> Mm -> Section
 sectionBetween t i j curve largestDeviation =
   Section {first = i + 1, final = j + 1, from = row t i, to = row t j, curve, largestDeviation}
 
--- | Sections that start at a row: their last rows, and the deviation for each kind.
+-- | Sections that start at one row: the last row of each, and its kinds with their deviations.
 type SectionsFrom = [(Int, NonEmpty (SectionKind, Double))]
 
--- | Sections that a shortest chain can use, by their number in the chain and by their first row.
+-- | Sections that a chain of the fewest sections can contain: for each position in the chain, by
+-- their first row.
 type Layers = NonEmpty (IntMap SectionsFrom)
 
--- | Breadth-first search: the rows that are reached with k sections and no fewer, from k = 0,
--- until the last row is reached.
+-- | Breadth-first search for the last row. Step k finds the rows that k sections reach from the
+-- first row, but fewer do not.
 layers :: PointTable -> [SectionKind] -> Double -> Layers
 layers t kinds tolerance = go (IntMap.singleton 0 ()) (IntMap.singleton 0 ())
   where
@@ -92,8 +94,9 @@ layers t kinds tolerance = go (IntMap.singleton 0 ()) (IntMap.singleton 0 ())
         ( NonEmpty.nonEmpty
             [(k, d) | (k, d, _) <- deviationsOf [(k, Nothing) | k <- kinds] i final, d <= within]
         )
-    -- Lengthens sections from a row. Keeps the kinds that can still come within the tolerance, each
-    -- with the two rows of its largest deviations. Skips rows that were reached before.
+    -- Lengthens the sections from a row, one for each kind, from last row @j@ on. Drops the kinds
+    -- that can no longer come within the tolerance; keeps with each kind the two rows of its
+    -- largest deviations. Skips rows that were reached before.
     lengthen reached i j candidates
       | j > final || null candidates = []
       | reached j = lengthen reached i (j + 1) candidates
@@ -114,7 +117,7 @@ layers t kinds tolerance = go (IntMap.singleton 0 ()) (IntMap.singleton 0 ())
       | otherwise =
         [(k, d, most) | (k, before) <- ks, let (d, _, most) = bestWithin within before t k i j]
 
--- | Least possible largest deviation of a chain through the layers.
+-- | Least possible largest deviation, in mm, of a chain through the layers.
 bottleneck :: Layers -> Double
 bottleneck steps = minimum (IntMap.elems (foldl advance (IntMap.singleton 0 0) steps))
   where
@@ -165,17 +168,18 @@ data SectionFault
     EndsEarly Int Int
   deriving stock (Eq, Show)
 
--- | Sections that the user chooses, each by the rows (counted from 1) through which it passes.
--- Two rows give a line, three a parabola. The first section begins at row 1, each other one at
--- the last row of the one before; the last section ends at the last row of the table.
+-- | Sections that the user chooses, each by the rows (counted from 1) through which it passes: two
+-- rows give a line, three rows a parabola. The first section must begin at row 1, and every other
+-- one at the last row of the section before it. The last section must end at the last row of the
+-- table.
 sections :: PointTable -> [[Int]] -> Either SectionFault (NonEmpty Section)
 sections t chosen = case NonEmpty.nonEmpty chosen of
   Nothing -> Left NoSections
   Just some -> do
-    pieces <- traverse section (NonEmpty.zip (1 :| [2 ..]) some)
-    checkAll checkJoined (zip3 [1 ..] (1 : map final (toList pieces)) (toList pieces))
-    let ends = final (NonEmpty.last pieces)
-    if ends == rows t then Right pieces else Left (EndsEarly ends (rows t))
+    found <- traverse section (NonEmpty.zip (1 :| [2 ..]) some)
+    checkAll checkJoined (zip3 [1 ..] (1 : map final (toList found)) (toList found))
+    let ends = final (NonEmpty.last found)
+    if ends == rows t then Right found else Left (EndsEarly ends (rows t))
   where
     checkJoined (number, before, p) =
       if first p == before then Right () else Left (NotJoined number (first p) before)
@@ -207,9 +211,9 @@ data Deviation = Deviation
   }
   deriving stock (Eq, Show)
 
--- | Deviations of all rows. A row in two sections is listed once.
+-- | Deviations of all rows. A row in two sections is listed once, with the earlier section.
 deviations :: PointTable -> NonEmpty Section -> [Deviation]
-deviations t pieces = concat (zipWith onOne [1 ..] (toList pieces))
+deviations t fitted = concat (zipWith onOne [1 ..] (toList fitted))
   where
     onOne number p =
       [ Deviation k number (Mm (deviationFrom p (row t (k - 1))))

@@ -1,7 +1,7 @@
 -- | Distances of shifts along a curve: the ciphers of the Ural paper.
 --
 -- A distance belongs to the curve that it shifts and may depend on that curve's arc length. It is
--- in mm, positive to the side that the shift names.
+-- in mm, and positive towards the side of the shift.
 module Geometry.Curve.ShiftDistance
   ( Distance (..),
     Growth (..),
@@ -35,7 +35,7 @@ import Geometry.Numeric.TaylorExpansion qualified as TaylorExpansion
 data Distance
   = -- | constant (cipher 2)
     Constant Mm
-  | -- | interpolated from row to row (cipher 6), mm
+  | -- | in mm at the rows, interpolated between them (cipher 6)
     Pointwise Column
   | -- | @H·tan μ + δ@ for a bevel μ (radians), a height H (mm) and an allowance δ (cipher 4)
     Bevelled Column Column Mm
@@ -48,14 +48,14 @@ data Distance
     Joggled Joggle
   deriving stock (Eq, Show)
 
--- | Linear growth from one distance to another, over the whole curve or between two rising
--- parameters. The first distance holds before the interval, the second one after it.
+-- | Linear growth from one distance to another, over the whole curve or, if @between@ is given,
+-- between these two rising parameters. Before them the first distance holds, after them the second.
 data Growth = Growth {from :: Mm, to :: Mm, between :: Maybe (Double, Double)}
   deriving stock (Eq, Show)
 
--- | Joggle between two rising parameters. Its full depth is reached and left on ramps inside of
--- the interval; each ramp consists of two arcs of the given radius. The radius is more than
--- half of the depth. A negative depth shifts to the other side.
+-- | Joggle between two rising parameters. Inside of this interval, a ramp at each end leads to the
+-- full depth; it consists of two arcs of the given radius. The radius is more than half of the
+-- depth. A negative depth shifts away from the side of the shift.
 data Joggle = Joggle {begins :: Double, ends :: Double, depth :: Mm, radius :: Mm}
   deriving stock (Eq, Show)
 
@@ -72,13 +72,13 @@ data ShiftInterval = ShiftInterval
     final :: Mm
   }
 
--- | Intervals always compare equal: each is determined by the distance and by the curve that it
--- shifts, which are compared beside it.
+-- | All intervals compare equal, because an interval is determined by the distance and by the curve
+-- that it shifts, which are compared as well.
 instance Eq ShiftInterval where
   _ == _ = True
 
 instance Show ShiftInterval where
-  show _ = "Stretch"
+  show _ = "ShiftInterval"
 
 -- | Interval of a distance on a curve with the given arc length.
 intervalOf :: ArcLength -> Distance -> ShiftInterval
@@ -103,8 +103,8 @@ intervalOf arcLength distance = case distance of
   where
     wholeCurve = ShiftInterval {marks = [], first = Mm 0, final = ArcLength.total arcLength}
 
--- | Rising parameters of the base at which the third derivative of a distance may jump, apart
--- from its marks and the ends of the base's spans.
+-- | Rising parameters of the base at which the third derivative of a distance may jump, other than
+-- its 'marks' and the ends of the base's spans.
 knots :: BasisCurve -> Distance -> [Double]
 knots base distance = case distance of
   Constant _ -> []
@@ -115,7 +115,7 @@ knots base distance = case distance of
   Square mu _ -> Column.knots base mu
   Joggled _ -> []
 
--- | True if a distance is identically 0 about a position.
+-- | True if a distance is 0 in a neighbourhood of a position, as outside of a joggle.
 vanishes :: Distance -> SpanPoint -> Bool
 vanishes distance position = case distance of
   Joggled Joggle {begins, ends} -> not (position `isPast` begins) || position `isPast` ends
@@ -125,8 +125,8 @@ vanishes distance position = case distance of
   Bevelled {} -> False
   Growing _ -> False
 
--- | Properties of the curve that is shifted: the base under all layers, the arc length (evaluated
--- only for distances that depend on it), and the Taylor expansion about the position.
+-- | Properties of the curve that is shifted: its base curve, its arc length, and its Taylor
+-- expansion about the position. The arc length is evaluated only for distances that depend on it.
 data CurveBelow = CurveBelow {under :: BasisCurve, along :: ~ArcLength, near :: TaylorExpansion}
 
 -- | Power series of the distance about a position, up to the given order. The expansion of the
@@ -149,7 +149,8 @@ series n below interval distance position = case distance of
       (PowerSeries.cosine (Column.series n (under below) mu position))
   Joggled joggle -> joggleSeries n below interval joggle position
 
--- | @h1 + (h2 − h1)·s/S@ at the length s of a growth over the length S (Kolsanova, cipher 1).
+-- | Power series of a growth: @h₁ + (h₂ − h₁)·s/S@ at the arc length s from the start of the
+-- growth, which has the length S (Kolsanova, cipher 1).
 growthSeries :: Int -> CurveBelow -> ShiftInterval -> Growth -> SpanPoint -> PowerSeries
 growthSeries n below interval Growth {from = Mm h1, to = Mm h2, between} position = case between of
   Nothing -> inside
@@ -170,8 +171,9 @@ growthSeries n below interval Growth {from = Mm h1, to = Mm h2, between} positio
           )
       | otherwise = PowerSeries.constant n h1
 
--- | Joggle at the length t from the start of the ramp: @r − √(r² − t²)@ up to the middle of the
--- ramp, then @d − (r − √(r² − (ℓ − t)²))@.
+-- | Power series of a joggle of depth d and radius r. At the arc length t from the outer end of a
+-- ramp of length ℓ it is @r − √(r² − t²)@ up to the middle of the ramp, then
+-- @d − (r − √(r² − (ℓ − t)²))@.
 joggleSeries :: Int -> CurveBelow -> ShiftInterval -> Joggle -> SpanPoint -> PowerSeries
 joggleSeries n below interval joggle@Joggle {depth = Mm depth, radius = Mm r} position =
   PowerSeries.scale (signum depth) $
@@ -225,7 +227,7 @@ isPast position mark = case approach position of
   After -> mark <= parameter position
   Before -> mark < parameter position
 
--- | Distance for the curve scaled by a factor, on its new base. Angles are unchanged.
+-- | Distance for the curve scaled by a factor, given the scaled base. Angles are unchanged.
 scaled :: BasisCurve -> Double -> Distance -> Distance
 scaled on k distance = case distance of
   Constant h -> Constant (times k h)

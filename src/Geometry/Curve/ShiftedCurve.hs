@@ -1,5 +1,5 @@
--- | Curves: a base with any number of shifts on top, evaluated by power series through all
--- layers.
+-- | Curves: a base curve with any number of shifts, each of which is a layer on top of the curve
+-- below. They are evaluated by power series through all layers.
 module Geometry.Curve.ShiftedCurve
   ( Curve (..),
     Layer (..),
@@ -31,8 +31,9 @@ import Geometry.Vec qualified as Vec
 
 -- | Curve with any number of shifts.
 data Curve
-  = Plain BasisCurve
-  | -- | a curve moved along its left normal; the arc length is that of the result
+  = -- | a curve without shifts
+    Unshifted BasisCurve
+  | -- | the curve below, moved along its normal; the arc length is that of the result
     Shifted Layer Curve ~ArcLength
   deriving stock (Eq, Show)
 
@@ -40,7 +41,7 @@ data Curve
 data Layer = Layer {side :: Side, distance :: Distance, interval :: ~ShiftInterval}
   deriving stock (Eq, Show)
 
--- | Shifts a curve along its normal to a side, by a distance that belongs to this curve.
+-- | Curve moved along its normal to a side, by a distance that is given along this curve.
 shifted :: Side -> Distance -> Curve -> Curve
 shifted side distance lower = whole
   where
@@ -54,7 +55,7 @@ shifted side distance lower = whole
 -- | Base under all shifts.
 base :: Curve -> BasisCurve
 base curve = case curve of
-  Plain b -> b
+  Unshifted b -> b
   Shifted _ lower _ -> base lower
 
 -- | Sides and distances of the shifts, the innermost first.
@@ -62,23 +63,23 @@ layers :: Curve -> [(Side, Distance)]
 layers curve = reverse (outermost curve)
   where
     outermost c = case c of
-      Plain _ -> []
+      Unshifted _ -> []
       Shifted layer lower _ -> (side layer, distance layer) : outermost lower
 
 -- | Rising parameters between which the curve is smooth, its start and its end included.
 breaks :: Curve -> [Double]
 breaks curve = case curve of
-  Plain b -> map fromIntegral [0 .. BasisCurve.count b]
+  Unshifted b -> map fromIntegral [0 .. BasisCurve.count b]
   Shifted layer lower _ ->
     merge (breaks lower) (filter isInside (ShiftDistance.marks (interval layer)))
   where
     isInside u = u > 0 && u < domain curve
 
--- | Rising parameters at which a column changes from one cubic to the next within a span. The
--- curve is smooth there, but the speed of a shift of it is not.
+-- | Rising parameters within spans at which a column changes from one cubic to the next. The curve
+-- is smooth there, but its speed is not.
 knots :: Curve -> [Double]
 knots curve = case curve of
-  Plain _ -> []
+  Unshifted _ -> []
   Shifted layer lower _ ->
     merge (knots lower) (filter isInside (ShiftDistance.knots (base lower) (distance layer)))
   where
@@ -101,18 +102,18 @@ domain = fromIntegral . BasisCurve.count . base
 -- | Arc length along the curve as a function of its parameter.
 arcLength :: Curve -> ArcLength
 arcLength curve = case curve of
-  Plain b -> BasisCurve.arcLength b
+  Unshifted b -> BasisCurve.arcLength b
   Shifted _ _ along -> along
 
 -- | Position at a parameter. Parameters outside of the domain give the nearer end.
 spanPoint :: Approach -> Double -> Curve -> SpanPoint
 spanPoint approach u curve = BasisCurve.spanPoint approach u (base curve)
 
--- | Taylor expansion of the point about a position, up to the given order. A shift needs one
--- order more of the curve below, except where its distance vanishes.
+-- | Taylor expansion of the point about a position, up to the given order. For a shift, the curve
+-- below is expanded to one order more, except where the shift's distance is identically 0.
 expansionAt :: Int -> Curve -> SpanPoint -> TaylorExpansion
 expansionAt n curve s = case curve of
-  Plain b -> BasisCurve.expansion n b s
+  Unshifted b -> BasisCurve.expansion n b s
   Shifted layer lower _
     | ShiftDistance.vanishes (distance layer) s -> expansionAt n lower s
     | otherwise ->
@@ -120,8 +121,8 @@ expansionAt n curve s = case curve of
             expansionAt (n + 1) lower s
        in TaylorExpansion.offset (distanceAt n layer lower near s) near
 
--- | Power series of a shift's distance to the left, up to the given order. The expansion is that
--- of the curve below about the position.
+-- | Power series of a shift's distance, positive to the left, about a position. The arguments are
+-- the order, the shift, the curve below, and the expansion of that curve about the position.
 distanceAt :: Int -> Layer -> Curve -> TaylorExpansion -> SpanPoint -> PowerSeries
 distanceAt n layer lower near s = case side layer of
   LeftOf -> d

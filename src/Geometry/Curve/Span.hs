@@ -37,7 +37,7 @@ data Span
     Round Segment
   deriving stock (Eq, Show)
 
--- | Part of a curve in the form in which it is given.
+-- | Shape of a part of a curve, as a part program or an input sheet gives it.
 data SpanShape
   = -- | a straight line from one point to another
     Line Point Point
@@ -91,7 +91,7 @@ expansion :: Int -> Span -> Double -> TaylorExpansion
 expansion n s t = case s of
   Polynomial x y -> V2 (Spline.series n x t) (Spline.series n y t)
   Round (Arc {start, centre, sweep = Rad sweep}) ->
-    -- Each derivative is the one before, rotated by a quarter turn and multiplied by the sweep.
+    -- Each derivative is the previous one, rotated by a quarter turn and multiplied by the sweep.
     let rotated = Vec.rotate (Rad (sweep * t)) (Vec.to centre start)
         factors = scanl (\k j -> k * sweep / j) 1 [1 ..]
         terms = zipWith Vec.scale factors (iterate Vec.left rotated)
@@ -113,7 +113,7 @@ reversed s = case s of
   Polynomial x y -> Polynomial (Spline.reversed x) (Spline.reversed y)
   Round g -> Round (Segment.reverse g)
 
--- | Image of a span under a similarity, computed on its coefficients.
+-- | Image of a span under a similarity; that of a cubic is computed from its coefficients.
 transformed :: Transformation -> Span -> Span
 transformed s g = case g of
   Polynomial (Cubic x0 x1 x2 x3) (Cubic y0 y1 y2 y3) ->

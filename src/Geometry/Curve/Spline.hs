@@ -49,7 +49,7 @@ line p q = Cubic p (q - p) 0 0
 value :: Cubic -> Double -> Double
 value (Cubic a b c d) t = a + t * (b + t * (c + t * d))
 
--- | First derivative.
+-- | First derivative at a parameter.
 rate :: Cubic -> Double -> Double
 rate (Cubic _ b c d) t = b + t * (2 * c + 3 * t * d)
 
@@ -67,7 +67,7 @@ series n (Cubic a b c d) t =
 reversed :: Cubic -> Cubic
 reversed (Cubic a b c d) = Cubic (a + b + c + d) (-(b + 2 * c + 3 * d)) (c + 3 * d) (-d)
 
--- | Cubics in order, with four coefficients each.
+-- | Vector of cubics, stored as four coefficients for each.
 newtype Cubics = Cubics (Unboxed.Vector Double)
   deriving newtype (Eq, Show)
 
@@ -109,14 +109,14 @@ data Boundary
     Periodic
   deriving stock (Eq, Show)
 
--- | Spline through values at the given steps of the parameter. The steps are above zero, and one
--- fewer than the values: at least one, or at least three for a periodic spline. Each cubic has
--- a local parameter from 0 to 1.
+-- | Spline through values, with given steps of the parameter between them. The steps are above 0. A
+-- periodic spline needs at least three steps, any other at least one. Each cubic has a local
+-- parameter from 0 to 1.
 interpolate :: Boundary -> Unboxed.Vector Double -> Unboxed.Vector Double -> Cubics
 interpolate boundary steps values = generate (Unboxed.length steps) cubic
   where
     second = secondDerivatives boundary steps values
-    -- Step h, and second derivatives M at its two ends.
+    -- The step h, the values p and q at its ends, and the second derivatives m and m' there.
     cubic i = Cubic p (q - p - h * h * (2 * m + m') / 6) (h * h * m / 2) (h * h * (m' - m) / 6)
       where
         h = Unboxed.unsafeIndex steps i
@@ -125,8 +125,8 @@ interpolate boundary steps values = generate (Unboxed.length steps) cubic
         m = Unboxed.unsafeIndex second i
         m' = Unboxed.unsafeIndex second (i + 1)
 
--- | One equation: the factors of the previous, the own and the next unknown, and the right-hand
--- side.
+-- | One equation of a tridiagonal system: the factors below, on and above the diagonal, and the
+-- right-hand side.
 data Row = Row Double Double Double Double
 
 -- | Second derivatives M at all values. With the steps h and the slopes Δ between neighbours, the
@@ -199,9 +199,9 @@ tridiagonal n row = Unboxed.create $ do
         substitute superDiagonal solved (i - 1) m
 {-# INLINE tridiagonal #-}
 
--- | Solves a cyclic tridiagonal system: the first equation also contains the last unknown, and
--- the last equation the first. The two corner elements are removed as a matrix of rank one
--- (Sherman–Morrison).
+-- | Solves a cyclic tridiagonal system: the first equation also contains the last unknown, and the
+-- last equation the first unknown. The two elements in the corners of the matrix are treated as a
+-- change of rank one (Sherman–Morrison).
 cyclic :: Int -> (Int -> Row) -> Unboxed.Vector Double
 cyclic n row = Unboxed.zipWith (\x z -> x - factor * z) plain corner
   where
@@ -219,8 +219,8 @@ cyclic n row = Unboxed.zipWith (\x z -> x - factor * z) plain corner
     factor = weighted plain / (1 + weighted corner)
 {-# INLINE cyclic #-}
 
--- | Parabolas (Lagrange) through values 1–3, 3–5, and so on. Each fraction gives the position of
--- a middle value between its neighbours. The count of values is odd.
+-- | Parabolas (Lagrange) through values 1–3, 3–5, and so on. For each parabola, the first argument
+-- has the local parameter of its middle value. The count of values is odd.
 parabolas :: Vector Double -> Unboxed.Vector Double -> Cubics
 parabolas fractions values =
   generate (Vector.length fractions) (\i -> parabola i (fractions Vector.! i))

@@ -29,8 +29,9 @@ ofPoints p ps = foldl (\box q -> box `union` single q) (single p) ps
   where
     single q = BoundingBox (Vec.x q) (Vec.y q) (Vec.x q) (Vec.y q)
 
--- | A box that contains a segment. For an arc below half a circle it is the box of the chord,
--- enlarged by the sagitta, else that of the full circle: neither is the smallest.
+-- | A box that contains a segment; for an arc it is not always the smallest. For an arc below half
+-- a circle it is the box of the chord, enlarged by the sagitta. For other arcs it is the box of the
+-- full circle.
 ofSegment :: Segment -> BoundingBox
 ofSegment segment = case segment of
   Straight a b ->
@@ -57,7 +58,7 @@ meets :: BoundingBox -> BoundingBox -> Bool
 meets (BoundingBox l b r t) (BoundingBox l' b' r' t') = l <= r' && l' <= r && b <= t' && b' <= t
 
 -- | A lower bound of a distance over all points of a box: the distance at the box's middle less
--- half of its diagonal. @distanceTo@ is the distance of a point from some fixed set.
+-- half of its diagonal. @distanceTo@ gives the distance of a point from some fixed figure.
 lowerBound :: (Point -> Mm) -> BoundingBox -> Mm
 lowerBound distanceTo (BoundingBox l b r t) =
   minus

@@ -2,13 +2,13 @@
 
 -- | A bounding-box tree: an index of things by their bounding boxes.
 --
--- It is a packed R-tree in flat arrays: one array for the boxes of the things, one for the boxes of
--- each eight of those, and so on up to a single box. Only 'sortedIndex' sorts the things: they
+-- It is a packed R-tree in flat arrays: one array for the boxes of the things, one for a box around
+-- each eight of these, and so on up to a single box. Only 'sortedIndex' sorts the things: they
 -- usually come in the order of a contour or toolpath, where neighbours are close in space.
 --
 -- This is the tree for things of any type. "Geometry.Index.SegmentBoxTree" is the one for the
--- segments of 'Geometry.ClosedPolyarcs.ClosedPolyarcs': it computes the lowest boxes from those
--- arrays and excludes pairs by direction, which only consecutive segments allow.
+-- segments of 'Geometry.ClosedPolyarcs.ClosedPolyarcs'. It computes the boxes of single segments
+-- when they are needed, and excludes pairs of segments that advance in a common direction.
 module Geometry.Index.BoxTree
   ( BoxTree,
 
@@ -61,7 +61,8 @@ fan = 8
 
 -- Construction ------------------------------------------------------------------------------
 
--- | Build a tree of a list by the box of each thing; linear in the number of things.
+-- | Build a tree of a list of things by the box of each. The time is linear in the number of
+-- things.
 index :: (a -> BoundingBox) -> [a] -> BoxTree a
 index box list = indexed box (Vector.fromList list)
 
@@ -70,10 +71,10 @@ index box list = indexed box (Vector.fromList list)
 indexFirst :: Int -> (a -> BoundingBox) -> [a] -> BoxTree a
 indexFirst count box list = indexed box (Vector.fromListN count list)
 
--- | Build a tree of things whose order means nothing in space, such as the loops of a pocket, each
--- of which surrounds the next. It sorts them by sort-tile-recursive packing: into columns by the
--- middles of their boxes, each column by height, with as many things in a column as the column is
--- boxes wide. The time is @n·log n@.
+-- | Build a tree of things whose neighbours in the list are not close in space. An example is the
+-- loops of a pocket, each of which surrounds the next. The things are sorted by sort-tile-recursive
+-- packing: by x of their boxes' middles into columns, and each column by y. There are about as many
+-- columns as boxes in a column. The time is @n·log n@.
 sortedIndex :: (a -> BoundingBox) -> [a] -> BoxTree a
 sortedIndex box list =
   index box (concatMap (sortOn (middleY . box)) (columns (sortOn (middleX . box) list)))
@@ -85,6 +86,7 @@ sortedIndex box list =
     middleX (BoundingBox l _ r _) = l + r
     middleY (BoundingBox _ b _ t) = b + t
 
+-- | Build a tree of a vector of things by the box of each.
 indexed :: (a -> BoundingBox) -> Vector a -> BoxTree a
 indexed box things = BoxTree {things, lowest, levels = reverse (grow lowest)}
   where
@@ -113,12 +115,13 @@ above level = PrimArray.runPrimArray $ do
       | k >= end = b
       | otherwise = unions (k + 1) end (BoundingBox.union b (boxAt level k))
 
--- | The end of the boxes of a level that belong to a box of the next higher level. They start at
--- 'fan' times its number.
+-- | The index after the last box of a level that belongs to a box @i@ of the next higher level. The
+-- first one that belongs to it has the index @fan·i@.
 childrenEnd :: PrimArray Double -> Int -> Int
 childrenEnd level i = min (boxCount level) (fan * (i + 1))
 {-# INLINE childrenEnd #-}
 
+-- | Write the box with an index.
 put :: PrimMonad m => MutablePrimArray (PrimState m) Double -> Int -> BoundingBox -> m ()
 put numbers i (BoundingBox l b r t) = do
   PrimArray.writePrimArray numbers (4 * i) l
@@ -127,6 +130,7 @@ put numbers i (BoundingBox l b r t) = do
   PrimArray.writePrimArray numbers (4 * i + 3) t
 {-# INLINE put #-}
 
+-- | The box of a level with an index.
 boxAt :: PrimArray Double -> Int -> BoundingBox
 boxAt level i = BoundingBox (at 0) (at 1) (at 2) (at 3)
   where
@@ -148,7 +152,7 @@ foldl' with b = Vector.foldl' with b . things
 size :: BoxTree a -> Int
 size = Vector.length . things
 
--- | The box around all things. That of an empty tree meets no other box.
+-- | The box around all things. The box of an empty tree meets no other box.
 boundingBox :: BoxTree a -> BoundingBox
 boundingBox tree = case levels tree of
   top : _ | boxCount top > 0 -> boxAt top 0
@@ -162,8 +166,8 @@ within (BoundingBox l b r t) =
   select (\(BoundingBox l' b' r' t') -> l' <= r && l <= r' && b' <= t && b <= t')
 {-# INLINE within #-}
 
--- | All things whose boxes satisfy a predicate, in order. A box that contains one that satisfies
--- the predicate must satisfy it too.
+-- | All things whose boxes satisfy a predicate, in order. If a box satisfies the predicate, so must
+-- every box that contains it.
 select :: (BoundingBox -> Bool) -> BoxTree a -> [a]
 select holds tree = selectWith (Vector.unsafeIndex (things tree)) holds tree
 {-# INLINE select #-}
@@ -173,14 +177,14 @@ indicesWithin :: BoundingBox -> BoxTree a -> [Int]
 indicesWithin (BoundingBox l b r t) =
   selectWith id (\(BoundingBox l' b' r' t') -> l' <= r && l <= r' && b' <= t && b <= t')
 
--- | The images of the selected things' indices, in order.
+-- | A function of the index, applied to all things whose boxes satisfy a predicate, in order.
 selectWith :: (Int -> b) -> (BoundingBox -> Bool) -> BoxTree a -> [b]
 selectWith make holds tree = case levels tree of
   [] -> []
   top : below -> go top below 0 (boxCount top - 1) []
   where
-    -- The boxes of a level from the last, @i@, down to @first@, put in front of the rest of the
-    -- result. The list is built from its end, so nothing is left unevaluated.
+    -- Puts the results for the boxes of a level from @i@ down to @first@ in front of @rest@. The
+    -- list is built from its end, so no part of it remains unevaluated.
     go level below first i rest
       | i < first = rest
       | holds (boxAt level i) = case below of
@@ -193,9 +197,10 @@ selectWith make holds tree = case levels tree of
 
 -- Many boxes at once ------------------------------------------------------------------------
 
--- | For each element of a list: all things whose boxes meet its box and that satisfy a predicate
--- with it, in order. Consecutive elements with adjacent boxes share one descent of the tree: the
--- things of the box around them all are tested one by one.
+-- | For each element of a list, all things whose boxes meet the element's box and which satisfy a
+-- predicate with the element, in order. Consecutive elements whose boxes are close share one
+-- descent of the tree: it finds the things that meet the box around this group, which are then
+-- tested for each element.
 each :: (b -> BoundingBox) -> (b -> a -> Bool) -> BoxTree a -> [b] -> [[a]]
 each boxOf holds tree = start
   where
@@ -218,7 +223,8 @@ each boxOf holds tree = start
       | otherwise = \box b -> filter (holds b) (within box tree)
 {-# INLINE each #-}
 
--- | The answers to a group's queries in front of the rest of the result; the group is in reverse.
+-- | The answers to the queries of a group, in front of @rest@. The boxes and members of the group
+-- come in reverse.
 answers :: (BoundingBox -> b -> [a]) -> [BoundingBox] -> [b] -> [[a]] -> [[a]]
 answers query boxes members rest = case (boxes, members) of
   (box : boxes', b : members') ->
@@ -226,7 +232,8 @@ answers query boxes members rest = case (boxes, members) of
   _ -> rest
 {-# INLINEABLE answers #-}
 
--- | The things, of those with some indices, whose boxes meet a box and that satisfy a predicate.
+-- | Those of the things with the given indices whose boxes meet a box and which satisfy a
+-- predicate.
 among :: BoxTree a -> (a -> Bool) -> BoundingBox -> [Int] -> [a]
 among tree holds box = go
   where
@@ -240,6 +247,7 @@ among tree holds box = go
         | otherwise -> go more
 {-# INLINE among #-}
 
+-- | Half of a box's perimeter, in mm.
 halfPerimeter :: BoundingBox -> Double
 halfPerimeter (BoundingBox l b r t) = (r - l) + (t - b)
 
@@ -257,8 +265,9 @@ groupLimit = 128
 
 -- Nearest things ----------------------------------------------------------------------------
 
--- | The thing nearest to a point and its distance; of several, the first. The distance of a thing
--- must be at least that of its box, less 'Tolerance.coincident': both are rounded.
+-- | The thing nearest to a point, with its distance; the first one if several are equally near.
+-- Because of rounding, the distance of a thing may be less than that of its box, by at most
+-- 'Tolerance.coincident'.
 --
 -- This is branch and bound. A first descent through the nearest boxes gives the bound.
 closest :: (a -> Mm) -> Point -> BoxTree a -> Maybe (Mm, a)
@@ -267,7 +276,7 @@ closest distanceTo p tree = case levels tree of
   top : below -> go top below 0 (boxCount top) Nothing
     where
       bound0 = guess top below 0 (boxCount top)
-      -- The boxes of a level from @i@ to before @end@, given the best thing so far.
+      -- Visits the boxes of a level from @i@ to @end − 1@, given the best thing so far.
       go level below' i end best
         | i >= end = best
         | away level i > maybe bound0 fst best = go level below' (i + 1) end best
@@ -289,10 +298,10 @@ closest distanceTo p tree = case levels tree of
       nearerBox level (k, d) j = let e = away level j in if e < d then (j, e) else (k, d)
       away level i = minus (BoundingBox.distance p (boxAt level i)) Tolerance.coincident
 
--- | A subtree: its box, and either a thing or the subtrees below.
+-- | A subtree: its box, and either a thing or its own subtrees.
 data Node a = Leaf BoundingBox a | Branch BoundingBox ~[Node a]
 
--- | The nodes of a tree at the top, at most one.
+-- | The topmost node of a tree; none if the tree is empty.
 roots :: BoxTree a -> [Node a]
 roots tree = case levels tree of
   [] -> []
@@ -303,14 +312,15 @@ roots tree = case levels tree of
       [] -> Leaf (boxAt level i) (Vector.unsafeIndex (things tree) i)
       next : lower -> Branch (boxAt level i) (nodes next lower (fan * i) (childrenEnd next i))
 
+-- | The box of a node.
 nodeBox :: Node a -> BoundingBox
 nodeBox node = case node of
   Leaf box _ -> box
   Branch box _ -> box
 
--- | The measure of two things, one of each tree, with the least distance; of several, any of them.
--- @distanceOf@ takes the distance from a measure. It must be at least that of the things' boxes,
--- less 'Tolerance.coincident'.
+-- | The value of @measure@ for the two things, one of each tree, with the least distance; any of
+-- these values if several distances are equal. @distanceOf@ takes the distance from a value. It may
+-- be less than that of the things' boxes by at most 'Tolerance.coincident'.
 --
 -- This is branch and bound on pairs of nodes. It divides the node with the larger box and visits
 -- nearer pairs first.

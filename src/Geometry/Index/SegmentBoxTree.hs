@@ -8,12 +8,12 @@
 -- around each eight such boxes, and so on. Consecutive segments are close in space, so nothing is
 -- sorted. Boxes of single segments are computed when needed, which costs less than storing them.
 --
--- A chain that advances in a fixed direction throughout does not meet itself. Each box therefore
--- stores in which of eight directions all that it contains advances, and the search for pairs skips
--- such a box and two such neighbours.
+-- A chain whose segments all advance in one direction does not meet itself. For each box the tree
+-- stores in which of eight directions all of its segments advance. The search for pairs skips the
+-- inside of a box with such a direction, and two neighbouring boxes with a direction in common.
 --
--- The tree for things of any type is "Geometry.Index.BoxTree". It would store the boxes of single
--- segments, and cannot know about directions.
+-- "Geometry.Index.BoxTree" is the tree for things of any type. It stores the boxes of single things
+-- and no directions.
 module Geometry.Index.SegmentBoxTree
   ( SegmentBoxTree,
     build,
@@ -32,21 +32,23 @@ where
 
 import Control.Monad (when)
 import Control.Monad.ST (ST, runST)
-import Data.Bits (countTrailingZeros, shiftL, shiftR, unsafeShiftL, unsafeShiftR, (.&.), (.|.))
+import Data.Bits (countTrailingZeros, shiftL, shiftR, unsafeShiftR, (.&.), (.|.))
 import Data.Primitive.PrimArray
 import Data.Word (Word8)
-import GHC.Exts (Double (D#), Int (I#), uncheckedIShiftRL#, (>=##))
+import GHC.Exts (Double (D#), Int (I#), (>=##))
 import Geometry.ClosedPolyarcs (ClosedPolyarcs)
 import Geometry.ClosedPolyarcs qualified as ClosedPolyarcs
+import Geometry.Index.BoundingBoxCache qualified as BoundingBoxCache
 
--- | The levels are stored one after the other, the lowest first.
+-- | The tree. Its arrays contain the boxes of all levels one after the other, the lowest level
+-- first.
 data SegmentBoxTree = SegmentBoxTree
   { chain :: ClosedPolyarcs,
     -- | in mm; every box is enlarged by it
     margin :: Double,
     -- | of each box: least x, least y, largest x, largest y
     sides :: PrimArray Double,
-    -- | of each box: the directions in which its content advances, as bits
+    -- | of each box: the directions in which all of its segments advance, as bits
     directions :: PrimArray Word8,
     -- | the first box of each level
     begins :: PrimArray Int,
@@ -56,14 +58,14 @@ data SegmentBoxTree = SegmentBoxTree
     highest :: Int
   }
 
--- | The number of segments, or of boxes, in one box.
+-- | The number of segments in a box of the lowest level, and of lower boxes in any other box.
 fan :: Int
-fan = 8
+fan = BoundingBoxCache.runLength
 
 -- Boxes -------------------------------------------------------------------------------------
 
--- | The box of a segment with the margin, passed to a continuation: least x, least y, largest x,
--- largest y.
+-- | The box of the segment with an index, enlarged by the margin and passed to a continuation:
+-- least x, least y, largest x, largest y.
 segmentBoxWithMargin :: SegmentBoxTree -> Int -> (Double -> Double -> Double -> Double -> r) -> r
 segmentBoxWithMargin bs i k =
   segmentBox (chain bs) i (\lx ly hx hy -> k (lx - m) (ly - m) (hx + m) (hy + m))
@@ -94,19 +96,12 @@ reaches :: Double -> Double -> Int
 reaches (D# a) (D# b) = I# (a >=## b)
 {-# INLINE reaches #-}
 
--- | True when a segment starts at a vertex: it is not the repeated first vertex of a loop.
-present :: ClosedPolyarcs -> Int -> Bool
-present c i =
-  not
-    (ClosedPolyarcs.hasMark ClosedPolyarcs.repeatedMark (indexPrimArray (ClosedPolyarcs.marks c) i))
-{-# INLINE present #-}
-
 -- | The box of the run of eight segments to which a segment belongs, passed to a continuation.
 runBoxOf :: SegmentBoxTree -> Int -> (Double -> Double -> Double -> Double -> r) -> r
 runBoxOf bs i = boxAt (sides bs) (i `shiftR` 3)
 {-# INLINE runBoxOf #-}
 
--- | The first segment of the next run.
+-- | The index of the first segment of the run after the one to which a segment belongs.
 nextRun :: Int -> Int
 nextRun i = (i `shiftR` 3 + 1) `shiftL` 3
 {-# INLINE nextRun #-}
@@ -127,7 +122,7 @@ boxAt a k next =
 
 -- Construction ------------------------------------------------------------------------------
 
--- | Build the tree of all segments with a margin in mm.
+-- | Build the tree of all segments, with boxes enlarged by a margin in mm.
 build :: Double -> ClosedPolyarcs -> SegmentBoxTree
 build !m !c = runST $ do
   let n = sizeofPrimArray (ClosedPolyarcs.xs c)
@@ -145,7 +140,7 @@ build !m !c = runST $ do
       <*> pure (primArrayFromList levels)
       <*> pure (length levels - 1)
 
--- | The numbers of boxes of all levels, from the lowest.
+-- | The numbers of boxes of all levels from the lowest on, given that of the lowest.
 levelSizes :: Int -> [Int]
 levelSizes count
   | count == 1 = [1]
@@ -154,7 +149,7 @@ levelSizes count
 -- | The sides and directions of boxes while they are written.
 data Boxes s = Boxes (MutablePrimArray s Double) (MutablePrimArray s Word8)
 
--- | Write a box with an index and its directions.
+-- | Write the box with an index: least x, least y, largest x, largest y, and its directions.
 putBox :: Boxes s -> Int -> Double -> Double -> Double -> Double -> Int -> ST s ()
 putBox (Boxes sides directions) !k !lx !ly !hx !hy !w = do
   writePrimArray sides (4 * k) lx
@@ -222,7 +217,7 @@ most a b = if a > b then a else b
 {-# INLINE least #-}
 {-# INLINE most #-}
 
--- | A box extended by the segments from @a@ to before @e@, passed to a continuation.
+-- | A box extended by the segments from @a@ to @e − 1@, passed to a continuation.
 runBox ::
   ClosedPolyarcs ->
   Int ->
@@ -249,9 +244,10 @@ runBox c a e lx0 ly0 hx0 hy0 k = go a lx0 ly0 hx0 hy0
         y = indexPrimArray (ClosedPolyarcs.ys c) (i + 1)
 {-# INLINE runBox #-}
 
--- | The directions, of eight, in which all segments from @a@ to before @e@ advance, as bits. Only
--- the two next to the direction from the first vertex to the last are tested. Every segment must
--- advance so far beyond the margin @m@ that its predecessors and successors cannot meet it.
+-- | Those of the eight directions in which all segments from @a@ to @e − 1@ advance, as bits. Only
+-- two are tested: the axis and the diagonal that are nearest to the direction from the first vertex
+-- to the last. Every segment must advance by 32 times the margin @m@, so that the enlarged boxes of
+-- its predecessors and successors cannot meet it.
 headings :: Double -> ClosedPolyarcs -> Int -> Int -> Int
 headings !m !c !a !e = go a (2 * enough) (2 * enough)
   where
@@ -296,272 +292,92 @@ allDirections = 255
 
 -- Pairs -------------------------------------------------------------------------------------
 
--- | Visit all pairs of segments that may meet and whose boxes overlap, the earlier segment first,
--- as long as @continues@ is true.
+-- | Visit all pairs of segments that may meet and whose boxes overlap. Each pair is visited once,
+-- the earlier segment first. The search ends early if @continues@, which is run now and then, is
+-- false.
 pairs :: SegmentBoxTree -> ST s Bool -> (Int -> Int -> ST s ()) -> ST s ()
-pairs bs@SegmentBoxTree {chain = c, margin = m, sides, directions, highest} continues visit = do
-  -- The boxes of the segments of some runs, each run in the slot of its number modulo 'fan' or in a
-  -- spare slot; and which run each slot holds.
-  near <- Near <$> newPrimArray (answer + 1) <*> newPrimArray answer
-  held <- newPrimArray (fan + 1)
-  setPrimArray held 0 (fan + 1) (-1)
-  let !grid = gridOf bs
-      -- Visit the pairs inside box @a@ of level @l@, and those between its boxes @a@ and @b@.
-      within !l !a
-        | direction (at l + a) /= 0 = pure ()
-        | l == 0 =
-          load (slot a) a >> amongThem near (slot a) >> found near
-            >>= visits (fan * a) (fan * slot a) (fan * a) (fan * slot a)
-        | otherwise = do
-          more <- continues
-          when more (among (l - 1) a)
-      between !l !a !b
-        | b == a + 1 && direction (at l + a) .&. direction (at l + b) /= 0 = pure ()
-        | l == 0 = do
-          load (slot a) a
-          boxAt
-            sides
-            b
-            ( \lx ly hx hy ->
-                against
-                  near
-                  (slot a)
-                  (least' (stepX grid lx) (stepY grid ly))
-                  (largest' (stepX grid hx) (stepY grid hy))
-            )
-          some <- found near
-          when (some /= 0) $ do
-            let other = if slot a == slot b then fan else slot b
-            load other b
-            overlapping near (slot a) some other
-            found near >>= visits (fan * a) (fan * slot a) (fan * b) (fan * other)
-        | otherwise =
-          boxAt sides (at l + b) (across (l - 1) (fan * a) (min (size (l - 1)) (fan * a + fan)) b)
-      -- Visit the pairs of the boxes of level @l@ inside box @a@ of the next level; those of boxes
-      -- @i@ to before @e@ with the boxes inside box @b@ of the next level.
-      among !l !a = go (fan * a)
-        where
-          !e = min (size l) (fan * a + fan)
-          !o = at l
-          go !i
-            | i >= e = pure ()
-            | otherwise = within l i >> boxAt sides (o + i) (follow l i (i + 1) e) >> go (i + 1)
-      across !l !i !e !b !lx !ly !hx !hy
-        | i >= e = pure ()
-        | otherwise = do
-          when (overlaps sides (at l + i) lx ly hx hy) $
-            boxAt sides (at l + i) (follow l i (fan * b) (min (size l) (fan * b + fan)))
-          across l (i + 1) e b lx ly hx hy
-      follow !l !i !j !e !lx !ly !hx !hy
-        | j >= e = pure ()
-        | otherwise =
-          when (overlaps sides (at l + j) lx ly hx hy) (between l i j)
-            >> follow l i (j + 1) e lx ly hx hy
-      -- Fill slot @s@ with the boxes of run @r@, unless it holds them already.
-      load !s !r = do
-        r' <- readPrimArray held s
-        when (r' /= r) $ do
-          writePrimArray held s r
-          fill bs grid near s r
-      -- Visit the pairs in a set. The segments count from @a@ and @b@, their boxes from @p@ and
-      -- @q@.
+pairs bs@SegmentBoxTree {chain = c, margin = m, sides} continues visit = do
+  cache <- boundingBox bs (BoundingBoxCache.new c m)
+  let -- The pairs inside run @a@.
+      inside !a = do
+        let !s = BoundingBoxCache.slotOf a
+        BoundingBoxCache.load cache s a
+        BoundingBoxCache.overlappingPairs cache s >>= visits (fan * a) (fan * s) (fan * a) (fan * s)
+      -- The pairs of a segment of run @a@ and one of run @b@.
+      between !a !b = do
+        let !s = BoundingBoxCache.slotOf a
+        BoundingBoxCache.load cache s a
+        some <- boxAt sides b (BoundingBoxCache.overlappingBox cache s)
+        when (some /= 0) $ do
+          let !own = BoundingBoxCache.slotOf b
+              !other = if s == own then BoundingBoxCache.spareSlot else own
+          BoundingBoxCache.load cache other b
+          BoundingBoxCache.overlappingBetween cache s some other
+            >>= visits (fan * a) (fan * s) (fan * b) (fan * other)
+      -- Visit the pairs in a set: bit @8·i + j@ is the pair of segments @a + i@ and @b + j@, whose
+      -- boxes have the indices @p + i@ and @q + j@ in the cache.
       visits !a !p !b !q !set
         | set == 0 = pure ()
         | otherwise = do
           let !k = countTrailingZeros set
               !i = k `unsafeShiftR` 3
               !j = k .&. (fan - 1)
-          sure <- if b + j == a + i + 1 then pure True else surely near (p + i) (q + j)
-          when (sure || exactly m c (a + i) (b + j)) $ visit (a + i) (b + j)
+          isClear <-
+            if b + j == a + i + 1
+              then pure True
+              else BoundingBoxCache.clearlyOverlap cache (p + i) (q + j)
+          when (isClear || BoundingBoxCache.boxesOverlap m c (a + i) (b + j)) $
+            visit (a + i) (b + j)
           visits a p b q (set .&. (set - 1))
-  within highest 0
-  where
-    at l = indexPrimArray (begins bs) l
-    size l = indexPrimArray (counts bs) l
-    direction k = indexPrimArray directions k
-    slot r = r .&. (fan - 1)
+  runPairs bs continues inside between
 {-# INLINE pairs #-}
 
--- | A grid of 2²⁹ steps over the box of all segments: half the number of steps in 1 mm, and half of
--- what is added to x and y in steps.
---
--- A corner is a word that contains both coordinates in steps. Above each of them is one bit more.
--- It is set in the upper corner of a box; when a lower corner is subtracted, the bit of a
--- coordinate remains set where the lower one is not the larger.
-data Grid = Grid {halfSteps :: Double, addX :: Double, addY :: Double}
-
--- | The grid of a tree. Coordinates are far enough above 0 for rounding not to make one negative.
-gridOf :: SegmentBoxTree -> Grid
-gridOf bs = boundingBox bs $ \lx ly hx hy ->
-  let w = most (hx - lx) (hy - ly)
-      steps = if w > 0 then 268435456 / w else 0
-   in Grid {halfSteps = steps, addX = 134217728 - steps * lx, addY = 134217728 - steps * ly}
-
--- | A coordinate in mm, converted to steps.
-stepX, stepY :: Grid -> Double -> Double
-stepX g x = 2 * (x * halfSteps g + addX g)
-stepY g y = 2 * (y * halfSteps g + addY g)
-{-# INLINE stepX #-}
-{-# INLINE stepY #-}
-
--- | The lower and the upper corner of a box from coordinates in steps, rounded outwards.
-least', largest' :: Double -> Double -> Int
-least' x y = truncate x .|. truncate y `unsafeShiftL` 32
-largest' x y = truncate (x + 2147483649) .|. truncate (y + 2147483649) `unsafeShiftL` 32
-{-# INLINE least' #-}
-{-# INLINE largest' #-}
-
--- | The lower and the upper corners of boxes, in slots of eight. After the lower ones comes a set
--- of boxes or pairs, as bits: the answer of the last query.
-data Near s = Near (MutablePrimArray s Int) (MutablePrimArray s Int)
-
--- | The set that the last query found.
-found :: Near s -> ST s Int
-found (Near lows _) = readPrimArray lows answer
-{-# INLINE found #-}
-
--- | The index of the answer in the lower corners.
-answer :: Int
-answer = fan * (fan + 1)
-
--- | True when two boxes overlap by more than a step of the grid.
-surely :: Near s -> Int -> Int -> ST s Bool
-surely (Near lows highs) !p !q = do
-  low <- readPrimArray lows p
-  high <- readPrimArray highs p
-  hit <- touches lows highs q (low + apart) (high - apart)
-  pure (hit /= 0)
+-- | Run one action for each run that may have pairs inside, and another one for each two runs whose
+-- boxes overlap, the earlier run first, as long as @continues@ is true.
+runPairs ::
+  SegmentBoxTree -> ST s Bool -> (Int -> ST s ()) -> (Int -> Int -> ST s ()) -> ST s ()
+runPairs SegmentBoxTree {sides, directions, begins, counts, highest} continues inRun betweenRuns =
+  within highest 0
   where
-    apart = 0x0000000300000003
-{-# INLINE surely #-}
-
--- | True when the boxes of two segments overlap, to a few units in the last place, which are far
--- below the margin. All coordinates are doubled.
-exactly :: Double -> ClosedPolyarcs -> Int -> Int -> Bool
-exactly !m !c !i !j =
-  twice i $ \lx ly hx hy -> twice j $ \px py qx qy -> px <= hx && lx <= qx && py <= hy && ly <= qy
-  where
-    twice k next =
-      let !x0 = indexPrimArray (ClosedPolyarcs.xs c) k
-          !y0 = indexPrimArray (ClosedPolyarcs.ys c) k
-          !x1 = indexPrimArray (ClosedPolyarcs.xs c) (k + 1)
-          !y1 = indexPrimArray (ClosedPolyarcs.ys c) (k + 1)
-          !b = 0.5 * indexPrimArray (ClosedPolyarcs.bulges c) k
-          !dx = x1 - x0
-          !dy = y1 - y0
-          !ox = b * dy
-          !oy = b * dx
-          !cx = x0 + x1 + ox
-          !cy = y0 + y1 - oy
-          !wx = abs dx + abs ox + 2 * m
-          !wy = abs dy + abs oy + 2 * m
-       in next (cx - wx) (cy - wy) (cx + wx) (cy + wy)
-    {-# INLINE twice #-}
-{-# NOINLINE exactly #-}
-
--- | Write the corners of the boxes of run @r@ into slot @s@. A vertex at which no segment starts
--- gets a box that overlaps none.
-fill :: SegmentBoxTree -> Grid -> Near s -> Int -> Int -> ST s ()
-fill SegmentBoxTree {chain = c, margin = m} Grid {halfSteps, addX, addY} (Near !lows !highs) !s !r =
-  go (fan * s) begin (stepsX begin) (stepsY begin)
-  where
-    !begin = fan * r
-    !e = min (begin + fan) (sizeofPrimArray (ClosedPolyarcs.xs c) - 1)
-    !twice = 2 * m * halfSteps
-    stepsX i = indexPrimArray (ClosedPolyarcs.xs c) i * halfSteps + addX
-    stepsY i = indexPrimArray (ClosedPolyarcs.ys c) i * halfSteps + addY
-    go !k !i !x !y
-      | i >= e = rest k
+    -- The pairs inside box @a@ of level @l@.
+    within !l !a
+      | direction (at l + a) /= 0 = pure ()
+      | l == 0 = inRun a
       | otherwise = do
-        let !x' = stepsX (i + 1)
-            !y' = stepsY (i + 1)
-            !b = 0.5 * indexPrimArray (ClosedPolyarcs.bulges c) i
-            !dx = x' - x
-            !dy = y' - y
-            !ox = b * dy
-            !oy = b * dx
-            !cx = x + x' + ox
-            !cy = y + y' - oy
-            !wx = abs dx + abs ox + twice
-            !wy = abs dy + abs oy + twice
-        if present c i
-          then put k (least' (cx - wx) (cy - wy)) (largest' (cx + wx) (cy + wy))
-          else none k
-        go (k + 1) (i + 1) x' y'
-    -- No segment starts at the last vertex.
-    rest !k
-      | k >= fan * s + fan = pure ()
-      | otherwise = none k >> rest (k + 1)
-    none k = put k 0x7fffffff7fffffff (-0x7fffffff80000000)
-    put !k !low !high = do
-      writePrimArray lows k low
-      writePrimArray highs k high
-{-# NOINLINE fill #-}
-
--- | 1 when box @k@ overlaps the box with these corners, else 0; without a branch.
-touches :: MutablePrimArray s Int -> MutablePrimArray s Int -> Int -> Int -> Int -> ST s Int
-touches lows highs !k !low !high = do
-  low' <- readPrimArray lows k
-  high' <- readPrimArray highs k
-  let !both = (high - low') .&. (high' - low)
-  pure $! (both `shiftRL` 63) .&. (both `shiftRL` 31)
-{-# INLINE touches #-}
-
-shiftRL :: Int -> Int -> Int
-shiftRL (I# a) (I# k) = I# (uncheckedIShiftRL# a k)
-{-# INLINE shiftRL #-}
-
--- | Find the boxes of slot @s@ that overlap a box: bit @i@ is box @i@ of the slot.
-against :: Near s -> Int -> Int -> Int -> ST s ()
-against (Near !lows !highs) !s !low !high = go (begin + fan - 1) 0
-  where
-    !begin = fan * s
-    go !k !set
-      | k < begin = writePrimArray lows answer set
+        more <- continues
+        when more (among (l - 1) a)
+    -- The pairs of a run in box @a@ and one in box @b@ of level @l@.
+    between !l !a !b
+      | b == a + 1 && direction (at l + a) .&. direction (at l + b) /= 0 = pure ()
+      | l == 0 = betweenRuns a b
+      | otherwise =
+        boxAt sides (at l + b) (across (l - 1) (fan * a) (min (size (l - 1)) (fan * a + fan)) b)
+    -- The pairs among the boxes of level @l@ that belong to box @a@ of the next level.
+    among !l !a = go (fan * a)
+      where
+        !e = min (size l) (fan * a + fan)
+        !o = at l
+        go !i
+          | i >= e = pure ()
+          | otherwise = within l i >> boxAt sides (o + i) (follow l i (i + 1) e) >> go (i + 1)
+    -- The pairs of boxes @i@ to @e − 1@ of level @l@ with those that belong to box @b@ of the next
+    -- level, whose sides are given.
+    across !l !i !e !b !lx !ly !hx !hy
+      | i >= e = pure ()
       | otherwise = do
-        hit <- touches lows highs k low high
-        go (k - 1) (set + set + hit)
-{-# NOINLINE against #-}
-
--- | Find the overlapping pairs in slot @s@: bit @8·i + j@ is the pair of its boxes @i@ and @j@.
-amongThem :: Near s -> Int -> ST s ()
-amongThem (Near !lows !highs) !s = first (fan * s + fan - 2) 0
-  where
-    -- The loop uses few variables, so that all stay in registers. Slots start at multiples of 8.
-    first !k !set = do
-      low <- readPrimArray lows k
-      high <- readPrimArray highs k
-      let second !q !hits
-            | q > k = do
-              hit <- touches lows highs q low high
-              second (q - 1) (hits + hits + hit)
-            | k .&. (fan - 1) == 0 =
-              writePrimArray lows answer (set `unsafeShiftL` fan + hits + hits)
-            | otherwise =
-              first (k - 1) (set `unsafeShiftL` fan + hits `unsafeShiftL` ((k .&. (fan - 1)) + 1))
-      second (k .|. (fan - 1)) 0
-{-# NOINLINE amongThem #-}
-
--- | Find the overlapping pairs of the boxes @some@, a set, of slot @s@ with those of slot @other@.
-overlapping :: Near s -> Int -> Int -> Int -> ST s ()
-overlapping (Near !lows !highs) !s !some !other = first some 0
-  where
-    !begin = fan * other
-    !end = begin + fan - 1
-    first !left !set
-      | left == 0 = writePrimArray lows answer set
-      | otherwise = do
-        let !i = countTrailingZeros left
-            !k = fan * s + i
-        low <- readPrimArray lows k
-        high <- readPrimArray highs k
-        let second !q !hits
-              | q < begin = first (left .&. (left - 1)) (set .|. hits `unsafeShiftL` (fan * i))
-              | otherwise = do
-                hit <- touches lows highs q low high
-                second (q - 1) (hits + hits + hit)
-        second end 0
-{-# NOINLINE overlapping #-}
+        when (overlaps sides (at l + i) lx ly hx hy) $
+          boxAt sides (at l + i) (follow l i (fan * b) (min (size l) (fan * b + fan)))
+        across l (i + 1) e b lx ly hx hy
+    -- The pairs of box @i@ of level @l@, whose sides are given, with boxes @j@ to @e − 1@.
+    follow !l !i !j !e !lx !ly !hx !hy
+      | j >= e = pure ()
+      | otherwise =
+        when (overlaps sides (at l + j) lx ly hx hy) (between l i j)
+          >> follow l i (j + 1) e lx ly hx hy
+    at l = indexPrimArray begins l
+    size l = indexPrimArray counts l
+    direction k = indexPrimArray directions k
+{-# INLINE runPairs #-}
 
 -- | True when stored box @k@ overlaps a box. The comparison has no branch before its result.
 overlaps :: PrimArray Double -> Int -> Double -> Double -> Double -> Double -> Bool
@@ -574,7 +390,8 @@ overlaps a k lx ly hx hy =
 
 -- Segments in a box -------------------------------------------------------------------------
 
--- | A strict left fold over the segments whose boxes overlap a box, in order.
+-- | A strict left fold over the segments whose enlarged boxes overlap a box, in order. The box is
+-- given by its least x, least y, largest x and largest y.
 around :: SegmentBoxTree -> Double -> Double -> Double -> Double -> a -> (a -> Int -> a) -> a
 around SegmentBoxTree {chain = c, margin = m, sides, begins, counts, highest} lx ly hx hy start f =
   go highest 0 start
@@ -590,7 +407,7 @@ around SegmentBoxTree {chain = c, margin = m, sides, begins, counts, highest} lx
       | otherwise = let acc' = go l k acc in acc' `seq` children l (k + 1) e acc'
     segments !i !e acc
       | i >= e = acc
-      | present c i
+      | BoundingBoxCache.isSegment c i
           && segmentBox
             c
             i

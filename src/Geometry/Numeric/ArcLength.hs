@@ -1,9 +1,10 @@
 -- | Arc length as a function of a curve's parameter: the integral of the speed, as a table.
 --
--- The intervals between parameters at which the speed may jump are bisected into panels, until the
--- speed on each panel is a polynomial of degree 7 through the eight Gauss–Legendre nodes, to
--- 'Tolerance.arcLength'. The table holds its Legendre coefficients. Over a whole panel the integral
--- is Gauss–Legendre quadrature; up to a parameter within the panel it is a closed formula.
+-- The intervals between parameters at which the speed may jump are bisected into panels. On each
+-- panel the speed is interpolated by a polynomial of degree 7 at the eight Gauss–Legendre nodes;
+-- bisection ends when the estimated error is at most 'Tolerance.arcLength'. The table contains the
+-- Legendre coefficients of these polynomials. The integral over a whole panel is Gauss–Legendre
+-- quadrature. Up to a parameter within a panel, the polynomial is integrated by a closed formula.
 module Geometry.Numeric.ArcLength
   ( ArcLength,
     fromSpeed,
@@ -26,25 +27,25 @@ data ArcLength = ArcLength
     starts :: Vector Double,
     -- | the arc lengths there, in mm
     lengths :: Vector Double,
-    -- | the Legendre coefficients of the speed on each panel, eight for each, in mm per half panel
+    -- | the eight Legendre coefficients of the speed on each panel, in mm per half panel
     speeds :: Vector Double
   }
 
--- | All tables are equal: a table is a cache that belongs to a curve, is determined by it, and
--- should not be computed for a comparison.
+-- | All tables compare equal, because a table is determined by its curve, which is compared as
+-- well. So a comparison does not compute any table.
 instance Eq ArcLength where
   _ == _ = True
 
 -- | The name alone, so that showing a curve does not compute its table.
 instance Show ArcLength where
-  show _ = "Ruler"
+  show _ = "ArcLength"
 
 -- | A panel: its start and width in the parameter, and the Legendre coefficients of the speed.
 data Panel = Panel Double Double (Vector Double)
 
--- | The table for a speed in mm per unit of the parameter, not negative. @breaks@ are the ends of
--- the curve and the parameters between at which the speed may jump, in ascending order; the speed
--- is never evaluated there.
+-- | The table for a speed in mm per unit of the parameter, not negative. @breaks@ are, in ascending
+-- order, the parameters at the ends of the curve and those at which the speed may jump. The speed
+-- is never evaluated at these.
 fromSpeed :: (Double -> Double) -> [Double] -> ArcLength
 fromSpeed speed breaks = ArcLength {starts, lengths, speeds}
   where
@@ -53,8 +54,8 @@ fromSpeed speed breaks = ArcLength {starts, lengths, speeds}
     lengths = Unboxed.scanl' (+) 0 (Unboxed.fromList [2 * Unboxed.head cs | Panel _ _ cs <- panels])
     speeds = Unboxed.concat [cs | Panel _ _ cs <- panels]
 
--- | The panels between two parameters. A speed that is infinite or not a number ends the bisection
--- as well.
+-- | The panels between two parameters. The bisection also ends where the speed is infinite or NaN,
+-- and at a depth of 16.
 measuredBetween :: (Double -> Double) -> Int -> Double -> Double -> [Panel]
 measuredBetween speed depth a b
   | b <= a = []
@@ -81,7 +82,8 @@ measuredBetween speed depth a b
 total :: ArcLength -> Mm
 total table = Mm (Unboxed.last (lengths table))
 
--- | The arc length from the start to a parameter.
+-- | The arc length from the start to a parameter. A parameter outside of the curve gives the nearer
+-- end.
 lengthAt :: ArcLength -> Double -> Mm
 lengthAt table u
   | Unboxed.null (speeds table) || u <= Unboxed.head (starts table) = Mm 0
@@ -92,7 +94,8 @@ lengthAt table u
     (from, width) = extent table p
     (run, _) = within table p (2 * (u - from) / width - 1)
 
--- | The parameter at which the arc length from the start has a value.
+-- | The parameter at which the arc length from the start has a given value. A value outside of the
+-- curve gives the nearer end.
 parameterAt :: ArcLength -> Mm -> Double
 parameterAt table (Mm s)
   | Unboxed.null (speeds table) || s <= 0 = Unboxed.head (starts table)
@@ -109,13 +112,14 @@ extent :: ArcLength -> Int -> (Double, Double)
 extent table p =
   let from = starts table Unboxed.! p in (from, starts table Unboxed.! (p + 1) - from)
 
--- | The index of the last element, but for the very last, that is not above a value; the elements
--- are ascending.
+-- | The index of the last element that is not above a value, in a vector of ascending elements. The
+-- very last element is not considered.
 lastBelow :: Double -> Vector Double -> Int
 lastBelow v sorted = BinarySearch.lastAtMost (Unboxed.length sorted - 1) v sorted
 
--- | The arc length from the start of a panel to a position in it, from −1 to 1, and the speed there
--- in mm per half panel. It uses @∫P_k = (P_{k+1} − P_{k−1}) / (2k + 1)@ for Legendre polynomials.
+-- | The arc length from the start of a panel to a position in it, and the speed there in mm per
+-- half panel. Positions run from −1 at the start of the panel to 1 at its end. The formula is
+-- @∫P_k = (P_{k+1} − P_{k−1}) / (2k + 1)@ for Legendre polynomials.
 within :: ArcLength -> Int -> Double -> (Double, Double)
 within table p x = go 1 1 x (c 0 * (x + 1)) (c 0)
   where

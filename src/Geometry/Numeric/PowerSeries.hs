@@ -2,12 +2,12 @@
 -- values, @f(u₀ + t) = c₀ + c₁·t + c₂·t² + …@ up to some order.
 --
 -- Sums, products, quotients, powers and sines are computed on the coefficients (Knuth, TAOCP 2,
--- section 4.7). The derivatives of everything composed of them are therefore exact but for
--- rounding. Coefficient k is the k-th derivative divided by k!. An operation on two series gives
--- one as long as the shorter.
+-- section 4.7). All derivatives of such a combination are therefore exact but for rounding.
+-- Coefficient k is the k-th derivative divided by k!. An operation on two series gives a series of
+-- the lower of both orders.
 --
--- There is no 'Num' instance: a number in 'fromInteger' has no order, and one of order 0 would
--- truncate every series that it meets.
+-- There is no 'Num' instance. A literal has no order of its own; as a series of order 0 it would
+-- truncate every series with which it is combined.
 module Geometry.Numeric.PowerSeries
   ( PowerSeries,
     constant,
@@ -88,15 +88,15 @@ scale k (PowerSeries a) = PowerSeries (Unboxed.map (k *) a)
 plusConstant :: Double -> PowerSeries -> PowerSeries
 plusConstant c (PowerSeries a) = PowerSeries (Unboxed.imap (\k v -> if k == 0 then c + v else v) a)
 
--- | The product, the Cauchy product of the coefficients.
+-- | The product of two series: the Cauchy product of their coefficients.
 multiply :: PowerSeries -> PowerSeries -> PowerSeries
 multiply (PowerSeries a) (PowerSeries b) =
   PowerSeries (Unboxed.generate n (\k -> summed 0 k (\j -> at a j * at b (k - j))))
   where
     n = min (Unboxed.length a) (Unboxed.length b)
 
--- | The quotient: @q_k = (a_k − Σ_{j≥1} b_j·q_{k−j}) / b_0@. The value of the
--- divisor must not be 0.
+-- | The quotient of two series: @q_k = (a_k − Σ_{j≥1} b_j·q_{k−j}) / b_0@. The value of the divisor
+-- must not be 0.
 divide :: PowerSeries -> PowerSeries -> PowerSeries
 divide (PowerSeries a) (PowerSeries b) = PowerSeries (Unboxed.constructN n next)
   where
@@ -152,7 +152,7 @@ derivative (PowerSeries a)
   | Unboxed.length a <= 1 = PowerSeries (Unboxed.singleton 0)
   | otherwise = PowerSeries (Unboxed.imap (\k v -> fromIntegral (k + 1) * v) (Unboxed.drop 1 a))
 
--- | The integral with value @c@, one order more.
+-- | The integral with the value @c@, one order more.
 integral :: Double -> PowerSeries -> PowerSeries
 integral c (PowerSeries a) =
   PowerSeries (Unboxed.cons c (Unboxed.imap (\k v -> v / fromIntegral (k + 1)) a))
@@ -171,7 +171,7 @@ summed from to f = go 0 from
       | otherwise = go (acc + f j) (j + 1)
 {-# INLINE summed #-}
 
--- | The unchecked element. The bounds of each loop in this module keep its index in range.
+-- | The element at an index, unchecked. The loops of this module keep the index in range.
 at :: Vector Double -> Int -> Double
 at = Unboxed.unsafeIndex
 {-# INLINE at #-}

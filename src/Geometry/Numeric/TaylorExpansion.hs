@@ -24,7 +24,8 @@ import Linear.V2 (V2 (..))
 -- | The coordinates x and y, in mm, as series in the parameter.
 type TaylorExpansion = V2 PowerSeries
 
--- | The side from which a point of a curve is approached. It matters at corners.
+-- | The side from which a point of a curve is approached: from smaller parameters, or from larger
+-- ones. The side matters at corners.
 data Approach = Before | After
   deriving stock (Eq, Show, Enum, Bounded)
 
@@ -40,7 +41,8 @@ velocity expansion = Vec.vec x y
   where
     V2 x y = fmap (PowerSeries.coefficient 1) expansion
 
--- | The length of the velocity, one order less. The velocity must not be 0.
+-- | The length of the velocity as a series, of one order less than the expansion. The velocity must
+-- not be 0.
 speed :: TaylorExpansion -> PowerSeries
 speed expansion = PowerSeries.power 0.5 (squared (fmap PowerSeries.derivative expansion))
 
@@ -48,16 +50,18 @@ speed expansion = PowerSeries.power 0.5 (squared (fmap PowerSeries.derivative ex
 squared :: V2 PowerSeries -> PowerSeries
 squared v = dot v v
 
+-- | The scalar product of two vectors.
 dot :: V2 PowerSeries -> V2 PowerSeries -> PowerSeries
 dot v w = foldr1 PowerSeries.add (PowerSeries.multiply <$> v <*> w)
 
--- | The z component of the vector product.
+-- | The z component of the vector product of two vectors.
 cross :: V2 PowerSeries -> V2 PowerSeries -> PowerSeries
 cross (V2 x y) (V2 x' y') =
   PowerSeries.subtract (PowerSeries.multiply x y') (PowerSeries.multiply y x')
 
--- | The point offset by a distance along the left normal, or to the right when it is negative; one
--- order less: @P = C + d·N@ with @N = (−y′, x′)/√(x′² + y′²)@. The velocity must not be 0.
+-- | The expansion of the point moved along its left normal by a distance @d@, or to the right when
+-- @d@ is negative: @C + d·N@ with @N = (−y′, x′)/√(x′² + y′²)@. The result has one order less than
+-- the expansion of @C@. The velocity must not be 0.
 offset :: PowerSeries -> TaylorExpansion -> TaylorExpansion
 offset d expansion@(V2 x y) =
   V2
@@ -68,8 +72,8 @@ offset d expansion@(V2 x y) =
     share = PowerSeries.multiply d (PowerSeries.power (-0.5) (squared velocities))
 
 -- | The direction of travel, of length 1. Where the velocity is 0 it is the limit from the given
--- side, by the first derivative that is longer than 'Tolerance.stationary'. There is none when all
--- derivatives of the expansion vanish.
+-- side. It follows from the first derivative that is longer than 'Tolerance.stationary'; there is
+-- no direction when no derivative in the expansion is.
 direction :: Approach -> TaylorExpansion -> Maybe Vec
 direction approach expansion = case find moves (zip [1 :: Int ..] derivatives) of
   Just (k, v) -> Just (Vec.unit (if even k && approach == Before then Vec.negate v else v))
@@ -87,7 +91,8 @@ curvature expansion = 2 * (x' * y'' - y' * x'') / (w * sqrt w)
     V2 x'' y'' = fmap (PowerSeries.coefficient 2) expansion
     w = x' * x' + y' * y'
 
--- | The curvature as a series, two orders less: @(x′·y″ − y′·x″) / (x′² + y′²)^(3/2)@.
+-- | The curvature @(x′·y″ − y′·x″) / (x′² + y′²)^(3/2)@ as a series, of two orders less than the
+-- expansion.
 curvatureSeries :: TaylorExpansion -> PowerSeries
 curvatureSeries expansion =
   PowerSeries.multiply

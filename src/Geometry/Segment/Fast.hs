@@ -1,8 +1,9 @@
 {-# LANGUAGE BangPatterns #-}
 {-# OPTIONS_GHC -O2 #-}
 
--- | Elementary operations on segments in plain numbers, for loops over many segments. They do what
--- "Geometry.Segment" does, without intermediate points and vectors.
+-- | Elementary operations on segments, computed on unpacked coordinates, for loops over many
+-- segments. Their results are those of "Geometry.Segment", but no intermediate points and vectors
+-- are built.
 module Geometry.Segment.Fast
   ( Coordinates (..),
     coordinates,
@@ -32,8 +33,9 @@ import Geometry.Index.BoundingBox qualified as BoundingBox
 import Geometry.Segment (Segment (..))
 import Geometry.Vec (Point (Point))
 
--- | Coordinates of a segment in mm: a line by its two ends; an arc by its two ends, its centre,
--- its radius and its sweep in radians. With INLINE no value of this type is built at run time.
+-- | Coordinates of a segment in mm. A line has x and y of its start and of its end. An arc has x
+-- and y of its start, its end and its centre, then its radius and its sweep in radians. Since
+-- 'coordinates' is inlined, no value of this type is built at run time.
 data Coordinates
   = LineAt Double Double Double Double
   | ArcAt Double Double Double Double Double Double Double Double
@@ -46,17 +48,17 @@ coordinates s = case s of
     ArcAt ax ay bx by cx cy (hypotenuse (cx - ax) (cy - ay)) angle
 {-# INLINE coordinates #-}
 
--- | Segment without length at a point.
+-- | Segment without length at a point, given by x and y.
 spot :: Double -> Double -> Segment
 spot x y = Straight (Point x y) (Point x y)
 
--- | True of a straight segment.
+-- | True for a line, false for an arc.
 isLine :: Segment -> Bool
 isLine segment = case coordinates segment of
   LineAt {} -> True
   ArcAt {} -> False
 
--- | Start and end of a segment.
+-- | Start and end of a segment, as x and y.
 begin, finish :: Segment -> (Double, Double)
 begin t = case coordinates t of
   LineAt ax ay _ _ -> (ax, ay)
@@ -73,7 +75,7 @@ lengthOf e = case coordinates e of
   LineAt ax ay bx by -> hypotenuse (bx - ax) (by - ay)
   ArcAt _ _ _ _ _ _ r s -> r * abs s
 
--- | Point at a fraction of the length.
+-- | Point at a fraction of the length, as x and y.
 at :: Segment -> Double -> (Double, Double)
 at e !t = case coordinates e of
   LineAt ax ay bx by -> (ax + t * (bx - ax), ay + t * (by - ay))
@@ -86,20 +88,26 @@ at e !t = case coordinates e of
      in (cx + c * vx - n * vy, cy + n * vx + c * vy)
 {-# INLINE at #-}
 
--- | Difference of an arc's radii at its two ends in mm; 0 for a line.
+-- | Absolute difference, in mm, between the distances of an arc's two ends from its centre; 0 for a
+-- line.
 uneven :: Segment -> Double
 uneven segment = case coordinates segment of
   LineAt {} -> 0
   ArcAt _ _ bx by cx cy r _ -> abs (hypotenuse (bx - cx) (by - cy) - r)
 
--- | Length of a vector.
+-- | Length of a vector, given by its two components.
 hypotenuse :: Double -> Double -> Double
 hypotenuse a b = sqrt (a * a + b * b)
 {-# INLINE hypotenuse #-}
 
--- | Position of a point as seen from the centre of an arc, in mm²: its distance past the start in
--- the sense of the arc, its distance before the end, and its extent towards the start, each
--- times the radius. The last argument receives them.
+-- | Position of a point relative to the two rays from an arc's centre through its ends: three
+-- numbers in mm², passed to a continuation. Each is a length times the arc's radius. The first is
+-- the distance from the ray through the start, positive past the start in the arc's sense. The
+-- second is the distance from the ray through the end, positive before the end. The third is the
+-- extent along the ray through the start, from the centre.
+--
+-- The arguments are x and y of the start, the end and the centre, the sweep, and x and y of the
+-- point.
 bearing ::
   Double ->
   Double ->
@@ -123,22 +131,23 @@ bearing ax ay bx by cx cy s px py k =
     vy = py - cy
 {-# INLINE bearing #-}
 
--- | True of a point inside the sector of an arc; false for a line.
+-- | True for a point, given by x and y, in the sector of an arc. False for a line.
 inSector :: Segment -> Double -> Double -> Bool
 inSector segment !px !py = case coordinates segment of
   LineAt {} -> False
   ArcAt ax ay bx by cx cy _ s ->
-    bearing ax ay bx by cx cy s px py $ \behind before along ->
+    bearing ax ay bx by cx cy s px py $ \pastStart beforeEnd along ->
       if abs s > pi
-        then behind >= 0 || before >= 0 || abs s > 3 / 2 * pi && along <= 0
-        else behind >= 0 && before >= 0 && (abs s > pi / 2 || along >= 0)
+        then pastStart >= 0 || beforeEnd >= 0 || abs s > 3 / 2 * pi && along <= 0
+        else pastStart >= 0 && beforeEnd >= 0 && (abs s > pi / 2 || along >= 0)
 
--- | True of the sweep of a full circle.
+-- | True for the sweep of a full circle.
 isWhole :: Double -> Bool
 isWhole s = abs s >= 2 * pi
 
--- | Bounding box of a segment. That of an arc of less than half a turn is the box of its ends,
--- inflated by a bound of the sagitta: @r·(1 − cos(φ/2)) ≤ r·φ²/8@.
+-- | Box that contains a segment. For an arc below a half circle it is the box of its ends, inflated
+-- by a bound of the sagitta, @r·(1 − cos(φ/2)) ≤ r·φ²/8@. For other arcs it is the box of the full
+-- circle.
 box :: Segment -> BoundingBox
 box segment = case coordinates segment of
   LineAt ax ay bx by -> BoundingBox (min ax bx) (min ay by) (max ax bx) (max ay by)
@@ -149,8 +158,9 @@ box segment = case coordinates segment of
         (BoundingBox (min ax bx) (min ay by) (max ax bx) (max ay by))
     | otherwise -> BoundingBox (cx - r) (cy - r) (cx + r) (cy + r)
 
--- | Foot of a point on a line through two points, as a fraction of their distance; 0 if the points
--- coincide.
+-- | Foot of a point on the line through two points, as a fraction of the distance from the first to
+-- the second; 0 if both coincide. The arguments are x and y of the two points, then of the point
+-- whose foot is wanted.
 shareOf :: Double -> Double -> Double -> Double -> Double -> Double -> Double
 shareOf ax ay bx by px py =
   let ux =
@@ -160,8 +170,9 @@ shareOf ax ay bx by px py =
    in if uu > 0 then (ux * (px - ax) + uy * (py - ay)) / uu else 0
 {-# INLINE shareOf #-}
 
--- | Foot of a point on a segment as a fraction of its length; on an arc counted in its sense from
--- its start.
+-- | Foot of a point, given by x and y, on a segment, as a fraction of the segment's length. For a
+-- line it is negative before the start and above 1 after the end; for an arc of sweep φ it lies in
+-- [0, 2π/|φ|).
 foot :: Segment -> Double -> Double -> Double
 foot e !x !y = case coordinates e of
   LineAt ax ay bx by -> shareOf ax ay bx by x y
@@ -171,8 +182,8 @@ foot e !x !y = case coordinates e of
         turned = atan2 (vx * (y - cy) - vy * (x - cx)) (vx * (x - cx) + vy * (y - cy)) / s
      in if turned < 0 then turned + 2 * pi / abs s else turned
 
--- | Nearest point of a segment as a fraction of its length: the foot, or an end if the foot lies
--- outside.
+-- | Fraction of a segment's length, from 0 to 1, at which the segment is nearest to a point, given
+-- by x and y.
 footOn :: Segment -> Double -> Double -> Double
 footOn e !px !py = case coordinates e of
   LineAt ax ay bx by -> max 0 (min 1 (shareOf ax ay bx by px py))
@@ -181,8 +192,8 @@ footOn e !px !py = case coordinates e of
     | hypotenuse (px - ax) (py - ay) <= hypotenuse (px - bx) (py - by) -> 0
     | otherwise -> 1
 
--- | Two parts of a segment, before and after the foot of a point; nothing if the foot does not lie
--- inside.
+-- | Two parts of a segment, before and after the foot of a point, given by x and y. Nothing if the
+-- foot does not lie between the ends.
 divided :: Double -> Double -> Segment -> Maybe (Segment, Segment)
 divided x y e
   | isAbout, m > 0, m < 1 = Just (between e 0 m, between e m 1)

@@ -1,6 +1,5 @@
--- | Laws of biarcs. Each names the bug that it catches. Distances are measured here by other
--- means than in the program: to an arc by angles, to the curve by the nearest of many of its
--- points.
+-- | Laws of biarcs; each names the bug that it catches. Distances are measured by other means than
+-- in the program: to an arc by angles, to a curve by the nearest of many of its points.
 module Geometry.ArcFitting.BiarcSpec (spec) where
 
 import Base.Quantity (Mm (..), Rad (..))
@@ -30,19 +29,21 @@ import Test.QuickCheck
 spec :: Spec
 spec = do
   describe "biarcs between two ends" $ do
-    it "biarc: it has the ends and directions given, and no kink (catches a joint off its place)" $
-      property $
+    it
+      "biarc: has the given ends and end directions and no kink (catches a joint at a wrong point)"
+      $ property $
         forAll pair joinLaw
     it
-      "biarc: there is one for all directions less than square to the chord (catches a formula \
-      \that parallel directions break)"
+      "biarc: exists for all directions at less than 90° to the chord (catches a formula that \
+      \fails for parallel directions)"
       $ property $
         forAll (posesWithin 1.57) $ \(a, b) -> counterexample "none" (isJust (Biarc.join a b))
-    it "biarc: backwards it is the same (catches a ratio that favours one end)" $
+    it "biarc: is the same from either end (catches a ratio that favours one end)" $
       property $
         forAll (posesWithin 1.5) backwardsLaw
     it
-      "biarc: what bends to one side stays so (catches equal chords where the angles differ much)"
+      "biarc: of ends that bend to one side bends to this side (catches equal chords where the \
+      \angles differ much)"
       $ property $
         forAll oneSided oneSidedLaw
     it "is one line between collinear ends, and one arc between the ends of an arc" $ do
@@ -63,13 +64,13 @@ spec = do
       Biarc.join (Vec.point 0 0, Vec.vec (-1) 0) (Vec.point 4 0, Vec.vec (-1) 0) `shouldBe` Nothing
   describe "biarcs through points" $ do
     it
-      "through: in order through every point, without a kink, and closed (catches a direction that \
-      \a neighbour does not share)"
+      "through: passes every point in order without a kink, closed or open (catches a direction \
+      \that differs between neighbours)"
       $ property $
         forAll ((,) <$> elements [Open, Closed] <*> scattered) (uncurry throughLaw)
     it
       "through: points of a circle give the circle, points of a line the line (catches a direction \
-      \that is only nearly the circle's)"
+      \that is only nearly that of the circle)"
       $ property $
         forAll ((,) <$> elements [Open, Closed] <*> onCircle) (uncurry circleLaw)
     it "joins two points by a line, or by a circle if closed" $ do
@@ -84,17 +85,17 @@ spec = do
         `shouldBe` Biarc.through Closed (Vec.point 0 0 :| [Vec.point 4 0, Vec.point 4 3])
   describe "biarcs along a curve" $ do
     it
-      "approximate: every point of the curve is near the arcs (catches a deviation seen at too few \
-      \points)"
+      "approximate: every point of the curve is near the arcs (catches a deviation that is \
+      \measured at too few points)"
       $ property $
         forAll fitCase curveLaw
     it
-      "approximate: every point of the arcs is near the curve (catches an arc the long way round)"
+      "approximate: every point of the arcs is near the curve (catches an arc around the far side)"
       $ property $
         forAll fitCase arcsLaw
     it
-      "approximate: so it is where the curve turns back within a radius far below the tolerance \
-      \(catches an arc that overshoots)"
+      "approximate: every point of the arcs is near a curve that turns back within a radius far \
+      \below the tolerance (catches an arc that overshoots)"
       $ property $
         forAll nearCusp arcsLaw
     it
@@ -103,16 +104,16 @@ spec = do
       $ property $
         forAll fitCase kinkLaw
     it
-      "approximate: hardly more than the best choice among 64 joints needs (catches a step that \
-      \stops early)"
+      "approximate: needs hardly more biarcs than the best choice among 64 joints (catches a step \
+      \that stops early)"
       $ property $
         forAll fitCase fewLaw
     it
-      "along cubics: hardly more than the best choice among 64 joints needs (catches a step that \
-      \stops early)"
+      "along cubics: needs hardly more biarcs than the best choice among 64 joints (catches a step \
+      \that stops early)"
       $ property $
         forAll smoothCubic fewOnCubicsLaw
-    it "approximate: 10 m at 1e-5 mm (catches distances that lose their digits)" $
+    it "approximate: keeps 1e-5 mm on a curve of 10 m (catches distances that lose digits)" $
       property $
         withMaxSuccess 10 $
           forAll large curveLaw
@@ -136,7 +137,7 @@ spec = do
     east = Vec.vec 1 0
     roundTo a = fromIntegral (round (a * 1e6 :: Double) :: Int) / 1e6 :: Double
     odd' place d = ParametricCurve {place, direction = const d, begin = -2, breaks = 2 :| []}
-    count tolerance track = sum (fmap length (ParametricFit.approximate (Mm tolerance) track))
+    count tolerance curve = sum (fmap length (ParametricFit.approximate (Mm tolerance) curve))
 
 -- Between two ends ------------------------------------------------------------------------------
 
@@ -152,8 +153,8 @@ pair =
         ]
     )
 
--- | End poses whose directions make less than a given angle with the chord, parallel and mirrored
--- ones among them.
+-- | Two end poses whose directions make at most a given angle with the chord; often both directions
+-- are parallel or mirrored.
 posesWithin :: Double -> Gen (End, End)
 posesWithin limit = posesLeaning (oneof [choose (-limit, limit), elements special])
   where
@@ -174,7 +175,7 @@ joinLaw (from@(p, s), to@(q, t)) = case Biarc.join from to of
   Nothing -> classify True "none" True
   Just ss ->
     let list = toList ss
-     in conjoin (map soundArc list)
+     in conjoin (map isConsistent list)
           .&&. Segment.start (NonEmpty.head ss) === p
           .&&. Segment.end (NonEmpty.last ss) === q
           .&&. counterexample
@@ -184,10 +185,9 @@ joinLaw (from@(p, s), to@(q, t)) = case Biarc.join from to of
             )
           .&&. smooth list
 
--- | Both ends of an arc lie on its circle at the distance of its sweep, which is at most half a
--- turn.
-soundArc :: Segment -> Property
-soundArc s = case s of
+-- | The sweep of an arc is at most half a turn and leads from the start to the end on the circle.
+isConsistent :: Segment -> Property
+isConsistent s = case s of
   Straight _ _ -> property True
   Arc {start, end, centre, sweep = Rad a} ->
     let r = away centre start
@@ -207,7 +207,7 @@ smooth ss = conjoin (zipWith joined ss (drop 1 ss))
             === Segment.start b .&&. aligned (Segment.endDirection a) (Segment.startDirection b)
         )
 
--- | Directions agree, apart from the error of a line in place of a nearly straight arc.
+-- | Directions agree, except for the error of a line in place of a nearly straight arc.
 aligned :: Vec -> Vec -> Property
 aligned a b = let Rad off = Vec.signedAngle a b in counterexample (show off) (abs off < 2.1e-8)
 
@@ -229,8 +229,8 @@ backwardsLaw ((p, s), (q, t)) =
           ]
     both -> counterexample (show both) False
 
--- | Ends of a curve that bends to one side; the angle at one end is up to five times that at the
--- other.
+-- | End poses of a curve that bends to one side. The angle to the chord at one end is up to five
+-- times that at the other.
 oneSided :: Gen (End, End)
 oneSided = do
   a <- choose (0.05, 0.3)
@@ -263,7 +263,7 @@ scattered = do
 
 throughLaw :: Ends -> NonEmpty Point -> Property
 throughLaw ends ps =
-  conjoin (map soundArc list)
+  conjoin (map isConsistent list)
     .&&. smooth (list <> closing)
     .&&. counterexample
       (show list)
@@ -282,7 +282,8 @@ throughLaw ends ps =
         | otherwise -> inOrder wanted fs
       (_, []) -> False
 
--- | Circle (Nothing for a line), and points on it in order, less than half a turn apart.
+-- | Circle by its centre and radius, or nothing for a line; and points on it in order, less than
+-- half a turn apart.
 onCircle :: Gen (Maybe (Point, Double), NonEmpty Point)
 onCircle = do
   n <- choose (3, 8)
@@ -311,8 +312,8 @@ circleLaw ends (shape, ps) = case shape of
 
 -- Along a curve ---------------------------------------------------------------------------------
 
-chain :: FitCase -> [Segment]
-chain (FitCase c tolerance) =
+arcsOf :: FitCase -> [Segment]
+arcsOf (FitCase c tolerance) =
   concatMap toList (toList (ParametricFit.approximate (Mm tolerance) (parametricCurve c)))
 
 curveLaw :: FitCase -> Property
@@ -325,7 +326,7 @@ curveLaw w@(FitCase c tolerance) = forAll (vectorOf 200 (choose (0, 1))) $ \fs -
     ]
   where
     t = parametricCurve c
-    ss = chain w
+    ss = arcsOf w
 
 arcsLaw :: FitCase -> Property
 arcsLaw w@(FitCase c tolerance) =
@@ -338,22 +339,22 @@ arcsLaw w@(FitCase c tolerance) =
       ]
   where
     near = nearest (parametricCurve c)
-    ss = chain w
+    ss = arcsOf w
 
--- | Distance from a point to a curve and the parameter of the foot. Adds samples near the closest
--- of many samples on each strand nearby, and just before and after each corner.
+-- | Distance from a point to a curve, and the parameter of the nearest point. The search refines
+-- the minima among many samples, and the neighbourhood of each corner.
 nearest :: ParametricCurve -> Point -> (Double, Double)
 nearest t =
   \p ->
     minimum
-      [ closer p (14 :: Int) step (held u)
-        | u <- map snd (take 4 (sort (valleys [(away p q, v) | (v, q) <- known]))) <> besideCorners
+      [ closer p (14 :: Int) step (clamped u)
+        | u <- map snd (take 4 (sort (minima [(away p q, v) | (v, q) <- known]))) <> besideCorners
       ]
   where
     known = map (\u -> (u, place t u)) (parameters 3000 t)
     step = (NonEmpty.last (breaks t) - begin t) / 3000
     besideCorners = concat [[u - step, u + step] | u <- toList (breaks t)]
-    valleys ds =
+    minima ds =
       take 1 ds
         <> [b | (a, b, d) <- zip3 ds (drop 1 ds) (drop 2 ds), b <= a, b <= d]
         <> take 1 (reverse ds)
@@ -362,15 +363,17 @@ nearest t =
       | otherwise =
         let (_, v) =
               minimum
-                [(away p (place t (held x)), held x) | x <- [u - h, u - h / 2, u, u + h / 2, u + h]]
+                [ (away p (place t x), x)
+                  | x <- map clamped [u - h, u - h / 2, u, u + h / 2, u + h]
+                ]
          in closer p (k - 1) (h / 2) v
-    held = max (begin t) . min (NonEmpty.last (breaks t))
+    clamped = max (begin t) . min (NonEmpty.last (breaks t))
 
 kinkLaw :: FitCase -> Property
 kinkLaw (FitCase c tolerance) =
   length groups === corners c + 1
     .&&. conjoin (map (smooth . toList) (toList groups))
-    .&&. conjoin (map soundArc (concatMap toList (toList groups)))
+    .&&. conjoin (map isConsistent (concatMap toList (toList groups)))
     .&&. conjoin
       ( zipWith
           (\a b -> Segment.end (NonEmpty.last a) === Segment.start (NonEmpty.head b))
@@ -380,18 +383,19 @@ kinkLaw (FitCase c tolerance) =
   where
     groups = ParametricFit.approximate (Mm tolerance) (parametricCurve c)
 
--- | Comparison with the fewest biarcs, of any of several chord ratios, between 65 points of the
--- curve. A biarc counts only if it is within the tolerance, which many points decide. Biarcs
--- are separated at joints that have the curve's position and direction. On lines and arcs, the
--- end of a biarc may be its joint in the middle; there segments are counted, two for each
--- biarc. In a biarc of nearly no length, the joint in the middle cannot be told from the ends.
+-- | Comparison with the fewest biarcs, of several chord ratios, between 65 points of the curve.
+-- Such a biarc counts only if it is within the tolerance, which is tested at many points.
+--
+-- The biarcs of the fit are counted by the joints that have the position and direction of the
+-- curve. On a chain of lines and arcs, the joint in the middle of a biarc may have them, too;
+-- segments are counted there, two for each biarc. Joints after very short segments do not count.
 fewLaw :: FitCase -> Property
 fewLaw w@(FitCase c tolerance) =
   corners c == 0
     && not (hasKinks c)
     && length ss <= 40 ==> fewerLaw found (fewestOf size tolerance t) slack
   where
-    ss = chain w
+    ss = arcsOf w
     t = parametricCurve c
     near = nearest t
     (found, size, slack) = case c of
@@ -404,8 +408,8 @@ fewLaw w@(FitCase c tolerance) =
             && abs (Vec.cross (direction t Leaving u) (Vec.to (place t u) (Segment.start s))) < 1e-9
             && abs off < 5e-6
 
--- | Comparison as in 'fewLaw' for biarcs with other directions than the curve: segments are
--- counted.
+-- | Comparison as in 'fewLaw' for biarcs whose directions may differ from those of the curve;
+-- segments are counted.
 fewOnCubicsLaw :: FitCase -> Property
 fewOnCubicsLaw (FitCase c tolerance) = case c of
   Cubic closed nodes
@@ -425,7 +429,7 @@ fewOnCubicsLaw (FitCase c tolerance) = case c of
           )
   _ -> discard
   where
-    -- Equals the cubic of 'hermite', in one coordinate.
+    -- The cubic of 'hermite' in one coordinate.
     spanOf axis ((p, a, jump, _, out), (q, b, _, into, _)) =
       let chord = Vec.to p q
           p0 = Vec.dot axis (Vec.to (Vec.point 0 0) p)
@@ -440,7 +444,8 @@ fewerLaw found fewest slack =
     (show (found, fewest))
     (fromIntegral found <= (1.3 * fromIntegral fewest + fromIntegral slack :: Double))
 
--- | Least total cost of a chain of biarcs, with a given cost of each biarc.
+-- | Least total cost of a chain of biarcs between 65 points of a curve, with a given cost of each
+-- biarc.
 fewestOf :: (NonEmpty Segment -> Int) -> Double -> ParametricCurve -> Int
 fewestOf size tolerance t = best ! n
   where

@@ -25,8 +25,7 @@ spec :: Spec
 spec =
   describe "biarcs along cubics" $ do
     it
-      "every point of the curve is near the arcs (catches a maximum between the ends of a span \
-      \that is left out)"
+      "every point of the curve is near the arcs (catches a maximum within a span that is ignored)"
       $ property $
         forAll fitCase curveLaw
     it
@@ -51,8 +50,8 @@ spec =
         )
         `shouldBe` Just 1
     it
-      "the generator reaches corners, sharp turns, kinks and spans that many arcs or a part of one \
-      \take"
+      "the generator reaches corners, sharp turns, kinks, and spans that need many arcs or a part \
+      \of one"
       $ checkCoverage $
         forAll fitCase $ \(FitCase _ tolerance c) ->
           let n = length (arcsOf tolerance c)
@@ -119,20 +118,20 @@ jumpsOf c =
     angle a b = let Rad t = Vec.signedAngle a b in t
 
 -- | True if a kink that is no corner takes up between a fifth and all of the tolerance. An arc
--- across it then has hardly any freedom, and whether the fit finds one within the bound is
--- chance. A hook between points nearer than the tolerance has the same effect, because no arc
--- runs forwards along it.
+-- across such a kink has hardly any freedom, so the fit may or may not find one. A hook between
+-- points nearer than the tolerance has the same effect, because the curve does not run forwards
+-- along any arc there.
 isTight :: FitCase -> Bool
 isTight (FitCase _ tolerance c) =
   or hooks
     || or
-      [ k <= 1e-3 && tolerance >= 0.9 * bulge && tolerance <= 5 * bulge
+      [ k <= 1e-3 && tolerance >= 0.9 * sagitta && tolerance <= 5 * sagitta
         | (a, b, k) <- zip3 chords (drop 1 chords) (jumpsOf c),
-          let bulge = k * max a b / 8
+          let sagitta = k * max a b / 8
       ]
   where
-    places = map (Curve.at c) (Curve.breaks c)
-    chords = zipWith away places (drop 1 places)
+    points = map (Curve.at c) (Curve.breaks c)
+    chords = zipWith away points (drop 1 points)
     hooks =
       [ away p q <= tolerance && (turnsBack Curve.After a || turnsBack Curve.Before b)
         | (a, b) <- zip (Curve.breaks c) (drop 1 (Curve.breaks c)),
@@ -162,8 +161,8 @@ arcsLaw (FitCase _ tolerance c) =
       ]
   where
     ss = arcsOf tolerance c
-    -- Compares span by span: at a sharp corner a point near one span may hide that the other span
-    -- is far off.
+    -- Each span is searched by itself: near a sharp corner, samples of one span could hide the
+    -- nearest point of the other.
     known = [(span', between 400 span') | span' <- zip (Curve.breaks c) (drop 1 (Curve.breaks c))]
     between :: Int -> (Double, Double) -> [(Double, Vec.Point)]
     between count (a, b) =
@@ -171,20 +170,21 @@ arcsLaw (FitCase _ tolerance c) =
         | k <- [0 .. count],
           let u = a + (b - a) * fromIntegral k / fromIntegral count
       ]
-    -- At a sharp bend the curve may have two minima of the distance between two samples.
+    -- At a sharp bend, the distance may have two minima between two samples.
     nearest p =
       minimum
         [ closer p (60 :: Int) a b
           | (_, about) <-
               take
                 8
-                (sort [(d, wider span' about) | (span', us) <- known, (d, about) <- valleys p us]),
-            (_, (a, b)) <- take 3 (sort (valleys p (between 80 about)))
+                (sort [(d, wider span' about) | (span', us) <- known, (d, about) <- minima p us]),
+            (_, (a, b)) <- take 3 (sort (minima p (between 80 about)))
         ]
-    -- In a sharp bend the nearer branch may begin after the next sample.
+    -- At a sharp bend, the nearest point may lie beyond the next sample.
     wider (from, to) (a, b) = let w = (b - a) / 2 in (max from (a - w), min to (b + w))
-    -- Neighbourhoods of the samples of a span that are nearer than both of their neighbours.
-    valleys p us =
+    -- Samples that are nearer than both of their neighbours, each as the distance and the interval
+    -- between the neighbours.
+    minima p us =
       let ds = [(away p q, u) | (u, q) <- us]
        in [ (m, (a, b))
             | ((l, a), (m, _), (r, b)) <-

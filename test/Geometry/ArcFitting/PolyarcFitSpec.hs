@@ -26,47 +26,47 @@ spec :: Spec
 spec =
   describe "biarcs along polyarcs" $ do
     it
-      "every point of the chain is near the arcs (catches an extremum within a piece that is left \
-      \out)"
+      "every point of the polyarc is near the arcs (catches an extremum within a segment that is \
+      \ignored)"
       $ property $
-        forAll fitCase chainLaw
+        forAll fitCase polyarcLaw
     it
-      "every point of the arcs is near the chain (catches an arc that overshoots where the chain \
-      \turns back)"
+      "every point of the arcs is near the polyarc (catches an arc that overshoots where the \
+      \polyarc turns back)"
       $ property $
         forAll fitCase arcsLaw
     it
-      "from the beginning to the end, no kink but at corners (catches a direction that only one \
-      \side has)"
+      "the arcs run from start to end, with no kink but at corners (catches a direction that only \
+      \one side has)"
       $ property $
         forAll fitCase smoothLaw
     it "needs few more biarcs than the general fit (catches a bound that is far too large)" $
       property $
         forAll fitCase fewLaw
     it
-      "smoothed, a chain is near itself and turns at its corners only (catches a kink that is \
-      \left, an arc beyond a corner)"
+      "a smoothed polyarc is near the original and has kinks at its corners only (catches a kink \
+      \that remains, and an arc beyond a corner)"
       $ property $
         forAll fitCase smoothedLaw
     it
-      "smoothed, a chain without kinks keeps all of its ends that are not within an arc (catches a \
-      \chain that is put anew)"
+      "a smoothed polyarc without kinks keeps all vertices that do not lie on a merged arc \
+      \(catches a polyarc that is fitted again)"
       $ property $
         forAll (fitCase `suchThat` hasCornersOnly) keptLaw
     it "the generator reaches corners, and arcs that replace many arcs or a part of one" $
       checkCoverage $
-        forAll fitCase $ \t@(FitCase _ _ pieces) ->
+        forAll fitCase $ \t@(FitCase _ _ segments) ->
           let n = length (arcsOf t)
-           in cover 10 (cornersOf (toList pieces) > 0) "corners" $
-                cover 20 (2 * n < length pieces) "many for one" $
-                  cover 5 (n > length pieces) "one for many" True
+           in cover 10 (cornersOf (toList segments) > 0) "corners" $
+                cover 20 (2 * n < length segments) "many for one" $
+                  cover 5 (n > length segments) "one for many" True
 
 -- | Kind of the test polyarc, tolerance in mm, and polyarc.
 data FitCase = FitCase String Double (NonEmpty Segment)
 
 instance Show FitCase where
-  show (FitCase how tolerance pieces) =
-    "within " <> show tolerance <> " " <> how <> " " <> show (toList pieces)
+  show (FitCase how tolerance segments) =
+    "within " <> show tolerance <> " " <> how <> " " <> show (toList segments)
 
 fitCase :: Gen FitCase
 fitCase = oneof [splined, bent, through, polygon]
@@ -106,7 +106,7 @@ fitCase = oneof [splined, bent, through, polygon]
               ( Vec.shift (Vec.polar (Mm (2 / k * sin (k * l / 2))) (Rad (a + k * l / 2))) p,
                 a + k * l
               )
-          piece (p, a) (q, _) (l, k)
+          segment (p, a) (q, _) (l, k)
             | k == 0 = Straight p q
             | otherwise =
               Arc
@@ -118,7 +118,7 @@ fitCase = oneof [splined, bent, through, polygon]
       maybe
         bent
         (\ss -> (\t -> FitCase "bent" t ss) <$> tolerance)
-        (NonEmpty.nonEmpty (zipWith3 piece poses (drop 1 poses) bends))
+        (NonEmpty.nonEmpty (zipWith3 segment poses (drop 1 poses) bends))
     through = do
       ps <- points
       ( \t ->
@@ -132,13 +132,13 @@ fitCase = oneof [splined, bent, through, polygon]
             )
         )
         <$> tolerance
-    -- Chords of a circle, with kinks below or above the limit of a corner, and one clear corner
-    -- between.
+    -- Chords of a circle, with kinks below or above the limit of a corner, and perhaps one clear
+    -- corner in the middle.
     polygon = do
       n <- choose (5, 60)
       turn <- elements [4e-4, 9e-4, 0.01]
       jump <- elements [0, 1.5, -2.5]
-      let place =
+      let vertices =
             scanl
               ( \p k ->
                   Vec.shift
@@ -153,13 +153,13 @@ fitCase = oneof [splined, bent, through, polygon]
       maybe
         polygon
         (\ss -> (\t -> FitCase "polygon" t ss) <$> tolerance)
-        (NonEmpty.nonEmpty (zipWith Straight place (drop 1 place)))
+        (NonEmpty.nonEmpty (zipWith Straight vertices (drop 1 vertices)))
 
 arcsOf :: FitCase -> [Segment]
-arcsOf (FitCase _ tolerance pieces) =
+arcsOf (FitCase _ tolerance segments) =
   toList
     ( MeasuredPolyarc.segments
-        (MeasuredPolyarc.fromFlatPolyarc (PolyarcFit.approximate (Mm tolerance) pieces))
+        (MeasuredPolyarc.fromFlatPolyarc (PolyarcFit.approximate (Mm tolerance) segments))
     )
 
 cornersOf :: [Segment] -> Int
@@ -176,13 +176,13 @@ jumpsOf ss =
     ss
     (drop 1 ss)
 
-chainLaw :: FitCase -> Property
-chainLaw t@(FitCase _ tolerance pieces) = near tolerance (toList pieces) (arcsOf t)
+polyarcLaw :: FitCase -> Property
+polyarcLaw t@(FitCase _ tolerance segments) = near tolerance (toList segments) (arcsOf t)
 
 arcsLaw :: FitCase -> Property
-arcsLaw t@(FitCase _ tolerance pieces) = near (tolerance + 1e-9) (arcsOf t) (toList pieces)
+arcsLaw t@(FitCase _ tolerance segments) = near (tolerance + 1e-9) (arcsOf t) (toList segments)
 
--- | Points of some segments are within a distance of others.
+-- | Random points of some segments are within a distance of the others.
 near :: Double -> [Segment] -> [Segment] -> Property
 near tolerance ss others =
   forAll (vectorOf 60 ((,) <$> choose (0, length ss - 1) <*> choose (0, 1))) $ \picks ->
@@ -194,25 +194,25 @@ near tolerance ss others =
       ]
 
 smoothedLaw :: FitCase -> Property
-smoothedLaw t@(FitCase _ tolerance pieces) =
+smoothedLaw t@(FitCase _ tolerance segments) =
   conjoin
-    [ near (tolerance + 1e-9) found (toList pieces),
-      near (tolerance + 1e-9) (toList pieces) found,
+    [ near (tolerance + 1e-9) found (toList segments),
+      near (tolerance + 1e-9) (toList segments) found,
       counterexample
         (show found)
         (property (and (zipWith (\a b -> Segment.end a == Segment.start b) found (drop 1 found)))),
       counterexample (show (jumpsOf found)) (all (\k -> k <= 1e-6 || k > 1e-3) (jumpsOf found)),
-      cornersOf found === cornersOf (toList pieces)
+      cornersOf found === cornersOf (toList segments)
     ]
   where
     found = smoothedOf t
 
 keptLaw :: FitCase -> Property
-keptLaw t@(FitCase _ _ pieces) =
+keptLaw t@(FitCase _ _ segments) =
   conjoin
     [ counterexample
         (show s)
-        (any (begins s) pieces && Segment.end s `elem` map Segment.end (toList pieces))
+        (any (begins s) segments && Segment.end s `elem` map Segment.end (toList segments))
       | s <- smoothedOf t
     ]
   where
@@ -223,51 +223,51 @@ keptLaw t@(FitCase _ _ pieces) =
       Straight _ _ -> Nothing
 
 smoothedOf :: FitCase -> [Segment]
-smoothedOf (FitCase _ tolerance pieces) = toList (PolyarcFit.smoothed (Mm tolerance) pieces)
+smoothedOf (FitCase _ tolerance segments) = toList (PolyarcFit.smoothed (Mm tolerance) segments)
 
 -- | True if a polyarc has kinks at corners only.
 hasCornersOnly :: FitCase -> Bool
-hasCornersOnly (FitCase _ _ pieces) = all (\k -> k <= 1e-7 || k > 1e-3) (jumpsOf (toList pieces))
+hasCornersOnly (FitCase _ _ segments) =
+  all (\k -> k <= 1e-7 || k > 1e-3) (jumpsOf (toList segments))
 
--- | True if a kink that is no corner takes up between half and all of the tolerance. An arc
--- across it then has hardly any freedom, and whether the fit finds one within the bound is
--- chance.
+-- | True if a kink that is no corner takes up between half and all of the tolerance. An arc across
+-- such a kink has hardly any freedom, so the fit may or may not find one.
 isTight :: FitCase -> Bool
-isTight (FitCase _ tolerance pieces) =
+isTight (FitCase _ tolerance segments) =
   or
-    [ k <= 1e-3 && tolerance >= 0.9 * bulge && tolerance <= 2 * bulge
+    [ k <= 1e-3 && tolerance >= 0.9 * sagitta && tolerance <= 2 * sagitta
       | (s, s', k) <- zip3 ss (drop 1 ss) (jumpsOf ss),
-        let bulge = k * max (long s) (long s') / 8
+        let sagitta = k * max (long s) (long s') / 8
     ]
   where
-    ss = toList pieces
+    ss = toList segments
     long s = let Mm l = Segment.length s in l
 
 distanceTo :: Point -> Segment -> Double
 distanceTo p s = let Mm d = Distance.toPoint p s in d
 
 smoothLaw :: FitCase -> Property
-smoothLaw t@(FitCase _ _ pieces) =
+smoothLaw t@(FitCase _ _ segments) =
   conjoin (zipWith (\a b -> Segment.end a === Segment.start b) ss (drop 1 ss))
-    .&&. Segment.start (NonEmpty.head pieces)
-      === Segment.start (foldr const (NonEmpty.head pieces) ss)
-    .&&. Segment.end (NonEmpty.last pieces)
-      === Segment.end (foldl (const id) (NonEmpty.last pieces) ss)
+    .&&. Segment.start (NonEmpty.head segments)
+      === Segment.start (foldr const (NonEmpty.head segments) ss)
+    .&&. Segment.end (NonEmpty.last segments)
+      === Segment.end (foldl (const id) (NonEmpty.last segments) ss)
     .&&. counterexample
       (show ss)
-      (length (filter (> 3e-8) (jumpsOf ss)) === cornersOf (toList pieces))
+      (length (filter (> 3e-8) (jumpsOf ss)) === cornersOf (toList segments))
   where
     ss = arcsOf t
 
 fewLaw :: FitCase -> Property
-fewLaw t@(FitCase _ tolerance pieces) =
-  all ((< 1.5) . sweepOf) pieces
+fewLaw t@(FitCase _ tolerance segments) =
+  all ((< 1.5) . sweepOf) segments
     && not (isTight t)
       ==> counterexample
         (show (found, general))
         ( fromIntegral found
             <= ( 2 * fromIntegral general
-                   + 4 * fromIntegral (1 + cornersOf (toList pieces)) ::
+                   + 4 * fromIntegral (1 + cornersOf (toList segments)) ::
                    Double
                )
         )
@@ -277,7 +277,7 @@ fewLaw t@(FitCase _ tolerance pieces) =
       Straight _ _ -> 0
       Arc {sweep = Rad a} -> abs a
     found = length (arcsOf t)
-    general = case Curve.fromSegments pieces of
+    general = case Curve.fromSegments segments of
       Right c ->
         NonEmpty.length (sconcat (ParametricFit.approximate (Mm tolerance) (Part.parametric c)))
       Left _ -> found

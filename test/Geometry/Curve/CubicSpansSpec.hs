@@ -1,4 +1,4 @@
--- | Laws of the cubic approximation of curves.
+-- | Laws of the cubic approximation of shifted curves.
 module Geometry.Curve.CubicSpansSpec (spec) where
 
 import Base.Quantity (Mm (..))
@@ -19,20 +19,20 @@ spec :: Spec
 spec =
   describe "cubic approximation of curves" $ do
     it
-      "every point of a shifted curve is near them (catches a stretch whose middle alone is looked \
-      \at)"
+      "their points are within the tolerance of a shifted curve (catches an interval that is \
+      \tested at its middle only)"
       $ property $
         forAll ((,) <$> shifted <*> ((10 **) <$> choose (-7, -3))) (uncurry nearLaw)
     it
-      "every point of a long shallow bevel is near them (catches halves that are taken to be as \
-      \near as half the way lets expect)"
+      "their points are within the tolerance of a long shallow bevel (catches halves that are not \
+      \measured)"
       $ once (nearAt [k / 400 | k <- [0 .. 400]] shallow 2.05934e-4)
     it
-      "they join, and run from the beginning of the curve to its end (catches a half that is left \
+      "they join without gaps from the start of the curve to its end (catches a half that is left \
       \out)"
       $ property $
         forAll shifted joinedLaw
-    it "the cubics of a spline are its own, exactly" $
+    it "those of an unshifted spline are its own cubics, exactly" $
       property $
         forAll Generate.smooth $ \c ->
           fmap (\(Mm d, _, _) -> d) (Curve.cubics (Mm 1e-7) c) === Just 0
@@ -40,7 +40,8 @@ spec =
 shifted :: Gen Curve
 shifted = Generate.layered 2 Generate.smooth `suchThat` (isNothing . Cusp.firstCusp)
 
--- | Curve on which the halves of an interval deviate more than the whole interval lets expect.
+-- | Curve on which the halves of an interval deviate by more than the deviation of the whole
+-- interval suggests.
 shallow :: Curve
 shallow =
   Curve.shifted
@@ -61,26 +62,26 @@ nearLaw c tolerance = forAll (vectorOf 30 (choose (0, 1))) $ \fs -> nearAt fs c 
 
 nearAt :: [Double] -> Curve -> Double -> Property
 nearAt fs c tolerance = case pointsOf tolerance c of
-  Nothing -> classify True "stands still" True
-  Just (n, place) ->
-    -- Compares span by span: where a shift has opened a corner, a point near one span may hide that
-    -- the other span is far off.
+  Nothing -> classify True "speed near 0" True
+  Just (n, pointAt) ->
+    -- Each span is searched by itself: where a shift has opened a corner, samples of one span could
+    -- hide the nearest point of the other.
     let known =
-          [ [(w, place i w) | k <- [0 .. 16 :: Int], let w = fromIntegral i + fromIntegral k / 16]
+          [ [(w, pointAt i w) | k <- [0 .. 16 :: Int], let w = fromIntegral i + fromIntegral k / 16]
             | i <- [0 .. n - 1]
           ]
         closer :: Point -> Int -> Int -> Double -> Double -> Double
         closer p i k h w
-          | k == 0 = apart p (place i w)
+          | k == 0 = apart p (pointAt i w)
           | otherwise =
             let (_, v) =
                   minimum
-                    [ (apart p (place i x), x)
-                      | x <- map (held i) [w - h, w - h / 2, w, w + h / 2, w + h]
+                    [ (apart p (pointAt i x), x)
+                      | x <- map (clamped i) [w - h, w - h / 2, w, w + h / 2, w + h]
                     ]
              in closer p i (k - 1) (h / 2) v
-        held i = max (fromIntegral i) . min (fromIntegral i + 1)
-        valleys ds =
+        clamped i = max (fromIntegral i) . min (fromIntegral i + 1)
+        minima ds =
           take 1 ds
             <> [b | (a, b, d) <- zip3 ds (drop 1 ds) (drop 2 ds), b <= a, b <= d]
             <> take 1 (reverse ds)
@@ -92,7 +93,7 @@ nearAt fs c tolerance = case pointsOf tolerance c of
                     6
                     ( sort
                         ( concat
-                            [ [(d, w, i) | (d, w) <- valleys [(apart p q, w) | (w, q) <- ws]]
+                            [ [(d, w, i) | (d, w) <- minima [(apart p q, w) | (w, q) <- ws]]
                               | (i, ws) <- zip [0 ..] known
                             ]
                         )
@@ -108,22 +109,22 @@ nearAt fs c tolerance = case pointsOf tolerance c of
 joinedLaw :: Curve -> Property
 joinedLaw c = case pointsOf 1e-6 c of
   Nothing -> property True
-  -- A shift opens corners.
-  _ | any torn (Curve.breaks c) -> classify True "torn" True
-  Just (n, place) ->
+  -- A shift opens corners, which cannot join.
+  _ | any isOpen (Curve.breaks c) -> classify True "open corners" True
+  Just (n, pointAt) ->
     conjoin
       [ counterexample
           (show k)
-          (apart (place (k - 1) (fromIntegral k)) (place k (fromIntegral k)) < 1e-4)
+          (apart (pointAt (k - 1) (fromIntegral k)) (pointAt k (fromIntegral k)) < 1e-4)
         | k <- [1 .. n - 1]
       ]
       .&&. counterexample
         "ends"
-        ( apart (place 0 0) (Curve.start c) < 1e-9
-            && apart (place (n - 1) (fromIntegral n)) (Curve.end c) < 1e-9
+        ( apart (pointAt 0 0) (Curve.start c) < 1e-9
+            && apart (pointAt (n - 1) (fromIntegral n)) (Curve.end c) < 1e-9
         )
   where
-    torn u = apart (Curve.pointFrom Curve.Before c u) (Curve.pointFrom Curve.After c u) > 1e-6
+    isOpen u = apart (Curve.pointFrom Curve.Before c u) (Curve.pointFrom Curve.After c u) > 1e-6
 
 -- | Count of spans, and the point on one of them by the cubics.
 pointsOf :: Double -> Curve -> Maybe (Int, Int -> Double -> Point)
@@ -131,11 +132,11 @@ pointsOf tolerance c = case Curve.cubics (Mm tolerance) c of
   Nothing -> Nothing
   Just (_, xs, ys) ->
     let n = Spline.count xs
-        place i w =
+        pointAt i w =
           let t =
                 w - fromIntegral i
            in Vec.point (Spline.value (Spline.at xs i) t) (Spline.value (Spline.at ys i) t)
-     in Just (n, place)
+     in Just (n, pointAt)
 
 apart :: Point -> Point -> Double
 apart a b = let Mm d = Vec.distance a b in d

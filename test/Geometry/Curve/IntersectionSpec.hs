@@ -1,4 +1,4 @@
--- | Law of exact intersections.
+-- | Law of exact intersections of curves.
 module Geometry.Curve.IntersectionSpec (spec) where
 
 import Base.Quantity (Mm (..), Rad (..))
@@ -13,28 +13,28 @@ import Test.QuickCheck
 spec :: Spec
 spec =
   it
-    "a place beside a crossing of curves, lines and circles leads to the crossing (catches one \
-    \that stays on the chain of a curve)"
+    "refining a point near an intersection gives the exact intersection (catches one on the \
+    \polyarc that represents a curve)"
     $ property $
       forAll Curves.gentle $ \curve -> forAll (Curves.parameterOf curve <$> choose (0, 1)) $ \u ->
         forAll
           ( (,,,)
               <$> choose (0.1, 1.4) <*> elements [-1, 1] <*> choose (20, 100) <*> choose (0, 2 * pi)
           )
-          $ \(lean, sense, r, aside) ->
+          $ \(angle, sense, r, direction) ->
             let p = Curve.at curve u
-                across = Vec.rotate (Rad (sense * lean)) (Vec.unit (Curve.tangent curve u))
+                across = Vec.rotate (Rad (sense * angle)) (Vec.unit (Curve.tangent curve u))
                 straight = Intersection.onLine (Line p (Vec.shift (Vec.scale 10 across) p))
                 round' =
                   Intersection.onCircle
                     (Circle (Vec.shift (Vec.scale r (Vec.left across)) p) (Mm r))
                 off =
                   Vec.distance p
-                    . ( \way ->
+                    . ( \foot ->
                           Intersection.refine
                             (Intersection.onCurve curve)
-                            way
-                            (Vec.shift (Vec.polar (Mm 1e-5) (Rad aside)) p)
+                            foot
+                            (Vec.shift (Vec.polar (Mm 1e-5) (Rad direction)) p)
                       )
              in counterexample
                   (show (off straight, off round'))

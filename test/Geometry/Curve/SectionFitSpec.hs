@@ -1,6 +1,6 @@
--- | Laws of sections through a table. Each names the bug that it catches. The tests find the
--- optimum by trying all splits of a table, and every section by golden-section search of its
--- one free number.
+-- | Laws of sections through a table; each names the bug that it catches. The tests find the
+-- optimum by trying all divisions of a table into sections. They find each section by
+-- golden-section search for its one parameter.
 module Geometry.Curve.SectionFitSpec (spec) where
 
 import Base.Quantity (Mm (..), Rad (..))
@@ -30,23 +30,23 @@ spec :: Spec
 spec = do
   describe "sections through a table" $ do
     it
-      "fit: every row is within the tolerance, and the pieces are joined (catches a deviation \
-      \taken at some rows only)"
+      "fit: every row is within the tolerance, and the sections join (catches a deviation that is \
+      \measured at some rows only)"
       $ property $
         forAll ((,) <$> kinds <*> noisyTable 2 20) (uncurry withinLaw)
     it
-      "fit: the fewest pieces, and of those the least deviation (catches a piece that is given up \
-      \too early)"
+      "fit: no other fit has fewer sections, or as many and a smaller deviation (catches a section \
+      \that is given up too early)"
       $ withMaxSuccess 3000 $
         forAll ((,) <$> kinds <*> noisyTable 2 9) (uncurry bestLaw)
     it
-      "fit: rows of one line, parabola or arc are one piece, which is it (catches a root of the \
-      \circle on the other side)"
+      "fit: rows on one line, parabola or arc give it as the only section (catches the root on the \
+      \other side of the circle)"
       $ property $
         forAll exactTable wholeLaw
     it
-      "fit: the order of the kinds does not matter (catches the first kind that does taken for the \
-      \simplest)"
+      "fit: the order in which the kinds are given does not matter (catches the first possible \
+      \kind in place of the simplest)"
       $ property $
         forAll ((,) <$> kinds <*> noisyTable 2 12) $ \(ks, c) ->
           forAll (shuffle (toList ks <> take 1 (toList ks))) $ \again' ->
@@ -55,16 +55,18 @@ spec = do
                 (pure (0, 0, LineKind))
                 (fmap shape . (`fitted` c))
                 (NonEmpty.nonEmpty again')
-    it "fit: of equal pieces the simplest (catches a parabola where a line does)" $
+    it "fit: a section has the simplest possible kind (catches a parabola in place of a line)" $
       property $
         forAll ((,) <$> kinds <*> noisyTable 2 9) (uncurry simplestLaw)
-    it "fit: moved or walked backwards, a table needs as many (catches x that has to rise)" $
+    it "fit: moving or reversing a table keeps the count of sections (catches falling x)" $
       property $
         forAll ((,) <$> kinds <*> noisyTable 2 12) (uncurry movedLaw)
-    it "fit: upside down, the pieces are upside down (catches an arc that only bends one way)" $
-      property $
+    it
+      "fit: mirroring a table in y mirrors its sections (catches an arc that bends to one side \
+      \only)"
+      $ property $
         forAll ((,) <$> kinds <*> noisyTable 2 12) (uncurry mirroredLaw)
-    it "reaches lines, parabolas and arcs, rising and falling x" $
+    it "the generator reaches lines, parabolas and arcs, with rising and falling x" $
       checkCoverage $
         forAll (noisyTable 2 12) $ \c ->
           let found = map (Section.kind . curve) (toList (fitted everyKind c))
@@ -73,7 +75,7 @@ spec = do
                   cover 10 (ArcKind `elem` found) "arc" $
                     cover 20 (isFalling c) "falling" True
   describe "tables and sections" $ do
-    it "refuses a table whose x reverses or repeats, with the row" $ do
+    it "a table whose x reverses or repeats is refused, and the fault names the row" $ do
       Section.table (map (uncurry Vec.point) [(0, 0), (1, 0), (2, 5), (1.5, 0)])
         `shouldBe` Left (Section.OutOfOrder 4)
       Section.table (map (uncurry Vec.point) [(0, 0), (-1, 0), (-1, 5)])
@@ -83,7 +85,7 @@ spec = do
       Section.table (map (uncurry Vec.point) [(0, 0), (1, 0 / 0), (0 / 0, 1)])
         `shouldBe` Left (Section.OutOfOrder 3)
       Section.table [Vec.point 0 0] `shouldBe` Left (Section.TooFewRows 1)
-    it "refuses sections that do not fit together, with the section" $
+    it "sections that do not fit together are refused, and the fault names the section" $
       map
         (either Just (const Nothing) . SectionFit.sections template)
         [ [],
@@ -129,7 +131,7 @@ spec = do
     it "needs three lines and parabolas within 0.03" $
       summary (LineKind :| [ParabolaKind])
         `shouldBe` ([(1, 3, LineKind), (3, 8, ParabolaKind), (8, 13, ParabolaKind)], 286)
-    it "needs three sections with arcs too, with a slightly smaller deviation" $
+    it "needs three sections even with arcs, with a slightly smaller deviation" $
       summary everyKind
         `shouldBe` ([(1, 4, ParabolaKind), (4, 8, ParabolaKind), (8, 13, ArcKind)], 271)
   where
@@ -188,8 +190,7 @@ kinds = do
   some <- sublistOf [LineKind, ParabolaKind, ArcKind]
   pure (fromMaybe everyKind (NonEmpty.nonEmpty some))
 
--- | Rows of a curve that nearly consists of a few sections; x rises or falls, and some sections
--- are steep.
+-- | Rows of a curve that nearly consists of a few sections, some of them steep. x rises or falls.
 noisyTable :: Int -> Int -> Gen Case
 noisyTable low high = do
   n <- choose (low, high)
@@ -288,7 +289,7 @@ equation p x = case Section.formula p of
           _ -> True
      in if r > 1e5 then Section.height p x else if above then Vec.y m + h else Vec.y m - h
 
--- | Comparison with all splits of a small table, with every kind for each section.
+-- | Comparison with all divisions of a small table into sections, with every kind for each section.
 bestLaw :: NonEmpty SectionKind -> Case -> Property
 bestLaw ks c@(Case ps tolerance) =
   counterexample
@@ -305,10 +306,10 @@ bestLaw ks c@(Case ps tolerance) =
       minimum
         [maximum (map (\(_, _, ds) -> minimum (map snd ds)) s) | s <- splits, length s == fewest]
 
--- | No split keeps the largest deviation with a smaller sum of ranks. The optimum is known to
--- 1e-5 only. Of splits that may be better by less than that, the simplest counts. It is
--- compared only with splits that are certainly as good: they contain the section with the
--- largest deviation, and no other section comes close to it.
+-- | No division of the table keeps the largest deviation with a smaller sum of ranks. The optimum
+-- is known to 1e-5 only. The fit may therefore be the simplest division within that of the optimum.
+-- It is compared only with divisions that are certainly as good: they contain the section with the
+-- largest deviation, and no other section comes close to this deviation.
 simplestLaw :: NonEmpty SectionKind -> Case -> Property
 simplestLaw ks c@(Case ps tolerance) =
   counterexample
@@ -352,7 +353,7 @@ allSplits ks tolerance ps = from' 0
       | otherwise =
         [(k, d) | k <- nub (sort (toList ks)), let d = leastDeviation k rows, d <= tolerance + 1e-9]
 
--- | Least possible largest deviation of a kind of section through the end rows.
+-- | Least possible largest deviation of a section of some kind through the first and the last row.
 leastDeviation :: SectionKind -> [Point] -> Double
 leastDeviation k rows = case k of
   LineKind -> largestOf (const 0)
@@ -370,7 +371,7 @@ leastDeviation k rows = case k of
           | q <- drop 1 (take (length rows - 1) rows)
         ]
     limit = pi / 2 - atan (abs ((y2 - y1) / (x2 - x1)))
-    -- From the line to the circle whose ends make the angle t with the chord.
+    -- Rise from the chord to the arc whose ends make the angle t with the chord.
     bulge t x
       | abs t < 1e-6 =
         let m = (y2 - y1) / (x2 - x1) in t * (x - x1) * (x2 - x) * (1 + m * m) / abs (x2 - x1)
@@ -396,7 +397,7 @@ goldenSection low high f = go (120 :: Int) low high
         u = a + 0.382 * (b - a)
         v = a + 0.618 * (b - a)
 
--- | One curve, and rows on it.
+-- | A line, parabola or arc, and rows on it.
 exactTable :: Gen (SectionFormula, SectionKind, [Point])
 exactTable = do
   n <- choose (5, 30)

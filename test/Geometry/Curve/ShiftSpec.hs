@@ -1,5 +1,5 @@
--- | Laws of shifts: where they move a curve, how several of them combine, and where they do not
--- fit.
+-- | Laws of shifts: to where they move a curve, how several of them combine, and where they are too
+-- large.
 module Geometry.Curve.ShiftSpec (spec) where
 
 import Base.Quantity (Mm (..), Rad (..), minus, plus, times)
@@ -37,8 +37,8 @@ spec :: Spec
 spec = do
   describe "a shift" $ do
     it
-      "by a constant moves every place by it along the normal (catches a normal that is not of \
-      \length 1)"
+      "by a constant moves every point by this distance along the normal (catches a normal that is \
+      \not of length 1)"
       $ property $
         forAll Generate.anyCurve $ \c ->
           forAll ((,,) <$> choose (-4, 4) <*> choose (-1, 1) <*> Generate.parameter) $
@@ -50,7 +50,7 @@ spec = do
                       u
                       (Curve.shifted LeftOf (Square (constantColumn mu c) (Constant (Mm h))) c)
                in alike 1e-6 out (Vec.scale (h / cos mu) (Curve.normal c u))
-    it "stays at its distance from the curve (catches a distance along the ordinate)" $
+    it "stays at its distance from the curve (catches a distance along y)" $
       property $
         forAll Generate.gentle $ \c ->
           forAll ((,) <$> choose (-0.5, 0.5) <*> Generate.parameter) $ \(k, t) ->
@@ -79,7 +79,7 @@ spec = do
                     let Mm d' =
                           Curve.shiftDistance (Curve.shifted LeftOf (Square mu (Pointwise h)) c) u
                 ]
-    it "grows evenly along the true length (catches a length by the parameter)" $
+    it "grows in proportion to arc length (catches a growth by the parameter)" $
       property $
         forAll Generate.anyCurve $ \c ->
           forAll ((,,) <$> choose (-4, 4) <*> choose (-4, 4) <*> Generate.parameter) $
@@ -96,8 +96,8 @@ spec = do
                     (displacement c u grown)
                     (Vec.scale (h1 + (h2 - h1) * share) (Curve.normal c u))
     it
-      "that grows between two places keeps its distances before and behind them (catches ends that \
-      \are exchanged)"
+      "that grows between two points is constant before and after them (catches ends that are \
+      \exchanged)"
       $ property $
         forAll Generate.gentle $ \c ->
           forAll
@@ -125,7 +125,7 @@ spec = do
                     | u >= ub = h2
                     | otherwise = h1 + (h2 - h1) * chordSum c ua u / chordSum c ua ub
                in near' 1e-5 (-d) expected
-    it "that grows between two places has corners there (catches marks that are forgotten)" $
+    it "that grows between two points has corners there (catches a curve without breaks there)" $
       property $
         forAll Generate.gentle $ \c ->
           forAll ((,) <$> choose (0.05, 0.4) <*> choose (0.5, 0.95)) $ \(a, b) ->
@@ -138,14 +138,14 @@ spec = do
                   )
                   === [fst ends, snd ends]
     it
-      "the derivatives are those of the place, through all layers (catches an order too few, a \
-      \term of a product)"
+      "its derivatives are those of its points, through all layers (catches a missing order, and a \
+      \missing term of a product)"
       $ property $
         forAll (Generate.layered 3 Generate.anyCurve) $ \c ->
           forAll (choose (0.05, 0.95)) $ \share ->
             forAll (elements (smoothStretches c)) $ \(a, b) ->
               derivativesLaw c (a + (b - a) * share) (0.01 * (b - a))
-    it "the curvature is that of a circle through three near points (catches a wrong sign)" $
+    it "its curvature is that of a circle through three near points (catches a wrong sign)" $
       property $
         forAll (Generate.layered 2 Generate.gentle) $ \c ->
           forAll (choose (0.05, 0.95)) $ \share ->
@@ -158,7 +158,7 @@ spec = do
 
   describe "shifts in sequence" $ do
     it
-      "by a and by b are one by a + b, square to a surface too (catches a normal taken from below)"
+      "by a and then by b are one shift by a + b (catches a normal of the curve below)"
       $ property $
         forAll Generate.smooth $ \c ->
           forAll
@@ -171,8 +171,8 @@ spec = do
                   u = Generate.parameterOf c t
                in close 1e-6 (Curve.at (by b (by a c)) u) (Curve.at (by (a + b) c) u)
     it
-      "2, 4, 1 is each step by itself, with normals and lengths found by differences (catches \
-      \layers in the wrong order)"
+      "by the cipher 2, 4, 1 agree with each shift computed from differences (catches layers in \
+      \the wrong order)"
       $ property $
         forAll Generate.gentle $ \c ->
           forAll ((,) <$> Generate.columnOf c 0.1 0.4 <*> Generate.columnOf c 1 3) $ \(mu, h) ->
@@ -180,12 +180,12 @@ spec = do
               sequenceLaw c mu h (BasisCurve.at row)
 
   describe "equivalent shifts" $ do
-    it "a growth from h to h is the constant h (catches a growth that begins with what it adds)" $
+    it "a growth from h to h is the constant h (catches a growth that begins with the difference)" $
       property $
         forAll Generate.anyCurve $ \c -> forAll (choose (-4, 4)) $ \h ->
           sameShift c (Growing Growth {from = Mm h, to = Mm h, between = Nothing}) (Constant (Mm h))
     it
-      "a column that is the same everywhere is a constant, exactly (catches a spline that swings)"
+      "a column of equal values is a constant, exactly (catches a spline that oscillates)"
       $ property $
         forAll Generate.anyCurve $ \c ->
           forAll (choose (-4, 4)) $ \h -> forAll Generate.parameter $ \t ->
@@ -196,8 +196,10 @@ spec = do
       property $
         forAll Generate.anyCurve $ \c -> forAll (Generate.columnOf c 1 9) $ \h ->
           sameShift c (Bevelled (constantColumn 0 c) h (Mm 0)) (Constant (Mm 0))
-    it "to the right is to the left by the negative distance (catches a side that is forgotten)" $
-      property $
+    it
+      "a shift to the right is one to the left by the negative distance (catches a side that is \
+      \ignored)"
+      $ property $
         forAll Generate.anyCurve $ \c ->
           forAll ((,) <$> Generate.distance 3 c <*> Generate.parameter) $ \(d, t) ->
             let u = Generate.parameterOf c t
@@ -207,7 +209,7 @@ spec = do
 
   describe "a joggle" $ do
     it
-      "is nothing outside, its depth in the middle, continuous everywhere (catches a ramp that \
+      "is 0 outside its interval, its depth in the middle, and continuous (catches a ramp that \
       \runs backwards)"
       $ property $
         forAll Generate.gentle $ \c ->
@@ -247,8 +249,8 @@ spec = do
                               ]
                             .&&. Curve.corners s === []
     it
-      "on a straight line has ramps of arcs of its radius, half of the depth each (catches a wrong \
-      \length of the ramp)"
+      "on a straight line has ramps of two arcs, each half of the depth (catches a wrong length of \
+      \the ramp)"
       $ property $
         forAll ((,) <$> choose (0.5, 3) <*> choose (0.6, 4)) $ \(d, k) ->
           forAll (elements [1, -1]) $ \flip' -> forAll (choose (0.01, 0.99)) $ \t ->
@@ -257,15 +259,15 @@ spec = do
                 joggle = Joggle {begins = 0.1, ends = 0.9, depth = Mm (flip' * d), radius = Mm r}
                 s = Curve.shifted LeftOf (Generate.ok (Curve.fitJoggle joggle c)) c
                 Mm l = Curve.ramp joggle
-                place x = Curve.at s (x / 100)
+                pointAt x = Curve.at s (x / 100)
                 lowCentre = Vec.point 10 (flip' * r)
                 highCentre = Vec.point (10 + l) (flip' * (d - r))
                 on centre p = let Mm v = Vec.distance centre p in near' 1e-9 v r
-             in on lowCentre (place (10 + t * l / 2))
-                  .&&. on highCentre (place (10 + l / 2 + t * l / 2))
-                  .&&. near' 1e-9 (Vec.y (place (10 + l / 2))) (flip' * d / 2)
-                  .&&. near' 1e-9 (Vec.y (place (90 - l / 2))) (flip' * d / 2)
-                  .&&. on (Vec.point 90 (flip' * r)) (place (90 - t * l / 2))
+             in on lowCentre (pointAt (10 + t * l / 2))
+                  .&&. on highCentre (pointAt (10 + l / 2 + t * l / 2))
+                  .&&. near' 1e-9 (Vec.y (pointAt (10 + l / 2))) (flip' * d / 2)
+                  .&&. near' 1e-9 (Vec.y (pointAt (90 - l / 2))) (flip' * d / 2)
+                  .&&. on (Vec.point 90 (flip' * r)) (pointAt (90 - t * l / 2))
     it "does not fit when its radius is too small, or its ramps too long" $ do
       let c = Generate.ok (Curve.polyline (Exts.fromList [Vec.point 0 0, Vec.point 100 0]))
           joggle d r = Joggle {begins = 0.4, ends = 0.6, depth = Mm d, radius = Mm r}
@@ -274,8 +276,10 @@ spec = do
         `shouldBe` Left (LongJoggle (times 2 (Curve.ramp (joggle 2 14))) (Mm 20))
 
   describe "shifts that do not fit" $ do
-    it "the vertex of a parabola y = x²/2p takes p and no more (catches a fold between two rows)" $
-      property $
+    it
+      "the vertex of a parabola y = x²/2p can be shifted inwards by p at most (catches a cusp \
+      \between two rows)"
+      $ property $
         forAll ((,,) <$> choose (2, 30) <*> choose (-0.4, -0.05) <*> choose (0.05, 0.4)) $
           \(p, left, right) ->
             forAll (choose (0.5, 2)) $ \k ->
@@ -294,8 +298,8 @@ spec = do
                         .&&. near' 1e-9 (mm (requested f)) (k * p)
                         .&&. close 1e-4 (place f) (Vec.point 0 0)
     it
-      "is found just when the distance passes the radius somewhere (catches a layer that is not \
-      \looked at)"
+      "a cusp is found if and only if a distance exceeds the radius of curvature (catches a layer \
+      \that is not tested)"
       $ property $
         forAll (Generate.layered 1 (oneof [Generate.ring, Generate.gentle])) $ \c ->
           forAll (choose (0.5, 2)) $ \k ->
@@ -305,12 +309,12 @@ spec = do
                       | (a, b) <- smoothStretches c,
                         t <- [0.001, 1 .. 200]
                     ]
-                asked' = k / most
+                distance = k / most
                 above =
                   Curve.shifted
                     RightOf
                     (Constant (Mm 0.01))
-                    (Curve.shifted LeftOf (Constant (Mm asked')) c)
+                    (Curve.shifted LeftOf (Constant (Mm distance)) c)
              in most > 1e-3
                   && abs (k - 1)
                     > 0.01
@@ -357,9 +361,9 @@ spec = do
           forAll (Generate.columnOf c 0 2) $ \col ->
             let s = Curve.shifted RightOf (Pointwise col) c
              in isNothing (Curve.firstCusp s) ==> Curve.corners s === Curve.corners c
-    it "change evenly along pieces where these touch (catches a column by the parameter)" $
+    it "change in proportion to arc length on tangent spans (catches a column by the parameter)" $
       property $
-        forAll touching $ \c ->
+        forAll tangentSpans $ \c ->
           forAll (Generate.columnOf c 0 2) $ \col -> forAll (elements [1, 2]) $ \u ->
             let s = Curve.shifted LeftOf (Pointwise col) c
                 rate approach =
@@ -377,7 +381,7 @@ spec = do
 displacement :: Curve -> Double -> Curve -> Vec
 displacement c u s = Vec.to (Curve.at c u) (Curve.at s u)
 
--- | Column with one constant value.
+-- | Column with the same value for every row.
 constantColumn :: Double -> Curve -> Curve.Column
 constantColumn v c =
   Curve.column c (Exts.fromList (map (const v) (toList (BasisCurve.rows (Curve.base c)))))
@@ -389,12 +393,12 @@ sameShift c d e = forAll (elements [LeftOf, RightOf]) $ \side -> forAll Generate
         Generate.parameterOf c t
    in close 1e-9 (Curve.at (Curve.shifted side d c) u) (Curve.at (Curve.shifted side e c) u)
 
--- | Shares of the radius of curvature that fit, also when added.
+-- | Share of the radius of curvature by which a curve can be shifted twice in sequence.
 radiusShare :: Gen Double
 radiusShare = choose (-0.4, 0.4)
 
--- | Stretches without a change of formula. On curves of lines and arcs, columns change theirs at
--- the rows.
+-- | Stretches of a curve over which no formula changes. On a curve of lines and arcs, the formulas
+-- of columns change at the rows.
 smoothStretches :: Curve -> [(Double, Double)]
 smoothStretches c =
   let bs =
@@ -402,7 +406,8 @@ smoothStretches c =
           (sort (Curve.breaks c <> map BasisCurve.at (toList (BasisCurve.rows (Curve.base c)))))
    in filter (\(a, b) -> b - a > 1e-6) (zip bs (drop 1 bs))
 
--- | First and second derivatives, against Richardson extrapolation of two differences.
+-- | The first and the second derivative at a parameter equal the Richardson extrapolation of
+-- difference quotients.
 derivativesLaw :: Curve -> Double -> Double -> Property
 derivativesLaw c u e =
   alike (1e-4 * (1 + Vec.norm first)) first byFirst
@@ -431,10 +436,10 @@ circleCurvature p q r = 2 * Vec.cross (Vec.to p q) (Vec.to q r) / (norm p q * no
   where
     norm s t = Vec.norm (Vec.to s t)
 
--- | Constant, bevelled and growing shifts in sequence, each against a normal that is computed
--- from differences of the curve before.
+-- | A constant, a bevelled and a growing shift in sequence move a point as far as shifts along
+-- normals that are computed from difference quotients of the curve below.
 sequenceLaw :: Curve -> Curve.Column -> Curve.Column -> Double -> Property
-sequenceLaw c mu h u = close 1e-4 (Curve.at third u) byHand
+sequenceLaw c mu h u = close 1e-4 (Curve.at third u) expected
   where
     first = Curve.shifted LeftOf (Constant (Mm 0.5)) c
     second = Curve.shifted RightOf (Bevelled mu h (Mm 0.2)) first
@@ -456,7 +461,7 @@ sequenceLaw c mu h u = close 1e-4 (Curve.at third u) byHand
             <> [0]
         )
     grown = 0.3 + 0.6 * chordSum second 0 u / chordSum second 0 (Curve.domain second)
-    byHand =
+    expected =
       step second grown (step first (-(value h * tan (value mu) + 0.2)) (step c 0.5 (Curve.at c u)))
 
 -- | Arc length between two parameters: Richardson extrapolation of two chord sums.
@@ -466,15 +471,15 @@ chordSum c from' to' =
   where
     stretch a b = let fine = chords a b 400 in fine + (fine - chords a b 200) / 3
     chords a b n =
-      let place' k =
+      let pointAt k =
             if k == n
               then Curve.pointFrom Before c b
               else Curve.at c (a + (b - a) * fromIntegral k / fromIntegral n)
-       in sum [mm (Vec.distance (place' k) (place' (k + 1))) | k <- [0 .. n - 1 :: Int]]
+       in sum [mm (Vec.distance (pointAt k) (pointAt (k + 1))) | k <- [0 .. n - 1 :: Int]]
 
--- | Line, arc and line in tangent contact.
-touching :: Gen Curve
-touching = do
+-- | A line, an arc and a line, each tangent to the next.
+tangentSpans :: Gen Curve
+tangentSpans = do
   r <- choose (10, 40)
   sweep <- choose (0.3, 1.5)
   let centre = Vec.point 20 r

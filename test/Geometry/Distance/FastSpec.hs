@@ -1,5 +1,4 @@
--- | What bare numbers say of two lines or arcs against the exact comparison and against many
--- points.
+-- | Fast distances and bounds against exact distances and against many sample points.
 module Geometry.Distance.FastSpec (spec) where
 
 import Base.Quantity (Mm (..), Rad (..))
@@ -14,54 +13,61 @@ import Test.QuickCheck
 
 spec :: Spec
 spec = do
-  it "the distance of a point is the exact one (catches a foot beyond an end)" $
+  it "distance: of a point is the exact one (catches a foot beyond an end)" $
     property $
       forAll ((,) <$> point <*> segment) $ \(p, s) ->
         let Mm d = Distance.toPoint p s
             found = FastDistance.distance s (Vec.x p) (Vec.y p)
          in counterexample (show (d, found)) (abs (d - found) <= 1e-9)
   it
-    "two are as far apart as they are, or not told to be further (catches a crossing or a normal \
-    \that is forgotten)"
+    "apart: of two segments is the exact distance (catches a missing intersection, and a missing \
+    \normal)"
     $ property $
       forAll pair $ \(a, b) ->
         let Distance.ClosestPoint (Mm d) _ = Distance.segments a b
             found = FastDistance.apart a b
          in counterexample (show (d, found)) (found <= d + 1e-9 && found >= d - 1e-6)
   it
-    "no point of one is further from the other than is told (catches an arc that bulges between \
-    \its ends)"
+    "furthest: no point of one segment is further from the other (catches an arc that is measured \
+    \at its ends only)"
     $ property $
       forAll pair $ \(a, b) ->
-        let told = FastDistance.furthest a b
+        let bound = FastDistance.furthest a b
             sampled =
               maximum
                 [ d
                   | k <- [0 .. 200 :: Int],
                     let Mm d = Distance.toPoint (Segment.at (fromIntegral k / 200) a) b
                 ]
-         in classify (told < sampled + 1e-3) "tight" $
-              counterexample (show (told, sampled)) (told >= sampled - 1e-9)
-  it "what is surely covered is covered (catches a part between two that belongs to neither)" $
-    property $
+         in classify (bound < sampled + 1e-3) "tight" $
+              counterexample (show (bound, sampled)) (bound >= sampled - 1e-9)
+  it
+    "isCovered: is true only of segments without an uncovered part (catches a part between two \
+    \others)"
+    $ property $
       forAll ((,) <$> oneof [pure <$> segment, chain] <*> choose (0.5, 12)) $ \(others, r) ->
         forAll (beside r others) $ \s ->
           forAll (choose (0.9, 1.3)) $ \share ->
             let reach = share * r
-                surely = FastDistance.isCovered reach pure (const True) others s
+                covered = FastDistance.isCovered reach pure (const True) others s
                 gaps = Distance.uncovered (Mm reach) others s
-             in classify surely "covered" $
+             in classify covered "covered" $
                   counterexample
                     (show gaps)
-                    (not surely || all (\(from, to) -> to - from < 1e-6) gaps)
-  it "two are as far apart as is told at least (catches a bulge that comes nearer than both ends)" $
-    property $
+                    (not covered || all (\(from, to) -> to - from < 1e-6) gaps)
+  it
+    "apartAtLeast: is a lower bound of the distance (catches an arc that is nearest between its \
+    \ends)"
+    $ property $
       forAll pair $ \(a, b) ->
         let Distance.ClosestPoint (Mm d) _ = Distance.segments a b
-            told = FastDistance.apartAtLeast a b
-         in classify (told > d - 1e-6) "tight" $ counterexample (show (d, told)) (told <= d + 1e-9)
-  it "what may come near is not left out (catches a length that is not added)" $
-    property $
+            bound = FastDistance.apartAtLeast a b
+         in classify (bound > d - 1e-6) "tight" $
+              counterexample (show (d, bound)) (bound <= d + 1e-9)
+  it
+    "mayComeWithin, mayLieWithin: are true of everything within reach (catches a length that is \
+    \not added)"
+    $ property $
       forAll ((,) <$> pair <*> choose (0, 20)) $ \((a, b), r) ->
         let Distance.ClosestPoint (Mm d) _ = Distance.segments a b
             Mm long = Segment.length a
@@ -73,24 +79,24 @@ spec = do
                   && (e > r || FastDistance.mayLieWithin r long a (Vec.x p) (Vec.y p))
               )
   it
-    "what is surely accompanied is covered (catches a curve that goes round the other way, and one \
-    \with a gap)"
+    "isAccompanied: is true only of segments without an uncovered part (catches a curve around the \
+    \far side, and one with a gap)"
     $ property $
       forAll ((,,) <$> chain <*> choose (0.5, 12) <*> arbitrary) $ \(others, r, backwards) ->
-        forAll (oneof [beside r others, wayAlong r others]) $ \s ->
+        forAll (oneof [beside r others, alongAll r others]) $ \s ->
           forAll (sublistOf others) $ \some ->
             let reach = 1.1 * r
-                surely ss =
+                covered ss =
                   FastDistance.isAccompanied reach ss (if backwards then Segment.reverse s else s)
                 gaps ss =
                   filter (\(from, to) -> to - from > 1e-6) (Distance.uncovered (Mm reach) ss s)
-             in classify (surely others) "accompanied" $
+             in classify (covered others) "accompanied" $
                   counterexample
                     (show (gaps others, gaps some))
-                    (all (\ss -> not (surely ss) || null (gaps ss)) [others, some])
+                    (all (\ss -> not (covered ss) || null (gaps ss)) [others, some])
   it
-    "is divided where the foot of a point lies (catches parts that do not meet, or that make less \
-    \than the whole)"
+    "divided: divides a segment at the foot of a point (catches parts that do not meet, or that \
+    \are less than the segment)"
     $ property $
       forAll ((,) <$> point <*> segment) $ \(p, s) ->
         case FastDistance.divided (Vec.x p) (Vec.y p) s of
@@ -107,8 +113,10 @@ spec = do
                     && case s of
                       Straight _ _ -> abs (apart p (Segment.end q) - away) < 1e-6
                       Arc {} -> True
-  it "what surely lies on a side lies there with every point (catches an arc judged by its ends)" $
-    property $
+  it
+    "isLeftOf, isRightOf: are true only if every point lies on the side (catches an arc that is \
+    \tested at its ends only)"
+    $ property $
       forAll pair $ \(t, e) ->
         let points = [Segment.at (fromIntegral k / 200) t | k <- [0 .. 200 :: Int]]
          in counterexample
@@ -122,7 +130,7 @@ spec = do
       Arc {start, centre, sweep = Rad s} ->
         (Vec.distance centre p < Segment.radius centre start) == (s > 0)
 
--- | Two that have nothing to do with one another, or of which one runs beside the other.
+-- | Two independent segments, or two of which one runs beside the other.
 pair :: Gen (Segment, Segment)
 pair = oneof [(,) <$> segment <*> segment, alongside]
   where
@@ -132,13 +140,13 @@ pair = oneof [(,) <$> segment <*> segment, alongside]
       b <- beside r [a]
       elements [(a, b), (b, a)]
 
--- | A line or an arc at a distance from one of some others, not quite exactly.
+-- | A line or an arc at about a distance @r@ to the left of one of some others.
 beside :: Double -> [Segment] -> Gen Segment
 beside r others = do
   s <- elements others
-  shaken <- elements [0, 1e-4, 1e-2, 5e-2]
+  noise <- elements [0, 1e-4, 1e-2, 5e-2]
   let moved p =
-        (\x y -> Vec.shift (Vec.vec (shaken * x) (shaken * y)) p)
+        (\x y -> Vec.shift (Vec.vec (noise * x) (noise * y)) p)
           <$> choose (-1, 1) <*> choose (-1, 1)
   from <- elements [0, 0, 0.2]
   to <- elements [1, 1, 0.7]
@@ -155,21 +163,22 @@ beside r others = do
           at t = Vec.shift (Vec.scale ((old + r) / old) (turned t)) c
       pure Arc {start = at from, end = at to, centre = c, sweep = Rad (sweep * (to - from))}
 
--- | A line or a flat arc at about a distance from the beginning of the first of some others and
--- from the end of the last one.
-wayAlong :: Double -> [Segment] -> Gen Segment
-wayAlong r others = case others of
+-- | A line or a flat arc along all of some others: from about a distance @r@ to the left of the
+-- start of the first to as far to the left of the end of the last.
+alongAll :: Double -> [Segment] -> Gen Segment
+alongAll r others = case others of
   [] -> segment
-  first : more -> wayBetween r first (foldl (\_ s -> s) first more)
+  first : more -> fromTo r first (foldl (\_ s -> s) first more)
 
--- | From beside the one to beside the other.
-wayBetween :: Double -> Segment -> Segment -> Gen Segment
-wayBetween r first final = do
-  shaken <- choose (-0.05, 0.05)
+-- | A line or a flat arc from about a distance @r@ to the left of one segment to as far to the left
+-- of another one.
+fromTo :: Double -> Segment -> Segment -> Gen Segment
+fromTo r first final = do
+  noise <- choose (-0.05, 0.05)
   share <- elements [0, 0.05, 0.2]
   bend <- oneof [pure 0, choose (-0.9, 0.9)]
   let out s t =
-        Vec.shift (Vec.scale (r + shaken) (Vec.left (Segment.directionAt t s))) (Segment.at t s)
+        Vec.shift (Vec.scale (r + noise) (Vec.left (Segment.directionAt t s))) (Segment.at t s)
       (a, b) = (out first share, out final (1 - share))
       l = Vec.to a b
       c = Vec.shift (Vec.scale (1 / (2 * tan (bend / 2))) (Vec.left l)) (Vec.interpolate 0.5 a b)
@@ -179,7 +188,7 @@ wayBetween r first final = do
         else Arc {start = a, end = b, centre = c, sweep = Rad bend}
     )
 
--- | Lines and arcs one behind the other without a corner.
+-- | A chain of lines and arcs without a corner.
 chain :: Gen [Segment]
 chain = do
   n <- choose (2, 5)

@@ -11,7 +11,7 @@ import Test.QuickCheck
 
 spec :: Spec
 spec = describe "a lower bound of the distance over a box" $ do
-  it "leaves out only what is further off than asked (catches a bound above the distance)" $
+  it "excludes only segments beyond the wanted distance (catches a bound above the distance)" $
     property $
       forAll ((,,) <$> curve <*> curve <*> choose (0, 30)) $ \(ss, others, d) ->
         let tree = BoxTree.index BoundingBox.ofSegment others

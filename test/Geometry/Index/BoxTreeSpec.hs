@@ -17,7 +17,7 @@ import Test.QuickCheck
 
 spec :: Spec
 spec = do
-  it "finds all things whose boxes meet a box, in order (catches the last group that is not full)" $
+  it "finds all things whose boxes meet a box, in order (catches a last group that is not full)" $
     property $
       forAll ((,) <$> boxes <*> box) $ \(things, b) ->
         map fst (BoxTree.within b (BoxTree.index snd things))
@@ -59,8 +59,8 @@ spec = do
            in BoxTree.closest away p (BoxTree.index (BoundingBox.ofSegment . snd) numbered)
                 === Just (away nearest, nearest)
   it
-    "finds it although distances are rounded differently from those of boxes (catches a thing that \
-    \is excluded because its box seems further away)"
+    "finds the nearest thing even if its distance is rounded below that of its box (catches a \
+    \thing that is excluded because its box seems further away)"
     $ property $
       forAll ((,) <$> boxes <*> point) $ \(things, p) ->
         forAll (vectorOf (length things) (choose (-1e-9, 0))) $ \slips ->
@@ -75,15 +75,15 @@ spec = do
                 _ -> let (d, (i, _)) = minimumBy (comparing fst) slipped in Just (d, i)
            in found === wanted
   it
-    "contains the same things when they are sorted, and finds one that is as near (catches a \
-    \column that is left out)"
+    "contains the same things if it sorts them, and finds one that is as near (catches a column \
+    \that is left out)"
     $ property $
       forAll ((,) <$> boxes <*> point) $ \(things, p) ->
         let sorted = BoxTree.sortedIndex snd things
             distanceOf = fmap fst . BoxTree.closest (BoundingBox.distance p . snd) p
          in (sort (map fst (BoxTree.toList sorted)), distanceOf sorted)
               === (map fst things, distanceOf (BoxTree.index snd things))
-  it "lists all things in order (catches a level taken for the things)" $
+  it "lists all things in order (catches a higher level in place of the things)" $
     property $
       forAll boxes $ \things ->
         map fst (BoxTree.toList (BoxTree.index snd things)) === map fst things
@@ -118,7 +118,7 @@ box = do
         else b
     )
 
--- | Several groups of boxes that are close to each other.
+-- | Several groups of boxes; the boxes of a group are close to each other.
 alike :: Gen [(Int, BoundingBox)]
 alike = zip [0 ..] . concat <$> listOf (point >>= \p -> listOf (near p))
   where
@@ -126,7 +126,7 @@ alike = zip [0 ..] . concat <$> listOf (point >>= \p -> listOf (near p))
       (\a b w -> BoundingBox.inflate (Mm w) (BoundingBox.ofPoints (Vec.shift (Vec.vec a b) p) []))
         <$> choose (-3, 3) <*> choose (-3, 3) <*> choose (0, 4)
 
--- | Numbered boxes; the numbers of them make trees of one to four levels.
+-- | Boxes with numbers from 0, of such a count that their trees have one to four levels.
 boxes :: Gen [(Int, BoundingBox)]
 boxes = do
   n <- oneof [choose (0, 20), choose (60, 70), choose (500, 600)]

@@ -19,7 +19,7 @@ import Test.QuickCheck hiding (tolerance)
 
 spec :: Spec
 spec = describe "the pair search of a tree" $ do
-  it "finds all pairs that meet (catches a run that is taken for one that advances)" $
+  it "finds all pairs that meet (catches a run that is wrongly taken to advance in one direction)" $
     withMaxSuccess 1000 . forAll polyarcs $ \os ->
       let c = ClosedPolyarcs.fromFlatPolyarcs tolerance os
           expected = meetings AllPairs c
@@ -27,10 +27,10 @@ spec = describe "the pair search of a tree" $ do
             . cover 20 (ClosedPolyarcs.loopCount c > 1) "several loops"
             $ meetings FoundByTree c === expected
 
--- | The pairs of segments that are tested.
+-- | The pairs of segments whose intersection is tested: all pairs, or those that the tree finds.
 data Candidates = AllPairs | FoundByTree
 
--- | The pairs, of the candidates, that meet.
+-- | The candidates that meet.
 meetings :: Candidates -> ClosedPolyarcs -> Set (Int, Int)
 meetings candidates c = runST $ do
   pairs <- newMutVar Set.empty
@@ -62,15 +62,15 @@ meetings candidates c = runST $ do
 tolerance :: Double
 tolerance = 1e-11
 
--- | One to three closed polyarcs: long winding ones, and ones with scattered vertices, on a grid or
--- not.
+-- | One to three closed polyarcs: long ones that turn gently, and ones with random vertices, on a
+-- grid or not.
 polyarcs :: Gen [FlatPolyarc]
 polyarcs = do
   loops <- elements [1, 1, 2, 3]
   vectorOf loops (oneof [winding, scattered, onGrid])
   where
     polyarc = FlatPolyarc.fromVertices Closed
-    -- Directions change little from step to step, so that whole runs advance.
+    -- Directions change little from step to step, so that many runs advance in one direction.
     winding = do
       n <- choose (3, 300 :: Int)
       changes <- vectorOf n (choose (-0.3, 0.35))

@@ -15,12 +15,14 @@ spec = do
       $ property $
         forAll ((,) <$> series <*> positive) $ \(a, b) ->
           PowerSeries.multiply (PowerSeries.divide a b) b `alike` a
-    it "powers add in their exponents (catches a weight without its α)" $
-      property $
+    it
+      "a product of powers is the power with the sum of the exponents (catches a weight without \
+      \its α)"
+      $ property $
         forAll ((,,) <$> positive <*> choose (-2, 2) <*> choose (-2, 2)) $ \(a, p, q) ->
           PowerSeries.multiply (PowerSeries.power p a) (PowerSeries.power q a)
             `alike` PowerSeries.power (p + q) a
-    it "the square of a root is the whole (catches a weight α·j − (k − j) with a wrong sign)" $
+    it "the square of a root is the series (catches a weight α·j − (k − j) with a wrong sign)" $
       property $
         forAll positive $ \a ->
           PowerSeries.multiply (PowerSeries.power 0.5 a) (PowerSeries.power 0.5 a) `alike` a
@@ -47,7 +49,7 @@ spec = do
                       `alike` PowerSeries.multiply
                         (PowerSeries.plusConstant 1 (PowerSeries.multiply t t))
                         (PowerSeries.derivative a)
-    it "the derivative of the integral is the whole" $
+    it "the derivative of the integral is the series" $
       property $
         forAll ((,) <$> series <*> choose (-3, 3)) $ \(a, c) ->
           PowerSeries.derivative (PowerSeries.integral c a) `alike` a

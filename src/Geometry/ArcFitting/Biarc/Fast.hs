@@ -1,10 +1,10 @@
--- | Biarcs on plain numbers, without angles, for loops that try many. They equal those of
--- "Geometry.ArcFitting.Biarc" where both end directions make an angle of less than a quarter
--- turn with the chord.
+-- | Biarcs computed on unpacked coordinates and without angles, for loops that try many of them.
+-- They equal those of "Geometry.ArcFitting.Biarc" where both end directions make an angle of less
+-- than a quarter turn with the chord.
 --
--- In the notation of that module, square roots of cosines give the half angles, and @e^{iγ/2}@ is
--- the conjugate of @w/|w|@. An arc with the chord c and the sweep 2φ has the curvature @2·sin φ/c@
--- and the bulge @tan(φ/2)@.
+-- In the notation of that module, square roots of cosines give sine and cosine of the half angles,
+-- and @e^{iγ/2}@ is the conjugate of @w/|w|@. An arc with the chord c and the sweep 2φ has the
+-- curvature @2·sin φ/c@ and the bulge @tan(φ/2)@.
 module Geometry.ArcFitting.Biarc.Fast
   ( Pose (..),
     FastBiarc (..),
@@ -21,36 +21,40 @@ where
 import Base.Quantity (Mm (..), Rad (..))
 import Geometry.Tolerance qualified as Tolerance
 
--- | Position in mm and unit direction.
+-- | Position in mm and direction of length 1.
 data Pose = Pose {px :: Double, py :: Double, dx :: Double, dy :: Double}
 
 -- | Two arcs with a common tangent at the joint.
 data FastBiarc = FastBiarc
-  { -- | True if one line or arc suffices: the first one, which then ends at the end pose
+  { -- | True if one line or arc suffices: then the first arc is all, and 'joint' is the end pose
     single :: Bool,
     -- | curvature of the first arc in 1/mm, positive to the left
     bend1 :: Double,
     -- | tangent of a quarter of the first arc's sweep
     bulge1 :: Double,
+    -- | end of the first arc and start of the second
     joint :: {-# UNPACK #-} Pose,
+    -- | curvature of the second arc in 1/mm, positive to the left
     bend2 :: Double,
+    -- | tangent of a quarter of the second arc's sweep
     bulge2 :: Double
   }
 
 -- | Biarc from one pose to another. The ratio of its chords is that of
--- 'Geometry.ArcFitting.Biarc.join', times a factor. The result is NaN where an end direction
--- makes a quarter turn or more with the chord, and where the ends coincide.
+-- 'Geometry.ArcFitting.Biarc.join', multiplied by the first argument. All numbers of the biarc are
+-- NaN where an end direction makes a quarter turn or more with the chord, and where the ends
+-- coincide.
 biarc :: Double -> Pose -> Pose -> FastBiarc
 biarc times from end = withRatio times (between from end)
 {-# INLINE biarc #-}
 
--- | Family of all biarcs from one pose to another.
+-- | Family of all biarcs from one pose to another, one for each chord ratio.
 data Biarcs
   = -- | one line or arc for every ratio
     Only FastBiarc
-  | -- | data shared by biarcs with different chord ratios: the start; the chord as a vector, its
-    -- length and its direction; cosine and sine of half the angle from the chord at the start
-    -- (a) and at the end (b); the sines of the whole angles; the ratio of
+  | -- | numbers that do not depend on the chord ratio: the start; the chord as a vector, its length
+    -- and its direction; cosine and sine of half the angle from the chord to the direction at the
+    -- start (a) and at the end (b); the sines of the whole angles; and the chord ratio of
     -- 'Geometry.ArcFitting.Biarc.join'
     Biarcs
       { x0 :: Double,
@@ -106,7 +110,7 @@ between (Pose x0 y0 sx sy) final@(Pose x1 y1 ex ey)
     sinA = ux * sy - uy * sx
     cosB = ux * ex + uy * ey
     sinB = ux * ey - uy * ex
-    -- Half angles from the chord.
+    -- Cosines and sines of the half angles from the chord.
     ca = sqrt (0.5 + 0.5 * cosA)
     sa = sinA / (2 * ca)
     cb = sqrt (0.5 + 0.5 * cosB)
@@ -115,7 +119,8 @@ between (Pose x0 y0 sx sy) final@(Pose x1 y1 ex ey)
     Rad straight = Tolerance.straight
     Rad oneArc = Tolerance.oneArc
 
--- | Biarc whose chord ratio is that of 'Geometry.ArcFitting.Biarc.join', times a factor.
+-- | Biarc whose chord ratio is that of 'Geometry.ArcFitting.Biarc.join', multiplied by the first
+-- argument.
 withRatio :: Double -> Biarcs -> FastBiarc
 withRatio times biarcs = case biarcs of
   Only pair -> pair
@@ -130,8 +135,8 @@ withRatio times biarcs = case biarcs of
       }
     where
       defaultRatio = times * chords
-      -- An arc with a negligible sweep is output as a line. Its ratio is replaced by the one for
-      -- which it is exactly a line, so that no kink results.
+      -- An arc with a negligible sweep is output as a line. The chord ratio is then replaced by the
+      -- one for which this arc is exactly a line, so that there is no kink at the joint.
       r
         | abs ((sa + defaultRatio * sb) * ca + (ca + defaultRatio * cb) * sa) <= negligible =
           near (-(sinA / halfSum))
@@ -147,10 +152,10 @@ withRatio times biarcs = case biarcs of
       wi = sa + r * sb
       square = wr * wr + wi * wi
       size = sqrt square
-      -- Half of the angle to the joint's direction.
+      -- Cosine and sine of half the angle from the chord to the direction at the joint.
       cg = wr / size
       sg = -(wi / size)
-      -- Half sweeps of the arcs.
+      -- Sines and cosines of half the sweeps.
       s1 = sg * ca - cg * sa
       c1 = cg * ca + sg * sa
       s2 = sb * cg - cb * sg
@@ -170,8 +175,9 @@ withRatio times biarcs = case biarcs of
   where
     Rad straight = Tolerance.straight
 
--- | Chord ratio as in 'Geometry.ArcFitting.Biarc.ratio': 1, except where both angles have
--- opposite signs and one is more than twice the other.
+-- | Chord ratio of 'Geometry.ArcFitting.Biarc.ratio', from sines and cosines of the angles from the
+-- chord to both end directions. It is 1, except where the angles have opposite signs and one is
+-- more than twice the other in size.
 ratio :: Double -> Double -> Double -> Double -> Double
 ratio sinA cosA sinB cosB
   | sinA * sinB >= 0
@@ -189,7 +195,8 @@ ratio sinA cosA sinB cosB
     near = 1.4
 {-# NOINLINE ratio #-}
 
--- | Arc with its start, its curvature, its end, and the cosine and sine of its sweep.
+-- | Arc with its start (@origin@), its curvature in 1/mm (@bend@), its end (@limit@), and the
+-- cosine and sine of its sweep.
 data FastArc = FastArc
   { origin :: {-# UNPACK #-} Pose,
     bend :: Double,
