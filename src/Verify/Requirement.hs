@@ -97,7 +97,8 @@ bevels contour
     lengthOf e = let Mm l = Segment.length (Part.segment e) in l
     starts = Vector.imap (\i e -> Known (marks Vector.! i) . fst <$> Part.bevel e) elements
     ends = Vector.imap (\i e -> Known (marks Vector.! (i + 1)) . snd <$> Part.bevel e) elements
-    -- Last bevel at or before each element, first one at or after it.
+    -- Last known bevel at or before each element, first known one at or after it. On a closed
+    -- contour, those before the first element and after the last one come from across the start.
     earlier = Vector.postscanl' (flip (<|>)) (overStart (-1) lastOf ends) ends
     later = Vector.postscanr' (<|>) (overStart 1 firstOf starts) starts
     overStart sense pick known = case Part.ends contour of
