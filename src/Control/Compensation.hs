@@ -183,12 +183,14 @@ switched machine commands toolAt mode n f =
       ]
     isReleased = isGiven (cancelCompensation commands)
     (mode', isTwice) = case (mode, on) of
+      -- Both sides in one frame.
       (_, _ : _ : _) -> (mode, True)
       (Off, k : _) -> (Entering (facing k), isReleased)
       (_, _ : _) -> (mode, True)
       (Active, []) | isReleased -> (Leaving, False)
       (Entering _, []) | isReleased -> (Off, False)
       (_, []) -> (mode, False)
+    -- On a mirrored machine, left and right are exchanged.
     facing k = if Machine.isMirrored machine then k {side = Carrier.oppositeSide (side k)} else k
     isGiven o = case (value o, lookup (commandName o) (Frame.commands f)) of
       (Fixed v, Just w) -> v == w

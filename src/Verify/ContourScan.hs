@@ -42,7 +42,8 @@ data Scan = Scan
     latest :: [Segment]
   }
 
--- | Motion, the elements that the cutter may touch in it, its bounding paths.
+-- | Motion with what all its comparisons need: the elements that the cutter may touch during it,
+-- and its bounding paths.
 data View = View {motion :: CutterMotion, close :: [Edge], bounding :: [Segment]}
 
 -- | Scan the motions that have to keep out of the part, and the motions that have to follow the

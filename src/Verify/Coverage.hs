@@ -1,9 +1,11 @@
--- | Directed Hausdorff distance from one segment to a set of others: of an element to the motions,
--- or of a motion to the elements. The distance is exact over the whole segment, to
+-- | Directed Hausdorff distance from one segment to a set of others: from an element to the
+-- motions, or from a motion to the elements. It is the distance of that point of the segment which
+-- is furthest from all members of the set. It is exact over the whole segment, to
 -- 'Tolerance.resolution', and fast if the set has many short members.
 --
 -- A segment is covered at a distance if each of its points has a member within that distance. The
--- Hausdorff distance is the smallest distance at which it is covered; bisection finds it.
+-- Hausdorff distance is the smallest distance at which it is covered; bisection finds it. The /gap/
+-- of a segment is its Hausdorff distance minus the distance that is allowed, the reach.
 module Verify.Coverage
   ( Cover (..),
     DistanceBounds (..),
@@ -44,8 +46,7 @@ data Cover a = Cover
 -- | Bounds of the directed Hausdorff distance that are known without an exact comparison.
 data DistanceBounds = DistanceBounds {atLeast :: Mm, atMost :: Mm}
 
--- | Largest excess over the reach in mm, a point of the segment that has it, and the members near
--- the segment.
+-- | Size of a gap in mm, a point of the segment that has it, and the members near the segment.
 data Gap a = Gap {size :: Mm, location :: Point, members :: [a]}
 
 -- | Largest gap of a segment, if it is larger than @least@. A gap that is larger than 'unlimited'

@@ -33,9 +33,9 @@ import Verify.Motion (CutterMotion (number), pathList, paths)
 import Verify.Proof (Witness (Witness))
 import Verify.Proof qualified as Proof
 
--- | Excess on elements. An excess within the allowance is only listed if it is larger than all
--- before it. The array has an upper bound for each element, by its number: the distance in mm of
--- its points from the motions.
+-- | Excess on elements: by how much points of them are further from all motions than the reach. An
+-- excess within the allowance is only listed if it is larger than all before it. The array has for
+-- each element, by its number, an upper bound in mm of the distance of its points from the motions.
 excesses :: MillingJob -> PrimArray Double -> BoxTree CutterMotion -> [Edge] -> [Witness]
 excesses job bounds index = go (Mm 0)
   where
@@ -124,9 +124,9 @@ isOnSide job element path = case side job of
       Arc {start, centre, sweep = Rad s} ->
         (Vec.distance centre p < Segment.radius centre start) == (s > 0)
 
--- | Excess of a motion's distance from the contour over the reach, if it is more than the
--- allowance. @near@ are the elements that the cutter may touch during the motion, @bounding@ its
--- bounding paths.
+-- | Excess of a stray motion: by how much it is further from the contour than the reach. Nothing if
+-- that is within the allowance. @near@ are the elements that the cutter may touch during the
+-- motion, @bounding@ its bounding paths.
 strayOf :: MillingJob -> CutterMotion -> [Edge] -> [Segment] -> Maybe Witness
 strayOf job m near bounding
   | all isSurelyNear bounding = Nothing

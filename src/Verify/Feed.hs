@@ -54,21 +54,20 @@ alongContour machine job =
 -- | Findings for motions with a feed that is neither the demanded one nor that of an element. A
 -- braking frame may be slower than these.
 atFeed :: Machine -> Located Feed -> [Part.Finish] -> [Motion] -> [Finding]
-atFeed machine demanded finishes motions =
-  [ WrongFeed
-      (number m)
-      found
-      Speed {rapidly = False, code = wanted, braking = False}
-      (region demanded)
-    | m <- motions,
-      let found = speedOf (frame m),
-      Just wanted <- [codeFor machine m (value demanded)],
-      let allowed = wanted : mapMaybe (codeFor machine m) ofElements <> slowed,
-      rapidly found || code found `notElem` allowed && not (isBrakingBelow allowed found)
-  ]
+atFeed machine demanded finishes = mapMaybe wrongFeed
   where
-    ofElements = [f | finish <- finishes, Just (Located _ f) <- [Part.ownFeed finish]]
-    slowed = [fst (Machine.slowest machine) | any Part.slow finishes]
+    wrongFeed m = do
+      wanted <- codeFor machine m (value demanded)
+      let found = speedOf (frame m)
+          expected = Speed {rapidly = False, code = wanted, braking = False}
+          allowed = wanted : mapMaybe (codeFor machine m) elementFeeds <> slowest
+      if isAllowed allowed found
+        then Nothing
+        else Just (WrongFeed (number m) found expected (region demanded))
+    elementFeeds = [f | finish <- finishes, Just (Located _ f) <- [Part.ownFeed finish]]
+    slowest = [fst (Machine.slowest machine) | any Part.slow finishes]
+    isAllowed allowed found =
+      not (rapidly found) && (code found `elem` allowed || isBrakingBelow allowed found)
     isBrakingBelow allowed found =
       braking found
         && maybe

@@ -109,16 +109,17 @@ contacts job near p = reverse (foldContacts job near p (\found n s -> (n, s) : f
 -- far, the number of the element and the arc length. If the point has no foot on an arc, the
 -- contact is at the nearer end of the arc.
 foldContacts :: MillingJob -> [Edge] -> Point -> (b -> Int -> Double -> b) -> b -> b
-foldContacts job near p with b = foldl' withContact b near
+foldContacts job near p with b = case touchAt job near p of
+  -- The constructor evaluates the touch once, before the elements.
+  touch@Touch {} -> foldl' (withContact touch) b near
   where
-    withContact found e
+    withContact touch found e
       | far <- farthestContact touch e,
         FastDistance.mayLieWithin far (long e) (shape e) (Vec.x p) (Vec.y p),
         FastDistance.distance (shape e) (Vec.x p) (Vec.y p) <= far =
         with found (rank e) (startsAt e + contactOn e * long e)
       | otherwise = found
     contactOn e = FastDistance.footOn (shape e) (Vec.x p) (Vec.y p)
-    touch = touchAt job near p
 
 -- | Lengths in mm that decide which elements a cutter touches from one position of its centre.
 data Touch = Touch

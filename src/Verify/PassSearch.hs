@@ -120,7 +120,7 @@ isNear job p q = Vec.distance p q <= allowance job
 endsNear :: MillingJob -> Point -> CutterMotion -> Bool
 endsNear job p = isNear job p . Segment.end . segment
 
--- | Test that a point is the end of the cut.
+-- | Test that a point is the end of the cut, to its tolerance.
 isAtExit :: MillingJob -> Point -> Bool
 isAtExit job p = Vec.distance (exit job) p <= exitTolerance job
 

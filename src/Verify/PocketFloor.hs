@@ -60,8 +60,11 @@ unclearedIn floor' hint isKnownInside square@Square {centreX = x, centreY = y, h
   | otherwise = case Pocket.nearestWall walls p of
     Nothing -> [p]
     Just (w, wall)
+      -- Every position in the square is too near to this wall.
       | plus w (Mm corner) < limit -> []
+      -- The square meets no wall, and its centre lies outside of the pocket.
       | w > Mm corner && not isKnownInside && not (isFree wall) -> []
+      -- A smallest square is decided by its centre.
       | Mm corner <= floorResolution ->
         [p | w >= limit, isKnownInside || w > Mm corner || isFree wall]
       | otherwise ->

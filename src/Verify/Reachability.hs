@@ -33,8 +33,8 @@ type Interval = (Double, Double)
 
 -- Elements ----------------------------------------------------------------------------------------
 
--- | Parts of an element that a cutter touches with its centre at a distance from the element, on a
--- side of it. @others@ are all segments of the contour, by the distance kept from them. A segment
+-- | Parts of an element that a cutter can touch with its centre at a distance from the element, on
+-- a side of it. @others@ are all segments of the contour, by the distance kept from them. A segment
 -- with a larger distance only counts for centres on its normals: beside its ends the toolpath steps
 -- back to the smaller distance.
 parts :: Side -> Mm -> [KeptDistance] -> Segment -> [Segment]
@@ -61,8 +61,8 @@ freeOf side distance element centres free (KeptDistance kept others) =
       BoundingBox.union (BoundingBox.ofSegment element) (BoundingBox.ofSegment centres)
     common xs ys = [(max a c, min b d) | (a, b) <- xs, (c, d) <- ys, max a c < min b d]
 
--- | Distance that counts as kept: less by half of 'Tolerance.clearance', with which the toolpath is
--- allowed where the cutter just fits.
+-- | Distance below which a centre counts as too near: less by half of 'Tolerance.clearance'. The
+-- toolpath uses this clearance where the cutter just fits.
 roomy :: Mm -> Mm
 roomy d = minus d (times 0.5 Tolerance.clearance)
 

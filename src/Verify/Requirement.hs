@@ -29,10 +29,10 @@ import Part.Part qualified as Part
 
 -- Side and distance -------------------------------------------------------------------------------
 
--- | Side of the contour on which the cutter has to be, in the direction of travel; nothing if the
--- cutter runs on the contour. A closed contour has an interior. A turned profile has the axis of
--- the spindle, @y = 0@, on its inside: a tool that turns outside is on the left if the profile
--- leads to larger x.
+-- | Side of the contour on which the cutter has to be, in the direction of travel. Nothing if the
+-- cutter runs on the contour, or if an inside is asked of an open contour that has none. A turned
+-- profile has the axis of the spindle, @y = 0@, on its inside: a tool that turns outside is on the
+-- left if the profile leads to larger x.
 cutterSide :: Milling -> Maybe Carrier.Side
 cutterSide milling = case value (Part.side milling) of
   Part.On -> Nothing
@@ -81,8 +81,9 @@ facingTheRoom outline islands = outline : map facing islands
 data Known = Known Double Double
 
 -- | Bevels at the start and at the end of each element, in radians; nothing if no element has one.
--- Between elements with a bevel it changes linearly with arc length, on a closed contour also
--- across its start; before the first and after the last one of an open contour it is constant.
+-- Between two elements with a bevel, it changes linearly with arc length, on a closed contour also
+-- across the start. On an open contour it is constant before the first of them and after the last
+-- one.
 bevels :: Contour -> Maybe (Vector (Double, Double))
 bevels contour
   | Vector.all (isNothing . Part.bevel) elements = Nothing
@@ -97,7 +98,8 @@ bevels contour
     lengthOf e = let Mm l = Segment.length (Part.segment e) in l
     starts = Vector.imap (\i e -> Known (marks Vector.! i) . fst <$> Part.bevel e) elements
     ends = Vector.imap (\i e -> Known (marks Vector.! (i + 1)) . snd <$> Part.bevel e) elements
-    -- Last bevel at or before each element, first one at or after it.
+    -- Last known bevel at or before each element, first known one at or after it. On a closed
+    -- contour, those before the first element and after the last one come from across the start.
     earlier = Vector.postscanl' (flip (<|>)) (overStart (-1) lastOf ends) ends
     later = Vector.postscanr' (<|>) (overStart 1 firstOf starts) starts
     overStart sense pick known = case Part.ends contour of
