@@ -7,6 +7,7 @@
 -- made by the same code.
 module Tape.FrameWriter
   ( frameRows,
+    AddRow,
     foldRows,
     mostRows,
   )
@@ -43,11 +44,14 @@ frameRows layout state frame =
   reverse
     (runIdentity (foldRows (\rows h n m -> pure (MarkedRow h n m : rows)) layout state frame []))
 
--- | Monadic left fold over the rows of a frame. The function gets the accumulator and of each row
--- the holes, the weight in the check sum, and the meaning.
+-- | Adds a row to an accumulator. The arguments: the accumulator, and of the row the holes, the
+-- weight in the check sum, and the meaning.
+type AddRow m r = r -> Word8 -> Int -> RowKind -> m r
+
+-- | Monadic left fold over the rows of a frame, in the state before the frame.
 foldRows ::
   Monad m =>
-  (r -> Word8 -> Int -> RowKind -> m r) ->
+  AddRow m r ->
   PreparedLayout ->
   State ->
   Frame ->
@@ -74,7 +78,7 @@ checkSum layout state frame = runIdentity (foldWithSum count 0 layout state fram
 -- | Does what 'foldRows' does, with the check sum of the frame as the second argument.
 foldWithSum ::
   Monad m =>
-  (r -> Word8 -> Int -> RowKind -> m r) ->
+  AddRow m r ->
   Int ->
   PreparedLayout ->
   State ->
@@ -106,7 +110,7 @@ foldWithSum add total layout state frame =
 {-# INLINE foldWithSum #-}
 
 -- | Adds the row of a digit without a hole in the service track.
-addDigit :: (r -> Word8 -> Int -> RowKind -> m r) -> PreparedLayout -> RowKind -> Int -> r -> m r
+addDigit :: AddRow m r -> PreparedLayout -> RowKind -> Int -> r -> m r
 addDigit add layout meaning d before =
   add before (Symbol.digit (symbols layout) d) (Symbol.digitWeight (symbols layout) d) meaning
 {-# INLINE addDigit #-}
@@ -115,7 +119,7 @@ addDigit add layout meaning d before =
 -- form without a sign before the digits.
 foldSign ::
   Monad m =>
-  (r -> Word8 -> Int -> RowKind -> m r) ->
+  AddRow m r ->
   PreparedLayout ->
   Frame ->
   Word' ->
@@ -144,7 +148,7 @@ foldSign add layout frame w n before = case sign (form w) of
 -- | Adds the digits of a number with their decimal point and the holes in the service track.
 foldDigits ::
   Monad m =>
-  (r -> Word8 -> Int -> RowKind -> m r) ->
+  AddRow m r ->
   PreparedLayout ->
   Frame ->
   Word' ->
@@ -152,43 +156,40 @@ foldDigits ::
   r ->
   m r
 foldDigits add layout frame w n start = case service f of
-  [] -> plainDigits (count - 1) rest start
-  services -> serviceDigits (count - 1) services rest start
+  [] -> digitsFrom (const (NoHole, ())) ()
+  services -> digitsFrom nextService services
   where
     f = form w
-    meaning = InWord (content w) n
     count = Layout.digitCount f (abs n)
-    rest = lowestDigits count (abs n)
-    -- The digits of @left@ from the power k of ten down to 0.
-    plainDigits k !left !before
-      | k < 0 = pure before
-      | otherwise = do
-        let d = left `quot` Layout.power k
-        ready <- addPoint add layout w n k before
-        next <- addDigit add layout (meaning (Digit d k NoHole False)) d ready
-        plainDigits (k - 1) (left - d * Layout.power k) next
-    serviceDigits k !services !left !before
-      | k < 0 = pure before
-      | otherwise = do
-        let d = left `quot` Layout.power k
-            s = case services of
-              [] -> NoHole
-              now : _ -> now
-            isPunched = isServicePunched frame n s
-            !holes =
-              if isPunched
-                then Symbol.serviceDigit (symbols layout) d
-                else Symbol.digit (symbols layout) d
-        ready <- addPoint add layout w n k before
-        next <-
-          add ready holes (Symbol.digitWeight (symbols layout) d) (meaning (Digit d k s isPunched))
-        serviceDigits (k - 1) (drop 1 services) (left - d * Layout.power k) next
+    -- The function gives the meaning of the service track at a digit, and its own argument for the
+    -- next digit. This loop is inlined twice, so that numbers without a service track are fast.
+    digitsFrom meaningAt track = go (count - 1) track (lowestDigits count (abs n)) start
+      where
+        -- The digits of @left@ from the power k of ten down to 0.
+        go k services !left !before
+          | k < 0 = pure before
+          | otherwise = case meaningAt services of
+            (s, more) -> do
+              let d = left `quot` Layout.power k
+                  isPunched = isServicePunched frame n s
+                  !holes =
+                    if isPunched
+                      then Symbol.serviceDigit (symbols layout) d
+                      else Symbol.digit (symbols layout) d
+                  weight = Symbol.digitWeight (symbols layout) d
+              ready <- addPoint add layout w n k before
+              next <- add ready holes weight (InWord (content w) n (Digit d k s isPunched))
+              go (k - 1) more (left - d * Layout.power k) next
+    {-# INLINE digitsFrom #-}
+    nextService services = case services of
+      [] -> (NoHole, [])
+      s : more -> (s, more)
 {-# INLINE foldDigits #-}
 
 -- | Adds the decimal point if it comes directly before digit @k@. The last digit has k = 0.
 addPoint ::
   Monad m =>
-  (r -> Word8 -> Int -> RowKind -> m r) ->
+  AddRow m r ->
   PreparedLayout ->
   Word' ->
   Int ->
