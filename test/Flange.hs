@@ -45,7 +45,7 @@ compiled = case expect (Compile.compile (Machines.jobFor lkp01f []) loaded) of
   [one] -> one
   tapes -> error ("one machine has " <> show (length tapes) <> " tapes")
 
--- | The frames of the flange on lkp-01f, with the moves that they come from.
+-- | The planned frames of the flange's tape for lkp-01f.
 program :: FrameProgram
 program = Compile.program (Compile.punched compiled)
 

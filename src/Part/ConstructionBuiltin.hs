@@ -124,8 +124,8 @@ circleFunction region builtin arguments = case (builtin, arguments) of
       | r <= 0 = Evaluation.mistake (RadiusNotPositive region (Mm r))
       | otherwise = CircleValue (Circle c (Mm r)) <$ within region r
 
--- | The circles of this radius that touch two figures. A figure is a point, a line or a circle, with
--- or without a side.
+-- | The circles of this radius that touch two figures. A figure is a point, a line or a circle,
+-- with or without a side.
 touchingCircles :: Mm -> Argument -> Argument -> Answers Circle
 touchingCircles r a b =
   Answers

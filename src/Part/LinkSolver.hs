@@ -403,10 +403,10 @@ lengthOn shape before after a b = case shape of
 -- | The segments along an element from one of its points to another, given the segments inserted
 -- before and after the element.
 --
--- A circle with both points at the same position gives a full circle. Without this rule, the shortest
--- contour would be one that skips the circle. The exception is a circle between straight segments
--- of about the same direction, such as the middle one of three equal circles joined by tangents: it
--- gives no segment.
+-- On a circle, two equal points give a full circle. Without this rule, the shortest contour would
+-- be one that skips the circle. The exception is a circle between straight segments of about the
+-- same direction, such as the middle one of three equal circles joined by tangents. It gives no
+-- segment.
 segmentsOn :: ElementCarrier -> Maybe Segment -> Maybe Segment -> Point -> Point -> [Segment]
 segmentsOn shape before after a b = case shape of
   OnLine (Line _ _) -> [Straight a b | not (Vec.isNear a b)]

@@ -11,7 +11,8 @@ import Data.Text qualified as Text
 import Data.Text.Encoding qualified as Encoding
 import Flange qualified
 import System.Directory
-  ( createFileLink,
+  ( copyFile,
+    createFileLink,
     doesFileExist,
     getPermissions,
     listDirectory,
@@ -141,29 +142,15 @@ spec = do
         fmap Tape (ByteString.readFile (folder </> "flange.part")) `shouldNotReturn` Flange.tape
     it "refuses to overwrite a file that the program reads, in every subcommand" $
       inFolder $ \folder -> do
-        writeFile (folder </> "h.csv") "x,y\n0,20\n20,25\n60,30\n100,25\n"
-        writeFile
-          (folder </> "x.part")
-          ( unlines
-              [ "part x",
-                "machine lkp-01f",
-                "tool mill(diameter 6)",
-                "feed 60",
-                "tolerance 0.02",
-                "from (-30, 30)",
-                "table H from \"h.csv\"",
-                "curve skin = spline(H)",
-                "contour c open { skin }",
-                "mill c left { approach (-10, 30) feed 60  retract (110, 60), (-30, 60) feed 60 }"
-              ]
-          )
-        kept <- readFile (folder </> "h.csv")
+        forM_ ["skin.csv", "skin.part"] $ \name ->
+          copyFile ("test/programs/table/good" </> name) (folder </> name)
+        kept <- readFile (folder </> "skin.csv")
         forM_ ["compile", "plot", "export-sheet"] $ \command -> do
-          (code, out, err) <- partc [command, folder </> "x.part", "-o", folder </> "h.csv"]
+          (code, out, err) <- partc [command, folder </> "skin.part", "-o", folder </> "skin.csv"]
           (code, out) `shouldBe` (ExitFailure 1, "")
           (command, err) `shouldSatisfy` (isInfixOf "error[E0807]" . snd)
-          readFile (folder </> "h.csv") `shouldReturn` kept
-        (drawn, _, _) <- partc ["plot", folder </> "x.part", "-o", folder </> "x.svg"]
+          readFile (folder </> "skin.csv") `shouldReturn` kept
+        (drawn, _, _) <- partc ["plot", folder </> "skin.part", "-o", folder </> "skin.svg"]
         drawn `shouldBe` ExitSuccess
     it "refuses to write several tapes to one file" $
       inFolder $ \folder -> do

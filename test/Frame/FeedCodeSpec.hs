@@ -7,6 +7,7 @@ import Base.Region (Located (..), Region (Region))
 import Base.Result qualified as Result
 import Data.Maybe (fromMaybe)
 import Data.Text (Text)
+import Files (readText)
 import Frame.Error (Error (..), Warning (..))
 import Frame.FeedCode qualified as FeedCode
 import Frame.Frame (Frame (..), PlannedFrame (frame))
@@ -52,14 +53,8 @@ spec = do
       "changes its codes along an arc, and gives one warning with the range obtained (catches a \
       \warning for each chord)"
       $ do
-        let made =
-              Made.quantised
-                kontur
-                ( Made.pathOf
-                    "part p\ntool mill(diameter 6 mm)\nfeed 53.6 mm/min\ntolerance 0.02 mm\nfrom \
-                    \(33, 0)\ncontour round closed { ccw circle((0, 0), 30) }\nmill round \
-                    \outside { }\n"
-                )
+        text <- readText "test/programs/machine/good/feed-along-an-arc.part"
+        let made = Made.quantised kontur (Made.pathOf text)
             codesOf p = [c | f <- framesOf p, let FeedCode c = feedCode f]
             ranges =
               [ (v, low < 0.9 * v, v < high)

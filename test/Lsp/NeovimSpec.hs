@@ -10,7 +10,8 @@ import Data.Maybe (isNothing)
 import Data.Text (Text)
 import Data.Text qualified as Text
 import Data.Text.Encoding qualified as Encoding
-import System.Directory (createDirectory, findExecutable, makeAbsolute)
+import Files (readText)
+import System.Directory (copyFile, createDirectory, findExecutable, makeAbsolute)
 import System.Environment (getEnvironment)
 import System.Exit (ExitCode (..))
 import System.FilePath ((</>))
@@ -70,35 +71,21 @@ instance FromJSON Answer where
         .: "hover" <*> o
         .: "fixed"
 
--- | A program with two mistakes that come after characters of two and of four bytes.
-program :: Text
-program =
-  Text.unlines
-    [ "part деталь \"Деталь 🙂\" лишнее",
-      "machine lkp-01f",
-      "tool mill(diameter 2 mm)",
-      "feed 60 mm/min",
-      "tolerance 0.02 mm",
-      "from (0, 0)",
-      "let длина = 41 mm",
-      "let ширина = 2 * неизвестно  -- 🙂",
-      "let c = (длина, длина)"
-    ]
-
--- | Writes the program into a folder; gives the file.
+-- | Copies a program with two mistakes after characters of two and of four bytes into the folder.
 written :: FilePath -> IO FilePath
-written folder = file <$ ByteString.writeFile file (Encoding.encodeUtf8 program)
+written folder = file <$ copyFile "test/programs/names/bad/beside-wide-letters.part" file
   where
     file = folder </> "деталь.part"
 
 -- | The reports of the command line, with positions as Neovim counts them.
 reported :: FilePath -> IO [Shown]
 reported file = do
+  text <- readText file
   (_, out, err) <-
     readCreateProcessWithExitCode (proc "partc" ["check", "--format", "json", file]) ""
   out `shouldBe` ""
   traverse
-    (either fail (pure . inBytes) . Aeson.eitherDecodeStrict . Encoding.encodeUtf8)
+    (either fail (pure . inBytes text) . Aeson.eitherDecodeStrict . Encoding.encodeUtf8)
     (Text.lines (Text.pack err))
 
 -- | A report of the command line: lines and columns count characters from 1.
@@ -115,16 +102,16 @@ instance FromJSON Report where
 instance FromJSON TextPosition where
   parseJSON = withObject "a place" (\o -> TextPosition <$> o .: "line" <*> o .: "column")
 
--- | Converts the positions of a report from characters to bytes.
-inBytes :: Report -> Shown
-inBytes r =
+-- | Converts the positions of a report of a program from characters to bytes.
+inBytes :: Text -> Report -> Shown
+inBytes text r =
   Shown {from = bytes (start r), to = bytes (end r), code = code' r, severe = severity r == "error"}
   where
     bytes place =
       ( line place - 1,
         ByteString.length
           ( Encoding.encodeUtf8
-              (Text.take (column place - 1) (Text.lines program !! (line place - 1)))
+              (Text.take (column place - 1) (Text.lines text !! (line place - 1)))
           )
       )
 

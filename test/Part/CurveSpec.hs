@@ -209,11 +209,9 @@ spec = do
 
 -- Numbers
 
--- | Numbers, in mm, that differ by less than 10⁻⁴.
 near :: Double -> Double -> Property
 near a b = counterexample (show (a, b)) (abs (a - b) < 1e-4)
 
--- | The first number is at most the second.
 atMost :: Double -> Double -> Property
 atMost a b = counterexample (show a <> " > " <> show b) (a <= b)
 
@@ -221,7 +219,6 @@ atMost a b = counterexample (show a <> " > " <> show b) (a <= b)
 coincide :: Double -> Point -> Point -> Property
 coincide slack a b = counterexample (show (a, b)) (a `apart` b < slack)
 
--- | The distance of two points in mm.
 apart :: Point -> Point -> Double
 apart a b = let Mm d = Vec.distance a b in d
 
@@ -242,8 +239,7 @@ lengthOf s = let Mm l = Segment.length s in l
 shares :: Gen [Double]
 shares = vectorOf 3 (choose (0, 1))
 
--- | A number between two limits, with at most three decimals, so that a program can contain it
--- exactly.
+-- | A number between two limits, with the three decimals that the program will contain.
 written :: Double -> Double -> Gen Double
 written a b = (/ 1000) . fromIntegral <$> choose (round (a * 1000), round (b * 1000) :: Int)
 
@@ -253,7 +249,6 @@ centreOf s = case s of
   Arc {Segment.centre = c} -> c
   Straight {Segment.start = p} -> p
 
--- | The sign of a cross product of a curve's direction and a point on this side.
 signOf :: Side -> Double
 signOf side = case side of
   LeftOf -> 1
@@ -275,8 +270,7 @@ head' xs = case xs of
 data Rounding = Rounding
   { -- | the direction of the line in degrees
     heading :: Double,
-    -- | the signed distance of the line from the circle's centre: positive if the line lies to the
-    -- left of the centre
+    -- | the distance from the circle's centre to the line, positive to the left of the heading
     offset :: Double,
     clockwise :: Bool,
     filletRadius :: Double,
@@ -385,7 +379,6 @@ pathPoints = do
     rounded' p = Vec.point (digits (Vec.x p)) (digits (Vec.y p))
     digits x = fromIntegral (round (x * 1000) :: Int) / 1000
 
--- | The exact spline through points.
 exactly :: EndCondition -> [Point] -> Curve
 exactly ends = Curves.ok . Curve.spline ends . Vector.fromList
 
@@ -553,7 +546,6 @@ along s ts before after =
 
 -- Programs
 
--- | The first statements of a program, with a cutter of this radius in mm.
 header :: Double -> Text
 header r =
   "part p\ntool mill(diameter "
@@ -569,8 +561,7 @@ number x = Text.pack (if n < 0 then '-' : digits (-n) else digits n)
   where
     n = round (x * 1e6) :: Integer
     digits m =
-      let (w, f) =
-            m `divMod` 1000000
+      let (w, f) = m `divMod` 1000000
        in show w <> "." <> replicate (6 - length (show f)) '0' <> show f
 
 -- | The elements of all contours of a program without mistakes.
@@ -586,8 +577,7 @@ elementsOf text = case Compile.analyse [] (LoadedProgram.fromText "p.part" text)
 soundly :: Maybe [Segment] -> ([Segment] -> Property) -> Property
 soundly elements' holds = maybe (counterexample "the program has mistakes" False) holds elements'
 
--- | The cuts of a program's millings if there are no mistakes. Approaches that gouge (E0405) are
--- ignored.
+-- | The cuts of a program's millings. Only an approach that gouges (E0405) is no failure.
 cutsOf :: Text -> Maybe [Segment]
 cutsOf text = case Compile.analyse [] (LoadedProgram.fromText "p.part" text) of
   r
@@ -603,9 +593,8 @@ cutsOf text = case Compile.analyse [] (LoadedProgram.fromText "p.part" text) of
 milled :: Text -> ([Segment] -> Property) -> Property
 milled text holds = maybe (counterexample (Text.unpack text) False) holds (cutsOf text)
 
--- | Tells whether two segments meet at a corner.
+-- | Do two segments meet at a corner?
 isCorner :: Segment -> Segment -> Bool
-isCorner a b =
-  let Rad angle =
-        Vec.signedAngle (Segment.endDirection a) (Segment.startDirection b)
-   in abs angle > 1e-3
+isCorner a b = abs angle > 1e-3
+  where
+    Rad angle = Vec.signedAngle (Segment.endDirection a) (Segment.startDirection b)

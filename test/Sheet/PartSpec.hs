@@ -124,10 +124,7 @@ spec = do
           (other, fmap (fst . exported "x.part" . Text.replace "bevel mu" other) (programOf blade))
             `shouldBe` (other, Just [ReportCode "E0924"])
     it "has a cylinder as its tool for a cone without a bevel" $ do
-      let program =
-            "part p\nmachine lkp-01f\ntool cone(diameter 12 mm, bevel 0 deg, height 8 mm)\nfeed \
-            \60\ntolerance 0.1\nfrom (0, 0, 0)\ncontour c open { polyline([(10, 10), (60, 10)]) \
-            \}\nmill c left { approach (10, 30) feed 60  retract (60, 30) feed 60 }\n"
+      program <- readText "test/programs/tool/good/cone-without-bevel.part"
       case exported "x.part" program of
         ([], Just sheet) -> exported "x.sheet" sheet `shouldBe` ([], Just sheet)
         other -> expectationFailure (show other)

@@ -8,6 +8,7 @@ import Base.Result qualified as Result
 import Compile (Analysis (..))
 import Compile qualified
 import Data.List.NonEmpty qualified as NonEmpty
+import Files (readText)
 import Flange qualified
 import Frame.Frame (Frame (commands, feedCode, increment))
 import Frame.Frame qualified as Frame
@@ -81,25 +82,20 @@ spec = do
   it
     "half of a circle that is never cut is an excess, also where the cutter runs on the circle \
     \itself (catches an arc taken for the full circle on which it lies)"
-    $ case Compile.analyse
-      []
-      ( LoadedProgram.fromText
-          "p.part"
-          "part p\ntool mill(diameter 10 mm)\nfeed 60\ntolerance 0.02\nfrom (30, 0)\ncontour c \
-          \closed { ccw circle((0, 0), 20) }\nmill c on { }\n"
-      ) of
-      r
-        | Just a <- Result.ifSound r,
-          Just program <- Result.output (FromToolpath.quantise iso6983 (path a)) ->
-          let fs = map Frame.frame (Frame.plannedFrames program)
-              halves = [n | (n, f) <- zip [0 ..] fs, Frame.centre f /= 0]
-           in [ any
-                  isExcess
-                  (findings (Verify.prove iso6983 (path a) program (take n fs <> drop (n + 1) fs)))
-                | n <- halves
-              ]
-                `shouldBe` [True, True]
-        | otherwise -> expectationFailure (show (Result.errors r))
+    $ do
+      text <- readText "test/programs/mill/good/on-circle.part"
+      case Compile.analyse [] (LoadedProgram.fromText "on-circle.part" text) of
+        r
+          | Just a <- Result.ifSound r,
+            Just program <- Result.output (FromToolpath.quantise iso6983 (path a)) ->
+            let fs = map Frame.frame (Frame.plannedFrames program)
+                halves = [n | (n, f) <- zip [0 ..] fs, Frame.centre f /= 0]
+                others k = take k fs <> drop (k + 1) fs
+             in [ any isExcess (findings (Verify.prove iso6983 (path a) program (others n)))
+                  | n <- halves
+                ]
+                  `shouldBe` [True, True]
+          | otherwise -> expectationFailure (show (Result.errors r))
   it "a tape along the contour in the opposite direction does not follow it" $
     findings (proofOf backwards) `shouldSatisfy` any isNotFollowed
   it

@@ -14,6 +14,7 @@ import Compile qualified
 import Data.Text (Text)
 import Data.Text qualified as Text
 import Data.Vector qualified as Vector
+import Files (readText)
 import Frame.Frame qualified as Frame
 import Frame.FromToolpath qualified as FromToolpath
 import Generate qualified
@@ -54,7 +55,8 @@ spec = do
     "the bevel of a blade is proven between elements of different length (catches a bevel that \
     \changes by the number of elements)"
     $ do
-      (path', proof) <- proven iso6983 bladeProgram
+      (path', proof) <-
+        proven iso6983 =<< readText "test/programs/tool/good/blade-between-two-bevels.part"
       Proof.findings proof `shouldBe` []
       map (fmap (map inDegrees . Vector.toList) . Requirement.bevels) (contoursOf path')
         `shouldBe` [Just [(0, 0), (0, 2), (2, 8), (8, 8)]]
@@ -137,26 +139,6 @@ turningProgram statement =
       "from (20, 40)",
       "contour shaft open { line((0, 20), (-30, 20)) }",
       statement
-    ]
-
--- | Two elements of lengths 10 and 30 without a bevel, between one of 0° and one of 8°.
-bladeProgram :: Text
-bladeProgram =
-  Text.unlines
-    [ "part p",
-      "machine iso6983",
-      "tool blade(diameter 8 mm, gear 36 mm)",
-      "feed 100 mm/min",
-      "tolerance 0.02 mm",
-      "clearance 30 mm",
-      "from (-50, 20, 40)",
-      "contour edge open {",
-      "  line((0, 0), (30, 0)) bevel 0",
-      "  line((30, 0), (30, -10))",
-      "  line((30, -10), (0, -10))",
-      "  line((0, -10), (0, -5)) bevel 8",
-      "}",
-      "mill edge left { depth 3 }"
     ]
 
 -- | Contours of the cuts of a toolpath.
