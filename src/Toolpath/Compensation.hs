@@ -237,8 +237,9 @@ programmed milling side PassMoves {leadIn, cut, leadOut} = case map lead leadIn 
         }
     followedBy (e :| es) more = e :| es <> more
 
--- | The line or arc that a cutter of this radius touches while its centre moves along a segment. The
--- cutter is on the given side of that line or arc. A segment without a length is its own result.
+-- | The line or arc that a cutter of this radius touches while its centre moves along a segment.
+-- The cutter is on the given side of that line or arc. A segment without a length is its own
+-- result.
 touchedCurve :: Mm -> Side -> Segment -> Segment
 touchedCurve radius side s =
   fromMaybe s (Segment.offset (Carrier.oppositeSide side) radius s)
