@@ -229,8 +229,7 @@ longFunctions =
         ]
       <> because
         "one computation whose local functions share its arrays and numbers; not yet split"
-        [ "Frame.Chording.sectorAt",
-          "Geometry.ArcFitting.Biarc.Fast.between",
+        [ "Geometry.ArcFitting.Biarc.Fast.between",
           "Geometry.ArcFitting.Biarc.Fast.withRatio",
           "Geometry.ArcFitting.CubicFit.approximate",
           "Geometry.ArcFitting.CubicFit.distanceBound",
@@ -243,18 +242,9 @@ longFunctions =
           "Geometry.Distance.Fast.beside",
           "Geometry.Distance.Fast.isAccompanied",
           "Geometry.Index.SegmentBoxTree.pairs",
-          "Offset.Arrangement.propagated",
-          "Offset.Arrangement.ring",
-          "Offset.Kernel.problemOf",
           "Offset.RawOffset.offsetPolyarc",
-          "Offset.RawOffset.raw",
-          "Offset.RestMaterial.boundaryFrom",
-          "Offset.RestMaterial.restMaterials",
           "Offset.SegmentIntersection.arcs",
           "Offset.SegmentIntersection.lineArc",
-          "Offset.SegmentIntersection.neighbours",
-          "Offset.Trimming.joinSlices",
-          "Offset.WindingNumber.extreme",
           "Toolpath.Compensation.entering",
           "Toolpath.PocketMove.blocks"
         ]
@@ -275,8 +265,7 @@ manyParameters =
         "Geometry.Index.SegmentBoxTree.runBox",
         "Geometry.Segment.Fast.bearing",
         "Offset.RawOffset.offsetPolyarc",
-        "Offset.RawOffset.raw",
-        "Offset.Trimming.joinSlices"
+        "Offset.RawOffset.raw"
       ]
 
 -- | The same reason for several definitions.
