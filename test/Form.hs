@@ -213,8 +213,7 @@ longFunctions =
         ]
       <> because
         "one computation whose local functions share its arrays and numbers; not yet split"
-        [ "Frame.Chording.sectorAt",
-          "Geometry.ArcFitting.Biarc.Fast.between",
+        [ "Geometry.ArcFitting.Biarc.Fast.between",
           "Geometry.ArcFitting.Biarc.Fast.withRatio",
           "Geometry.ArcFitting.CubicFit.approximate",
           "Geometry.ArcFitting.CubicFit.distanceBound",
@@ -224,18 +223,9 @@ longFunctions =
           "Geometry.ArcFitting.PolyarcFit.advance",
           "Geometry.ArcFitting.PolyarcFit.approximate",
           "Geometry.ArcFitting.PolyarcFit.biarcDistances",
-          "Offset.Arrangement.propagated",
-          "Offset.Arrangement.ring",
-          "Offset.Kernel.problemOf",
           "Offset.RawOffset.offsetPolyarc",
-          "Offset.RawOffset.raw",
-          "Offset.RestMaterial.boundaryFrom",
-          "Offset.RestMaterial.restMaterials",
           "Offset.SegmentIntersection.arcs",
-          "Offset.SegmentIntersection.lineArc",
-          "Offset.SegmentIntersection.neighbours",
-          "Offset.Trimming.joinSlices",
-          "Offset.WindingNumber.extreme"
+          "Offset.SegmentIntersection.lineArc"
         ]
 
 -- | Definitions with many parameters.
@@ -254,8 +244,7 @@ manyParameters =
         "Geometry.Index.SegmentBoxTree.runBox",
         "Geometry.Segment.Fast.bearing",
         "Offset.RawOffset.offsetPolyarc",
-        "Offset.RawOffset.raw",
-        "Offset.Trimming.joinSlices"
+        "Offset.RawOffset.raw"
       ]
 
 -- | The same reason for several definitions.

@@ -32,7 +32,7 @@ import Frame.Arc.Context
   )
 import Frame.Arc.Context qualified as Context
 import Frame.Rounding qualified as Rounding
-import Geometry.Carrier (Sense (..))
+import Geometry.Carrier qualified as Carrier
 import Geometry.Segment (Segment (Straight))
 import Geometry.Segment qualified as Segment
 import Geometry.Vec (Point)
@@ -70,7 +70,7 @@ halved halvings context begin s = case s of
        in fromMaybe halves (asArcs context arc)
     where
       radius = Segment.radius centre (Segment.start s)
-      sense = if sweep > 0 then CounterClockwise else Clockwise
+      sense = Carrier.senseOf (Rad sweep)
   where
     finish = Context.roundedPoint context (Segment.end s)
     straightTo p = ArcStep {target = p, turnsAbout = Nothing}

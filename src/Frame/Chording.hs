@@ -496,7 +496,7 @@ tangentsTo limits view move =
 -- | Sector at fraction @t@ of a move. Its fields 'miss' and 'excess' are those of the chord to the
 -- point where chords meet near this fraction.
 sectorAt :: Outlook -> Double -> Sector
-sectorAt Outlook {limits, view, before, move, run, tangents} t =
+sectorAt outlook@Outlook {limits, view, before, move, run} t =
   Sector
     { leastDirection = low,
       mostDirection = high,
@@ -528,19 +528,29 @@ sectorAt Outlook {limits, view, before, move, run, tangents} t =
     slope = (levelAt t move - eyeLevel view) / covered
     lowSlope = max (leastSlope before) (slope - rising limits / covered)
     highSlope = min (mostSlope before) (slope + rising limits / covered)
-    low =
-      maximum
-        ( leastDirection before :
-          [direction - asin (leftOf limits / distance) | distance > leftOf limits]
-            <> [d | d <- onLeft tangents, after <= d, d <= heading before]
-        )
-    high =
-      minimum
-        ( mostDirection before :
-          [direction + asin (rightOf limits / distance) | distance > rightOf limits]
-            <> [d | d <- onRight tangents, heading before <= d, d <= after]
-        )
+    low = rightmostDirection outlook after direction distance
+    high = leftmostDirection outlook after direction distance
     after = headingAt move (heading before) t
+
+-- | The least direction of a chord that passes a move within the limits, up to a point of it. The
+-- arguments are the move, the heading of the run at the point, and the direction and the distance
+-- of the point from the viewpoint.
+rightmostDirection :: Outlook -> Double -> Double -> Double -> Double
+rightmostDirection Outlook {limits, before, tangents} after direction distance =
+  maximum
+    ( leastDirection before :
+      [direction - asin (leftOf limits / distance) | distance > leftOf limits]
+        <> [d | d <- onLeft tangents, after <= d, d <= heading before]
+    )
+
+-- | The largest direction of such a chord; see 'rightmostDirection'.
+leftmostDirection :: Outlook -> Double -> Double -> Double -> Double
+leftmostDirection Outlook {limits, before, tangents} after direction distance =
+  minimum
+    ( mostDirection before :
+      [direction + asin (rightOf limits / distance) | distance > rightOf limits]
+        <> [d | d <- onRight tangents, heading before <= d, d <= after]
+    )
 
 -- | Direction of the run at fraction @t@ of a move, given the direction at the start of the move.
 headingAt :: MoveRest -> Double -> Double -> Double

@@ -29,9 +29,9 @@ data Error
   = -- | a feed along the path without a feed code: the feed asked for, the lowest and the highest
     -- feed of the machine
     FeedOutOfRange Region Feed Feed Feed
-  | -- | a feed for which the leading axis would need a frequency that the machine does not have: the
-    -- feed asked for, and this frequency in pulses per second; the lowest and the highest frequency
-    -- of the machine, each with its feed along an axis
+  | -- | a feed for which the leading axis would need a frequency that the machine does not have:
+    -- the feed asked for, and this frequency in pulses per second; the lowest and the highest
+    -- frequency of the machine, each with its feed along an axis
     FrequencyOutOfRange Region Feed Double (Double, Feed) (Double, Feed)
   | -- | a point further from the zero of the part than the given limit
     OutOfReach Region Point Mm

@@ -25,11 +25,10 @@ module Frame.Frame
 where
 
 import Base.PulseVector (Pulses2 (..), Pulses3 (..))
-import Base.Quantity (Mm (..), Pulses (..), Rad (..))
+import Base.Quantity (Mm (..), Pulses (..))
 import Base.Region (Region)
 import Data.Maybe (isNothing)
 import Geometry.Carrier (Sense (..))
-import Geometry.Carrier qualified as Carrier
 import Geometry.Segment (Segment (Straight))
 import Geometry.Segment qualified as Segment
 import Geometry.Vec (Point)
@@ -135,20 +134,11 @@ centreOf machine (Pulses3 x y z) f =
 -- may differ.
 segment :: Machine -> Pulses3 -> Frame -> Segment
 segment machine at f = case motion f of
-  Circular sense
-    | begin == finish ->
-      Segment.Arc
-        { Segment.start = begin,
-          Segment.end = finish,
-          Segment.centre = middle,
-          Segment.sweep = Rad (Carrier.senseSign sense * 2 * pi)
-        }
-    | otherwise -> Segment.arc sense middle begin finish
+  Circular sense -> Segment.arcOrCircle sense (centreOf machine at f) begin finish
   _ -> Straight begin finish
   where
     begin = position machine at
     finish = position machine (at + increment f)
-    middle = centreOf machine at f
 
 -- | Rule that a frame breaks. The first number is that of the frame, from 1.
 data Violation

@@ -294,20 +294,29 @@ merged tolerance coordinates cut =
         second (_, i, _) = i
         net = sum [if forth then 1 else -1 | (forth, _, _) <- list] :: Int
 
+-- | A half-edge at its node.
+data Leaving = Leaving
+  { halfEdge :: Int,
+    -- | the direction in which it leaves, as an angle in radians
+    angle :: Double,
+    -- | the direction in which it leaves, of length 1
+    directionX, directionY :: Double,
+    -- | the length of its chord in mm
+    chordLength :: Double,
+    -- | in 1/mm, positive to the left
+    curvature :: Double
+  }
+
 -- | The half-edges of a node, sorted counter-clockwise. The order begins after the widest angle
 -- between two neighbours. At the leftmost node of a component this is the angle that contains the
 -- direction to the left.
 ring :: Vector (Double, Double) -> Vector Edge -> [Int] -> [Int]
 ring coordinates es halves = case halves of
   [_] -> halves
-  _ -> map fst3 (sortBy order [(h, angleFrom cut angle, leaving) | (h, angle, leaving) <- aimed])
+  _ -> map halfEdge (sortBy counterClockwise [h {angle = angleFrom cut (angle h)} | h <- aimed])
   where
-    fst3 (h, _, _) = h
-    aimed =
-      sortOn
-        (\(_, angle, _) -> angle)
-        [(h, atan2 dy dx, (dx, dy, l, k)) | h <- halves, let (dx, dy, l, k) = direction h]
-    angles = map (\(_, angle, _) -> angle) aimed
+    aimed = sortOn angle (map (leaving coordinates es) halves)
+    angles = map angle aimed
     gaps =
       zipWith
         (\a b -> (b - a, (a + b) / 2))
@@ -327,31 +336,44 @@ ring coordinates es halves = case halves of
             )
         )
     angleFrom :: Double -> Double -> Double
-    angleFrom from' angle =
-      let t = angle - from' in t - 2 * pi * fromIntegral (floor (t / (2 * pi)) :: Int)
-    -- Half-edges with nearly equal directions are compared a short distance from the node: the one
-    -- further to the left comes later.
-    order (_, a, (dx, dy, l, k)) (_, b, (dx', dy', l', k'))
-      | abs (a - b) > tie = compare a b
-      | otherwise =
-        let step = 0.25 * min l l'
-            lean = asin (max (-1) (min 1 (dx * dy' - dy * dx')))
-         in compare 0 (lean + (k' - k) * step / 2)
-    -- The unit direction in which a half-edge leaves its node, the length of its chord, and its
-    -- curvature.
-    direction :: Int -> (Double, Double, Double, Double)
-    direction h =
-      let e = es Vector.! (h `div` 2)
-          (a, b, g) = if even h then (from e, to e, bulge e) else (to e, from e, -(bulge e))
-          (x, y) = coordinates Vector.! a
-          (x', y') = coordinates Vector.! b
-          l = sqrt ((x' - x) * (x' - x) + (y' - y) * (y' - y))
-          ux = (x' - x) / l
-          uy = (y' - y) / l
-          q = 1 / (1 + g * g)
-          co = (1 - g * g) * q
-          si = 2 * g * q
-       in (ux * co + uy * si, uy * co - ux * si, l, 4 * g * q / l)
+    angleFrom from' a =
+      let t = a - from' in t - 2 * pi * fromIntegral (floor (t / (2 * pi)) :: Int)
+
+-- | A half-edge, given by its number, at its node.
+leaving :: Vector (Double, Double) -> Vector Edge -> Int -> Leaving
+leaving coordinates es h =
+  Leaving
+    { halfEdge = h,
+      angle = atan2 directionY directionX,
+      directionX,
+      directionY,
+      chordLength = l,
+      curvature = 4 * g * q / l
+    }
+  where
+    e = es Vector.! (h `div` 2)
+    (a, b, g) = if even h then (from e, to e, bulge e) else (to e, from e, -(bulge e))
+    (x, y) = coordinates Vector.! a
+    (x', y') = coordinates Vector.! b
+    l = sqrt ((x' - x) * (x' - x) + (y' - y) * (y' - y))
+    ux = (x' - x) / l
+    uy = (y' - y) / l
+    q = 1 / (1 + g * g)
+    co = (1 - g * g) * q
+    si = 2 * g * q
+    directionX = ux * co + uy * si
+    directionY = uy * co - ux * si
+
+-- | The order of half-edges by their angles. Half-edges with nearly equal directions are compared a
+-- short distance from the node: the one further to the left comes later.
+counterClockwise :: Leaving -> Leaving -> Ordering
+counterClockwise first second
+  | abs (angle first - angle second) > tie = compare (angle first) (angle second)
+  | otherwise = compare 0 (lean + (curvature second - curvature first) * step / 2)
+  where
+    step = 0.25 * min (chordLength first) (chordLength second)
+    lean = asin (max (-1) (min 1 cross))
+    cross = directionX first * directionY second - directionY first * directionX second
 
 -- | The order of directions that differ by less than this angle (radians) may be wrong by rounding.
 tie :: Double
@@ -370,18 +392,24 @@ propagated coordinates es ordered =
       Just halves
         | h <- Vector.head halves,
           IntMap.notMember (h `div` 2) known ->
-          propagate known [(h, outside k)]
+          spread es ordered known [(h, outside k)]
       _ -> known
-    -- The winding number of all other components at node k.
-    outside k =
-      let (x, y) = coordinates Vector.! k
-          own = IntMap.lookup k components
-          add total i
-            | IntMap.lookup (from edge) components == own = total
-            | otherwise = total + times edge * WindingNumber.contribution edgePolyarcs x y i
-            where
-              edge = es Vector.! (i `div` 2)
-       in SegmentBoxTree.around tree (-1e300) y x y (0 :: Int) add
+    outside = outsideNumber coordinates es (componentsOf es ordered)
+
+-- | The winding number, at a node, of all components other than the node's own. Apply the first
+-- three arguments once, and the result to many nodes.
+outsideNumber :: Vector (Double, Double) -> Vector Edge -> IntMap Int -> Int -> Int
+outsideNumber coordinates es components =
+  \k ->
+    let (x, y) = coordinates Vector.! k
+        own = IntMap.lookup k components
+        add total i
+          | IntMap.lookup (from edge) components == own = total
+          | otherwise = total + times edge * WindingNumber.contribution edgePolyarcs x y i
+          where
+            edge = es Vector.! (i `div` 2)
+     in SegmentBoxTree.around tree (-1e300) y x y (0 :: Int) add
+  where
     edgePolyarcs =
       ClosedPolyarcs.fromSeparateSegments
         [ (x, y, x', y', bulge e)
@@ -389,26 +417,31 @@ propagated coordinates es ordered =
             let ((x, y), (x', y')) = (coordinates Vector.! from e, coordinates Vector.! to e)
         ]
     tree = SegmentBoxTree.build 0 edgePolyarcs
-    components = componentsOf es ordered
-    -- The half-edges still to be visited, each with the winding number on its right as it leaves
-    -- its node.
-    propagate known todo = case todo of
-      [] -> known
-      (h, right) : rest
-        | IntMap.member e known -> propagate known rest
-        | otherwise ->
-          propagate
-            (IntMap.insert e left known)
-            ( othersAround (from edge) (2 * e) left
-                <> othersAround (to edge) (2 * e + 1) (left - times edge)
-                <> rest
-            )
-        where
-          e = h `div` 2
-          edge = es Vector.! e
-          left = if even h then right + times edge else right
-    -- The next half-edge of the node counter-clockwise has on its right the winding number that
-    -- this one has on its left.
+
+-- | Adds the winding number on the left of every edge that is connected with some half-edges. Each
+-- half-edge is given with the winding number on its right as it leaves its node. Known edges are
+-- not visited again.
+spread :: Vector Edge -> IntMap (Vector Int) -> IntMap Int -> [(Int, Int)] -> IntMap Int
+spread es ordered known todo = case todo of
+  [] -> known
+  (h, right) : rest
+    | IntMap.member e known -> spread es ordered known rest
+    | otherwise ->
+      spread
+        es
+        ordered
+        (IntMap.insert e left known)
+        ( othersAround (from edge) (2 * e) left
+            <> othersAround (to edge) (2 * e + 1) (left - times edge)
+            <> rest
+        )
+    where
+      e = h `div` 2
+      edge = es Vector.! e
+      left = if even h then right + times edge else right
+  where
+    -- The other half-edges of a node, from half-edge @h@ on counter-clockwise. The winding number
+    -- on the left of each is the one on the right of the next.
     othersAround k h leftward = case ordered IntMap.!? k of
       Nothing -> []
       Just halves ->

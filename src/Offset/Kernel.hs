@@ -29,7 +29,8 @@ import Base.Quantity (Mm (..))
 import Data.Bifunctor (first)
 import Data.Maybe (mapMaybe)
 import Data.Primitive.PrimArray
-import Geometry.Carrier (Sense (..), Side (..))
+import Geometry.Carrier (Sense (..), Side)
+import Geometry.Carrier qualified as Carrier
 import Geometry.ClosedPolyarcs (ClosedPolyarcs)
 import Geometry.ClosedPolyarcs qualified as ClosedPolyarcs
 import Geometry.FlatPolyarc (FlatPolyarc)
@@ -131,13 +132,10 @@ originalNumber contours
 problemOf :: OffsetRequest -> [FlatPolyarc] -> (Problem, ClosedPolyarcs)
 problemOf request contours = (problem, chain)
   where
-    sense = senseOf (side request)
     Mm d = distance request
     segmentCount = sum (map FlatPolyarc.size contours)
-    more i = case extra request of
-      Nothing -> 0
-      Just f -> let Mm e = f (original i) in e
     original = originalNumber contours
+    more = additional request original
     largest = case extra request of
       Nothing -> d
       Just _ -> d + maximum (0 : map more [0 .. segmentCount - 1])
@@ -148,52 +146,52 @@ problemOf request contours = (problem, chain)
         (if isOpen contours then map ClosedPolyarcs.twoSided contours else contours)
     problem =
       Problem
-        { sense,
+        { sense = Carrier.senseTowards (side request),
           rounding = tolerance,
           least = d,
           widest = largest,
           distances = \i -> d + more i,
           rawOf = if largest == 0 then unmoved else raw
         }
+    raw = rawWith request tolerance original
     -- At the distance 0 the raw offset is the contours themselves, with their smooth joints marked.
     unmoved c = let (_, marked) = raw c in (marked, marked)
-    signed = case side request of
-      LeftOf -> -1
-      RightOf -> 1
-    raw c = case extra request of
-      Nothing ->
-        RawOffset.raw
-          tolerance
-          Tolerance.tangential
-          (corners request)
-          False
-          (const (signed * d))
-          (const (signed * d))
-          c
-      Just _ ->
-        RawOffset.raw
-          tolerance
-          Tolerance.tangential
-          (corners request)
-          True
-          (\i -> signed * limited c i)
-          (\i -> signed * requested c i)
-          c
+
+-- | The additional distance of a segment in mm, by its number in the flat arrays. The second
+-- argument gives its number in the given contours.
+additional :: OffsetRequest -> (Int -> Int) -> Int -> Double
+additional request original i = case extra request of
+  Nothing -> 0
+  Just f -> let Mm e = f (original i) in e
+
+-- | The raw offset of contours in flat arrays, and the contours with their smooth joints marked.
+-- The arguments are the request, the tolerance for rounding in mm, the numbers as in 'additional',
+-- and the contours.
+rawWith ::
+  OffsetRequest ->
+  Double ->
+  (Int -> Int) ->
+  ClosedPolyarcs ->
+  (ClosedPolyarcs, ClosedPolyarcs)
+rawWith request tolerance original c = case extra request of
+  Nothing -> rawAt False (const (signed * d)) (const (signed * d))
+  Just _ -> rawAt True (\i -> signed * limited i) (\i -> signed * requested i)
+  where
+    Mm d = distance request
+    signed = -Carrier.sideSign (side request)
+    rawAt uneven at corner =
+      RawOffset.raw tolerance Tolerance.tangential (corners request) uneven at corner c
+    {-# INLINE rawAt #-}
     -- An additional distance moves an arc towards its centre by no more than its radius. Moved
     -- further, it would leave its sector.
-    limited c i
+    limited i
       | requestedDistance > d && signed * indexPrimArray (ClosedPolyarcs.bulges c) i < 0 =
         min requestedDistance (max d (0.5 * ClosedPolyarcs.diameter c i))
       | otherwise = requestedDistance
       where
-        requestedDistance = requested c i
-    requested c i = d + more (fromIntegral (indexPrimArray (ClosedPolyarcs.sources c) i))
-
--- | The sense of an outer contour whose inside is on a side of it.
-senseOf :: Side -> Sense
-senseOf s = case s of
-  LeftOf -> CounterClockwise
-  RightOf -> Clockwise
+        requestedDistance = requested i
+    requested i =
+      d + additional request original (fromIntegral (indexPrimArray (ClosedPolyarcs.sources c) i))
 
 -- | The parameters that all contours share. Distances are in mm.
 data Problem = Problem

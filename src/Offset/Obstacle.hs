@@ -21,6 +21,7 @@ import Data.List.NonEmpty (NonEmpty)
 import Data.List.NonEmpty qualified as NonEmpty
 import Data.Ord (comparing)
 import Data.Vector qualified as Vector
+import Geometry.Carrier qualified as Carrier
 import Geometry.Distance (ClosestPoint (..))
 import Geometry.Distance qualified as Distance
 import Geometry.Index.BoundingBox qualified as BoundingBox
@@ -65,7 +66,7 @@ localCauses source =
 tooTight :: OffsetSource -> Int -> Maybe Mm
 tooTight source i = case elements source Vector.! i of
   Arc {start, centre, sweep = Rad angle}
-    | signum angle == leftward (side source),
+    | signum angle == Carrier.sideSign (side source),
       old <- Segment.radius centre start,
       minus old (distanceAt source i) < times (-1) Tolerance.coincident ->
       Just old

@@ -76,16 +76,11 @@ raw !tolerance !smoothness corners uneven distance corner !c = runST $ do
       -- Each segment needs room for itself and its joint: an arc or a line, or two lines for a
       -- sharp corner. Uneven distances need two lines more.
       capacity = n * (if uneven then 5 else if corners == Sharp then 3 else 2) + 8
-  rx <- newPrimArray capacity
-  ry <- newPrimArray capacity
-  rb <- newPrimArray capacity
-  rm <- newPrimArray capacity
-  rs <- newPrimArray capacity
-  rh <- newPrimArray (ClosedPolyarcs.loopCount c + 1)
+  filling <- newFilling capacity
+  heads <- newPrimArray (ClosedPolyarcs.loopCount c + 1)
   marks <- thawPrimArray (ClosedPolyarcs.marks c) 0 n
-  let filling = Filling rx ry rb rm rs
-      offsetAll !w !k !kept
-        | w >= ClosedPolyarcs.loopCount c = writePrimArray rh kept k >> pure (k, kept)
+  let offsetAll !w !k !kept
+        | w >= ClosedPolyarcs.loopCount c = writePrimArray heads kept k >> pure (k, kept)
         | otherwise = do
           k' <-
             offsetPolyarc
@@ -105,26 +100,39 @@ raw !tolerance !smoothness corners uneven distance corner !c = runST $ do
             then offsetAll (w + 1) k kept
             else do
               closeUp filling k k'
-              writePrimArray rh kept k
+              writePrimArray heads kept k
               offsetAll (w + 1) (k' + 1) (kept + 1)
   (used, kept) <- offsetAll 0 0 0
-  shrinkMutablePrimArray rx used
-  shrinkMutablePrimArray ry used
-  shrinkMutablePrimArray rb used
-  shrinkMutablePrimArray rm used
-  shrinkMutablePrimArray rs used
-  shrinkMutablePrimArray rh (kept + 1)
-  result <-
-    ClosedPolyarcs
-      <$> unsafeFreezePrimArray rx
-        <*> unsafeFreezePrimArray ry
-        <*> unsafeFreezePrimArray rb
-        <*> unsafeFreezePrimArray rm
-        <*> unsafeFreezePrimArray rs
-        <*> unsafeFreezePrimArray rh
+  shrinkMutablePrimArray heads (kept + 1)
+  result <- frozen filling used heads
   marks' <- unsafeFreezePrimArray marks
   pure (result, c {ClosedPolyarcs.marks = marks'})
 {-# INLINE raw #-}
+
+-- | Arrays with room for a number of vertices.
+newFilling :: Int -> ST s (Filling s)
+newFilling capacity =
+  Filling
+    <$> newPrimArray capacity
+      <*> newPrimArray capacity
+      <*> newPrimArray capacity
+      <*> newPrimArray capacity
+      <*> newPrimArray capacity
+
+-- | The polyarcs of arrays, cut to the used number of vertices, with the first vertices of the
+-- polyarcs.
+frozen :: Filling s -> Int -> MutablePrimArray s Int -> ST s ClosedPolyarcs
+frozen (Filling rx ry rb rm rs) used heads = do
+  mapM_ (`shrinkMutablePrimArray` used) [rx, ry, rb]
+  shrinkMutablePrimArray rm used
+  shrinkMutablePrimArray rs used
+  ClosedPolyarcs
+    <$> unsafeFreezePrimArray rx
+      <*> unsafeFreezePrimArray ry
+      <*> unsafeFreezePrimArray rb
+      <*> unsafeFreezePrimArray rm
+      <*> unsafeFreezePrimArray rs
+      <*> unsafeFreezePrimArray heads
 
 -- | Copies the vertex at the first index, where a polyarc begins, to the second one, just after its
 -- last segment. Marks the first and the last segment.
@@ -170,39 +178,14 @@ offsetPolyarc
   !a
   !e
   !k0 =
-    tangents a $ \sx sy ex ey l ->
-      tangents (e - 1) $ \_ _ zx zy lz ->
+    endDirections c a $ \sx sy ex ey l ->
+      endDirections c (e - 1) $ \_ _ zx zy lz ->
         joint (e - 1) a zx zy sx sy (if lz < l then lz else l) lz l $ \closing bend cut -> do
           markSmooth a closing
           go a k0 sx sy ex ey l cut (if closing == Smooth then ClosedPolyarcs.smoothMark else 0) $
             const (closing, bend, cut)
     where
       bulge i = indexPrimArray (ClosedPolyarcs.bulges c) i
-      -- The unit directions at the start and at the end of segment i, and the length of its chord.
-      -- They deviate from the chord by half the sweep.
-      tangents i k =
-        let x0 = indexPrimArray (ClosedPolyarcs.xs c) i
-            y0 = indexPrimArray (ClosedPolyarcs.ys c) i
-            dx = indexPrimArray (ClosedPolyarcs.xs c) (i + 1) - x0
-            dy = indexPrimArray (ClosedPolyarcs.ys c) (i + 1) - y0
-            l = sqrt (dx * dx + dy * dy)
-            ux = dx / l
-            uy = dy / l
-            b = bulge i
-         in if b == 0
-              then k ux uy ux uy l
-              else
-                let q = 1 / (1 + b * b)
-                    co = (1 - b * b) * q
-                    si = 2 * b * q
-                 in k
-                      (ux * co + uy * si)
-                      (uy * co - ux * si)
-                      (ux * co - uy * si)
-                      (uy * co + ux * si)
-                      l
-      {-# INLINE tangents #-}
-      dist = distance
       markSmooth i j = case j of
         Smooth ->
           readPrimArray marks i >>= \m -> writePrimArray marks i (m + ClosedPolyarcs.smoothMark)
@@ -238,8 +221,8 @@ offsetPolyarc
           k Trimmed 0 cut
         | otherwise = k Over 0 0
         where
-          di = dist i
-          dj = dist j
+          di = distance i
+          dj = distance j
           d = if abs di > abs dj then di else dj
           cr = ax * by - ay * bx
           dt = ax * bx + ay * by
@@ -264,7 +247,7 @@ offsetPolyarc
           (kind, bend, back) ->
             segment i a k sx sy ex ey l cut back beginMark kind bend $ \k' _ -> pure k'
         | otherwise =
-          tangents (i + 1) $ \sx' sy' ex' ey' l' -> do
+          endDirections c (i + 1) $ \sx' sy' ex' ey' l' -> do
             let kept = if i + 1 == e - 1 then case closing () of (_, _, back) -> l' - back else l'
             joint i (i + 1) ex ey sx' sy' (if l < l' then l else l') (l - cut) kept $
               \kind bend cut' ->
@@ -274,7 +257,7 @@ offsetPolyarc
                     go (i + 1) k' sx' sy' ex' ey' l' cut' beginMark' closing
       -- Writes segment i and its joint to segment j, of the given kind and bend.
       segment !i !j !k !sx !sy !ex !ey !l !cut !cut' !beginMark kind !bend next = do
-        let d = dist i
+        let d = distance i
             b = bulge i
             x = indexPrimArray (ClosedPolyarcs.xs c) i + d * sy + cut * sx
             y = indexPrimArray (ClosedPolyarcs.ys c) i - d * sx + cut * sy
@@ -304,7 +287,7 @@ offsetPolyarc
                 >> next (k1 + 2) 0
             | otherwise -> put k1 fx fy 0 ClosedPolyarcs.connectingMark i >> next (k1 + 1) 0
           Outer -> do
-            let dj = dist j
+            let dj = distance j
                 radius = if abs (corner j) > abs (corner i) then corner j else corner i
             k2 <-
               if radius == d
@@ -336,3 +319,27 @@ offsetPolyarc
                 next (k3 + 1) 0
       {-# INLINE segment #-}
 {-# INLINE offsetPolyarc #-}
+
+-- | The unit directions at the start and at the end of segment @i@, and the length of its chord,
+-- passed to a continuation. The directions deviate from the chord by half the sweep.
+endDirections ::
+  ClosedPolyarcs -> Int -> (Double -> Double -> Double -> Double -> Double -> r) -> r
+endDirections c i k =
+  ClosedPolyarcs.chord c i $ \dx dy ->
+    let l = sqrt (dx * dx + dy * dy)
+        ux = dx / l
+        uy = dy / l
+        b = indexPrimArray (ClosedPolyarcs.bulges c) i
+     in if b == 0
+          then k ux uy ux uy l
+          else
+            let q = 1 / (1 + b * b)
+                co = (1 - b * b) * q
+                si = 2 * b * q
+             in k
+                  (ux * co + uy * si)
+                  (uy * co - ux * si)
+                  (ux * co - uy * si)
+                  (uy * co + ux * si)
+                  l
+{-# INLINE endDirections #-}

@@ -20,14 +20,15 @@ import Data.List.NonEmpty qualified as NonEmpty
 import Data.Map.Strict qualified as Map
 import Data.Vector (Vector)
 import Data.Vector qualified as Vector
-import Geometry.Carrier (Sense (..), Side (..))
+import Geometry.Carrier (Side)
+import Geometry.Carrier qualified as Carrier
 import Geometry.Distance qualified as Distance
 import Geometry.Polyarc (Ends (..), Polyarc (..))
 import Geometry.Polyarc qualified as Polyarc
 import Geometry.Segment (Segment (..))
 import Geometry.Segment qualified as Segment
 import Geometry.Vec (Point)
-import Offset.SourceOffset (OffsetSegment (..), Origin (..), leftward, numberOf)
+import Offset.SourceOffset (OffsetSegment (..), Origin (..), numberOf)
 import Offset.Tolerance qualified as Tolerance
 import Offset.TrimmedOffset (TrimmedOffset)
 import Offset.TrimmedOffset qualified as TrimmedOffset
@@ -55,7 +56,10 @@ restMaterials side contour paths gaps =
   IntMap.union
     alone
     ( IntMap.fromList
-        [found | Just bounds <- map boundary (IntMap.keys open), found <- materials side bounds]
+        [ found
+          | Just bounds <- map (cycleFrom stretch nextArrival open) (IntMap.keys open),
+            found <- materials side bounds
+        ]
     )
   where
     elements = Vector.fromList (NonEmpty.toList (segments contour))
@@ -83,24 +87,33 @@ restMaterials side contour paths gaps =
     -- by gap; and the gap by the position at which the cutter touches the contour again.
     open = IntMap.fromList [(k, (a, at)) | (k, a, _, at) <- numbered, IntMap.notMember k alone]
     arrivals = Map.fromList [(b, k) | (k, _, b, _) <- numbered, IntMap.notMember k alone]
-    -- All stretches from gap to gap until they return to the given gap, if it has the least number
-    -- of these gaps. The stretch that ends at the given gap is the last.
-    boundary first = go IntSet.empty [] first
-      where
-        go seen found k = do
-          (from, _) <- IntMap.lookup k open
-          (to, next) <- nextArrival from
-          s <- stretch from to
-          (_, at) <- IntMap.lookup next open
-          case compare next first of
-            EQ -> Just (Vector.fromList (reverse (Bound s next at : found)))
-            GT
-              | IntSet.notMember next seen ->
-                go (IntSet.insert next seen) (Bound s next at : found) next
-            _ -> Nothing
     nextArrival from = case (Map.lookupGE from arrivals, Polyarc.ends contour) of
       (Nothing, Closed) -> Map.lookupMin arrivals
       (found, _) -> found
+
+-- | All stretches from gap to gap until they return to the given gap, if it has the least number of
+-- these gaps. The stretch that ends at the given gap is the last. The arguments are the stretch
+-- between two positions, the next position at which the cutter touches the contour, with its gap,
+-- and for each gap the position at which the cutter leaves the contour, with the cutter's centre.
+cycleFrom ::
+  (Position -> Position -> Maybe (NonEmpty Segment)) ->
+  (Position -> Maybe (Position, Int)) ->
+  IntMap.IntMap (Position, Point) ->
+  Int ->
+  Maybe (Vector Bound)
+cycleFrom stretch nextArrival open first = go IntSet.empty [] first
+  where
+    go seen found k = do
+      (from, _) <- IntMap.lookup k open
+      (to, next) <- nextArrival from
+      s <- stretch from to
+      (_, at) <- IntMap.lookup next open
+      case compare next first of
+        EQ -> Just (Vector.fromList (reverse (Bound s next at : found)))
+        GT
+          | IntSet.notMember next seen ->
+            go (IntSet.insert next seen) (Bound s next at : found) next
+        _ -> Nothing
 
 -- | A stretch of the contour that no path touches, and the gap at its end: the gap's number, and
 -- the position of the cutter's centre there.
@@ -133,42 +146,52 @@ boundaryFrom side bounds first =
   follow (4 * count) [] (stretchAt first) first (edges Vector.! first)
   where
     count = Vector.length bounds
+    edges = cutterEdges side bounds
     stretchAt i = along (bounds Vector.! i)
-    next i = if i + 1 == count then 0 else i + 1
-    edges = Vector.generate count edgeAfter
-    edgeAfter i =
-      edge
-        (cutterAt (bounds Vector.! i))
-        (Segment.end (NonEmpty.last (stretchAt i)))
-        (Segment.start (NonEmpty.head (stretchAt (next i))))
-    -- The material is on the cutter's side of the stretches, and outside the cutter's edge.
-    edge = Segment.arc (if side == LeftOf then Clockwise else CounterClockwise)
     -- Follows the boundary from the remaining part of edge i on, for a limited number of steps.
     follow :: Int -> [Int] -> NonEmpty Segment -> Int -> Segment -> Maybe (NonEmpty Segment, [Int])
     follow steps others done i rest
       | steps <= 0 = Nothing
-      | (t, j, u) : _ <- sortOn (\(t, _, _) -> t) (crossed i rest) =
+      | (t, j, u) : _ <- sortOn (\(t, _, _) -> t) (crossings edges i rest) =
         let (untilThere, _) = Segment.cutAt t rest
             (_, onwards) = Segment.cutAt u (edges Vector.! j)
          in follow (steps - 1) others (done <> (untilThere :| [])) j onwards
-      | j <- next i,
+      | j <- following bounds i,
         j /= first =
         follow (steps - 1) (j : others) (closed <> stretchAt j) j (edges Vector.! j)
-      | Polyarc.signedArea (Polyarc Closed closed) * leftward side > 0 = Just (closed, others)
+      | Polyarc.signedArea (Polyarc Closed closed) * Carrier.sideSign side > 0 =
+        Just (closed, others)
       | otherwise = Nothing
       where
         closed = done <> (rest :| [])
-    -- The intersections of the remaining part of edge i with the other edges: the fraction along
-    -- this part, the number of the other edge, the fraction along the other edge.
-    crossed i rest =
-      [ (t, j, u)
-        | j <- [0 .. count - 1],
-          j /= i,
-          let other = edges Vector.! j,
-          p <- Distance.intersections rest other,
-          Just t <- [inside rest p],
-          Just u <- [inside other p]
-      ]
+
+-- | The number of the stretch after the given one in a cycle.
+following :: Vector Bound -> Int -> Int
+following bounds i = if i + 1 == Vector.length bounds then 0 else i + 1
+
+-- | The cutter's edge after each stretch of a cycle, to the next stretch. The material is on the
+-- cutter's side of the stretches, and outside the cutter's edge.
+cutterEdges :: Side -> Vector Bound -> Vector Segment
+cutterEdges side bounds = Vector.generate (Vector.length bounds) $ \i ->
+  Segment.arc
+    (Carrier.senseAwayFrom side)
+    (cutterAt (bounds Vector.! i))
+    (Segment.end (NonEmpty.last (along (bounds Vector.! i))))
+    (Segment.start (NonEmpty.head (along (bounds Vector.! following bounds i))))
+
+-- | The intersections of the remaining part of edge @i@ with the other edges: the fraction along
+-- this part, the number of the other edge, the fraction along the other edge.
+crossings :: Vector Segment -> Int -> Segment -> [(Double, Int, Double)]
+crossings edges i rest =
+  [ (t, j, u)
+    | j <- [0 .. Vector.length edges - 1],
+      j /= i,
+      let other = edges Vector.! j,
+      p <- Distance.intersections rest other,
+      Just t <- [inside rest p],
+      Just u <- [inside other p]
+  ]
+  where
     -- The fraction along an edge at a point. Nothing within the clearance of an end of the edge.
     inside e p =
       let t = Segment.fraction e p

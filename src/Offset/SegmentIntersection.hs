@@ -463,99 +463,84 @@ arcs !tolerance !c visitor report !i !j
 -- than this common vertex. The last argument is the number of the vertex.
 neighbours :: Double -> ClosedPolyarcs -> Visitor s -> Int -> Int -> Int -> ST s ()
 neighbours !tolerance !c visitor !i !j !vertex
-  | bi == 0 && bj == 0 =
+  | not (isArc c i) && not (isArc c j) =
     ClosedPolyarcs.chord c i $ \ux uy ->
       ClosedPolyarcs.chord c j $ \vx vy -> when (foldsBack tolerance ux uy vx vy) farEnds
   | ClosedPolyarcs.hasMark ClosedPolyarcs.smoothMark (indexPrimArray (ClosedPolyarcs.marks c) j) =
     pure ()
   | liesOn tolerance c j i || liesOn tolerance c i (j + 1) = farEnds
-  | bi == 0 = other i j False
-  | bj == 0 = other j i True
-  | otherwise = otherOfArcs
+  | not (isArc c i) = secondOfLineAndArc tolerance c visitor vertex i j
+  | not (isArc c j) = secondOfLineAndArc tolerance c visitor vertex j i
+  | otherwise = secondOfArcs tolerance c visitor vertex i j
   where
-    bi = indexPrimArray (ClosedPolyarcs.bulges c) i
-    bj = indexPrimArray (ClosedPolyarcs.bulges c) j
     farEnds = do
       when (liesOn tolerance c j i) (resting visitor j i)
       when (liesOn tolerance c i (j + 1)) (resting visitor i (j + 1))
-    -- True when the region between two segments that meet twice is no wider than the tolerance. The
-    -- width is estimated from the squared distance hh of the two points, and half the difference
-    -- of the curvatures.
-    isThin hh bend = hh <= tolerance * tolerance || hh * bend <= 16 * tolerance
+{-# NOINLINE neighbours #-}
+
+-- | Reports the second intersection of line @l@ and arc @arc@, which meet at a vertex. The line
+-- starts there when it has the number of the vertex; otherwise it ends there.
+secondOfLineAndArc :: Double -> ClosedPolyarcs -> Visitor s -> Int -> Int -> Int -> ST s ()
+secondOfLineAndArc !tolerance !c visitor !vertex !l !arc =
+  ClosedPolyarcs.chord c l $ \ux uy -> ClosedPolyarcs.gradient c arc vx0 vy0 $ \gx gy -> do
+    let step = -(gx * ux + gy * uy) / (ux * ux + uy * uy)
+        s = if l == vertex then step else 1 + step
+        px = vx0 + step * ux
+        !py = vy0 + step * uy
+        hh = (px - vx0) * (px - vx0) + (py - vy0) * (py - vy0)
+    when (s > 0 && s < 1 && isOnArc c arc px py) $
+      unless (isThin tolerance hh (1 / ClosedPolyarcs.diameter c arc)) $
+        crossing
+          visitor
+          l
+          s
+          arc
+          (parameter c arc px py)
+          px
+          py
+          (ClosedPolyarcs.gradient c arc px py (\hx hy -> signed c arc (ux * hx + uy * hy)))
+  where
     vx0 = indexPrimArray (ClosedPolyarcs.xs c) vertex
     vy0 = indexPrimArray (ClosedPolyarcs.ys c) vertex
-    -- Reports the second intersection of a line and an arc that meet at the vertex.
-    other l arc lineIsSecond =
-      ClosedPolyarcs.chord c l $ \ux uy -> ClosedPolyarcs.gradient c arc vx0 vy0 $ \gx gy -> do
-        let step = -(gx * ux + gy * uy) / (ux * ux + uy * uy)
-            s = if lineIsSecond then step else 1 + step
-            px = vx0 + step * ux
-            !py = vy0 + step * uy
-        when (s > 0 && s < 1 && isOnArc c arc px py) $
-          unless
-            ( isThin
-                ((px - vx0) * (px - vx0) + (py - vy0) * (py - vy0))
-                (1 / ClosedPolyarcs.diameter c arc)
-            )
-            $ crossing
-              visitor
-              l
-              s
-              arc
-              (parameter c arc px py)
-              px
-              py
-              (ClosedPolyarcs.gradient c arc px py (\hx hy -> signed c arc (ux * hx + uy * hy)))
-    -- Reports the second intersection of two arcs that meet at the vertex.
-    otherOfArcs =
-      ClosedPolyarcs.gradient c i vx0 vy0 $ \ax ay ->
-        ClosedPolyarcs.gradient c j vx0 vy0 $ \bx by -> do
-          let gx = ax - bx
-              gy = ay - by
-              gg = gx * gx + gy * gy
-              -- The second intersection of both circles: the mirror image of the vertex about the
-              -- line through both centres.
-              k = (ay * gx - ax * gy) / gg
-              px = vx0 + k * gy
-              py = vy0 - k * gx
-              -- Arcs with centres on opposite sides of the chord curve away from each other.
-              hx = px - vx0
-              hy = py - vy0
-              bend =
-                abs
-                  ( 1 / ClosedPolyarcs.diameter c i
-                      - signum ((hx * ay - hy * ax) * (hx * by - hy * bx))
-                        / ClosedPolyarcs.diameter c j
-                  )
-          when
-            ( gg > 16 * tolerance * tolerance
-                && isOnArc c i px py
-                && isOnArc c j px py
-                && not (isThin (hx * hx + hy * hy) bend)
-            )
-            $ crossing
-              visitor
-              i
-              (parameter c i px py)
-              j
-              (parameter c j px py)
-              px
-              py
-              ( ClosedPolyarcs.gradient
-                  c
-                  i
-                  px
-                  py
-                  ( \ex ey ->
-                      ClosedPolyarcs.gradient
-                        c
-                        j
-                        px
-                        py
-                        (\fx fy -> signed c i (signed c j (ex * fy - ey * fx)))
-                  )
+
+-- | Reports the second intersection of arcs @i@ and @j@, which meet at a vertex.
+secondOfArcs :: Double -> ClosedPolyarcs -> Visitor s -> Int -> Int -> Int -> ST s ()
+secondOfArcs !tolerance !c visitor !vertex !i !j =
+  ClosedPolyarcs.gradient c i vx0 vy0 $ \ax ay ->
+    ClosedPolyarcs.gradient c j vx0 vy0 $ \bx by -> do
+      let gx = ax - bx
+          gy = ay - by
+          gg = gx * gx + gy * gy
+          -- The second intersection of both circles: the mirror image of the vertex about the line
+          -- through both centres.
+          k = (ay * gx - ax * gy) / gg
+          px = vx0 + k * gy
+          py = vy0 - k * gx
+          -- Arcs with centres on opposite sides of the chord curve away from each other.
+          hx = px - vx0
+          hy = py - vy0
+          bend =
+            abs
+              ( 1 / ClosedPolyarcs.diameter c i
+                  - signum ((hx * ay - hy * ax) * (hx * by - hy * bx))
+                    / ClosedPolyarcs.diameter c j
               )
-{-# NOINLINE neighbours #-}
+      when
+        ( gg > 16 * tolerance * tolerance
+            && isOnArc c i px py
+            && isOnArc c j px py
+            && not (isThin tolerance (hx * hx + hy * hy) bend)
+        )
+        (crossingAt c visitor i j px py)
+  where
+    vx0 = indexPrimArray (ClosedPolyarcs.xs c) vertex
+    vy0 = indexPrimArray (ClosedPolyarcs.ys c) vertex
+
+-- | True when the region between two segments that meet twice is no wider than the tolerance (mm).
+-- The width is estimated from the squared distance of the two points, and half the difference of
+-- the curvatures.
+isThin :: Double -> Double -> Double -> Bool
+isThin tolerance hh bend = hh <= tolerance * tolerance || hh * bend <= 16 * tolerance
 
 -- | Intersections of two segments that share both ends and are not both lines. When they coincide,
 -- the start of the second is reported as lying on the first; otherwise they meet nowhere else.

@@ -13,7 +13,6 @@ module Offset.SourceOffset
     elementCount,
     next,
     distanceAt,
-    leftward,
 
     -- * Pieces of an offset
     OffsetSegment (..),
@@ -40,11 +39,13 @@ where
 
 import Base.Quantity (Mm (..), Rad (..), plus)
 import Data.List.NonEmpty qualified as NonEmpty
+import Data.Maybe (fromMaybe)
 import Data.Ord (comparing)
 import Data.Primitive.PrimArray (PrimArray, generatePrimArray, indexPrimArray)
 import Data.Vector (Vector)
 import Data.Vector qualified as Vector
-import Geometry.Carrier (Sense (..), Side (..))
+import Geometry.Carrier (Side)
+import Geometry.Carrier qualified as Carrier
 import Geometry.Polyarc (Ends (..), Polyarc (Polyarc))
 import Geometry.Segment (Segment (..))
 import Geometry.Segment qualified as Segment
@@ -106,12 +107,6 @@ next source i = if i + 1 == elementCount source then 0 else i + 1
 distanceAt :: OffsetSource -> Int -> Mm
 distanceAt source i = plus (radius source) (extra (style source) i)
 
--- | The sign of a side: +1 when the cutter is on the left.
-leftward :: Side -> Double
-leftward side = case side of
-  LeftOf -> 1
-  RightOf -> -1
-
 -- | A segment of an offset, and the part of the contour that it belongs to.
 data OffsetSegment = OffsetSegment {origin :: Origin, segment :: Segment}
   deriving stock (Eq, Show)
@@ -136,16 +131,14 @@ numberOf origin = case origin of
 -- becomes a point.
 movedElement :: OffsetSource -> Int -> Segment
 movedElement source i = case elements source Vector.! i of
-  Straight a b ->
-    let n = Vec.scale (leftward (side source) * r) (Vec.left (Vec.unit (Vec.to a b)))
-     in Straight (Vec.shift n a) (Vec.shift n b)
-  Arc {start, end, centre, sweep = sweep@(Rad angle)} ->
+  line@(Straight _ _) -> fromMaybe line (Segment.offset (side source) distance line)
+  Arc {start, end, centre, sweep} ->
     let Mm before = Segment.radius centre start
-        after = if signum angle == leftward (side source) then max 0 (before - r) else before + r
+        Mm after = max (Mm 0) (Segment.offsetRadius (side source) distance sweep (Mm before))
         moved p = Vec.shift (Vec.scale (after / before) (Vec.to centre p)) centre
      in Arc {start = moved start, end = moved end, centre, sweep}
   where
-    Mm r = distanceAt source i
+    distance = distanceAt source i
 
 -- | Cuts lengths in mm off the start and off the end of a segment. The sum of both lengths is
 -- smaller than the segment's length.
@@ -182,7 +175,7 @@ cornerAt source i
   | isInner && radius source > Mm 0 && not (isCusp source i) = Blocked
   | otherwise = Outer
   where
-    isInner = turned * leftward (side source) > 0
+    isInner = turned * Carrier.sideSign (side source) > 0
     r1 = distanceAt source i
     turned = indexPrimArray (turnings source) i
     Rad smooth = Tolerance.smoothAngle
@@ -244,24 +237,19 @@ meeting t before after = case (before, after) of
 cornerArc :: OffsetSource -> Int -> Segment
 cornerArc source i =
   Segment.arc
-    sense
+    (Carrier.senseAwayFrom (side source))
     (Segment.end before)
     (beside source i wide (Segment.endDirection before))
     (beside source i wide (Segment.startDirection (elements source Vector.! next source i)))
   where
     before = elements source Vector.! i
     wide = max (distanceAt source i) (distanceAt source (next source i))
-    sense = case side source of
-      LeftOf -> Clockwise
-      RightOf -> CounterClockwise
 
 -- | The point at a distance from the corner after an element, on the cutter's side and square to a
 -- direction of length 1.
 beside :: OffsetSource -> Int -> Mm -> Vec.Vec -> Point
-beside source i (Mm r) direction =
-  Vec.shift
-    (Vec.scale (leftward (side source) * r) (Vec.left direction))
-    (Segment.end (elements source Vector.! i))
+beside source i distance direction =
+  Carrier.beside (side source) distance direction (Segment.end (elements source Vector.! i))
 
 -- | The points at which the offset's lines at the corner after an element can start or end. They
 -- lie square to both elements at both elements' distances; a sharp corner has its tip as well.

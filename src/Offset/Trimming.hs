@@ -12,7 +12,7 @@ module Offset.Trimming
   )
 where
 
-import Control.Monad (foldM, forM_, unless, when, zipWithM_)
+import Control.Monad (foldM, forM_, when, zipWithM_)
 import Control.Monad.ST (ST, runST)
 import Data.Int (Int32)
 import Data.List (sortOn)
@@ -42,16 +42,13 @@ trim !tolerance !wanted !c !boxes !xs = do
       begins <- newPrimArray (n + 2)
       order <- newPrimArray (max 1 total)
       sortOccurrences c xs begins order
-      starts <- unsafeFreezePrimArray begins
-      inOrder <- unsafeFreezePrimArray order
-      if not (areDistinct tolerance xs starts inOrder n)
+      slices <- Slices c xs <$> unsafeFreezePrimArray begins <*> unsafeFreezePrimArray order
+      if not (areDistinct tolerance slices)
         then pure Nothing
         else do
           lefts <- newPrimArray (max 1 total)
-          isSound <- and <$> traverse (propagate c xs starts inOrder lefts) (zip [0 ..] outermost)
-          if not isSound
-            then pure Nothing
-            else joinSlices wanted c xs starts inOrder lefts outermost
+          isSound <- and <$> traverse (propagate slices lefts) (zip [0 ..] outermost)
+          if isSound then joinSlices wanted slices lefts outermost else pure Nothing
   where
     total = 2 * SelfIntersection.count xs
     outside w = do
@@ -153,6 +150,22 @@ parameterOf :: SelfIntersections -> Int -> Double
 parameterOf xs o = indexPrimArray (SelfIntersection.reals xs) (2 * o + 2 - (if odd o then 1 else 0))
 {-# INLINE parameterOf #-}
 
+-- | The polyarcs, their self-intersections, and the occurrences of these sorted along the polyarcs.
+-- The third field has the index of each segment's first occurrence in the fourth one.
+data Slices = Slices ClosedPolyarcs SelfIntersections (PrimArray Int32) (PrimArray Int32)
+
+-- | The index of a polyarc's first occurrence among the sorted ones.
+rangeBegin :: Slices -> Int -> Int
+rangeBegin (Slices c _ begins _) w =
+  fromIntegral (indexPrimArray begins (ClosedPolyarcs.firstVertex c w))
+{-# INLINE rangeBegin #-}
+
+-- | The index after a polyarc's last occurrence.
+rangeEnd :: Slices -> Int -> Int
+rangeEnd (Slices c _ begins _) w =
+  fromIntegral (indexPrimArray begins (ClosedPolyarcs.repeatedVertex c w))
+{-# INLINE rangeEnd #-}
+
 -- | Runs an action for every index from 0 to n − 1. Unlike 'forM_' it allocates no list.
 forM' :: Int -> (Int -> ST s ()) -> ST s ()
 forM' n f = go 0
@@ -164,9 +177,10 @@ forM' n f = go 0
 
 -- | True when no two intersections that follow each other on a segment coincide within the
 -- tolerance (mm).
-areDistinct :: Double -> SelfIntersections -> PrimArray Int32 -> PrimArray Int32 -> Int -> Bool
-areDistinct tolerance xs begins order n = go 0 1
+areDistinct :: Double -> Slices -> Bool
+areDistinct tolerance (Slices c xs begins order) = go 0 1
   where
+    n = sizeofPrimArray (ClosedPolyarcs.xs c)
     total = 2 * SelfIntersection.count xs
     at o k = indexPrimArray (SelfIntersection.reals xs) (4 * (fromIntegral o `quot` 2) + k)
     -- Compares the occurrences at q − 1 and q. Segment i is not after the segment of the former.
@@ -184,14 +198,11 @@ areDistinct tolerance xs begins order n = go 0 1
 -- winding number there, and perhaps its rightmost point. The result is False when the computed
 -- winding number at the rightmost point differs from the known one.
 propagate ::
-  ClosedPolyarcs ->
-  SelfIntersections ->
-  PrimArray Int32 ->
-  PrimArray Int32 ->
+  Slices ->
   MutablePrimArray s Int32 ->
   (Int, (Extreme, Int, Maybe (Extreme, Int))) ->
   ST s Bool
-propagate c xs begins order lefts (w, (leftmost, left, rightmost)) = do
+propagate slices@(Slices _ xs begins order) lefts (w, (leftmost, left, rightmost)) = do
   go q0 0 left
   case rightmost of
     Just (e, expected) | z > a -> do
@@ -202,8 +213,8 @@ propagate c xs begins order lefts (w, (leftmost, left, rightmost)) = do
     Just (_, expected) -> pure (left == expected)
     Nothing -> pure True
   where
-    a = fromIntegral (indexPrimArray begins (ClosedPolyarcs.firstVertex c w)) :: Int
-    z = fromIntegral (indexPrimArray begins (ClosedPolyarcs.repeatedVertex c w)) :: Int
+    a = rangeBegin slices w
+    z = rangeEnd slices w
     q0 = let q = firstAfter leftmost in if q == z then a else q
     firstAfter e = advance (fromIntegral (indexPrimArray begins (segment e)))
       where
@@ -225,146 +236,162 @@ propagate c xs begins order lefts (w, (leftmost, left, rightmost)) = do
 -- a slice leads to one without the wanted number.
 joinSlices ::
   Int ->
-  ClosedPolyarcs ->
-  SelfIntersections ->
-  PrimArray Int32 ->
-  PrimArray Int32 ->
+  Slices ->
   MutablePrimArray s Int32 ->
   [(Extreme, Int, Maybe (Extreme, Int))] ->
   ST s (Maybe OffsetLoops)
-joinSlices wanted c xs begins order lefts outermost = do
-  let n = sizeofPrimArray (ClosedPolyarcs.xs c)
-      total = 2 * SelfIntersection.count xs
-      capacity = n + total + 1
-  ox <- newPrimArray capacity
-  oy <- newPrimArray capacity
-  ob <- newPrimArray capacity
-  os <- newPrimArray capacity
+joinSlices !wanted slices@(Slices !c !xs _ !order) lefts outermost = do
+  out <- newOutput (sizeofPrimArray (ClosedPolyarcs.xs c) + total + 1)
   starts <- newPrimArray (total + ClosedPolyarcs.loopCount c + 1)
-  position <- newPrimArray (max 1 total)
-  forM' total $ \q ->
-    writePrimArray position (fromIntegral (indexPrimArray order q)) (fromIntegral q :: Int32)
-  -- A single polyarc needs no lookup.
-  polyarcOf <- newPrimArray (if single then 0 else max 1 total)
-  unless single $
-    forM_ [0 .. ClosedPolyarcs.loopCount c - 1] $ \w ->
-      forM' (rangeEnd w - rangeBegin w) $ \q ->
-        writePrimArray polyarcOf (rangeBegin w + q) (fromIntegral w :: Int32)
-  let emit !k !x !y !b !s = do
-        writePrimArray ox k x
-        writePrimArray oy k y
-        writePrimArray ob k b
-        writePrimArray os k (fromIntegral (s :: Int) :: Int32)
-      copyUncut w k (l, made)
-        | rangeBegin w == rangeEnd w && k == wanted = do
+  let copyUncut (l, made) (w, (_, left, _))
+        | rangeBegin slices w == rangeEnd slices w && left == wanted = do
           writePrimArray starts made l
-          let copy !i !o
-                | i >= ClosedPolyarcs.repeatedVertex c w = pure o
-                | otherwise =
-                  emit
-                    o
-                    (indexPrimArray (ClosedPolyarcs.xs c) i)
-                    (indexPrimArray (ClosedPolyarcs.ys c) i)
-                    (indexPrimArray (ClosedPolyarcs.bulges c) i)
-                    i
-                    >> copy (i + 1) (o + 1)
-          l' <- copy (ClosedPolyarcs.firstVertex c w) l
-          pure (l', made + 1)
+          let (from, to) = (ClosedPolyarcs.firstVertex c w, ClosedPolyarcs.repeatedVertex c w)
+          copySegments out c from to l
+          pure (l + to - from, made + 1)
         | otherwise = pure (l, made)
       -- Follows the polyarc from occurrence q to the next one. Then it continues at the same
       -- intersection on the other segment.
       follow !q0 !q !l = do
         writePrimArray lefts q visited
-        w <- if single then pure 0 else fromIntegral <$> readPrimArray polyarcOf q
-        let next = if q + 1 == rangeEnd w then rangeBegin w else q + 1
-            o = fromIntegral (indexPrimArray order q) :: Int
-            o' = fromIntegral (indexPrimArray order next) :: Int
-            (px, py) = (pointOf o 0, pointOf o 1)
-            (px', py') = (pointOf o' 0, pointOf o' 1)
-            s = segmentOf o
-            s' = segmentOf o'
-        l' <-
-          if s == s' && next > q
-            then emit l px py (part s px py px' py') s >> pure (l + 1)
-            else do
-              emit
-                l
-                px
-                py
-                ( part
-                    s
-                    px
-                    py
-                    (indexPrimArray (ClosedPolyarcs.xs c) (s + 1))
-                    (indexPrimArray (ClosedPolyarcs.ys c) (s + 1))
-                )
-                s
-              let copyBetween !i !k
-                    | i == s' = pure k
-                    | otherwise =
-                      emit
-                        k
-                        (indexPrimArray (ClosedPolyarcs.xs c) i)
-                        (indexPrimArray (ClosedPolyarcs.ys c) i)
-                        (indexPrimArray (ClosedPolyarcs.bulges c) i)
-                        i
-                        >> copyBetween (nextOf w i) (k + 1)
-              k <- copyBetween (nextOf w s) (l + 1)
-              emit
-                k
-                (indexPrimArray (ClosedPolyarcs.xs c) s')
-                (indexPrimArray (ClosedPolyarcs.ys c) s')
-                ( part
-                    s'
-                    (indexPrimArray (ClosedPolyarcs.xs c) s')
-                    (indexPrimArray (ClosedPolyarcs.ys c) s')
-                    px'
-                    py'
-                )
-                s'
-              pure (k + 1)
-        partner <- fromIntegral <$> readPrimArray position (if even o' then o' + 1 else o' - 1)
-        v <- readPrimArray lefts partner
+        let w = if single then 0 else fromIntegral (indexPrimArray polyarcOf q)
+            next = if q + 1 == rangeEnd slices w then rangeBegin slices w else q + 1
+            o = fromIntegral (indexPrimArray order next) :: Int
+            partner = fromIntegral (indexPrimArray position (if even o then o + 1 else o - 1))
+        l' <- writeSlice out slices w q next l
+        left <- readPrimArray lefts partner
         if partner == q0
           then pure (Just l')
-          else if fromIntegral v /= wanted then pure Nothing else follow q0 partner l'
+          else if fromIntegral left /= wanted then pure Nothing else follow q0 partner l'
       loops !q !l !made
-        | q >= total = pure (Just (l, made))
+        | q >= total = Just <$> frozen out starts l made
         | otherwise = do
-          v <- readPrimArray lefts q
-          if fromIntegral v /= wanted
+          left <- readPrimArray lefts q
+          if fromIntegral left /= wanted
             then loops (q + 1) l made
             else do
               writePrimArray starts made l
               follow q q l >>= \case
                 Nothing -> pure Nothing
                 Just l' -> loops (q + 1) l' (made + 1)
-  (l0, made0) <- foldM (\acc (w, (_, v, _)) -> copyUncut w v acc) (0, 0) (zip [0 ..] outermost)
-  loops 0 l0 made0 >>= \case
-    Nothing -> pure Nothing
-    Just (l, made) -> do
-      writePrimArray starts made l
-      shrinkMutablePrimArray ox l
-      shrinkMutablePrimArray oy l
-      shrinkMutablePrimArray ob l
-      shrinkMutablePrimArray os l
-      shrinkMutablePrimArray starts (made + 1)
-      Just
-        <$> ( OffsetLoops
-                <$> unsafeFreezePrimArray starts
-                  <*> unsafeFreezePrimArray ox
-                  <*> unsafeFreezePrimArray oy
-                  <*> unsafeFreezePrimArray ob
-                  <*> unsafeFreezePrimArray os
-            )
+  uncurry (loops 0) =<< foldM copyUncut (0, 0) (zip [0 ..] outermost)
   where
     single = ClosedPolyarcs.loopCount c == 1
+    total = 2 * SelfIntersection.count xs
+    !position = positions slices
+    -- A single polyarc needs no lookup.
+    !polyarcOf = if single then mempty else polyarcNumbers slices
     -- The mark of a visited slice. It is no winding number.
     visited = minBound :: Int32
-    rangeBegin w = fromIntegral (indexPrimArray begins (ClosedPolyarcs.firstVertex c w)) :: Int
-    rangeEnd w = fromIntegral (indexPrimArray begins (ClosedPolyarcs.repeatedVertex c w)) :: Int
-    segmentOf o = fromIntegral (indexPrimArray (SelfIntersection.segments xs) o) `quot` 2 :: Int
-    pointOf o k = indexPrimArray (SelfIntersection.reals xs) (4 * (o `quot` 2) + k)
-    nextOf w i =
-      if i + 1 == ClosedPolyarcs.repeatedVertex c w then ClosedPolyarcs.firstVertex c w else i + 1
-    part s = ClosedPolyarcs.partialBulge c s
+
+-- | The position of each occurrence among the sorted ones.
+positions :: Slices -> PrimArray Int32
+positions (Slices _ xs _ order) = runPrimArray $ do
+  position <- newPrimArray (max 1 total)
+  forM' total $ \q ->
+    writePrimArray position (fromIntegral (indexPrimArray order q)) (fromIntegral q)
+  pure position
+  where
+    total = 2 * SelfIntersection.count xs
+
+-- | The number of the polyarc of each sorted occurrence.
+polyarcNumbers :: Slices -> PrimArray Int32
+polyarcNumbers slices@(Slices c xs _ _) = runPrimArray $ do
+  numbers <- newPrimArray (max 1 (2 * SelfIntersection.count xs))
+  forM_ [0 .. ClosedPolyarcs.loopCount c - 1] $ \w ->
+    forM' (rangeEnd slices w - rangeBegin slices w) $ \q ->
+      writePrimArray numbers (rangeBegin slices w + q) (fromIntegral w)
+  pure numbers
+
+-- | The arrays of loops while they are written: x and y of the vertices, the bulges of the
+-- segments, and the numbers of the segments from which they were cut.
+data Output s
+  = Output
+      (MutablePrimArray s Double)
+      (MutablePrimArray s Double)
+      (MutablePrimArray s Double)
+      (MutablePrimArray s Int32)
+
+-- | Arrays with room for a number of vertices.
+newOutput :: Int -> ST s (Output s)
+newOutput capacity =
+  Output
+    <$> newPrimArray capacity
+      <*> newPrimArray capacity
+      <*> newPrimArray capacity
+      <*> newPrimArray capacity
+
+-- | The loops, from the arrays, the index of each loop's first vertex, and the numbers of vertices
+-- and of loops.
+frozen :: Output s -> MutablePrimArray s Int -> Int -> Int -> ST s OffsetLoops
+frozen (Output xs ys bulges raws) starts used made = do
+  writePrimArray starts made used
+  mapM_ (`shrinkMutablePrimArray` used) [xs, ys, bulges]
+  shrinkMutablePrimArray raws used
+  shrinkMutablePrimArray starts (made + 1)
+  OffsetLoops
+    <$> unsafeFreezePrimArray starts
+      <*> unsafeFreezePrimArray xs
+      <*> unsafeFreezePrimArray ys
+      <*> unsafeFreezePrimArray bulges
+      <*> unsafeFreezePrimArray raws
+
+-- | Writes a segment of a loop: its index, x and y of its start, its bulge, and the number of the
+-- segment from which it was cut.
+emit :: Output s -> Int -> Double -> Double -> Double -> Int -> ST s ()
+emit (Output xs ys bulges raws) !k !x !y !b !s = do
+  writePrimArray xs k x
+  writePrimArray ys k y
+  writePrimArray bulges k b
+  writePrimArray raws k (fromIntegral s)
+{-# INLINE emit #-}
+
+-- | Copies the segments of the polyarcs from number @from@ to before @to@, to index @k@ on.
+copySegments :: Output s -> ClosedPolyarcs -> Int -> Int -> Int -> ST s ()
+copySegments out c from to = copy from
+  where
+    copy !i !k
+      | i >= to = pure ()
+      | otherwise = do
+        emit
+          out
+          k
+          (indexPrimArray (ClosedPolyarcs.xs c) i)
+          (indexPrimArray (ClosedPolyarcs.ys c) i)
+          (indexPrimArray (ClosedPolyarcs.bulges c) i)
+          i
+        copy (i + 1) (k + 1)
+{-# INLINE copySegments #-}
+
+-- | Writes the slice of polyarc @w@ from the sorted occurrence @q@ to the one at @next@, to index
+-- @l@ on. The result is the next free index.
+writeSlice :: Output s -> Slices -> Int -> Int -> Int -> Int -> ST s Int
+writeSlice out (Slices c xs _ order) !w !q !next !l
+  | s == s' && next > q =
+    emit out l px py (part s px py px' py') s >> pure (l + 1)
+  | otherwise = do
+    emit out l px py (part s px py (x (s + 1)) (y (s + 1))) s
+    let (first, end) = (ClosedPolyarcs.firstVertex c w, ClosedPolyarcs.repeatedVertex c w)
+        from = if s + 1 == end then first else s + 1
+        count = if from <= s' then s' - from else end - from + s' - first
+        k = l + 1 + count
+    if from <= s'
+      then copySegments out c from s' (l + 1)
+      else do
+        copySegments out c from end (l + 1)
+        copySegments out c first s' (k - (s' - first))
+    emit out k (x s') (y s') (part s' (x s') (y s') px' py') s'
+    pure (k + 1)
+  where
+    o = fromIntegral (indexPrimArray order q) :: Int
+    o' = fromIntegral (indexPrimArray order next) :: Int
+    s = segmentOf o
+    s' = segmentOf o'
+    (px, py) = (pointOf o 0, pointOf o 1)
+    (px', py') = (pointOf o' 0, pointOf o' 1)
+    segmentOf h = fromIntegral (indexPrimArray (SelfIntersection.segments xs) h) `quot` 2 :: Int
+    pointOf h k = indexPrimArray (SelfIntersection.reals xs) (4 * (h `quot` 2) + k)
+    x = indexPrimArray (ClosedPolyarcs.xs c)
+    y = indexPrimArray (ClosedPolyarcs.ys c)
+    part = ClosedPolyarcs.partialBulge c
+{-# INLINE writeSlice #-}

@@ -80,110 +80,134 @@ data Outward = Leftmost | Rightmost
 extreme :: Outward -> ClosedPolyarcs -> SegmentBoxTree -> Int -> Extreme
 extreme outward c boxes w = go start start 0 (1e300 :: Double)
   where
-    start = ClosedPolyarcs.firstVertex c w
-    end = ClosedPolyarcs.repeatedVertex c w
-    sign = case outward of
-      Leftmost -> 1
-      Rightmost -> -1
+    !start = ClosedPolyarcs.firstVertex c w
+    !end = ClosedPolyarcs.repeatedVertex c w
+    !sign = signOf outward
+    !bound = outermostBound outward c boxes w
     go !i !best !t !least
-      | i >= end = extremeOf best t least
-      | SegmentBoxTree.runBoxOf boxes i outermost > bound =
+      | i >= end = extremeAt sign c w best t least
+      | SegmentBoxTree.runBoxOf boxes i (outermostSide outward) > bound =
         go (SegmentBoxTree.nextRun i) best t least
-      | boxSide >= least = go (i + 1) best t least
+      | SegmentBoxTree.segmentBoxWithMargin boxes i (outermostSide outward) >= least =
+        go (i + 1) best t least
       | otherwise =
         let x0 = sign * indexPrimArray (ClosedPolyarcs.xs c) i
             best1 = if x0 < least then i else best
             t1 = if x0 < least then 0 else t
             least1 = if x0 < least then x0 else least
-            b = indexPrimArray (ClosedPolyarcs.bulges c) i
-         in if b == 0
+         in if indexPrimArray (ClosedPolyarcs.bulges c) i == 0
               then go (i + 1) best1 t1 least1
-              else ClosedPolyarcs.chord c i $ \dx dy ->
-                let co = 1 - b * b
-                    si = 2 * b
-                    -- x components of the directions at both ends
-                    out = sign * (dx * co + dy * si)
-                    into = sign * (dx * co - dy * si)
-                    l = sqrt (dx * dx + dy * dy)
-                    r = l * (1 + b * b) / (4 * abs b)
-                    cx = indexPrimArray (ClosedPolyarcs.xs c) i + 0.5 * dx - co / (4 * b) * dy
-                    cy = indexPrimArray (ClosedPolyarcs.ys c) i + 0.5 * dy + co / (4 * b) * dx
-                    ex = sign * cx - r
-                    t' =
-                      ( dx * (sign * ex - indexPrimArray (ClosedPolyarcs.xs c) i)
-                          + dy * (cy - indexPrimArray (ClosedPolyarcs.ys c) i)
-                      )
-                        / (l * l)
-                 in if out < 0 && into > 0 && ex < least1 && t' > endMargin && t' < 1 - endMargin
-                      then go (i + 1) i t' ex
-                      else go (i + 1) best1 t1 least1
-      where
-        boxSide = SegmentBoxTree.segmentBoxWithMargin boxes i outermost
+              else outermostOfArc sign c i $ \isBetween t' ex ->
+                if isBetween && ex < least1 && t' > endMargin && t' < 1 - endMargin
+                  then go (i + 1) i t' ex
+                  else go (i + 1) best1 t1 least1
     -- When the outermost point of an arc is nearer to an end than this fraction of its chord, the
     -- vertex at this end is taken instead.
     endMargin = Tolerance.negligibleShare
-    -- A bound on the x of the outermost point (negated for the rightmost one): the outermost vertex
-    -- of the run of segments whose bounding box reaches furthest out. Runs that do not reach it are
-    -- skipped.
-    bound =
-      let i = furthest start start 1e300
-       in foldl'
-            min
-            1e300
-            [ sign * indexPrimArray (ClosedPolyarcs.xs c) k
-              | k <- [i .. min end (SegmentBoxTree.nextRun i) - 1]
-            ]
+
+-- | The factor by which x is multiplied so that the outermost point has the least x.
+signOf :: Outward -> Double
+signOf outward = case outward of
+  Leftmost -> 1
+  Rightmost -> -1
+
+-- | The x of a bounding box's outermost side, multiplied by 'signOf'.
+outermostSide :: Outward -> Double -> Double -> Double -> Double -> Double
+outermostSide outward lx _ hx _ = case outward of
+  Leftmost -> lx
+  Rightmost -> -hx
+{-# INLINE outermostSide #-}
+
+-- | A bound on the x of a polyarc's outermost point, multiplied by 'signOf': the outermost vertex
+-- of the run of segments whose bounding box reaches furthest out. Runs that do not reach it are
+-- skipped.
+outermostBound :: Outward -> ClosedPolyarcs -> SegmentBoxTree -> Int -> Double
+outermostBound outward c boxes w =
+  foldl'
+    min
+    1e300
+    [ signOf outward * indexPrimArray (ClosedPolyarcs.xs c) k
+      | k <- [run .. min end (SegmentBoxTree.nextRun run) - 1]
+    ]
+  where
+    start = ClosedPolyarcs.firstVertex c w
+    end = ClosedPolyarcs.repeatedVertex c w
+    run = furthest start start 1e300
     furthest !i !best !least
       | i >= end = best
-      | otherwise =
-        let boxSide =
-              SegmentBoxTree.runBoxOf boxes i outermost
-         in if boxSide < least
-              then furthest (SegmentBoxTree.nextRun i) i boxSide
-              else furthest (SegmentBoxTree.nextRun i) best least
-    -- The x of a bounding box's outermost side, negated for the rightmost point.
-    outermost lx _ hx _ = case outward of
-      Leftmost -> lx
-      Rightmost -> -hx
-    extremeOf i t least
-      | t > 0 =
-        Extreme
-          i
-          t
-          (sign * least)
-          (indexPrimArray (ClosedPolyarcs.ys c) i + 0.5 * dyOf i + heightOf i)
-          (Just (if b > 0 then 1 else 0))
-      | otherwise = Extreme i 0 (sign * least) (indexPrimArray (ClosedPolyarcs.ys c) i) (atVertex i)
+      | boxSide < least = furthest (SegmentBoxTree.nextRun i) i boxSide
+      | otherwise = furthest (SegmentBoxTree.nextRun i) best least
       where
-        b = indexPrimArray (ClosedPolyarcs.bulges c) i
+        boxSide = SegmentBoxTree.runBoxOf boxes i (outermostSide outward)
+
+-- | The outermost point of an arc's circle, passed to a continuation: True when it lies between the
+-- ends of the arc; the fraction along the chord; its x, multiplied by the given sign.
+outermostOfArc :: Double -> ClosedPolyarcs -> Int -> (Bool -> Double -> Double -> r) -> r
+outermostOfArc sign c i k = ClosedPolyarcs.chord c i $ \dx dy ->
+  let b = indexPrimArray (ClosedPolyarcs.bulges c) i
+      co = 1 - b * b
+      si = 2 * b
+      -- x components of the directions at both ends
+      out = sign * (dx * co + dy * si)
+      into = sign * (dx * co - dy * si)
+      l = sqrt (dx * dx + dy * dy)
+      r = l * (1 + b * b) / (4 * abs b)
+      cx = indexPrimArray (ClosedPolyarcs.xs c) i + 0.5 * dx - co / (4 * b) * dy
+      cy = indexPrimArray (ClosedPolyarcs.ys c) i + 0.5 * dy + co / (4 * b) * dx
+      ex = sign * cx - r
+      t =
+        ( dx * (sign * ex - indexPrimArray (ClosedPolyarcs.xs c) i)
+            + dy * (cy - indexPrimArray (ClosedPolyarcs.ys c) i)
+        )
+          / (l * l)
+   in k (out < 0 && into > 0) t ex
+{-# INLINE outermostOfArc #-}
+
+-- | The extreme of a polyarc, given by its number: the start of segment @i@, or for a fraction
+-- above 0 the outermost point of the segment's circle. The last argument is the point's x,
+-- multiplied by the given sign.
+extremeAt :: Double -> ClosedPolyarcs -> Int -> Int -> Double -> Double -> Extreme
+extremeAt sign c w i t least
+  | t > 0 =
+    Extreme
+      i
+      t
+      (sign * least)
+      (y0 + 0.5 * dyOf + heightOf)
+      (Just (if b > 0 then 1 else 0))
+  | otherwise = Extreme i 0 (sign * least) y0 (excessAtVertex sign c w i)
+  where
+    b = indexPrimArray (ClosedPolyarcs.bulges c) i
+    y0 = indexPrimArray (ClosedPolyarcs.ys c) i
+    dyOf = ClosedPolyarcs.chord c i (\_ dy -> dy)
+    heightOf = ClosedPolyarcs.chord c i (\dx _ -> (1 - b * b) / (4 * b) * dx)
+
+-- | The excess at the vertex where segment @i@ of a polyarc starts, its outermost point: 1 when the
+-- polyarc turns left there, else 0.
+excessAtVertex :: Double -> ClosedPolyarcs -> Int -> Int -> Maybe Int
+excessAtVertex sign c w i
+  | abs cross > 1e-9 * size = Just (if cross > 0 then 1 else 0)
+  | ix * ox + iy * oy < 0 =
+    if abs bent > curvatureTolerance * (abs (bend previous) + abs (bend i))
+      then Just (if bent < 0 then 1 else 0)
+      else Nothing
+  | otherwise = Just (if sign * oy < 0 then 1 else 0)
+  where
+    previous
+      | i == ClosedPolyarcs.firstVertex c w = ClosedPolyarcs.repeatedVertex c w - 1
+      | otherwise = i - 1
+    bp = indexPrimArray (ClosedPolyarcs.bulges c) previous
+    b = indexPrimArray (ClosedPolyarcs.bulges c) i
+    ix = ClosedPolyarcs.chord c previous (\dx dy -> dx * (1 - bp * bp) - dy * 2 * bp)
+    iy = ClosedPolyarcs.chord c previous (\dx dy -> dy * (1 - bp * bp) + dx * 2 * bp)
+    ox = ClosedPolyarcs.chord c i (\dx dy -> dx * (1 - b * b) + dy * 2 * b)
+    oy = ClosedPolyarcs.chord c i (\dx dy -> dy * (1 - b * b) - dx * 2 * b)
+    cross = ix * oy - iy * ox
     bend = ClosedPolyarcs.curvature c
-    dyOf i = ClosedPolyarcs.chord c i (\_ dy -> dy)
-    heightOf i =
-      ClosedPolyarcs.chord
-        c
-        i
-        (\dx _ -> let b = indexPrimArray (ClosedPolyarcs.bulges c) i in (1 - b * b) / (4 * b) * dx)
-    -- The excess at a vertex: 1 when the polyarc turns left there, else 0.
-    atVertex i
-      | abs cross > 1e-9 * size = Just (if cross > 0 then 1 else 0)
-      | ix * ox + iy * oy < 0 =
-        if abs bent > curvatureTolerance * (abs (bend previous) + abs (bend i))
-          then Just (if bent < 0 then 1 else 0)
-          else Nothing
-      | otherwise = Just (if sign * oy < 0 then 1 else 0)
-      where
-        previous = if i == start then end - 1 else i - 1
-        bp = indexPrimArray (ClosedPolyarcs.bulges c) previous
-        b = indexPrimArray (ClosedPolyarcs.bulges c) i
-        ix = ClosedPolyarcs.chord c previous (\dx dy -> dx * (1 - bp * bp) - dy * 2 * bp)
-        iy = ClosedPolyarcs.chord c previous (\dx dy -> dy * (1 - bp * bp) + dx * 2 * bp)
-        ox = ClosedPolyarcs.chord c i (\dx dy -> dx * (1 - b * b) + dy * 2 * b)
-        oy = ClosedPolyarcs.chord c i (\dx dy -> dy * (1 - b * b) - dx * 2 * b)
-        cross = ix * oy - iy * ox
-        -- The difference of the curvatures of the outgoing segment and the reversed incoming one.
-        -- At a cusp it is positive when the outgoing segment lies to the left of the incoming one.
-        bent = bend previous + bend i
-        -- Two segments whose curvatures differ by less than this fraction may be one segment
-        -- traversed in both directions.
-        curvatureTolerance = 1e-3
-        size = sqrt ((ix * ix + iy * iy) * (ox * ox + oy * oy))
+    -- The difference of the curvatures of the outgoing segment and the reversed incoming one. At a
+    -- cusp it is positive when the outgoing segment lies to the left of the incoming one.
+    bent = bend previous + bend i
+    -- Two segments whose curvatures differ by less than this fraction may be one segment traversed
+    -- in both directions.
+    curvatureTolerance = 1e-3
+    size = sqrt ((ix * ix + iy * iy) * (ox * ox + oy * oy))

@@ -20,7 +20,7 @@ import Frame.Arc.Context (Grid (pulseX, pulseY), RoundedArc (..))
 import Frame.Arc.Context qualified as Context
 import Frame.Arc.Deviation (FrameArc (FrameArc))
 import Frame.Arc.Deviation qualified as Deviation
-import Geometry.Carrier (Sense (..))
+import Geometry.Carrier (Sense)
 import Geometry.Carrier qualified as Carrier
 import Geometry.Vec qualified as Vec
 
@@ -156,10 +156,7 @@ frameArcAbout
       endX = finishX - centreX
       endY = finishY - centreY
       short = atan2 (startX * endY - startY * endX) (startX * endX + startY * endY)
-      turned = case sense of
-        CounterClockwise | short < 0 -> short + 2 * pi
-        Clockwise | short > 0 -> short - 2 * pi
-        _ -> short
+      Rad turned = Carrier.sweepInSense sense (Rad short)
 {-# INLINE frameArcAbout #-}
 
 -- | Exact deviation in mm in the middle of an arc about a grid point, without trigonometry: the
