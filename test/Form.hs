@@ -230,16 +230,7 @@ longFunctions =
       <> because
         "one computation whose local functions share its arrays and numbers; not yet split"
         [ "Frame.Chording.sectorAt",
-          "Geometry.ArcFitting.Biarc.Fast.between",
-          "Geometry.ArcFitting.Biarc.Fast.withRatio",
-          "Geometry.ArcFitting.CubicFit.approximate",
-          "Geometry.ArcFitting.CubicFit.distanceBound",
           "Geometry.ArcFitting.LongestBiarc.along",
-          "Geometry.ArcFitting.ParametricFit.longestBiarc",
-          "Geometry.ArcFitting.ParametricFit.try",
-          "Geometry.ArcFitting.PolyarcFit.advance",
-          "Geometry.ArcFitting.PolyarcFit.approximate",
-          "Geometry.ArcFitting.PolyarcFit.biarcDistances",
           "Offset.Arrangement.propagated",
           "Offset.Arrangement.ring",
           "Offset.Kernel.problemOf",
