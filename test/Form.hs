@@ -213,16 +213,7 @@ longFunctions =
         ]
       <> because
         "one computation whose local functions share its arrays and numbers; not yet split"
-        [ "Geometry.ArcFitting.Biarc.Fast.between",
-          "Geometry.ArcFitting.Biarc.Fast.withRatio",
-          "Geometry.ArcFitting.CubicFit.approximate",
-          "Geometry.ArcFitting.CubicFit.distanceBound",
-          "Geometry.ArcFitting.LongestBiarc.along",
-          "Geometry.ArcFitting.ParametricFit.longestBiarc",
-          "Geometry.ArcFitting.ParametricFit.try",
-          "Geometry.ArcFitting.PolyarcFit.advance",
-          "Geometry.ArcFitting.PolyarcFit.approximate",
-          "Geometry.ArcFitting.PolyarcFit.biarcDistances",
+        [ "Geometry.ArcFitting.LongestBiarc.along",
           "Offset.RawOffset.offsetPolyarc",
           "Offset.SegmentIntersection.arcs",
           "Offset.SegmentIntersection.lineArc"

@@ -84,6 +84,7 @@ import Data.List.NonEmpty qualified as NonEmpty
 import Data.Vector (Vector)
 import Data.Vector qualified as Vector
 import Geometry.Carrier (Side (..))
+import Geometry.Carrier qualified as Carrier
 import Geometry.Curve.BasisCurve
   ( BasisCurve,
     CurveFault (..),
@@ -275,7 +276,7 @@ reversed curve = case curve of
   Shifted layer lower _ ->
     let lower' = reversed lower
      in shifted
-          (otherSide (side layer))
+          (Carrier.oppositeSide (side layer))
           (ShiftDistance.reversed (base lower) (base lower') (distance layer))
           lower'
 
@@ -286,7 +287,7 @@ transformed s curve = case curve of
   Unshifted b -> Unshifted (BasisCurve.transformed s b)
   Shifted layer lower _ ->
     let lower' = transformed s lower
-        side' = if Transformation.mirrors s then otherSide (side layer) else side layer
+        side' = if Transformation.mirrors s then Carrier.oppositeSide (side layer) else side layer
      in shifted side' (ShiftDistance.scaled (base lower') (factor s) (distance layer)) lower'
 
 -- | Scale factor of a similarity.
@@ -300,9 +301,3 @@ factor s =
   where
     -- A long distance, so that the rounding of large coordinates has little effect on the factor.
     reach = 1024
-
--- | Opposite side.
-otherSide :: Side -> Side
-otherSide s = case s of
-  LeftOf -> RightOf
-  RightOf -> LeftOf

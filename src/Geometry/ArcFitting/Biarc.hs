@@ -27,7 +27,7 @@ import Control.Monad (guard)
 import Data.List.NonEmpty (NonEmpty (..))
 import Data.List.NonEmpty qualified as NonEmpty
 import Data.Maybe (fromMaybe)
-import Geometry.Carrier (Sense (..))
+import Geometry.Carrier qualified as Carrier
 import Geometry.Polyarc (Ends (..))
 import Geometry.Segment (Segment (Straight))
 import Geometry.Segment qualified as Segment
@@ -56,7 +56,7 @@ joinWith r from@(p, _) to@(q, _) = do
     (alpha, beta) = chordAngles from to
     gamma = -2 * atan2 (sin (alpha / 2) + r * sin (beta / 2)) (cos (alpha / 2) + r * cos (beta / 2))
     halfDifference = (alpha - beta) / 2
-    -- |w|², in the notation of the derivation above.
+    -- w|², in the notation of the derivation above.
     square = 1 + r * r + 2 * r * cos halfDifference
     chord = Vec.to p q
     joint =
@@ -99,7 +99,7 @@ ratio from to
 arcBySweep :: Point -> Point -> Double -> Segment
 arcBySweep p q sweep
   | isWithin sweep Tolerance.straight = Straight p q
-  | otherwise = Segment.arc (if sweep > 0 then CounterClockwise else Clockwise) centre p q
+  | otherwise = Segment.arc (Carrier.senseOf (Rad sweep)) centre p q
   where
     chord = Vec.to p q
     centre =

@@ -3,24 +3,20 @@
 
 -- | Arc fitting of cubic spans by biarcs, with an error bound in closed form.
 --
--- Take the frame of an arc's start, with x along its direction and y to its left. The circle with
--- the curvature k is the zero set of @F = y − k·(x² + y²)/2@. Where @|k·F|@ is well below 1, a
--- point is at most @|F|·(1 + |k·F|)@ away from the circle. On a cubic, F is a polynomial of degree
+-- The bound is that of "Geometry.ArcFitting.ArcDistance". On a cubic, F is a polynomial of degree
 -- 6. Chebyshev economization reduces it to degree 3, plus a small remainder; the maximum of a cubic
 -- is known in closed form.
---
--- This bounds the distance from the curve to the arc. If the curve runs forwards in the directions
--- of both ends of the arc, the feet of its points cover the arc without a gap. Then the same bound
--- holds from the arc to the curve.
 module Geometry.ArcFitting.CubicFit
   ( approximate,
   )
 where
 
-import Base.Quantity (Mm (..), Rad (..))
+import Base.Quantity (Mm (..))
 import Control.Monad.ST (runST)
 import Data.List.NonEmpty (NonEmpty (..))
-import Geometry.ArcFitting.Biarc.Fast (FastArc (..), FastBiarc (..), Pose (..), fastArc, isForwards)
+import Geometry.ArcFitting.ArcDistance
+import Geometry.ArcFitting.Biarc.Fast (FastBiarc (..), Pose (..))
+import Geometry.ArcFitting.Biarc.Fast qualified as FastBiarc
 import Geometry.ArcFitting.Builder qualified as Builder
 import Geometry.ArcFitting.LongestBiarc (ArcDistances (..), ParameterRange (..), Spans (..))
 import Geometry.ArcFitting.LongestBiarc qualified as LongestBiarc
@@ -39,49 +35,44 @@ import Geometry.Vec qualified as Vec
 approximate :: Mm -> Cubics -> Cubics -> FlatPolyarc
 approximate (Mm tolerance) xs ys = runST $ do
   vertices <- Builder.new
-  let stretches from
-        | from >= n = pure ()
-        | otherwise = do
-          let to = endOf (from + 1)
-          if to == from + 1 && isStraight (Spline.at xs from) && isStraight (Spline.at ys from)
-            then let begin = poseAt xs ys from 0 in Builder.push vertices (px begin) (py begin) 0
-            else
-              LongestBiarc.along
-                vertices
-                aim
-                ParameterRange
-                  { inSpan = from,
-                    begin = fromIntegral from,
-                    final = fromIntegral to,
-                    step = 1
-                  }
-                Spans
-                  { seek = \_ u -> truncate u,
-                    pose = poseWithin xs ys from to,
-                    LongestBiarc.arcDistances = biarcDistances xs ys,
-                    fallback = generalFit to,
-                    isHopeless = \_ _ _ _ _ _ _ -> False,
-                    triesLonger = False
-                  }
-          stretches to
-      endOf k
-        | k >= n || hasCorner xs ys k = k
-        | otherwise = endOf (k + 1)
-  stretches 0
+  LongestBiarc.forStretches n (hasCorner xs ys) $ \from to ->
+    if to == from + 1 && isStraight (Spline.at xs from) && isStraight (Spline.at ys from)
+      then let begin = poseAt xs ys from 0 in Builder.push vertices (px begin) (py begin) 0
+      else
+        LongestBiarc.along
+          vertices
+          (tolerance * (1 - Tolerance.roundingShare))
+          (stretchRange from to)
+          (stretchSpans tolerance xs ys from to)
   let end = poseAt xs ys (n - 1) 1
   Builder.push vertices (px end) (py end) 0
   Builder.polyarc vertices
   where
     n = Spline.count xs
-    generalFit to u =
-      let i =
-            max 0 (min (to - 1) (truncate u))
-       in ParametricFit.oneBiarc
-            (Mm tolerance)
-            (parametricCurve xs ys i (min to (i + 64)))
-            (fromIntegral (min to (i + 64)))
-            u
-    aim = tolerance * (1 - Tolerance.roundingShare)
+
+-- | The stretch of spans @from@ to @to − 1@. A biarc over one span is tried first.
+stretchRange :: Int -> Int -> ParameterRange
+stretchRange from to =
+  ParameterRange {inSpan = from, begin = fromIntegral from, final = fromIntegral to, step = 1}
+
+-- | The spans @from@ to @to − 1@ as a curve.
+stretchSpans :: Double -> Cubics -> Cubics -> Int -> Int -> Spans
+stretchSpans tolerance xs ys from to =
+  Spans
+    { seek = \_ u -> truncate u,
+      pose = poseWithin xs ys from to,
+      LongestBiarc.arcDistances = biarcDistances xs ys,
+      fallback = generalFit,
+      isHopeless = \_ _ _ _ _ _ _ -> False,
+      triesLonger = False
+    }
+  where
+    -- The general fit considers the current span and the 63 after it.
+    generalFit u =
+      let i = max 0 (min (to - 1) (truncate u))
+          end = min to (i + 64)
+       in ParametricFit.oneBiarc (Mm tolerance) (parametricCurve xs ys i end) (fromIntegral end) u
+{-# INLINE stretchSpans #-}
 
 -- | True if a cubic is linear. A span that is linear in x and in y is a line.
 isStraight :: Cubic -> Bool
@@ -89,12 +80,7 @@ isStraight (Cubic _ _ c d) = c == 0 && d == 0
 
 -- | True if the curve has a corner at the start of a span other than the first.
 hasCorner :: Cubics -> Cubics -> Int -> Bool
-hasCorner xs ys k =
-  not (dx a * dx b + dy a * dy b > 0 && abs (dx a * dy b - dy a * dx b) <= sin kink)
-  where
-    a = poseAt xs ys (k - 1) 1
-    b = poseAt xs ys k 0
-    Rad kink = Tolerance.kink
+hasCorner xs ys k = FastBiarc.isCorner (poseAt xs ys (k - 1) 1) (poseAt xs ys k 0)
 
 -- | Position and direction in a span, by its index and the local parameter from 0 to 1.
 poseAt :: Cubics -> Cubics -> Int -> Double -> Pose
@@ -113,14 +99,9 @@ poseWithin :: Cubics -> Cubics -> Int -> Int -> Int -> Double -> Pose
 poseWithin xs ys from to i u
   | i >= to = poseAt xs ys (to - 1) 1
   | t > 0 || i <= from = poseAt xs ys i t
-  | otherwise = mean (poseAt xs ys (i - 1) 1) (poseAt xs ys i 0)
+  | otherwise = FastBiarc.meanPose (poseAt xs ys (i - 1) 1) (poseAt xs ys i 0)
   where
     t = u - fromIntegral i
-    mean a b =
-      let sx = dx a + dx b
-          sy = dy a + dy b
-          s = sqrt (sx * sx + sy * sy)
-       in b {dx = sx / s, dy = sy / s}
 
 -- | Bounds of the distances of a biarc's two arcs from the curve between two parameters, each given
 -- with its span and pose. A result above the limit @largest@ need not be a bound.
@@ -139,10 +120,7 @@ biarcDistances ::
 biarcDistances xs ys largest first u from _ v to pair
   | single pair =
     if isForwards one
-      then
-        let Reached _ _ d =
-              advance xs ys largest v True one start
-         in ArcDistances d d
+      then let Reached _ _ d = advance xs ys largest v True one start in ArcDistances d d
       else unknown
   | isForwards one && isForwards two = case advance xs ys largest v False one start of
     Reached i a d1 | d1 <= largest -> case advance xs ys largest v True two (Reached i a 0) of
@@ -176,10 +154,7 @@ advance xs ys largest v final f (Reached i0 a0 d0) = go i0 a0 d0
         b = if whole then v - fromIntegral i else 1
         x = Spline.at xs i
         y = Spline.at ys i
-        -- Signed distance of the curve from the normal at the arc's end, positive beyond it.
-        ahead t =
-          (Spline.value x t - px (limit f)) * dx (limit f)
-            + (Spline.value y t - py (limit f)) * dy (limit f)
+        ahead t = beyond f (Spline.value x t) (Spline.value y t)
         aheadSlope t = Spline.rate x t * dx (limit f) + Spline.rate y t * dy (limit f)
         crossing =
           let from = ahead a
@@ -192,21 +167,27 @@ advance xs ys largest v final f (Reached i0 a0 d0) = go i0 a0 d0
 -- | Bound of the distance between an arc and a cubic span over the local parameters from @a@ to
 -- @b@; infinite where the span might not run forwards.
 distanceBound :: FastArc -> Cubic -> Cubic -> Double -> Double -> Double
-distanceBound f (Cubic p0 p1 p2 p3) (Cubic q0 q1 q2 q3) a b
-  | isForwardsFrom x1 y1
-      && isForwardsFrom (x1 + x2) (y1 + y2)
-      && isForwardsFrom (x1 + 2 * x2 + 3 * x3) (y1 + 2 * y2 + 3 * y3)
-      && k * d < 0.2 =
-    d * (1 + k * d)
-  | otherwise = 1 / 0
+distanceBound f p q a b = inFrame f p q a b $ \x@(Cubic _ x1 x2 x3) y@(Cubic _ y1 y2 y3) ->
+  if isForwardsBy f x1 y1
+    && isForwardsBy f (x1 + x2) (y1 + y2)
+    && isForwardsBy f (x1 + 2 * x2 + 3 * x3) (y1 + 2 * y2 + 3 * y3)
+    then distanceOfLevel f (largestLevel (bend f) x y)
+    else 1 / 0
+
+-- | A cubic span over the local parameters from @a@ to @b@ as cubics x and y in a parameter from 0
+-- to 1, in the frame of an arc's start, passed to a continuation.
+inFrame :: FastArc -> Cubic -> Cubic -> Double -> Double -> (Cubic -> Cubic -> r) -> r
+inFrame f (Cubic p0 p1 p2 p3) (Cubic q0 q1 q2 q3) a b next =
+  next
+    (Cubic (along ux0 uy0) (along ux1 uy1) (along ux2 uy2) (along ux3 uy3))
+    (Cubic (across ux0 uy0) (across ux1 uy1) (across ux2 uy2) (across ux3 uy3))
   where
     w = b - a
     tx = dx (origin f)
     ty = dy (origin f)
-    k = abs (bend f)
-    h = 0.5 * bend f
-    -- Coefficients of the interval as a cubic in a parameter from 0 to 1, relative to the arc's
-    -- start: first in the axes of the plane, then in the frame of the arc's start.
+    along ux uy = ux * tx + uy * ty
+    across ux uy = uy * tx - ux * ty
+    -- Coefficients relative to the arc's start, in the axes of the plane.
     ux0 = p0 + a * (p1 + a * (p2 + a * p3)) - px (origin f)
     uy0 = q0 + a * (q1 + a * (q2 + a * q3)) - py (origin f)
     ux1 = w * (p1 + a * (2 * p2 + 3 * a * p3))
@@ -215,14 +196,15 @@ distanceBound f (Cubic p0 p1 p2 p3) (Cubic q0 q1 q2 q3) a b
     uy2 = w * w * (q2 + 3 * a * q3)
     ux3 = w * w * w * p3
     uy3 = w * w * w * q3
-    x0 = ux0 * tx + uy0 * ty
-    y0 = uy0 * tx - ux0 * ty
-    x1 = ux1 * tx + uy1 * ty
-    y1 = uy1 * tx - ux1 * ty
-    x2 = ux2 * tx + uy2 * ty
-    y2 = uy2 * tx - ux2 * ty
-    x3 = ux3 * tx + uy3 * ty
-    y3 = uy3 * tx - ux3 * ty
+{-# INLINE inFrame #-}
+
+-- | Bound of |F| for a curvature k, on a curve that is given by cubics x and y in a parameter from
+-- 0 to 1.
+largestLevel :: Double -> Cubic -> Cubic -> Double
+largestLevel k (Cubic x0 x1 x2 x3) (Cubic y0 y1 y2 y3) =
+  largestCubic e0 e1 e2 e3 + abs c6 / 2048 + abs e5 / 512 + abs e4 / 128
+  where
+    h = 0.5 * k
     -- Coefficients of F by powers of the parameter.
     c0 = y0 - h * (x0 * x0 + y0 * y0)
     c1 = y1 - 2 * h * (x0 * x1 + y0 * y1)
@@ -240,8 +222,7 @@ distanceBound f (Cubic p0 p1 p2 p3) (Cubic q0 q1 q2 q3) a b
     e2 = c2 - 0.41015625 * c6 + 0.78125 * e5 - 1.25 * e4
     e1 = c1 + 0.03515625 * c6 - 0.09765625 * e5 + 0.25 * e4
     e0 = c0 - c6 / 2048 + e5 / 512 - e4 / 128
-    d = largestCubic e0 e1 e2 e3 + abs c6 / 2048 + abs e5 / 512 + abs e4 / 128
-    isForwardsFrom vx vy = vx > 0 && vx * cosine f + vy * sine f > 0
+{-# INLINE largestLevel #-}
 
 -- | Largest absolute value of a cubic on [0, 1], which lies at an end or at a zero of the slope
 -- @c₁ + 2·c₂·t + 3·c₃·t²@.

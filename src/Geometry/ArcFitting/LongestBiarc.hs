@@ -7,11 +7,12 @@ module Geometry.ArcFitting.LongestBiarc
   ( ParameterRange (..),
     Spans (..),
     ArcDistances (..),
+    forStretches,
     along,
   )
 where
 
-import Base.Quantity (Rad (..))
+import Control.Monad (when)
 import Control.Monad.ST (ST)
 import Data.List.NonEmpty qualified as NonEmpty
 import Geometry.ArcFitting.Biarc.Fast (FastBiarc (..), Pose (..))
@@ -19,7 +20,6 @@ import Geometry.ArcFitting.Biarc.Fast qualified as FastBiarc
 import Geometry.ArcFitting.Builder (Vertices)
 import Geometry.ArcFitting.Builder qualified as Builder
 import Geometry.ArcFitting.ParametricFit (FitStep (..))
-import Geometry.Segment (Segment (..))
 import Geometry.Segment qualified as Segment
 import Geometry.Vec (Point, Vec)
 import Geometry.Vec qualified as Vec
@@ -68,6 +68,16 @@ data Spans = Spans
     -- this saves a tenth of the biarcs on curves of few spans
     triesLonger :: Bool
   }
+
+-- | Run an action for each stretch between corners of a curve with @count@ spans. The action
+-- receives the index of the stretch's first span and that of the span after its last one.
+forStretches :: Int -> (Int -> Bool) -> (Int -> Int -> ST s ()) -> ST s ()
+forStretches count isCornerAt action = when (count > 0) (go 0 1)
+  where
+    go from to
+      | to < count && not (isCornerAt to) = go from (to + 1)
+      | otherwise = action from to >> when (to < count) (go to (to + 1))
+{-# INLINE forStretches #-}
 
 -- | Appends the biarcs along a range, each as long as the tolerance @aim@, in mm, allows. The
 -- vertex at the end of the range is not appended, because the next range starts with it.
@@ -207,10 +217,7 @@ along
           else Builder.push vertices (px (joint pair)) (py (joint pair)) (bulge2 pair)
         go j v to step rate
       writeSegment s =
-        let p = Segment.start s in Builder.push vertices (Vec.x p) (Vec.y p) (bulgeOf s)
-      bulgeOf s = case s of
-        Straight _ _ -> 0
-        Arc {sweep = Rad a} -> tan (a / 4)
+        let p = Segment.start s in Builder.push vertices (Vec.x p) (Vec.y p) (Segment.bulge s)
 {-# INLINE along #-}
 
 -- | Biarc within the tolerance: the parameter at its end, and the factor by which its chord ratio

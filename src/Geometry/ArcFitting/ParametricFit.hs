@@ -160,7 +160,7 @@ data Trial = Trial {reached :: Double, biarc :: NonEmpty Segment, distance :: Do
 -- smooth curve the deviation grows with the third power of the step. By this rule the next step is
 -- extrapolated; it is kept between the longest success and the shortest failure.
 longestBiarc :: FitState -> Double -> Trial
-longestBiarc w first = tryLonger (search (24 :: Int) Nothing Nothing first)
+longestBiarc w first = tryLonger (search w 24 Nothing Nothing first)
   where
     u = at w
     -- If the biarc covers a sixteenth of the remaining stretch or more, longer biarcs are tried:
@@ -176,108 +176,134 @@ longestBiarc w first = tryLonger (search (24 :: Int) Nothing Nothing first)
                  distance t <= aim w
              ] of
           [] -> best
-          t : _ -> search (8 :: Int) (Just t) Nothing (1.1 * (reached t - u))
-    search remaining success failure step
-      | step <= least = fromMaybe fallbackLine success
-      | distance found <= aim w =
-        if isLongEnough found
-          then found
-          else search (remaining - 1) (Just found) failure (longer found)
-      | otherwise = case success of
-        Just best | remaining <= 0 || isNarrow best (reached found) -> best
-        _ -> search (remaining - 1) success (Just (reached found)) (shorter found)
-      where
-        found = try w (min (final w) (u + step))
-        isLongEnough t =
-          remaining <= 0
-            || reached t >= final w
-            || distance t >= 0.93 * aim w
-            || maybe False (isNarrow t) failure
-        longer t = within t (fromMaybe (u + 4 * step) failure) (step * growth t)
-        shorter t = case success of
-          Just best -> within best (reached t) (step * growth t)
-          Nothing -> step * max 0.1 (min 0.9 (growth t))
+          t : _ -> search w 8 (Just t) Nothing (1.1 * (reached t - u))
+
+-- | Bracketing search with at most @remaining@ further trials, given the longest success, the
+-- parameter of the shortest failure, and the next step.
+search :: FitState -> Int -> Maybe Trial -> Maybe Double -> Double -> Trial
+search w remaining success failure step
+  | step <= leastStep w = fromMaybe (fallbackLine w) success
+  | distance found <= aim w =
+    if isLongEnough then found else search w (remaining - 1) (Just found) failure longer
+  | otherwise = case success of
+    Just best | remaining <= 0 || isNarrow best (reached found) -> best
+    _ -> search w (remaining - 1) success (Just (reached found)) shorter
+  where
+    u = at w
+    found = try w (min (final w) (u + step))
+    isLongEnough =
+      remaining <= 0
+        || reached found >= final w
+        || distance found >= 0.93 * aim w
+        || maybe False (isNarrow found) failure
+    longer = within found (fromMaybe (u + 4 * step) failure) (step * growth)
+    shorter = case success of
+      Just best -> within best (reached found) (step * growth)
+      Nothing -> step * max 0.1 (min 0.9 growth)
     -- Factor by which the step can grow.
-    growth t = if distance t > 0 then (0.97 * aim w / distance t) ** (1 / 3) else 4
-    isNarrow best failure = failure - reached best <= 0.02 * (reached best - u)
+    growth = if distance found > 0 then (0.97 * aim w / distance found) ** (1 / 3) else 4
+    isNarrow best failed = failed - reached best <= 0.02 * (reached best - u)
     -- Clamps a step to the interior of the bracket.
     within best limit s =
-      let a =
-            reached best - u
+      let a = reached best - u
           gap = limit - reached best
        in max (a + 0.15 * gap) (min (a + 0.85 * gap) s)
-    least = case ahead w of
-      (lo, hi) : _ -> (hi - lo) * Tolerance.finestStep
-      [] -> final w - u
-    fallbackLine =
-      let v =
-            min (final w) (u + least)
-       in Trial v (Straight (fst (pose w)) (place (curve w) v) :| []) 0
+
+-- | Smallest step that is tried with a biarc.
+leastStep :: FitState -> Double
+leastStep w = case ahead w of
+  (lo, hi) : _ -> (hi - lo) * Tolerance.finestStep
+  [] -> final w - at w
+
+-- | Line over the smallest step, where no biarc succeeds.
+fallbackLine :: FitState -> Trial
+fallbackLine w = Trial v (Straight (fst (pose w)) (place (curve w) v) :| []) 0
+  where
+    v = min (final w) (at w + leastStep w)
 
 -- | Biarc from the current position to a parameter, with its deviation. If the default chord ratio
 -- fails, other ratios are tried. Some of them put the joint near a point at which spans meet.
 try :: FitState -> Double -> Trial
 try w v
-  | Vec.isNear p q = measured (Straight p q :| [])
+  | Vec.isNear p q = measured w v stations (Straight p q :| [])
   | otherwise = case tried [usual] of
-    (d, _, segments) : _ | d <= aim w -> measured segments
-    _ -> case tried (map (* usual) [1, 0.7, 1.4, 0.5, 2, 0.35, 2.8, 0.25, 4] <> breaking) of
+    (d, _, segments) : _ | d <= aim w -> measured w v stations segments
+    _ -> case tried (map (* usual) [1, 0.7, 1.4, 0.5, 2, 0.35, 2.8, 0.25, 4] <> atSpans) of
       [] -> Trial v (Straight p q :| []) (8 * aim w)
-      some -> let (_, _, segments) = refineRatio (6 :: Int) 1.4 (least some) in measured segments
+      some ->
+        let (_, _, segments) = refineRatio (aim w) tried 6 1.4 (least some)
+         in measured w v stations segments
   where
-    u = at w
     p = fst (pose w)
     q = place (curve w) v
     end = (q, heading w v)
     usual = Biarc.ratio (pose w) end
     tried rs =
-      [ (sampledDistance segments, r, segments)
+      [ (sampledDistance samples segments, r, segments)
         | r <- rs,
           Just segments <- [Biarc.joinWith r (pose w) end]
       ]
-    least some = minimumBy (comparing (\(d, _, _) -> d)) some
-    -- Refines the ratio by shrinking steps, where that can reach the tolerance.
-    refineRatio remaining factor best@(d, r, _)
-      | remaining <= 0 || d <= aim w || d > 4 * aim w = best
-      | otherwise =
-        refineRatio
-          (remaining - 1)
-          (sqrt factor)
-          (least (best : tried [r / sqrt factor, r * sqrt factor]))
-    -- Such ratios help on chains of lines and arcs. A curve of more than eight spans is none.
-    breaking = case drop 1 parts of
-      inner
-        | length inner <= 8 ->
-          [ b / a
-            | (m, _) <- inner,
-              let c = place (curve w) m,
-              let Mm a = Vec.distance p c,
-              let Mm b = Vec.distance c q,
-              a > 0,
-              b > 0
-          ]
-      _ -> []
-    parts = [(max u lo, min v hi) | (lo, hi) <- takeWhile ((< v) . fst) (ahead w), hi > u]
-    middles = concatMap snd stations
+    atSpans = ratiosAtSpans (curve w) p q parts
+    parts = [(max (at w) lo, min v hi) | (lo, hi) <- takeWhile ((< v) . fst) (ahead w), hi > at w]
+    samples = concatMap snd stations
     stations = [(part, samplePoints (place (curve w)) 0.5 part) | part <- sampleCounts w v parts]
-    sampledDistance segments = maximum (map (distanceTo segments . snd) middles)
-    measured segments
-      | sampledDistance segments > aim w = Trial v segments (sampledDistance segments)
-      | otherwise =
-        Trial
-          v
-          segments
-          ( deviation
-              (place (curve w))
-              (aim w)
-              segments
-              ( (u, p) :
-                concat
-                  [ interleaved ms (samplePoints (place (curve w)) 0 part)
-                    | (part, ms) <- stations
-                  ]
-              )
-          )
+
+-- | Biarc that was tried: its largest distance from samples of the curve, its chord ratio, and its
+-- segments.
+type Attempt = (Double, Double, NonEmpty Segment)
+
+-- | The attempt with the least distance.
+least :: [Attempt] -> Attempt
+least = minimumBy (comparing (\(d, _, _) -> d))
+
+-- | Refines the chord ratio of an attempt by shrinking steps, if that can reach the tolerance
+-- @aim@. @tried@ makes attempts with given ratios.
+refineRatio :: Double -> ([Double] -> [Attempt]) -> Int -> Double -> Attempt -> Attempt
+refineRatio aim tried remaining factor best@(d, r, _)
+  | remaining <= 0 || d <= aim || d > 4 * aim = best
+  | otherwise =
+    refineRatio
+      aim
+      tried
+      (remaining - 1)
+      (sqrt factor)
+      (least (best : tried [r / sqrt factor, r * sqrt factor]))
+
+-- | Chord ratios of biarcs between two points of a curve whose joint is near a point at which two
+-- of the given parts of spans meet. They help on chains of lines and arcs. A curve of more than
+-- nine parts is no such chain; it gets none.
+ratiosAtSpans :: ParametricCurve -> Point -> Point -> [(Double, Double)] -> [Double]
+ratiosAtSpans curve p q parts = case drop 1 parts of
+  inner
+    | length inner <= 8 ->
+      [ b / a
+        | (m, _) <- inner,
+          let c = place curve m,
+          let Mm a = Vec.distance p c,
+          let Mm b = Vec.distance c q,
+          a > 0,
+          b > 0
+      ]
+  _ -> []
+
+-- | Count of sample points and part of a span, with sample points within the part.
+type Station = ((Int, (Double, Double)), [(Double, Point)])
+
+-- | Largest distance, in mm, of some sample points from the nearest of some segments.
+sampledDistance :: [(Double, Point)] -> NonEmpty Segment -> Double
+sampledDistance samples segments = maximum (map (distanceTo segments . snd) samples)
+
+-- | Trial of segments from the current position to a parameter. If the sample points are within the
+-- tolerance, the deviation is measured at twice as many points and between them.
+measured :: FitState -> Double -> [Station] -> NonEmpty Segment -> Trial
+measured w v stations segments
+  | sampled > aim w = Trial v segments sampled
+  | otherwise = Trial v segments (deviation (place (curve w)) (aim w) segments points)
+  where
+    sampled = sampledDistance (concatMap snd stations) segments
+    points =
+      (at w, fst (pose w)) :
+      concat [interleaved ms (samplePoints (place (curve w)) 0 part) | (part, ms) <- stations]
     interleaved as bs = concat (zipWith (\a b -> [a, b]) as bs)
 
 -- | Counts of sample points for the parts of spans between the current parameter and @v@, each with
@@ -400,8 +426,5 @@ lengthAtFoot segments p = go 0 (NonEmpty.toList segments) (1 / 0, 0)
       s : more ->
         let Mm d = Distance.toPoint p s
             Mm long = Segment.length s
-         in go (before + long) more (if d < nearest then (d, before + long * footAt s) else best)
-    footAt s
-      | Segment.hasFootOf s p = Segment.fraction s p
-      | Vec.distance p (Segment.start s) <= Vec.distance p (Segment.end s) = 0
-      | otherwise = 1
+            found = before + long * Distance.nearestFraction p s
+         in go (before + long) more (if d < nearest then (d, found) else best)

@@ -4,14 +4,9 @@
 
 -- | Arc fitting of polyarcs by biarcs, with an error bound in closed form.
 --
--- Take the frame of an arc's start, with x along its direction and y to its left. The circle with
--- the curvature k is the zero set of @F = y − k·(x² + y²)/2@. Where @|k·F|@ is well below 1, a
--- point is at most @|F|·(1 + |k·F|)@ away from the circle. Along a line or an arc that sweeps less
+-- The bound is that of "Geometry.ArcFitting.ArcDistance". Along a line or an arc that sweeps less
 -- than a quarter turn, F has at most one extremum. It lies where the slope @F′ = d_y − k·(x·d_x +
 -- y·d_y)@ is 0; this slope is nearly linear from one end to the other.
---
--- If the polyarc runs forwards in the directions of both ends of the arc, the feet of its points
--- cover the arc without a gap. Then the same bound holds from the arc to the polyarc.
 module Geometry.ArcFitting.PolyarcFit
   ( approximate,
     smoothed,
@@ -27,13 +22,15 @@ import Data.List.NonEmpty qualified as NonEmpty
 import Data.Vector.Unboxed (Vector)
 import Data.Vector.Unboxed qualified as Unboxed
 import Data.Vector.Unboxed.Mutable qualified as Mutable
-import Geometry.ArcFitting.Biarc.Fast (FastArc (..), FastBiarc (..), Pose (..), fastArc, isForwards)
+import Geometry.ArcFitting.ArcDistance
+import Geometry.ArcFitting.Biarc.Fast (FastBiarc (..), Pose (..))
+import Geometry.ArcFitting.Biarc.Fast qualified as FastBiarc
 import Geometry.ArcFitting.Builder qualified as Builder
 import Geometry.ArcFitting.LongestBiarc (ArcDistances (..), ParameterRange (..), Spans (..))
 import Geometry.ArcFitting.LongestBiarc qualified as LongestBiarc
 import Geometry.ArcFitting.ParametricFit (OneSided (..), ParametricCurve (ParametricCurve))
 import Geometry.ArcFitting.ParametricFit qualified as ParametricFit
-import Geometry.Carrier (Sense (..))
+import Geometry.Carrier qualified as Carrier
 import Geometry.FlatPolyarc (FlatPolyarc)
 import Geometry.MeasuredPolyarc qualified as MeasuredPolyarc
 import Geometry.Segment (Segment (..))
@@ -53,49 +50,45 @@ data SegmentTable = SegmentTable {stations :: Vector Double, entries :: Vector D
 approximate :: Mm -> NonEmpty Segment -> FlatPolyarc
 approximate (Mm tolerance) segments = runST $ do
   vertices <- Builder.new
-  let stretches from
-        | from >= n = pure ()
-        | otherwise = do
-          let to = endOf (from + 1)
-              final = station chain to
-          LongestBiarc.along
-            vertices
-            aim
-            ParameterRange
-              { inSpan = from,
-                begin = station chain from,
-                final,
-                step = final - station chain from
-              }
-            Spans
-              { seek = seekFrom chain to,
-                pose = poseWithin chain from to,
-                LongestBiarc.arcDistances = biarcDistances chain,
-                fallback = generalFit to,
-                isHopeless = isTooFar chain,
-                triesLonger = True
-              }
-          stretches to
-      endOf k
-        | k >= n || hasCorner chain k = k
-        | otherwise = endOf (k + 1)
-  stretches 0
+  LongestBiarc.forStretches n (hasCorner chain) $ \from to ->
+    LongestBiarc.along
+      vertices
+      (tolerance * (1 - Tolerance.roundingShare))
+      (stretchRange chain from to)
+      (stretchSpans tolerance chain from to)
   Builder.push vertices (Vec.x end) (Vec.y end) 0
   Builder.polyarc vertices
   where
     chain = tableOf segments
     n = Unboxed.length (stations chain) - 1
     end = Segment.end (NonEmpty.last segments)
-    aim = tolerance * (1 - Tolerance.roundingShare)
+
+-- | The stretch of segments @from@ to @to − 1@. A biarc along all of it is tried first.
+stretchRange :: SegmentTable -> Int -> Int -> ParameterRange
+stretchRange chain from to = ParameterRange {inSpan = from, begin, final, step = final - begin}
+  where
+    begin = station chain from
+    final = station chain to
+
+-- | The segments @from@ to @to − 1@ as a curve.
+stretchSpans :: Double -> SegmentTable -> Int -> Int -> Spans
+stretchSpans tolerance chain from to =
+  Spans
+    { seek = seekFrom chain to,
+      pose = poseWithin chain from to,
+      LongestBiarc.arcDistances = biarcDistances chain,
+      fallback = generalFit,
+      isHopeless = isTooFar chain,
+      triesLonger = True
+    }
+  where
+    n = Unboxed.length (stations chain) - 1
     -- The general fit considers the current segment and the 63 after it.
-    generalFit to u =
-      let i =
-            min (to - 1) (BinarySearch.lastAtMost n u (stations chain))
-       in ParametricFit.oneBiarc
-            (Mm tolerance)
-            (parametricCurve chain i (min to (i + 64)))
-            (station chain (min to (i + 64)))
-            u
+    generalFit u =
+      let i = min (to - 1) (BinarySearch.lastAtMost n u (stations chain))
+          end = min to (i + 64)
+       in ParametricFit.oneBiarc (Mm tolerance) (parametricCurve chain i end) (station chain end) u
+{-# INLINE stretchSpans #-}
 
 -- | Polyarc within a tolerance of a given one that has no kinks except at corners. A kink is a
 -- change of direction above 'Tolerance.smoothAngle', a corner one above 'Tolerance.kink'. Stretches
@@ -137,7 +130,7 @@ mergedArc s next = case (s, next) of
         && Rad (abs (bend both)) <= Tolerance.oneArc ->
       Just both
     where
-      both = Segment.arc (if a > 0 then CounterClockwise else Clockwise) centre start end
+      both = Segment.arc (Carrier.senseOf (Rad a)) centre start end
   _ -> Nothing
   where
     isOnCircle c (Mm r) p = let Mm d = Vec.distance c p in Mm (abs (d - r)) <= Tolerance.arcLength
@@ -201,11 +194,10 @@ curvature chain i = Unboxed.unsafeIndex (entries chain) (7 * i + 6)
 
 -- | True if the polyarc has a corner at the start of a segment other than the first.
 hasCorner :: SegmentTable -> Int -> Bool
-hasCorner chain k = not (dx b * ex + dy b * ey > 0 && abs (ex * dy b - ey * dx b) <= sin kink)
+hasCorner chain k = FastBiarc.isCorner b {dx = ex, dy = ey} b
   where
     (ex, ey) = ending chain (k - 1)
     b = beginning chain k
-    Rad kink = Tolerance.kink
 
 -- | Index of the segment, below @to@, that contains the arc length @u@; @from@ is this segment or
 -- an earlier one. Galloping (exponential) search followed by binary search.
@@ -246,25 +238,14 @@ poseWithin :: SegmentTable -> Int -> Int -> Int -> Double -> Pose
 poseWithin chain from to i u
   | u >= station chain to = arriving (to - 1)
   | s > 0 || i <= from = poseAlong (curvature chain i) (beginning chain i) s
-  | otherwise = mean (arriving (i - 1)) (beginning chain i)
+  | otherwise = FastBiarc.meanPose (arriving (i - 1)) (beginning chain i)
   where
     s = u - station chain i
     arriving j =
-      let (ex, ey) =
-            ending chain j
-       in ( poseAlong
-              (curvature chain j)
-              (beginning chain j)
-              (station chain (j + 1) - station chain j)
-          )
-            { dx = ex,
-              dy = ey
-            }
-    mean a b =
-      let sx = dx a + dx b
-          sy = dy a + dy b
-          l = sqrt (sx * sx + sy * sy)
-       in b {dx = sx / l, dy = sy / l}
+      let (ex, ey) = ending chain j
+          whole = station chain (j + 1) - station chain j
+          end = poseAlong (curvature chain j) (beginning chain j) whole
+       in end {dx = ex, dy = ey}
 
 -- | Bounds of the distances of a biarc's two arcs from the polyarc between two arc lengths, each
 -- given with its segment and pose. A result above the limit @largest@ need not be a bound.
@@ -280,19 +261,11 @@ biarcDistances ::
   FastBiarc ->
   ArcDistances
 biarcDistances chain largest first u from final v to pair
-  -- Rejects most biarcs that are too far off by testing a few vertices first.
-  | if final - first >= 4
-      then isVertexFar 1 || isVertexFar 2 || isVertexFar 3
-      else isAnyVertexFar (first + 1) =
-    unknown
+  | isVertexFar chain largest first final from pair = unknown
   | single pair =
-    let one =
-          fastArc from (bend1 pair) to
+    let one = fastArc from (bend1 pair) to
      in if isForwards one
-          then
-            let Reached _ _ _ d =
-                  advance chain largest v to True one start
-             in ArcDistances d d
+          then let Reached _ _ _ d = advance chain largest v to True one start in ArcDistances d d
           else unknown
   | one <- fastArc from (bend1 pair) (joint pair),
     two <- fastArc (joint pair) (bend2 pair) to,
@@ -305,43 +278,39 @@ biarcDistances chain largest first u from final v to pair
   where
     -- Where segments meet, the polyarc continues in the direction of the later segment, not in the
     -- mean direction, in which the biarc starts.
-    start =
-      Reached
-        first
-        u
-        ( if u > station chain first
-            then from
-            else
-              let b =
-                    beginning chain first
-               in from {dx = dx b, dy = dy b}
-        )
-        0
+    start = Reached first u (if u > station chain first then from else ownDirection) 0
+    ownDirection = let b = beginning chain first in from {dx = dx b, dy = dy b}
     unknown = ArcDistances (1 / 0) (1 / 0)
-    isVertexFar k
-      | single pair
-          || (px p - px (joint pair)) * dx (joint pair) + (py p - py (joint pair)) * dy (joint pair)
-            < 0 =
-        abs (above (bend1 pair) from p) > largest
-      | otherwise = abs (above (bend2 pair) (joint pair) p) > largest
+
+-- | True if one of some vertices of the polyarc is farther than @largest@ from a biarc that starts
+-- at a pose in segment @first@ and ends in segment @final@. This rejects most biarcs that are too
+-- far off. Of many vertices only three are tested, of up to three all.
+isVertexFar :: SegmentTable -> Double -> Int -> Int -> Pose -> FastBiarc -> Bool
+isVertexFar chain largest first final from pair
+  | final - first >= 4 = isQuarterFar 1 || isQuarterFar 2 || isQuarterFar 3
+  | otherwise = isAnyFar (first + 1)
+  where
+    isQuarterFar k = isFar (isOnFirst p) p
       where
         !p = beginning chain (first + k * (final - first) `quot` 4)
     -- Tests the vertices one by one: against the first arc up to the normal at its end, then
     -- against the second arc.
-    isAnyVertexFar i
+    isAnyFar i
       | i > final = False
-      | single pair
-          || (px p - px (joint pair)) * dx (joint pair) + (py p - py (joint pair)) * dy (joint pair)
-            < 0 =
-        abs (above (bend1 pair) from p) > largest || isAnyVertexFar (i + 1)
-      | otherwise = abs (above (bend2 pair) (joint pair) p) > largest || isAnyFarFromSecond (i + 1)
+      | isOnFirst p = isFar True p || isAnyFar (i + 1)
+      | otherwise = isFar False p || isAnyFarFromSecond (i + 1)
       where
         !p = beginning chain i
     isAnyFarFromSecond i =
-      i <= final
-        && ( abs (above (bend2 pair) (joint pair) (beginning chain i)) > largest
-               || isAnyFarFromSecond (i + 1)
-           )
+      i <= final && (isFar False (beginning chain i) || isAnyFarFromSecond (i + 1))
+    isOnFirst p =
+      single pair
+        || (px p - px (joint pair)) * dx (joint pair) + (py p - py (joint pair)) * dy (joint pair)
+          < 0
+    isFar onFirst p
+      | onFirst = abs (above (bend1 pair) from p) > largest
+      | otherwise = abs (above (bend2 pair) (joint pair) p) > largest
+    {-# INLINE isFar #-}
 
 -- | True if a vertex between two positions is farther than @largest@ from every biarc between them.
 -- The positions are given with their segments and poses. All biarcs between them lie between two
@@ -391,7 +360,7 @@ advance !chain !largest !v !to !final !f (Reached i0 u0 begin d0) =
       | end >= v = finish i u (Pose x y hx hy) (larger d0 (distanceOfLevel f greatestLevel))
       | otherwise = case beginning chain (i + 1) of
         Pose nx ny kx ky
-          | not final && beyond f arriving >= 0 ->
+          | not final && beyond f nx ny >= 0 ->
             finishAtNormal i u end p arriving (larger d0 (distanceOfLevel f greatestLevel))
           | not (runsForwards f p && runsForwards f arriving) ->
             Reached (i + 1) end arriving (1 / 0)
@@ -417,41 +386,28 @@ advance !chain !largest !v !to !final !f (Reached i0 u0 begin d0) =
     -- Ends in segment @i@, which contains the arc length @v@.
     finish !i !u !p !d
       | final = Reached i v to (larger d (distanceBound f p to (v - u)))
-      | beyond f to < 0 = Reached i v to (1 / 0)
+      | beyond f (px to) (py to) < 0 = Reached i v to (1 / 0)
       | otherwise = finishAtNormal i u v p to d
     {-# NOINLINE finish #-}
     -- Ends where segment @i@ crosses the normal at the arc's end.
     finishAtNormal !i !u !w !p !q !d = Reached i (u + s) c (larger d (distanceBound f p c s))
       where
-        s = newton (clamped ((u - w) * from / (beyond f q - from)))
+        s = normalCrossing f (curvature chain i) p q (w - u)
         c = poseAlong (curvature chain i) p s
-        from = beyond f p
-        newton a =
-          let b =
-                poseAlong (curvature chain i) p a
-           in clamped (a - beyond f b / (dx b * dx (limit f) + dy b * dy (limit f)))
-        clamped a = if a > 0 then if a < w - u then a else w - u else 0
     {-# NOINLINE finishAtNormal #-}
     larger d e = if e <= d then d else e
 
--- | Signed distance of a position from the normal at an arc's end, positive beyond it.
-beyond :: FastArc -> Pose -> Double
-beyond f p = (px p - px (limit f)) * dx (limit f) + (py p - py (limit f)) * dy (limit f)
-{-# INLINE beyond #-}
-
--- | F of an arc's circle at a position; see the derivation at the top.
-level :: FastArc -> Pose -> Double
-level f = above (bend f) (origin f)
-{-# INLINE level #-}
-
--- | F at a position, of the circle that has the given curvature and passes the first pose in its
--- direction.
-above :: Double -> Pose -> Pose -> Double
-above k from p = uy * dx from - ux * dy from - 0.5 * k * (ux * ux + uy * uy)
+-- | Length along a part of a segment to the point at which it crosses the normal at an arc's end,
+-- by one step of linear interpolation and one of Newton's method. The arguments are the arc, the
+-- segment's curvature, the poses at both ends of the part, and its length.
+normalCrossing :: FastArc -> Double -> Pose -> Pose -> Double -> Double
+normalCrossing f k p q l = newton (clamped (-l * from / (beyond f (px q) (py q) - from)))
   where
-    ux = px p - px from
-    uy = py p - py from
-{-# INLINE above #-}
+    from = beyond f (px p) (py p)
+    newton a =
+      let b = poseAlong k p a
+       in clamped (a - beyond f (px b) (py b) / (dx b * dx (limit f) + dy b * dy (limit f)))
+    clamped a = if a > 0 then if a < l then a else l else 0
 
 -- | Bound of the distance between an arc and a part of a segment, given by the two poses at its
 -- ends and its length. Infinite if the part might not run forwards.
@@ -469,29 +425,6 @@ distanceBound f p q l
     from = level f p
     to = level f q
     greater a b = if a > b then a else b
-
--- | Bound of the distance from an arc for a value of |F|; infinite where no bound is known.
-distanceOfLevel :: FastArc -> Double -> Double
-distanceOfLevel f d = if k * d < 0.2 then d * (1 + k * d) else 1 / 0
-  where
-    k = abs (bend f)
-{-# INLINE distanceOfLevel #-}
-
--- | True if the direction of a pose makes less than a quarter turn with the directions of both ends
--- of an arc.
-runsForwards :: FastArc -> Pose -> Bool
-runsForwards f p =
-  along > 0 && along * cosine f + (dy p * dx (origin f) - dx p * dy (origin f)) * sine f > 0
-  where
-    along = dx p * dx (origin f) + dy p * dy (origin f)
-{-# INLINE runsForwards #-}
-
--- | Derivative of F by arc length at a pose, in its direction.
-slope :: FastArc -> Pose -> Double
-slope f p =
-  (dy p * dx (origin f) - dx p * dy (origin f))
-    - bend f * ((px p - px (origin f)) * dx p + (py p - py (origin f)) * dy p)
-{-# INLINE slope #-}
 
 -- | Absolute value of the extremum of F between two positions on a segment; 0 if there is none. The
 -- arguments are F at the first position, the slopes at both, the sine of the sweep between them,

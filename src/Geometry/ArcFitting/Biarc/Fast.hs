@@ -7,14 +7,13 @@
 -- curvature @2·sin φ/c@ and the bulge @tan(φ/2)@.
 module Geometry.ArcFitting.Biarc.Fast
   ( Pose (..),
+    meanPose,
+    isCorner,
     FastBiarc (..),
     biarc,
     Biarcs,
     between,
     withRatio,
-    FastArc (..),
-    fastArc,
-    isForwards,
   )
 where
 
@@ -23,6 +22,20 @@ import Geometry.Tolerance qualified as Tolerance
 
 -- | Position in mm and direction of length 1.
 data Pose = Pose {px :: Double, py :: Double, dx :: Double, dy :: Double}
+
+-- | The second pose with the mean direction of both. They have one position.
+meanPose :: Pose -> Pose -> Pose
+meanPose a b = b {dx = sx / s, dy = sy / s}
+  where
+    sx = dx a + dx b
+    sy = dy a + dy b
+    s = sqrt (sx * sx + sy * sy)
+
+-- | True if the change between the directions of two poses is more than 'Tolerance.kink'.
+isCorner :: Pose -> Pose -> Bool
+isCorner a b = not (dx a * dx b + dy a * dy b > 0 && abs (dx a * dy b - dy a * dx b) <= sin kink)
+  where
+    Rad kink = Tolerance.kink
 
 -- | Two arcs with a common tangent at the joint.
 data FastBiarc = FastBiarc
@@ -41,9 +54,8 @@ data FastBiarc = FastBiarc
   }
 
 -- | Biarc from one pose to another. The ratio of its chords is that of
--- 'Geometry.ArcFitting.Biarc.join', multiplied by the first argument. All numbers of the biarc are
--- NaN where an end direction makes a quarter turn or more with the chord, and where the ends
--- coincide.
+-- 'Geometry.ArcFitting.Biarc.join', multiplied by the first argument. Curvatures and bulges are NaN
+-- where an end direction makes a quarter turn or more with the chord, and where the ends coincide.
 biarc :: Double -> Pose -> Pose -> FastBiarc
 biarc times from end = withRatio times (between from end)
 {-# INLINE biarc #-}
@@ -80,26 +92,10 @@ between (Pose x0 y0 sx sy) final@(Pose x1 y1 ex ey)
     Only (FastBiarc False (0 / 0) (0 / 0) final (0 / 0) (0 / 0))
   | abs sinA <= straight && abs sinB <= straight = Only (FastBiarc True 0 0 final 0 0)
   | abs (sinA * cosB + cosA * sinB) <= oneArc =
-    let s =
-          sb * ca - cb * sa
+    let s = sb * ca - cb * sa
      in Only (FastBiarc True (2 * s / l) (s / (1 + cb * ca + sb * sa)) final 0 0)
   | otherwise =
-    Biarcs
-      { x0,
-        y0,
-        cx,
-        cy,
-        l,
-        ux,
-        uy,
-        ca,
-        sa,
-        cb,
-        sb,
-        sinA,
-        sinB,
-        chords = ratio sinA cosA sinB cosB
-      }
+    Biarcs x0 y0 cx cy l ux uy ca sa cb sb sinA sinB (ratio sinA cosA sinB cosB)
   where
     cx = x1 - x0
     cy = y1 - y0
@@ -124,7 +120,7 @@ between (Pose x0 y0 sx sy) final@(Pose x1 y1 ex ey)
 withRatio :: Double -> Biarcs -> FastBiarc
 withRatio times biarcs = case biarcs of
   Only pair -> pair
-  Biarcs {x0, y0, cx, cy, l, ux, uy, ca, sa, cb, sb, sinA, sinB, chords} ->
+  Biarcs {x0, y0, cx, cy, l, ux, uy, ca, sa, cb, sb} ->
     FastBiarc
       { single = False,
         bend1 = 2 * s1 / (l / size),
@@ -134,20 +130,7 @@ withRatio times biarcs = case biarcs of
         bulge2 = bulge s2 c2
       }
     where
-      defaultRatio = times * chords
-      -- An arc with a negligible sweep is output as a line. The chord ratio is then replaced by the
-      -- one for which this arc is exactly a line, so that there is no kink at the joint.
-      r
-        | abs ((sa + defaultRatio * sb) * ca + (ca + defaultRatio * cb) * sa) <= negligible =
-          near (-(sinA / halfSum))
-        | abs ((ca + defaultRatio * cb) * sb + (sa + defaultRatio * sb) * cb) <= negligible =
-          near (-(halfSum / sinB))
-        | otherwise = defaultRatio
-      halfSum = sa * cb + ca * sb
-      negligible = 0.5 * straight * (1 + defaultRatio)
-      near exact
-        | 0.5 * defaultRatio < exact && exact < 2 * defaultRatio = exact
-        | otherwise = defaultRatio
+      r = chordRatio times biarcs
       wr = ca + r * cb
       wi = sa + r * sb
       square = wr * wr + wi * wi
@@ -175,6 +158,27 @@ withRatio times biarcs = case biarcs of
   where
     Rad straight = Tolerance.straight
 
+-- | Chord ratio of a biarc: that of 'Geometry.ArcFitting.Biarc.join', multiplied by the first
+-- argument. If an arc then has a negligible sweep, so that it is output as a line, the result is
+-- the ratio for which this arc is exactly a line. So there is no kink at the joint.
+chordRatio :: Double -> Biarcs -> Double
+chordRatio times biarcs = case biarcs of
+  Only _ -> 1
+  Biarcs {ca, sa, cb, sb, sinA, sinB, chords}
+    | abs ((sa + r * sb) * ca + (ca + r * cb) * sa) <= negligible -> near (-(sinA / halfSum))
+    | abs ((ca + r * cb) * sb + (sa + r * sb) * cb) <= negligible -> near (-(halfSum / sinB))
+    | otherwise -> r
+    where
+      r = times * chords
+      halfSum = sa * cb + ca * sb
+      negligible = 0.5 * straight * (1 + r)
+      near exact
+        | 0.5 * r < exact && exact < 2 * r = exact
+        | otherwise = r
+  where
+    Rad straight = Tolerance.straight
+{-# INLINE chordRatio #-}
+
 -- | Chord ratio of 'Geometry.ArcFitting.Biarc.ratio', from sines and cosines of the angles from the
 -- chord to both end directions. It is 1, except where the angles have opposite signs and one is
 -- more than twice the other in size.
@@ -194,30 +198,3 @@ ratio sinA cosA sinB cosB
     -- differ by less than the factor 2.
     near = 1.4
 {-# NOINLINE ratio #-}
-
--- | Arc with its start (@origin@), its curvature in 1/mm (@bend@), its end (@limit@), and the
--- cosine and sine of its sweep.
-data FastArc = FastArc
-  { origin :: {-# UNPACK #-} Pose,
-    bend :: Double,
-    limit :: {-# UNPACK #-} Pose,
-    cosine :: Double,
-    sine :: Double
-  }
-
--- | Arc from its start, its curvature in 1/mm and its end.
-fastArc :: Pose -> Double -> Pose -> FastArc
-fastArc origin bend limit =
-  FastArc
-    { origin,
-      bend,
-      limit,
-      cosine = dx origin * dx limit + dy origin * dy limit,
-      sine = dx origin * dy limit - dy origin * dx limit
-    }
-{-# INLINE fastArc #-}
-
--- | True if an arc sweeps less than a quarter turn.
-isForwards :: FastArc -> Bool
-isForwards f = cosine f > 0
-{-# INLINE isForwards #-}

@@ -1,0 +1,104 @@
+-- | Distances of a curve from an arc, by a bound in closed form.
+--
+-- Take the frame of an arc's start, with x along its direction and y to its left. The circle with
+-- the curvature k is the zero set of @F = y − k·(x² + y²)/2@. Where @|k·F|@ is well below 1, a
+-- point is at most @|F|·(1 + |k·F|)@ away from the circle. The largest value of |F| along a curve
+-- therefore bounds the distance from the curve to the arc.
+--
+-- If the curve runs forwards in the directions of both ends of the arc, the feet of its points
+-- cover the arc without a gap. Then the same bound holds from the arc to the curve.
+module Geometry.ArcFitting.ArcDistance
+  ( -- * Arcs
+    FastArc (..),
+    fastArc,
+    isForwards,
+    beyond,
+    runsForwards,
+    isForwardsBy,
+
+    -- * The function F
+    level,
+    above,
+    slope,
+    distanceOfLevel,
+  )
+where
+
+import Geometry.ArcFitting.Biarc.Fast (Pose (..))
+
+-- | Arc with its start (@origin@), its curvature in 1/mm (@bend@), its end (@limit@), and the
+-- cosine and sine of its sweep.
+data FastArc = FastArc
+  { origin :: {-# UNPACK #-} Pose,
+    bend :: Double,
+    limit :: {-# UNPACK #-} Pose,
+    cosine :: Double,
+    sine :: Double
+  }
+
+-- | Arc from its start, its curvature in 1/mm and its end.
+fastArc :: Pose -> Double -> Pose -> FastArc
+fastArc origin bend limit =
+  FastArc
+    { origin,
+      bend,
+      limit,
+      cosine = dx origin * dx limit + dy origin * dy limit,
+      sine = dx origin * dy limit - dy origin * dx limit
+    }
+{-# INLINE fastArc #-}
+
+-- | True if an arc sweeps less than a quarter turn.
+isForwards :: FastArc -> Bool
+isForwards f = cosine f > 0
+{-# INLINE isForwards #-}
+
+-- | Signed distance of a position, given by x and y, from the normal at an arc's end, positive
+-- beyond it.
+beyond :: FastArc -> Double -> Double -> Double
+beyond f x y = (x - px (limit f)) * dx (limit f) + (y - py (limit f)) * dy (limit f)
+{-# INLINE beyond #-}
+
+-- | True if the direction of a pose makes less than a quarter turn with the directions of both ends
+-- of an arc.
+runsForwards :: FastArc -> Pose -> Bool
+runsForwards f p =
+  isForwardsBy
+    f
+    (dx p * dx (origin f) + dy p * dy (origin f))
+    (dy p * dx (origin f) - dx p * dy (origin f))
+{-# INLINE runsForwards #-}
+
+-- | True if a direction makes less than a quarter turn with the directions of both ends of an arc.
+-- It is given by its components along the direction of the arc's start and to the left of it.
+isForwardsBy :: FastArc -> Double -> Double -> Bool
+isForwardsBy f along across = along > 0 && along * cosine f + across * sine f > 0
+{-# INLINE isForwardsBy #-}
+
+-- | F of an arc's circle at a position.
+level :: FastArc -> Pose -> Double
+level f = above (bend f) (origin f)
+{-# INLINE level #-}
+
+-- | F at a position, of the circle that has the given curvature and passes the first pose in its
+-- direction.
+above :: Double -> Pose -> Pose -> Double
+above k from p = uy * dx from - ux * dy from - 0.5 * k * (ux * ux + uy * uy)
+  where
+    ux = px p - px from
+    uy = py p - py from
+{-# INLINE above #-}
+
+-- | Derivative of F by arc length at a pose, in its direction.
+slope :: FastArc -> Pose -> Double
+slope f p =
+  (dy p * dx (origin f) - dx p * dy (origin f))
+    - bend f * ((px p - px (origin f)) * dx p + (py p - py (origin f)) * dy p)
+{-# INLINE slope #-}
+
+-- | Bound of the distance from an arc for a value of |F|; infinite where no bound is known.
+distanceOfLevel :: FastArc -> Double -> Double
+distanceOfLevel f d = if k * d < 0.2 then d * (1 + k * d) else 1 / 0
+  where
+    k = abs (bend f)
+{-# INLINE distanceOfLevel #-}
