@@ -42,7 +42,9 @@ spec = do
             slow = Segment.fraction s p
          in -- Just before the start of an arc, rounding decides whether a full turn is added.
             not (isNearEnd s slow)
-              ==> counterexample (show (fast, slow)) (abs (fast - slow) <= tolerance * (1 + abs slow))
+              ==> counterexample
+                (show (fast, slow))
+                (abs (fast - slow) <= tolerance * (1 + abs slow))
   it "footOn: is the fraction at the nearest point (catches a foot after the end of a line)" $
     property $
       forAll ((,) <$> segment <*> point) $ \(s, p) ->
