@@ -5,6 +5,7 @@ import Base.Quantity (Mm (..), Rad (..))
 import Geometry.Apart (away)
 import Geometry.Distance (ClosestPoint (..))
 import Geometry.Distance qualified as Distance
+import Geometry.RandomSegment (point, segment)
 import Geometry.Segment (Segment (..))
 import Geometry.Segment qualified as Segment
 import Geometry.Vec (Point)
@@ -71,27 +72,6 @@ spec = do
                     let a = from + turned + (2 * pi - turned) * fromIntegral k / 100,
                     a < 2 * pi
                 ]
-
-point :: Gen Point
-point = Vec.point <$> choose (-50, 50) <*> choose (-50, 50)
-
-segment :: Gen Segment
-segment = oneof [straight, arc]
-  where
-    straight = Straight <$> point <*> point
-    arc = do
-      c <- point
-      r <- oneof [choose (0.01, 2), choose (2, 40)]
-      a <- choose (-4, 4)
-      s <- oneof [choose (-6.28, 6.28), elements [2 * pi, -2 * pi]]
-      let begin = Vec.shift (Vec.polar (Mm r) (Rad a)) c
-      pure
-        Arc
-          { start = begin,
-            end = Vec.shift (Vec.polar (Mm r) (Rad (a + s))) c,
-            centre = c,
-            sweep = Rad s
-          }
 
 samples :: Int -> Segment -> [Point]
 samples n s = [Segment.at (fromIntegral k / fromIntegral n) s | k <- [0 .. n]]

@@ -99,7 +99,7 @@ lineIsAccompanied most others t = case coordinates t of
        in chain
             positionOf
             (across px py qx qy)
-            (\(Span low high) _ -> low >= negate most && high <= most)
+            (\(DistanceRange low high) _ -> low >= negate most && high <= most)
             others
   _ -> False
 
@@ -116,7 +116,7 @@ arcIsAccompanied most others t = case coordinates t of
        in chain
             positionOf
             (spanFrom cx cy)
-            (\(Span low high) long -> long < low && r - low <= most && high - r <= most)
+            (\(DistanceRange low high) long -> long < low && r - low <= most && high - r <= most)
             others
   _ -> False
 
@@ -126,8 +126,8 @@ arcIsAccompanied most others t = case coordinates t of
 -- these distances over the run, and on its length.
 chain ::
   (Double -> Double -> Position) ->
-  (Segment -> Span) ->
-  (Span -> Double -> Bool) ->
+  (Segment -> DistanceRange) ->
+  (DistanceRange -> Double -> Bool) ->
   [Segment] ->
   Bool
 chain positionOf spanOf fits = start
@@ -146,10 +146,11 @@ chain positionOf spanOf fits = start
           | from == Between -> go there never (negate never) 0 fx fy more
           | there == from -> go there never (negate never) 0 fx fy more
           | there == Between -> go from low' high' long' fx fy more
-          | otherwise -> fits (Span low' high') long' || go there never (negate never) 0 fx fy more
+          | fits (DistanceRange low' high') long' -> True
+          | otherwise -> go there never (negate never) 0 fx fy more
           where
             there = positionOf fx fy
-            Span a b = spanOf e
+            DistanceRange a b = spanOf e
             low' = min low a
             high' = max high b
             long' = long + lengthOf e

@@ -1,9 +1,10 @@
 -- | Fast distances and bounds against exact distances and against many sample points.
 module Geometry.Distance.FastSpec (spec) where
 
-import Base.Quantity (Mm (..), Rad (..))
+import Base.Quantity (Mm (..), Rad (..), times)
 import Geometry.Distance qualified as Distance
 import Geometry.Distance.Fast qualified as FastDistance
+import Geometry.RandomSegment (point, segment)
 import Geometry.Segment (Segment (..))
 import Geometry.Segment qualified as Segment
 import Geometry.Vec (Point)
@@ -33,28 +34,24 @@ spec = do
     $ property $
       forAll pair $ \(a, b) ->
         let bound = FastDistance.furthest a b
-            sampled =
-              maximum
-                [ d
-                  | k <- [0 .. 200 :: Int],
-                    let Mm d = Distance.toPoint (Segment.at (fromIntegral k / 200) a) b
-                ]
+            sampled = greatest a b
          in classify (bound < sampled + 1e-3) "tight" $
               counterexample (show (bound, sampled)) (bound >= sampled - 1e-9)
   it
     "isCovered: is true only of segments without an uncovered part (catches a part between two \
     \others)"
-    $ property $
+    $ withMaxSuccess 300 $
       forAll ((,) <$> oneof [pure <$> segment, chain] <*> choose (0.5, 12)) $ \(others, r) ->
-        forAll (beside r others) $ \s ->
-          forAll (choose (0.9, 1.3)) $ \share ->
+        forAll (oneof [beside r others, alongAll r others]) $ \s ->
+          forAll ((,) <$> sublistOf others <*> choose (0.9, 1.3)) $ \(some, share) ->
             let reach = share * r
-                covered = FastDistance.isCovered reach pure (const True) others s
-                gaps = Distance.uncovered (Mm reach) others s
-             in classify covered "covered" $
+                covered ss = FastDistance.isCovered reach pure (const True) ss s
+                gaps ss =
+                  filter (\(from, to) -> to - from > 1e-6) (Distance.uncovered (Mm reach) ss s)
+             in classify (covered others) "covered" $
                   counterexample
-                    (show gaps)
-                    (not covered || all (\(from, to) -> to - from < 1e-6) gaps)
+                    (show (gaps others, gaps some))
+                    (all (\ss -> not (covered ss) || null (gaps ss)) [others, some])
   it
     "apartAtLeast: is a lower bound of the distance (catches an arc that is nearest between its \
     \ends)"
@@ -118,17 +115,62 @@ spec = do
     \tested at its ends only)"
     $ property $
       forAll pair $ \(t, e) ->
-        let points = [Segment.at (fromIntegral k / 200) t | k <- [0 .. 200 :: Int]]
+        let points = samples t
          in counterexample
               (show (FastDistance.isLeftOf t e, FastDistance.isRightOf t e))
               ( (not (FastDistance.isLeftOf t e) || all (isLeft e) points)
                   && (not (FastDistance.isRightOf t e) || not (any (isLeft e) points))
               )
+  it
+    "furthestFrom: no point of a segment is further from any of several others (catches the least \
+    \distance in place of the greatest)"
+    $ property $
+      forAll ((,) <$> resize 3 (listOf1 segment) <*> choose (0.5, 12)) $ \(others, r) ->
+        forAll ((,) <$> beside r others <*> choose (r, 100)) $ \(s, most) ->
+          let bound = FastDistance.furthestFrom most s others
+              sampled = maximum (map (greatest s) others)
+           in classify (bound < sampled + 1e-3) "tight" $
+                counterexample (show (bound, sampled)) (bound >= sampled - 1e-9)
+  it
+    "isWithin: is true only if every point of a segment is within the distance (catches a segment \
+    \of which only the start is tested)"
+    $ property $
+      forAll ((,) <$> pair <*> choose (0.5, 30)) $ \((a, b), r) ->
+        let isNear = FastDistance.isWithin r a b
+         in classify isNear "within" $
+              counterexample (show (greatest a b)) (not isNear || greatest a b <= r + 1e-9)
+  it
+    "range: bounds the greatest distance from several others (catches a part that is left out)"
+    $ property $
+      forAll (resize 4 (listOf1 (resize 2 (listOf1 segment)))) $ \others ->
+        forAll (oneof [segment, choose (0.5, 12) >>= \r -> beside r (concat others)]) $ \s ->
+          let (low, high) = FastDistance.range others s
+              away p t = let Mm d = Distance.toPoint p t in d
+              from p = minimum [maximum (map (away p) ts) | ts <- others]
+              sampled = maximum (map from (samples s))
+              Mm step = times (1 / 200) (Segment.length s)
+           in counterexample
+                (show (low, sampled, high))
+                (low <= sampled + step && sampled <= high + 1e-9)
+  it
+    "spansAbout: is true if the foot of a point lies on the segment (catches a foot in the second \
+    \half)"
+    $ property $
+      forAll ((,) <$> segment <*> point) $ \(s, p) ->
+        Segment.hasFootOf s p ==> FastDistance.spansAbout s (Vec.x p) (Vec.y p)
   where
     isLeft e p = case e of
       Straight a b -> Vec.cross (Vec.to a b) (Vec.to a p) > 0
       Arc {start, centre, sweep = Rad s} ->
         (Vec.distance centre p < Segment.radius centre start) == (s > 0)
+
+-- | Points of a segment at equal distances along it, the ends included.
+samples :: Segment -> [Point]
+samples s = [Segment.at (fromIntegral k / 200) s | k <- [0 .. 200 :: Int]]
+
+-- | The greatest distance, in mm, of a sample of the first segment from the second.
+greatest :: Segment -> Segment -> Double
+greatest a b = maximum [d | p <- samples a, let Mm d = Distance.toPoint p b]
 
 -- | Two independent segments, or two of which one runs beside the other.
 pair :: Gen (Segment, Segment)
@@ -214,24 +256,3 @@ chain = do
             let end =
                   Vec.shift (Vec.polar (Mm l) (Rad a)) p
              in (Straight p end :) <$> go (n - 1) end a
-
-point :: Gen Point
-point = Vec.point <$> choose (-50, 50) <*> choose (-50, 50)
-
-segment :: Gen Segment
-segment = oneof [straight, arc]
-  where
-    straight = Straight <$> point <*> point
-    arc = do
-      c <- point
-      r <- oneof [choose (0.01, 2), choose (2, 40)]
-      a <- choose (-4, 4)
-      s <- oneof [choose (-6.28, 6.28), choose (-1.5, 1.5), elements [2 * pi, -2 * pi]]
-      let begin = Vec.shift (Vec.polar (Mm r) (Rad a)) c
-      pure
-        Arc
-          { start = begin,
-            end = Vec.shift (Vec.polar (Mm r) (Rad (a + s))) c,
-            centre = c,
-            sweep = Rad s
-          }

@@ -27,7 +27,7 @@ module Geometry.Distance.Fast.Estimate
     -- * Sides and carriers
     isLeftOf,
     isRightOf,
-    Span (..),
+    DistanceRange (..),
     spanFrom,
     across,
   )
@@ -175,12 +175,12 @@ normals a b = case (coordinates a, coordinates b) of
 apartAtLeast :: Segment -> Segment -> Double
 apartAtLeast t e = case coordinates t of
   LineAt px py qx qy -> case across px py qx qy e of
-    Span low high
+    DistanceRange low high
       | low > 0 -> low
       | high < 0 -> negate high
       | otherwise -> 0
   ArcAt _ _ _ _ cx cy r _ -> case spanFrom cx cy e of
-    Span low high
+    DistanceRange low high
       | low > r -> low - r
       | high < r -> r - high
       | otherwise -> 0
@@ -361,7 +361,7 @@ pastArc t !px !py = case coordinates t of
 -- segment. The left of a counter-clockwise arc is the inside of its circle.
 isLeftOf :: Segment -> Segment -> Bool
 isLeftOf t e = case coordinates e of
-  LineAt ax ay bx by -> case across ax ay bx by t of Span low _ -> low > unsure
+  LineAt ax ay bx by -> case across ax ay bx by t of DistanceRange low _ -> low > unsure
   ArcAt _ _ _ _ cx cy r s ->
     if s > 0 then isInside cx cy (r - unsure) t else isOutside cx cy (r + unsure) t
 
@@ -369,24 +369,26 @@ isLeftOf t e = case coordinates e of
 -- segment.
 isRightOf :: Segment -> Segment -> Bool
 isRightOf t e = case coordinates e of
-  LineAt ax ay bx by -> case across ax ay bx by t of Span _ high -> high < -unsure
+  LineAt ax ay bx by -> case across ax ay bx by t of DistanceRange _ high -> high < -unsure
   ArcAt _ _ _ _ cx cy r s ->
     if s > 0 then isOutside cx cy (r + unsure) t else isInside cx cy (r - unsure) t
 
 -- | True if all points of a segment lie inside a circle, or outside of it. The circle is given by x
 -- and y of its centre and by its radius.
 isInside, isOutside :: Double -> Double -> Double -> Segment -> Bool
-isInside cx cy r t = case spanFrom cx cy t of Span _ high -> high < r
-isOutside cx cy r t = case spanFrom cx cy t of Span low _ -> low > r
+isInside cx cy r t = case spanFrom cx cy t of DistanceRange _ high -> high < r
+isOutside cx cy r t = case spanFrom cx cy t of DistanceRange low _ -> low > r
 
--- | Closed interval of distances in mm.
-data Span = Span Double Double
+-- | Least and greatest value of a distance in mm.
+data DistanceRange = DistanceRange Double Double
 
 -- | Least and greatest distance of a segment from a point, given by x and y.
-spanFrom :: Double -> Double -> Segment -> Span
+spanFrom :: Double -> Double -> Segment -> DistanceRange
 spanFrom !px !py e = case coordinates e of
   LineAt ax ay bx by ->
-    Span (distance e px py) (max (hypotenuse (ax - px) (ay - py)) (hypotenuse (bx - px) (by - py)))
+    DistanceRange
+      (distance e px py)
+      (max (hypotenuse (ax - px) (ay - py)) (hypotenuse (bx - px) (by - py)))
   ArcAt ax ay bx by cx cy r _ ->
     let a = hypotenuse (ax - px) (ay - py)
         b = hypotenuse (bx - px) (by - py)
@@ -396,26 +398,29 @@ spanFrom !px !py e = case coordinates e of
         onLine f = inSector e (cx + f * ux) (cy + f * uy)
      in if off > 0
           then
-            Span
+            DistanceRange
               (if onLine (negate r / off) then abs (off - r) else min a b)
               (if onLine (r / off) then off + r else max a b)
-          else Span r r
+          else DistanceRange r r
 
 -- | Least and greatest signed distance of a segment from the line through two points, positive to
 -- its left; both 0 if the points coincide. The arguments are x and y of the two points, and the
 -- segment.
-across :: Double -> Double -> Double -> Double -> Segment -> Span
+across :: Double -> Double -> Double -> Double -> Segment -> DistanceRange
 across px py qx qy e
-  | l <= 0 = Span 0 0
+  | l <= 0 = DistanceRange 0 0
   | otherwise = case coordinates e of
-    LineAt ax ay bx by -> let a = height ax ay; b = height bx by in Span (min a b) (max a b)
+    LineAt ax ay bx by ->
+      let a = height ax ay
+          b = height bx by
+       in DistanceRange (min a b) (max a b)
     ArcAt ax ay bx by cx cy r _ ->
       let a = height ax ay
           b = height bx by
           c = height cx cy
           sx = negate iy * r
           sy = ix * r
-       in Span
+       in DistanceRange
             (if inSector e (cx - sx) (cy - sy) then c - r else min a b)
             (if inSector e (cx + sx) (cy + sy) then c + r else max a b)
   where
