@@ -94,9 +94,6 @@ tunedModules =
 strictModules :: [Text]
 strictModules =
   [ "Cli.Subcommand",
-    "Frame.Frame",
-    "Frame.FromToolpath",
-    "Frame.InstructionCheck",
     "Toolpath.CuttingPass",
     "Toolpath.FromPart",
     "Toolpath.Toolpath",
