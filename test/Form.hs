@@ -86,21 +86,11 @@ tunedModules =
     ("Base.", "flat arrays and positions")
   ]
 
--- | Modules that keep strict accumulators over all frames of a tape; without their bang patterns
--- memory grows with the tape.
-strictModules :: [Text]
-strictModules =
-  [ "Frame.Frame",
-    "Frame.FromToolpath",
-    "Frame.InstructionCheck"
-  ]
-
 -- | True of a module that may have a tuning pragma.
-mayHave :: Text -> Text -> Bool
-mayHave name pragma =
+mayBeTuned :: Text -> Bool
+mayBeTuned name =
   ".Fast" `Text.isSuffixOf` name
     || any ((`Text.isPrefixOf` name) . fst) tunedModules
-    || name `elem` strictModules && pragma `elem` ["BangPatterns", "{-# NOINLINE"]
 
 -- The check -----------------------------------------------------------------------------------
 
@@ -110,7 +100,7 @@ problems excepted (Source path text) =
   [WideLine n w | (n, l) <- zip [1 ..] rows, let w = Text.length l, w > widestLine]
     <> [LongModule count | let count = length rows, count > longestModule]
     <> concatMap ofDefinition own
-    <> [Tuned pragma | isLibrary, pragma <- tuningPragmas rows, not (mayHave name pragma)]
+    <> [Tuned pragma | isLibrary, pragma <- tuningPragmas rows, not (mayBeTuned name)]
     <> [NeedlessException d | isLibrary, d <- needless]
   where
     rows = Text.lines text

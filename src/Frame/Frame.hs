@@ -1,5 +1,3 @@
-{-# LANGUAGE BangPatterns #-}
-
 -- | Frames: what a controller does at once, in whole pulses along the axes of the part.
 --
 -- The module owns the frame, the program of frames and the rules that every frame of a machine
@@ -164,15 +162,21 @@ violations machine = concat . zipWith (frameViolations machine) [1 ..]
 -- | Rules that a frame with the given number breaks. Nearly all frames keep every rule; for them no
 -- list is built.
 frameViolations :: Machine -> Int -> Frame -> [Violation]
-frameViolations machine n f
-  | null fields && null feeds && null motions && null repeated && not isEmpty = []
-  | otherwise = fields <> feeds <> motions <> repeated <> [EmptyFrame n | isEmpty]
+frameViolations machine n f = case faults of
+  Faults [] [] [] [] | not isEmpty -> []
+  Faults fields feeds motions repeated ->
+    fields <> feeds <> motions <> repeated <> [EmptyFrame n | isEmpty]
   where
-    !fields = capacityFaults machine n f
-    !feeds = feedCodeFaults machine n f
-    !motions = motionFaults machine n f
-    !repeated = commandFaults machine n f
-    !isEmpty = not (isMoving f) && null (commands f)
+    faults =
+      Faults
+        (capacityFaults machine n f)
+        (feedCodeFaults machine n f)
+        (motionFaults machine n f)
+        (commandFaults machine n f)
+    isEmpty = not (isMoving f) && null (commands f)
+
+-- | Broken rules on increments, feed codes, motions and commands.
+data Faults = Faults [Violation] [Violation] [Violation] [Violation]
 
 -- | Increments that do not fit their fields. A field for absolute positions limits the position and
 -- not the increment, so nothing is checked there.

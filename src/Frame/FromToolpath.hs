@@ -1,5 +1,3 @@
-{-# LANGUAGE BangPatterns #-}
-
 -- | From the toolpath to the frames of a machine.
 --
 -- A run of moves becomes arcs where the machine has circular interpolation, and chords within the
@@ -221,7 +219,7 @@ initial here at =
 
 -- | Frames of instructions as a lazy list, which ends with the final state.
 framesOf :: Context -> Making -> [Instruction] -> LazyList Making PlannedFrame
-framesOf context !made instructions = case instructions of
+framesOf context made instructions = case instructions of
   [] ->
     let final = ended context emptied
      in LazyList.prependReversed (latest final) (LazyList.End final)
@@ -303,14 +301,14 @@ addStep context@Context {machine} instruction made step = case instruction of
 -- | Adds a frame. The second argument is its feed in the program, 'Part.Rapid' where the compiler
 -- sets the feed; the third one is the position at its end.
 addFrame :: Context -> Pace -> Pulses3 -> PlannedFrame -> Making -> Making
-addFrame Context {frameContext} feed end !p made =
+addFrame Context {frameContext} feed end p@(PlannedFrame _ _ asked _) made =
   made
     { at = end,
       latest = p : latest made,
       count = count made + 1,
       tooManyFrom =
         if count made == InstructionCheck.mostFrames
-          then Just (Frame.origin p)
+          then Just asked
           else tooManyFrom made,
       frameFindings = FrameCheck.check frameContext feed end p (frameFindings made)
     }

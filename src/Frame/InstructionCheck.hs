@@ -1,5 +1,3 @@
-{-# LANGUAGE BangPatterns #-}
-
 -- | Checks of instructions before their frames are made: feeds without a code, points out of reach,
 -- too many frames, moves in z that the machine may not have. Instructions are checked one by one,
 -- in order.
@@ -214,7 +212,7 @@ counted context tolerance moves chordEnds before = case tooMany before of
       before {tooMany = Just (TooManyFrames (origin (NonEmpty.head moves)) mostFrames)}
     | otherwise -> before {count = now}
   where
-    !now =
+    now =
       count before + case Machine.arcs (machine context) of
         Arcs {} | Rounding.isLevel (machine context) moves -> 1
         _ ->

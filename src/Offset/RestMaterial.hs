@@ -92,9 +92,9 @@ restMaterials side contour paths gaps =
       (found, _) -> found
 
 -- | All stretches from gap to gap until they return to the given gap, if it has the least number of
--- these gaps. The stretch that ends at the given gap is the last. The arguments are the stretch
--- between two positions, the next position at which the cutter touches the contour, with its gap,
--- and for each gap the position at which the cutter leaves the contour, with the cutter's centre.
+-- these gaps. The stretch that ends at the given gap is the last. The functions give the stretch
+-- between two positions, and the next position at which the cutter touches the contour, with its
+-- gap. The map has the position at which the cutter leaves the contour at a gap, and its centre.
 cycleFrom ::
   (Position -> Position -> Maybe (NonEmpty Segment)) ->
   (Position -> Maybe (Position, Int)) ->

@@ -189,9 +189,9 @@ liesOn !tolerance !c !i !k =
                 && abs (ClosedPolyarcs.power c i px py)
                   <= tolerance * (ClosedPolyarcs.diameter c i + tolerance)
 
--- | True when line @i@ and arc @j@ are certainly disjoint. The arc lies between its chord and the
--- parallel line through its apex. Either both of these lie on one side of the line, as long as the
--- chord is, or the line lies beyond one of them.
+-- | True when line @i@ and arc @j@ are certainly disjoint. The arc lies in a rectangle between its
+-- chord and the tangent at its apex. Either the rectangle lies on one side of the line, or the line
+-- lies beyond the chord or beyond the tangent.
 isDisjoint :: Double -> ClosedPolyarcs -> Int -> Int -> Bool
 isDisjoint !tolerance !c !i !j =
   above nearLine arcStart arcEnd rise
