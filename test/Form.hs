@@ -81,7 +81,12 @@ tunedModules =
     ("Geometry.", "arithmetic, per segment"),
     ("Frame.Arc.", "the search for centres in whole pulses, per candidate"),
     ("Frame.Rounding", "per chord"),
-    ("Tape.", "writing and reading, per row"),
+    ("Tape.FrameReader", "reading, per word"),
+    ("Tape.FrameWriter", "writing, per row"),
+    ("Tape.Layout", "the digits of a number, per word"),
+    ("Tape.NumberReader", "reading, per row"),
+    ("Tape.Punch", "writing, per row"),
+    ("Tape.Symbol", "the digit of a row"),
     ("Surface.Combinator", "the parser, per token"),
     ("Base.", "flat arrays and positions")
   ]

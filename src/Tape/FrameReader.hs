@@ -74,7 +74,6 @@ data ReadWord = ReadWord {word :: Word', at :: Int, number :: Int, places :: Int
 -- | First word whose content satisfies a predicate.
 wordWith :: (Content -> Bool) -> Reading -> Maybe ReadWord
 wordWith isContent reading = find (isContent . content . word) (readWords reading)
-{-# INLINE wordWith #-}
 
 isFrameNumber, isMotion, isFeed :: Content -> Bool
 isFrameNumber c = case c of FrameNumber -> True; _ -> False

@@ -1,5 +1,3 @@
-{-# OPTIONS_GHC -O2 #-}
-
 -- | Modal state: the values that stay in force from frame to frame. With it this module computes
 -- the number of each word of a frame, for the writer and for the readers.
 module Tape.ModalState

@@ -150,7 +150,6 @@ readSign layout c f rows k = case sign f of
     plus = Layout.plus layout
     isHere s = k < Short.length rows && Short.index rows k == Symbol.holes s
     afterSymbol s isMinus = SignPart (k + 1) isMinus (Symbol.weight s)
-{-# INLINE readSign #-}
 
 -- | State while the digits of a number are read.
 data Digits = Digits
@@ -280,7 +279,6 @@ point layout c rows ds
   where
     w = Short.index rows (at ds)
     s = Layout.point layout
-{-# INLINE point #-}
 
 -- | Digit at row @k@, with or without a hole in the service track. A fault if the row is no digit;
 -- the content is that of the row's word, for the fault.

@@ -1,5 +1,3 @@
-{-# OPTIONS_GHC -O2 #-}
-
 -- | Symbols of a tape code and their rows, as tables for writing and reading.
 --
 -- A code may have a parity track and a service track. A hole in the parity track makes the number
