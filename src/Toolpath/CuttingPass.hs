@@ -180,35 +180,35 @@ cutMoves p swivels path =
   where
     milling = value (milled p)
     pace = Part.At (feed milling)
-    -- Most moves have the same manner, and share it.
-    plainly = Manner (levels p) pace False
+    -- Most moves have this manner, and share its record.
+    shared = Manner (levels p) pace False
     heights = case swivels of
       Nothing -> NonEmpty.repeat (levels p)
       Just hs -> fmap (\(a, b) -> (plus (level p) a, plus (level p) b)) hs
     following (previous :| rest) hs = case (rest, hs) of
-      (piece : more, h : higher) ->
-        let m = moveAlong (isContinued previous piece) h piece
-         in m `seq` (m : following (piece :| more) higher)
+      (current : more, zs : others) ->
+        let m = moveAlong (isContinued previous current) zs current
+         in m `seq` (m : following (current :| more) others)
       _ -> []
     -- The feed of an element and its braking apply to the segment along it, not to the arc round
     -- the corner after it.
-    moveAlong continues zs piece = case Equidistant.origin piece of
+    moveAlong continues zs current = case Equidistant.origin current of
       Equidistant.Along i ->
         let finish = Part.finish (numbered p Vector.! i)
-         in moved i (Part.ownFeed finish) (Part.slow finish) continues zs piece
-      Equidistant.Around i -> moved i Nothing False continues zs piece
-    moved i own slows continues zs piece =
+         in moved i (Part.ownFeed finish) (Part.slow finish) continues zs current
+      Equidistant.Around i -> moved i Nothing False continues zs current
+    moved i own isBraking continues zs current =
       Move
-        (Equidistant.segment piece)
-        ( if isNothing own && not slows && null swivels
-            then plainly
-            else Manner zs (maybe pace Part.At own) slows
+        (Equidistant.segment current)
+        ( if isNothing own && not isBraking && null swivels
+            then shared
+            else Manner zs (maybe pace Part.At own) isBraking
         )
         (Part.origin (numbered p Vector.! i))
         continues
     -- The offset of a concave arc may vanish, so that segments of elements that are no neighbours
     -- meet at a corner.
-    isContinued previous piece = case (Equidistant.origin previous, Equidistant.origin piece) of
+    isContinued previous current = case (Equidistant.origin previous, Equidistant.origin current) of
       (Equidistant.Along i, Equidistant.Along j) ->
         j == i + 1 && Part.continues (numbered p Vector.! j)
       _ -> False

@@ -64,10 +64,10 @@ toToolpath part = case (Part.start part, Part.operations part) of
     case collect (firstState part (value begin)) operations of
       ([], blocks) ->
         let path = Toolpath begin blocks (turns part)
-            wrong = Intrusion.intrusions path
+            errors = Intrusion.intrusions path
          in Result
-              (restWarnings path <> (if null wrong then Warning.warnings path else []))
-              wrong
+              (restWarnings path <> (if null errors then Warning.warnings path else []))
+              errors
               (Just path)
       (errors, _) -> Result [] errors Nothing
 

@@ -42,18 +42,18 @@ paths (Located region milling) side numbered allowance = case side of
           :| [],
         []
       )
-  Just s -> case (Equidistant.styled style s r polyarcOf, Part.rest milling) of
-    (Right pieces, _) -> Right (pieces :| [], [])
+  Just s -> case (Equidistant.styled style s r polyarc, Part.rest milling) of
+    (Right path, _) -> Right (path :| [], [])
     (Left _, Part.Allowed)
-      | Just elementFinish <- Part.controlCompensation milling ->
-        Left (NotForControl elementFinish Unreached)
-    (Left o, Part.Allowed) -> case Equidistant.reachableFitting style s r polyarcOf of
+      | Just requested <- Part.controlCompensation milling ->
+        Left (NotForControl requested Unreached)
+    (Left obstacle, Part.Allowed) -> case Equidistant.reachableFitting style s r polyarc of
       ([], _) -> Left (NoPathAlong (keyword region) (contour milling) allowance)
-      (_, []) -> Left (refusal o)
+      (_, []) -> Left (refusal obstacle)
       (p : ps, rests) -> Right (fmap Equidistant.pieces (p :| ps), rests)
-    (Left o, Part.Refused) -> Left (refusal o)
+    (Left obstacle, Part.Refused) -> Left (refusal obstacle)
   where
-    polyarcOf = Part.polyarcOf (contour milling)
+    polyarc = Part.polyarcOf (contour milling)
     r = plus (radius milling) allowance
     style =
       Equidistant.CornerStyle
