@@ -22,6 +22,7 @@ import Verify.Edge (Edge (long, rank, shape))
 import Verify.Excess qualified as Excess
 import Verify.Gouge (KeepOut (..))
 import Verify.Gouge qualified as Gouge
+import Verify.Gouge.Fast qualified as FastGouge
 import Verify.MillingJob (MillingJob (..))
 import Verify.MillingJob qualified as MillingJob
 import Verify.Motion (CutterMotion (number, part, segment))
@@ -71,11 +72,13 @@ scan job keepOutOf allowedExcess keepingOut along = runST $ do
         ([], ms) -> foldM following result (views ms)
       following result v = do
         mapM_ (improveBound job bounds (latest result) v) (close v)
-        pure $! followed job allowedExcess v result
+        pure $! followed job strayJob v result
   result <- go (Scan Nothing [] Nothing []) (views keepingOut) along
   frozen <- PrimArray.unsafeFreezePrimArray bounds
   pure (result, frozen)
   where
+    -- The excess of a motion is measured from the largest distance that the cutter may keep.
+    strayJob = job {reach = maxReach job, allowance = allowedExcess}
     views ms = zipWith view (MillingJob.edgesNearEach job ms) ms
     view es m = View {motion = m, close = es, bounding = Motion.pathList m}
     viewOf m = view (MillingJob.edgesNear job m) m
@@ -86,7 +89,7 @@ scan job keepOutOf allowedExcess keepingOut along = runST $ do
 -- | Gouge of a motion if it is deeper than the deepest one so far, otherwise that one.
 deeperGouge :: MillingJob -> KeepOut -> View -> Maybe Witness -> Maybe Witness
 deeperGouge job keepOut View {motion, close, bounding} best
-  | Gouge.mayGougeDeeper keepOut best motion bounding near =
+  | FastGouge.mayGougeDeeper keepOut best motion bounding near =
     maybe best (Just . Proof.deeper best) (Gouge.gougeOf keepOut (edges job) motion)
   | otherwise = best
   where
@@ -97,9 +100,10 @@ deeperGouge job keepOut View {motion, close, bounding} best
           (BoundingBox.inflate (searchRadius keepOut) (Motion.box motion))
           (edges job)
 
--- | Result after one more motion along the contour.
-followed :: MillingJob -> Mm -> View -> Scan -> Scan
-followed job allowedExcess View {motion, close, bounding} result
+-- | Result after one more motion along the contour. @strayJob@ has the distances by which a motion
+-- too far from the contour is found.
+followed :: MillingJob -> MillingJob -> View -> Scan -> Scan
+followed job strayJob View {motion, close, bounding} result
   | Motion.isVertical motion = result {latest = []}
   | otherwise =
     result
@@ -108,12 +112,7 @@ followed job allowedExcess View {motion, close, bounding} result
         wrongSide = wrongSide result <|> WrongSide.wrongSide job motion close
       }
   where
-    stray =
-      Excess.strayOf
-        job {reach = maxReach job, allowance = allowedExcess}
-        motion
-        close
-        bounding
+    stray = Excess.strayOf strayJob motion close bounding
 
 -- | Lower the bound of an element to its distance from a motion, if the motion is surely on the
 -- right side of it. @before@ are the bounding paths of the motion before.

@@ -5,7 +5,6 @@ module Verify.Edge
     edgesOf,
     isCurved,
     largestAllowance,
-    leastDistance,
     leastExcess,
     leftwardness,
   )
@@ -79,10 +78,6 @@ isCurved = BoxTree.foldl' (\is e -> is || continues e) False
 -- | Largest allowance of a single element, in mm; -∞ without elements.
 largestAllowance :: BoxTree Edge -> Mm
 largestAllowance = BoxTree.foldl' (\most e -> max most (ownAllowance e)) (Mm (-1 / 0))
-
--- | Distance in mm from a point to the nearest of some elements, or the limit if none is nearer.
-leastDistance :: Double -> [Edge] -> Point -> Double
-leastDistance = leastExcess (const (Mm 0))
 
 -- | Least value of distance minus allowance for a point and some elements, or the limit if none has
 -- less; all in mm.

@@ -3,7 +3,6 @@ module Verify.Gouge
   ( KeepOut (..),
     constantKeepOut,
     gougeOf,
-    mayGougeDeeper,
     allowanceAt,
   )
 where
@@ -11,17 +10,15 @@ where
 import Base.Quantity (Mm (..), minus, plus)
 import Data.List.NonEmpty qualified as NonEmpty
 import Geometry.Distance qualified as Distance
-import Geometry.Distance.Fast qualified as FastDistance
 import Geometry.Index.BoundingBox qualified as BoundingBox
 import Geometry.Index.BoxTree (BoxTree)
 import Geometry.Index.BoxTree qualified as BoxTree
-import Geometry.Segment (Segment)
 import Geometry.Vec (Point)
 import Offset.Tolerance qualified as Tolerance
 import Part.Part (Element)
 import Part.Part qualified as Part
-import Verify.Edge (Edge (element, shape))
-import Verify.Motion (CutterMotion (number, segment), connectors, paths)
+import Verify.Edge (Edge (element))
+import Verify.Motion (CutterMotion (number), connectors, paths)
 import Verify.Proof (Witness (Witness))
 import Verify.Proof qualified as Proof
 
@@ -59,27 +56,6 @@ gougeOf KeepOut {searchRadius, required} edges m = Proof.deepest gouges
     isWithinReach path b =
       BoundingBox.meets (BoundingBox.inflate searchRadius (BoundingBox.ofSegment path)) b
         && BoundingBox.lowerBound (`Distance.toPoint` path) b <= searchRadius
-
--- | False only if no element is gouged deeper than by the deepest gouge so far. The answer comes
--- from the fast bounds of "Geometry.Distance.Fast". @bounding@ are the bounding paths of the
--- motion. Those of an arc are no further from its segment than its two radii differ.
-mayGougeDeeper :: KeepOut -> Maybe Witness -> CutterMotion -> [Segment] -> [Edge] -> Bool
-mayGougeDeeper keepOut best m bounding =
-  any
-    ( \e ->
-        FastDistance.apartAtLeast (segment m) (shape e) < least + difference
-          && FastDistance.apart (segment m) (shape e) < least + difference
-          && ( difference <= 0
-                 || any
-                   (\path -> FastDistance.apart path (shape e) < least)
-                   (bounding <> connectors m)
-             )
-    )
-  where
-    difference = FastDistance.uneven (segment m)
-    least =
-      let Mm d = largest keepOut
-       in d - maybe 0 (\w -> let Mm a = Proof.amount w in a) best + FastDistance.unsure
 
 -- | Allowance of an element that counts at a point @p@ of a motion. Usually it is the element's
 -- own. If other elements lie within @pulse@ of the foot of @p@ on the element, the smallest

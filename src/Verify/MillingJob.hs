@@ -14,13 +14,11 @@ module Verify.MillingJob
     edgesNearEach,
     edgesInBox,
     contacts,
-    foldContacts,
   )
 where
 
 import Base.Quantity (Mm (..), plus)
 import Base.Region (Region)
-import Data.List (foldl')
 import Data.List.NonEmpty qualified as NonEmpty
 import Geometry.Carrier qualified as Carrier
 import Geometry.Distance.Fast qualified as FastDistance
@@ -101,25 +99,16 @@ edgesInBox job m =
 
 -- | Contact points of a cutter with its centre at @p@: for each the number of its element, and the
 -- arc length in mm from the start of the contour. @near@ has to contain all elements within
--- 'contactLimit' of @p@.
+-- 'contactLimit' of @p@. If @p@ has no foot on an arc, the contact is at the nearer end of the arc.
 contacts :: MillingJob -> [Edge] -> Point -> [(Int, Double)]
-contacts job near p = reverse (foldContacts job near p (\found n s -> (n, s) : found) [])
-
--- | Strict left fold over 'contacts' that makes no list of them. The function gets the result so
--- far, the number of the element and the arc length. If the point has no foot on an arc, the
--- contact is at the nearer end of the arc.
-foldContacts :: MillingJob -> [Edge] -> Point -> (b -> Int -> Double -> b) -> b -> b
-foldContacts job near p with b = case touchAt job near p of
-  -- The constructor evaluates the touch once, before the elements.
-  touch@Touch {} -> foldl' (withContact touch) b near
+contacts job near p =
+  [ (rank e, startsAt e + contactOn e * long e)
+    | e <- near,
+      FastDistance.distance (shape e) (Vec.x p) (Vec.y p) <= farthestContact touch e
+  ]
   where
-    withContact touch found e
-      | far <- farthestContact touch e,
-        FastDistance.mayLieWithin far (long e) (shape e) (Vec.x p) (Vec.y p),
-        FastDistance.distance (shape e) (Vec.x p) (Vec.y p) <= far =
-        with found (rank e) (startsAt e + contactOn e * long e)
-      | otherwise = found
     contactOn e = FastDistance.footOn (shape e) (Vec.x p) (Vec.y p)
+    touch = touchAt job near p
 
 -- | Lengths in mm that decide which elements a cutter touches from one position of its centre.
 data Touch = Touch

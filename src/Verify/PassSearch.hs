@@ -26,6 +26,7 @@ import Verify.ContactMeasure qualified as ContactMeasure
 import Verify.Edge (Edge (long, shape))
 import Verify.MillingJob (MillingJob (..))
 import Verify.MillingJob qualified as MillingJob
+import Verify.MillingJob.Fast qualified as FastContact
 import Verify.Motion (CutterMotion (number, segment))
 import Verify.Motion qualified as Motion
 
@@ -224,7 +225,7 @@ data Sample = Sample Int Double
 
 -- | Smallest step along the contour to one of the contact points; ∞ if there is none.
 smallestStep :: MillingJob -> Measure -> [Edge] -> Double -> Point -> Double
-smallestStep job measure near arcLength p = MillingJob.foldContacts job near p smaller (1 / 0)
+smallestStep job measure near arcLength p = FastContact.foldContacts job near p smaller (1 / 0)
   where
     smaller least _ s =
       let d = stepTo measure arcLength s

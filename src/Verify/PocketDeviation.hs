@@ -34,6 +34,7 @@ import Verify.Coverage qualified as Coverage
 import Verify.Deviation qualified as Deviation
 import Verify.Gouge (KeepOut (searchRadius))
 import Verify.Gouge qualified as Gouge
+import Verify.Gouge.Fast qualified as FastGouge
 import Verify.Motion (CutterMotion (number, segment))
 import Verify.Motion qualified as Motion
 import Verify.MotionSet (MotionSet)
@@ -136,7 +137,7 @@ deepestGouge :: (CutterMotion -> KeepOut) -> Pocket -> [CutterMotion] -> Maybe W
 deepestGouge keepOut pocket = foldl' orDeeper Nothing
   where
     orDeeper best m
-      | Gouge.mayGougeDeeper (keepOut m) best m (Motion.pathList m) (near m) =
+      | FastGouge.mayGougeDeeper (keepOut m) best m (Motion.pathList m) (near m) =
         maybe best (Just . Proof.deeper best) (Gouge.gougeOf (keepOut m) (walls pocket) m)
       | otherwise = best
     near m =

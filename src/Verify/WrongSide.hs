@@ -18,9 +18,9 @@ import Geometry.Vec (Point)
 import Geometry.Vec qualified as Vec
 import Part.Part qualified as Part
 import Verify.Edge (Edge (element, long, shape))
-import Verify.Edge qualified as Edge
 import Verify.MillingJob (MillingJob (..))
 import Verify.MillingJob qualified as MillingJob
+import Verify.MillingJob.Fast qualified as FastContact
 import Verify.Motion (CutterMotion (number, segment))
 import Verify.Motion qualified as Motion
 import Verify.Proof (Finding (WrongSide))
@@ -51,7 +51,7 @@ mayBeWrong job demanded close around p =
     (x, y) = (Vec.x p, Vec.y p)
     Mm a = allowance job
     Mm limit = MillingJob.contactLimit job
-    leastOf es = Edge.leastDistance (1 / 0) es p
+    leastOf es = FastContact.leastDistance (1 / 0) es x y
     (near, least)
       | ofClose + FastDistance.unsure <= limit = (close, ofClose)
       | otherwise = (around, leastOf around)

@@ -1,0 +1,57 @@
+{-# LANGUAGE BangPatterns #-}
+
+-- | Loops over the elements near a point, in plain numbers, for every motion of a tape. They do what
+-- "Verify.MillingJob" and "Verify.Edge" do, without lists and intermediate records.
+module Verify.MillingJob.Fast
+  ( foldContacts,
+    leastDistance,
+  )
+where
+
+import Base.Quantity (Mm (..))
+import Geometry.Distance.Fast qualified as FastDistance
+import Geometry.Vec (Point)
+import Geometry.Vec qualified as Vec
+import Verify.Edge (Edge (..))
+import Verify.MillingJob (MillingJob (..))
+import Verify.MillingJob qualified as MillingJob
+
+-- | Strict left fold over 'Verify.MillingJob.contacts'. The function gets the result so far, the
+-- number of the element and the arc length in mm.
+foldContacts :: MillingJob -> [Edge] -> Point -> (b -> Int -> Double -> b) -> b -> b
+foldContacts job near p with = go near
+  where
+    go es !b = case es of
+      [] -> b
+      e : more
+        | far <- farthest e,
+          FastDistance.mayLieWithin far (long e) (shape e) x y,
+          FastDistance.distance (shape e) x y <= far ->
+          go more (with b (rank e) (startsAt e + FastDistance.footOn (shape e) x y * long e))
+        | otherwise -> go more b
+    !x = Vec.x p
+    !y = Vec.y p
+    !(Mm limit) = MillingJob.contactLimit job
+    !(Mm deviation) = allowance job
+    !least = leastExcess ownAllowance limit near x y
+    farthest e = let Mm own = ownAllowance e in min limit (least + own + 2 * deviation)
+{-# INLINE foldContacts #-}
+
+-- | Distance in mm from the point @(x, y)@ to the nearest of some elements, or the limit if none is
+-- nearer.
+leastDistance :: Double -> [Edge] -> Double -> Double -> Double
+leastDistance = leastExcess (const (Mm 0))
+
+-- | 'Verify.Edge.leastExcess' of a point given by its coordinates.
+leastExcess :: (Edge -> Mm) -> Double -> [Edge] -> Double -> Double -> Double
+leastExcess allowanceOf limit near !x !y = go limit near
+  where
+    go !d es = case es of
+      [] -> d
+      e : more
+        | Mm a <- allowanceOf e,
+          far <- min limit (d + a),
+          FastDistance.mayLieWithin far (long e) (shape e) x y ->
+          go (min d (FastDistance.distance (shape e) x y - a)) more
+        | otherwise -> go d more
+{-# INLINE leastExcess #-}
