@@ -78,7 +78,7 @@ spec = do
   it
     "isAccompanied: is true only of segments without an uncovered part (catches a curve around the \
     \far side, and one with a gap)"
-    $ property $
+    $ withMaxSuccess 1000 $
       forAll ((,,) <$> chain <*> choose (0.5, 12) <*> arbitrary) $ \(others, r, backwards) ->
         forAll (oneof [beside r others, alongAll r others]) $ \s ->
           forAll (sublistOf others) $ \some ->
