@@ -1,7 +1,8 @@
 #!/usr/bin/env python3
 """Reads test/mutants/*.mutant and puts their bugs into the sources.
 
-    mutants.py check [NAME...]     every mutant applies: its expression occurs exactly once in its definition
+    mutants.py check [NAME...]     every mutant applies: its expression occurs exactly once in its definition,
+                                   and its law is a test
     mutants.py law NAME            prints the law that has to fail
     mutants.py file NAME           prints the file that the mutant changes
     mutants.py apply NAME ROOT     puts the bug into the file below ROOT
@@ -117,6 +118,28 @@ def apply(name, root):
     return path, mutated(source, fields, old, new)
 
 
+def descriptions():
+    """The texts of the tests, with the gaps of long literals closed."""
+    paths = glob.glob(os.path.join(TOP, "test", "**", "*.hs"), recursive=True)
+    texts = []
+    for path in paths:
+        with open(path, encoding="utf-8") as stream:
+            texts.append(re.sub(r"\\\s*\n\s*\\", "", stream.read()))
+    return "\n".join(texts)
+
+
+def is_tested(law, texts):
+    """True of a law that is the description of a test, or is put together from two: a group and a file of
+    it after a slash, or a name and the words after it."""
+    if law in texts:
+        return True
+    group, _, file = law.partition("/")
+    if group in texts and os.path.exists(os.path.join(TOP, file)):
+        return True
+    gaps = [i for i, letter in enumerate(law) if letter == " "]
+    return any('"' + law[:i] + '"' in texts and '"' + law[i:] in texts for i in gaps)
+
+
 def names_of(arguments):
     if arguments:
         return arguments
@@ -128,9 +151,13 @@ def main():
     command, arguments = sys.argv[1], sys.argv[2:]
     if command == "check":
         unfit = 0
+        texts = descriptions()
         for name in names_of(arguments):
             try:
                 apply(name, TOP)
+                law = parse(name)[0]["law"]
+                if not is_tested(law, texts):
+                    raise Unfit("no test is called " + law)
             except Unfit as reason:
                 print("%s: %s" % (name, reason))
                 unfit += 1
