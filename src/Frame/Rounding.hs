@@ -1,3 +1,4 @@
+{-# LANGUAGE BangPatterns #-}
 {-# OPTIONS_GHC -O2 #-}
 
 -- | Positions in whole pulses, and the splitting of straight moves that are too long for one frame.
@@ -51,10 +52,12 @@ isLevel machine ms =
 -- | True for moves that all stay at one height exactly, as most do.
 isFlat :: NonEmpty Move -> Bool
 isFlat (m :| more) = case heights m of
-  (z, final) -> z == final && all (isAt z) more
+  (Mm first, Mm final) -> first == final && go first more
   where
-    isAt z n = case heights n of
-      (a, b) -> a == z && b == z
+    go !z ms = case ms of
+      [] -> True
+      n : others -> case heights n of
+        (Mm a, Mm b) -> a == z && b == z && go z others
 
 -- | Ends of the frames for a straight move, given by its start in pulses and its exact ends. The
 -- move is divided into the fewest equal parts whose increments fit their fields, and each end is

@@ -29,6 +29,7 @@ import Frame.Arc.Deviation qualified as Deviation
 import Frame.Arc.Estimate (ArcEnds)
 import Frame.Arc.Estimate qualified as Estimate
 import Frame.Arc.Quadrant qualified as Quadrant
+import Geometry.Carrier qualified as Carrier
 import Geometry.Distance qualified as Distance
 import Geometry.Segment (Segment (Straight))
 import Geometry.Segment qualified as Segment
@@ -189,8 +190,17 @@ legBetween context arc c from to =
         isNearlyStraight context arcAlong && isStraightEnough context (exact arc) [from, to]
     }
   where
-    arcAlong = Segment.arcOrCircle (sense arc) (inMm c) (inMm from) (inMm to)
-    inMm = Context.gridPoint (grid context)
+    arcAlong
+      | from == to =
+        Segment.Arc
+          { Segment.start = a,
+            Segment.end = a,
+            Segment.centre = m,
+            Segment.sweep = Rad (Carrier.senseSign (sense arc) * 2 * pi)
+          }
+      | otherwise = Segment.arc (sense arc) m a (Context.gridPoint (grid context) to)
+    m = Context.gridPoint (grid context) c
+    a = Context.gridPoint (grid context) from
 
 -- | The step of a leg about the grid point @c@.
 stepOf :: RoundedArc -> Pulses2 -> Leg -> ArcStep
