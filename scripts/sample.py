@@ -29,8 +29,20 @@ def sources():
     )
 
 
+def code_after(lines, number):
+    """The code after a comment as a reader sees it first: the signature and the first line of the definition."""
+    code = []
+    for line in lines[number : number + 8]:
+        if not line.strip():
+            break
+        code.append(line)
+        if re.search(r"[=|]( |$)", line) and not line.startswith(" ") and "::" not in line:
+            break
+    return code
+
+
 def comments():
-    """All comments, each with the line of code that follows it."""
+    """All comments, each with the code that follows it, and with the definition around it."""
     found = []
     for path in sources():
         lines = read(path).split("\n")
@@ -42,8 +54,11 @@ def comments():
             begin = number
             while number < len(lines) and re.match(r"^ *--( |$)", lines[number]):
                 number += 1
-            code = lines[number] if number < len(lines) else ""
-            found.append((path, begin + 1, lines[begin:number] + [code]))
+            around = []
+            if lines[begin].startswith(" "):
+                heads = [line for line in lines[:begin] if re.match(r"[a-z(]|data |newtype |type ", line)]
+                around = heads[-1:]
+            found.append((path, begin + 1, around + lines[begin:number] + code_after(lines, number)))
     return found
 
 
@@ -59,7 +74,9 @@ def definitions():
             signature = match[0].rstrip()
             is_type = re.search(r"^(data|newtype|type) ", signature, re.M)
             if match[2] in exported and (is_type or "::" in match[3]):
-                found.append((path, text.count("\n", 0, match.start()) + 1, signature.split("\n")))
+                line = text.count("\n", 0, match.start()) + 1
+                rows = match[1].rstrip("\n").split("\n")
+                found.append((path, line, rows + code_after(text.split("\n"), line - 1 + len(rows))))
     return found
 
 
@@ -81,7 +98,7 @@ def show(title, drawn):
     print("== " + title)
     for count, (path, line, body) in enumerate(drawn, 1):
         print("\n%d. %s:%d" % (count, os.path.relpath(path, TOP), line))
-        print("\n".join("   " + row for row in body[:14]))
+        print("\n".join("   " + row for row in body[:26]))
     print()
 
 
@@ -100,7 +117,7 @@ def main():
             if kind == "answers":
                 print("%d. %s" % (count, os.path.relpath(path, TOP)))
             else:
-                print("%d.\n%s\n" % (count, "\n".join("   " + row for row in body[:14])))
+                print("%d.\n%s\n" % (count, "\n".join("   " + row for row in body[:26])))
 
 
 if __name__ == "__main__":
