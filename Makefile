@@ -10,7 +10,7 @@ export LC_ALL := C.UTF-8
 
 PREFIX ?= /usr/local
 STACK ?= stack
-# Arguments for the test runner: make test TEST='--match Geometry'
+# Arguments for the test runner: make test TEST='--match Geometry' or TEST='--match "an axis in"'
 TEST ?=
 
 # Builds with different flags have folders of their own, so that none overwrites the objects of another.
@@ -60,7 +60,7 @@ test: needs-build needs-test ## build and run all tests; TEST='--match WORD' run
 	$(call banner,build with tests)
 	$(quietly) $(TESTED) build $(UNOPTIMISED) --test --no-run-tests
 	$(call banner,test)
-	@$(TESTED) --verbosity warn test $(UNOPTIMISED) --test-arguments "$(TEST)"
+	@$(TESTED) --verbosity warn test $(UNOPTIMISED) --test-arguments '$(TEST)'
 
 check: needs-build needs-test format-check lint commits ## everything a change must pass: format, lint, commits, warnings, tests
 	$(call banner,build with warnings as errors)

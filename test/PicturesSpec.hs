@@ -16,6 +16,7 @@ import Data.Text qualified as Text
 import Data.Text.Encoding qualified as Encoding
 import Draw.Plot qualified as Plot
 import Files (readText)
+import Project.LoadedProgram qualified as LoadedProgram
 import Report.Report qualified as Report
 import System.Directory (createDirectoryIfMissing, listDirectory)
 import System.Environment (lookupEnv)
@@ -30,20 +31,24 @@ spec = describe "pictures are what partc plot draws" $ do
   runIO (createDirectoryIfMissing True folder)
   forM_ shown $ \(file, block, name) -> it (file <> ": " <> Text.unpack name) $ do
     texts <- Blocks.load file block
-    let result = Compile.analyse [] texts
-        target = folder </> Text.unpack name <.> "svg"
-    map Report.title (Result.errors result) `shouldBe` []
-    forM_ (Result.output result) $ \a -> do
-      let svg = Plot.plot (part a) (path a)
-      case recording of
-        Just _ -> ByteString.writeFile target (Encoding.encodeUtf8 svg)
-        -- Only the comparison: a failure would print both texts.
-        Nothing -> readText target >>= \old -> (old == svg) `shouldBe` True
+    drawn recording (folder </> Text.unpack name <.> "svg") texts
+  it "docs/flange.svg: the flange" $ do
+    text <- readText "examples/flange.part"
+    drawn recording "docs/flange.svg" (LoadedProgram.fromText "flange.part" text)
   it "no picture is left over" $ do
     present <- listDirectory folder
     sort present `shouldBe` sort [Text.unpack name <.> "svg" | (_, _, name) <- shown]
   where
     folder = "docs/pictures"
+    drawn recording target program = do
+      let result = Compile.analyse [] program
+      map Report.title (Result.errors result) `shouldBe` []
+      forM_ (Result.output result) $ \a -> do
+        let svg = Plot.plot (part a) (path a)
+        case recording of
+          Just _ -> ByteString.writeFile target (Encoding.encodeUtf8 svg)
+          -- Only the comparison: a failure would print both texts.
+          Nothing -> readText target >>= \old -> (old == svg) `shouldBe` True
     withPictures file = do
       text <- readText file
       pure [(file, b, name) | b <- Blocks.blocks text, Just name <- [picture b]]

@@ -1,1 +1,1 @@
-{-# OPTIONS_GHC -F -pgmF hspec-discover -Wno-missing-export-lists #-}
+{-# OPTIONS_GHC -F -pgmF hspec-discover -optF --module-name=Spec -Wno-missing-export-lists #-}

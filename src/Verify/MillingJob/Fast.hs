@@ -1,7 +1,7 @@
 {-# LANGUAGE BangPatterns #-}
 
--- | Loops over the elements near a point, in plain numbers, for every motion of a tape. They do what
--- "Verify.MillingJob" and "Verify.Edge" do, without lists and intermediate records.
+-- | Loops over the elements near a point, in plain numbers. They run for every motion of a tape, and
+-- do what "Verify.MillingJob" and "Verify.Edge" do, without lists and intermediate records.
 module Verify.MillingJob.Fast
   ( foldContacts,
     leastDistance,
