@@ -76,8 +76,7 @@ segments a b = minimumBy (comparing distance) (map fromA onA <> map fromB onB)
     onB = Segment.start b : Segment.end b : filter (Segment.hasFootOf b) (normals b a)
 
 -- | The points on the carrier of the segment @a@ whose normal passes through the centre of the arc
--- @b@. There are none if @b@ is a line, nor if every normal of the arc @a@ passes through that
--- centre.
+-- @b@. There are none if @b@ is a line, nor if both segments are arcs about the same centre.
 normals :: Segment -> Segment -> [Point]
 normals a b = case (a, b) of
   (Straight p q, Arc {centre}) | p /= q -> [Vec.interpolate (Segment.fraction a centre) p q]

@@ -65,8 +65,8 @@ count = Vector.length . segments
 isClosingPair :: Chain -> Int -> Int -> Bool
 isClosingPair chain i j = ends chain == Closed && i == 0 && j == count chain - 1
 
--- | The indices of neighbouring segments that may meet elsewhere than at their joint. Pairs that
--- surely do not are omitted, since 'crossingsOf' takes longer than this test.
+-- | The indices of neighbouring segments that may meet elsewhere than at their joint. Most pairs
+-- that surely do not are omitted, since 'crossingsOf' takes longer than this test.
 neighbours :: Chain -> [(Int, Int)]
 neighbours chain = go 0
   where
@@ -149,7 +149,7 @@ steepness :: Double
 steepness = 0.10033467208545055
 
 -- | The middle of the shorter of two neighbours, if it lies on the longer one. In this case one of
--- them runs back along the other, and every point of the overlap is an intersection.
+-- them runs back along the other, and the middle counts as a self-intersection.
 retraced :: Segment -> Segment -> [Point]
 retraced s other = [middle | Distance.toPoint middle longer <= Tolerance.coincident]
   where
