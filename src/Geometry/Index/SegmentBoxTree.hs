@@ -72,7 +72,8 @@ fan = BoundingBoxCache.runLength
 
 -- Boxes -------------------------------------------------------------------------------------
 
--- | The box of the segment with the index @i@, enlarged by the tree's margin.
+-- | The box of the segment with the index @i@, enlarged by the tree's margin and passed to the
+-- continuation @k@.
 segmentBoxWithMargin :: SegmentBoxTree -> Int -> (Double -> Double -> Double -> Double -> r) -> r
 segmentBoxWithMargin bs i k =
   segmentBox (chain bs) i (\lx ly hx hy -> k (lx - m) (ly - m) (hx + m) (hy + m))
@@ -80,9 +81,9 @@ segmentBoxWithMargin bs i k =
     m = margin bs
 {-# INLINE segmentBoxWithMargin #-}
 
--- | The box of the segment with the index @i@, without a margin. It contains the parallelogram that
--- has the chord and the tangent parallel to it as sides; an arc up to a half circle lies in this
--- parallelogram.
+-- | The box of the segment with the index @i@, without a margin, passed to the continuation @k@. An
+-- arc up to a half circle lies in the parallelogram that has its chord as one side and a parallel
+-- tangent as the opposite side; the box is that of this parallelogram.
 segmentBox :: ClosedPolyarcs -> Int -> (Double -> Double -> Double -> Double -> r) -> r
 segmentBox c i k = k lx ly hx hy
   where
@@ -104,7 +105,8 @@ reaches :: Double -> Double -> Int
 reaches (D# a) (D# b) = I# (a >=## b)
 {-# INLINE reaches #-}
 
--- | The stored box of the run to which the segment with the index @i@ belongs.
+-- | The stored box of the run to which the segment with the index @i@ belongs, passed to a
+-- continuation.
 runBoxOf :: SegmentBoxTree -> Int -> (Double -> Double -> Double -> Double -> r) -> r
 runBoxOf bs i = boxAt (sides bs) (i `shiftR` 3)
 {-# INLINE runBoxOf #-}
@@ -114,11 +116,12 @@ nextRun :: Int -> Int
 nextRun i = (i `shiftR` 3 + 1) `shiftL` 3
 {-# INLINE nextRun #-}
 
--- | The box around all segments.
+-- | The box around all segments, passed to a continuation.
 boundingBox :: SegmentBoxTree -> (Double -> Double -> Double -> Double -> r) -> r
 boundingBox bs = boxAt (sides bs) (indexPrimArray (begins bs) (highest bs))
 
--- | The box with the index @k@ in the array of a tree's sides.
+-- | The box with the index @k@ in the array @a@ of a tree's sides, passed to the continuation
+-- @next@.
 boxAt :: PrimArray Double -> Int -> (Double -> Double -> Double -> Double -> r) -> r
 boxAt a k next =
   next
@@ -218,7 +221,8 @@ writeLevels out@(Boxes sides directions) !start !count
           (most hy hy')
           (w .&. fromIntegral w')
 
--- | A number in mm that is larger than any coordinate; with it, empty boxes are inverted.
+-- | A number in mm that is larger than any coordinate. A box of which it is the least x and y, and
+-- −far the largest x and y, contains nothing.
 far :: Double
 far = 1e300
 
@@ -229,8 +233,9 @@ most a b = if a > b then a else b
 {-# INLINE least #-}
 {-# INLINE most #-}
 
--- | The smallest box that contains a given box and the boxes of the segments from @a@ to @e − 1@.
--- The given box has the least x and y @lx0@ and @ly0@ and the largest x and y @hx0@ and @hy0@.
+-- | The smallest box that contains a given box and the boxes of the segments from @a@ to @e − 1@,
+-- passed to the continuation @k@. The given box has the least x and y @lx0@ and @ly0@ and the
+-- largest x and y @hx0@ and @hy0@.
 runBox ::
   ClosedPolyarcs ->
   Int ->
@@ -286,8 +291,8 @@ headings !m !c !a !e = go a (2 * enough) (2 * enough)
         ClosedPolyarcs.chord c i $ \dx dy ->
           go (i + 1) (least axis (ax * dx + ay * dy)) (least diagonal (sx * dx + sy * dy))
       | otherwise = ClosedPolyarcs.chord c i $ \dx dy ->
-        -- The advance of the tangent at the end where it is less, scaled to at least the chord's
-        -- length.
+        -- The lesser advance of the tangents at both ends. As vectors, these have @1 + b²@ times
+        -- the chord's length.
         let co = 1 - b * b
             si = 2 * b
             forward px py = co * (px * dx + py * dy) - abs (si * (px * dy - py * dx))
