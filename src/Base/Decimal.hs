@@ -24,8 +24,8 @@ import Data.Vector.Unboxed (Vector)
 import Data.Vector.Unboxed qualified as Vector
 import Numeric (showFFloat)
 
--- | The text of the number @x@, rounded to exactly @decimals@ digits after the point. From 10¹⁵ on,
--- the text has an exponent instead.
+-- | The text of the number @x@, rounded to exactly @decimals@ digits after the point. For an
+-- absolute value from 10¹⁵ on, the text has an exponent instead.
 fixed :: Int -> Double -> Text
 fixed decimals x
   | abs x >= 1e15 = Text.pack (show x)

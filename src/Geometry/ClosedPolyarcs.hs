@@ -12,9 +12,9 @@
 -- single bounding-box tree ("Geometry.Index.SegmentBoxTree") covers them.
 --
 -- Arcs are handled by chord and bulge alone. The power of a point @p@ with respect to the circle of
--- an arc from @a@ to @b@ with the bulge β is @(p − a)·(p − b) + κ·(b − a)×(p − a)@ with @κ = (β² −
--- 1)/2β@. This formula stays exact for an almost straight arc, whose distant centre would lose
--- digits.
+-- an arc from @a@ to @b@ with the bulge β is @(p − a)·(p − b) + κ·(b − a)×(p − a)@ with
+-- @κ = (β² − 1)/2β@. This formula stays exact for an almost straight arc, whose distant centre
+-- would lose digits.
 --
 -- Some functions pass their result to a continuation, a function that is their last argument. So no
 -- pair of numbers is built in memory.
@@ -81,7 +81,7 @@ data ClosedPolyarcs = ClosedPolyarcs
 loopCount :: ClosedPolyarcs -> Int
 loopCount c = sizeofPrimArray (loopHeads c) - 1
 
--- | The index of a loop's first vertex.
+-- | The index of the first vertex of a loop, by the index of the loop.
 firstVertex :: ClosedPolyarcs -> Int -> Int
 firstVertex c = indexPrimArray (loopHeads c)
 {-# INLINE firstVertex #-}
@@ -243,8 +243,9 @@ normaliseSegments !tolerance out start !source (FlatPolyarc _ px py pb) =
         !b = indexPrimArray pb i
         !sagitta2 = b * b * c2 / 4
 
--- | Finish the loop with the index @loop@, whose segments start at the vertices from @k@ to @end −
--- 1@. Repeat its first vertex at @end@, with the index @source@ in 'sources', and set the marks.
+-- | Finish the loop with the index @loop@, whose segments start at the vertices from @k@ to
+-- @end − 1@. Repeat its first vertex at @end@, with the index @source@ in 'sources', and set the
+-- marks.
 closeLoop :: Arrays s -> Int -> Int -> Int -> Int -> ST s ()
 closeLoop out loop k end source = do
   x <- readPrimArray (vertexXs out) k
@@ -394,8 +395,8 @@ gradient c i px py k =
     kappa = (b * b - 1) / (2 * b)
 {-# INLINE gradient #-}
 
--- | The curvature of segment @i@ in 1/mm, positive for a counter-clockwise arc: @4·b / ((1 +
--- b²)·c)@ for a chord of length c and a bulge b.
+-- | The curvature of segment @i@ in 1/mm, positive for a counter-clockwise arc:
+-- @4·b / ((1 + b²)·c)@ for a chord of length c and a bulge b.
 curvature :: ClosedPolyarcs -> Int -> Double
 curvature c i =
   chord c i $ \dx dy ->
@@ -413,10 +414,10 @@ diameter c i =
 
 -- | The bulge of the part of segment @i@ between the points (@px@, @py@) and (@qx@, @qy@) on it.
 --
--- With the vectors @u@ and @v@ from the arc's centre to the points, the part's sweep θ, at most a
--- half circle, has @tan(θ/2) = |u×v| / (|u||v| + u·v)@. Where @u·v@ is negative, @(|u||v| − u·v) /
--- |u×v|@ is more exact. The bulge follows from @tan(θ/2) = p/q@ as @tan(θ/4) = p / (q + √(p² +
--- q²))@.
+-- With the vectors u and v from the arc's centre to the points, the part's sweep θ, at most a half
+-- circle, has the tangent @tan(θ/2) = |u×v| / (|u||v| + u·v)@. Where @u·v@ is negative, the form
+-- @(|u||v| − u·v) / |u×v|@ is more exact. The bulge follows from @tan(θ/2) = p/q@ as
+-- @tan(θ/4) = p / (q + √(p² + q²))@.
 partialBulge :: ClosedPolyarcs -> Int -> Double -> Double -> Double -> Double -> Double
 partialBulge c i px py qx qy
   | b == 0 = 0

@@ -200,7 +200,7 @@ toSegments curve = case curve of
   Unshifted b -> BasisCurve.asSegments b
   Shifted {} -> Nothing
 
--- | Cubic spans in x and in y within a tolerance of the curve, after a bound of their error.
+-- | Cubic spans in x and in y within a tolerance of the curve, preceded by a bound of their error.
 -- Nothing where such spans are not found; see 'CubicSpans.along'.
 cubics :: Mm -> Curve -> Maybe (Mm, Cubics, Cubics)
 cubics = CubicSpans.along

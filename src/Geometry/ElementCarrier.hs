@@ -1,8 +1,8 @@
 -- | The carriers of a contour's elements.
 --
 -- An element lies on a line, on a circle with a sense, on a curve, or it is a single point. A
--- 'Geometry.Carrier.Carrier' does not suffice for elements: its circles have no sense. But fillets,
--- chamfers and the other links between two elements depend on the direction of travel.
+-- 'Geometry.Carrier.Carrier' does not suffice for elements, because its circles have no sense.
+-- Fillets, chamfers and the other links between two elements depend on the direction of travel.
 module Geometry.ElementCarrier
   ( ElementCarrier (..),
     ofSegment,
@@ -52,7 +52,8 @@ segmentsWithin box carrier = case carrier of
   AtPoint p -> Straight p p :| []
 
 -- | The segment of a line that contains the foot of every point of a bounding box, and thus all
--- points of the line inside the box. The box is enlarged by 1 mm first.
+-- points of the line inside the box. The box is first enlarged by 1 mm, so that the ends of the
+-- segment lie outside of it.
 lineWithin :: BoundingBox -> Line -> Segment
 lineWithin box l = Straight (at (minimum corners)) (at (maximum corners))
   where

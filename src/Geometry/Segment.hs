@@ -182,8 +182,8 @@ hasFootOf :: Segment -> Point -> Bool
 hasFootOf segment p = let t = fraction segment p in t >= 0 && t <= 1
 
 -- | The foot of the point @p@ as a fraction of the segment's length from its start. For a line it
--- is negative before the start and above 1 after the end; for an arc of sweep φ it lies in [0,
--- 2π/|φ|).
+-- is negative before the start and above 1 after the end; for an arc of sweep φ it lies in
+-- [0, 2π/|φ|).
 fraction :: Segment -> Point -> Double
 fraction segment p = case segment of
   Straight a b -> let u = Vec.to a b in Vec.dot u (Vec.to a p) / Vec.dot u u

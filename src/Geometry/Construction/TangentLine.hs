@@ -13,12 +13,12 @@ import Geometry.Vec qualified as Vec
 import Prelude hiding (all)
 
 -- | The common tangent from the first circle to the second, from tangent point to tangent point. At
--- these points it has the directions in which the circles, with their senses, are traversed. A
+-- both points, the line has the direction in which the circle passes the point in its sense. A
 -- circle of radius 0 is a point. Nothing when one circle lies inside the other, or when circles of
 -- opposite senses overlap.
 --
--- With signed radii ρ, positive counter-clockwise, the tangent's left normal n satisfies @n·(c₂ −
--- c₁) = ρ₂ − ρ₁@, and the tangent points are @cᵢ − ρᵢ·n@.
+-- With signed radii ρ, positive counter-clockwise, the tangent's left normal n satisfies
+-- @n·(c₂ − c₁) = ρ₂ − ρ₁@, and the tangent points are @cᵢ − ρᵢ·n@.
 directed :: (Sense, Circle) -> (Sense, Circle) -> Maybe Line
 directed (sense1, Circle c1 (Mm r1)) (sense2, Circle c2 (Mm r2))
   | d <= tolerance || d - abs (rho2 - rho1) <= 0 || len <= tolerance = Nothing

@@ -7,8 +7,8 @@
 --
 -- The tree divides the segments into runs: run @r@ consists of the eight segments from index @8·r@
 -- on. A slot is a part of the cache with room for the eight boxes of one run. The cache has nine
--- slots, with the indices 0 to 8. Box @i@ of slot @s@, with @i@ from 0 to 7, has the index @8·s +
--- i@ in the cache.
+-- slots, with the indices 0 to 8. Box @i@ of slot @s@, with @i@ from 0 to 7, has the index
+-- @8·s + i@ in the cache.
 --
 -- The coordinates of boxes are whole steps of a grid, so that integer operations without a branch
 -- compare two boxes. A query finds the overlapping boxes of one or two slots, as a set of bits.

@@ -126,7 +126,7 @@ childrenEnd :: PrimArray Double -> Int -> Int
 childrenEnd level i = min (boxCount level) (fan * (i + 1))
 {-# INLINE childrenEnd #-}
 
--- | Write a box of a level at the index @i@.
+-- | Write a box at the index @i@ of a level that is being built.
 put :: PrimMonad m => MutablePrimArray (PrimState m) Double -> Int -> BoundingBox -> m ()
 put numbers i (BoundingBox l b r t) = do
   PrimArray.writePrimArray numbers (4 * i) l

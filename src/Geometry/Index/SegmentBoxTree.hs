@@ -265,8 +265,7 @@ runBox c a e lx0 ly0 hx0 hy0 k = go a lx0 ly0 hx0 hy0
 -- | The set, as bits, of those of the eight directions in which all segments from @a@ to @e − 1@
 -- advance. Only two are tested: the axis and the diagonal that are nearest to the direction from
 -- the first vertex to the last. A segment advances in a direction only if its extent along it is
--- above 32 times the margin @m@. So the enlarged boxes of the segments before and after it cannot
--- meet.
+-- above 32 times the margin @m@. So, even with the margin, no segment before it meets one after it.
 headings :: Double -> ClosedPolyarcs -> Int -> Int -> Int
 headings !m !c !a !e = go a (2 * enough) (2 * enough)
   where
@@ -354,8 +353,8 @@ pairs bs@SegmentBoxTree {chain = c, margin = m, sides} continues visit = do
 {-# INLINE pairs #-}
 
 -- | Run the action @inRun@ for each run that may have pairs inside. Run the action @betweenRuns@
--- for each two runs whose boxes overlap, the earlier run first. Both end as soon as @continues@
--- returns false.
+-- for each two runs whose boxes overlap, the earlier run first. No further pairs are sought once
+-- @continues@ returns false.
 runPairs ::
   SegmentBoxTree -> ST s Bool -> (Int -> ST s ()) -> (Int -> Int -> ST s ()) -> ST s ()
 runPairs SegmentBoxTree {sides, directions, begins, counts, highest} continues inRun betweenRuns =

@@ -154,8 +154,8 @@ nodes =
   where
     improved x = let (p, slope) = legendre count x in x - p / slope
 
--- | The factor of the speed at node i in coefficient k, with the index @8·k + i@. It is @(2k +
--- 1)/2·w_i·P_k(x_i)@ with the weight @w_i = 2 / ((1 − x_i²)·P_8′(x_i)²)@.
+-- | The factor of the speed at node i in coefficient k, with the index @8·k + i@. It is
+-- @(2k + 1)/2·w_i·P_k(x_i)@ with the weight @w_i = 2 / ((1 − x_i²)·P_8′(x_i)²)@.
 analysis :: Vector Double
 analysis = Unboxed.concat [Unboxed.map (weight k) nodes | k <- [0 .. count - 1]]
   where

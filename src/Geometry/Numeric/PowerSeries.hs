@@ -1,10 +1,10 @@
 -- | Truncated power series: the Taylor coefficients of a function of a parameter at one of its
 -- values, @f(u₀ + t) = c₀ + c₁·t + c₂·t² + …@ up to some order.
 --
--- Sums, products, quotients, powers and sines are computed on the coefficients (Knuth, TAOCP 2,
--- section 4.7). All derivatives of such a combination are therefore exact but for rounding.
--- Coefficient k is the k-th derivative divided by k!. The order of a series is the index of its
--- last coefficient. An operation on two series gives a series of the lower of both orders.
+-- Sums, products, quotients, powers and sines are computed on the coefficients
+-- (Knuth, TAOCP 2, section 4.7). All derivatives of such a combination are therefore exact but for
+-- rounding. Coefficient k is the k-th derivative divided by k!. The order of a series is the index
+-- of its last coefficient. An operation on two series gives a series of the lower of both orders.
 --
 -- There is no 'Num' instance. A literal has no order of its own; as a series of order 0 it would
 -- truncate every series with which it is combined.
@@ -104,8 +104,8 @@ divide (PowerSeries a) (PowerSeries b) = PowerSeries (Unboxed.constructN n next)
     next q =
       let k = Unboxed.length q in (at a k - summed 1 k (\j -> at b j * at q (k - j))) / at b 0
 
--- | The power with the real exponent @alpha@ of a series w with a positive value. From @w·p′ =
--- α·w′·p@ for @p = w^α@: @p_k = Σ_{j≥1} (α·j − (k − j))·w_j·p_{k−j} / (k·w_0)@.
+-- | The power with the real exponent @alpha@ of a series w with a positive value. From
+-- @w·p′ = α·w′·p@ for @p = w^α@: @p_k = Σ_{j≥1} (α·j − (k − j))·w_j·p_{k−j} / (k·w_0)@.
 power :: Double -> PowerSeries -> PowerSeries
 power alpha (PowerSeries w) = PowerSeries (Unboxed.constructN (Unboxed.length w) next)
   where
@@ -132,8 +132,8 @@ cosine a = let (_, c) = circular a in c
 tangent :: PowerSeries -> PowerSeries
 tangent a = let (s, c) = circular a in divide s c
 
--- | The sine and the cosine of a series: @s_k = Σ_{j≥1} j·a_j·c_{k−j} / k@ and @c_k = −Σ_{j≥1}
--- j·a_j·s_{k−j} / k@.
+-- | The sine and the cosine of a series: @s_k = Σ_{j≥1} j·a_j·c_{k−j} / k@ and
+-- @c_k = −Σ_{j≥1} j·a_j·s_{k−j} / k@.
 circular :: PowerSeries -> (PowerSeries, PowerSeries)
 circular (PowerSeries a) = (PowerSeries (Unboxed.map fst both), PowerSeries (Unboxed.map snd both))
   where

@@ -8,8 +8,8 @@ where
 
 import Geometry.Tolerance qualified as Tolerance
 
--- | A root of the function @f@ between the parameters @from@ and @to@, at which its values have
--- different signs.
+-- | A root of the function @f@ between the parameters @from@ and @to@. The values of @f@ at these
+-- two parameters have different signs.
 --
 -- This is Newton's method safeguarded by bisection: instead of a step that leaves the bracket (the
 -- interval that contains the root), the midpoint of the bracket is taken. The iteration ends when

@@ -73,9 +73,9 @@ offset d expansion@(V2 x y) =
     share = PowerSeries.multiply d (PowerSeries.power (-0.5) (squared velocities))
 
 -- | The direction of travel, of length 1. Where the velocity is 0, it is the limit from the given
--- approach, which follows from the lowest derivative that is not 0. A derivative counts as 0 if its
--- coefficient is at most 'Tolerance.stationary'. Nothing if all derivatives in the expansion count
--- as 0.
+-- approach, which follows from the lowest derivative that is not 0. A derivative counts as 0 if the
+-- length of its coefficient in the expansion is at most 'Tolerance.stationary'. Nothing if all
+-- derivatives in the expansion count as 0.
 direction :: Approach -> TaylorExpansion -> Maybe Vec
 direction approach expansion = case find moves (zip [1 :: Int ..] derivatives) of
   Just (k, v) -> Just (Vec.unit (if even k && approach == Before then Vec.negate v else v))

@@ -110,8 +110,8 @@ hypotenuse a b = sqrt (a * a + b * b)
 -- The second is the distance from the ray through the end, positive before the end. The third is
 -- the extent along the ray through the start, from the centre.
 --
--- The arc is given by x and y of its start (@ax@, @ay@), its end (@bx@, @by@) and its centre (@cx@,
--- @cy@) in mm, and its sweep @s@ in radians. The point is (@px@, @py@).
+-- The arc is given by x and y of its start (@ax@, @ay@), its end (@bx@, @by@) and its centre
+-- (@cx@, @cy@) in mm, and its sweep @s@ in radians. The point is (@px@, @py@).
 bearing ::
   Double ->
   Double ->
@@ -174,8 +174,8 @@ shareOf ax ay bx by px py =
 {-# INLINE shareOf #-}
 
 -- | Foot of the point (@x@, @y@) on a segment, as a fraction of the segment's length. For a line it
--- is negative before the start and above 1 after the end; for an arc of sweep φ it lies in [0,
--- 2π/|φ|).
+-- is negative before the start and above 1 after the end; for an arc of sweep φ it lies in
+-- [0, 2π/|φ|).
 foot :: Segment -> Double -> Double -> Double
 foot e !x !y = case coordinates e of
   LineAt ax ay bx by -> shareOf ax ay bx by x y

@@ -334,8 +334,8 @@ arcBesideArc e t = case (coordinates e, coordinates t) of
 -- its radius; for a line, @r@ is 0. The bound is infinite if @past@ is too large.
 --
 -- Let a point have the distance ρ from the centre of an arc with the radius r, and lie past its end
--- by the angle φ. The square of its distance from the end is @(ρ − r)² + 4·ρ·r·sin²(φ/2)@. If @sin
--- φ@ is at most a hundredth, this is less than @(ρ − r)² + 1.001·(r/ρ)·(ρ·sin φ)²@.
+-- by the angle φ. The square of its distance from the end is @(ρ − r)² + 4·ρ·r·sin²(φ/2)@. If
+-- @sin φ@ is at most a hundredth, this is less than @(ρ − r)² + 1.001·(r/ρ)·(ρ·sin φ)²@.
 aside :: Double -> Double -> Double -> Double -> Double
 aside high past near r
   | past <= 0 = high
