@@ -104,8 +104,8 @@ repeatedMark = 2
 aroundMark :: Word8
 aroundMark = 4
 
--- | The mark of a segment of an offset that leads through a corner of the offset's source contour
--- and so connects the offsets of the corner's two sides.
+-- | The mark of a segment of an offset that leads through a corner of the offset's source contour.
+-- It connects the offsets of the corner's two sides.
 connectingMark :: Word8
 connectingMark = 8
 
@@ -256,9 +256,9 @@ closeLoop out loop k end source = do
   writePrimArray (segmentMarks out) end repeatedMark
   writePrimArray (loopStarts out) loop k
 
--- | True when a polyarc, given by its arrays, can be copied unchanged: every chord is longer than
--- @tolerance@, in mm, the sagitta of every arc is larger than it, and no arc sweeps more than a
--- half circle.
+-- | True when a polyarc, given by its arrays, can be copied unchanged. Every chord is then longer
+-- than @tolerance@, in mm, and the sagitta of every arc is larger than it. No arc sweeps more than
+-- a half circle.
 isNormalised :: Double -> PrimArray Double -> PrimArray Double -> PrimArray Double -> Bool
 isNormalised !tolerance !px !py !pb =
   go 0 (indexPrimArray px (n - 1)) (indexPrimArray py (n - 1)) (indexPrimArray pb (n - 1))

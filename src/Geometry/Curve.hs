@@ -182,8 +182,9 @@ columnAt curve c u =
 inReverseOrder :: Curve -> Vector Double -> Vector Double
 inReverseOrder curve = BasisCurve.inReverseOrder (base curve)
 
--- | Shift distance of a joggle on a curve. It is a fault if the joggle's radius is not above half
--- of its depth, or if its two ramps are longer than the curve between its two parameters.
+-- | Shift distance of a joggle on a curve. The joggle does not fit if its radius is not above half
+-- of its depth. Nor does it fit if its two ramps are longer than the curve between its two
+-- parameters.
 fitJoggle :: Joggle -> Curve -> Either CurveFault Distance
 fitJoggle joggle@Joggle {begins, ends, depth = Mm depth, radius = Mm r} curve
   | r <= 0 || abs depth >= 2 * r = Left DeepJoggle

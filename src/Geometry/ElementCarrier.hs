@@ -51,8 +51,8 @@ segmentsWithin box carrier = case carrier of
   OnCurve p -> MeasuredPolyarc.segments p
   AtPoint p -> Straight p p :| []
 
--- | The segment of a line that contains the foot of every point of a bounding box, and thus all
--- points of the line inside the box. The box is first enlarged by 1 mm, so that the ends of the
+-- | The segment of a line that contains the foot of every point of a bounding box. It thus contains
+-- all points of the line inside the box. The box is first enlarged by 1 mm, so that the ends of the
 -- segment lie outside of it.
 lineWithin :: BoundingBox -> Line -> Segment
 lineWithin box l = Straight (at (minimum corners)) (at (maximum corners))

@@ -92,8 +92,8 @@ reverse o@FlatPolyarc {ends} =
 
 -- | The area that a closed polyarc encloses, in mm²; positive when the polyarc runs
 -- counter-clockwise. It is the area of the polygon of chords (shoelace formula) plus the areas
--- between arcs and chords, @c²·(s − sin s)/(8·sin²(s/2))@ for a chord of length @c@ and a sweep
--- @s@.
+-- between arcs and chords. For a chord of length @c@ and a sweep @s@, the latter is
+-- @c²·(s − sin s)/(8·sin²(s/2))@.
 area :: FlatPolyarc -> Double
 area o = folded o $ \x0 y0 x1 y1 b ->
   let ax = x0 - ox
@@ -146,9 +146,9 @@ fromPolyarc :: Polyarc -> (FlatPolyarc, PrimArray Int)
 fromPolyarc (Polyarc ends ss) =
   fromSegments ends (Vector.fromListN (NonEmpty.length ss) (NonEmpty.toList ss))
 
--- | The flat form of a polyarc that is given as a vector of at least one segment, and an array with
--- one number for each segment of the flat form. This number is the index, in the vector, of the
--- segment from which the flat one is made.
+-- | The flat form of a polyarc, given as a vector of at least one segment; and an array with one
+-- number for each segment of the flat form. This number is the index, in the vector, of the segment
+-- from which the flat one is made.
 fromSegments :: Ends -> Vector Segment -> (FlatPolyarc, PrimArray Int)
 fromSegments ends ss = runST $ do
   let room = Vector.foldl' (\k s -> if isOverHalf s then k + 2 else k + 1) 1 ss

@@ -116,9 +116,9 @@ stations = Unboxed.toList . table
 isClosed :: MeasuredPolyarc -> Bool
 isClosed p = Vec.isNear (start p) (end p)
 
--- | The index, from 0, of the segment that contains the station @s@, and the position of the
--- station as a fraction of that segment's length from 0 to 1. A station outside of the polyarc
--- gives the nearer end.
+-- | The index, from 0, of the segment that contains the station @s@; and the fraction of this
+-- segment's length, from 0 to 1, at which the station lies. A station outside of the polyarc gives
+-- the nearer end.
 locate :: MeasuredPolyarc -> Mm -> (Int, Double)
 locate p (Mm s) = (i, if l <= 0 then 0 else max 0 (min 1 ((s - table p Unboxed.! i) / l)))
   where

@@ -82,7 +82,8 @@ signedArea (Polyarc _ ss) = areaOf id ss
 
 -- | The signed area, in mm², that the segments of consecutive things enclose; @get@ reads the
 -- segment of a thing. It is the sum of the triangles from the first start point to the chords
--- (shoelace formula) and of the regions between the arcs and their chords, @r²·(φ − sin φ)/2@.
+-- (shoelace formula) and of the regions between arcs and chords. For a radius r and a sweep φ, such
+-- a region has the area @r²·(φ − sin φ)/2@.
 areaOf :: (a -> Segment) -> NonEmpty a -> Double
 areaOf get (first :| others) = go 0 first others
   where

@@ -227,9 +227,9 @@ offset side d@(Mm distance) segment = case segment of
       Mm new = offsetRadius side d sweep (Mm old)
       moved p = Vec.shift (Vec.scale (new / old) (Vec.to centre p)) centre
 
--- | The radius of an arc's offset, where the arc has the radius @r@ and the sweep @s@ and the
--- offset lies at the distance @d@ to the given side. On the side of the centre it is @r − d@, which
--- is negative for a distance above the radius.
+-- | The radius of the offset of an arc with the radius @r@ and the sweep @s@. The offset lies at
+-- the distance @d@ to the given side of the arc. On the side of the centre its radius is @r − d@,
+-- which is negative when @d@ is larger than @r@.
 offsetRadius :: Side -> Mm -> Rad -> Mm -> Mm
 offsetRadius side (Mm d) (Rad s) (Mm r)
   | signum s == Carrier.sideSign side = Mm (r - d)

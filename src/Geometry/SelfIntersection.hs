@@ -34,8 +34,8 @@ import Geometry.Vec (Point)
 import Geometry.Vec qualified as Vec
 
 -- | The first self-intersection of a polyarc; nothing if it has none. The result has the indices,
--- from 0, of two segments that cross or touch elsewhere than at a common joint, and the point at
--- which they do. The first index is the least possible one.
+-- from 0, of two segments that cross or touch elsewhere than at a common joint. The point at which
+-- they do comes third. The first index is the least possible one.
 firstSelfIntersection :: Polyarc -> Maybe (Int, Int, Point)
 firstSelfIntersection (Polyarc ends ss) = firstSelfIntersectionBy id ends ss
 

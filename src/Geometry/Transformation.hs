@@ -67,8 +67,8 @@ reflection axis = about (aboutOrigin True (Rad (2 * direction)) 1) (Carrier.from
 scaling :: Double -> Point -> Transformation
 scaling k = about (aboutOrigin False (Rad 0) k)
 
--- | A reflection in the x axis if @mirrored@ is true, then a rotation about the origin by the angle
--- @a@ in radians, then a scaling by @factor@.
+-- | The product of up to three transformations: first a reflection in the x axis if @mirrored@ is
+-- true, then a rotation about the origin by @a@ radians, then a scaling by @factor@.
 aboutOrigin :: Bool -> Rad -> Double -> Transformation
 aboutOrigin mirrored (Rad a) factor =
   Transformation {matrix = factor *!! orthogonal, displacement = V2 0 0, factor, mirrored}

@@ -83,9 +83,9 @@ ofPair radius sense a b =
       Just end <- [touch radius sense b c]
   ]
 
--- | The line or circle on which the centres of all arcs lie that have a radius and sense and are
--- tangent to a carrier in its direction of travel. Nothing for a curve or a point, and for a circle
--- of the same sense and radius.
+-- | The line or circle that contains the centres of all arcs of a radius and sense that are tangent
+-- to a carrier in its direction of travel. Nothing for a curve or a point, and for a circle of the
+-- same sense and radius.
 locus :: Mm -> Sense -> ElementCarrier -> Maybe Carrier
 locus radius@(Mm r) sense carrier = case carrier of
   OnLine l -> Just (LineCarrier (Carrier.parallelAt (Mm (Carrier.senseSign sense * r)) l))

@@ -128,11 +128,11 @@ arcIsAccompanied most others t = case coordinates t of
             others
   _ -> False
 
--- | True if some consecutive segments of a list, each of which begins where the one before ends,
--- lead past both ends of a segment t and satisfy a condition. @positionOf@ gives the position of a
--- point (x, y) relative to the ends of t. @spanOf@ gives the range of the distances between a
--- segment and the carrier of t. @fits@ is the condition: its arguments are the range of these
--- distances for all segments of the run, and the run's length in mm.
+-- | True if a run of consecutive segments of a list leads past both ends of a segment t and
+-- satisfies a condition. In a run, each segment begins where the one before ends. @positionOf@
+-- gives the position of a point (x, y) relative to the ends of t. @spanOf@ gives the range of the
+-- distances between a segment and the carrier of t. @fits@ is the condition: its arguments are the
+-- range of these distances for all segments of the run, and the run's length in mm.
 chain ::
   (Double -> Double -> Position) ->
   (Segment -> DistanceRange) ->

@@ -71,9 +71,9 @@ data BoundingBoxCache s = BoundingBoxCache
 -- ends.
 --
 -- A corner of a box is one machine word that contains both coordinates in steps. Above each
--- coordinate is one further bit, which is set in upper corners only. When a lower corner is
--- subtracted from an upper one, the further bit of a coordinate remains set if the lower corner's
--- coordinate is at most the upper one's, and only then.
+-- coordinate is one further bit, which is set in upper corners only. A comparison subtracts a lower
+-- corner from an upper one. The further bit of a coordinate remains set exactly if the lower
+-- corner's coordinate is at most the upper one's.
 data Grid = Grid {halfSteps :: Double, addX :: Double, addY :: Double}
 
 -- | The lower corners of all boxes in the slots, and the upper corners, by the index of the box.
@@ -174,8 +174,8 @@ fill c m Grid {halfSteps, addX, addY} (Slots !lows !highs) !s !r =
 
 -- Queries -----------------------------------------------------------------------------------
 
--- | The set of the boxes of slot @s@ that overlap a given box, with the least x and y @lx@ and @ly@
--- and the largest x and y @hx@ and @hy@, in mm. Bit @i@ means box @i@ of the slot.
+-- | The set of the boxes of slot @s@ that overlap a given box. The given box has the least x and y
+-- @lx@ and @ly@ and the largest x and y @hx@ and @hy@, in mm. Bit @i@ means box @i@ of the slot.
 overlappingBox :: BoundingBoxCache s -> Int -> Double -> Double -> Double -> Double -> ST s Int
 overlappingBox BoundingBoxCache {grid, slots} !s !lx !ly !hx !hy = do
   against slots s (lowerCorner (stepX lx) (stepY ly)) (upperCorner (stepX hx) (stepY hy))

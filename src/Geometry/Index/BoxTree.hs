@@ -216,8 +216,9 @@ each boxOf holds tree = start
     start others = case others of
       [] -> []
       b : rest -> let box = boxOf b in gather (1 :: Int) (halfPerimeter box) box [box] [b] rest
-    -- Extends a group: the count of its elements, the least half perimeter of their boxes, the box
-    -- around all of them, the boxes and the elements in reverse order, and the rest of the list.
+    -- Extends a group of @count@ elements. @boxes@ and @members@ are their boxes and the elements,
+    -- both in reverse order. @whole@ is the box around all of them, and @least@ the least half
+    -- perimeter of a box.
     gather count least whole boxes members rest = case rest of
       b : more
         | count < groupSize,

@@ -82,8 +82,8 @@ segmentBoxWithMargin bs i k =
 {-# INLINE segmentBoxWithMargin #-}
 
 -- | The box of the segment with the index @i@, without a margin, passed to the continuation @k@. An
--- arc up to a half circle lies in the parallelogram that has its chord as one side and a parallel
--- tangent as the opposite side; the box is that of this parallelogram.
+-- arc up to a half circle lies in the parallelogram between its chord and the tangent that is
+-- parallel to the chord. The box is that of this parallelogram.
 segmentBox :: ClosedPolyarcs -> Int -> (Double -> Double -> Double -> Double -> r) -> r
 segmentBox c i k = k lx ly hx hy
   where

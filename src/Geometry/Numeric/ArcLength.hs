@@ -124,8 +124,8 @@ extent table p =
 lastBelow :: Double -> Vector Double -> Int
 lastBelow v sorted = BinarySearch.lastAtMost (Unboxed.length sorted - 1) v sorted
 
--- | The arc length, in mm, from the start of panel @p@ to the position @x@ in it, and the speed at
--- @x@ in mm per unit of the position. The formula is @∫P_k = (P_{k+1} − P_{k−1}) / (2k + 1)@ for
+-- | The arc length, in mm, from the start of panel @p@ to the position @x@ in it; and the speed at
+-- @x@, in mm per unit of the position. The formula is @∫P_k = (P_{k+1} − P_{k−1}) / (2k + 1)@ for
 -- Legendre polynomials.
 within :: ArcLength -> Int -> Double -> (Double, Double)
 within table p x = go 1 1 x (c 0 * (x + 1)) (c 0)

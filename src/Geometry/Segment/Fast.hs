@@ -110,8 +110,8 @@ hypotenuse a b = sqrt (a * a + b * b)
 -- The second is the distance from the ray through the end, positive before the end. The third is
 -- the extent along the ray through the start, from the centre.
 --
--- The arc is given by x and y of its start (@ax@, @ay@), its end (@bx@, @by@) and its centre
--- (@cx@, @cy@) in mm, and its sweep @s@ in radians. The point is (@px@, @py@).
+-- The arc is given by its start (@ax@, @ay@), its end (@bx@, @by@) and its centre (@cx@, @cy@) in
+-- mm, and by its sweep @s@ in radians. The point is (@px@, @py@).
 bearing ::
   Double ->
   Double ->
@@ -150,8 +150,8 @@ isWhole :: Double -> Bool
 isWhole s = abs s >= 2 * pi
 
 -- | Box that contains a segment. For an arc that sweeps less than a half circle it is the box of
--- its ends, inflated by a bound of the sagitta, @r·(1 − cos(φ/2)) ≤ r·φ²/8@ for the sweep φ. For
--- other arcs it is the box of the full circle.
+-- its ends, inflated by a bound of the sagitta. With the sweep φ this bound follows from
+-- @r·(1 − cos(φ/2)) ≤ r·φ²/8@. For other arcs it is the box of the full circle.
 box :: Segment -> BoundingBox
 box segment = case coordinates segment of
   LineAt ax ay bx by -> BoundingBox (min ax bx) (min ay by) (max ax bx) (max ay by)
@@ -162,8 +162,9 @@ box segment = case coordinates segment of
         (BoundingBox (min ax bx) (min ay by) (max ax bx) (max ay by))
     | otherwise -> BoundingBox (cx - r) (cy - r) (cx + r) (cy + r)
 
--- | Foot of the point (@px@, @py@) on the line through two points, as a fraction of the distance
--- from the first point (@ax@, @ay@) to the second (@bx@, @by@). 0 if the two points coincide.
+-- | Foot of the point (@px@, @py@) on the line from the point (@ax@, @ay@) to the point
+-- (@bx@, @by@). The result is a fraction of the distance between these two: 0 at the first, 1 at
+-- the second. It is 0 if they coincide.
 shareOf :: Double -> Double -> Double -> Double -> Double -> Double -> Double
 shareOf ax ay bx by px py =
   let ux =

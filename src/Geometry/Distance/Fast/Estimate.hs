@@ -191,8 +191,8 @@ apartAtLeast t e = case coordinates t of
       | otherwise -> 0
 
 -- | Upper bound, in mm, of the distance of any point of the segment @e@ from the segment @t@. It is
--- exact if every point of @e@ has its foot on @t@, and also if the same end of @t@ is nearest to
--- all points of @e@.
+-- exact if every point of @e@ has its foot on @t@. It is also exact if the same end of @t@ is
+-- nearest to all points of @e@.
 furthest :: Segment -> Segment -> Double
 furthest e t =
   min
@@ -290,8 +290,8 @@ arcBesideArc e t = case (coordinates e, coordinates t) of
     | q > 0 && (abs z <= pi || isWhole z) ->
       let off = hypotenuse (cx - dx) (cy - dy)
           away x y = hypotenuse (x - dx) (y - dy)
-          -- The distance of the arc @e@ from the centre of the arc @t@ is extreme at the ends of
-          -- @e@ and on the line through both centres.
+          -- The distance from the centre of the arc @t@ to points of the arc @e@ is extreme at the
+          -- ends of @e@ and on the line through both centres.
           onLine sense =
             let f = sense * r / off
              in off > 0 && inSector e (cx + f * (cx - dx)) (cy + f * (cy - dy))
