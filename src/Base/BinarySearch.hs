@@ -9,13 +9,13 @@ import Base.Quantity (Mm (..), minus, plus, times)
 import Data.Vector.Unboxed (Unbox, Vector)
 import Data.Vector.Unboxed qualified as Vector
 
--- | Binary search among the first @count@ elements of a vector in ascending order. Yields the index
--- of the last element that is at most the given value, or 0 when every element is larger. @count@
--- is at least 1.
+-- | Binary search among the first @count@ elements of the vector @sorted@, which is in ascending
+-- order. Yields the index, from 0, of the last element that is at most @v@, or 0 when every element
+-- is larger. @count@ is at least 1.
 lastAtMost :: (Unbox a, Ord a) => Int -> a -> Vector a -> Int
 lastAtMost count v sorted = search 0 count
   where
-    -- The index is at least @low@ and less than @high@.
+    -- The wanted index is at least @low@ and less than @high@.
     search low high
       | high - low <= 1 = low
       | sorted Vector.! middle <= v = search middle high
@@ -24,8 +24,9 @@ lastAtMost count v sorted = search 0 count
         middle = (low + high) `div` 2
 {-# INLINE lastAtMost #-}
 
--- | Bisects a predicate that is true at @low@ and false at @high@. Yields a length at which it is
--- true and a larger one at which it is false. They differ by at most @resolution@.
+-- | Bisects the predicate @holds@, which is true at @low@ and false at the larger length @high@.
+-- Yields two lengths between them, the smaller one first, that differ by at most @resolution@. The
+-- predicate is true at the first and false at the second.
 bisect :: Mm -> (Mm -> Bool) -> Mm -> Mm -> (Mm, Mm)
 bisect resolution holds low high
   | minus high low <= resolution = (low, high)

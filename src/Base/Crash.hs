@@ -1,7 +1,7 @@
--- | The one sanctioned crash: for a state that only a bug in partc can reach.
+-- | The only deliberate crash of the program: for a state that only a bug in partc can reach.
 --
--- A user's mistake becomes a report instead. The command line turns the exception into exit status
--- 70 and asks the user to send the program.
+-- A user's mistake becomes a report instead. The command line turns the exception 'Bug' into exit
+-- status 70 and asks the user to send the program.
 module Base.Crash
   ( Bug (..),
     bug,
@@ -13,7 +13,7 @@ import Data.Text (Text)
 import Data.Text qualified as Text
 import GHC.Stack (HasCallStack, callStack, prettyCallStack)
 
--- | A description of the impossible state, and the call stack in partc's source.
+-- | A description of the impossible state (@what@), and the call stack in partc's source (@place@).
 data Bug = Bug {what :: Text, place :: Text}
 
 instance Show Bug where

@@ -1,5 +1,5 @@
--- | Decimal numbers as text, and their parser. Zero has no minus sign, and numbers of the size of
--- a part's dimensions have no exponent.
+-- | Decimal numbers: writing them as text, and parsing them. Zero is written without a minus sign,
+-- and numbers of the size of a part's dimensions have no exponent.
 module Base.Decimal
   ( fixed,
     short,
@@ -24,8 +24,8 @@ import Data.Vector.Unboxed (Vector)
 import Data.Vector.Unboxed qualified as Vector
 import Numeric (showFFloat)
 
--- | A number rounded to exactly @decimals@ decimals. Numbers from 10¹⁵ on are written with an
--- exponent instead.
+-- | The text of the number @x@, rounded to exactly @decimals@ digits after the point. For an
+-- absolute value from 10¹⁵ on, the text has an exponent instead.
 fixed :: Int -> Double -> Text
 fixed decimals x
   | abs x >= 1e15 = Text.pack (show x)
@@ -34,7 +34,8 @@ fixed decimals x
   where
     written = Text.pack (showFFloat (Just decimals) x "")
 
--- | A number rounded to @decimals@ decimals, without trailing zeros.
+-- | The text of the number @x@, rounded to @decimals@ digits after the point, without trailing
+-- zeros.
 short :: Int -> Double -> Text
 short decimals x
   | Text.any (== '.') written && not (Text.any (== 'e') written) =
@@ -43,9 +44,9 @@ short decimals x
   where
     written = fixed decimals x
 
--- | The shortest text that 'parse' reads as the absolute value of the number, after a minus sign
--- for a negative one. A number that needs more than 'mostDigits' digits is rounded to 24 decimals:
--- a part has no length as small as the error of that rounding.
+-- | The shortest text of the number @x@ that 'parse' reads without any error. A negative number has
+-- a minus sign first, which 'parse' does not accept. A number that needs more than 'mostDigits'
+-- digits is rounded to 24 decimals: a part has no length as small as the error of that rounding.
 exact :: Double -> Text
 exact x
   | x == 0 = "0"
@@ -55,8 +56,9 @@ exact x
     written = Text.pack (showFFloat Nothing x "")
     plain = fromMaybe written (Text.stripSuffix ".0" written)
 
--- | Parses digits, and optionally a point and more digits, into the nearest double. Signs and
--- exponents are not numbers here. Nothing for a number with more than 'mostDigits' digits.
+-- | The double nearest to the number that a text consists of: digits, and optionally a point and
+-- more digits. Nothing for any other text, such as one with a sign or an exponent, and for a number
+-- with more than 'mostDigits' digits.
 parse :: Text -> Maybe Double
 parse text = case leading text of
   Leading {consumed, parsed, remainder} | consumed > 0 && Text.null remainder -> parsed
@@ -66,13 +68,15 @@ parse text = case leading text of
 data Leading = Leading
   { -- | the count of the number's characters; 0 for a text that does not begin with a digit
     consumed :: Int,
-    -- | the double nearest to the number; nothing for a number with more than 'mostDigits' digits
+    -- | the double nearest to the number; nothing for a number with more than 'mostDigits' digits,
+    -- and 0 for a text that does not begin with a digit
     parsed :: Maybe Double,
     -- | the text after the number
     remainder :: {-# UNPACK #-} Text
   }
 
--- | Parses the unsigned number at the start of a text.
+-- | Parses the unsigned number at the start of a text. A point belongs to the number only if digits
+-- come before and after it.
 leading :: Text -> Leading
 leading text = case digits 0 text of
   Digits front count remainder -> case Text.uncons remainder of
@@ -94,11 +98,12 @@ leading text = case digits 0 text of
         let (before, rest) = Text.breakOn "." (Text.take width text)
          in longer before (Text.drop 1 rest)
 
--- | The result of 'digits': the number with the digits appended, the count of the digits, and the
--- text after them. The number overflows with more than 'fewDigits' digits in all.
+-- | The result of 'digits': the number with the digits appended, the count of the appended digits,
+-- and the text after them. With more than 'fewDigits' digits in all, the number has overflowed and
+-- is not used.
 data Digits = Digits Int Int {-# UNPACK #-} Text
 
--- | Appends the decimal digits at the start of a text to those of a number.
+-- | Appends the decimal digits at the start of a text to the digits of a number.
 digits :: Int -> Text -> Digits
 digits = go 0
   where
@@ -106,7 +111,7 @@ digits = go 0
       Just (c, rest) | isDigit c -> go (count + 1) (10 * n + (fromEnum c - fromEnum '0')) rest
       _ -> Digits n count text
 
--- | The powers of ten from 10⁰ to 10¹⁷, by their exponents. Doubles hold them exactly.
+-- | The powers of ten from 10⁰ to 10¹⁷; the index is the exponent. Doubles represent them exactly.
 powersOfTen :: Vector Double
 powersOfTen = Vector.iterateN fewDigits (10 *) 1
 
@@ -114,8 +119,9 @@ powersOfTen = Vector.iterateN fewDigits (10 *) 1
 fewDigits :: Int
 fewDigits = 18
 
--- | The double nearest to a number, given its digits before the point and those after the point.
--- Nothing for more than 'mostDigits' digits in all.
+-- | The double nearest to a number that has the digits @before@ the point and the digits @fraction@
+-- after it. It serves numbers that are too long for the faster method of 'leading'. Nothing for
+-- more than 'mostDigits' digits in all.
 longer :: Text -> Text -> Maybe Double
 longer before fraction
   | Text.length before + places > mostDigits = Nothing
@@ -135,13 +141,13 @@ mostDigits = 40
 whole :: Int -> Text
 whole = Text.pack . show
 
--- | A length for a report: at most four decimals, with its unit.
+-- | The text of a length for a report: at most four decimals, and the unit.
 mm :: Mm -> Text
 mm (Mm x) = short 4 x <> " mm"
 
--- | The second length, for a report that also names the first: with four decimals, or with up to
--- nine if its text would otherwise be that of the first. Lengths that nine decimals do not
--- distinguish have four.
+-- | The text of the length @x@ for a report that also names the length @other@. It has up to four
+-- decimals, or up to nine if with fewer both lengths would have the same text. Lengths that nine
+-- decimals do not distinguish have four.
 distinctMm :: Mm -> Mm -> Text
 distinctMm (Mm other) (Mm x) =
   case [ written
@@ -152,8 +158,8 @@ distinctMm (Mm other) (Mm x) =
     written : _ -> written <> " mm"
     [] -> mm (Mm x)
 
--- | A length other than 0 for a report: at most four decimals, or at most nine for a length below
--- 0.0001 mm, which four decimals would show as 0.
+-- | The text of a length that is not 0, for a report. It has at most four decimals, or at most nine
+-- below 0.0001 mm, where four decimals would show 0.
 nonZeroMm :: Mm -> Text
 nonZeroMm (Mm x)
   | abs x >= 0.0001 = mm (Mm x)

@@ -1,7 +1,8 @@
 -- | A lazy list with a value at its end: the result of the computation that makes the list.
 --
--- A consumer that needs that value first forces the whole list, and then reads the items from
--- memory. A list accumulated in reverse would exist twice in memory when it is reversed.
+-- A consumer can first ask for the value at the end, which computes the whole list, and then read
+-- the items from memory. The usual accumulation of items in reverse order would need twice the
+-- memory while the list is reversed.
 module Base.LazyList
   ( LazyList (..),
     prependReversed,
@@ -10,11 +11,11 @@ module Base.LazyList
   )
 where
 
--- | An item and the rest of the list, or the value at the end.
+-- | An item and the rest of the list, which is computed on demand; or the value at the end.
 data LazyList e a = Next a ~(LazyList e a) | End e
 
--- | Prepends items that are given in reverse order: the first given item becomes the neighbour of
--- the list.
+-- | Prepends items that are given in reverse order: the first item of @latest@ comes directly
+-- before @list@.
 prependReversed :: [a] -> LazyList e a -> LazyList e a
 prependReversed latest list = case latest of
   [] -> list

@@ -17,8 +17,9 @@ newtype Name = Name {text :: Text}
   deriving newtype (Eq, Ord, IsString)
   deriving stock (Show)
 
--- | The candidates whose Levenshtein distance from a misspelt name is at most a third of the name's
--- length, nearest first. Upper and lower case are the same.
+-- | The candidates that the user may have meant by the misspelt name @wanted@, nearest first. Their
+-- Levenshtein distance from it is at most a third of its length. Upper and lower case count as the
+-- same letter.
 nearest :: Text -> [Text] -> [Text]
 nearest wanted candidates =
   map
@@ -37,8 +38,8 @@ nearest wanted candidates =
     small = lower wanted
     lower = Text.unpack . Text.toLower
 
--- | The candidates that look like a name but have some letters of the other alphabet: Latin for
--- Cyrillic, or Cyrillic for Latin.
+-- | The candidates that look like the name @wanted@ but have some letters of the other alphabet:
+-- Latin for Cyrillic, or Cyrillic for Latin.
 lookAlike :: Text -> [Text] -> [Text]
 lookAlike wanted candidates =
   [c | c <- candidates, Text.compareLength c size == EQ, c /= wanted, Text.map latin c == seen]
@@ -50,12 +51,15 @@ lookAlike wanted candidates =
 latin :: Char -> Char
 latin c = Maybe.fromMaybe c (lookup c (zip "асеорхуіјѕАВСЕНІЈКМОРЅТХ" "aceopxyijsABCEHIJKMOPSTX"))
 
--- | The Levenshtein distance of two words if it is at most a limit, row by row of the usual table.
--- Stops at the first row in which all numbers exceed the limit; for most words it comes early.
+-- | The Levenshtein distance of the words @a@ and @b@: the least count of letters to insert, delete
+-- or replace. Nothing if it exceeds @most@.
+--
+-- The usual table is computed row by row. The computation stops at the first row in which all
+-- numbers exceed @most@; for most words that row comes early.
 distance :: Int -> String -> String -> Maybe Int
 distance most a b = go [0 .. length b] a
   where
-    -- A row has the distances of a prefix of @a@ from every prefix of @b@.
+    -- A row contains the distances of a prefix of @a@ from every prefix of @b@.
     go row rest = case rest of
       _ | all (> most) row -> Nothing
       [] -> let d = last row in if d <= most then Just d else Nothing

@@ -18,12 +18,12 @@ import Control.Monad.ST (runST)
 import Data.Primitive.PrimArray (PrimArray)
 import Data.Primitive.PrimArray qualified as PrimArray
 
--- | Rows of @width@ numbers. @numbers@ has the rows one after the other; @places@ has two offsets
--- for each row, the start and the end of its region.
+-- | A table whose rows have @width@ numbers each. @numbers@ contains the rows one after the other.
+-- @places@ contains two offsets for each row: the start and the end of its region of the text.
 data NumberTable = NumberTable {width :: Int, places :: PrimArray Int, numbers :: PrimArray Double}
   deriving stock (Eq, Show)
 
--- | A table from rows of equal length with their regions.
+-- | Makes a table of rows of equal length, each given by its region and its numbers.
 fromList :: [(Region, PrimArray Double)] -> NumberTable
 fromList rows = runST $ do
   ends <- PrimArray.newPrimArray (2 * n)
@@ -71,8 +71,8 @@ concatenated width parts = case parts of
   _ ->
     NumberTable {width, places = mconcat (map places parts), numbers = mconcat (map numbers parts)}
 
--- | Makes a table of some columns, given by their indices from 0. Each column is multiplied by the
--- factor beside its index.
+-- | Makes a table of some columns of @rows@, in the order of the list @columns@. The list contains
+-- the index of each column, from 0, and a factor by which its numbers are multiplied.
 selectColumns :: [(Int, Double)] -> NumberTable -> NumberTable
 selectColumns columns rows =
   rows {width = wide, numbers = PrimArray.generatePrimArray (wide * count rows) number}
@@ -84,7 +84,7 @@ selectColumns columns rows =
       (k, i) ->
         cell rows k (PrimArray.indexPrimArray sources i) * PrimArray.indexPrimArray factors i
 
--- | Makes a table of some rows, given by their indices from 0.
+-- | Makes a table of some rows, given by their indices from 0, in the order of the list.
 selectRows :: [Int] -> NumberTable -> NumberTable
 selectRows ks rows = selected {width = width rows}
   where

@@ -1,6 +1,6 @@
 -- | Vectors of whole pulses along the axes of the part: positions and increments of a cutter.
 --
--- Arithmetic is by components.
+-- Sums, products and all other operations work on each component separately.
 module Base.PulseVector
   ( Pulses2 (..),
     Pulses3 (..),

@@ -56,11 +56,11 @@ plus a b = coerce (coerce a + coerce b :: Double)
 minus :: Coercible q Double => q -> q -> q
 minus a b = coerce (coerce a - coerce b :: Double)
 
--- | A multiple of a quantity.
+-- | The product of the plain number @k@ and a quantity.
 times :: Coercible q Double => Double -> q -> q
 times k a = coerce (k * coerce a :: Double)
 
--- | The first quantity divided by the second.
+-- | The quotient of two quantities, a plain number: the first divided by the second.
 over :: Coercible q Double => q -> q -> Double
 over a b = coerce a / coerce b
 
@@ -68,15 +68,15 @@ over a b = coerce a / coerce b
 total :: Coercible q Double => [q] -> q
 total = foldl plus (coerce (0 :: Double))
 
--- | The angle that has this number of degrees.
+-- | The angle of @deg@ degrees.
 radians :: Double -> Rad
 radians deg = Rad (deg * pi / 180)
 
--- | An angle in degrees.
+-- | The size of an angle in degrees.
 degrees :: Rad -> Double
 degrees (Rad r) = r * 180 / pi
 
--- | The time that a move takes, from its length l and its feed s: @t = 60·l/s@ seconds, with l in
--- mm and s in mm\/min (Ural paper, section 0–1).
+-- | The time of a move with the length @l@ mm and the feed @s@ mm\/min: @60·l/s@ seconds (Ural
+-- paper, section 0–1).
 travelTime :: Mm -> Feed -> Seconds
 travelTime (Mm l) (Feed s) = Seconds (60 * l / s)

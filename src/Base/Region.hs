@@ -3,9 +3,10 @@
 
 -- | Regions of the source text, and their lines and columns.
 --
--- An offset counts characters (code points) from 0. The texts of a program and its imports are
--- numbered one after another, so an offset also determines the file. Only this module converts
--- offsets to lines and columns. Lines and columns count from 1, and a column counts characters.
+-- An offset is a position in the source as a number: it counts characters (code points) from 0. The
+-- texts of a program and its imports are numbered one after another, so an offset also determines
+-- the file. Only this module converts offsets to lines and columns. Lines and columns count from 1,
+-- and a column counts characters.
 module Base.Region
   ( Region (Region, start, end),
     Located (..),
@@ -55,13 +56,13 @@ instance Show Region where
       (depth > 10)
       (showString "Region {start = " . shows a . showString ", end = " . shows b . showString "}")
 
--- | The start and the end of a region.
+-- | The offsets at which a region starts and ends.
 offsets :: Region -> (Int, Int)
 offsets (Halves both) =
   (fromIntegral (both `shiftR` half), fromIntegral (both .&. (1 `shiftL` half - 1)))
 {-# INLINE offsets #-}
 
--- | The number of bits of an offset.
+-- | The count of bits that one of a region's two offsets takes: half of a word.
 half :: Int
 half = 32
 
@@ -84,7 +85,7 @@ merge a b = Region (min (start a) (start b)) (max (end a) (end b))
 -- with LF, CR or CR LF.
 data Source = Source {own :: File, imported :: Boxed.Vector File}
 
--- | A file of a source. The index of its lines is computed on demand.
+-- | A file of a source: its path and its text. The index of its lines is computed on demand.
 data File = File
   { path :: Text,
     -- | the offset of the text's first character in the source
@@ -98,20 +99,21 @@ data File = File
     contents :: ~(Boxed.Vector Text)
   }
 
--- | A position: file, line and column. Line and column count from 1.
+-- | A position in a file, given by its path: line and column, both from 1.
 data Position = Position {file :: Text, line :: Int, column :: Int}
   deriving stock (Eq, Ord, Show)
 
--- | The source of a program from the name of its file and its text.
+-- | The source of a program without imports, from the path of its file and its text.
 fromText :: Text -> Text -> Source
 fromText path content = Source {own = indexed path 0 content, imported = Boxed.empty}
 
--- | Appends an imported file by its name and its text.
+-- | Appends an imported file, given by its path and its text, to a source.
 addFile :: Text -> Text -> Source -> Source
 addFile path content source =
   source {imported = Boxed.snoc (imported source) (indexed path (nextOffset source) content)}
 
--- | The offset at which the next appended file begins.
+-- | The offset at which the next appended file begins. It is one more than the end of the last
+-- text, so that this end belongs to no other file.
 nextOffset :: Source -> Int
 nextOffset source = let final = fileAt source maxBound in base final + length final + 1
 
@@ -119,11 +121,11 @@ nextOffset source = let final = fileAt source maxBound in base final + length fi
 text :: Source -> Text
 text = content . own
 
--- | The file of the program itself.
+-- | The path of the program's own file.
 mainFile :: Source -> Text
 mainFile = path . own
 
--- | A file from its path, the offset of its start, and its text.
+-- | A file from its path, the offset of its first character in the source, and its text.
 indexed :: Text -> Int -> Text -> File
 indexed path base content =
   File
@@ -135,7 +137,8 @@ indexed path base content =
       contents = Boxed.fromList (map snd (numbered content))
     }
 
--- | The lines of a text, without their line ends, each with the offset of its start.
+-- | The lines of a text, without their line ends. Before each comes the offset of its first
+-- character in the text.
 numbered :: Text -> [(Int, Text)]
 numbered = go 0
   where
@@ -150,7 +153,7 @@ numbered = go 0
             then []
             else go (at + Text.length before + ending) (Text.drop ending after)
 
--- | The file that contains an offset. An offset outside of all files counts for the nearest file.
+-- | The file that contains an offset. An offset outside of all files belongs to the nearest file.
 fileAt :: Source -> Int -> File
 fileAt source at =
   Boxed.foldl' (\_ file' -> file') (own source) (Boxed.takeWhile ((<= at) . base) (imported source))
@@ -164,8 +167,9 @@ position source at =
     within = max 0 (min (at - base found) (length found))
     index = lineIndex found within
 
--- | The offset of a position in the program itself, by line and column. A column beyond the end of
--- its line counts as that end, and a line beyond the text counts as the text's end.
+-- | The offset of a position in the program's own file, given by line and column from 1. A column
+-- beyond the end of its line counts as that end, and a line beyond the text counts as the text's
+-- end.
 offset :: Source -> Int -> Int -> Int
 offset Source {own} line column
   | line > Vector.length (starts own) = length own
@@ -174,8 +178,8 @@ offset Source {own} line column
   where
     index = max 0 (line - 1)
 
--- | The index, from 0, of the line that contains an offset. The offset counts from the start of the
--- file.
+-- | The index, from 0, of the line of a file that contains the offset @at@. This offset counts from
+-- the start of the file.
 lineIndex :: File -> Int -> Int
 lineIndex File {starts} at = BinarySearch.lastAtMost (Vector.length starts) at starts
 

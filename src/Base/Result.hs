@@ -1,8 +1,9 @@
 -- | The result of a compiler pass: warnings, errors, and its output.
 --
--- Errors of independent steps accumulate (the applicative). A step that depends on the output of
--- another step runs only if there is an output (the monad). An output next to errors is incomplete
--- but sound: later passes look for mistakes in it, but no tape is made of it.
+-- The errors of independent steps accumulate; such steps are combined by the applicative functor. A
+-- step that needs the output of another step is combined with it by the monad, and runs only if
+-- there is an output. An output next to errors is incomplete but sound: later passes look for
+-- mistakes in it, but no tape is made of it.
 module Base.Result
   ( Result (..),
     failed,
@@ -32,19 +33,19 @@ instance Monad (Result w e) where
     Just x -> case f x of
       Result ws' es' b -> Result (ws <> ws') (es <> es') b
 
--- | Fails with one error.
+-- | A result with one error and without an output.
 failed :: e -> Result w e a
 failed e = Result [] [e] Nothing
 
--- | An output, and errors that do not prevent later passes from using it.
+-- | A result with errors and nevertheless an output, which later passes may use.
 failing :: [e] -> a -> Result w e a
 failing es a = Result [] es (Just a)
 
--- | Warnings, no error, and an output without content.
+-- | A result that consists of warnings: no error, and an output without content.
 warned :: [w] -> Result w e ()
 warned ws = Result ws [] (Just ())
 
--- | The output in @Right@, or one error, the one in @Left@.
+-- | The result with the output in @Right@, or with the one error in @Left@.
 fromEither :: Either e a -> Result w e a
 fromEither = either failed pure
 
@@ -52,11 +53,12 @@ fromEither = either failed pure
 mapErrors :: (w -> w') -> (e -> e') -> Result w e a -> Result w' e' a
 mapErrors f g (Result ws es a) = Result (map f ws) (map g es) a
 
--- | The output if there is no error; warnings are allowed.
+-- | The output of a result, or nothing if the result has an error. Warnings are allowed.
 ifSound :: Result w e a -> Maybe a
 ifSound (Result _ es a) = if null es then a else Nothing
 
--- | Runs a pass on an output only if there is no error. Otherwise there is no output.
+-- | Runs the pass @f@ on the output of @r@ if @r@ has no error. Otherwise the result has the
+-- warnings and errors of @r@ and no output.
 thenSound :: Result w e a -> (a -> Result w e b) -> Result w e b
 thenSound r f = case ifSound r of
   Just _ -> r >>= f

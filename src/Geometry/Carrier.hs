@@ -35,8 +35,8 @@ import Base.Quantity (Mm (..), Rad (..))
 import Geometry.Vec (Point, Vec)
 import Geometry.Vec qualified as Vec
 
--- | The full line or circle on which a segment lies. It has no sense; the carrier of a contour's
--- element, which has one, is 'Geometry.ElementCarrier.ElementCarrier'.
+-- | The full line or circle on which a segment lies. A circle has no sense here;
+-- 'Geometry.ElementCarrier.ElementCarrier' is the carrier with a direction of travel.
 data Carrier = LineCarrier Line | CircleCarrier Circle
   deriving stock (Eq, Show)
 
@@ -48,17 +48,18 @@ data Line = Line {from :: {-# UNPACK #-} Point, to :: {-# UNPACK #-} Point}
 direction :: Line -> Vec
 direction l = Vec.unit (Vec.to (from l) (to l))
 
--- | The distance of a point from a line: positive on its left, negative on its right.
+-- | The distance of the point @p@ from the line @l@: positive on the left of the line, negative on
+-- its right.
 signedDistance :: Line -> Point -> Mm
 signedDistance l p = Mm (Vec.cross (direction l) (Vec.to (from l) p))
 
--- | The foot of the perpendicular from a point to a line.
+-- | The foot of the perpendicular from the point @p@ to the line @l@.
 foot :: Line -> Point -> Point
 foot l p = Vec.shift (Vec.scale (Vec.dot d (Vec.to (from l) p)) d) (from l)
   where
     d = direction l
 
--- | The parallel line at a distance to the left, or to the right when the distance is negative.
+-- | The parallel line at the distance @h@ to the left, or to the right when @h@ is negative.
 parallelAt :: Mm -> Line -> Line
 parallelAt (Mm h) l = Line (Vec.shift offset (from l)) (Vec.shift offset (to l))
   where
@@ -73,7 +74,7 @@ data Sense = Clockwise | CounterClockwise
   deriving stock (Eq, Ord, Show, Enum, Bounded)
 
 -- | The sign of a sense: +1 counter-clockwise, −1 clockwise. It is also the 'sideSign' of the side
--- on which the arc's centre lies.
+-- on which the centre of an arc in this sense lies.
 senseSign :: Sense -> Double
 senseSign t = case t of
   Clockwise -> -1
@@ -83,9 +84,9 @@ senseSign t = case t of
 senseOf :: Rad -> Sense
 senseOf (Rad sweep) = if sweep > 0 then CounterClockwise else Clockwise
 
--- | The sweep of an arc in a given sense, by the angle from its start to its end in [−π, π]. The
--- sweep is that angle, or differs from it by a full turn. It lies in [0, 2π) counter-clockwise and
--- in (−2π, 0] clockwise.
+-- | The sweep of an arc in a given sense. @short@ is the angle between the directions from the
+-- centre to its start and to its end, in [−π, π]. The sweep is that angle, or differs from it by a
+-- full turn. It lies in [0, 2π) counter-clockwise and in (−2π, 0] clockwise.
 sweepInSense :: Sense -> Rad -> Rad
 sweepInSense t (Rad short) = Rad $ case t of
   CounterClockwise | short < 0 -> short + 2 * pi
@@ -119,7 +120,7 @@ senseTowards side = case side of
 senseAwayFrom :: Side -> Sense
 senseAwayFrom = senseTowards . oppositeSide
 
--- | The point at a distance from a given point, square to a direction of length 1, on a side of
--- that direction.
+-- | The point at the distance @d@ from a given point, on a side of the direction @forward@ and at a
+-- right angle to it. @forward@ has the length 1.
 beside :: Side -> Mm -> Vec -> Point -> Point
 beside side (Mm d) forward = Vec.shift (Vec.scale (sideSign side * d) (Vec.left forward))

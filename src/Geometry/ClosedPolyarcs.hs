@@ -1,9 +1,11 @@
 {-# LANGUAGE BangPatterns #-}
 {-# OPTIONS_GHC -O2 #-}
 
--- | Closed loops of lines and arcs as the offset kernel works on them: one after the other in the
--- same flat arrays. After the last segment of a loop its first vertex is repeated, so that every
--- segment ends at the next vertex. No arc sweeps more than a half circle.
+-- | Closed loops of lines and arcs as the offset kernel ("Offset.Kernel") works on them: one after
+-- the other in the same flat arrays. After the last segment of a loop its first vertex is repeated,
+-- so that every segment ends at the next vertex. No arc sweeps more than a half circle. Loops,
+-- vertices and segments have indices from 0; a segment has the index of the vertex at which it
+-- starts.
 --
 -- The loops are made from several "Geometry.FlatPolyarc"s, each of which is normalised: tiny
 -- segments are omitted, and flat arcs become lines. Since all loops share one set of arrays, a
@@ -13,6 +15,9 @@
 -- an arc from @a@ to @b@ with the bulge β is @(p − a)·(p − b) + κ·(b − a)×(p − a)@ with
 -- @κ = (β² − 1)/2β@. This formula stays exact for an almost straight arc, whose distant centre
 -- would lose digits.
+--
+-- Some functions pass their result to a continuation, a function that is their last argument. So no
+-- pair of numbers is built in memory.
 module Geometry.ClosedPolyarcs
   ( ClosedPolyarcs (..),
     fromFlatPolyarcs,
@@ -56,7 +61,7 @@ import Geometry.FlatPolyarc qualified as FlatPolyarc
 import Geometry.Polyarc (Ends (..))
 
 -- | Closed loops. The arrays of vertices are equally long; segment @i@ leads from vertex @i@ to
--- @i + 1@, unless vertex @i@ is the repeated first vertex of a loop.
+-- vertex @i + 1@. No segment starts at the repeated first vertex of a loop.
 data ClosedPolyarcs = ClosedPolyarcs
   { -- | x of the segments' starts, in mm
     xs :: PrimArray Double,
@@ -64,11 +69,11 @@ data ClosedPolyarcs = ClosedPolyarcs
     ys :: PrimArray Double,
     -- | @tan(sweep/4)@ of the segments, in [−1, 1]
     bulges :: PrimArray Double,
-    -- | the marks of the segments, as bits
+    -- | the marks of the segments, a sum of constants such as 'smoothMark'
     marks :: PrimArray Word8,
     -- | the index of the input segment from which each segment comes
     sources :: PrimArray Int32,
-    -- | the first vertex of each loop, then the number of all vertices
+    -- | the index of the first vertex of each loop, then the number of all vertices
     loopHeads :: PrimArray Int
   }
 
@@ -76,12 +81,13 @@ data ClosedPolyarcs = ClosedPolyarcs
 loopCount :: ClosedPolyarcs -> Int
 loopCount c = sizeofPrimArray (loopHeads c) - 1
 
--- | The first vertex of a loop.
+-- | The index of the first vertex of a loop, by the index of the loop.
 firstVertex :: ClosedPolyarcs -> Int -> Int
 firstVertex c = indexPrimArray (loopHeads c)
 {-# INLINE firstVertex #-}
 
--- | The vertex after a loop's last segment: the copy of its first vertex.
+-- | The index of the vertex after the last segment of loop @w@: the copy of the loop's first
+-- vertex.
 repeatedVertex :: ClosedPolyarcs -> Int -> Int
 repeatedVertex c w = indexPrimArray (loopHeads c) (w + 1) - 1
 {-# INLINE repeatedVertex #-}
@@ -94,11 +100,12 @@ smoothMark = 1
 repeatedMark :: Word8
 repeatedMark = 2
 
--- | The mark of an offset's arc that rounds a corner of its source.
+-- | The mark of an arc of an offset that rounds a corner of the offset's source contour.
 aroundMark :: Word8
 aroundMark = 4
 
--- | The mark of a segment that connects two segments of an offset through a corner of its source.
+-- | The mark of a segment of an offset that leads through a corner of the offset's source contour.
+-- It connects the offsets of the corner's two sides.
 connectingMark :: Word8
 connectingMark = 8
 
@@ -110,17 +117,17 @@ firstMark = 16
 lastMark :: Word8
 lastMark = 32
 
--- | True when a segment's marks, the second argument, include a mark.
+-- | True when the marks @w@ of a segment include the mark @m@.
 hasMark :: Word8 -> Word8 -> Bool
 hasMark m w = w .&. m /= 0
 {-# INLINE hasMark #-}
 
 -- Construction ------------------------------------------------------------------------------
 
--- | The loops of closed polyarcs. Arcs above a half circle are divided into two. Segments whose
--- chord and sagitta are at most @tolerance@, in mm, are omitted; other arcs with such a sagitta
--- become lines. A loop of fewer than two segments is omitted. 'sources' counts the segments of all
--- inputs from 0.
+-- | The loops of closed polyarcs. An arc that sweeps more than a half circle is divided into two.
+-- Segments whose chord and sagitta are at most @tolerance@, in mm, are omitted; other arcs with
+-- such a sagitta become lines. A loop of fewer than two segments is omitted. The indices in
+-- 'sources' count the segments of all polyarcs from 0, the omitted ones included.
 fromFlatPolyarcs :: Double -> [FlatPolyarc] -> ClosedPolyarcs
 fromFlatPolyarcs tolerance polyarcs = runST $ do
   let room = sum (map vertexBound polyarcs)
@@ -144,8 +151,8 @@ fromFlatPolyarcs tolerance polyarcs = runST $ do
   when (count == 0) (writePrimArray (loopStarts out) 0 0)
   freeze out used count
 
--- | The largest number of vertices that a polyarc can need: two for each arc above a half circle,
--- one for each other segment, and the repeated first one.
+-- | An upper bound of the number of vertices that the loop of a polyarc has: two for each arc that
+-- sweeps more than a half circle, one for each other segment, and the repeated first one.
 vertexBound :: FlatPolyarc -> Int
 vertexBound o =
   foldlPrimArray'
@@ -153,7 +160,7 @@ vertexBound o =
     (sizeofPrimArray (FlatPolyarc.bulges o) + 1)
     (FlatPolyarc.bulges o)
 
--- | The arrays of 'ClosedPolyarcs' while they are written.
+-- | The arrays of 'ClosedPolyarcs' while they are written, in the same order.
 data Arrays s = Arrays
   { vertexXs :: MutablePrimArray s Double,
     vertexYs :: MutablePrimArray s Double,
@@ -163,7 +170,8 @@ data Arrays s = Arrays
     loopStarts :: MutablePrimArray s Int
   }
 
--- | Write a vertex: its index, x, y, bulge and source.
+-- | Write the vertex with the index @k@: x and y in mm, the bulge @b@ of the segment that starts
+-- there, and the index of this segment's @source@.
 writeVertex :: Arrays s -> Int -> Double -> Double -> Double -> Int -> ST s ()
 writeVertex out !k !x !y !b !source = do
   writePrimArray (vertexXs out) k x
@@ -173,15 +181,16 @@ writeVertex out !k !x !y !b !source = do
   writePrimArray (segmentSources out) k (fromIntegral source)
 {-# INLINE writeVertex #-}
 
--- | Write the segments of a polyarc from vertex @k@ on, and return the next free vertex. The
--- sources count from @source@.
+-- | Write the normalised segments of a polyarc from vertex @k@ on, and return the next free vertex.
+-- The polyarc's first segment has the index @source@ in 'sources'. @tolerance@, in mm, is that of
+-- 'fromFlatPolyarcs'.
 writeSegments :: Double -> Arrays s -> Int -> Int -> FlatPolyarc -> ST s Int
 writeSegments tolerance out k source polyarc@(FlatPolyarc _ px py pb)
   | sizeofPrimArray px == 0 = pure k
   | isNormalised tolerance px py pb = copySegments out k source polyarc
   | otherwise = normaliseSegments tolerance out k source polyarc
 
--- | 'writeSegments' of a polyarc that needs no normalisation. Most polyarcs need none.
+-- | 'writeSegments' for a polyarc that is normalised already, as most are.
 copySegments :: Arrays s -> Int -> Int -> FlatPolyarc -> ST s Int
 copySegments out !k !source (FlatPolyarc _ px py pb) = do
   copyPrimArray (vertexXs out) k px 0 n
@@ -197,8 +206,8 @@ copySegments out !k !source (FlatPolyarc _ px py pb) = do
       | otherwise =
         writePrimArray (segmentSources out) (k + i) (fromIntegral (source + i)) >> number (i + 1)
 
--- | 'writeSegments' of a polyarc with tiny segments, flat arcs or arcs above a half circle. Each
--- segment starts where the last one that was not omitted ended.
+-- | 'writeSegments' for a polyarc with tiny segments, flat arcs, or arcs that sweep more than a
+-- half circle. Each segment starts at the end of the last segment that was not omitted.
 normaliseSegments :: Double -> Arrays s -> Int -> Int -> FlatPolyarc -> ST s Int
 normaliseSegments !tolerance out start !source (FlatPolyarc _ px py pb) =
   go 0 start (indexPrimArray px 0) (indexPrimArray py 0)
@@ -209,7 +218,8 @@ normaliseSegments !tolerance out start !source (FlatPolyarc _ px py pb) =
       | i >= n = pure k
       | c2 <= least && sagitta2 <= least = go (i + 1) k x y
       | abs b > 1 = do
-        -- The highest point of a counter-clockwise arc lies to the right of its chord.
+        -- The arc is cut at the point furthest from its chord. On a counter-clockwise arc this
+        -- point lies to the right of the chord.
         let half = b / (1 + sqrt (1 + b * b))
         writeVertex out k x y half (source + i)
         writeVertex
@@ -233,8 +243,9 @@ normaliseSegments !tolerance out start !source (FlatPolyarc _ px py pb) =
         !b = indexPrimArray pb i
         !sagitta2 = b * b * c2 / 4
 
--- | Finish a loop whose segments are the vertices from @k@ to before @end@: repeat its first vertex
--- at @end@ and set the marks.
+-- | Finish the loop with the index @loop@, whose segments start at the vertices from @k@ to
+-- @end − 1@. Repeat its first vertex at @end@, with the index @source@ in 'sources', and set the
+-- marks.
 closeLoop :: Arrays s -> Int -> Int -> Int -> Int -> ST s ()
 closeLoop out loop k end source = do
   x <- readPrimArray (vertexXs out) k
@@ -245,15 +256,17 @@ closeLoop out loop k end source = do
   writePrimArray (segmentMarks out) end repeatedMark
   writePrimArray (loopStarts out) loop k
 
--- | True when every chord is longer than @tolerance@, the sagitta of every arc is larger than it,
--- and no arc is above a half circle.
+-- | True when a polyarc, given by its arrays, can be copied unchanged. Every chord is then longer
+-- than @tolerance@, in mm, and the sagitta of every arc is larger than it. No arc sweeps more than
+-- a half circle.
 isNormalised :: Double -> PrimArray Double -> PrimArray Double -> PrimArray Double -> Bool
 isNormalised !tolerance !px !py !pb =
   go 0 (indexPrimArray px (n - 1)) (indexPrimArray py (n - 1)) (indexPrimArray pb (n - 1))
   where
     !n = sizeofPrimArray px
     !least = tolerance * tolerance
-    -- The segment from (x, y), with bulge b, to vertex i.
+    -- The arguments are a segment's start (x, y), its bulge b, and the index i of the vertex at its
+    -- end.
     go !i !x !y !b
       | i >= n = True
       | otherwise =
@@ -264,7 +277,7 @@ isNormalised !tolerance !px !py !pb =
               && (b == 0 || abs b <= 1 && b * b * c2 / 4 > least)
               && go (i + 1) x1 y1 (indexPrimArray pb i)
 
--- | Freeze the arrays, cut to the used number of vertices and loops.
+-- | Freeze the arrays, cut to @used@ vertices and @count@ loops.
 freeze :: Arrays s -> Int -> Int -> ST s ClosedPolyarcs
 freeze out used count = do
   mapM_ (`shrinkMutablePrimArray` used) [vertexXs out, vertexYs out, vertexBulges out]
@@ -279,8 +292,9 @@ freeze out used count = do
       <*> unsafeFreezePrimArray (segmentSources out)
       <*> unsafeFreezePrimArray (loopStarts out)
 
--- | An open polyarc of @n@ segments as a closed one that runs to its end and back. Segment
--- @n + i@ is segment @n − 1 − i@ in the opposite direction.
+-- | An open polyarc as a closed one that runs to the end of the open one and back. If the open
+-- polyarc has n segments, segment n + i of the closed one is segment n − 1 − i in the opposite
+-- direction.
 twoSided :: FlatPolyarc -> FlatPolyarc
 twoSided o@(FlatPolyarc _ px py pb) =
   FlatPolyarc
@@ -318,15 +332,16 @@ restrictTo loops c =
     gathered :: Prim a => PrimArray a -> PrimArray a
     gathered a = mconcat [clonePrimArray a (firstVertex c w) (size w) | w <- loops]
 
--- | The loop with an index as a closed polyarc.
+-- | The loop with the index @w@ as a closed polyarc.
 toFlatPolyarc :: ClosedPolyarcs -> Int -> FlatPolyarc
 toFlatPolyarc c w = FlatPolyarc Closed (cut (xs c)) (cut (ys c)) (cut (bulges c))
   where
     cut a = clonePrimArray a (firstVertex c w) (repeatedVertex c w - firstVertex c w)
 
--- | Unconnected segments, each in a loop of its own that is not closed. The first segment has the
--- index 0, the next one 2, and so on. Each segment is given by x and y of its start, x and y of its
--- end, and its bulge.
+-- | Segments that need not be connected, so that the functions of this module and the bounding-box
+-- tree can be used for them. Each is in a loop of its own that is not closed. The first segment has
+-- the index 0, the next one 2, and so on. A segment is given by x and y of its start, x and y of
+-- its end, and its bulge.
 fromSeparateSegments :: [(Double, Double, Double, Double, Double)] -> ClosedPolyarcs
 fromSeparateSegments ss =
   ClosedPolyarcs
@@ -340,7 +355,8 @@ fromSeparateSegments ss =
 
 -- Segments ----------------------------------------------------------------------------------
 
--- | The chord of a segment, from its start to its end, passed to a continuation.
+-- | The x and y, in mm, of the vector from the start of segment @i@ to its end, passed to the
+-- continuation @k@.
 chord :: ClosedPolyarcs -> Int -> (Double -> Double -> r) -> r
 chord c i k =
   let x0 = indexPrimArray (xs c) i
@@ -348,8 +364,9 @@ chord c i k =
    in k (indexPrimArray (xs c) (i + 1) - x0) (indexPrimArray (ys c) (i + 1) - y0)
 {-# INLINE chord #-}
 
--- | The power of a point with respect to an arc's circle: the squared distance from the centre less
--- the squared radius, in mm².
+-- | The power of the point (@px@, @py@) with respect to the circle of the arc with the index @i@,
+-- in mm²: the squared distance from the centre less the squared radius. It is negative inside the
+-- circle.
 power :: ClosedPolyarcs -> Int -> Double -> Double -> Double
 power c i px py = ax * bx + ay * by + (b * b - 1) / (2 * b) * ((x1 - x0) * ay - (y1 - y0) * ax)
   where
@@ -364,8 +381,8 @@ power c i px py = ax * bx + ay * by + (b * b - 1) / (2 * b) * ((x1 - x0) * ay - 
     by = py - y1
 {-# INLINE power #-}
 
--- | The gradient of 'power' at a point, passed to a continuation: twice the vector from the centre
--- of the arc to the point.
+-- | The x and y, in mm, of the gradient of 'power' at the point (@px@, @py@), passed to the
+-- continuation @k@. The gradient is twice the vector from the centre of arc @i@ to the point.
 gradient :: ClosedPolyarcs -> Int -> Double -> Double -> (Double -> Double -> r) -> r
 gradient c i px py k =
   k (px - x0 + px - x1 - kappa * (y1 - y0)) (py - y0 + py - y1 + kappa * (x1 - x0))
@@ -378,8 +395,8 @@ gradient c i px py k =
     kappa = (b * b - 1) / (2 * b)
 {-# INLINE gradient #-}
 
--- | The curvature of a segment in 1/mm, positive to the left: @4·b / ((1 + b²)·c)@ for a chord c
--- and a bulge b.
+-- | The curvature of segment @i@ in 1/mm, positive for a counter-clockwise arc:
+-- @4·b / ((1 + b²)·c)@ for a chord of length c and a bulge b.
 curvature :: ClosedPolyarcs -> Int -> Double
 curvature c i =
   chord c i $ \dx dy ->
@@ -387,7 +404,7 @@ curvature c i =
      in 4 * b / ((1 + b * b) * sqrt (dx * dx + dy * dy))
 {-# INLINE curvature #-}
 
--- | The diameter of an arc's circle, in mm.
+-- | The diameter of the circle of arc @i@, in mm.
 diameter :: ClosedPolyarcs -> Int -> Double
 diameter c i =
   chord c i $ \dx dy ->
@@ -395,11 +412,11 @@ diameter c i =
      in sqrt (dx * dx + dy * dy) * (1 + b * b) / (2 * abs b)
 {-# INLINE diameter #-}
 
--- | The bulge of the part of a segment between two points on it.
+-- | The bulge of the part of segment @i@ between the points (@px@, @py@) and (@qx@, @qy@) on it.
 --
--- With the vectors @a@ and @b@ from the arc's centre to the points, the part's sweep θ, at most a
--- half circle, has @tan(θ/2) = |a×b| / (|a||b| + a·b)@. Where @a·b@ is negative,
--- @(|a||b| − a·b) / |a×b|@ is more exact. The bulge follows from @tan(θ/2) = p/q@ as
+-- With the vectors u and v from the arc's centre to the points, the part's sweep θ, at most a half
+-- circle, has the tangent @tan(θ/2) = |u×v| / (|u||v| + u·v)@. Where @u·v@ is negative, the form
+-- @(|u||v| − u·v) / |u×v|@ is more exact. The bulge follows from @tan(θ/2) = p/q@ as
 -- @tan(θ/4) = p / (q + √(p² + q²))@.
 partialBulge :: ClosedPolyarcs -> Int -> Double -> Double -> Double -> Double -> Double
 partialBulge c i px py qx qy

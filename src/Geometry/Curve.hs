@@ -1,11 +1,14 @@
 -- | Planar curves given by point tables, span shapes or segments, and their shifts (the ciphers of
 -- the Ural paper), without sampling.
 --
--- A curve maps a parameter, from 0 to the count of its spans, to a point. A shift adds a layer: it
--- moves every point of the curve below along its normal, by a distance that is a function of the
--- parameter. Points, directions and curvatures are computed by power series through all layers, so
--- rounding is the only error. A shift of a curve with a corner leaves a gap or an overlap at the
--- corner. This module does not close it; the caller inserts a link.
+-- A span is a part of a curve on which one formula gives the points: an arc, or a cubic in x and
+-- one in y. A curve maps a parameter, from 0 to the count of its spans, to a point. The rows of a
+-- curve are the points of the table from which it was made; each row has a parameter.
+--
+-- A shift adds a layer: it moves every point of the curve below along its normal, by a distance
+-- that is a function of the parameter. Points, directions and curvatures are computed by power
+-- series through all layers, so rounding is the only error. A shift of a curve with a corner leaves
+-- a gap or an overlap at the corner. This module does not close it; the caller joins the two parts.
 --
 -- This module is the interface of the folder "Geometry.Curve". It does not export the fields of
 -- 'BasisCurve', 'Knot', 'Column' and 'Cusp'; these are read through the modules of the types.
@@ -121,30 +124,33 @@ import Prelude hiding (length)
 polyline :: Vector Point -> Either CurveFault Curve
 polyline points = Unshifted <$> BasisCurve.polyline points
 
--- | Cubic spline through the points, with continuous second derivatives by chord length.
+-- | Cubic spline through the points. Its first and second derivatives with respect to the
+-- accumulated chord length, the sum of the distances between consecutive points, are continuous.
 spline :: EndCondition -> Vector Point -> Either CurveFault Curve
 spline ends points = Unshifted <$> BasisCurve.spline ends points
 
--- | Chain of parabolas y(x) through points 1–3, 3–5, and so on. The count of points is odd.
+-- | Chain of parabolas @y(x)@: the first through points 1 to 3, the next through points 3 to 5, and
+-- so on. The count of points is odd.
 parabola :: Vector Point -> Either CurveFault Curve
 parabola points = Unshifted <$> BasisCurve.parabola points
 
--- | Curve of consecutive spans. The second argument has the parameters of the table's rows, rising.
+-- | Curve of consecutive spans with the given shapes. @parameters@ are the parameters of the
+-- curve's rows, in ascending order.
 fromShapes :: NonEmpty SpanShape -> Vector Double -> Either CurveFault Curve
 fromShapes shapes parameters = Unshifted <$> BasisCurve.fromShapes shapes parameters
 
--- | Curve of consecutive lines and arcs. The rows of its table are the ends of the segments; the
--- end of a closed curve is not repeated.
+-- | Curve of consecutive lines and arcs. Its rows are the ends of the segments; a closed curve has
+-- only one row for its start and end.
 fromSegments :: NonEmpty Segment -> Either CurveFault Curve
 fromSegments segments = Unshifted <$> BasisCurve.fromSegments segments
 
--- | Curve of consecutive lines and arcs whose rows are the given points, in order. Each point is
--- an end of a segment. A closed curve need not repeat the first point at the end of the table.
+-- | Curve of consecutive lines and arcs whose rows are the given points, in order. Each point is an
+-- end of a segment. On a closed curve the first point need not be repeated at the end.
 fromSegmentsAt :: NonEmpty Segment -> Vector Point -> Either CurveFault Curve
 fromSegmentsAt segments points = Unshifted <$> BasisCurve.fromSegmentsAt segments parameters
   where
-    -- Finds the parameter of each row. The row lies at the start of the next segment that starts at
-    -- its point; if there is none, at the end of the last segment.
+    -- Finds the parameter of each row. It is that of the next segment start that coincides with the
+    -- row's point. If there is none, it is the parameter of the end of the last segment.
     parameters =
       Vector.unfoldrN
         (Vector.length points)
@@ -157,26 +163,28 @@ fromSegmentsAt segments points = Unshifted <$> BasisCurve.fromSegmentsAt segment
       ([], _ : _) -> Just (u, (u, [], []))
       (_, []) -> Nothing
 
--- | Column with one value for each row of the curve's table, interpolated by the same method as the
--- points.
+-- | Column with one value for each row of the curve. Between the rows, the values are interpolated
+-- by the same method as the points.
 column :: Curve -> Vector Double -> Column
 column curve = Column.column (base curve)
 
--- | Count of rows in the curve's table.
+-- | Count of the curve's rows.
 rowCount :: Curve -> Int
 rowCount = Vector.length . BasisCurve.rows . base
 
--- | Value of a column at a parameter.
+-- | Value of the column @c@ at the parameter @u@ of the curve, in the unit of the column's values.
 columnAt :: Curve -> Column -> Double -> Double
 columnAt curve c u =
   PowerSeries.value (Column.series 0 (base curve) c (ShiftedCurve.spanPoint After u curve))
 
--- | Values of the rows of a curve's table, in the order of the rows of the reversed curve.
+-- | Reorders values, one for each row of a curve: the result has the order of the rows of the
+-- reversed curve.
 inReverseOrder :: Curve -> Vector Double -> Vector Double
 inReverseOrder curve = BasisCurve.inReverseOrder (base curve)
 
--- | Shift distance of a joggle on a curve. It is a fault if the joggle's radius is not above half
--- of its depth, or if its two ramps are longer than the curve between its two parameters.
+-- | Shift distance of a joggle on a curve. The joggle does not fit if its radius is not above half
+-- of its depth. Nor does it fit if its two ramps are longer than the curve between its two
+-- parameters.
 fitJoggle :: Joggle -> Curve -> Either CurveFault Distance
 fitJoggle joggle@Joggle {begins, ends, depth = Mm depth, radius = Mm r} curve
   | r <= 0 || abs depth >= 2 * r = Left DeepJoggle
@@ -193,42 +201,44 @@ toSegments curve = case curve of
   Unshifted b -> BasisCurve.asSegments b
   Shifted {} -> Nothing
 
--- | Cubic spans in x and y within a tolerance of the curve, and the bound of their error; see
--- 'CubicSpans.along'.
+-- | Cubic spans in x and in y within a tolerance of the curve, preceded by a bound of their error.
+-- Nothing where such spans are not found; see 'CubicSpans.along'.
 cubics :: Mm -> Curve -> Maybe (Mm, Cubics, Cubics)
 cubics = CubicSpans.along
 
--- | Count of spans.
+-- | Count of the curve's spans.
 spans :: Curve -> Int
 spans curve = BasisCurve.count (base curve)
 
--- | Point at a parameter. Parameters outside of the domain give the nearer end.
+-- | Point at a parameter. A parameter outside of the domain gives the nearer end. At a corner that
+-- a shift has opened, it is the point after the gap.
 at :: Curve -> Double -> Point
 at = pointFrom After
 
--- | Point at a parameter, approached from smaller or from larger parameters. Both points differ
--- where a shift has opened a corner.
+-- | Point at the parameter @u@, as the limit from smaller or from larger parameters. The two limits
+-- differ where a shift has opened a corner.
 pointFrom :: Approach -> Curve -> Double -> Point
 pointFrom approach curve u = TaylorExpansion.position (expansion approach 0 curve u)
 
--- | Unit tangent at the point that 'at' gives for a parameter.
+-- | Direction of travel, of length 1, at the point that 'at' gives for a parameter.
 tangent :: Curve -> Double -> Vec
 tangent = PointSearch.unitTangent After
 
--- | Unit tangent just before or just after a parameter. On a closed curve, the tangent before the
--- start is that at the end, and the tangent after the end is that at the start.
+-- | Direction of travel, of length 1, just before or just after a parameter. On a closed curve, the
+-- tangent before the start is that at the end, and the tangent after the end is that at the start.
 tangentFrom :: Approach -> Curve -> Double -> Vec
 tangentFrom = PointSearch.unitTangentAcrossSeam
 
--- | Left unit normal at a parameter.
+-- | Left normal, of length 1, at the parameter @u@.
 normal :: Curve -> Double -> Vec
 normal curve u = Vec.left (tangent curve u)
 
--- | Curvature at a parameter in 1/mm, positive where the curve bends to the left.
+-- | Curvature at the parameter @u@ in 1/mm, positive where the curve bends to the left.
 curvature :: Curve -> Double -> Double
 curvature curve u = TaylorExpansion.curvature (expansion After 2 curve u)
 
--- | Taylor expansion of the point about a parameter, up to the given order.
+-- | Taylor expansion of the curve's point about the parameter @u@, up to the order @n@. At a corner
+-- it is that of the part before or after the corner.
 expansion :: Approach -> Int -> Curve -> Double -> TaylorExpansion
 expansion approach n curve u =
   ShiftedCurve.expansionAt n curve (ShiftedCurve.spanPoint approach u curve)
@@ -249,16 +259,16 @@ isClosed = PointSearch.isClosed
 length :: Curve -> Mm
 length curve = ArcLength.total (ShiftedCurve.arcLength curve)
 
--- | Arc length from the start to a parameter.
+-- | Arc length from the start of the curve to a parameter.
 lengthAt :: Curve -> Double -> Mm
 lengthAt curve = ArcLength.lengthAt (ShiftedCurve.arcLength curve)
 
--- | Parameter at an arc length from the start; the inverse of 'lengthAt'.
+-- | Parameter of the point at a given arc length from the start; the inverse of 'lengthAt'.
 parameterAtLength :: Curve -> Mm -> Double
 parameterAtLength curve = ArcLength.parameterAt (ShiftedCurve.arcLength curve)
 
--- | Distance by which the outermost shift moves the point at a parameter, positive to the left; 0
--- for a curve without shifts.
+-- | Distance by which the outermost shift moves the point at the parameter @u@, positive to the
+-- left; 0 for a curve without shifts.
 shiftDistance :: Curve -> Double -> Mm
 shiftDistance curve u = case curve of
   Unshifted _ -> Mm 0
@@ -290,7 +300,7 @@ transformed s curve = case curve of
         side' = if Transformation.mirrors s then Carrier.oppositeSide (side layer) else side layer
      in shifted side' (ShiftDistance.scaled (base lower') (factor s) (distance layer)) lower'
 
--- | Scale factor of a similarity.
+-- | Scale factor of a similarity, above 0.
 factor :: Transformation -> Double
 factor s =
   let Mm k =

@@ -2,6 +2,9 @@
 --
 -- This module owns the distance from a point to a segment and between two segments.
 -- "Geometry.Distance.Fast" computes the same on unpacked data for loops over frames.
+--
+-- The foot of a point on a segment, as in "Geometry.Segment", is where the perpendicular from the
+-- point meets the segment's carrier.
 module Geometry.Distance
   ( toPoint,
     nearest,
@@ -30,7 +33,8 @@ import Geometry.Vec qualified as Vec
 toPoint :: Point -> Segment -> Mm
 toPoint p segment = fst (nearest p segment)
 
--- | The distance from a point to a segment, and the point of the segment that is nearest.
+-- | The distance from the point @p@ to a segment, and the point of the segment that is nearest to
+-- @p@.
 nearest :: Point -> Segment -> (Mm, Point)
 nearest p segment
   | hasFoot && Segment.hasFootOf segment p = (Vec.distance p foot, foot)
@@ -39,7 +43,7 @@ nearest p segment
   where
     toStart = Vec.distance p (Segment.start segment)
     toEnd = Vec.distance p (Segment.end segment)
-    -- No point has a foot on a line without a length, nor the centre of an arc on that arc.
+    -- The foot is undefined on a line without a length, and for the centre of an arc.
     (hasFoot, foot) = case segment of
       Straight a b -> (a /= b, Vec.interpolate (Segment.fraction segment p) a b)
       Arc {start, centre} ->
@@ -47,20 +51,22 @@ nearest p segment
             out = Vec.to centre p
          in (Vec.norm out > 0, Vec.shift (Vec.scale (r / Vec.norm out) out) centre)
 
--- | The fraction of a segment's length, from 0 to 1, at which the segment is nearest to a point.
+-- | The position of the segment's point that is nearest to the point @p@, as a fraction of the
+-- segment's length from 0 to 1.
 nearestFraction :: Point -> Segment -> Double
 nearestFraction p segment
   | Segment.hasFootOf segment p = Segment.fraction segment p
   | Vec.distance p (Segment.start segment) <= Vec.distance p (Segment.end segment) = 0
   | otherwise = 1
 
--- | The least distance from one segment to another, and the point of the first at which it occurs.
+-- | The least distance between two segments, and the point of the first segment at which it occurs.
 data ClosestPoint = ClosestPoint {distance :: Mm, nearestPoint :: Point}
   deriving stock (Eq, Show)
 
--- | The least distance between two segments. It occurs at an end of one of them, at an
--- intersection, or on a common normal. Such a normal passes through the foot of an arc's centre on
--- a line, or through the centres of two arcs.
+-- | The least distance between the segments @a@ and @b@, with the point of @a@ at which it occurs.
+-- This point is an end of @a@, the point nearest to an end of @b@, or an intersection. Otherwise
+-- the least distance lies on a common normal of both, which passes through the centre of one of
+-- them.
 segments :: Segment -> Segment -> ClosestPoint
 segments a b = minimumBy (comparing distance) (map fromA onA <> map fromB onB)
   where
@@ -69,8 +75,8 @@ segments a b = minimumBy (comparing distance) (map fromA onA <> map fromB onB)
     onA = Segment.start a : Segment.end a : filter (Segment.hasFootOf a) (normals a b <> common a b)
     onB = Segment.start b : Segment.end b : filter (Segment.hasFootOf b) (normals b a)
 
--- | The points on the first segment's carrier at which its normal passes through the centre of the
--- second segment, an arc.
+-- | The points on the carrier of the segment @a@ whose normal passes through the centre of the arc
+-- @b@. There are none if @b@ is a line, nor if both segments are arcs about the same centre.
 normals :: Segment -> Segment -> [Point]
 normals a b = case (a, b) of
   (Straight p q, Arc {centre}) | p /= q -> [Vec.interpolate (Segment.fraction a centre) p q]
@@ -81,24 +87,25 @@ normals a b = case (a, b) of
        in [Vec.shift (Vec.scale r e) centre, Vec.shift (Vec.scale (-r) e) centre]
   _ -> []
 
--- | The points at which two segments cross or touch, to 'Tolerance.coincident'. Segments that
--- overlap on one carrier give those of their ends that lie on the other segment.
+-- | The points at which two segments cross or touch, to 'Tolerance.coincident'. For segments that
+-- overlap on one carrier, these are the ends of each that lie on the other segment.
 intersections :: Segment -> Segment -> [Point]
 intersections a b = filter (\p -> reaches a p && reaches b p) (common a b)
   where
     reaches s p = toPoint p s <= Tolerance.coincident
 
 -- | The common points of two segments' carriers. When both segments have the same carrier, their
--- four ends are returned, which include the ends of an overlap.
+-- four ends are returned: the ends of an overlap are among them.
 common :: Segment -> Segment -> [Point]
 common a b = case Intersection.carriers <$> Segment.carrier a <*> Segment.carrier b of
   Nothing -> []
   Just Same -> [Segment.start a, Segment.end a, Segment.start b, Segment.end b]
   Just intersection -> Intersection.points intersection
 
--- | The parts of a segment that are further than @reach@ from all other segments, as ranges of
--- fractions of its length. They are exact: each ends where the segment meets the boundary of the
--- neighbourhood of another segment.
+-- | The parts of @segment@ that are further than @reach@ from all the segments @others@. Each part
+-- is given by the fractions of the segment's length, from 0 to 1, at which it starts and ends. The
+-- fractions are exact: they are computed from intersections with the boundary of the region within
+-- @reach@ of another segment.
 uncovered :: Mm -> [Segment] -> Segment -> [(Double, Double)]
 uncovered reach others segment = gaps 0 (sort (concatMap covered others))
   where
@@ -116,13 +123,12 @@ uncovered reach others segment = gaps 0 (sort (concatMap covered others))
         marks = sort (0 : 1 : filter isInside (map (Segment.fraction segment) boundary))
         isInside t = t > 0 && t < 1
         boundary = ends <> concatMap (common segment) (neighbourhood reach other)
-        -- For a reach of 0, the circles about the ends of the other segment are points. Points have
-        -- no intersections, so the ends are added.
+        -- With a reach of 0, the circles about the ends of @other@ are points. Points have no
+        -- intersections with the segment, so these ends are added.
         ends = [p | reach <= Mm 0, p <- [Segment.start other, Segment.end other]]
 
--- | Segments that contain the boundary of a segment's neighbourhood, the region within @reach@ of
--- it. They are circles about its ends and its offsets to both sides; the offsets of an arc are full
--- circles.
+-- | Segments that contain the boundary of the region within @reach@ of @segment@. They are circles
+-- about its ends and its offsets to both sides; the offsets of an arc are full circles.
 neighbourhood :: Mm -> Segment -> [Segment]
 neighbourhood reach@(Mm d) segment =
   disc (Segment.start segment) <> disc (Segment.end segment) <> beside

@@ -1,8 +1,8 @@
 -- | The carriers of a contour's elements.
 --
 -- An element lies on a line, on a circle with a sense, on a curve, or it is a single point. A
--- 'Geometry.Carrier.Carrier' does not suffice for elements: its circles have no sense, while
--- fillets and links depend on the direction of travel.
+-- 'Geometry.Carrier.Carrier' does not suffice for elements, because its circles have no sense.
+-- Fillets, chamfers and the other links between two elements depend on the direction of travel.
 module Geometry.ElementCarrier
   ( ElementCarrier (..),
     ofSegment,
@@ -28,21 +28,21 @@ import Geometry.Vec qualified as Vec
 data ElementCarrier
   = OnLine {-# UNPACK #-} Line
   | OnCircle Sense {-# UNPACK #-} Circle
-  | -- | a curve from its start to its end
+  | -- | a curve from its start to its end, as a chain of lines and arcs
     OnCurve MeasuredPolyarc
-  | -- | a corner through which the contour passes
+  | -- | a point through which the contour passes
     AtPoint {-# UNPACK #-} Point
   deriving stock (Eq, Show)
 
--- | The directed line or circle of a segment.
+-- | The line or circle of a segment, with the segment's direction.
 ofSegment :: Segment -> ElementCarrier
 ofSegment s = case s of
   Straight p q -> OnLine (Line p q)
   Arc {start, centre, sweep} ->
     OnCircle (Carrier.senseOf sweep) (Circle centre (Segment.radius centre start))
 
--- | Segments of the carrier that contain all of its points inside a bounding box. A line is cut
--- beyond the box; circles and curves are returned whole.
+-- | Segments of a carrier that contain all of the carrier's points inside a bounding box. A line
+-- becomes a segment that ends outside of the box. Circles and curves are returned whole.
 segmentsWithin :: BoundingBox -> ElementCarrier -> NonEmpty Segment
 segmentsWithin box carrier = case carrier of
   OnLine l -> lineWithin box l :| []
@@ -51,7 +51,9 @@ segmentsWithin box carrier = case carrier of
   OnCurve p -> MeasuredPolyarc.segments p
   AtPoint p -> Straight p p :| []
 
--- | The projection onto a line of a bounding box with a margin of 1 mm.
+-- | The segment of a line that contains the foot of every point of a bounding box. It thus contains
+-- all points of the line inside the box. The box is first enlarged by 1 mm, so that the ends of the
+-- segment lie outside of it.
 lineWithin :: BoundingBox -> Line -> Segment
 lineWithin box l = Straight (at (minimum corners)) (at (maximum corners))
   where
@@ -59,6 +61,7 @@ lineWithin box l = Straight (at (minimum corners)) (at (maximum corners))
     corners = [positionAlong l (Vec.point x y) | x <- [left, right], y <- [bottom, top]]
     at (Mm s) = Vec.shift (Vec.scale s (Carrier.direction l)) (Carrier.from l)
 
--- | The signed distance along a line from its first point to the foot of a point.
+-- | The signed distance along the line @l@ from its first point to the foot of the perpendicular
+-- from the point @p@; positive in the line's direction.
 positionAlong :: Line -> Point -> Mm
 positionAlong l p = Mm (Vec.dot (Carrier.direction l) (Vec.to (Carrier.from l) p))

@@ -1,8 +1,10 @@
--- | Polyarcs in flat arrays: the input and output of the offset kernel and of arc fitting.
+-- | Polyarcs in flat arrays: the input and output of the offset kernel ("Offset.Kernel") and of arc
+-- fitting.
 --
--- A vertex has coordinates in mm and the bulge of the segment that starts there, @tan(sweep/4)@: 0
--- for a line, positive for a counter-clockwise arc, ±1 for a half circle. Arcs above a half circle
--- are stored as two segments, so that no bulge is large and every chord has a length.
+-- A vertex is the start of a segment, or the end of an open polyarc. It has coordinates in mm and
+-- the bulge of the segment that starts there, @tan(sweep/4)@: 0 for a line, positive for a
+-- counter-clockwise arc, ±1 for a half circle. An arc that sweeps more than a half circle is stored
+-- as two segments, so that no bulge is large and every chord has a length.
 --
 -- The arrays are unboxed: a vertex takes 24 bytes, while a segment in a list takes 64 to 88. A flat
 -- polyarc is made from a "Geometry.Polyarc" or from its vertices.
@@ -33,8 +35,9 @@ import Geometry.Segment qualified as Segment
 import Geometry.Vec qualified as Vec
 import Prelude hiding (length, reverse)
 
--- | Three arrays of equal length. The last segment of a closed polyarc leads from its last vertex
--- to its first. An open one ends at its last vertex, whose bulge has no meaning.
+-- | Arrays of the vertices' x and y in mm and of their bulges, all three of the same length. The
+-- last segment of a closed polyarc leads from its last vertex to its first. An open one ends at its
+-- last vertex, whose bulge has no meaning.
 data FlatPolyarc = FlatPolyarc
   { ends :: Ends,
     xs :: PrimArray Double,
@@ -43,7 +46,7 @@ data FlatPolyarc = FlatPolyarc
   }
   deriving stock (Eq, Show)
 
--- | The polyarc of vertices in order: x and y in mm, and the bulge.
+-- | The polyarc of vertices in order. Each is given by x and y in mm and by the bulge.
 fromVertices :: Ends -> [(Double, Double, Double)] -> FlatPolyarc
 fromVertices ends vs =
   FlatPolyarc
@@ -53,7 +56,7 @@ fromVertices ends vs =
       bulges = PrimArray.primArrayFromList [b | (_, _, b) <- vs]
     }
 
--- | The vertices in order: x and y in mm, and the bulge.
+-- | The vertices in order, each as x and y in mm and the bulge.
 vertices :: FlatPolyarc -> [(Double, Double, Double)]
 vertices o =
   zip3
@@ -82,14 +85,15 @@ reverse o@FlatPolyarc {ends} =
     old i = case ends of
       Closed -> if i == 0 then 0 else n - i
       Open -> n - 1 - i
-    -- The segment that starts at a vertex is the one that ended there.
+    -- In the opposite direction, the segment that ended at a vertex starts there.
     bulge i = case ends of
       Closed -> -(PrimArray.indexPrimArray (bulges o) (n - 1 - i))
       Open -> if i == n - 1 then 0 else -(PrimArray.indexPrimArray (bulges o) (n - 2 - i))
 
--- | The area that a closed polyarc encloses, in mm²; positive when it is counter-clockwise. It is
--- the area of the polygon of chords (shoelace formula) plus the areas between arcs and chords,
--- @c²·(s − sin s)/(8·sin²(s/2))@ for a chord @c@ and a sweep @s@.
+-- | The area that a closed polyarc encloses, in mm²; positive when the polyarc runs
+-- counter-clockwise. It is the area of the polygon of chords (shoelace formula) plus the areas
+-- between arcs and chords. For a chord of length @c@ and a sweep @s@, the latter is
+-- @c²·(s − sin s)/(8·sin²(s/2))@.
 area :: FlatPolyarc -> Double
 area o = folded o $ \x0 y0 x1 y1 b ->
   let ax = x0 - ox
@@ -103,7 +107,8 @@ area o = folded o $ \x0 y0 x1 y1 b ->
     square a = a * a
     between cc b
       | b == 0 = 0
-      -- The first terms of the power series. The formula below would lose digits for small bulges.
+      -- The next line has the first terms of the power series, since the formula after it loses
+      -- digits for small bulges.
       | abs b < 1e-3 = cc * b / 3 * (1 + b * b / 5)
       | otherwise = let s = 4 * atan b in cc * (s - sin s) / (8 * square (sin (s / 2)))
 
@@ -117,8 +122,8 @@ length o = Mm . folded o $ \x0 y0 x1 y1 b ->
           let s = 4 * atan (abs b)
            in if s < 1e-6 then chord * (1 + s * s / 24) else chord * s / (2 * sin (s / 2))
 
--- | The sum of a measure over the segments. The arguments of the measure are x and y of a segment's
--- start, x and y of its end, and its bulge.
+-- | The sum of a measure, such as the length, over the segments. The arguments of the measure @f@
+-- are x and y of a segment's start, x and y of its end, and its bulge.
 folded :: FlatPolyarc -> (Double -> Double -> Double -> Double -> Double -> Double) -> Double
 folded o f = go 0 0
   where
@@ -135,14 +140,15 @@ folded o f = go 0 0
               (total + f (at (xs o) i) (at (ys o) i) (at (xs o) j) (at (ys o) j) (at (bulges o) i))
 {-# INLINE folded #-}
 
--- | The flat form of a polyarc. The second result has, for each segment of the flat form, the index
--- (from 0) of the polyarc's segment from which it comes.
+-- | The flat form of a polyarc, and an array with one number for each segment of the flat form.
+-- This number is the index, from 0, of the polyarc's segment from which the flat one is made.
 fromPolyarc :: Polyarc -> (FlatPolyarc, PrimArray Int)
 fromPolyarc (Polyarc ends ss) =
   fromSegments ends (Vector.fromListN (NonEmpty.length ss) (NonEmpty.toList ss))
 
--- | The flat form of a polyarc, given as a vector of at least one segment. The second result has,
--- for each segment of the flat form, the index in the vector of the segment from which it comes.
+-- | The flat form of a polyarc, given as a vector of at least one segment; and an array with one
+-- number for each segment of the flat form. This number is the index, in the vector, of the segment
+-- from which the flat one is made.
 fromSegments :: Ends -> Vector Segment -> (FlatPolyarc, PrimArray Int)
 fromSegments ends ss = runST $ do
   let room = Vector.foldl' (\k s -> if isOverHalf s then k + 2 else k + 1) 1 ss
@@ -176,7 +182,7 @@ fromSegments ends ss = runST $ do
   bulges <- PrimArray.unsafeFreezePrimArray pb
   (FlatPolyarc {ends, xs, ys, bulges},) <$> PrimArray.unsafeFreezePrimArray numbers
 
--- | True for an arc above a half circle, which becomes two segments.
+-- | True for an arc that sweeps more than a half circle; it becomes two segments.
 isOverHalf :: Segment -> Bool
 isOverHalf s = case s of
   Straight _ _ -> False

@@ -56,8 +56,8 @@ import Geometry.Vec qualified as Vec
 import Prelude hiding (length)
 
 -- | A chain of at least one segment, each of which starts where the previous one ends; and a table
--- of the stations at which the segments start, followed by that of the end. The table is computed
--- when it is first needed.
+-- of stations in mm. The table contains the stations at which the segments start, then the station
+-- of the polyarc's end. It is computed when it is first needed.
 data MeasuredPolyarc = MeasuredPolyarc {chain :: Vector Segment, table :: ~(Unboxed.Vector Double)}
   deriving stock (Eq, Show)
 
@@ -65,6 +65,7 @@ data MeasuredPolyarc = MeasuredPolyarc {chain :: Vector Segment, table :: ~(Unbo
 fromSegments :: NonEmpty Segment -> MeasuredPolyarc
 fromSegments ss = fromVector (Vector.fromList (NonEmpty.toList ss))
 
+-- | The polyarc of a vector of at least one segment.
 fromVector :: Vector Segment -> MeasuredPolyarc
 fromVector chain = MeasuredPolyarc {chain, table = Unboxed.scanl' (+) 0 lengths}
   where
@@ -115,23 +116,25 @@ stations = Unboxed.toList . table
 isClosed :: MeasuredPolyarc -> Bool
 isClosed p = Vec.isNear (start p) (end p)
 
--- | The index, from 0, of the segment that contains a station, and the fraction of the segment's
--- length at the station. A station outside of the polyarc gives the nearer end.
+-- | The index, from 0, of the segment that contains the station @s@; and the fraction of this
+-- segment's length, from 0 to 1, at which the station lies. A station outside of the polyarc gives
+-- the nearer end.
 locate :: MeasuredPolyarc -> Mm -> (Int, Double)
 locate p (Mm s) = (i, if l <= 0 then 0 else max 0 (min 1 ((s - table p Unboxed.! i) / l)))
   where
     i = BinarySearch.lastAtMost (Vector.length (chain p)) s (table p)
     l = table p Unboxed.! (i + 1) - table p Unboxed.! i
 
--- | The point at a station. A station outside of the polyarc gives the nearer end.
+-- | The point at the station @s@. A station outside of the polyarc gives the nearer end.
 at :: MeasuredPolyarc -> Mm -> Point
 at p s = let (i, t) = locate p s in Segment.at t (chain p Vector.! i)
 
--- | The direction of travel at a station, of length 1.
+-- | The direction of travel at the station @s@, of length 1. A station outside of the polyarc gives
+-- the nearer end.
 directionAt :: MeasuredPolyarc -> Mm -> Vec
 directionAt p s = let (i, t) = locate p s in Segment.directionAt t (chain p Vector.! i)
 
--- | The station of the polyarc's point that is nearest to a given point. The time is linear in the
+-- | The station of the polyarc's point that is nearest to the point @q@. The time is linear in the
 -- number of segments.
 nearestStation :: MeasuredPolyarc -> Point -> Mm
 nearestStation p q = Mm (table p Unboxed.! best + Distance.nearestFraction q segment * l)
@@ -141,8 +144,9 @@ nearestStation p q = Mm (table p Unboxed.! best + Distance.nearestFraction q seg
     segment = chain p Vector.! best
     Mm l = Segment.length segment
 
--- | The segments from one station to a later one; the first and the last are cut at these stations.
--- A part no longer than 'Tolerance.coincident' is omitted, unless it is the only one.
+-- | The segments from the station @a@ to the later station @b@; the first and the last are cut at
+-- these stations. A part no longer than 'Tolerance.coincident' is omitted, unless it is the only
+-- one.
 segmentsBetween :: MeasuredPolyarc -> Mm -> Mm -> [Segment]
 segmentsBetween p a b =
   [ part i
@@ -160,12 +164,12 @@ segmentsBetween p a b =
             then snd (Segment.cutAt (t1 / (if i == i2 && t2 < 1 then t2 else 1)) front)
             else front
 
--- | The intersections of two polyarcs, in order along the first.
+-- | The intersections of the polyarcs @a@ and @b@, in order along @a@.
 --
 -- A polyarc that represents a curve deviates from it by up to 'Tolerance.curve'. Two polyarcs that
 -- do not cross therefore count as touching when they come within twice that tolerance. Two
--- neighbouring crossings count as one if they are less than 'longestTouch' apart and the polyarcs
--- are within that distance at the middle between them.
+-- neighbouring crossings less than 0.5 mm apart count as one if the polyarcs are within twice that
+-- tolerance in the middle between them.
 intersections :: NonEmpty Segment -> NonEmpty Segment -> [Point]
 intersections a b = case mergeTouching (crossings a b) of
   [] | closest <- nearest a b, distance closest <= slack -> [nearestPoint closest]
@@ -185,7 +189,7 @@ intersections a b = case mergeTouching (crossings a b) of
     -- Curves that stay together over a longer distance overlap; they do not merely touch.
     longestTouch = Mm 0.5
 
--- | The points at which two polyarcs cross or touch, in order along the first.
+-- | The points at which the polyarcs @a@ and @b@ cross or touch, in order along @a@.
 crossings :: NonEmpty Segment -> NonEmpty Segment -> [Point]
 crossings a b =
   distinct
@@ -198,7 +202,7 @@ crossings a b =
     closeTo s =
       BoxTree.within (BoundingBox.inflate Tolerance.coincident (BoundingBox.ofSegment s)) tree
     inOrder s ps = map snd (nubOrd [(Segment.fraction s p, p) | p <- ps])
-    -- A crossing at a joint is found from both segments, with different rounding errors.
+    -- At a joint of two segments, a crossing is found twice, with different rounding errors.
     distinct ps = case ps of
       [] -> []
       p : rest -> p : distinct (filter (\q -> Vec.distance p q > sameWithin) rest)
@@ -208,7 +212,7 @@ crossings a b =
 leastDistance :: NonEmpty Segment -> NonEmpty Segment -> Mm
 leastDistance a b = distance (nearest a b)
 
--- | The least distance between two polyarcs, and the point of the first at which it occurs.
+-- | The least distance between the polyarcs @a@ and @b@, and the point of @a@ at which it occurs.
 nearest :: NonEmpty Segment -> NonEmpty Segment -> ClosestPoint
 nearest a b =
   fromMaybe

@@ -24,7 +24,8 @@ import Geometry.Segment qualified as Segment
 import Geometry.Vec qualified as Vec
 import Prelude hiding (length, reverse)
 
--- | Closed when the last segment ends where the first one starts.
+-- | A polyarc is closed when its last segment ends where its first one starts; otherwise it is
+-- open.
 data Ends = Open | Closed
   deriving stock (Eq, Show)
 
@@ -32,7 +33,7 @@ data Ends = Open | Closed
 data Polyarc = Polyarc {ends :: Ends, segments :: NonEmpty Segment}
   deriving stock (Eq, Show)
 
--- | The length of the polyarc.
+-- | The sum of the segments' lengths.
 length :: Polyarc -> Mm
 length = total . map Segment.length . NonEmpty.toList . segments
 
@@ -50,9 +51,9 @@ neighbours (Polyarc ends ss) = zip3 [0 ..] list (drop 1 list <> closing)
       Open -> []
       Closed -> [NonEmpty.head ss]
 
--- | Close the gaps that rounding leaves between the segments of a list of things: each segment is
--- made to start exactly at the end of the previous one, and the last of a closed polyarc to end at
--- the start of the first. @get@ and @set@ read and replace the segment of a thing.
+-- | Closes the gaps that rounding leaves between the segments of consecutive things. Each segment
+-- is made to start exactly at the end of the previous one. The last segment of a closed polyarc is
+-- made to end at the start of the first. @get@ reads the segment of a thing, and @set@ replaces it.
 closeGaps :: (a -> Segment) -> (Segment -> a -> a) -> Ends -> NonEmpty a -> NonEmpty a
 closeGaps get set ends (first :| rest) = case rest of
   [] -> (case ends of Open -> first; Closed -> set (closing (get first)) first) :| []
@@ -69,7 +70,8 @@ closeGaps get set ends (first :| rest) = case rest of
           let s = (get a) {start = from}
               a' = set s a
            in a' `seq` (a' : follow (end s) more)
-    -- 0 and −0 are equal but print differently; points with a zero coordinate are always replaced.
+    -- 0 and −0 are equal but print differently, so a point with a zero coordinate is always
+    -- replaced.
     isAt p q = p == q && Vec.x p /= 0 && Vec.y p /= 0
     closing s = s {end = start (get first)}
 {-# INLINE closeGaps #-}
@@ -78,9 +80,10 @@ closeGaps get set ends (first :| rest) = case rest of
 signedArea :: Polyarc -> Double
 signedArea (Polyarc _ ss) = areaOf id ss
 
--- | The signed area, in mm², that the segments of a list of things enclose. It is the sum of the
--- triangles from the first start point to the chords (shoelace formula) and of the segments between
--- the arcs and their chords, @r²·(φ − sin φ)/2@.
+-- | The signed area, in mm², that the segments of consecutive things enclose; @get@ reads the
+-- segment of a thing. It is the sum of the triangles from the first start point to the chords
+-- (shoelace formula) and of the regions between arcs and chords. For a radius r and a sweep φ, such
+-- a region has the area @r²·(φ − sin φ)/2@.
 areaOf :: (a -> Segment) -> NonEmpty a -> Double
 areaOf get (first :| others) = go 0 first others
   where

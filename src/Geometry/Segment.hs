@@ -3,6 +3,9 @@
 -- The module owns everything that concerns one segment: its construction from a centre or a bulge,
 -- points and directions along it, its carrier, its reversal, division and offset. Distances and
 -- intersections of two segments are in "Geometry.Distance".
+--
+-- The foot of a point @p@ on a segment is the point where the perpendicular from @p@ meets the
+-- segment's carrier. On an arc's circle it lies in the direction of @p@ from the centre.
 module Geometry.Segment
   ( Segment (..),
 
@@ -43,8 +46,8 @@ import Geometry.Vec qualified as Vec
 import Prelude hiding (length, reverse)
 
 -- | A straight line or an arc between two points. The sweep of an arc is positive
--- counter-clockwise and at most 2π in size. Both ends of an arc lie on the circle about its centre;
--- they are kept as points so that neighbours share exactly the same point.
+-- counter-clockwise, and its absolute value is at most 2π. Both ends of an arc lie on the circle
+-- about its centre. They are kept as points so that neighbours share exactly the same point.
 data Segment
   = Straight {start :: {-# UNPACK #-} Point, end :: {-# UNPACK #-} Point}
   | Arc
@@ -55,27 +58,28 @@ data Segment
       }
   deriving stock (Eq, Ord, Show)
 
--- | The arc in a sense about a centre from a start to an end. Its sweep is less than 2π in size. It
--- is 0 when both ends lie in the same direction from the centre.
+-- | The arc from @start@ to @end@ about @centre@ in the given sense. The absolute value of its
+-- sweep is less than 2π. The sweep is 0 when both ends lie in the same direction from the centre.
 arc :: Sense -> Point -> Point -> Point -> Segment
 arc sense centre start end = Arc {start, end, centre, sweep}
   where
     sweep = Carrier.sweepInSense sense (Vec.signedAngle (Vec.to centre start) (Vec.to centre end))
 
--- | A full circle as an arc that starts and ends at a point on it.
+-- | A full circle as an arc in the given sense that starts and ends at the point @start@ on it.
 fullCircle :: Sense -> Circle -> Point -> Segment
 fullCircle sense (Circle centre _) start =
   Arc {start, end = start, centre, sweep = Rad (Carrier.senseSign sense * 2 * pi)}
 
--- | The 'arc' in a sense about a centre from a start to an end, or the full circle when start and
--- end are equal. Frames describe arcs in this form.
+-- | The 'arc' from @start@ to @end@ about @centre@ in the given sense, or the full circle when both
+-- ends are equal. Frames describe arcs in this form.
 arcOrCircle :: Sense -> Point -> Point -> Point -> Segment
 arcOrCircle sense centre start end
   | start == end = fullCircle sense (Circle centre (radius centre start)) start
   | otherwise = arc sense centre start end
 
--- | The segment from a start to an end with a bulge @b = tan(sweep/4)@: a line for 0, else an arc.
--- Its centre lies at @(1 − b²)/(4·b)@ of the chord to the left of the chord's midpoint.
+-- | The segment from @start@ to @end@ with the bulge @b = tan(sweep/4)@: a line for 0, else an arc.
+-- The arc's centre lies on the left normal of the chord at its midpoint. Its distance from there is
+-- @(1 − b²)/(4·b)@ times the chord's length; when negative, the centre lies to the right.
 fromBulge :: Point -> Point -> Double -> Segment
 fromBulge start end b
   | b == 0 = Straight start end
@@ -90,7 +94,7 @@ fromBulge start end b
     normal = Vec.left (Vec.to start end)
     midpoint = Vec.interpolate 0.5 start end
 
--- | The radius of an arc, by its centre and its start.
+-- | The radius of an arc, from its centre and its start.
 radius :: Point -> Point -> Mm
 radius centre start = Vec.distance centre start
 
@@ -100,8 +104,8 @@ length segment = case segment of
   Straight a b -> Vec.distance a b
   Arc {start, centre, sweep = Rad s} -> let Mm r = radius centre start in Mm (r * abs s)
 
--- | The sagitta: the largest distance between the segment and its chord, @r·(1 − cos(φ/2))@ for a
--- sweep φ of at most 2π.
+-- | The sagitta: the largest distance between the segment and its chord. It is 0 for a line and
+-- @r·(1 − cos(φ/2))@ for an arc of radius r and sweep φ.
 sagitta :: Segment -> Mm
 sagitta segment = case segment of
   Straight _ _ -> Mm 0
@@ -114,8 +118,8 @@ bulge segment = case segment of
   Straight _ _ -> 0
   Arc {sweep = Rad s} -> tan (s / 4)
 
--- | The line or circle on which the segment lies; nothing for a line between equal points and an
--- arc without a radius.
+-- | The line or circle on which the segment lies. Nothing for a line between equal points and for
+-- an arc of radius 0.
 carrier :: Segment -> Maybe Carrier
 carrier segment = case segment of
   Straight a b -> if a == b then Nothing else Just (LineCarrier (Line a b))
@@ -123,8 +127,8 @@ carrier segment = case segment of
     let r = radius centre start
      in if r > Mm 0 then Just (CircleCarrier (Circle centre r)) else Nothing
 
--- | The point at a fraction of the length. Fractions up to 0 give exactly the start, from 1 on
--- exactly the end.
+-- | The point at the fraction @t@ of the segment's length. A fraction up to 0 gives exactly the
+-- start, and one from 1 on exactly the end.
 at :: Double -> Segment -> Point
 at t segment
   | t <= 0 = start segment
@@ -135,16 +139,16 @@ at t segment
       | s /= 0 && abs s < flat -> onFlatArc a b s
       | otherwise -> Vec.shift (Vec.rotate (Rad (t * s)) (Vec.to centre a)) centre
   where
-    -- A point computed from a distant centre would be as inexact as the centre. With the sweep φ,
-    -- the chord from the start to the point is @2·r·sin(t·φ/2)@ long, and rotated by
-    -- @(t − 1)·φ/2@ from the chord of the whole arc.
+    -- The centre of a flat arc is distant and inexact, so the point is computed from the chord.
+    -- With the sweep φ, the chord from the start to the point is @2·r·sin(t·φ/2)@ long. It is
+    -- rotated by @(t − 1)·φ/2@ from the chord of the whole arc.
     onFlatArc a b s =
       let share = sin (t * s / 2) / sin (s / 2)
           chord = Vec.rotate (Rad ((t - 1) * s / 2)) (Vec.to a b)
        in Vec.shift (Vec.scale share chord) a
 
--- | The sweep in radians below which an arc is evaluated from its chord: its radius is more than
--- ten thousand times the chord.
+-- | The sweep in radians below which 'at' computes points of an arc from its chord. The radius of
+-- such an arc is more than ten thousand times the chord.
 flat :: Double
 flat = 1e-4
 
@@ -160,24 +164,26 @@ endDirection segment = case segment of
   Straight a b -> Vec.unit (Vec.to a b)
   Arc {end, centre, sweep} -> tangent sweep (Vec.to centre end)
 
--- | The direction of travel at a fraction of the length, of length 1. The segment must have a
+-- | The direction of travel at the fraction @t@ of the length, of length 1. The segment must have a
 -- length.
 directionAt :: Double -> Segment -> Vec
 directionAt t segment = case segment of
   Straight a b -> Vec.unit (Vec.to a b)
   Arc {centre, sweep} -> tangent sweep (Vec.to centre (at t segment))
 
--- | The direction of travel on an arc, from the vector that leads from its centre to the point.
+-- | The direction of travel, of length 1, on an arc with the sweep @s@. The vector @out@ leads from
+-- the arc's centre to the point of the arc.
 tangent :: Rad -> Vec -> Vec
 tangent (Rad s) out = Vec.unit (Vec.scale (signum s) (Vec.left out))
 
--- | True when the foot of a point lies on the segment, not before or after it. On an arc, this
--- means that the point lies in the arc's sector.
+-- | True when the foot of the point @p@ lies on the segment, not before its start or after its end.
+-- On an arc, this means that @p@ lies in the arc's sector.
 hasFootOf :: Segment -> Point -> Bool
 hasFootOf segment p = let t = fraction segment p in t >= 0 && t <= 1
 
--- | The fraction of the length at which the foot of a point lies. For a line it is negative before
--- the start and above 1 after the end; for an arc of sweep φ it lies in [0, 2π/|φ|).
+-- | The foot of the point @p@ as a fraction of the segment's length from its start. For a line it
+-- is negative before the start and above 1 after the end; for an arc of sweep φ it lies in
+-- [0, 2π/|φ|).
 fraction :: Segment -> Point -> Double
 fraction segment p = case segment of
   Straight a b -> let u = Vec.to a b in Vec.dot u (Vec.to a p) / Vec.dot u u
@@ -186,15 +192,15 @@ fraction segment p = case segment of
         along = signum s * t
      in (if along < 0 then along + 2 * pi else along) / abs s
 
--- | The segment from its end to its start.
+-- | The same segment in the opposite direction, from its end to its start.
 reverse :: Segment -> Segment
 reverse segment = case segment of
   Straight a b -> Straight b a
   Arc {start, end, centre, sweep = Rad s} ->
     Arc {start = end, end = start, centre, sweep = Rad (-s)}
 
--- | The two parts into which a point at a fraction between 0 and 1 of the length divides the
--- segment.
+-- | The parts of the segment before and after the point at the fraction @t@ of its length, which
+-- lies between 0 and 1.
 cutAt :: Double -> Segment -> (Segment, Segment)
 cutAt t segment = (part (start segment) p t, part p (end segment) (1 - t))
   where
@@ -203,8 +209,9 @@ cutAt t segment = (part (start segment) p t, part p (end segment) (1 - t))
       Straight _ _ -> Straight a b
       Arc {centre, sweep = Rad s} -> Arc {start = a, end = b, centre, sweep = Rad (s * share)}
 
--- | The segment at a distance on a side: the parallel line, or the concentric arc. Nothing for a
--- segment without a length and for an arc that the offset would shrink to its centre or beyond.
+-- | The segment moved sideways by a distance to the given side: the parallel line, or the
+-- concentric arc. Nothing for a segment without a length, and for an arc whose offset would have a
+-- radius of 0 or less.
 offset :: Side -> Mm -> Segment -> Maybe Segment
 offset side d@(Mm distance) segment = case segment of
   Straight a b
@@ -220,8 +227,9 @@ offset side d@(Mm distance) segment = case segment of
       Mm new = offsetRadius side d sweep (Mm old)
       moved p = Vec.shift (Vec.scale (new / old) (Vec.to centre p)) centre
 
--- | The radius of an arc's offset, by side, distance, sweep and radius. It is smaller than the
--- arc's radius on the side of the centre, and negative when the offset has passed the centre.
+-- | The radius of the offset of an arc with the radius @r@ and the sweep @s@. The offset lies at
+-- the distance @d@ to the given side of the arc. On the side of the centre its radius is @r − d@,
+-- which is negative when @d@ is larger than @r@.
 offsetRadius :: Side -> Mm -> Rad -> Mm -> Mm
 offsetRadius side (Mm d) (Rad s) (Mm r)
   | signum s == Carrier.sideSign side = Mm (r - d)

@@ -1,8 +1,9 @@
 -- | The self-intersections of a polyarc of the part: a report for the user names the first one.
 --
--- The bounding-box tree of the offset kernel finds candidates, pairs of neighbours are added, and
--- 'Distance.intersections' decides. Raw offsets also intersect themselves, but that is no mistake
--- of the user: "Offset.SelfIntersection" finds those intersections.
+-- The bounding-box tree of the offset kernel finds the pairs of segments that may meet. Pairs of
+-- neighbours are added, and 'Distance.intersections' decides. Raw offsets also intersect
+-- themselves, but that is no mistake of the user: "Offset.SelfIntersection" finds those
+-- intersections.
 module Geometry.SelfIntersection
   ( firstSelfIntersection,
     firstSelfIntersectionBy,
@@ -32,12 +33,13 @@ import Geometry.Tolerance qualified as Tolerance
 import Geometry.Vec (Point)
 import Geometry.Vec qualified as Vec
 
--- | The indices, from 0, of the first two segments of a polyarc that cross or touch elsewhere than
--- at a common joint; and the point at which they do.
+-- | The first self-intersection of a polyarc; nothing if it has none. The result has the indices,
+-- from 0, of two segments that cross or touch elsewhere than at a common joint. The point at which
+-- they do comes third. The first index is the least possible one.
 firstSelfIntersection :: Polyarc -> Maybe (Int, Int, Point)
 firstSelfIntersection (Polyarc ends ss) = firstSelfIntersectionBy id ends ss
 
--- | 'firstSelfIntersection' for a list of things, each of which has a segment.
+-- | 'firstSelfIntersection' for a list of things, each of which contains a segment; @get@ reads it.
 firstSelfIntersectionBy :: (a -> Segment) -> Ends -> NonEmpty a -> Maybe (Int, Int, Point)
 firstSelfIntersectionBy get ends things =
   case concatMap found (neighbours chain <> closeBy chain) of
@@ -54,16 +56,17 @@ firstSelfIntersectionBy get ends things =
 -- | The segments of a polyarc in a vector, for access by index.
 data Chain = Chain {ends :: Ends, segments :: Vector Segment}
 
--- | The number of segments.
+-- | The number of segments of a chain.
 count :: Chain -> Int
 count = Vector.length . segments
 
--- | True when the indices are those of the first and the last segment of a closed polyarc, which
--- join at its start.
+-- | True when @i@ and @j@ are the indices of the first and the last segment of a closed polyarc.
+-- These two segments join at the polyarc's start.
 isClosingPair :: Chain -> Int -> Int -> Bool
 isClosingPair chain i j = ends chain == Closed && i == 0 && j == count chain - 1
 
--- | Pairs of neighbours that may meet elsewhere than at their joint.
+-- | The indices of neighbouring segments that may meet elsewhere than at their joint. Most pairs
+-- that surely do not are omitted, since 'crossingsOf' takes longer than this test.
 neighbours :: Chain -> [(Int, Int)]
 neighbours chain = go 0
   where
@@ -74,7 +77,8 @@ neighbours chain = go 0
          in if meetOnce then go (i + 1) else (i, i + 1) : go (i + 1)
       | otherwise = [(0, count chain - 1) | ends chain == Closed, count chain > 2]
 
--- | The points at which two segments meet, other than their joints.
+-- | The points at which the segments @i@ and @j@ meet, other than their common joints; @i@ is less
+-- than @j@.
 crossingsOf :: Chain -> Int -> Int -> [Point]
 crossingsOf chain i j
   | closes && goesStraightOn other s = []
@@ -88,7 +92,7 @@ crossingsOf chain i j
     closes = j /= i + 1 && isClosingPair chain i j
     joints = [Segment.end s | j == i + 1] <> [Segment.start s | isClosingPair chain i j]
 
--- | Pairs of segments that are not neighbours and whose bounding boxes meet.
+-- | The indices of all pairs of segments whose bounding boxes overlap and which are not neighbours.
 closeBy :: Chain -> [(Int, Int)]
 closeBy chain
   | ClosedPolyarcs.loopCount loops == 0 = []
@@ -104,7 +108,7 @@ closeBy chain
     loops = ClosedPolyarcs.fromFlatPolyarcs 0 [flat]
     Mm margin = times 2 Tolerance.coincident
     tree = SegmentBoxTree.build margin loops
-    -- The kernel closes every polyarc; the segment that closes an open one has no index.
+    -- The kernel closes every polyarc. The segment that closes an open one has no index: −1.
     number k =
       let i = fromIntegral (indexPrimArray (ClosedPolyarcs.sources loops) k)
        in if i < sizeofPrimArray numbers then indexPrimArray numbers i else -1
@@ -116,7 +120,7 @@ goesStraightOn :: Segment -> Segment -> Bool
 goesStraightOn a b =
   sweepsLittle a && sweepsLittle b && abs (Vec.cross u v) <= steepness * Vec.dot u v
   where
-    -- These directions are not of length 1.
+    -- The lengths of these directions are arbitrary; only the angle between them matters.
     u = case a of
       Straight p q -> Vec.to p q
       Arc {end, centre, sweep = Rad t} -> Vec.scale (signum t) (Vec.left (Vec.to centre end))
@@ -127,8 +131,8 @@ goesStraightOn a b =
       Straight _ _ -> True
       Arc {sweep = Rad t} -> abs t <= 1
 
--- | True when two neighbours are lines much longer than 'Tolerance.coincident', and the second does
--- not run back along the first. Such lines meet only at their joint.
+-- | True when two neighbours are lines much longer than 'Tolerance.coincident', and the second line
+-- does not run back along the first. Such lines meet only at their joint.
 meetAtCorner :: Segment -> Segment -> Bool
 meetAtCorner a b = case (a, b) of
   (Straight p q, Straight _ r)
@@ -139,13 +143,13 @@ meetAtCorner a b = case (a, b) of
   where
     isLong v = Vec.norm v > 100 * (let Mm least = Tolerance.coincident in least)
 
--- | The tangent of 0.1 rad, by which directions may differ in 'goesStraightOn' and from exactly
--- opposite directions in 'meetAtCorner'.
+-- | The tangent of 0.1 rad. In 'goesStraightOn' it bounds the angle between two directions. In
+-- 'meetAtCorner' it bounds the angle by which two directions differ from exactly opposite ones.
 steepness :: Double
 steepness = 0.10033467208545055
 
--- | The middle of the shorter of two neighbours, if it lies on the longer one: then one runs back
--- along the other.
+-- | The middle of the shorter of two neighbours, if it lies on the longer one. In this case one of
+-- them runs back along the other, and the middle counts as a self-intersection.
 retraced :: Segment -> Segment -> [Point]
 retraced s other = [middle | Distance.toPoint middle longer <= Tolerance.coincident]
   where

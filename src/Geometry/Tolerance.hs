@@ -1,7 +1,9 @@
 -- | The tolerances of geometry: every small number with which "Geometry" compares, by name.
 --
--- Tolerances for the purposes of a single stage are in its folder: "Offset.Tolerance",
--- "Part.Tolerance" and "Toolpath.Tolerance".
+-- Tolerances for the purposes of a single stage are in the folder of that stage:
+-- "Offset.Tolerance", "Part.Tolerance" and "Toolpath.Tolerance".
+--
+-- A span is one of the consecutive parts of a curve, on which one formula gives its points.
 module Geometry.Tolerance
   ( -- * Points and numbers
     coincident,
@@ -37,8 +39,8 @@ where
 
 import Base.Quantity (Mm (..), Rad (..))
 
--- | The largest distance between points that count as one. As doubles, the coordinates of a part
--- 20 m long are exact to 4·10⁻¹² mm. The square roots of constructions lose half of the digits at
+-- | The largest distance between points that count as one. In a part 20 m long, rounding changes a
+-- coordinate by at most 4·10⁻¹² mm. The square roots of constructions lose half of the digits at
 -- worst.
 coincident :: Mm
 coincident = Mm 1e-6
@@ -53,7 +55,8 @@ equal = 1e-9
 reach :: Mm
 reach = Mm 1e6
 
--- | The share of a segment's length below which a part of the segment is negligible.
+-- | A part of a segment is negligible when its length, as a share of the whole segment's length, is
+-- below this value.
 negligibleShare :: Double
 negligibleShare = 1e-9
 
@@ -65,17 +68,17 @@ smoothAngle = Rad 1e-7
 parallel :: Double
 parallel = 1e-12
 
--- | The largest change of direction of a smooth curve at a joint of its spans. A larger one is a
--- corner.
+-- | The largest change of direction at a point where two spans of a curve join smoothly. A larger
+-- one is a corner.
 kink :: Rad
 kink = Rad 1e-3
 
 -- | The largest distance between the centres of fillets that count as one. A fillet that touches a
--- curve at a joint of two segments is found from both.
+-- curve at a joint of two segments is found twice, once from each segment.
 sameFillet :: Mm
 sameFillet = Mm 1e-5
 
--- | The largest distance between a point's feet on two curves for which the point counts as an
+-- | The largest distance between two points, one on each of two curves, for which both count as one
 -- intersection of the curves.
 crossing :: Mm
 crossing = Mm 1e-8
@@ -84,7 +87,8 @@ crossing = Mm 1e-8
 curve :: Mm
 curve = Mm 1e-5
 
--- | The largest error of the arc length of one panel in "Geometry.Numeric.ArcLength".
+-- | The largest error of a curve's arc length on one panel of "Geometry.Numeric.ArcLength". A panel
+-- is an interval of the curve's parameter on which one polynomial represents the speed.
 arcLength :: Mm
 arcLength = Mm 1e-9
 
@@ -93,11 +97,11 @@ arcLength = Mm 1e-9
 arcLengthShare :: Double
 arcLengthShare = 1e-12
 
--- | The largest error of a curve's parameter, which rises by 1 from one end of a span to the other.
+-- | The largest error of a curve's parameter, which rises by 1 over each span.
 parameter :: Double
 parameter = 1e-12
 
--- | The largest velocity, in mm per unit of the parameter, that counts as 0.
+-- | The largest velocity, in mm per unit of the curve's parameter, that counts as 0.
 stationary :: Mm
 stationary = Mm 1e-9
 
@@ -107,12 +111,12 @@ stationary = Mm 1e-9
 straight :: Rad
 straight = Rad 2e-8
 
--- | The largest difference of the angles between a biarc's end tangents and its chord for which the
--- biarc is one arc.
+-- | The largest difference of two angles for which a biarc becomes a single arc. They are the
+-- angles between the biarc's chord and its tangents at the start and at the end.
 oneArc :: Rad
 oneArc = Rad 1e-9
 
--- | The largest sweep of an arc of a biarc: π and an allowance for rounding.
+-- | The largest sweep of an arc in a biarc: π, and an allowance for rounding.
 halfTurn :: Rad
 halfTurn = Rad (pi + 1e-9)
 
@@ -126,6 +130,7 @@ deviationShare = 0.02
 roundingShare :: Double
 roundingShare = 1e-3
 
--- | The smallest step of arc fitting along a curve, as a share of a span's parameter interval.
+-- | The smallest step of arc fitting along a curve, as a share of the parameter interval of one
+-- span.
 finestStep :: Double
 finestStep = 1e-6

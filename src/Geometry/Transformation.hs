@@ -32,8 +32,8 @@ import Linear.V2 (V2 (..))
 import Linear.Vector ((^+^), (^-^))
 
 -- | The map @p ↦ M·p + t@, where M is a multiple of an orthogonal matrix. The scale factor and the
--- reflection could be computed from the determinant of M, but only to rounding. They are stored
--- because they must be exact.
+-- reflection could be computed from the determinant of M, but only to rounding. Both must be exact,
+-- so they are stored.
 data Transformation = Transformation
   { matrix :: M22 Double,
     -- | in mm
@@ -63,12 +63,12 @@ reflection axis = about (aboutOrigin True (Rad (2 * direction)) 1) (Carrier.from
   where
     Rad direction = Vec.angle (Carrier.direction axis)
 
--- | The scaling by a positive factor with a fixed point.
+-- | The scaling by the positive factor @k@ that leaves the given point in its position.
 scaling :: Double -> Point -> Transformation
 scaling k = about (aboutOrigin False (Rad 0) k)
 
--- | A reflection in the x axis if the first argument is true, then a rotation about the origin,
--- then a scaling.
+-- | The product of up to three transformations: first a reflection in the x axis if @mirrored@ is
+-- true, then a rotation about the origin by @a@ radians, then a scaling by @factor@.
 aboutOrigin :: Bool -> Rad -> Double -> Transformation
 aboutOrigin mirrored (Rad a) factor =
   Transformation {matrix = factor *!! orthogonal, displacement = V2 0 0, factor, mirrored}
@@ -78,11 +78,11 @@ aboutOrigin mirrored (Rad a) factor =
       | mirrored = V2 (V2 c s) (V2 s (-c))
       | otherwise = V2 (V2 c (-s)) (V2 s c)
 
--- | The transformation with the matrix of another one that leaves a given point in its position.
+-- | The transformation that has the matrix of @t@ and leaves the point @p@ in its position.
 about :: Transformation -> Point -> Transformation
 about t p = t {displacement = fromPoint p ^-^ (matrix t !* fromPoint p)}
 
--- | The product of two transformations. The second argument is applied first.
+-- | The transformation that applies @a@ first and then @b@.
 after :: Transformation -> Transformation -> Transformation
 after b a =
   Transformation
@@ -96,12 +96,15 @@ after b a =
 mirrors :: Transformation -> Bool
 mirrors = mirrored
 
+-- | The image of a position, given as a vector from the origin in mm.
 apply :: Transformation -> V2 Double -> V2 Double
 apply t v = (matrix t !* v) ^+^ displacement t
 
+-- | The vector from the origin to a point.
 fromPoint :: Point -> V2 Double
 fromPoint p = V2 (Vec.x p) (Vec.y p)
 
+-- | The same vector as a type of the library @linear@.
 fromVec :: Vec -> V2 Double
 fromVec (Vec x y) = V2 x y
 
@@ -109,7 +112,7 @@ fromVec (Vec x y) = V2 x y
 point :: Transformation -> Point -> Point
 point t p = let V2 x y = apply t (fromPoint p) in Vec.point x y
 
--- | The image of a line, directed as the image of its direction.
+-- | The image of a line. It leads from the image of the line's first point to that of the second.
 line :: Transformation -> Line -> Line
 line t (Line p q) = Line (point t p) (point t q)
 

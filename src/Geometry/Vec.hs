@@ -3,7 +3,7 @@
 -- A point is a position and a vector a displacement; only differences of points are vectors. Both
 -- are flat records of two doubles, not @V2 Double@ of the library @linear@: a program has millions
 -- of them, and a flat record is unpacked into the data that contains it (docs/dependencies.md has
--- the figures). Polymorphic and three-dimensional vectors are those of @linear@.
+-- the figures). Vectors of other element types or of three components are those of @linear@.
 module Geometry.Vec
   ( Point (..),
     Vec (..),
@@ -47,11 +47,11 @@ data Point = Point Double Double
 data Vec = Vec Double Double
   deriving stock (Eq, Ord, Show)
 
--- | The point with coordinates x and y.
+-- | The point with the given x and y, in mm.
 point :: Double -> Double -> Point
 point = Point
 
--- | The vector with components along x and y.
+-- | The vector with the given components along the x axis and the y axis.
 vec :: Double -> Double -> Vec
 vec = Vec
 
@@ -63,11 +63,11 @@ x (Point px _) = px
 y :: Point -> Double
 y (Point _ py) = py
 
--- | The displacement from the first point to the second.
+-- | The displacement from one point to another.
 to :: Point -> Point -> Vec
 to (Point ax ay) (Point bx by) = Vec (bx - ax) (by - ay)
 
--- | A point displaced by a vector.
+-- | The point that lies at a displacement from a given point.
 shift :: Vec -> Point -> Point
 shift (Vec vx vy) (Point px py) = Point (px + vx) (py + vy)
 
@@ -75,11 +75,11 @@ shift (Vec vx vy) (Point px py) = Point (px + vx) (py + vy)
 add :: Vec -> Vec -> Vec
 add (Vec ax ay) (Vec bx by) = Vec (ax + bx) (ay + by)
 
--- | A vector multiplied by a number.
+-- | The product of the number @k@ and a vector.
 scale :: Double -> Vec -> Vec
 scale k (Vec ax ay) = Vec (k * ax) (k * ay)
 
--- | The opposite vector.
+-- | The vector of the same length in the opposite direction.
 negate :: Vec -> Vec
 negate = scale (-1)
 
@@ -105,7 +105,7 @@ unit v = scale (1 / norm v) v
 left :: Vec -> Vec
 left (Vec ax ay) = Vec (Prelude.negate ay) ax
 
--- | The vector rotated by an angle, counter-clockwise when positive.
+-- | The vector rotated by an angle, counter-clockwise when the angle is positive.
 rotate :: Rad -> Vec -> Vec
 rotate (Rad a) v = add (scale (cos a) v) (scale (sin a) (left v))
 
@@ -117,7 +117,8 @@ polar (Mm r) (Rad a) = vec (r * cos a) (r * sin a)
 angle :: Vec -> Rad
 angle (Vec vx vy) = Rad (atan2 vy vx)
 
--- | The angle from the first vector to the second, in (−π, π], counter-clockwise positive.
+-- | The angle from the direction of the vector @a@ to that of @b@, in (−π, π], counter-clockwise
+-- positive.
 signedAngle :: Vec -> Vec -> Rad
 signedAngle a b = Rad (atan2 (cross a b) (dot a b))
 
@@ -125,7 +126,7 @@ signedAngle a b = Rad (atan2 (cross a b) (dot a b))
 distance :: Point -> Point -> Mm
 distance a b = Mm (norm (to a b))
 
--- | The linear interpolation between two points: the first at 0, the second at 1.
+-- | The point at the fraction @t@ of the line from @a@ to @b@: @a@ for 0, @b@ for 1.
 interpolate :: Double -> Point -> Point -> Point
 interpolate t a b = shift (scale t (to a b)) a
 
@@ -133,7 +134,8 @@ interpolate t a b = shift (scale t (to a b)) a
 isNear :: Point -> Point -> Bool
 isNear a b = distance a b <= Tolerance.coincident
 
--- | A point in the notation of a part program, rounded to at most @decimals@ decimals.
+-- | A point in the notation of a part program, with at most @decimals@ digits after each decimal
+-- point.
 toText :: Int -> Point -> Text
 toText decimals p =
   "(" <> Decimal.short decimals (x p) <> ", " <> Decimal.short decimals (y p) <> ")"

@@ -1,4 +1,4 @@
--- | Winding numbers of closed chains of segments, and with them the interior.
+-- | Winding numbers of closed chains of segments, and the test for points inside a closed polyarc.
 module Geometry.WindingNumber
   ( about,
     encloses,
@@ -13,12 +13,13 @@ import Geometry.Segment qualified as Segment
 import Geometry.Vec (Point)
 import Geometry.Vec qualified as Vec
 
--- | The winding number of closed chains of segments about a point, counter-clockwise positive. The
--- order of the segments does not matter. For a point on a segment the number is arbitrary.
+-- | The winding number, about the point @p@, of closed chains of segments: how many times they go
+-- counter-clockwise around it. The order of the segments does not matter. For a point on a segment
+-- the number is arbitrary.
 --
 -- The sum of the angles that the chords subtend at the point gives the winding number of the
--- polygon of chords. Each arc that has the point between itself and its chord adds one turn to it
--- or takes one away.
+-- polygon of chords. An arc that has the point between itself and its chord adds 1 to this number,
+-- or subtracts 1 if it is clockwise.
 about :: Foldable f => Point -> f Segment -> Int
 about p segments = round (angles / (2 * pi)) + corrections
   where
@@ -41,8 +42,9 @@ about p segments = round (angles / (2 * pi)) + corrections
         | otherwise -> 0
     from = Vec.to p . start
     to = Vec.to p . end
-    -- Positive when the point lies to the left of the chord, negative to the right. 'subtended' and
-    -- 'correction' must agree on it even for a point very near the chord.
+    -- The sign says on which side of the chord the point lies: positive on the left, negative on
+    -- the right. 'subtended' and 'correction' must agree on it even for a point very near the
+    -- chord.
     side s = Vec.cross (from s) (to s)
 
 -- | True when a point lies inside a closed polyarc of either sense.

@@ -1,5 +1,5 @@
--- | Fillets: arcs of a given radius and sense that lead from one element's carrier to another and
--- are tangent to both in the direction of travel.
+-- | Fillets: arcs of a given radius and sense (clockwise or counter-clockwise) that lead from one
+-- element's carrier to another. At both ends a fillet has the carrier's direction of travel.
 module Geometry.Construction.Fillet
   ( Fillet (..),
     between,
@@ -23,13 +23,14 @@ import Geometry.Tolerance qualified as Tolerance
 import Geometry.Vec (Point)
 import Geometry.Vec qualified as Vec
 
--- | A fillet by its centre (@middle@), its start and its end.
+-- | A fillet by its centre (@middle@) and its ends. It starts on the first of two carriers and ends
+-- on the second.
 data Fillet = Fillet {middle :: Point, start :: Point, end :: Point}
   deriving stock (Eq, Show)
 
--- | All fillets of a radius and sense from the first carrier to the second. Between lines and
--- circles there are at most two. A curve is treated segment by segment: a fillet to the carrier of
--- a segment counts only if it touches that segment.
+-- | All fillets of a radius and sense from the carrier @a@ to the carrier @b@. Between lines and
+-- circles there are at most two; from or to a point there is none. A curve is treated segment by
+-- segment: a fillet to the carrier of a segment counts only if it touches that segment.
 between :: Mm -> Sense -> ElementCarrier -> ElementCarrier -> [Fillet]
 between radius sense a b = case (a, b) of
   (OnCurve p, OnCurve q) ->
@@ -54,7 +55,8 @@ between radius sense a b = case (a, b) of
 segmentsOf :: MeasuredPolyarc -> [Segment]
 segmentsOf = NonEmpty.toList . MeasuredPolyarc.segments
 
--- | The pairs of segments of two curves that are close enough for one circle to touch both.
+-- | The pairs of a segment of @p@ and one of @q@ that may be close enough for one circle of the
+-- radius to touch both. For the other pairs no fillet need be computed.
 closePairs :: Mm -> MeasuredPolyarc -> MeasuredPolyarc -> [(Segment, Segment)]
 closePairs radius p q = [(s, g) | s <- segmentsOf p, g <- BoxTree.within (around s) tree]
   where
@@ -62,7 +64,7 @@ closePairs radius p q = [(s, g) | s <- segmentsOf p, g <- BoxTree.within (around
     around s = BoundingBox.inflate (plus radius radius) (BoundingBox.ofSegment s)
 
 -- | The fillets without duplicates. A fillet that touches a curve at a joint of two segments is
--- found from both.
+-- found twice, once from each segment.
 distinct :: [Fillet] -> [Fillet]
 distinct fillets = case fillets of
   [] -> []
@@ -70,7 +72,7 @@ distinct fillets = case fillets of
   where
     differs f g = Vec.distance (middle f) (middle g) > Tolerance.sameFillet
 
--- | The fillets between two lines or circles.
+-- | The fillets of a radius and sense from the line or circle @a@ to the line or circle @b@.
 ofPair :: Mm -> Sense -> ElementCarrier -> ElementCarrier -> [Fillet]
 ofPair radius sense a b =
   [ Fillet {middle = c, start, end}
@@ -81,7 +83,9 @@ ofPair radius sense a b =
       Just end <- [touch radius sense b c]
   ]
 
--- | The locus of the centres of arcs that are tangent to a carrier in its direction of travel.
+-- | The line or circle that contains the centres of all arcs of a radius and sense that are tangent
+-- to a carrier in its direction of travel. Nothing for a curve or a point, and for a circle of the
+-- same sense and radius.
 locus :: Mm -> Sense -> ElementCarrier -> Maybe Carrier
 locus radius@(Mm r) sense carrier = case carrier of
   OnLine l -> Just (LineCarrier (Carrier.parallelAt (Mm (Carrier.senseSign sense * r)) l))
@@ -94,15 +98,17 @@ locus radius@(Mm r) sense carrier = case carrier of
   OnCurve _ -> Nothing
   AtPoint _ -> Nothing
 
--- | The point at which an arc about a centre touches a carrier.
+-- | The point at which an arc about the centre @c@ touches a carrier. Nothing for a curve or a
+-- point.
 touch :: Mm -> Sense -> ElementCarrier -> Point -> Maybe Point
 touch radius sense carrier c = case carrier of
   OnLine l -> Just (Carrier.foot l c)
   OnCircle t (Circle o rc@(Mm r)) ->
     Just (Vec.shift (Vec.scale (side * r) (Vec.unit (Vec.to o c))) o)
     where
-      -- In equal senses, the smaller circle lies inside the larger one. If the fillet is the larger
-      -- one, it touches the circle on the side opposite to the fillet's centre.
+      -- With equal senses, the smaller circle lies inside the larger one. If the fillet is the
+      -- larger one, the point of contact and the fillet's centre are on opposite sides of the
+      -- circle's centre.
       side = if t == sense && radius > rc then -1 else 1
   OnCurve _ -> Nothing
   AtPoint _ -> Nothing

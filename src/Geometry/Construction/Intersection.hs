@@ -20,7 +20,7 @@ import Prelude hiding (lines)
 
 -- | The position of two carriers relative to each other.
 data Intersection
-  = -- | no common point; the least distance between the two
+  = -- | no common point, and the least distance between the carriers
     Apart Mm
   | -- | a common tangent at one point
     Touching Point
@@ -32,7 +32,7 @@ data Intersection
     Same
   deriving stock (Eq, Show)
 
--- | The common points; none for 'Same', where they are infinitely many.
+-- | The common points. For 'Same', where all points are common, the list is empty.
 points :: Intersection -> [Point]
 points intersection = case intersection of
   Apart _ -> []
@@ -41,8 +41,8 @@ points intersection = case intersection of
   CrossingOnce p -> [p]
   Crossing p q -> [p, q]
 
--- | The intersection of two carriers. For a line and a circle, in either order, the points come in
--- the order of the line.
+-- | The intersection of two carriers. Two common points of a line and a circle come in the order in
+-- which the line passes them.
 carriers :: Carrier -> Carrier -> Intersection
 carriers a b = case (a, b) of
   (LineCarrier l, LineCarrier m) -> lines l m
@@ -50,12 +50,12 @@ carriers a b = case (a, b) of
   (CircleCarrier c, LineCarrier l) -> lineCircle l c
   (CircleCarrier c, CircleCarrier d) -> circles c d
 
--- | The common points of two carriers; none when the carriers are the same.
+-- | The common points of two carriers. The list is empty when the carriers are the same.
 common :: Carrier -> Carrier -> [Point]
 common a b = points (carriers a b)
 
--- | The intersection of two lines. Lines whose directions have a sine of at most
--- 'Tolerance.parallel' between them count as parallel.
+-- | The intersection of the lines @a@ and @b@. They count as parallel when the sine of the angle
+-- between their directions is at most 'Tolerance.parallel'.
 lines :: Line -> Line -> Intersection
 lines a b
   | abs sine > Tolerance.parallel = CrossingOnce (Vec.shift (Vec.scale t u) (from a))
@@ -68,9 +68,9 @@ lines a b
     t = Vec.cross (Vec.to (from a) (from b)) v / sine
     Mm h = Carrier.signedDistance a (from b)
 
--- | The intersection of a line and a circle. Two points come in the order of the line. The line
--- touches the circle when its distance from the centre equals the radius, to
--- 'Tolerance.coincident'.
+-- | The intersection of a line and a circle. Two common points come in the order in which the line
+-- passes them. The line touches the circle when the distance of the line from the centre equals the
+-- radius, to 'Tolerance.coincident'.
 lineCircle :: Line -> Circle -> Intersection
 lineCircle l (Circle c (Mm r))
   | abs (abs h - r) <= tolerance = Touching foot
@@ -83,9 +83,9 @@ lineCircle l (Circle c (Mm r))
     half = sqrt ((r - abs h) * (r + abs h))
     along s = Vec.shift (Vec.scale s (Carrier.direction l)) foot
 
--- | The intersection of two circles. The first of two points lies to the left of the direction from
--- the first centre to the second. Concentric circles with different radii are 'Apart' by the
--- difference of the radii.
+-- | The intersection of two circles. The first of two common points lies to the left of the
+-- direction from the first centre to the second. Concentric circles with different radii are
+-- 'Apart' by the difference of the radii.
 circles :: Circle -> Circle -> Intersection
 circles (Circle c1 (Mm r1)) (Circle c2 (Mm r2))
   | d <= tolerance && abs (r1 - r2) <= tolerance = Same
@@ -102,7 +102,8 @@ circles (Circle c1 (Mm r1)) (Circle c2 (Mm r2))
     -- line, with a distant centre.
     (origin, towards, small, large) =
       if r1 <= r2 then (c1, e, r1, r2) else (c2, Vec.scale (-1) e, r2, r1)
-    -- The distance along the line of centres at which the common chord crosses it.
+    -- The signed distance, from the origin towards the other centre, at which the common chord
+    -- crosses the line of centres.
     a = ((d - large) * (d + large) + small * small) / (2 * d)
     half = sqrt (max 0 ((small - a) * (small + a)))
     at s h = Vec.shift (Vec.add (Vec.scale s towards) (Vec.scale h (Vec.left e))) origin

@@ -19,20 +19,21 @@ import Geometry.Vec (Point)
 import Geometry.Vec qualified as Vec
 
 -- | A condition on a circle: the point through which it passes, or the line or circle that it
--- touches, with the side on which it lies.
+-- touches, with the side on which it lies. For example, a circle that is @LeftOf@ a line touches
+-- the line and lies to the left of it.
 data Touched
   = Through Point
   | LeftOf Line
   | RightOf Line
   | -- | neither circle lies inside the other
     OutsideOf Circle
-  | -- | one circle lies inside the other; the larger one may be either
+  | -- | one of the two circles, either of them, lies inside the other
     InsideOf Circle
   deriving stock (Eq, Show)
 
--- | The directed lines that touch the first circle and then the second. A circle of radius 0 is a
--- point. Each circle comes with the senses that it may have. A counter-clockwise circle lies to the
--- left of the line, a clockwise one to the right.
+-- | The directed lines that touch the circle @a@ first and then the circle @b@. A circle of radius
+-- 0 is a point. Each circle comes with the senses that it may have: a counter-clockwise circle lies
+-- to the left of the line, a clockwise one to the right.
 tangentLines :: ([Sense], Circle) -> ([Sense], Circle) -> [Line]
 tangentLines (sensesA, a) (sensesB, b) =
   distinct
@@ -49,7 +50,7 @@ tangentLines (sensesA, a) (sensesB, b) =
       l : rest -> l : distinct (filter (differs l) rest)
     differs l m = not (Vec.isNear (from l) (from m) && Vec.isNear (to l) (to m))
 
--- | The circles of a radius that meet two conditions: at most two.
+-- | The circles of the radius @r@ that meet both conditions @a@ and @b@: at most two.
 circles :: Mm -> Touched -> Touched -> [Circle]
 circles r a b =
   [ Circle c r
@@ -58,7 +59,8 @@ circles r a b =
       c <- Intersection.common locusA locusB
   ]
 
--- | The locus of the centres of circles of a radius that meet a condition.
+-- | The line or circle on which the centres of all circles lie that have the radius @r@ and meet a
+-- condition. Nothing for 'InsideOf' a circle of the same radius.
 locus :: Mm -> Touched -> Maybe Carrier
 locus r@(Mm radius) touched = case touched of
   Through p -> Just (CircleCarrier (Circle p r))
@@ -71,7 +73,7 @@ locus r@(Mm radius) touched = case touched of
     where
       gap = max (minus rc r) (minus r rc)
 
--- | The circle through three points; nothing when they lie on a line or two of them coincide.
+-- | The circle through three points. Nothing when they lie on one line or two of them coincide.
 through :: Point -> Point -> Point -> Maybe Circle
 through p q s
   | Vec.isNear p q || Vec.isNear q s || Vec.isNear p s = Nothing

@@ -8,6 +8,9 @@
 -- shows that the two are near enough or far enough apart. A predicate that is true "only if"
 -- something is certain allows for the rounding error 'unsure'; where it is false, the caller
 -- compares exactly by "Geometry.Distance".
+--
+-- The foot of a point on a segment is where the perpendicular from the point meets the segment's
+-- carrier.
 module Geometry.Distance.Fast
   ( spot,
     isLine,
@@ -40,9 +43,10 @@ import Geometry.Distance.Fast.Estimate
 import Geometry.Segment (Segment)
 import Geometry.Segment.Fast
 
--- | Upper bound, in mm, of the distance of any point of a segment from each of several others.
--- 'never' if an end of the segment is further than @most@ from one of the others. A bound up to
--- @most@ need not be the smallest that is known.
+-- | Upper bound, in mm, of the distances between the points of the segment @e@ and each of the
+-- segments @ts@. It is infinite if an end of @e@ is further than @most@ from one of these. A bound
+-- up to @most@ need not be the smallest that can be computed, since the caller only compares it
+-- with @most@.
 furthestFrom :: Double -> Segment -> [Segment] -> Double
 furthestFrom most e ts
   | all endsNear ts = foldl' (\far t -> max far (enough t)) 0 ts
@@ -53,16 +57,17 @@ furthestFrom most e ts
       LineAt ax ay bx by -> distance t ax ay <= most && distance t bx by <= most
       ArcAt ax ay bx by _ _ _ _ -> distance t ax ay <= most && distance t bx by <= most
 
--- | True only if every point of a segment lies within @reach@ of one of several others. Each
--- of the others is a list of segments, given by @segmentsOf@; a point must lie within @reach@ of
--- all of these. Only others for which @counts@ is true are used; this is tested last.
+-- | True only if every point of the segment @e@ lies within @reach@, in mm, of one of the things
+-- @others@. A thing consists of the segments that @segmentsOf@ gives; a point must lie within
+-- @reach@ of all of these. Only things for which @counts@ is true are used; this condition is
+-- tested last.
 isCovered :: Double -> (a -> [Segment]) -> (a -> Bool) -> [a] -> Segment -> Bool
 isCovered reach segmentsOf counts others e =
   any (covers e) others || go others (parts e (concatMap segmentsOf others))
   where
     covers part other = all (isWithin (reach - 2 * unsure) part) (segmentsOf other) && counts other
-    -- The others usually come in the order of the parts, so each search begins where the previous
-    -- one succeeded.
+    -- The others usually come in the order of the parts. So the search for each part begins where
+    -- the search for the previous part succeeded.
     go ahead ps = case ps of
       [] -> False
       [part] -> covered ahead part
@@ -72,20 +77,22 @@ isCovered reach segmentsOf counts others e =
     covered ahead part = any (covers part) ahead || any (covers part) others
 {-# INLINE isCovered #-}
 
--- | True only if every point of a segment lies within @most@ of some others. Always false for an
--- arc with a sweep above 'largestSweep'.
+-- | True only if every point of the segment @t@ lies within @most@, in mm, of one of the segments
+-- @others@. Always false for an arc with a sweep above 'largestSweep'.
 --
--- A run of others that join without a gap is one curve. It must begin before the segment's start
--- and end after its end, or the reverse: along the line, or by the angle at the arc's centre. Such
--- a curve crosses the normal at every point of the segment. There its distance from the point is
--- its distance from the segment's carrier, which must not exceed @most@ anywhere on the curve. For
--- an arc, the curve must also be too short to go around the far side of the centre.
+-- A run of others, each of which begins where the one before ends, is one curve. It must begin
+-- before the start of @t@ and end after the end of @t@, or the reverse. For a line, before and
+-- after are meant along the line; for an arc, by the angle at its centre. Such a curve crosses the
+-- normal of @t@ at every point of @t@. There the curve's distance from the point is its distance
+-- from the carrier of @t@, which must not exceed @most@ anywhere on the curve. For an arc, the
+-- curve must also be too short to go around the far side of the centre.
 isAccompanied :: Double -> [Segment] -> Segment -> Bool
 isAccompanied most others t
   | isLine t = lineIsAccompanied (most - 2 * unsure) others t
   | otherwise = arcIsAccompanied (most - 2 * unsure) others t
 
--- | 'isAccompanied' of a line; @most@ is reduced by the allowance for rounding errors.
+-- | 'isAccompanied' for a line @t@. The distance @most@, in mm, is already reduced by the allowance
+-- for rounding errors.
 lineIsAccompanied :: Double -> [Segment] -> Segment -> Bool
 lineIsAccompanied most others t = case coordinates t of
   LineAt px py qx qy
@@ -103,7 +110,8 @@ lineIsAccompanied most others t = case coordinates t of
             others
   _ -> False
 
--- | 'isAccompanied' of an arc; @most@ is reduced by the allowance for rounding errors.
+-- | 'isAccompanied' for an arc @t@. The distance @most@, in mm, is already reduced by the allowance
+-- for rounding errors.
 arcIsAccompanied :: Double -> [Segment] -> Segment -> Bool
 arcIsAccompanied most others t = case coordinates t of
   ArcAt ax ay bx by cx cy r s
@@ -120,10 +128,11 @@ arcIsAccompanied most others t = case coordinates t of
             others
   _ -> False
 
--- | True if a run of consecutive curves leads without a gap past both ends of a segment and
--- satisfies a condition. @positionOf@ gives the position of a point relative to the two ends, and
--- @spanOf@ the distances of a curve from the segment's carrier. The condition is on the interval of
--- these distances over the run, and on its length.
+-- | True if a run of consecutive segments of a list leads past both ends of a segment t and
+-- satisfies a condition. In a run, each segment begins where the one before ends. @positionOf@
+-- gives the position of a point (x, y) relative to the ends of t. @spanOf@ gives the range of the
+-- distances between a segment and the carrier of t. @fits@ is the condition: its arguments are the
+-- range of these distances for all segments of the run, and the run's length in mm.
 chain ::
   (Double -> Double -> Position) ->
   (Segment -> DistanceRange) ->
@@ -135,8 +144,9 @@ chain positionOf spanOf fits = start
     start es = case es of
       [] -> False
       e : _ -> let (x, y) = begin e in go (positionOf x y) never (negate never) 0 x y es
-    -- The position of the run's last point that is past an end; since then, the interval of
-    -- distances and the length; and the point at which the next curve must begin.
+    -- The arguments are the position of the run's last point that is past an end; the range of
+    -- distances and the length since that point; and x and y of the point at which the next segment
+    -- must begin.
     go :: Position -> Double -> Double -> Double -> Double -> Double -> [Segment] -> Bool
     go from !low !high !long !x !y es = case es of
       [] -> False
@@ -161,13 +171,14 @@ chain positionOf spanOf fits = start
 data Position = Before | Between | After
   deriving stock (Eq)
 
--- | Largest sweep, in radians, of an arc that 'isAccompanied' examines.
+-- | Largest sweep, in radians, of an arc for which 'isAccompanied' can be true.
 largestSweep :: Double
 largestSweep = 1
 
--- | Lower and upper bound, in mm, of the greatest distance of a segment's points from several
--- others. Each of the others is a list of segments: the distance from it is the greatest distance
--- from one of them. A point's distance from the others is the least of these.
+-- | Lower and upper bound, in mm, of the greatest distance between a point of the segment @e@ and
+-- the curves @others@. Each curve is a list of segments. A point's distance from a curve is here
+-- the greatest of its distances from the curve's segments. Its distance from all curves is the
+-- least of its distances from one of them.
 range :: [[Segment]] -> Segment -> (Double, Double)
 range others e = (maximum (map from points) - unsure, maximum (map to divisions) + 2 * unsure)
   where
@@ -185,9 +196,9 @@ range others e = (maximum (map from points) - unsure, maximum (map to divisions)
     least = foldl' min never
     most = foldl' max 0
 
--- | Points of the first segment, other than its ends, at which its distance from the second may be
--- greatest. For two arcs they lie on the line of both centres; for a line and an arc, the line is
--- square to the direction from the arc's centre.
+-- | Points of the segment @e@, other than its ends, at which its distance from the segment @t@ may
+-- be greatest; as x and y in mm. For two arcs they lie on the line through both centres. For a line
+-- and an arc they lie on the perpendicular from the arc's centre to the line.
 summits :: Segment -> Segment -> [(Double, Double)]
 summits e t = case (coordinates e, coordinates t) of
   (ArcAt _ _ _ _ cx cy r _, ArcAt _ _ _ _ dx dy _ _) ->
@@ -207,16 +218,16 @@ summits e t = case (coordinates e, coordinates t) of
     both cx cy ux uy =
       [(x, y) | sense <- [1, -1], let x = cx + sense * ux; y = cy + sense * uy, inSector e x y]
 
--- | Parts of a segment, divided at the feet of the ends of several others. At these feet, another
--- of the others may become the nearest. Empty if no foot lies on the segment, or if there are more
--- than 'mostParts' feet.
+-- | Parts of the segment @e@, divided at the feet of the ends of the segments @others@. At these
+-- feet, another of these segments may become the nearest. The list is empty if no foot lies inside
+-- @e@, or if there are more than 'mostParts' feet.
 parts :: Segment -> [Segment] -> [Segment]
 parts e others = case marks of
   [] -> []
   _ -> if null (drop mostParts marks) then zipWith (between e) (0 : marks) (marks <> [1]) else []
   where
     marks = rising (sort (feet others))
-    -- Where one of the others begins at the end of the previous one, this end counts once.
+    -- Where a segment begins at the end of the previous one, this point counts once.
     feet ts = case ts of
       [] -> []
       t : u : more
@@ -234,6 +245,6 @@ parts e others = case marks of
       a : more -> a : rising more
       [] -> []
 
--- | Greatest count of feet for which 'parts' divides a segment.
+-- | Largest number of feet at which 'parts' divides a segment.
 mostParts :: Int
 mostParts = 64

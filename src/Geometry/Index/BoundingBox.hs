@@ -19,19 +19,19 @@ import Geometry.Segment qualified as Segment
 import Geometry.Vec (Point)
 import Geometry.Vec qualified as Vec
 
--- | The rectangle between two corners, edges included; in mm.
+-- | The rectangle from (@left@, @bottom@) to (@right@, @top@), edges included; in mm.
 data BoundingBox = BoundingBox {left :: Double, bottom :: Double, right :: Double, top :: Double}
   deriving stock (Eq, Show)
 
--- | The smallest box that contains a point and a list of further points.
+-- | The smallest box that contains the point @p@ and the points @ps@.
 ofPoints :: Point -> [Point] -> BoundingBox
 ofPoints p ps = foldl (\box q -> box `union` single q) (single p) ps
   where
     single q = BoundingBox (Vec.x q) (Vec.y q) (Vec.x q) (Vec.y q)
 
--- | A box that contains a segment; for an arc it is not always the smallest. For an arc below half
--- a circle it is the box of the chord, enlarged by the sagitta. For other arcs it is the box of the
--- full circle.
+-- | A box that contains a segment; for an arc it is not always the smallest. For an arc that sweeps
+-- less than a half circle it is the box of the ends, enlarged by the sagitta. For other arcs it is
+-- the box of the full circle.
 ofSegment :: Segment -> BoundingBox
 ofSegment segment = case segment of
   Straight a b ->
@@ -49,7 +49,7 @@ union :: BoundingBox -> BoundingBox -> BoundingBox
 union (BoundingBox l b r t) (BoundingBox l' b' r' t') =
   BoundingBox (min l l') (min b b') (max r r') (max t t')
 
--- | The box enlarged by a margin on all four sides.
+-- | The box enlarged by the margin @d@ on all four sides.
 inflate :: Mm -> BoundingBox -> BoundingBox
 inflate (Mm d) (BoundingBox l b r t) = BoundingBox (l - d) (b - d) (r + d) (t + d)
 
@@ -57,22 +57,23 @@ inflate (Mm d) (BoundingBox l b r t) = BoundingBox (l - d) (b - d) (r + d) (t + 
 meets :: BoundingBox -> BoundingBox -> Bool
 meets (BoundingBox l b r t) (BoundingBox l' b' r' t') = l <= r' && l' <= r && b <= t' && b' <= t
 
--- | A lower bound of a distance over all points of a box: the distance at the box's middle less
--- half of its diagonal. @distanceTo@ gives the distance of a point from some fixed figure.
+-- | A lower bound of @distanceTo@ over all points of a box, by which a search decides to skip the
+-- box. @distanceTo@ gives the distance of a point from some fixed figure. The bound is its value at
+-- the box's middle less half of the box's diagonal; it may be negative.
 lowerBound :: (Point -> Mm) -> BoundingBox -> Mm
 lowerBound distanceTo (BoundingBox l b r t) =
   minus
     (distanceTo (Vec.point ((l + r) / 2) ((b + t) / 2)))
     (Mm (Vec.norm (Vec.vec (r - l) (t - b)) / 2))
 
--- | The distance between two boxes, 0 when they meet.
+-- | The least distance between two boxes; 0 when they meet.
 gapBetween :: BoundingBox -> BoundingBox -> Mm
 gapBetween (BoundingBox l b r t) (BoundingBox l' b' r' t') =
   Mm (Vec.norm (Vec.vec (gap l r l' r') (gap b t b' t')))
   where
     gap low high low' high' = max 0 (max (low' - high) (low - high'))
 
--- | The distance of a point from a box, 0 inside it.
+-- | The distance of the point @p@ from a box; 0 inside the box.
 distance :: Point -> BoundingBox -> Mm
 distance p (BoundingBox l b r t) =
   Mm (Vec.norm (Vec.vec (outside l (Vec.x p) r) (outside b (Vec.y p) t)))

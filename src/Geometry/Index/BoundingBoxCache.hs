@@ -2,13 +2,16 @@
 {-# LANGUAGE MagicHash #-}
 {-# OPTIONS_GHC -O2 -fno-full-laziness #-}
 
--- | A cache of the boxes of single segments, for the pair search of
--- "Geometry.Index.SegmentBoxTree".
+-- | A cache of the boxes of single segments. "Geometry.Index.SegmentBoxTree" uses it to find the
+-- pairs of segments whose boxes overlap.
 --
--- The tree divides the segments into runs of eight. The cache contains the boxes of a few runs,
--- each run in one slot. Their coordinates are whole steps of a grid, so that integer operations
--- without a branch compare two boxes. A query finds the overlapping boxes of one or two slots, as a
--- set of bits.
+-- The tree divides the segments into runs: run @r@ consists of the eight segments from index @8·r@
+-- on. A slot is a part of the cache with room for the eight boxes of one run. The cache has nine
+-- slots, with the indices 0 to 8. Box @i@ of slot @s@, with @i@ from 0 to 7, has the index
+-- @8·s + i@ in the cache.
+--
+-- The coordinates of boxes are whole steps of a grid, so that integer operations without a branch
+-- compare two boxes. A query finds the overlapping boxes of one or two slots, as a set of bits.
 module Geometry.Index.BoundingBoxCache
   ( runLength,
     isSegment,
@@ -41,8 +44,8 @@ import Geometry.ClosedPolyarcs qualified as ClosedPolyarcs
 runLength :: Int
 runLength = 8
 
--- | True when a segment starts at the vertex with an index. None starts at the repeated first
--- vertex of a loop.
+-- | True when a segment starts at the vertex with the index @i@. No segment starts at the repeated
+-- first vertex of a loop.
 isSegment :: ClosedPolyarcs -> Int -> Bool
 isSegment c i =
   not
@@ -51,32 +54,36 @@ isSegment c i =
 
 -- The cache ---------------------------------------------------------------------------------
 
--- | The cache of the boxes of some segments.
+-- | The cache of the boxes of some segments of @chain@.
 data BoundingBoxCache s = BoundingBoxCache
   { chain :: ClosedPolyarcs,
-    -- | in mm; every box is enlarged by it
+    -- | the distance in mm by which every box is enlarged on each side
     margin :: Double,
     grid :: Grid,
     slots :: Slots s,
-    -- | the run in each slot, or −1
+    -- | for each slot, the run whose boxes it contains, or −1
     held :: MutablePrimArray s Int
   }
 
--- | A grid of 2²⁹ steps over the box of all segments: half the number of steps in 1 mm, and half of
--- the numbers that are added to x and y in steps.
+-- | A grid of 2²⁹ steps over the box of all segments. @halfSteps@ is half of the number of steps in
+-- 1 mm. @addX@ and @addY@ are halves of the numbers that are added to x and y in steps, so that no
+-- coordinate is negative. These are halves because 'fill' adds the coordinates of a segment's two
+-- ends.
 --
 -- A corner of a box is one machine word that contains both coordinates in steps. Above each
--- coordinate is one further bit, which is set in upper corners only. When a lower corner is
--- subtracted from an upper one, the bit of a coordinate remains set exactly where the lower
--- coordinate is not the larger one.
+-- coordinate is one further bit, which is set in upper corners only. A comparison subtracts a lower
+-- corner from an upper one. The further bit of a coordinate remains set exactly if the lower
+-- corner's coordinate is at most the upper one's.
 data Grid = Grid {halfSteps :: Double, addX :: Double, addY :: Double}
 
--- | The lower corners of boxes and the upper ones, in slots of eight boxes. After the lower corners
--- comes the answer of the last query: a set of boxes or pairs, as bits.
+-- | The lower corners of all boxes in the slots, and the upper corners, by the index of the box.
+-- The first array has one more element, after the lower corners: the answer of the last query, a
+-- set of boxes or pairs as bits.
 data Slots s = Slots (MutablePrimArray s Int) (MutablePrimArray s Int)
 
--- | A cache of no boxes yet: the segments, the margin, and the box around all segments by its least
--- x, least y, largest x and largest y.
+-- | An empty cache for the segments of @c@, whose boxes are enlarged by the margin @m@ in mm. The
+-- box around all segments has the least x and y @lx@ and @ly@ and the largest x and y @hx@ and
+-- @hy@, in mm.
 new :: ClosedPolyarcs -> Double -> Double -> Double -> Double -> Double -> ST s (BoundingBoxCache s)
 new c m lx ly hx hy = do
   slots <- Slots <$> newPrimArray (answer + 1) <*> newPrimArray answer
@@ -85,16 +92,17 @@ new c m lx ly hx hy = do
   pure BoundingBoxCache {chain = c, margin = m, grid = gridOf lx ly hx hy, slots, held}
 {-# INLINE new #-}
 
--- | The slot into which a run is usually loaded.
+-- | The slot, from 0 to 7, into which run @r@ is loaded unless another run occupies it for the same
+-- query.
 slotOf :: Int -> Int
 slotOf r = r .&. (runLength - 1)
 {-# INLINE slotOf #-}
 
--- | The slot for a run whose own slot is in use.
+-- | The ninth slot, for a run whose own slot is used by the other run of a query.
 spareSlot :: Int
 spareSlot = runLength
 
--- | The index of the answer in the lower corners.
+-- | The index of the last query's answer in the array of lower corners.
 answer :: Int
 answer = runLength * (runLength + 1)
 
@@ -107,7 +115,9 @@ load BoundingBoxCache {chain, margin, grid, slots, held} !s !r = do
     fill chain margin grid slots s r
 {-# INLINE load #-}
 
--- | The grid over a box. Coordinates are far enough above 0 for rounding not to make one negative.
+-- | The grid over the box with the least x and y @lx@ and @ly@ and the largest x and y @hx@ and
+-- @hy@, in mm. Its coordinates are far above 0, so that rounding does not make any coordinate
+-- negative.
 gridOf :: Double -> Double -> Double -> Double -> Grid
 gridOf lx ly hx hy = Grid {halfSteps, addX = addend lx, addY = addend ly}
   where
@@ -115,8 +125,8 @@ gridOf lx ly hx hy = Grid {halfSteps, addX = addend lx, addY = addend ly}
     halfSteps = if w > 0 then 268435456 / w else 0
     w = if hx - lx > hy - ly then hx - lx else hy - ly
 
--- | The word of a lower and of an upper corner, from coordinates in steps. The corners are rounded
--- outwards.
+-- | The word of a box's lower corner, or of its upper corner, from @x@ and @y@ in steps of the
+-- grid. Both corners are rounded outwards, so that the box does not become smaller.
 lowerCorner, upperCorner :: Double -> Double -> Int
 lowerCorner x y = truncate x .|. truncate y `unsafeShiftL` 32
 upperCorner x y = truncate (x + 2147483649) .|. truncate (y + 2147483649) `unsafeShiftL` 32
@@ -124,7 +134,7 @@ upperCorner x y = truncate (x + 2147483649) .|. truncate (y + 2147483649) `unsaf
 {-# INLINE upperCorner #-}
 
 -- | Write the corners of the boxes of run @r@ into slot @s@. A vertex at which no segment starts
--- gets a box that overlaps no other.
+-- gets a box that overlaps no other box.
 fill :: ClosedPolyarcs -> Double -> Grid -> Slots s -> Int -> Int -> ST s ()
 fill c m Grid {halfSteps, addX, addY} (Slots !lows !highs) !s !r =
   go (runLength * s) begin (stepsX begin) (stepsY begin)
@@ -164,8 +174,8 @@ fill c m Grid {halfSteps, addX, addY} (Slots !lows !highs) !s !r =
 
 -- Queries -----------------------------------------------------------------------------------
 
--- | The set of those boxes of slot @s@ that overlap a box, given by its least x, least y, largest x
--- and largest y in mm. Bit @i@ is box @i@ of the slot.
+-- | The set of the boxes of slot @s@ that overlap a given box. The given box has the least x and y
+-- @lx@ and @ly@ and the largest x and y @hx@ and @hy@, in mm. Bit @i@ means box @i@ of the slot.
 overlappingBox :: BoundingBoxCache s -> Int -> Double -> Double -> Double -> Double -> ST s Int
 overlappingBox BoundingBoxCache {grid, slots} !s !lx !ly !hx !hy = do
   against slots s (lowerCorner (stepX lx) (stepY ly)) (upperCorner (stepX hx) (stepY hy))
@@ -175,26 +185,27 @@ overlappingBox BoundingBoxCache {grid, slots} !s !lx !ly !hx !hy = do
     stepY y = 2 * (y * halfSteps grid + addY grid)
 {-# INLINE overlappingBox #-}
 
--- | The set of overlapping pairs of boxes in slot @s@. Bit @8·i + j@ is the pair of boxes @i@ and
--- @j@ of the slot, with @i < j@.
+-- | The set of overlapping pairs of boxes in slot @s@. Bit @8·i + j@ means the pair of boxes @i@
+-- and @j@ of the slot, with @i < j@.
 overlappingPairs :: BoundingBoxCache s -> Int -> ST s Int
 overlappingPairs BoundingBoxCache {slots} !s = amongThem slots s >> found slots
 {-# INLINE overlappingPairs #-}
 
--- | The set of overlapping pairs of a box of slot @s@ and one of slot @other@. Of slot @s@, only
--- the boxes in the set @some@ are tested. Bit @8·i + j@ is the pair of boxes @i@ and @j@.
+-- | The set of overlapping pairs of a box of slot @s@ and a box of slot @other@. Of slot @s@, only
+-- the boxes in the set @some@ are tested. Bit @8·i + j@ means box @i@ of slot @s@ and box @j@ of
+-- slot @other@.
 overlappingBetween :: BoundingBoxCache s -> Int -> Int -> Int -> ST s Int
 overlappingBetween BoundingBoxCache {slots} !s !some !other =
   between slots s some other >> found slots
 {-# INLINE overlappingBetween #-}
 
--- | The answer of the last query.
+-- | The answer of the last query, a set of boxes or pairs as bits.
 found :: Slots s -> ST s Int
 found (Slots lows _) = readPrimArray lows answer
 {-# INLINE found #-}
 
--- | True when two boxes overlap by more than the rounding to the grid. Box @i@ of slot @s@ has the
--- index @8·s + i@.
+-- | True when the boxes with the indices @p@ and @q@ in the cache overlap by more than the rounding
+-- to the grid. If it is false, the caller compares the boxes with 'boxesOverlap'.
 clearlyOverlap :: BoundingBoxCache s -> Int -> Int -> ST s Bool
 clearlyOverlap BoundingBoxCache {slots = Slots lows highs} !p !q = do
   low <- readPrimArray lows p
@@ -205,8 +216,9 @@ clearlyOverlap BoundingBoxCache {slots = Slots lows highs} !p !q = do
     apart = 0x0000000300000003
 {-# INLINE clearlyOverlap #-}
 
--- | True when the boxes of two segments, enlarged by the margin @m@, overlap. Rounding errors are a
--- few units in the last place, far less than the margin. All coordinates are doubled.
+-- | True when the boxes of the segments @i@ and @j@, enlarged by the margin @m@ in mm, overlap.
+-- Rounding errors are a few units in the last place, far less than the margin. All coordinates in
+-- the computation are doubled, which saves the halving of sums.
 boxesOverlap :: Double -> ClosedPolyarcs -> Int -> Int -> Bool
 boxesOverlap !m !c !i !j =
   twice i $ \lx ly hx hy -> twice j $ \px py qx qy -> px <= hx && lx <= qx && py <= hy && ly <= qy
@@ -229,8 +241,8 @@ boxesOverlap !m !c !i !j =
     {-# INLINE twice #-}
 {-# NOINLINE boxesOverlap #-}
 
--- | 1 when box @k@ of the slots overlaps the box with the corners @low@ and @high@, else 0; without
--- a branch.
+-- | 1 when the box with the index @k@ in the cache overlaps the box with the corner words @low@ and
+-- @high@, else 0. The function has no branch.
 touches :: MutablePrimArray s Int -> MutablePrimArray s Int -> Int -> Int -> Int -> ST s Int
 touches lows highs !k !low !high = do
   low' <- readPrimArray lows k
@@ -239,12 +251,14 @@ touches lows highs !k !low !high = do
   pure $! (both `shiftRL` 63) .&. (both `shiftRL` 31)
 {-# INLINE touches #-}
 
--- | The logical shift of a word to the right.
+-- | The first number, as a word of bits, shifted to the right by the second number; zeros enter on
+-- the left.
 shiftRL :: Int -> Int -> Int
 shiftRL (I# a) (I# k) = I# (uncheckedIShiftRL# a k)
 {-# INLINE shiftRL #-}
 
--- | Write the answer of 'overlappingBox' for the box with the corners @low@ and @high@.
+-- | Compute the answer of 'overlappingBox' for slot @s@ and the box with the corner words @low@ and
+-- @high@, and write it after the lower corners.
 against :: Slots s -> Int -> Int -> Int -> ST s ()
 against (Slots !lows !highs) !s !low !high = go (begin + runLength - 1) 0
   where
@@ -256,7 +270,7 @@ against (Slots !lows !highs) !s !low !high = go (begin + runLength - 1) 0
         go (k - 1) (set + set + hit)
 {-# NOINLINE against #-}
 
--- | Write the answer of 'overlappingPairs'.
+-- | Compute the answer of 'overlappingPairs' for slot @s@ and write it after the lower corners.
 amongThem :: Slots s -> Int -> ST s ()
 amongThem (Slots !lows !highs) !s = first (runLength * s + runLength - 2) 0
   where
@@ -277,7 +291,8 @@ amongThem (Slots !lows !highs) !s = first (runLength * s + runLength - 2) 0
       second (k .|. (runLength - 1)) 0
 {-# NOINLINE amongThem #-}
 
--- | Write the answer of 'overlappingBetween'.
+-- | Compute the answer of 'overlappingBetween' for its slots @s@ and @other@ and its set @some@,
+-- and write it after the lower corners.
 between :: Slots s -> Int -> Int -> Int -> ST s ()
 between (Slots !lows !highs) !s !some !other = first some 0
   where

@@ -2,13 +2,17 @@
 
 -- | A bounding-box tree: an index of things by their bounding boxes.
 --
--- It is a packed R-tree in flat arrays: one array for the boxes of the things, one for a box around
--- each eight of these, and so on up to a single box. Only 'sortedIndex' sorts the things: they
--- usually come in the order of a contour or toolpath, where neighbours are close in space.
+-- It is a packed R-tree in flat arrays. One array, the lowest level, contains the boxes of the
+-- things. The next level has a box around each eight of these, and so on up to a single box. Only
+-- 'sortedIndex' sorts the things: they usually come in the order of a contour or toolpath, where
+-- neighbours are close in space.
 --
 -- This is the tree for things of any type. "Geometry.Index.SegmentBoxTree" is the one for the
 -- segments of 'Geometry.ClosedPolyarcs.ClosedPolyarcs'. It computes the boxes of single segments
 -- when they are needed, and excludes pairs of segments that advance in a common direction.
+--
+-- Things and the boxes of a level have indices from 0. Two boxes meet when they have a point in
+-- common.
 module Geometry.Index.BoxTree
   ( BoxTree,
 
@@ -46,35 +50,36 @@ import Geometry.Index.BoundingBox qualified as BoundingBox
 import Geometry.Tolerance qualified as Tolerance
 import Geometry.Vec (Point)
 
--- | Things in order, with their boxes; four numbers for each box: left, bottom, right, top.
+-- | Things in order, and the levels of boxes. A level has four numbers for each box, in mm: left,
+-- bottom, right, top.
 data BoxTree a = BoxTree
   { things :: Vector a,
-    -- | the boxes of the things
+    -- | the level of the things' own boxes
     lowest :: PrimArray Double,
     -- | all levels, the highest first
     levels :: [PrimArray Double]
   }
 
--- | The number of boxes that one box of the next level contains.
+-- | The number of boxes that one box of the next higher level contains.
 fan :: Int
 fan = 8
 
 -- Construction ------------------------------------------------------------------------------
 
--- | Build a tree of a list of things by the box of each. The time is linear in the number of
--- things.
+-- | Build a tree of the things in a list; @box@ gives the box of each. The time is linear in the
+-- number of things.
 index :: (a -> BoundingBox) -> [a] -> BoxTree a
 index box list = indexed box (Vector.fromList list)
 
--- | Build a tree of the first @count@ things of a list. It is faster than 'index', because the
--- array is allocated once.
+-- | Build a tree of the first @count@ things of a list; @box@ gives the box of each. It is faster
+-- than 'index', because the array is allocated once.
 indexFirst :: Int -> (a -> BoundingBox) -> [a] -> BoxTree a
 indexFirst count box list = indexed box (Vector.fromListN count list)
 
 -- | Build a tree of things whose neighbours in the list are not close in space. An example is the
 -- loops of a pocket, each of which surrounds the next. The things are sorted by sort-tile-recursive
 -- packing: by x of their boxes' middles into columns, and each column by y. There are about as many
--- columns as boxes in a column. The time is @n·log n@.
+-- columns as groups of eight things in a column. The time is @n·log n@ for n things.
 sortedIndex :: (a -> BoundingBox) -> [a] -> BoxTree a
 sortedIndex box list =
   index box (concatMap (sortOn (middleY . box)) (columns (sortOn (middleX . box) list)))
@@ -86,7 +91,7 @@ sortedIndex box list =
     middleX (BoundingBox l _ r _) = l + r
     middleY (BoundingBox _ b _ t) = b + t
 
--- | Build a tree of a vector of things by the box of each.
+-- | Build a tree of a vector of things; @box@ gives the box of each.
 indexed :: (a -> BoundingBox) -> Vector a -> BoxTree a
 indexed box things = BoxTree {things, lowest, levels = reverse (grow lowest)}
   where
@@ -115,13 +120,13 @@ above level = PrimArray.runPrimArray $ do
       | k >= end = b
       | otherwise = unions (k + 1) end (BoundingBox.union b (boxAt level k))
 
--- | The index after the last box of a level that belongs to a box @i@ of the next higher level. The
--- first one that belongs to it has the index @fan·i@.
+-- | The index after the last box of @level@ that lies in box @i@ of the next higher level. The
+-- first box that lies in it has the index @fan·i@.
 childrenEnd :: PrimArray Double -> Int -> Int
 childrenEnd level i = min (boxCount level) (fan * (i + 1))
 {-# INLINE childrenEnd #-}
 
--- | Write the box with an index.
+-- | Write a box at the index @i@ of a level that is being built.
 put :: PrimMonad m => MutablePrimArray (PrimState m) Double -> Int -> BoundingBox -> m ()
 put numbers i (BoundingBox l b r t) = do
   PrimArray.writePrimArray numbers (4 * i) l
@@ -130,7 +135,7 @@ put numbers i (BoundingBox l b r t) = do
   PrimArray.writePrimArray numbers (4 * i + 3) t
 {-# INLINE put #-}
 
--- | The box of a level with an index.
+-- | The box of @level@ with the index @i@.
 boxAt :: PrimArray Double -> Int -> BoundingBox
 boxAt level i = BoundingBox (at 0) (at 1) (at 2) (at 3)
   where
@@ -143,7 +148,8 @@ boxAt level i = BoundingBox (at 0) (at 1) (at 2) (at 3)
 toList :: BoxTree a -> [a]
 toList = Vector.toList . things
 
--- | A strict left fold over all things in order.
+-- | A strict left fold over all things in order, with the function @with@ and the initial value
+-- @b@.
 foldl' :: (b -> a -> b) -> b -> BoxTree a -> b
 foldl' with b = Vector.foldl' with b . things
 {-# INLINE foldl' #-}
@@ -152,7 +158,7 @@ foldl' with b = Vector.foldl' with b . things
 size :: BoxTree a -> Int
 size = Vector.length . things
 
--- | The box around all things. The box of an empty tree meets no other box.
+-- | The box around all things. The box of an empty tree is inverted, so that it meets no other box.
 boundingBox :: BoxTree a -> BoundingBox
 boundingBox tree = case levels tree of
   top : _ | boxCount top > 0 -> boxAt top 0
@@ -166,8 +172,8 @@ within (BoundingBox l b r t) =
   select (\(BoundingBox l' b' r' t') -> l' <= r && l <= r' && b' <= t && b <= t')
 {-# INLINE within #-}
 
--- | All things whose boxes satisfy a predicate, in order. If a box satisfies the predicate, so must
--- every box that contains it.
+-- | All things whose boxes satisfy the predicate @holds@, in order. If a box satisfies it, so must
+-- every box that contains this box; the search skips the contents of all other boxes.
 select :: (BoundingBox -> Bool) -> BoxTree a -> [a]
 select holds tree = selectWith (Vector.unsafeIndex (things tree)) holds tree
 {-# INLINE select #-}
@@ -177,13 +183,14 @@ indicesWithin :: BoundingBox -> BoxTree a -> [Int]
 indicesWithin (BoundingBox l b r t) =
   selectWith id (\(BoundingBox l' b' r' t') -> l' <= r && l <= r' && b' <= t && b <= t')
 
--- | A function of the index, applied to all things whose boxes satisfy a predicate, in order.
+-- | The values of @make@ for the indices of all things whose boxes satisfy the predicate @holds@,
+-- in order.
 selectWith :: (Int -> b) -> (BoundingBox -> Bool) -> BoxTree a -> [b]
 selectWith make holds tree = case levels tree of
   [] -> []
   top : below -> go top below 0 (boxCount top - 1) []
   where
-    -- Puts the results for the boxes of a level from @i@ down to @first@ in front of @rest@. The
+    -- Puts the results for the boxes of @level@ from @i@ down to @first@ in front of @rest@. The
     -- list is built from its end, so no part of it remains unevaluated.
     go level below first i rest
       | i < first = rest
@@ -197,18 +204,21 @@ selectWith make holds tree = case levels tree of
 
 -- Many boxes at once ------------------------------------------------------------------------
 
--- | For each element of a list, all things whose boxes meet the element's box and which satisfy a
--- predicate with the element, in order. Consecutive elements whose boxes are close share one
--- descent of the tree: it finds the things that meet the box around this group, which are then
--- tested for each element.
+-- | For each element b of a list, all things whose boxes meet the box @boxOf b@ and which satisfy
+-- the predicate @holds b@, in order.
+--
+-- Consecutive elements whose boxes are close form a group, which shares one descent of the tree.
+-- The descent finds the things that meet the box around the whole group. These things are then
+-- tested for each element of the group.
 each :: (b -> BoundingBox) -> (b -> a -> Bool) -> BoxTree a -> [b] -> [[a]]
 each boxOf holds tree = start
   where
     start others = case others of
       [] -> []
       b : rest -> let box = boxOf b in gather (1 :: Int) (halfPerimeter box) box [box] [b] rest
-    -- The members of a group in reverse, with their boxes, the box around all of them, their
-    -- count, and the least half perimeter of their boxes.
+    -- Extends a group of @count@ elements. @boxes@ and @members@ are their boxes and the elements,
+    -- both in reverse order. @whole@ is the box around all of them, and @least@ the least half
+    -- perimeter of a box.
     gather count least whole boxes members rest = case rest of
       b : more
         | count < groupSize,
@@ -223,8 +233,8 @@ each boxOf holds tree = start
       | otherwise = \box b -> filter (holds b) (within box tree)
 {-# INLINE each #-}
 
--- | The answers to the queries of a group, in front of @rest@. The boxes and members of the group
--- come in reverse.
+-- | The results of @query@ for the elements of a group and their boxes, in front of @rest@. The
+-- lists @boxes@ and @members@ are in reverse order.
 answers :: (BoundingBox -> b -> [a]) -> [BoundingBox] -> [b] -> [[a]] -> [[a]]
 answers query boxes members rest = case (boxes, members) of
   (box : boxes', b : members') ->
@@ -232,8 +242,7 @@ answers query boxes members rest = case (boxes, members) of
   _ -> rest
 {-# INLINEABLE answers #-}
 
--- | Those of the things with the given indices whose boxes meet a box and which satisfy a
--- predicate.
+-- | Those of the things with the given indices whose boxes meet @box@ and which satisfy @holds@.
 among :: BoxTree a -> (a -> Bool) -> BoundingBox -> [Int] -> [a]
 among tree holds box = go
   where
@@ -255,28 +264,30 @@ halfPerimeter (BoundingBox l b r t) = (r - l) + (t - b)
 groupSize :: Int
 groupSize = 8
 
--- | The largest ratio of the half perimeter of the box around a group to the least one in it.
+-- | A bound on the size of a group of 'each'. It limits the half perimeter of the box around the
+-- group, divided by the least half perimeter of a box in it.
 groupExtent :: Double
 groupExtent = 8
 
--- | The largest number of things that are tested one by one for each member of a group.
+-- | The largest number of things found for a group of 'each' that are tested one by one for each
+-- member. With more of them, the tree is searched for each member.
 groupLimit :: Int
 groupLimit = 128
 
 -- Nearest things ----------------------------------------------------------------------------
 
--- | The thing nearest to a point, with its distance; the first one if several are equally near.
--- Because of rounding, the distance of a thing may be less than that of its box, by at most
--- 'Tolerance.coincident'.
+-- | The thing nearest to the point @p@, after its distance; the first one if several are equally
+-- near. Nothing for an empty tree. @distanceTo@ gives the distance of a thing from @p@. Because of
+-- rounding, it may be less than the distance of the thing's box, by at most 'Tolerance.coincident'.
 --
--- This is branch and bound. A first descent through the nearest boxes gives the bound.
+-- This is branch and bound. A first descent, always into the nearest box, gives the bound.
 closest :: (a -> Mm) -> Point -> BoxTree a -> Maybe (Mm, a)
 closest distanceTo p tree = case levels tree of
   [] -> Nothing
   top : below -> go top below 0 (boxCount top) Nothing
     where
       bound0 = guess top below 0 (boxCount top)
-      -- Visits the boxes of a level from @i@ to @end − 1@, given the best thing so far.
+      -- Visits the boxes of @level@ from @i@ to @end − 1@; @best@ is the nearest thing so far.
       go level below' i end best
         | i >= end = best
         | away level i > maybe bound0 fst best = go level below' (i + 1) end best
@@ -298,10 +309,10 @@ closest distanceTo p tree = case levels tree of
       nearerBox level (k, d) j = let e = away level j in if e < d then (j, e) else (k, d)
       away level i = minus (BoundingBox.distance p (boxAt level i)) Tolerance.coincident
 
--- | A subtree: its box, and either a thing or its own subtrees.
+-- | A subtree: its box, and either the one thing in it or its own subtrees.
 data Node a = Leaf BoundingBox a | Branch BoundingBox ~[Node a]
 
--- | The topmost node of a tree; none if the tree is empty.
+-- | The topmost node of a tree, or an empty list if the tree is empty.
 roots :: BoxTree a -> [Node a]
 roots tree = case levels tree of
   [] -> []
@@ -318,9 +329,10 @@ nodeBox node = case node of
   Leaf box _ -> box
   Branch box _ -> box
 
--- | The value of @measure@ for the two things, one of each tree, with the least distance; any of
--- these values if several distances are equal. @distanceOf@ takes the distance from a value. It may
--- be less than that of the things' boxes by at most 'Tolerance.coincident'.
+-- | The result of @measure@ for the two things, one of each tree, that have the least distance from
+-- each other; any of these results if several distances are equal. Nothing if a tree is empty.
+-- @distanceOf@ reads the distance from a result of @measure@. Because of rounding, it may be less
+-- than the distance of the things' boxes, by at most 'Tolerance.coincident'.
 --
 -- This is branch and bound on pairs of nodes. It divides the node with the larger box and visits
 -- nearer pairs first.

@@ -2,15 +2,23 @@
 {-# LANGUAGE MagicHash #-}
 {-# OPTIONS_GHC -O2 -fno-full-laziness #-}
 
--- | The bounding-box tree of the offset kernel, over the segments of 'ClosedPolyarcs'.
+-- | The bounding-box tree of the offset kernel ("Offset.Kernel"), over the segments of
+-- 'ClosedPolyarcs'.
 --
--- It is a packed R-tree in flat arrays: a box around each run of eight consecutive segments, one
--- around each eight such boxes, and so on. Consecutive segments are close in space, so nothing is
--- sorted. Boxes of single segments are computed when needed, which costs less than storing them.
+-- It is a packed R-tree in flat arrays. A run is a group of eight consecutive segments: run @r@
+-- starts at the segment with the index @8·r@. The lowest level, with the index 0, has a box around
+-- each run; the next level has one around each eight such boxes, and so on. Consecutive segments
+-- are close in space, so nothing is sorted. Boxes of single segments are computed when needed,
+-- which costs less than storing them.
 --
 -- A chain whose segments all advance in one direction does not meet itself. For each box the tree
--- stores in which of eight directions all of its segments advance. The search for pairs skips the
--- inside of a box with such a direction, and two neighbouring boxes with a direction in common.
+-- stores in which of eight directions (those of the axes and of the diagonals) all of its segments
+-- advance. The search for pairs skips the inside of a box with such a direction, and two
+-- neighbouring boxes with a direction in common.
+--
+-- A box is given by its least x, least y, largest x and largest y, in mm and in this order.
+-- Functions pass a box to a continuation, a function that is their last argument, so that it is not
+-- built in memory.
 --
 -- "Geometry.Index.BoxTree" is the tree for things of any type. It stores the boxes of single things
 -- and no directions.
@@ -40,21 +48,21 @@ import Geometry.ClosedPolyarcs (ClosedPolyarcs)
 import Geometry.ClosedPolyarcs qualified as ClosedPolyarcs
 import Geometry.Index.BoundingBoxCache qualified as BoundingBoxCache
 
--- | The tree. Its arrays contain the boxes of all levels one after the other, the lowest level
--- first.
+-- | The tree of the segments of @chain@. The arrays @sides@ and @directions@ contain the boxes of
+-- all levels one after the other, the lowest level first.
 data SegmentBoxTree = SegmentBoxTree
   { chain :: ClosedPolyarcs,
-    -- | in mm; every box is enlarged by it
+    -- | the distance in mm by which every box is enlarged on each side
     margin :: Double,
-    -- | of each box: least x, least y, largest x, largest y
+    -- | four numbers for each box, in mm: least x, least y, largest x, largest y
     sides :: PrimArray Double,
-    -- | of each box: the directions in which all of its segments advance, as bits
+    -- | for each box, the directions in which all of its segments advance, as bits
     directions :: PrimArray Word8,
-    -- | the first box of each level
+    -- | for each level, the index of its first box in the arrays
     begins :: PrimArray Int,
     -- | the number of boxes of each level
     counts :: PrimArray Int,
-    -- | the level that consists of one box
+    -- | the index of the level that consists of one box
     highest :: Int
   }
 
@@ -64,8 +72,8 @@ fan = BoundingBoxCache.runLength
 
 -- Boxes -------------------------------------------------------------------------------------
 
--- | The box of the segment with an index, enlarged by the margin and passed to a continuation:
--- least x, least y, largest x, largest y.
+-- | The box of the segment with the index @i@, enlarged by the tree's margin and passed to the
+-- continuation @k@.
 segmentBoxWithMargin :: SegmentBoxTree -> Int -> (Double -> Double -> Double -> Double -> r) -> r
 segmentBoxWithMargin bs i k =
   segmentBox (chain bs) i (\lx ly hx hy -> k (lx - m) (ly - m) (hx + m) (hy + m))
@@ -73,8 +81,9 @@ segmentBoxWithMargin bs i k =
     m = margin bs
 {-# INLINE segmentBoxWithMargin #-}
 
--- | The box of a segment without the margin. An arc up to a half circle lies in the parallelogram
--- on its chord whose other side is tangent to it.
+-- | The box of the segment with the index @i@, without a margin, passed to the continuation @k@. An
+-- arc up to a half circle lies in the parallelogram between its chord and the tangent that is
+-- parallel to the chord. The box is that of this parallelogram.
 segmentBox :: ClosedPolyarcs -> Int -> (Double -> Double -> Double -> Double -> r) -> r
 segmentBox c i k = k lx ly hx hy
   where
@@ -91,17 +100,18 @@ segmentBox c i k = k lx ly hx hy
     !hy = most y0 y1 + most 0 oy
 {-# INLINE segmentBox #-}
 
--- | 1 when the first number is at least the second, else 0; without a branch.
+-- | 1 when the first number is at least the second, else 0. The function has no branch.
 reaches :: Double -> Double -> Int
 reaches (D# a) (D# b) = I# (a >=## b)
 {-# INLINE reaches #-}
 
--- | The box of the run of eight segments to which a segment belongs, passed to a continuation.
+-- | The stored box of the run to which the segment with the index @i@ belongs, passed to a
+-- continuation.
 runBoxOf :: SegmentBoxTree -> Int -> (Double -> Double -> Double -> Double -> r) -> r
 runBoxOf bs i = boxAt (sides bs) (i `shiftR` 3)
 {-# INLINE runBoxOf #-}
 
--- | The index of the first segment of the run after the one to which a segment belongs.
+-- | The index of the first segment of the next run after that of segment @i@.
 nextRun :: Int -> Int
 nextRun i = (i `shiftR` 3 + 1) `shiftL` 3
 {-# INLINE nextRun #-}
@@ -110,7 +120,8 @@ nextRun i = (i `shiftR` 3 + 1) `shiftL` 3
 boundingBox :: SegmentBoxTree -> (Double -> Double -> Double -> Double -> r) -> r
 boundingBox bs = boxAt (sides bs) (indexPrimArray (begins bs) (highest bs))
 
--- | The stored box with an index, passed to a continuation.
+-- | The box with the index @k@ in the array @a@ of a tree's sides, passed to the continuation
+-- @next@.
 boxAt :: PrimArray Double -> Int -> (Double -> Double -> Double -> Double -> r) -> r
 boxAt a k next =
   next
@@ -122,7 +133,7 @@ boxAt a k next =
 
 -- Construction ------------------------------------------------------------------------------
 
--- | Build the tree of all segments, with boxes enlarged by a margin in mm.
+-- | Build the tree of all segments of @c@, with boxes enlarged by the margin @m@ in mm.
 build :: Double -> ClosedPolyarcs -> SegmentBoxTree
 build !m !c = runST $ do
   let n = sizeofPrimArray (ClosedPolyarcs.xs c)
@@ -140,16 +151,17 @@ build !m !c = runST $ do
       <*> pure (primArrayFromList levels)
       <*> pure (length levels - 1)
 
--- | The numbers of boxes of all levels from the lowest on, given that of the lowest.
+-- | The numbers of boxes of all levels from the lowest on; @count@ is that of the lowest level.
 levelSizes :: Int -> [Int]
 levelSizes count
   | count == 1 = [1]
   | otherwise = count : levelSizes ((count + fan - 1) `quot` fan)
 
--- | The sides and directions of boxes while they are written.
+-- | The arrays @sides@ and @directions@ of a tree while they are written.
 data Boxes s = Boxes (MutablePrimArray s Double) (MutablePrimArray s Word8)
 
--- | Write the box with an index: least x, least y, largest x, largest y, and its directions.
+-- | Write the box with the index @k@: its least x, least y, largest x and largest y, and the set
+-- @w@ of its directions as bits.
 putBox :: Boxes s -> Int -> Double -> Double -> Double -> Double -> Int -> ST s ()
 putBox (Boxes sides directions) !k !lx !ly !hx !hy !w = do
   writePrimArray sides (4 * k) lx
@@ -159,7 +171,8 @@ putBox (Boxes sides directions) !k !lx !ly !hx !hy !w = do
   writePrimArray directions k (fromIntegral w)
 {-# INLINE putBox #-}
 
--- | Write the lowest level: the boxes of the runs.
+-- | Write the lowest level: the box of each run, enlarged by the margin @m@ in mm, and its
+-- directions.
 writeRuns :: Double -> ClosedPolyarcs -> Boxes s -> ST s ()
 writeRuns !m !c !out = go 0
   where
@@ -175,7 +188,8 @@ writeRuns !m !c !out = go 0
         runBox c a e x y x y $ \lx ly hx hy -> putBox out k (lx - m) (ly - m) (hx + m) (hy + m) w
         go (k + 1)
 
--- | Write all levels above the one that starts at box @start@ and has @count@ boxes.
+-- | Write all levels above a level that has @count@ boxes, the first of which has the index @start@
+-- in the arrays.
 writeLevels :: Boxes s -> Int -> Int -> ST s ()
 writeLevels out@(Boxes sides directions) !start !count
   | count == 1 = pure ()
@@ -207,17 +221,21 @@ writeLevels out@(Boxes sides directions) !start !count
           (most hy hy')
           (w .&. fromIntegral w')
 
--- | Larger than any coordinate.
+-- | A number in mm that is larger than any coordinate. A box of which it is the least x and y, and
+-- −far the largest x and y, contains nothing.
 far :: Double
 far = 1e300
 
+-- | The lesser of two numbers, and the greater one.
 least, most :: Double -> Double -> Double
 least a b = if a < b then a else b
 most a b = if a > b then a else b
 {-# INLINE least #-}
 {-# INLINE most #-}
 
--- | A box extended by the segments from @a@ to @e − 1@, passed to a continuation.
+-- | The smallest box that contains a given box and the boxes of the segments from @a@ to @e − 1@,
+-- passed to the continuation @k@. The given box has the least x and y @lx0@ and @ly0@ and the
+-- largest x and y @hx0@ and @hy0@.
 runBox ::
   ClosedPolyarcs ->
   Int ->
@@ -244,16 +262,16 @@ runBox c a e lx0 ly0 hx0 hy0 k = go a lx0 ly0 hx0 hy0
         y = indexPrimArray (ClosedPolyarcs.ys c) (i + 1)
 {-# INLINE runBox #-}
 
--- | Those of the eight directions in which all segments from @a@ to @e − 1@ advance, as bits. Only
--- two are tested: the axis and the diagonal that are nearest to the direction from the first vertex
--- to the last. Every segment must advance by 32 times the margin @m@, so that the enlarged boxes of
--- its predecessors and successors cannot meet it.
+-- | The set, as bits, of those of the eight directions in which all segments from @a@ to @e − 1@
+-- advance. Only two are tested: the axis and the diagonal that are nearest to the direction from
+-- the first vertex to the last. A segment advances in a direction only if its extent along it is
+-- above 32 times the margin @m@. So, even with the margin, no segment before it meets one after it.
 headings :: Double -> ClosedPolyarcs -> Int -> Int -> Int
 headings !m !c !a !e = go a (2 * enough) (2 * enough)
   where
     !ux = indexPrimArray (ClosedPolyarcs.xs c) e - indexPrimArray (ClosedPolyarcs.xs c) a
     !uy = indexPrimArray (ClosedPolyarcs.ys c) e - indexPrimArray (ClosedPolyarcs.ys c) a
-    -- The nearest diagonal and the nearest axis.
+    -- The nearest diagonal is (sx, sy), and the nearest axis is (ax, ay).
     !sx = if ux > 0 then 1 else -1
     !sy = if uy > 0 then 1 else -1
     !level = abs ux > abs uy
@@ -272,7 +290,8 @@ headings !m !c !a !e = go a (2 * enough) (2 * enough)
         ClosedPolyarcs.chord c i $ \dx dy ->
           go (i + 1) (least axis (ax * dx + ay * dy)) (least diagonal (sx * dx + sy * dy))
       | otherwise = ClosedPolyarcs.chord c i $ \dx dy ->
-        -- The lesser advance of the tangents at both ends, at least as long as the chord.
+        -- The lesser advance of the tangents at both ends. As vectors, these have @1 + b²@ times
+        -- the chord's length.
         let co = 1 - b * b
             si = 2 * b
             forward px py = co * (px * dx + py * dy) - abs (si * (px * dy - py * dx))
@@ -292,18 +311,19 @@ allDirections = 255
 
 -- Pairs -------------------------------------------------------------------------------------
 
--- | Visit all pairs of segments that may meet and whose boxes overlap. Each pair is visited once,
--- the earlier segment first. The search ends early if @continues@, which is run now and then, is
--- false.
+-- | Visit all pairs of segments that may meet and whose boxes overlap, by their indices. Each pair
+-- is visited once, the earlier segment first. The action @continues@ is run now and then; if it
+-- returns false, the search ends early.
 pairs :: SegmentBoxTree -> ST s Bool -> (Int -> Int -> ST s ()) -> ST s ()
 pairs bs@SegmentBoxTree {chain = c, margin = m, sides} continues visit = do
   cache <- boundingBox bs (BoundingBoxCache.new c m)
   let -- The pairs inside run @a@.
+      -- Visits the pairs of two segments of run @a@.
       inside !a = do
         let !s = BoundingBoxCache.slotOf a
         BoundingBoxCache.load cache s a
         BoundingBoxCache.overlappingPairs cache s >>= visits (fan * a) (fan * s) (fan * a) (fan * s)
-      -- The pairs of a segment of run @a@ and one of run @b@.
+      -- Visits the pairs of a segment of run @a@ and one of run @b@.
       between !a !b = do
         let !s = BoundingBoxCache.slotOf a
         BoundingBoxCache.load cache s a
@@ -314,7 +334,7 @@ pairs bs@SegmentBoxTree {chain = c, margin = m, sides} continues visit = do
           BoundingBoxCache.load cache other b
           BoundingBoxCache.overlappingBetween cache s some other
             >>= visits (fan * a) (fan * s) (fan * b) (fan * other)
-      -- Visit the pairs in a set: bit @8·i + j@ is the pair of segments @a + i@ and @b + j@, whose
+      -- Visits the pairs in a set: bit @8·i + j@ is the pair of segments @a + i@ and @b + j@, whose
       -- boxes have the indices @p + i@ and @q + j@ in the cache.
       visits !a !p !b !q !set
         | set == 0 = pure ()
@@ -332,27 +352,28 @@ pairs bs@SegmentBoxTree {chain = c, margin = m, sides} continues visit = do
   runPairs bs continues inside between
 {-# INLINE pairs #-}
 
--- | Run one action for each run that may have pairs inside, and another one for each two runs whose
--- boxes overlap, the earlier run first, as long as @continues@ is true.
+-- | Run the action @inRun@ for each run that may have pairs inside. Run the action @betweenRuns@
+-- for each two runs whose boxes overlap, the earlier run first. No further pairs are sought once
+-- @continues@ returns false.
 runPairs ::
   SegmentBoxTree -> ST s Bool -> (Int -> ST s ()) -> (Int -> Int -> ST s ()) -> ST s ()
 runPairs SegmentBoxTree {sides, directions, begins, counts, highest} continues inRun betweenRuns =
   within highest 0
   where
-    -- The pairs inside box @a@ of level @l@.
+    -- Finds the pairs inside box @a@ of level @l@.
     within !l !a
       | direction (at l + a) /= 0 = pure ()
       | l == 0 = inRun a
       | otherwise = do
         more <- continues
         when more (among (l - 1) a)
-    -- The pairs of a run in box @a@ and one in box @b@ of level @l@.
+    -- Finds the pairs of a run in box @a@ and a run in box @b@ of level @l@.
     between !l !a !b
       | b == a + 1 && direction (at l + a) .&. direction (at l + b) /= 0 = pure ()
       | l == 0 = betweenRuns a b
       | otherwise =
         boxAt sides (at l + b) (across (l - 1) (fan * a) (min (size (l - 1)) (fan * a + fan)) b)
-    -- The pairs among the boxes of level @l@ that belong to box @a@ of the next level.
+    -- Finds the pairs among the boxes of level @l@ that lie in box @a@ of the next higher level.
     among !l !a = go (fan * a)
       where
         !e = min (size l) (fan * a + fan)
@@ -360,15 +381,16 @@ runPairs SegmentBoxTree {sides, directions, begins, counts, highest} continues i
         go !i
           | i >= e = pure ()
           | otherwise = within l i >> boxAt sides (o + i) (follow l i (i + 1) e) >> go (i + 1)
-    -- The pairs of boxes @i@ to @e − 1@ of level @l@ with those that belong to box @b@ of the next
-    -- level, whose sides are given.
+    -- Finds the pairs of boxes @i@ to @e − 1@ of level @l@ with those that lie in box @b@ of the
+    -- next higher level. The last four arguments are the sides of box @b@.
     across !l !i !e !b !lx !ly !hx !hy
       | i >= e = pure ()
       | otherwise = do
         when (overlaps sides (at l + i) lx ly hx hy) $
           boxAt sides (at l + i) (follow l i (fan * b) (min (size l) (fan * b + fan)))
         across l (i + 1) e b lx ly hx hy
-    -- The pairs of box @i@ of level @l@, whose sides are given, with boxes @j@ to @e − 1@.
+    -- Finds the pairs of box @i@ of level @l@, whose sides are the last four arguments, with boxes
+    -- @j@ to @e − 1@ of that level.
     follow !l !i !j !e !lx !ly !hx !hy
       | j >= e = pure ()
       | otherwise =
@@ -379,7 +401,8 @@ runPairs SegmentBoxTree {sides, directions, begins, counts, highest} continues i
     direction k = indexPrimArray directions k
 {-# INLINE runPairs #-}
 
--- | True when stored box @k@ overlaps a box. The comparison has no branch before its result.
+-- | True when the box with the index @k@ in the array @a@ of a tree's sides overlaps the box given
+-- by the other numbers. The comparison has no branch before its result.
 overlaps :: PrimArray Double -> Int -> Double -> Double -> Double -> Double -> Bool
 overlaps a k lx ly hx hy =
   boxAt
@@ -390,8 +413,9 @@ overlaps a k lx ly hx hy =
 
 -- Segments in a box -------------------------------------------------------------------------
 
--- | A strict left fold over the segments whose enlarged boxes overlap a box, in order. The box is
--- given by its least x, least y, largest x and largest y.
+-- | A strict left fold with the function @f@ over the indices of the segments whose enlarged boxes
+-- overlap a given box, in order. The given box has the least x and y @lx@ and @ly@ and the largest
+-- x and y @hx@ and @hy@. The fold begins with the value @start@.
 around :: SegmentBoxTree -> Double -> Double -> Double -> Double -> a -> (a -> Int -> a) -> a
 around SegmentBoxTree {chain = c, margin = m, sides, begins, counts, highest} lx ly hx hy start f =
   go highest 0 start

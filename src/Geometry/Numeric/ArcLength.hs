@@ -1,10 +1,14 @@
--- | Arc length as a function of a curve's parameter: the integral of the speed, as a table.
+-- | Arc length as a function of a curve's parameter: the integral of the speed, as a table. The
+-- speed is the length of the curve's derivative, in mm per unit of the parameter.
 --
 -- The intervals between parameters at which the speed may jump are bisected into panels. On each
 -- panel the speed is interpolated by a polynomial of degree 7 at the eight Gauss–Legendre nodes;
 -- bisection ends when the estimated error is at most 'Tolerance.arcLength'. The table contains the
 -- Legendre coefficients of these polynomials. The integral over a whole panel is Gauss–Legendre
 -- quadrature. Up to a parameter within a panel, the polynomial is integrated by a closed formula.
+--
+-- Panels have indices from 0. The position within a panel is a number from −1 at its start to 1 at
+-- its end.
 module Geometry.Numeric.ArcLength
   ( ArcLength,
     fromSpeed,
@@ -21,31 +25,33 @@ import Data.Vector.Unboxed qualified as Unboxed
 import Geometry.Numeric.RootFinding qualified as RootFinding
 import Geometry.Tolerance qualified as Tolerance
 
--- | The table of a curve.
+-- | The arc lengths and the speed of one curve, panel by panel.
 data ArcLength = ArcLength
-  { -- | the parameters at which the panels start, and that of the end
+  { -- | the parameters at which the panels start, then the parameter of the curve's end
     starts :: Vector Double,
-    -- | the arc lengths there, in mm
+    -- | the arc lengths, in mm, from the curve's start to the parameters in 'starts'
     lengths :: Vector Double,
-    -- | the eight Legendre coefficients of the speed on each panel, in mm per half panel
+    -- | the eight Legendre coefficients of the speed on each panel, as a function of the position
+    -- within the panel; in mm per unit of that position
     speeds :: Vector Double
   }
 
--- | All tables compare equal, because a table is determined by its curve, which is compared as
--- well. So a comparison does not compute any table.
+-- | All tables compare equal, so that a comparison of two curves computes no table. A table is
+-- determined by its curve, and the other data of the curves are compared anyway.
 instance Eq ArcLength where
   _ == _ = True
 
--- | The name alone, so that showing a curve does not compute its table.
+-- | A constant text, so that showing a curve does not compute its table.
 instance Show ArcLength where
   show _ = "ArcLength"
 
--- | A panel: its start and width in the parameter, and the Legendre coefficients of the speed.
+-- | A panel: the parameter at its start, its width in the parameter, and the eight Legendre
+-- coefficients of the speed.
 data Panel = Panel Double Double (Vector Double)
 
--- | The table for a speed in mm per unit of the parameter, not negative. @breaks@ are, in ascending
--- order, the parameters at the ends of the curve and those at which the speed may jump. The speed
--- is never evaluated at these.
+-- | The table of a curve. @speed@ gives the speed at a parameter and is not negative. @breaks@ are,
+-- in ascending order, the parameters of the curve's ends and those at which the speed may jump. The
+-- speed is never evaluated at these.
 fromSpeed :: (Double -> Double) -> [Double] -> ArcLength
 fromSpeed speed breaks = ArcLength {starts, lengths, speeds}
   where
@@ -54,8 +60,9 @@ fromSpeed speed breaks = ArcLength {starts, lengths, speeds}
     lengths = Unboxed.scanl' (+) 0 (Unboxed.fromList [2 * Unboxed.head cs | Panel _ _ cs <- panels])
     speeds = Unboxed.concat [cs | Panel _ _ cs <- panels]
 
--- | The panels between two parameters. The bisection also ends where the speed is infinite or NaN,
--- and at a depth of 16.
+-- | The panels between the parameters @a@ and @b@. @depth@ is the number of bisections that have
+-- led to this interval. The bisection also ends where the speed is infinite or NaN, and at a depth
+-- of 16.
 measuredBetween :: (Double -> Double) -> Int -> Double -> Double -> [Panel]
 measuredBetween speed depth a b
   | b <= a = []
@@ -82,8 +89,8 @@ measuredBetween speed depth a b
 total :: ArcLength -> Mm
 total table = Mm (Unboxed.last (lengths table))
 
--- | The arc length from the start to a parameter. A parameter outside of the curve gives the nearer
--- end.
+-- | The arc length from the curve's start to the parameter @u@. A parameter outside of the curve
+-- gives the nearer end.
 lengthAt :: ArcLength -> Double -> Mm
 lengthAt table u
   | Unboxed.null (speeds table) || u <= Unboxed.head (starts table) = Mm 0
@@ -94,7 +101,7 @@ lengthAt table u
     (from, width) = extent table p
     (run, _) = within table p (2 * (u - from) / width - 1)
 
--- | The parameter at which the arc length from the start has a given value. A value outside of the
+-- | The parameter at which the arc length from the curve's start is @s@. A value outside of the
 -- curve gives the nearer end.
 parameterAt :: ArcLength -> Mm -> Double
 parameterAt table (Mm s)
@@ -107,19 +114,19 @@ parameterAt table (Mm s)
     excess x = let (run, speed) = within table p x in (run - missing, speed)
     missing = s - lengths table Unboxed.! p
 
--- | The start of a panel and its width, in the parameter.
+-- | The parameter at the start of panel @p@, and the panel's width in the parameter.
 extent :: ArcLength -> Int -> (Double, Double)
 extent table p =
   let from = starts table Unboxed.! p in (from, starts table Unboxed.! (p + 1) - from)
 
--- | The index of the last element that is not above a value, in a vector of ascending elements. The
--- very last element is not considered.
+-- | The index, from 0, of the last element of the ascending vector @sorted@ that is at most @v@.
+-- The very last element is not considered, since no panel starts there.
 lastBelow :: Double -> Vector Double -> Int
 lastBelow v sorted = BinarySearch.lastAtMost (Unboxed.length sorted - 1) v sorted
 
--- | The arc length from the start of a panel to a position in it, and the speed there in mm per
--- half panel. Positions run from −1 at the start of the panel to 1 at its end. The formula is
--- @∫P_k = (P_{k+1} − P_{k−1}) / (2k + 1)@ for Legendre polynomials.
+-- | The arc length, in mm, from the start of panel @p@ to the position @x@ in it; and the speed at
+-- @x@, in mm per unit of the position. The formula is @∫P_k = (P_{k+1} − P_{k−1}) / (2k + 1)@ for
+-- Legendre polynomials.
 within :: ArcLength -> Int -> Double -> (Double, Double)
 within table p x = go 1 1 x (c 0 * (x + 1)) (c 0)
   where
@@ -134,11 +141,11 @@ within table p x = go 1 1 x (c 0 * (x + 1)) (c 0)
         n = fromIntegral k
         next = ((2 * n + 1) * x * current - n * previous) / (n + 1)
 
--- | The number of nodes on a panel.
+-- | The number of nodes on a panel, and of the coefficients that are computed from them.
 count :: Int
 count = 8
 
--- | The Gauss–Legendre nodes, the zeros of @P_8@, by Newton's method.
+-- | The Gauss–Legendre nodes as positions in a panel: the zeros of @P_8@, by Newton's method.
 nodes :: Vector Double
 nodes =
   Unboxed.generate
@@ -147,8 +154,8 @@ nodes =
   where
     improved x = let (p, slope) = legendre count x in x - p / slope
 
--- | The contribution of a sample at node i to coefficient k, @(2k + 1)/2·w_i·P_k(x_i)@ with the
--- weight @w_i = 2 / ((1 − x_i²)·P_8′(x_i)²)@; at index @8·k + i@.
+-- | The factor of the speed at node i in coefficient k, with the index @8·k + i@. It is
+-- @(2k + 1)/2·w_i·P_k(x_i)@ with the weight @w_i = 2 / ((1 − x_i²)·P_8′(x_i)²)@.
 analysis :: Vector Double
 analysis = Unboxed.concat [Unboxed.map (weight k) nodes | k <- [0 .. count - 1]]
   where
@@ -157,7 +164,8 @@ analysis = Unboxed.concat [Unboxed.map (weight k) nodes | k <- [0 .. count - 1]]
           (p, _) = legendre k x
        in (fromIntegral k + 0.5) * 2 / ((1 - x * x) * slope * slope) * p
 
--- | The Legendre polynomial @P_n@ and its derivative, for arguments between −1 and 1.
+-- | The values of the Legendre polynomial @P_n@ and of its derivative at @x@, which lies between −1
+-- and 1.
 legendre :: Int -> Double -> (Double, Double)
 legendre n x = go 0 0 1
   where

@@ -1,10 +1,10 @@
 -- | Truncated power series: the Taylor coefficients of a function of a parameter at one of its
 -- values, @f(u₀ + t) = c₀ + c₁·t + c₂·t² + …@ up to some order.
 --
--- Sums, products, quotients, powers and sines are computed on the coefficients (Knuth, TAOCP 2,
--- section 4.7). All derivatives of such a combination are therefore exact but for rounding.
--- Coefficient k is the k-th derivative divided by k!. An operation on two series gives a series of
--- the lower of both orders.
+-- Sums, products, quotients, powers and sines are computed on the coefficients
+-- (Knuth, TAOCP 2, section 4.7). All derivatives of such a combination are therefore exact but for
+-- rounding. Coefficient k is the k-th derivative divided by k!. The order of a series is the index
+-- of its last coefficient. An operation on two series gives a series of the lower of both orders.
 --
 -- There is no 'Num' instance. A literal has no order of its own; as a series of order 0 it would
 -- truncate every series with which it is combined.
@@ -37,36 +37,36 @@ import Data.Vector.Unboxed (Vector)
 import Data.Vector.Unboxed qualified as Unboxed
 import Prelude hiding (subtract)
 
--- | The coefficients from order 0 on, at least one.
+-- | The coefficients from c₀ on; there is at least one.
 newtype PowerSeries = PowerSeries (Vector Double)
   deriving stock (Eq, Show)
 
--- | The series of a constant, up to order @n@.
+-- | The series of order @n@ of the constant @c@.
 constant :: Int -> Double -> PowerSeries
 constant n c = PowerSeries (Unboxed.generate (n + 1) (\k -> if k == 0 then c else 0))
 
--- | The series of a cubic polynomial by its coefficients from the constant on, up to order @n@.
+-- | The series of order @n@ of the cubic polynomial @a + b·t + c·t² + d·t³@.
 cubic :: Int -> Double -> Double -> Double -> Double -> PowerSeries
 cubic n a b c d =
   PowerSeries (Unboxed.generate (n + 1) (\case 0 -> a; 1 -> b; 2 -> c; 3 -> d; _ -> 0))
 
--- | The series with the given first coefficients, up to order @n@; the others are 0.
+-- | The series of order @n@ whose first coefficients are those of the list @cs@; the others are 0.
 fromList :: Int -> [Double] -> PowerSeries
 fromList n cs = PowerSeries (Unboxed.fromListN (n + 1) (take (n + 1) (cs <> repeat 0)))
 
--- | The coefficients from order 0 on.
+-- | The coefficients from c₀ on.
 coefficients :: PowerSeries -> [Double]
 coefficients (PowerSeries a) = Unboxed.toList a
 
--- | The order of the last coefficient.
+-- | The order of a series, from 0: the index of its last coefficient.
 order :: PowerSeries -> Int
 order (PowerSeries a) = Unboxed.length a - 1
 
--- | The value of the function, coefficient 0.
+-- | The value of the function at u₀, which is the coefficient c₀.
 value :: PowerSeries -> Double
 value = coefficient 0
 
--- | The coefficient of an order from 0 on; 0 beyond the order of the series.
+-- | The coefficient with the index @k@, from 0. It is 0 for an index above the order of the series.
 coefficient :: Int -> PowerSeries -> Double
 coefficient k (PowerSeries a)
   | k < Unboxed.length a = Unboxed.unsafeIndex a k
@@ -80,11 +80,11 @@ add (PowerSeries a) (PowerSeries b) = PowerSeries (Unboxed.zipWith (+) a b)
 subtract :: PowerSeries -> PowerSeries -> PowerSeries
 subtract (PowerSeries a) (PowerSeries b) = PowerSeries (Unboxed.zipWith (-) a b)
 
--- | The multiple of a series.
+-- | The product of the number @k@ and a series.
 scale :: Double -> PowerSeries -> PowerSeries
 scale k (PowerSeries a) = PowerSeries (Unboxed.map (k *) a)
 
--- | The sum of a constant and a series.
+-- | The sum of the number @c@ and a series.
 plusConstant :: Double -> PowerSeries -> PowerSeries
 plusConstant c (PowerSeries a) = PowerSeries (Unboxed.imap (\k v -> if k == 0 then c + v else v) a)
 
@@ -95,8 +95,8 @@ multiply (PowerSeries a) (PowerSeries b) =
   where
     n = min (Unboxed.length a) (Unboxed.length b)
 
--- | The quotient of two series: @q_k = (a_k − Σ_{j≥1} b_j·q_{k−j}) / b_0@. The value of the divisor
--- must not be 0.
+-- | The quotient of two series: @q_k = (a_k − Σ_{j≥1} b_j·q_{k−j}) / b_0@. The value @b_0@ of the
+-- divisor must not be 0.
 divide :: PowerSeries -> PowerSeries -> PowerSeries
 divide (PowerSeries a) (PowerSeries b) = PowerSeries (Unboxed.constructN n next)
   where
@@ -104,8 +104,8 @@ divide (PowerSeries a) (PowerSeries b) = PowerSeries (Unboxed.constructN n next)
     next q =
       let k = Unboxed.length q in (at a k - summed 1 k (\j -> at b j * at q (k - j))) / at b 0
 
--- | A real power of a series with a positive value. From @w·p′ = α·w′·p@ for @p = w^α@:
--- @p_k = Σ_{j≥1} (α·j − (k − j))·w_j·p_{k−j} / (k·w_0)@.
+-- | The power with the real exponent @alpha@ of a series w with a positive value. From
+-- @w·p′ = α·w′·p@ for @p = w^α@: @p_k = Σ_{j≥1} (α·j − (k − j))·w_j·p_{k−j} / (k·w_0)@.
 power :: Double -> PowerSeries -> PowerSeries
 power alpha (PowerSeries w) = PowerSeries (Unboxed.constructN (Unboxed.length w) next)
   where
@@ -120,19 +120,19 @@ power alpha (PowerSeries w) = PowerSeries (Unboxed.constructN (Unboxed.length w)
       | alpha == -0.5 = 1 / sqrt v
       | otherwise = v ** alpha
 
--- | The sine of a series in radians.
+-- | The sine of a series whose value is an angle in radians.
 sine :: PowerSeries -> PowerSeries
 sine a = let (s, _) = circular a in s
 
--- | The cosine of a series in radians.
+-- | The cosine of a series whose value is an angle in radians.
 cosine :: PowerSeries -> PowerSeries
 cosine a = let (_, c) = circular a in c
 
--- | The tangent of a series in radians whose cosine is not 0.
+-- | The tangent of a series whose value is an angle in radians. The cosine of this angle is not 0.
 tangent :: PowerSeries -> PowerSeries
 tangent a = let (s, c) = circular a in divide s c
 
--- | The sine and the cosine: @s_k = Σ_{j≥1} j·a_j·c_{k−j} / k@ and
+-- | The sine and the cosine of a series: @s_k = Σ_{j≥1} j·a_j·c_{k−j} / k@ and
 -- @c_k = −Σ_{j≥1} j·a_j·s_{k−j} / k@.
 circular :: PowerSeries -> (PowerSeries, PowerSeries)
 circular (PowerSeries a) = (PowerSeries (Unboxed.map fst both), PowerSeries (Unboxed.map snd both))
@@ -146,23 +146,24 @@ circular (PowerSeries a) = (PowerSeries (Unboxed.map fst both), PowerSeries (Unb
                 / fromIntegral k
          in (weighted snd, negate (weighted fst))
 
--- | The derivative, one order less. For a series of order 0, whose derivative is unknown, it is 0.
+-- | The derivative. Its order is lower by one. The derivative of a series of order 0 is unknown; it
+-- counts as 0.
 derivative :: PowerSeries -> PowerSeries
 derivative (PowerSeries a)
   | Unboxed.length a <= 1 = PowerSeries (Unboxed.singleton 0)
   | otherwise = PowerSeries (Unboxed.imap (\k v -> fromIntegral (k + 1) * v) (Unboxed.drop 1 a))
 
--- | The integral with the value @c@, one order more.
+-- | The integral that has the value @c@ at u₀. Its order is higher by one.
 integral :: Double -> PowerSeries -> PowerSeries
 integral c (PowerSeries a) =
   PowerSeries (Unboxed.cons c (Unboxed.imap (\k v -> v / fromIntegral (k + 1)) a))
 
--- | The value of a polynomial for a series, by Horner's method. Its coefficients count from the
--- constant on.
+-- | The value of a polynomial for a series as its argument, by Horner's method. @cs@ are the
+-- coefficients of the polynomial, the constant first.
 polynomial :: [Double] -> PowerSeries -> PowerSeries
 polynomial cs a = foldr (\c rest -> plusConstant c (multiply rest a)) (constant (order a) 0) cs
 
--- | The sum of @f@ over the integers from @from@ to @to@.
+-- | The sum of @f@ over the integers from @from@ to @to@; 0 if @to@ is less than @from@.
 summed :: Int -> Int -> (Int -> Double) -> Double
 summed from to f = go 0 from
   where

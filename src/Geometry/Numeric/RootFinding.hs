@@ -1,4 +1,4 @@
--- | Roots of functions of one parameter.
+-- | Roots of functions of one parameter. Such a function returns its value and its derivative.
 module Geometry.Numeric.RootFinding
   ( zero,
     rising,
@@ -8,12 +8,12 @@ where
 
 import Geometry.Tolerance qualified as Tolerance
 
--- | A root between two parameters at which a function has different signs. The function returns its
--- value and its derivative.
+-- | A root of the function @f@ between the parameters @from@ and @to@. The values of @f@ at these
+-- two parameters have different signs.
 --
--- This is Newton's method safeguarded by bisection: instead of a step that leaves the bracket, the
--- midpoint of the bracket is taken. The iteration ends when the step or the bracket is at most
--- 'Tolerance.parameter', relative to parameters above 1.
+-- This is Newton's method safeguarded by bisection: instead of a step that leaves the bracket (the
+-- interval that contains the root), the midpoint of the bracket is taken. The iteration ends when
+-- the step or the bracket is at most 'Tolerance.parameter', relative to parameters above 1.
 zero :: (Double -> (Double, Double)) -> Double -> Double -> Double
 zero f from to = go steps from to (0.5 * (from + to))
   where
@@ -34,13 +34,13 @@ zero f from to = go steps from to (0.5 * (from + to))
         next = if newton > low' && newton < high' && budget `mod` 4 /= 0 then newton else middle
     steps = 200
 
--- | The roots at which a function rises: one between each two neighbouring samples of which the
--- first has a negative value and the second a positive one. A sample is a parameter and the
--- function's value there.
+-- | The roots at which the function @f@ rises. A sample is a parameter and the function's value at
+-- it. There is one root between two neighbouring samples if the first has a negative value and the
+-- second a positive one.
 rising :: (Double -> (Double, Double)) -> [(Double, Double)] -> [Double]
 rising f samples = [zero f a b | ((a, va), (b, vb)) <- zip samples (drop 1 samples), va < 0, vb > 0]
 
--- | The roots at which a function falls: one between each two neighbouring samples of which the
--- first has a positive value and the second a negative one.
+-- | The roots at which the function @f@ falls. There is one between two neighbouring samples, as in
+-- 'rising', if the first has a positive value and the second a negative one.
 falling :: (Double -> (Double, Double)) -> [(Double, Double)] -> [Double]
 falling f = rising (\u -> let (v, slope) = f u in (-v, -slope)) . map (\(u, v) -> (u, -v))

@@ -1,4 +1,5 @@
--- | Taylor expansions of a point that moves with a parameter: a vector of two power series.
+-- | Taylor expansions of a point that moves with a parameter: a vector of two power series, of x
+-- and of y. The velocity is the first derivative of the point by the parameter.
 module Geometry.Numeric.TaylorExpansion
   ( TaylorExpansion,
     position,
@@ -21,21 +22,21 @@ import Geometry.Vec (Point, Vec)
 import Geometry.Vec qualified as Vec
 import Linear.V2 (V2 (..))
 
--- | The coordinates x and y, in mm, as series in the parameter.
+-- | The coordinates x and y of a point, in mm, as power series in the parameter.
 type TaylorExpansion = V2 PowerSeries
 
--- | The side from which a point of a curve is approached: from smaller parameters, or from larger
--- ones. The side matters at corners.
+-- | The direction from which a point of a curve is approached: from smaller parameters (before it),
+-- or from larger ones (after it). The two give different results at a corner.
 data Approach = Before | After
   deriving stock (Eq, Show, Enum, Bounded)
 
--- | The point itself.
+-- | The point at the parameter of the expansion.
 position :: TaylorExpansion -> Point
 position expansion = Vec.point x y
   where
     V2 x y = fmap PowerSeries.value expansion
 
--- | The first derivative, in mm per unit of the parameter.
+-- | The first derivative of the point, in mm per unit of the parameter.
 velocity :: TaylorExpansion -> Vec
 velocity expansion = Vec.vec x y
   where
@@ -59,9 +60,9 @@ cross :: V2 PowerSeries -> V2 PowerSeries -> PowerSeries
 cross (V2 x y) (V2 x' y') =
   PowerSeries.subtract (PowerSeries.multiply x y') (PowerSeries.multiply y x')
 
--- | The expansion of the point moved along its left normal by a distance @d@, or to the right when
--- @d@ is negative: @C + d·N@ with @N = (−y′, x′)/√(x′² + y′²)@. The result has one order less than
--- the expansion of @C@. The velocity must not be 0.
+-- | The expansion of a point C moved along its left normal by the distance @d@ in mm, or to the
+-- right when @d@ is negative: @C + d·N@ with @N = (−y′, x′)/√(x′² + y′²)@. The result has one order
+-- less than the expansion of C. The velocity must not be 0.
 offset :: PowerSeries -> TaylorExpansion -> TaylorExpansion
 offset d expansion@(V2 x y) =
   V2
@@ -71,9 +72,10 @@ offset d expansion@(V2 x y) =
     velocities@(V2 x' y') = fmap PowerSeries.derivative expansion
     share = PowerSeries.multiply d (PowerSeries.power (-0.5) (squared velocities))
 
--- | The direction of travel, of length 1. Where the velocity is 0 it is the limit from the given
--- side. It follows from the first derivative that is longer than 'Tolerance.stationary'; there is
--- no direction when no derivative in the expansion is.
+-- | The direction of travel, of length 1. Where the velocity is 0, it is the limit from the given
+-- approach, which follows from the lowest derivative that is not 0. A derivative counts as 0 if the
+-- length of its coefficient in the expansion is at most 'Tolerance.stationary'. Nothing if all
+-- derivatives in the expansion count as 0.
 direction :: Approach -> TaylorExpansion -> Maybe Vec
 direction approach expansion = case find moves (zip [1 :: Int ..] derivatives) of
   Just (k, v) -> Just (Vec.unit (if even k && approach == Before then Vec.negate v else v))
@@ -83,7 +85,8 @@ direction approach expansion = case find moves (zip [1 :: Int ..] derivatives) o
     V2 xs ys = fmap PowerSeries.coefficients expansion
     moves (_, v) = Mm (Vec.norm v) > Tolerance.stationary
 
--- | The curvature in 1/mm, positive to the left. The order must be at least 2.
+-- | The curvature in 1/mm, positive where the curve bends to the left. The order of the expansion
+-- must be at least 2.
 curvature :: TaylorExpansion -> Double
 curvature expansion = 2 * (x' * y'' - y' * x'') / (w * sqrt w)
   where
@@ -91,8 +94,8 @@ curvature expansion = 2 * (x' * y'' - y' * x'') / (w * sqrt w)
     V2 x'' y'' = fmap (PowerSeries.coefficient 2) expansion
     w = x' * x' + y' * y'
 
--- | The curvature @(x′·y″ − y′·x″) / (x′² + y′²)^(3/2)@ as a series, of two orders less than the
--- expansion.
+-- | The curvature @(x′·y″ − y′·x″) / (x′² + y′²)^(3/2)@ as a power series, in 1/mm. It has two
+-- orders less than the expansion. The velocity must not be 0.
 curvatureSeries :: TaylorExpansion -> PowerSeries
 curvatureSeries expansion =
   PowerSeries.multiply

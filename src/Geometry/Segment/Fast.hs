@@ -4,6 +4,10 @@
 -- | Elementary operations on segments, computed on unpacked coordinates, for loops over many
 -- segments. Their results are those of "Geometry.Segment", but no intermediate points and vectors
 -- are built.
+--
+-- A point is given by the numbers x and y in mm. The foot of a point on a segment is where the
+-- perpendicular from the point meets the segment's line or circle. The sector of an arc is the
+-- region between the rays from its centre through its ends, on the side of the arc.
 module Geometry.Segment.Fast
   ( Coordinates (..),
     coordinates,
@@ -34,8 +38,8 @@ import Geometry.Segment (Segment (..))
 import Geometry.Vec (Point (Point))
 
 -- | Coordinates of a segment in mm. A line has x and y of its start and of its end. An arc has x
--- and y of its start, its end and its centre, then its radius and its sweep in radians. Since
--- 'coordinates' is inlined, no value of this type is built at run time.
+-- and y of its start, of its end and of its centre, then its radius in mm and its sweep in radians.
+-- Since 'coordinates' is inlined, no value of this type is built at run time.
 data Coordinates
   = LineAt Double Double Double Double
   | ArcAt Double Double Double Double Double Double Double Double
@@ -48,7 +52,7 @@ coordinates s = case s of
     ArcAt ax ay bx by cx cy (hypotenuse (cx - ax) (cy - ay)) angle
 {-# INLINE coordinates #-}
 
--- | Segment without length at a point, given by x and y.
+-- | Segment without length at the point (@x@, @y@).
 spot :: Double -> Double -> Segment
 spot x y = Straight (Point x y) (Point x y)
 
@@ -58,7 +62,7 @@ isLine segment = case coordinates segment of
   LineAt {} -> True
   ArcAt {} -> False
 
--- | Start and end of a segment, as x and y.
+-- | Start of a segment, or its end, as x and y in mm.
 begin, finish :: Segment -> (Double, Double)
 begin t = case coordinates t of
   LineAt ax ay _ _ -> (ax, ay)
@@ -75,7 +79,7 @@ lengthOf e = case coordinates e of
   LineAt ax ay bx by -> hypotenuse (bx - ax) (by - ay)
   ArcAt _ _ _ _ _ _ r s -> r * abs s
 
--- | Point at a fraction of the length, as x and y.
+-- | Point at the fraction @t@ of a segment's length from its start, as x and y in mm.
 at :: Segment -> Double -> (Double, Double)
 at e !t = case coordinates e of
   LineAt ax ay bx by -> (ax + t * (bx - ax), ay + t * (by - ay))
@@ -89,25 +93,25 @@ at e !t = case coordinates e of
 {-# INLINE at #-}
 
 -- | Absolute difference, in mm, between the distances of an arc's two ends from its centre; 0 for a
--- line.
+-- line. An arc whose ends are rounded to whole pulses has such a difference.
 uneven :: Segment -> Double
 uneven segment = case coordinates segment of
   LineAt {} -> 0
   ArcAt _ _ bx by cx cy r _ -> abs (hypotenuse (bx - cx) (by - cy) - r)
 
--- | Length of a vector, given by its two components.
+-- | Length of the vector with the components @a@ and @b@.
 hypotenuse :: Double -> Double -> Double
 hypotenuse a b = sqrt (a * a + b * b)
 {-# INLINE hypotenuse #-}
 
 -- | Position of a point relative to the two rays from an arc's centre through its ends: three
--- numbers in mm², passed to a continuation. Each is a length times the arc's radius. The first is
--- the distance from the ray through the start, positive past the start in the arc's sense. The
--- second is the distance from the ray through the end, positive before the end. The third is the
--- extent along the ray through the start, from the centre.
+-- numbers, passed to the continuation @k@. Each is a length times the arc's radius, in mm². The
+-- first is the distance from the ray through the start, positive past the start in the arc's sense.
+-- The second is the distance from the ray through the end, positive before the end. The third is
+-- the extent along the ray through the start, from the centre.
 --
--- The arguments are x and y of the start, the end and the centre, the sweep, and x and y of the
--- point.
+-- The arc is given by its start (@ax@, @ay@), its end (@bx@, @by@) and its centre (@cx@, @cy@) in
+-- mm, and by its sweep @s@ in radians. The point is (@px@, @py@).
 bearing ::
   Double ->
   Double ->
@@ -131,7 +135,7 @@ bearing ax ay bx by cx cy s px py k =
     vy = py - cy
 {-# INLINE bearing #-}
 
--- | True for a point, given by x and y, in the sector of an arc. False for a line.
+-- | True if the point (@px@, @py@) lies in the sector of an arc. False for a line.
 inSector :: Segment -> Double -> Double -> Bool
 inSector segment !px !py = case coordinates segment of
   LineAt {} -> False
@@ -141,13 +145,13 @@ inSector segment !px !py = case coordinates segment of
         then pastStart >= 0 || beforeEnd >= 0 || abs s > 3 / 2 * pi && along <= 0
         else pastStart >= 0 && beforeEnd >= 0 && (abs s > pi / 2 || along >= 0)
 
--- | True for the sweep of a full circle.
+-- | True if the sweep @s@, in radians, is that of a full circle.
 isWhole :: Double -> Bool
 isWhole s = abs s >= 2 * pi
 
--- | Box that contains a segment. For an arc below a half circle it is the box of its ends, inflated
--- by a bound of the sagitta, @r·(1 − cos(φ/2)) ≤ r·φ²/8@. For other arcs it is the box of the full
--- circle.
+-- | Box that contains a segment. For an arc that sweeps less than a half circle it is the box of
+-- its ends, inflated by a bound of the sagitta. With the sweep φ this bound follows from
+-- @r·(1 − cos(φ/2)) ≤ r·φ²/8@. For other arcs it is the box of the full circle.
 box :: Segment -> BoundingBox
 box segment = case coordinates segment of
   LineAt ax ay bx by -> BoundingBox (min ax bx) (min ay by) (max ax bx) (max ay by)
@@ -158,9 +162,9 @@ box segment = case coordinates segment of
         (BoundingBox (min ax bx) (min ay by) (max ax bx) (max ay by))
     | otherwise -> BoundingBox (cx - r) (cy - r) (cx + r) (cy + r)
 
--- | Foot of a point on the line through two points, as a fraction of the distance from the first to
--- the second; 0 if both coincide. The arguments are x and y of the two points, then of the point
--- whose foot is wanted.
+-- | Foot of the point (@px@, @py@) on the line from the point (@ax@, @ay@) to the point
+-- (@bx@, @by@). The result is a fraction of the distance between these two: 0 at the first, 1 at
+-- the second. It is 0 if they coincide.
 shareOf :: Double -> Double -> Double -> Double -> Double -> Double -> Double
 shareOf ax ay bx by px py =
   let ux =
@@ -170,8 +174,8 @@ shareOf ax ay bx by px py =
    in if uu > 0 then (ux * (px - ax) + uy * (py - ay)) / uu else 0
 {-# INLINE shareOf #-}
 
--- | Foot of a point, given by x and y, on a segment, as a fraction of the segment's length. For a
--- line it is negative before the start and above 1 after the end; for an arc of sweep φ it lies in
+-- | Foot of the point (@x@, @y@) on a segment, as a fraction of the segment's length. For a line it
+-- is negative before the start and above 1 after the end; for an arc of sweep φ it lies in
 -- [0, 2π/|φ|).
 foot :: Segment -> Double -> Double -> Double
 foot e !x !y = case coordinates e of
@@ -182,8 +186,8 @@ foot e !x !y = case coordinates e of
         turned = atan2 (vx * (y - cy) - vy * (x - cx)) (vx * (x - cx) + vy * (y - cy)) / s
      in if turned < 0 then turned + 2 * pi / abs s else turned
 
--- | Fraction of a segment's length, from 0 to 1, at which the segment is nearest to a point, given
--- by x and y.
+-- | Position of the segment's point that is nearest to the point (@px@, @py@), as a fraction of the
+-- segment's length from 0 to 1.
 footOn :: Segment -> Double -> Double -> Double
 footOn e !px !py = case coordinates e of
   LineAt ax ay bx by -> max 0 (min 1 (shareOf ax ay bx by px py))
@@ -192,7 +196,7 @@ footOn e !px !py = case coordinates e of
     | hypotenuse (px - ax) (py - ay) <= hypotenuse (px - bx) (py - by) -> 0
     | otherwise -> 1
 
--- | Two parts of a segment, before and after the foot of a point, given by x and y. Nothing if the
+-- | The parts of a segment before and after the foot of the point (@x@, @y@) on it. Nothing if the
 -- foot does not lie between the ends.
 divided :: Double -> Double -> Segment -> Maybe (Segment, Segment)
 divided x y e
@@ -202,7 +206,7 @@ divided x y e
     m = foot e x y
     isAbout = isLine e || inSector e x y
 
--- | Part of a segment between two fractions of its length.
+-- | Part of a segment from the fraction @a@ of its length to the fraction @b@.
 between :: Segment -> Double -> Double -> Segment
 between e a b = case coordinates e of
   LineAt {} -> Straight p q

@@ -3,8 +3,12 @@
 
 -- | Distances of two segments and bounds of these, computed on unpacked coordinates.
 --
--- A predicate that is true "only if" something is certain allows for the rounding error 'unsure'.
--- "Geometry.Distance.Fast" adds the distance of a segment from several others.
+-- A predicate that is true "only if" something is certain allows for the rounding error 'unsure';
+-- where it is false, the caller compares exactly by "Geometry.Distance". "Geometry.Distance.Fast"
+-- adds the distance of a segment from several others.
+--
+-- A point is given by the numbers x and y in mm. The foot of a point on a segment is where the
+-- perpendicular from the point meets the segment's carrier.
 module Geometry.Distance.Fast.Estimate
   ( unsure,
     never,
@@ -42,11 +46,11 @@ import Geometry.Vec (Point (Point))
 unsure :: Double
 unsure = 1e-8
 
--- | Infinite distance: there is no point or no bound.
+-- | Infinite distance, in mm, where there is no point or no bound.
 never :: Double
 never = 1 / 0
 
--- | Distance, in mm, of a point, given by x and y, from a segment.
+-- | Distance, in mm, of the point (@px@, @py@) from a segment.
 distance :: Segment -> Double -> Double -> Double
 distance segment !px !py = case coordinates segment of
   LineAt ax ay bx by ->
@@ -66,9 +70,10 @@ distance segment !px !py = case coordinates segment of
     | inSector segment px py -> abs (hypotenuse (px - cx) (py - cy) - r)
     | otherwise -> min (hypotenuse (px - ax) (py - ay)) (hypotenuse (px - bx) (py - by))
 
--- | False only if a point, given by x and y, is further than @most@ from a segment whose length is
--- @long@. Only the distance from the segment's start is computed: no point of the segment is
--- further than @long@ from it.
+-- | False only if the point (@px@, @py@) is further than @most@ from a segment whose length is
+-- @long@; both are in mm. Where it is false, the caller skips the exact distance. Only the distance
+-- from the segment's start is computed: no point of the segment is further than @long@ from its
+-- start.
 mayLieWithin :: Double -> Double -> Segment -> Double -> Double -> Bool
 mayLieWithin most long segment !px !py = case coordinates segment of
   LineAt ax ay _ _ -> about (px - ax) (py - ay)
@@ -78,16 +83,16 @@ mayLieWithin most long segment !px !py = case coordinates segment of
     {-# INLINE about #-}
 {-# INLINE mayLieWithin #-}
 
--- | False only if the foot of a point, given by x and y, lies before the start of a segment or
--- after its end. Always true for an arc of more than half a turn.
+-- | False only if the foot of the point (@px@, @py@) lies before the start of a segment or after
+-- its end. Always true for an arc of more than half a turn.
 spansAbout :: Segment -> Double -> Double -> Bool
 spansAbout e !px !py = case coordinates e of
   LineAt ax ay bx by -> let t = shareOf ax ay bx by px py in t >= -1e-9 && t <= 1 + 1e-9
   ArcAt _ _ _ _ _ _ _ s -> abs s > pi || pastArc e px py <= unsure
 
--- | False only if every point of the first segment, whose length is @long@, is further than @most@
--- from the carrier of the second segment. Only the distance of the first segment's start is
--- computed.
+-- | False only if every point of the segment @e@, whose length is @long@, is further than @most@
+-- from the carrier of the segment @t@; both lengths are in mm. Where it is false, the caller skips
+-- the exact distance. Only the distance of the start of @e@ is computed.
 mayComeWithin :: Double -> Double -> Segment -> Segment -> Bool
 mayComeWithin most long e t = case coordinates t of
   LineAt px py qx qy ->
@@ -114,8 +119,8 @@ apart a b
       LineAt ax ay bx by -> min (distance other ax ay) (distance other bx by)
       ArcAt ax ay bx by _ _ _ _ -> min (distance other ax ay) (distance other bx by)
 
--- | True if two segments intersect. At a tangent contact, rounding may make it false; 'apart' then
--- finds the contact at an end or on a common normal.
+-- | True if two segments intersect. Where they touch in a tangent, rounding may make it false;
+-- 'apart' then finds the point of contact at an end or on a common normal.
 cross :: Segment -> Segment -> Bool
 cross a b = case (coordinates a, coordinates b) of
   (LineAt ax ay bx by, LineAt cx cy dx dy) ->
@@ -149,9 +154,9 @@ cross a b = case (coordinates a, coordinates b) of
            in inSector a x y && inSector b x y
      in e > 0 && abs along <= r && (meets 1 || meets (-1))
 
--- | Distance, in mm, of two segments along a normal of the first that passes through the centre of
--- the second, an arc; the smaller one if there are two such normals. 'never' if there is none or if
--- the second segment is a line.
+-- | Distance, in mm, of two segments along a normal of the segment @a@ that passes through the
+-- centre of the arc @b@; the smaller one if there are two such normals. Infinite if there is none
+-- or if @b@ is a line.
 normals :: Segment -> Segment -> Double
 normals a b = case (coordinates a, coordinates b) of
   (LineAt ax ay bx by, ArcAt _ _ _ _ cx cy _ _) ->
@@ -169,9 +174,9 @@ normals a b = case (coordinates a, coordinates b) of
      in if e > 0 then min (from 1) (from (-1)) else never
   _ -> never
 
--- | Lower bound of the distance, in mm, between two segments: the distance of the second segment
--- from the carrier of the first. It is exact if the nearest point of the second has its foot on the
--- first.
+-- | Lower bound of the distance, in mm, between two segments: the distance of the segment @e@ from
+-- the carrier of the segment @t@. It is exact if the point of @e@ nearest to that carrier has its
+-- foot on @t@.
 apartAtLeast :: Segment -> Segment -> Double
 apartAtLeast t e = case coordinates t of
   LineAt px py qx qy -> case across px py qx qy e of
@@ -185,9 +190,9 @@ apartAtLeast t e = case coordinates t of
       | high < r -> r - high
       | otherwise -> 0
 
--- | Upper bound, in mm, of the distance of any point of the first segment from the second segment.
--- It is exact if every point of the first has its foot on the second, and also if the nearest point
--- of the second is always the same end.
+-- | Upper bound, in mm, of the distance of any point of the segment @e@ from the segment @t@. It is
+-- exact if every point of @e@ has its foot on @t@. It is also exact if the same end of @t@ is
+-- nearest to all points of @e@.
 furthest :: Segment -> Segment -> Double
 furthest e t =
   min
@@ -200,8 +205,8 @@ furthest e t =
   where
     fromEnds ax ay bx by = min (fromPoint e ax ay) (fromPoint e bx by)
 
--- | True only if every point of the first segment lies within @most@ of the second segment. The
--- start of the first segment is tested before everything else, since it decides most cases.
+-- | True only if every point of the segment @e@ lies within @most@, in mm, of the segment @t@. The
+-- start of @e@ is tested before everything else, since it decides most cases.
 isWithin :: Double -> Segment -> Segment -> Bool
 isWithin most e t = atBegin && (beside e t <= most || fromEnds)
   where
@@ -212,7 +217,7 @@ isWithin most e t = atBegin && (beside e t <= most || fromEnds)
       LineAt ax ay _ _ -> distance t ax ay <= most
       ArcAt ax ay _ _ _ _ _ _ -> distance t ax ay <= most
 
--- | Greatest distance, in mm, of a segment's points from a point, given by x and y.
+-- | Greatest distance, in mm, of a segment's points from the point (@px@, @py@).
 fromPoint :: Segment -> Double -> Double -> Double
 fromPoint e px py = case coordinates e of
   LineAt ax ay bx by -> max (hypotenuse (ax - px) (ay - py)) (hypotenuse (bx - px) (by - py))
@@ -226,9 +231,9 @@ fromPoint e px py = case coordinates e of
               then ends
               else max ends r
 
--- | Upper bound, in mm, of the distance of any point of the first segment from the second. It is
--- 'never' unless every point of the first has its foot on the second, or lies past an end of the
--- second by at most 'overlap'.
+-- | Upper bound, in mm, of the distance of any point of the segment @e@ from the segment @t@. It is
+-- infinite unless every point of @e@ has its foot on @t@, or lies past an end of @t@ by at most
+-- 'overlap'.
 beside :: Segment -> Segment -> Double
 beside e t = case (e, t) of
   (Straight (Point ax ay) (Point bx by), Straight {}) -> max (distance t ax ay) (distance t bx by)
@@ -236,7 +241,7 @@ beside e t = case (e, t) of
   (Arc {}, Straight {}) -> arcBesideLine e t
   (Arc {}, Arc {}) -> arcBesideArc e t
 
--- | 'beside' of a line and an arc.
+-- | 'beside' for a line @e@ and an arc @t@.
 lineBesideArc :: Segment -> Segment -> Double
 lineBesideArc e t = case (coordinates e, coordinates t) of
   (LineAt ax ay bx by, ArcAt _ _ _ _ cx cy r s)
@@ -252,7 +257,7 @@ lineBesideArc e t = case (coordinates e, coordinates t) of
        in aside high (max (pastArc t ax ay) (pastArc t bx by)) near r
   _ -> never
 
--- | 'beside' of an arc and a line.
+-- | 'beside' for an arc @e@ and a line @t@.
 arcBesideLine :: Segment -> Segment -> Double
 arcBesideLine e t = case (coordinates e, coordinates t) of
   (ArcAt ax ay bx by cx cy r _, LineAt px py qx qy) ->
@@ -278,15 +283,15 @@ arcBesideLine e t = case (coordinates e, coordinates t) of
      in if l > 0 then aside high furthestEnd l 0 else never
   _ -> never
 
--- | 'beside' of two arcs.
+-- | 'beside' for two arcs.
 arcBesideArc :: Segment -> Segment -> Double
 arcBesideArc e t = case (coordinates e, coordinates t) of
   (ArcAt ax ay bx by cx cy r _, ArcAt px py qx qy dx dy q z)
     | q > 0 && (abs z <= pi || isWhole z) ->
       let off = hypotenuse (cx - dx) (cy - dy)
           away x y = hypotenuse (x - dx) (y - dy)
-          -- The first arc's distance from the centre of the second is extreme at the ends of the
-          -- first arc and on the line of both centres.
+          -- The distance from the centre of the arc @t@ to points of the arc @e@ is extreme at the
+          -- ends of @e@ and on the line through both centres.
           onLine sense =
             let f = sense * r / off
              in off > 0 && inSector e (cx + f * (cx - dx)) (cy + f * (cy - dy))
@@ -302,9 +307,9 @@ arcBesideArc e t = case (coordinates e, coordinates t) of
           farPoint = if hasFarPoint then off + r else never
           nearPoint = if hasNearPoint then abs (off - r) else never
           near = min (min (away ax ay) (away bx by)) (min farPoint nearPoint)
-          -- The point of the first arc that is furthest past an end of the second arc is an end of
-          -- the first. Otherwise, the line from the first centre to it is square to the line from
-          -- the second centre to that end.
+          -- The point of the arc @e@ that is furthest past an end of the arc @t@ may be an end of
+          -- @e@. Otherwise, the line from the centre of @e@ to it is square to the line from the
+          -- centre of @t@ to that end of @t@.
           squarePast x y sense =
             let f = sense * r / q
                 u = cx - f * (y - dy)
@@ -323,9 +328,10 @@ arcBesideArc e t = case (coordinates e, coordinates t) of
        in aside high past near q
   _ -> never
 
--- | Upper bound, in mm, of the distance of some points from a segment. The arguments are the
--- largest distance of the points from the segment's carrier, their largest distance past an end,
--- their least distance from the centre of an arc, and its radius. For a line the radius is 0.
+-- | Upper bound, in mm, of the distance of some points from a segment. It follows from four lengths
+-- in mm. @high@ is the largest distance of the points from the segment's carrier. @past@ is their
+-- largest distance past an end. For an arc, @near@ is their least distance from its centre and @r@
+-- its radius; for a line, @r@ is 0. The bound is infinite if @past@ is too large.
 --
 -- Let a point have the distance ρ from the centre of an arc with the radius r, and lie past its end
 -- by the angle φ. The square of its distance from the end is @(ρ − r)² + 4·ρ·r·sin²(φ/2)@. If
@@ -343,10 +349,10 @@ aside high past near r
 overlap :: Double
 overlap = 0.1
 
--- | Distance, in mm, of a point, given by x and y, past the nearer end of an arc: its distance from
--- the ray from the centre through that end. It is 0 inside the sector. On the side of the centre
--- opposite to an arc of at most a quarter turn it is 'never'. The arc sweeps at most half a turn,
--- or is a full circle.
+-- | Distance, in mm, of the point (@px@, @py@) past the nearer end of an arc: its distance from the
+-- ray from the centre through that end. It is 0 in the sector between the rays through both ends.
+-- It is infinite on the side of the centre opposite to an arc of at most a quarter turn. The arc
+-- sweeps at most half a turn, or is a full circle.
 pastArc :: Segment -> Double -> Double -> Double
 pastArc t !px !py = case coordinates t of
   LineAt {} -> never
@@ -357,24 +363,24 @@ pastArc t !px !py = case coordinates t of
         then never
         else max 0 (max (negate pastStart) (negate beforeEnd) / r)
 
--- | True only if every point of the first segment lies to the left of the carrier of the second
--- segment. The left of a counter-clockwise arc is the inside of its circle.
+-- | True only if every point of the segment @t@ lies to the left of the carrier of the segment @e@.
+-- The left of a counter-clockwise arc is the inside of its circle.
 isLeftOf :: Segment -> Segment -> Bool
 isLeftOf t e = case coordinates e of
   LineAt ax ay bx by -> case across ax ay bx by t of DistanceRange low _ -> low > unsure
   ArcAt _ _ _ _ cx cy r s ->
     if s > 0 then isInside cx cy (r - unsure) t else isOutside cx cy (r + unsure) t
 
--- | True only if every point of the first segment lies to the right of the carrier of the second
--- segment.
+-- | True only if every point of the segment @t@ lies to the right of the carrier of the segment
+-- @e@. The right of a counter-clockwise arc is the outside of its circle.
 isRightOf :: Segment -> Segment -> Bool
 isRightOf t e = case coordinates e of
   LineAt ax ay bx by -> case across ax ay bx by t of DistanceRange _ high -> high < -unsure
   ArcAt _ _ _ _ cx cy r s ->
     if s > 0 then isOutside cx cy (r + unsure) t else isInside cx cy (r - unsure) t
 
--- | True if all points of a segment lie inside a circle, or outside of it. The circle is given by x
--- and y of its centre and by its radius.
+-- | True if all points of the segment @t@ lie inside a circle, or outside of it. The circle has the
+-- centre (@cx@, @cy@) and the radius @r@, in mm.
 isInside, isOutside :: Double -> Double -> Double -> Segment -> Bool
 isInside cx cy r t = case spanFrom cx cy t of DistanceRange _ high -> high < r
 isOutside cx cy r t = case spanFrom cx cy t of DistanceRange low _ -> low > r
@@ -382,7 +388,7 @@ isOutside cx cy r t = case spanFrom cx cy t of DistanceRange low _ -> low > r
 -- | Least and greatest value of a distance in mm.
 data DistanceRange = DistanceRange Double Double
 
--- | Least and greatest distance of a segment from a point, given by x and y.
+-- | Least and greatest distance of the segment @e@ from the point (@px@, @py@).
 spanFrom :: Double -> Double -> Segment -> DistanceRange
 spanFrom !px !py e = case coordinates e of
   LineAt ax ay bx by ->
@@ -403,9 +409,9 @@ spanFrom !px !py e = case coordinates e of
               (if onLine (r / off) then off + r else max a b)
           else DistanceRange r r
 
--- | Least and greatest signed distance of a segment from the line through two points, positive to
--- its left; both 0 if the points coincide. The arguments are x and y of the two points, and the
--- segment.
+-- | Least and greatest signed distance of the segment @e@ from the line through two points,
+-- positive to the left of the line. Both are 0 if the points coincide. The line leads from the
+-- point (@px@, @py@) to the point (@qx@, @qy@).
 across :: Double -> Double -> Double -> Double -> Segment -> DistanceRange
 across px py qx qy e
   | l <= 0 = DistanceRange 0 0
