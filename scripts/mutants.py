@@ -81,13 +81,15 @@ def extent(source, definition):
     return blocks[0][0], blocks[-1][1]
 
 
-def place(source, fields, old):
-    """The offsets of the expression in the source."""
+def place(source, fields, old, new):
+    """The offsets of what changes in the source, and the new text for it. Tokens that both expressions have
+    at their beginning or at their end stay as they are in the source, with their line breaks. All lines of
+    the new text get the indentation of the expression's first line."""
     if "file" in fields:
         at = source.find(old)
         if at < 0 or source.find(old, at + 1) >= 0:
             raise Unfit("its text does not occur exactly once")
-        return at, at + len(old)
+        return at, at + len(old), new
     begin, end = extent(source, fields["definition"])
     wanted = [token for token, _, _ in tokens(old)]
     found = tokens(source[begin:end])
@@ -95,17 +97,33 @@ def place(source, fields, old):
     hits = [i for i in range(len(names) - len(wanted) + 1) if names[i : i + len(wanted)] == wanted]
     if len(hits) != 1:
         raise Unfit("its expression occurs %d times in %s" % (len(hits), fields["definition"]))
-    first = hits[0]
-    return begin + found[first][1], begin + found[first + len(wanted) - 1][2]
+    put = tokens(new)
+    head = shared(wanted, [token for token, _, _ in put])
+    tail = shared(wanted[head:][::-1], [token for token, _, _ in put[head:]][::-1])
+    changed = found[hits[0] + head : hits[0] + len(wanted) - tail]
+    put = put[head : len(put) - tail]
+    text = new[put[0][1] : put[-1][2]] if put else ""
+    first = begin + found[hits[0]][1]
+    column = first - (source.rfind("\n", 0, first) + 1)
+    text = text.replace("\n", "\n" + " " * column)
+    if changed:
+        return begin + changed[0][1], begin + changed[-1][2], text
+    at = begin + found[hits[0] + head - 1][2] if head else begin + found[hits[0]][1]
+    return at, at, " " + text + " "
+
+
+def shared(some, others):
+    """How many elements two lists share from their beginning."""
+    count = 0
+    while count < min(len(some), len(others)) and some[count] == others[count]:
+        count += 1
+    return count
 
 
 def mutated(source, fields, old, new):
-    """The source with the bug. All lines of the new expression get the indentation of its first line."""
-    begin, end = place(source, fields, old)
-    if "module" in fields:
-        column = begin - (source.rfind("\n", 0, begin) + 1)
-        new = new.replace("\n", "\n" + " " * column)
-    return source[:begin] + new + source[end:]
+    """The source with the bug."""
+    begin, end, text = place(source, fields, old, new)
+    return source[:begin] + text + source[end:]
 
 
 def apply(name, root):
