@@ -64,7 +64,7 @@ data ListFault
     FewDifferent Int Int
   | -- | a row with the same point as the row before it: the number of the row
     SamePoint Int
-  | -- | parabolas through an even number of points, though each needs two more: the number of
+  | -- | parabolas through an even number of points, although an odd number is needed: the number of
     -- points
     EvenPoints Int
   | -- | a row at which x stops rising, or stops falling: the number of the row

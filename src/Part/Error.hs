@@ -74,8 +74,7 @@ data ValueFact
   | -- | a statement for which the tool in the spindle has the wrong kind: the statement, and that
     -- kind
     WrongCutter Region CutterStatement CutterKind
-  | -- | passes at several heights with a cutter that is widest at its tip, which would cut above
-    -- them
+  | -- | passes at several heights with a cutter that is widest at its tip
     StepsUndercut Region
   | InConstruction ConstructionFault
   | InContour ContourFault
