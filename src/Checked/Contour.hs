@@ -1,5 +1,8 @@
 -- | Checks the items of a contour: elements with modifiers and links, repetitions, and choices. A
 -- modifier is a property of one element, such as a feed or an allowance.
+--
+-- The functions yield 'Deferred' terms, which are complete only when type inference has found all
+-- dimensions of the program.
 module Checked.Contour
   ( item,
   )

@@ -57,7 +57,7 @@ data TypingEnvironment = TypingEnvironment
     isFast :: Bool
   }
 
--- | The type of a term, and the term.
+-- | The type of a term, and the checked term.
 type Typed = (Type, Deferred Checked.Expr)
 
 -- Wanted types

@@ -108,8 +108,8 @@ definedName s = case s of
 
 -- Statements
 
--- | Checks a statement. 'Nothing' if it contains a mistake, or if it is no part of the checked
--- program.
+-- | Checks a statement. 'Nothing' if it contains a mistake, or if the checked program has no such
+-- statement.
 statement :: TypingEnvironment -> Statement -> Infer (Maybe (Deferred Checked.Statement))
 statement env (Located at s) = case s of
   Surface.Part n _ -> Nothing <$ mentionDefinition n (Inference.Described "the name of the part")

@@ -1,4 +1,5 @@
--- | Checks tables, and the ciphers and joggles of pieces.
+-- | Checks tables, and the ciphers and joggles of pieces. The functions yield 'Deferred' terms,
+-- which are complete only when type inference has found all dimensions of the program.
 --
 -- The cells of a table may be numbers without units. Their dimension follows from the heading of
 -- their column, or from the use of the column anywhere in the program. A heading is the name of a

@@ -1,5 +1,8 @@
 -- | Checks the settings in the block of a machining statement, and the stops of moves without
 -- cutting. A stop is the point at which such a move ends.
+--
+-- The functions yield 'Deferred' terms, which are complete only when type inference has found all
+-- dimensions of the program.
 module Checked.Settings
   ( check,
     stop,

@@ -70,7 +70,7 @@ contour env name closure items = do
       Checked.Open -> Open
       Checked.Closed -> Closed
 
--- | An element in the form in which the part keeps what the program wrote: without ends and bevels.
+-- | Keeps of an element what the program wrote, and drops its ends and bevels.
 asWritten :: LinkSolver.LinkedElement -> ContourElement
 asWritten w =
   ContourElement
@@ -139,7 +139,7 @@ linkedElements at sense v finish link = case (v, sense) of
     Open -> pure (elementsOfContour at finish link (NonEmpty.toList (elements c)))
   _ -> bug "a value that is no element where one was checked"
   where
-    -- Forced here, so that no thunk retains the value.
+    -- Evaluated here: a thunk in the element would keep the value @v@ in memory.
     one carrier ownStart ownEnd =
       let w =
             LinkSolver.LinkedElement

@@ -39,7 +39,7 @@ data ContourFault
     NoEnd Region ElementCarrier
   | -- | a link after the last element of an open contour: the region of the contour's first element
     LinkAtEnd Region Region
-  | -- | a closed contour as an element of another
+  | -- | a closed contour as an element of another contour: the name of the closed contour
     ClosedElement Region Name
   | -- | a closed curve as the element of an open contour
     ClosedCurve Region
@@ -321,7 +321,8 @@ meetingPoints points =
 mostPoints :: Int
 mostPoints = 6
 
--- | The hint that names the senses of the circles for which there is a common tangent.
+-- | The hint that names the pairs of senses with which the circles have a common tangent. If
+-- @senses@ is empty, they have none.
 tangentHint :: [(Sense, Sense)] -> Text
 tangentHint senses = case senses of
   [] ->

@@ -56,8 +56,8 @@ apply region builtin arguments =
 
 -- Tables and new curves
 
--- | Computes a function that makes a new curve, from points or from another curve. 'Nothing' for
--- any other function.
+-- | Computes a function that makes a new curve from points, from segments or from another curve.
+-- 'Nothing' for any other function.
 newCurve :: Region -> Builtin -> [Argument] -> Maybe (Eval Value)
 newCurve region builtin arguments = case (builtin, arguments) of
   (MakeSpline, [t]) -> Just (curveThrough t (Exact.spline Exact.Natural))

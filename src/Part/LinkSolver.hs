@@ -376,8 +376,8 @@ firstDifference as bs js = case (as, bs, js) of
     | otherwise -> Just (j, a, b)
   _ -> Nothing
 
--- | The fault that two joints of the link @j@ make equally long contours. 'Nothing' if the joints
--- are not fillets or other inserted segments.
+-- | The fault that two joints of the link @j@ make equally long contours. 'Nothing' if they insert
+-- no segments.
 tie :: Neighbours -> [Joint] -> Maybe ContourFault
 tie j choice = case mapMaybe inserted choice of
   segments@(_ : _ : _) ->

@@ -36,7 +36,7 @@ data LimitedQuantity
   | BladeDiameter
   | WheelDiameter
   | FlankHeight
-  | -- | the radius of a cone where its flank touches the part
+  | -- | the radius of a conical cutter at the height at which its flank touches the part
     RadiusAtHeight
   | NoseRadius
   | Lead
@@ -51,7 +51,7 @@ data LimitedQuantity
     JoggleMeasure
   deriving stock (Eq, Show)
 
--- | The name of a quantity in a report.
+-- | The name that reports use for a quantity.
 name :: LimitedQuantity -> Text
 name parameter = case parameter of
   Feed -> "the feed"
@@ -93,11 +93,11 @@ data WholeNumber
   | AuxiliaryCommand
   | PassCount
   | PeckCount
-  | -- | how many points one row of a pattern has
+  | -- | the number of points in one row of a pattern
     RowPointCount
-  | -- | how many rows a pattern has
+  | -- | the number of rows of a pattern
     RowCount
-  | -- | how many points a pattern on a circle has
+  | -- | the number of points of a pattern on a circle
     PointCount
   | -- | the number of an item of a list, from 1
     ItemNumber
@@ -107,7 +107,7 @@ data WholeNumber
     ListPointNumber
   deriving stock (Eq, Show)
 
--- | The name of a whole number in a report.
+-- | The name that reports use for a whole number.
 wholeName :: WholeNumber -> Text
 wholeName number = case number of
   ToolNumber -> "the number of a tool"
@@ -126,7 +126,7 @@ wholeName number = case number of
 data Range = UpTo Int | FromTo Int Int
   deriving stock (Eq, Show)
 
--- | A range in words.
+-- | The words for a range in reports.
 rangeText :: Range -> Text
 rangeText range = case range of
   UpTo high -> "up to " <> Decimal.whole high
@@ -138,7 +138,7 @@ data Domain
     TangentAtPole Rad
   | ArcSineOf Double
   | ArcCosineOf Double
-  | -- | @atan2(0, 0)@
+  | -- | @atan2(0, 0)@, which is no angle
     ArcTangentOfZeros
   | RootOf Double
   deriving stock (Eq, Show)

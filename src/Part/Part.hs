@@ -124,7 +124,7 @@ data Element = Element
   }
   deriving stock (Eq, Show)
 
--- | The modifiers of one element.
+-- | The effect of the modifiers of one element: feed, slow-down and allowance.
 data Finish = Finish
   { -- | the feed along the element; without it, the feed of the machining statement applies
     ownFeed :: Maybe (Located Feed),

@@ -31,7 +31,7 @@ import Part.Value (Argument (..), Value (..), fromOrigin)
 -- | The answers to a construction, and the functions that choose among them.
 data Answers a = Answers
   { sought :: Sought,
-    -- | makes an answer showable in a report
+    -- | the form of an answer in a report
     candidate :: a -> Candidate,
     -- | the point of an answer, by which distances and sides are measured
     keyPoint :: a -> Point,

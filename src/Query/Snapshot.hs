@@ -52,7 +52,7 @@ data Snapshot = Snapshot
     imports :: [(Region, Text)]
   }
 
--- | Takes a snapshot of a program.
+-- | Checks a program, and keeps its results as a snapshot.
 take :: Check -> LoadedProgram -> Snapshot
 take check loaded =
   Snapshot

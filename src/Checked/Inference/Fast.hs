@@ -123,8 +123,8 @@ onForm expect build form es = case zipWithM literalArgument types es of
       Just x' -> Just $! Checked.Given x'
       Nothing -> Nothing
 
--- | What the syntax of a term shows of its type. A quantity has its dimension if the literal has a
--- unit, and 'Nothing' if not. A pair is a point or a vector.
+-- | The facts about the type of a term that its syntax shows. A quantity has its dimension if the
+-- literal has a unit, and 'Nothing' if not. A pair is a point or a vector.
 data Shape = Quantity (Maybe Dimension) | Pair
 
 shapeOf :: Surface.Expr -> Maybe Shape

@@ -70,10 +70,12 @@ reportMisfit call types = case mapMaybe (oneMisfit call types) (formsByLabels ca
           length (Builtin.parameters f) == length (labels call)
       ]
 
--- | The only argument that does not fit a form. 'Nothing' if several do not fit, or unless its type
--- and the parameter's type are both quantities or both spatial. The result is the region of the
--- argument, the type of the parameter, the argument's type before it is resolved, and its resolved
--- type.
+-- | The only argument that does not fit a form. It is given only if its type and the type of the
+-- parameter are both quantities or both spatial. Otherwise, or if several arguments do not fit, the
+-- result is 'Nothing'.
+--
+-- The result contains the region of the argument, the type of the parameter, the type of the
+-- argument before it is resolved, and its resolved type.
 oneMisfit :: OverloadedCall -> [Type] -> Form -> Maybe (Region, Type, Type, Type)
 oneMisfit call types form =
   case [ (region, wanted, written, found)
