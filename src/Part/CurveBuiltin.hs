@@ -56,7 +56,7 @@ apply region builtin arguments =
 
 -- Tables and new curves
 
--- | Computes a function that makes a new curve from points, from segments or from another curve.
+-- | Computes a function that makes a new curve from points or from another curve.
 -- 'Nothing' for any other function.
 newCurve :: Region -> Builtin -> [Argument] -> Maybe (Eval Value)
 newCurve region builtin arguments = case (builtin, arguments) of
