@@ -53,18 +53,18 @@ import Verify.FromTape qualified as Verify
 import Verify.Proof (Proof)
 import Verify.Proof qualified as Proof
 
--- | Compiles a program to one tape for each machine of the job. With an error there is no tape.
+-- | Compiles a program to one tape for each machine of the job. If the program has an error, no
+-- tape is made.
 compile :: Job -> LoadedProgram -> Result Report Report [Compiled]
 compile Job {values, machinesFor, verification} loaded =
   forced analysed `thenSound` uncurry (makeTapes verification)
   where
     analysed =
       analyse values loaded `thenSound` \Analysis {part, path} -> (path,) <$> machinesFor part path
-    -- Evaluates all reports: unevaluated ones would keep the program in memory while the tapes are
-    -- made.
+    -- Evaluates all reports: unevaluated ones would keep the program in memory during 'makeTapes'.
     forced result = length (errors result) `seq` length (warnings result) `seq` result
 
--- | Surface → Checked → Part, with values for the program's parameters, by their names.
+-- | Surface → Checked → Part. @values@ are the names and the values of the program's parameters.
 evaluate :: [(Text, Text)] -> LoadedProgram -> Result Report Report (Checked.Program, Part)
 evaluate values loaded = do
   written <- surface loaded
@@ -72,36 +72,38 @@ evaluate values loaded = do
   checked <- mapErrors id Checked.toReport (Checked.check assigned)
   (checked,) <$> mapErrors id Part.toReport (Part.evaluate checked)
 
--- | The results that do not depend on a machine: all mentions of names, the part, the toolpath.
+-- | The results that do not depend on a machine: the mentions of names, the part, and the toolpath.
 data Analysis = Analysis {mentions :: [Checked.Mention], part :: Part, path :: Toolpath}
 
--- | Surface → Checked → Part → Toolpath, with values for the program's parameters.
+-- | Surface → Checked → Part → Toolpath. @values@ are the names and the values of the program's
+-- parameters.
 analyse :: [(Text, Text)] -> LoadedProgram -> Result Report Report Analysis
 analyse values loaded = do
   (checked, part) <- evaluate values loaded
-  -- Evaluated now, so that the checked program is not kept while the toolpath is computed.
+  -- Evaluated now, so that the checked program is freed before the toolpath is computed.
   mentions <- pure $! Checked.mentions checked
   path <- mapErrors Toolpath.warningReport Toolpath.toReport (Toolpath.toToolpath part)
   pure Analysis {mentions, part, path}
 
--- | Reports the errors and warnings of all stages up to the frames, for every machine of the job.
--- Makes no tape.
+-- | Runs all compiler passes up to the frames, for every machine of the job, and gives their errors
+-- and warnings. Makes no tape.
 check :: Job -> LoadedProgram -> Result Report Report Analysis
 check Job {values, machinesFor} loaded =
   analyse values loaded `thenSound` \analysis@Analysis {part, path} ->
     analysis <$ (machinesFor part path >>= traverse (`punch` path))
 
--- | Makes one tape after the other. The toolpath is freed before the last tape is verified.
+-- | Makes the tapes one after the other. The toolpath is freed before the last tape is verified.
 makeTapes :: Verification -> Toolpath -> [Machine] -> Result Report Report [Compiled]
 makeTapes verification path machines = case machines of
   [] -> pure []
   [machine] -> (: []) <$> makeTape verification path machine
   machine : more -> (:) <$> makeTape verification path machine <*> makeTapes verification path more
 
--- | A tape for one machine, and its proof if the job asks for verification.
+-- | A tape for one machine. Its proof is present if the job asks for verification.
 data Compiled = Compiled
   { machine :: Machine,
-    -- | the toolpath, with each cut reduced to its first and last move: enough for 'prove'
+    -- | the toolpath, in which each cut is reduced to its first and last move; 'prove' needs no
+    -- more
     toolpath :: Toolpath,
     punched :: Punched,
     proof :: Maybe Proof
@@ -125,10 +127,10 @@ makeTape verification path machine =
   where
     toolpath = withoutCuts path
 
--- | The frames of a toolpath on one machine, and the tape that holds them.
+-- | The frames of a toolpath for one machine, and the tape that contains these frames.
 data Punched = Punched {program :: Frame.FrameProgram, tape :: Tape}
 
--- | Toolpath → Frame → Tape. The tape is lazy: it is written only when it is used.
+-- | Toolpath → Frame → Tape. The tape is lazy, so no row of it is made before it is needed.
 punch :: Machine -> Toolpath -> Result Report Report Punched
 punch machine path = do
   program <-
@@ -137,8 +139,8 @@ punch machine path = do
   pure Punched {program, tape = Tape.write machine (Frame.start program) frames}
 
 -- | Frame → Control → Verify: runs the frames of a tape on the virtual controller and compares the
--- motions with the part. The errors are the findings; the tape is proven if there are none. The
--- cuts of the toolpath may be reduced by 'withoutCuts'.
+-- motions with the part. The errors of the result are the findings. If there are none, the tape is
+-- proven. The cuts of @toolpath@ may be reduced by 'withoutCuts'.
 prove :: Machine -> Toolpath -> Frame.FrameProgram -> [Frame.Frame] -> Result Report Report Proof
 prove machine toolpath program frames = failing (Proof.toReports machine proof) proof
   where

@@ -1,7 +1,7 @@
 -- | The built-in functions and constants of the language, with their types.
 --
--- A function may have several forms. A call chooses one by the number of its arguments, by their
--- labels, and by their types.
+-- A function may have several forms. A form is one list of parameters with the type of the result.
+-- A call chooses a form by the number, the labels and the types of its arguments.
 module Checked.Builtin
   ( Form (..),
     Parameter (..),
@@ -36,32 +36,33 @@ import Data.Text qualified as Text
 import Surface.Keyword qualified as Keyword
 import Prelude hiding (lookup)
 
--- | The parameters of a call and the type of its result.
+-- | A form: the parameters of a call, and the type of its result.
 data Form = Form {parameters :: [Parameter], result :: Type}
 
--- | A parameter: its label, its name for reports, and its type. A parameter with the label 'Rank'
--- has neither name nor type.
+-- | A parameter of a form: its label, its name for reports, and its type. A parameter with the
+-- label 'Rank' has no value, so its name and type are meaningless.
 data Parameter = Parameter {label :: ArgumentLabel, title :: Text, type' :: Type}
 
--- | The label of an argument: none, a word such as @near@, or a rank, @first@ or @last@.
+-- | The label before an argument: none, or a word such as @near@. A rank (@first@ or @last@) is a
+-- label without a value.
 data ArgumentLabel = NoLabel | Word Selector | Rank
   deriving stock (Eq, Ord, Show)
 
--- | The unknowns in the types of one call of a function: a dimension and a type.
+-- | The unknowns that occur in the types of a call: one dimension and one type.
 data Fresh = Fresh {dimension :: Dimension, anything :: Type}
 
--- | Looks a built-in function or constant up by its name.
+-- | Finds a built-in function or constant by its name in programs.
 lookup :: Text -> Maybe Builtin
 lookup word = Map.lookup word table
 
--- | All names of the language's functions and constants.
+-- | The names of all built-in functions and constants.
 names :: [Text]
 names = Map.keys table
 
 table :: Map Text Builtin
 table = Map.fromList [(name b, b) | b <- [minBound .. maxBound]]
 
--- | The name of a built-in function or constant in programs.
+-- | The name of a built-in function or constant, as programs write it.
 name :: Builtin -> Text
 name builtin = case builtin of
   Pi -> "pi"
@@ -128,12 +129,12 @@ name builtin = case builtin of
   Max -> "max"
   Floor -> "floor"
 
--- | Tells if a built-in name is a constant, which takes no arguments.
+-- | Is a built-in name a constant, that is, without arguments?
 isConstant :: Builtin -> Bool
 isConstant builtin = builtin `elem` [Pi, Truth, Falsehood]
 
--- | The forms of a function. If several forms fit a call at the end of its statement, the first of
--- them is chosen.
+-- | The forms of a function, with the given unknowns in their types. If several forms fit a call at
+-- the end of its statement, the first of them is chosen.
 forms :: Fresh -> Builtin -> [Form]
 forms Fresh {dimension = d, anything} builtin = case builtin of
   Pi -> [Form [] Type.number]
@@ -277,7 +278,7 @@ forms Fresh {dimension = d, anything} builtin = case builtin of
     curve = given "curve" (Curve anything)
     table' = given "table" (Table anything)
     tolerance = Parameter (Word WithinTolerance) "tolerance" Type.len
-    -- A curve through the rows of a table, or through points without further columns.
+    -- A curve through the rows of a table, or through points, which have no further columns.
     curveThrough more =
       [ Form (table' : more) (Curve anything),
         Form (given "points" points : more) (Curve (Fields []))
@@ -285,17 +286,17 @@ forms Fresh {dimension = d, anything} builtin = case builtin of
     points = ListOf Type.aPoint
     word t = Text.unwords (drop 1 (Text.words (Type.describe t)))
     sided title t = [Parameter (Word side) title t | side <- [ToLeft, ToRight]]
-    -- The labels that choose one of several answers.
+    -- The labelled arguments that choose one of several answers.
     chosen =
       [Parameter (Word Near) "point" Type.aPoint]
         <> sided "line" Line
         <> [Parameter (Word side) "circle" Circle | side <- [ToInside, ToOutside]]
-    -- Elements that a circle of a given radius can touch or pass through.
+    -- The figures that a circle of a given radius can touch or pass through.
     touched =
       [point, line, circle]
         <> sided "line" Line
         <> [Parameter (Word side) "circle" Circle | side <- [ToInside, ToOutside]]
-    -- A transformed value; without a value, the transformation itself.
+    -- Without a value to transform, the result is the transformation itself.
     transforming extra =
       concat
         [ Form more Transformation :
@@ -316,7 +317,7 @@ forms Fresh {dimension = d, anything} builtin = case builtin of
           | more <- extra
         ]
 
--- | The forms of a function whose parameters have the given labels, in order.
+-- | The forms of a function whose parameters have exactly the given labels, in this order.
 labelled :: Fresh -> Builtin -> [ArgumentLabel] -> [Form]
 labelled Fresh {dimension, anything} builtin labels =
   map made (maybe [] (Map.findWithDefault [] labels) (Lazy.lookup builtin byLabels))
@@ -331,7 +332,8 @@ labelled Fresh {dimension, anything} builtin labels =
         (Dimension.substitute anyUnknown dimension)
         (\n -> if n == anyUnknown then anything else Variable n)
 
--- | All forms by their labels, with 'anyUnknown' for the unknowns of a call.
+-- | All forms of each function by their labels. 'anyUnknown' represents the unknowns in their
+-- types.
 byLabels :: Lazy.Map Builtin (Map [ArgumentLabel] [Form])
 byLabels =
   Lazy.fromList
@@ -347,7 +349,7 @@ unknownTemplate :: Fresh
 unknownTemplate =
   Fresh {dimension = Dimension.atom (Dimension.Unknown anyUnknown), anything = Variable anyUnknown}
 
--- | The forms of a function with @count@ parameters, all without labels. The flag of a form tells
+-- | The forms of a function that have @count@ parameters without labels. The flag of a form is true
 -- if its types contain no unknowns.
 unlabelled :: Builtin -> Int -> [(Form, Bool)]
 unlabelled builtin count = maybe [] (Map.findWithDefault [] count) (Lazy.lookup builtin byCount)
@@ -369,15 +371,15 @@ byCount =
         (\t -> null (Type.dimensions t) && null (Type.variables t))
         (result f : map type' (parameters f))
 
--- | Tells if a function has several forms.
+-- | Has a function several forms?
 isOverloaded :: Builtin -> Bool
 isOverloaded builtin = not (null (drop 1 (forms unknownTemplate builtin)))
 
--- | A number that no unknown of type inference has: theirs are not negative.
+-- | A number that represents any unknown. Unknowns of type inference have numbers from 0.
 anyUnknown :: Int
 anyUnknown = -1
 
--- | A form written as a call.
+-- | A form as a call with the names of its parameters, for reports.
 formText :: Builtin -> Form -> Text
 formText builtin form = callText (name builtin) (map parameter (parameters form))
   where
@@ -386,16 +388,16 @@ formText builtin form = callText (name builtin) (map parameter (parameters form)
       Rank -> "first or last"
       Word choice -> Keyword.selectorWord choice <> " " <> title p
 
--- | Describes a function by its first forms, for editors.
+-- | The description of a function by its first four forms, for editors.
 description :: Builtin -> Text
 description builtin = "of the language: " <> Text.intercalate "; " (take 4 (formTexts builtin))
 
--- | The forms of a function written as calls, each once.
+-- | All forms of a function as calls with the names of their parameters, without repetitions.
 formTexts :: Builtin -> [Text]
 formTexts builtin =
   nubOrd
     (map (formText builtin) (forms Fresh {dimension = Dimension.none, anything = Wrong} builtin))
 
--- | A call of a function with the names of its parameters.
+-- | A call of @function@ with the arguments @titles@, as text.
 callText :: Text -> [Text] -> Text
 callText function titles = function <> "(" <> Text.intercalate ", " titles <> ")"

@@ -1,4 +1,8 @@
--- | The checking of the items of a contour: elements, modifiers, links, repetitions and choices.
+-- | Checks the items of a contour: elements with modifiers and links, repetitions, and choices. A
+-- modifier is a property of one element, such as a feed or an allowance.
+--
+-- The functions yield 'Deferred' terms, which are complete only when type inference has found all
+-- dimensions of the program.
 module Checked.Contour
   ( item,
   )
@@ -19,7 +23,7 @@ import Data.Maybe (isNothing)
 import Data.Text (Text)
 import Surface.Syntax qualified as Surface
 
--- | Checks an item in the braces of a contour.
+-- | Checks one item in the braces of a contour.
 item :: TypingEnvironment -> Surface.Item -> Infer (Deferred Checked.Item)
 item env (Located at i) = case i of
   Surface.BrokenItem name -> do
@@ -50,8 +54,8 @@ item env (Located at i) = case i of
             (mapStrict ($ sol) link')
     pure (Located at . element)
 
--- | Checks the modifiers of an element of the given type. A bevel is skipped if the element is
--- already reported as wrong, because its columns are unknown.
+-- | Checks the modifiers of an element of type @t@. Bevels are left out if the element is already
+-- reported as wrong, because it is unknown which columns they may name.
 elementModifiers ::
   TypingEnvironment -> Type -> [Surface.Modifier] -> Infer [Deferred Checked.Modifier]
 elementModifiers env t modifiers
@@ -69,7 +73,8 @@ isBevel (Located _ m) = case m of
   Surface.Slow -> False
   Surface.ElementAllowance _ -> False
 
--- | Checks a modifier of an element. A bevel may name the given columns.
+-- | Checks a modifier of an element. A bevel may name the columns of the element's curve,
+-- @columns@.
 modifier ::
   TypingEnvironment -> [(Text, Type)] -> Surface.Modifier -> Infer (Deferred Checked.Modifier)
 modifier env columns (Located at m) = fmap (Located at .) $ case m of
@@ -79,7 +84,7 @@ modifier env columns (Located at m) = fmap (Located at .) $ case m of
   Surface.Bevel e ->
     (Checked.Bevel .) <$> Piece.withColumns (region e) columns (expect env Type.angle e)
 
--- | Checks the link to the next element.
+-- | Checks the link from an element to the next one.
 linkTo :: TypingEnvironment -> Surface.Link -> Infer (Deferred Checked.Link)
 linkTo env (Located at l) = fmap (Located at .) $ case l of
   Surface.Meet near -> do

@@ -1,7 +1,8 @@
--- | Checked terms that need the solution of type inference for the whole program.
+-- | Checked terms that are complete only when type inference has found all dimensions of the
+-- program.
 --
--- Once the solution is known, every part of such a term is evaluated. A thunk in it would keep the
--- state of inference alive.
+-- Once these are known, every part of such a term is evaluated. A thunk in it would keep the state
+-- of inference in memory.
 module Checked.Deferred
   ( Deferred,
     resolveAll,
@@ -11,15 +12,15 @@ where
 
 import Checked.Inference (Solution)
 
--- | A term that depends on the solution of type inference.
+-- | A term that depends on the solution, the final values of the unknown dimensions.
 type Deferred a = Solution -> a
 
--- | Applies a list of terms to the solution, and evaluates each result to its outermost
--- constructor.
+-- | Completes the terms with the solution, and evaluates each of them to its outermost constructor.
 resolveAll :: Solution -> [Deferred a] -> [a]
 resolveAll solution terms = let found = map ($ solution) terms in foldr seq found found
 
--- | Applies a function to an optional value, and evaluates the result to its outermost constructor.
+-- | Applies a function to the value, if there is one, and evaluates the result to its outermost
+-- constructor.
 mapStrict :: (a -> b) -> Maybe a -> Maybe b
 mapStrict f thing = case thing of
   Nothing -> Nothing

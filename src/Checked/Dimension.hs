@@ -1,4 +1,5 @@
--- | Dimensions of quantities: products of powers of length, angle, time and unknowns.
+-- | Dimensions of quantities: products of powers of length, angle, time and unknowns. An unknown is
+-- a dimension that type inference has yet to find; it has a number.
 --
 -- Dimensions form a free commutative group. Equations between them are solved as linear equations
 -- over the integers (Kennedy, Programming Languages and Dimensions, 1996).
@@ -27,21 +28,22 @@ import Data.Text (Text)
 import Data.Text qualified as Text
 import Prelude hiding (exponent)
 
--- | A generator of the group of dimensions. 'PointWeight' distinguishes points and vectors: a point
--- has weight 1, a vector 0, and the difference of two points is a vector.
+-- | A factor from which dimensions are made. 'PointWeight' distinguishes points from vectors, which
+-- both are pairs of lengths. A point has the power 1 of it and a vector the power 0. The difference
+-- of two points therefore is a vector.
 data Atom = Length | Angle | Time | PointWeight | Unknown Int
   deriving stock (Eq, Ord, Show)
 
--- | A product of powers, by the exponents that are not zero.
+-- | A product of powers of atoms. The map holds the exponents that are not 0.
 newtype Dimension = Dimension (Map Atom Int)
   deriving newtype (Eq)
   deriving stock (Show)
 
--- | The dimension of a number that is not a quantity: all exponents are 0.
+-- | The dimension of a plain number: all exponents are 0.
 none :: Dimension
 none = Dimension Map.empty
 
--- | The first power of an atom.
+-- | The dimension that is the first power of an atom.
 atom :: Atom -> Dimension
 atom a = Dimension (Map.singleton a 1)
 
@@ -49,39 +51,39 @@ atom a = Dimension (Map.singleton a 1)
 times :: Dimension -> Dimension -> Dimension
 times (Dimension a) (Dimension b) = Dimension (Map.filter (/= 0) (Map.unionWith (+) a b))
 
--- | An integer power of a dimension.
+-- | The power of a dimension with the integer exponent @n@.
 power :: Int -> Dimension -> Dimension
 power n (Dimension a) = if n == 0 then none else Dimension (fmap (n *) a)
 
 exponent :: Atom -> Dimension -> Int
 exponent a (Dimension m) = Map.findWithDefault 0 a m
 
--- | The numbers of the unknowns in a dimension.
+-- | The numbers of the unknowns that a dimension contains.
 unknowns :: Dimension -> [Int]
 unknowns (Dimension m) = [n | Unknown n <- Map.keys m]
 
--- | Tells if a dimension has no unknowns.
+-- | Does a dimension contain no unknowns?
 isKnown :: Dimension -> Bool
 isKnown = null . unknowns
 
--- | Tells if a dimension contains unknowns and all its exponents are even.
+-- | Is a dimension with unknowns certainly a square, because all its exponents are even?
 isUnknownSquare :: Dimension -> Bool
 isUnknownSquare d@(Dimension m) = not (isKnown d) && all even (Map.elems m)
 
--- | The result of one step towards the solution of an equation.
+-- | The result of one step of 'solve' towards the solution of an equation.
 data UnificationStep
   = Solved
   | Impossible
-  | -- | the number of an unknown and its value. If the value contains the fresh unknown, the
-    -- equation is not solved yet
+  | -- | an unknown, by its number, is equal to a dimension. If that dimension contains the unknown
+    -- @fresh@ of 'solve', further steps are needed
     Replace Int Dimension
 
--- | Makes one step towards the solution of the equation that a dimension is 'none'. @fresh@ is the
--- number of an unknown that is not used yet.
+-- | Makes one step towards the solution of an equation. The equation says that a dimension is equal
+-- to 'none'. @fresh@ is the number of an unknown that does not occur anywhere yet.
 --
--- The unknown with the exponent of smallest absolute value is eliminated. If that exponent does not
--- divide the other ones, the quotients are rounded down and the fresh unknown represents the
--- remainders.
+-- The step eliminates the unknown whose exponent has the smallest absolute value. If this exponent
+-- does not divide the other exponents, the quotients are rounded down. The unknown @fresh@ then
+-- represents the remainders.
 solve :: Int -> Dimension -> UnificationStep
 solve fresh (Dimension m) = case pivot of
   Nothing -> if Map.null m then Solved else Impossible
@@ -90,19 +92,19 @@ solve fresh (Dimension m) = case pivot of
     | length (unknowns (Dimension m)) == 1 -> Impossible
     | otherwise -> Replace n (times (atom (Unknown fresh)) (rest n (\k -> negate (k `div` e))))
   where
-    -- The unknown with the smallest exponent; of equal ones the newest.
+    -- The unknown with the smallest exponent; of several, the one with the largest number.
     pivot = case [(abs e, negate n, e, n) | (Unknown n, e) <- Map.toList m] of
       [] -> Nothing
       candidates -> let (_, _, e, n) = minimum candidates in Just (n, e)
     rest n f = Dimension (Map.filter (/= 0) (fmap f (Map.delete (Unknown n) m)))
 
--- | Replaces the unknown of a number by a dimension within another dimension.
+-- | Replaces the unknown with the number @n@ by the dimension @d@, within the dimension @whole@.
 substitute :: Int -> Dimension -> Dimension -> Dimension
 substitute n d whole@(Dimension m) = case Map.lookup (Unknown n) m of
   Nothing -> whole
   Just e -> times (power e d) (Dimension (Map.delete (Unknown n) m))
 
--- | Describes a dimension in the words of a drawing, with its article.
+-- | The description of a dimension in the words of a drawing, such as "a length".
 describe :: Dimension -> Text
 describe d@(Dimension m)
   | d == none = "a number"
@@ -118,7 +120,7 @@ describe d@(Dimension m)
   where
     known = Map.filterWithKey (\a _ -> case a of Unknown _ -> False; _ -> True) m
 
--- | The name of a dimension's default unit: @mm@, @deg@, @mm^2@, @mm/min@.
+-- | The unit of a dimension as reports write it: @mm@, @deg@, @mm^2@, @mm/min@.
 unitWord :: Dimension -> Text
 unitWord (Dimension m) = case (factors (> 0), factors (< 0)) of
   ([], []) -> ""
@@ -138,8 +140,8 @@ unitWord (Dimension m) = case (factors (> 0), factors (< 0)) of
       PointWeight -> "point"
       Unknown _ -> ""
 
--- | The factor that turns a number without a unit into a quantity of a dimension. The number is in
--- mm, minutes and degrees, the quantity in mm, minutes and radians.
+-- | The factor for a number that the program writes without a unit, and whose dimension is @d@. The
+-- program means mm, minutes and degrees; the factor converts to mm, minutes and radians.
 defaultUnit :: Dimension -> Double
 defaultUnit d = case exponent Angle d of
   0 -> 1

@@ -30,81 +30,94 @@ import Report.Report
     report,
   )
 
--- | A mistake with the region that a report points at, and the facts of the report.
+-- | A mistake. The first field of every constructor is the region that the report points at. The
+-- comment of a constructor names the other fields in order.
 data Error
-  = -- | an unknown name; the names in scope
+  = -- | an unknown name: this name, and the names in scope, for a suggestion
     UndefinedName Region Name [Text]
-  | -- | a name that is defined further down; the region of the definition
+  | -- | a name that is defined only below: the name, and the region of the definition
     UsedBeforeDefinition Region Name Region
-  | -- | a name that is already defined; the region of the first definition
+  | -- | a name that is already defined: the name, and the region of the first definition
     DefinedTwice Region Name Region
-  | -- | a definition of a built-in name
+  | -- | a definition of a name that belongs to the language: the name
     NameTaken Region Name
-  | -- | a term of the wrong type: the wanted type, the found type, and other regions that decided
-    -- these types
+  | -- | a term of the wrong type: the type that its context requires, the type of the term, and the
+    -- other regions that decided these types, with the types
     Mismatch Region Type Type [(Region, Type)]
-  | -- | a sum, a difference or a comparison of operands that do not fit: the operands, and other
-    -- regions that decided their types
+  | -- | a sum, a difference or a comparison whose operands do not fit: the operator, the left and
+    -- the right operand, and the other regions that decided their types, with the types
     Disagree Region Operator (Region, Type) (Region, Type) [(Region, Type)]
-  | -- | an operation that is not defined for its operands
+  | -- | an operation that is not defined for its operands: the operation, and the operands
     NoOperation Region UndefinedOperation [(Region, Type)]
-  | -- | a wrong number of arguments: the function, its parameters, the number given
+  | -- | a call with a wrong number of arguments: the function, its parameters, and the number of
+    -- arguments in the call
     ArgumentCount Region Name [Text] Int
-  | -- | a call of a value; the region of its definition unless it is built in
+  | -- | a call of a name that is no function: the name, and the region of its definition unless it
+    -- is built in
     NotAFunction Region Name (Maybe Region)
-  | -- | a function without arguments: its name, its forms as calls
+  | -- | the name of a built-in function without arguments: the name, and the forms of the function
+    -- as calls
     FunctionAsValue Region Name [Text]
-  | -- | a circle in a contour without a sense
+  | -- | a circle as an element of a contour without the sense that it needs
     SenseMissing Region
-  | -- | a sense before an element that is not a circle
+  | -- | a sense before an element that is no circle: the type of the element
     SenseUnneeded Region Type
-  | -- | an item of a contour that cannot be an element
+  | -- | an expression that cannot be an element of a contour: its type
     NotAnElement Region Type
   | -- | a program that does not begin with @part@
     NoPart Region
-  | -- | a setting of the whole program that is made again; the region of the first one
+  | -- | a setting of the whole program that occurs again: the setting, and the region of its first
+    -- statement
     SettingTwice Region RequiredSetting Region
-  | -- | the keyword of a statement that needs settings
+  | -- | a statement without settings that it needs above it: these settings. The region is its
+    -- keyword
     SettingsMissing Region (NonEmpty RequiredSetting)
-  | -- | a name used in its own definition
+  | -- | a name that is used in its own definition: the name
     Recursive Region Name
-  | -- | arguments that fit no form: the function, the types given, its forms as calls
+  | -- | arguments that fit no form of a built-in function: the function, the arguments with their
+    -- types, and the forms of the function as calls
     NoForm Region Text [(Region, Type)] [Text]
-  | -- | a number of arguments, or labels, that no form has: the function, its forms as calls
+  | -- | a call whose number of arguments or labels no form has: the built-in function, and its
+    -- forms as calls
     NoSuchCall Region Text [Text]
-  | -- | a statement that is not allowed in a block: its keyword
+  | -- | a statement that is not allowed in a block: the keyword of the statement
     NotInBlock Region Text
-  | -- | a setting that the statement does not have: the setting, the statement, its settings
+  | -- | a setting that its statement does not have: the setting, the keyword of the statement, and
+    -- the settings that this statement has
     ForeignSetting Region Text Text [Text]
-  | -- | a setting that occurs again in a block; the region of the one before
+  | -- | a setting that occurs again in a block: the setting, and the region where it occurs before
     RepeatedSetting Region Text Region
-  | -- | a tolerance after an assertion that is not an equality
+  | -- | a tolerance of an assertion that is no equality
     WithinWithoutEquality Region
   | -- | a table whose first line does not name the columns
     HeadingsMissing Region
   | -- | headings below the first line of a table
     HeadingsRepeated Region
-  | -- | a column named again; the region of the first one
+  | -- | a column whose name an earlier column has: the name, and the region of that column
     ColumnTwice Region Name Region
-  | -- | a table without a column x or y
+  | -- | a table without a column x or y: the name of the missing column
     ColumnMissing Region Name
-  | -- | a row of the wrong length: its number from 1, the number of columns, the number of cells
+  | -- | a row of the wrong length: the number of the row from 1, the number of columns, and the
+    -- number of cells in the row
     RowLength Region Int Int Int
-  | -- | an unknown cipher: its digit
+  | -- | an unknown cipher: the digit of the cipher
     NoSuchCipher Region Text
-  | -- | a cipher with a wrong number of values: its digit, the number given
+  | -- | a cipher with a wrong number of values: the digit of the cipher, and the number of its
+    -- values
     CipherMisfit Region Text Int
-  | -- | a name in a value along a curve that is neither a column nor a value; the columns
+  | -- | a name in a value along a curve that means neither a column nor a value: the name, and the
+    -- columns
     NoColumn Region Name [Text]
-  | -- | a column where a cipher takes one value for the whole piece: its digit, the column
+  | -- | a column in a value of a cipher that is the same along the whole piece: the digit, and the
+    -- column
     ColumnForWholePiece Region Text Name
   deriving stock (Eq, Show)
 
--- | An operation of a 'NoOperation' error.
+-- | The operation of a 'NoOperation' error.
 data UndefinedOperation = UndefinedNegation | UndefinedProduct | UndefinedQuotient
   deriving stock (Eq, Show)
 
--- | The settings that statements need above them.
+-- | The settings that statements may need above them.
 data RequiredSetting
   = PartSetting
   | MachineSetting
@@ -392,7 +405,8 @@ toReport err = case err of
           ]
       }
 
--- | Explains the direction in which an element without a sense is traversed.
+-- | The hint that says in which direction an element is traversed that needs no sense. 'Nothing'
+-- for other types.
 traversalHint :: Type -> Maybe Text
 traversalHint t = case t of
   Line -> Just "A line is walked from its first point to its second."
@@ -402,11 +416,11 @@ traversalHint t = case t of
     Just "A contour is walked from its beginning to its end; the other way, write reversed(c)."
   _ -> Nothing
 
--- | Tells if a number such as @24@ is the digits of several ciphers in one word.
+-- | Is a number such as @24@ the digits of several ciphers, written as one word?
 isSeveralCiphers :: Text -> Bool
 isSeveralCiphers digit = Text.length digit > 1 && Text.all (`elem` ['1', '2', '4', '6']) digit
 
--- | The forms of a cipher by its digit.
+-- | The ways to write the cipher with the given digit, for hints.
 cipherForms :: Text -> [Text]
 cipherForms digit = case digit of
   "1" ->
@@ -428,12 +442,12 @@ at region code = report Error code (InSource region)
 arguments :: Int -> Text
 arguments n = if n == 1 then "1 argument" else Decimal.whole n <> " arguments"
 
--- | Labels for the regions that decided types.
+-- | The labels for other regions that decided types.
 decidedLabels :: [(Region, Type)] -> [Label]
 decidedLabels elsewhere =
   [Label r (Type.describe t <> ", since it is used as one here") | (r, t) <- elsewhere]
 
--- | The noun of an operation, with its article.
+-- | The word for an operation, with its article.
 operationWords :: UndefinedOperation -> Text
 operationWords operation = case operation of
   UndefinedNegation -> "a minus"
@@ -474,7 +488,7 @@ example setting = case setting of
   FromSetting -> "from (0, 0)"
   ClearanceSetting -> "clearance 5 mm"
 
--- | A hint with at most six forms of a function.
+-- | The hint that shows how to call a function. It lists at most six of its forms.
 formsHint :: [Text] -> [Text]
 formsHint known = case known of
   [] -> []
@@ -485,7 +499,7 @@ formsHint known = case known of
         <> (if length known > 6 then "; …" else ".")
     ]
 
--- | Joins words to a list: a, b and c.
+-- | Joins words to a list such as "a, b and c".
 joinedWords :: [Text] -> Text
 joinedWords words' = case reverse words' of
   [] -> ""

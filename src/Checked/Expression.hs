@@ -1,7 +1,8 @@
--- | The checking of expressions: names resolved, types inferred, units normalised.
+-- | Checks expressions: resolves names, infers types, and converts units.
 --
--- Every function gives a type and a 'Deferred' term. The term is complete once inference knows
--- all dimensions of the program.
+-- Every function yields a 'Deferred' term, most of them also its type. Such a term is complete only
+-- when inference knows all dimensions of the program. An unknown is a type or a dimension that
+-- inference has yet to find.
 module Checked.Expression
   ( TypingEnvironment (..),
     expect,
@@ -47,21 +48,21 @@ import Surface.Keyword qualified as Keyword
 import Surface.Syntax qualified as Surface
 import Surface.Token (Numeral (..), Unit)
 
--- | The facts about a program that the checking of its expressions needs.
+-- | The facts about a program that are needed to check its expressions.
 data TypingEnvironment = TypingEnvironment
-  { -- | all names that the program or the blocks around the expression define, above or below it,
+  { -- | all names that the program, or a block around the expression, defines above or below it,
     -- with the regions of their definitions
     definitions :: Map Name Region,
-    -- | true if "Checked.Inference.Fast" checks literals, false if full inference does
+    -- | true if "Checked.Inference.Fast" checks literals, false if full inference checks them
     isFast :: Bool
   }
 
--- | The type of a term, and the term.
+-- | The type of a term, and the checked term.
 type Typed = (Type, Deferred Checked.Expr)
 
 -- Wanted types
 
--- | Checks an expression that must have the given type.
+-- | Checks an expression that must have the type @wanted@.
 expect :: TypingEnvironment -> Type -> Surface.Expr -> Infer (Deferred Checked.Expr)
 expect env wanted e = case (value e, wanted) of
   _ | isFast env, Just e' <- FastInference.literal wanted e -> pure (const e')
@@ -71,11 +72,11 @@ expect env wanted e = case (value e, wanted) of
     equal (region e) wanted t
     pure e'
 
--- | Demands that the type found at a region is the wanted one.
+-- | Requires that @t@, the type of the term at the region @at@, is the type @wanted@.
 equal :: Region -> Type -> Type -> Infer ()
 equal at wanted t = void (isEqual at wanted t)
 
--- | As 'equal', but also tells if the types agree.
+-- | Does what 'equal' does. The result is 'False' if the types differ, which is then reported.
 isEqual :: Region -> Type -> Type -> Infer Bool
 isEqual at wanted t = do
   found <- Inference.resolved t
@@ -85,7 +86,7 @@ isEqual at wanted t = do
   unless same (Inference.mistakeOnce (map fst elsewhere) (Mismatch at wanted' found elsewhere))
   pure same
 
--- | Checks a point of the plane or a point with a height.
+-- | Checks an expression that must be a point of the plane or a point with a height.
 spatialPoint :: TypingEnvironment -> Surface.Expr -> Infer (Deferred Checked.Expr)
 spatialPoint env e = do
   (t, e') <- infer env e
@@ -93,7 +94,7 @@ spatialPoint env e = do
   unless (t' == Type.SpacePoint) (equal (region e) Type.aPoint t)
   pure e'
 
--- | Checks a list of points or a single point.
+-- | Checks an expression that must be a point or a list of points.
 pointOrPoints :: TypingEnvironment -> Surface.Expr -> Infer (Deferred Checked.Expr)
 pointOrPoints env e = do
   (t, e') <- infer env e
@@ -103,8 +104,8 @@ pointOrPoints env e = do
     _ -> equal (region e) (Type.ListOf Type.aPoint) t
   pure e'
 
--- | Checks an element of a contour: a circle with a sense, or a line, a point, a curve or a contour
--- without one.
+-- | Checks an element of a contour. A circle needs a sense. A line, a point, a curve or a contour
+-- must not have one.
 contourElement ::
   TypingEnvironment ->
   Maybe (Located Surface.Sense) ->
@@ -134,13 +135,14 @@ contourElement env sense e = case (sense, value e) of
       _ -> Inference.mistake (NotAnElement (region e) t')
     pure (t, e')
 
--- | Checks a call by "Checked.Inference.Fast", if the environment allows that.
+-- | Checks a call by "Checked.Inference.Fast". 'Nothing' if that module leaves the call to full
+-- inference, or if the environment excludes it.
 fastCall :: TypingEnvironment -> Surface.Expr -> Infer (Maybe FastInference.FastCall)
 fastCall env e = if isFast env then FastInference.call (expect env) e else pure Nothing
 
 -- Inferred types
 
--- | Checks an expression and infers its type.
+-- | Checks an expression whose type is not known in advance, and infers its type.
 infer :: TypingEnvironment -> Surface.Expr -> Infer Typed
 infer env located@(Located at e) = case e of
   Surface.Literal (Numeral _ x) unit -> literal at x unit
@@ -185,19 +187,20 @@ infer env located@(Located at e) = case e of
         \sol -> Located at (Checked.Each (inner' sol) (value counter) (list' sol))
       )
 
--- | Checks a number as written. Without a unit its dimension follows from its use, and the number
--- has the default unit of that dimension.
+-- | Checks a number of the program. If it has no unit, its dimension follows from its use, and it
+-- is in the default unit of that dimension.
 literal :: Region -> Double -> Maybe Unit -> Infer Typed
 literal at x unit = case unit of
   Just u ->
     let (t, factor) = Type.ofUnit u in pure (t, const (Located at (Checked.Number (x * factor))))
   Nothing -> do
     d <- Inference.freshDimension
-    -- A literal has one unit in all uses of a function. Zero is the same in every unit.
+    -- A literal has one unit in all uses of a function. Only 0 is the same in every unit.
     unless (x == 0) (Inference.monomorphic d)
     pure (Type.Quantity d, \sol -> Located at (Checked.Number (x * Dimension.defaultUnit (sol d))))
 
--- | Checks two lengths and makes a pair of them at a region.
+-- | Checks two expressions that must be lengths, and makes a point or vector of them. @at@ is the
+-- region of the pair.
 pair :: TypingEnvironment -> Region -> Surface.Expr -> Surface.Expr -> Infer (Deferred Checked.Expr)
 pair env at x y = (Located at .) <$> pair' env x y
 
@@ -207,7 +210,7 @@ pair' env x y = do
   y' <- expect env Type.len y
   pure (\sol -> Checked.Pair (x' sol) (y' sol))
 
--- | Checks a term with a binary operator.
+-- | Checks an operation with two operands. @at@ is the region of the whole operation.
 binary ::
   TypingEnvironment ->
   Region ->
@@ -227,10 +230,10 @@ binary env at op l r
     result <- operation at op (region l, lt) (region r, rt)
     pure (result, \sol -> Located at (Checked.Binary op (l' sol) (r' sol)))
 
--- | Makes a literal factor without a unit a number without a dimension, if the other factor has a
--- known dimension: twice an angle is an angle. A literal divisor never has a dimension. If the
--- other factor has no dimension, the literal may get any: @20 * k@ can be a length, @4 * 4@ an
--- area.
+-- | Decides that a factor consisting of literals without a unit is a plain number, if the other
+-- factor has a known dimension: twice an angle is an angle. A divisor without a unit always is a
+-- plain number. If the other factor is a plain number, the literal may have any dimension: @20 * k@
+-- can be a length.
 plainFactor :: Surface.Operator -> (Surface.Expr, Type) -> (Surface.Expr, Type) -> Infer ()
 plainFactor op (l, lt) (r, rt) = do
   lt' <- Inference.resolved lt
@@ -246,7 +249,7 @@ plainFactor op (l, lt) (r, rt) = do
       Type.Quantity d -> Dimension.isKnown d && d /= Dimension.none
       _ -> False
 
--- | Tells if an expression consists of literals without units.
+-- | Does an expression consist of literals without units only?
 hasNoUnit :: Surface.Expr -> Bool
 hasNoUnit (Located _ e) = case e of
   Surface.Literal _ Nothing -> True
@@ -254,15 +257,16 @@ hasNoUnit (Located _ e) = case e of
   Surface.Binary _ l r -> hasNoUnit l && hasNoUnit r
   _ -> False
 
--- | Adds the constraint of an operation on two operands. Gives the type of its result.
+-- | Adds the deferred constraint of an operation on two operands, and yields the type of the
+-- result. An operand is given by its region and its type.
 operation :: Region -> Surface.Operator -> (Region, Type) -> (Region, Type) -> Infer Type
 operation arithmeticRegion operator left right = do
   outcome <- Inference.freshType
   Inference.require (Operation Arithmetic {arithmeticRegion, operator, left, right, outcome})
   pure outcome
 
--- | Checks a range. Without a step it consists of numbers without a dimension, with a step of
--- quantities of any one dimension.
+-- | Checks a range of numbers, @low@ to @high@. Without a step it consists of plain numbers. With a
+-- step its limits and the step may have any dimension, which must be the same for all of them.
 range ::
   TypingEnvironment ->
   Region ->
@@ -280,7 +284,8 @@ range env at low high step = do
       \sol -> Located at (Checked.Range (low' sol) (high' sol) (($ sol) <$> step'))
     )
 
--- | Checks the variable and the list of a repetition; gives the type of the variable.
+-- | Checks the variable and the list of a repetition. The result is the type of the variable, with
+-- the list as the term.
 repetition :: TypingEnvironment -> Located Name -> Surface.Expr -> Infer Typed
 repetition env counter@(Located _ (Name text)) list = do
   when (isBuiltin text) (Inference.mistake (NameTaken (region counter) (value counter)))
@@ -289,7 +294,7 @@ repetition env counter@(Located _ (Name text)) list = do
   isList <- isEqual (region list) (Type.ListOf t) found
   pure (if isList then t else Type.Wrong, list')
 
--- | Tells if a name belongs to the language itself.
+-- | Is this the name of a function or a constant of the language?
 isBuiltin :: Text -> Bool
 isBuiltin = isJust . Builtin.lookup
 
@@ -319,8 +324,8 @@ variable env at name@(Name text) = do
       Inference.mention at (Just definedAt) text (Inference.Valued t)
       pure (t, const (Located at (Checked.Variable name)))
 
--- | The error for a name that is not in scope: it is defined below, it is used in its own
--- definition, or it is not defined at all.
+-- | The error for a name that is not in scope. The name is defined only below, or is used in its
+-- own definition, or is not defined at all.
 unknownName :: TypingEnvironment -> Region -> Name -> Infer Error
 unknownName env at name = do
   names <- Inference.namesInScope
@@ -331,15 +336,15 @@ unknownName env at name = do
     Nothing ->
       UndefinedName at name ([text | Name text <- names] <> Builtin.names <> Keyword.reservedWords)
 
--- | A substitute for a term that is reported as wrong.
+-- | A term that takes the place of a term that is reported as wrong.
 wrong :: Region -> Typed
 wrong at = (Type.Wrong, const (Located at (Checked.Number 0)))
 
--- | Reports a mistake and gives a substitute for the wrong term.
+-- | Reports a mistake in a term, and yields a term that takes its place.
 wrongTerm :: Region -> Error -> Infer Typed
 wrongTerm at e = wrong at <$ Inference.mistake e
 
--- | Unknowns for the forms of one call of a built-in function.
+-- | New unknowns for the types in the forms of a built-in function, for one call of it.
 freshUnknowns :: Infer Builtin.Fresh
 freshUnknowns = do
   d <- Inference.freshDimension
@@ -348,7 +353,7 @@ freshUnknowns = do
 
 -- Calls
 
--- | A call as it is written.
+-- | A call as the program writes it.
 data Call = Call
   { callRegion :: Region,
     callee :: Located Name,
@@ -380,15 +385,16 @@ call env at callee@(Located nameRegion name@(Name text)) arguments = do
   where
     this = Call {callRegion = at, callee, written = NonEmpty.toList arguments}
 
--- | Reports a call and looks for further mistakes in its arguments.
+-- | Reports a call, and checks its arguments, so that mistakes in them are reported, too.
 wrongCall :: TypingEnvironment -> Call -> Error -> Infer Typed
 wrongCall env c e = wrong (callRegion c) <$ (checkArguments env c *> Inference.mistake e)
 
--- | Checks the arguments of a call without its function.
+-- | Checks the arguments of a call whose function is not known.
 checkArguments :: TypingEnvironment -> Call -> Infer ()
 checkArguments env c = mapM_ (infer env) (argumentValues c)
 
--- | Checks a call of a function that the program defines.
+-- | Checks a call of a function of the program. @parameters@ are the names of its parameters, for
+-- reports.
 functionCall :: TypingEnvironment -> Call -> [Text] -> Scheme -> Infer Typed
 functionCall env c parameters scheme = do
   (types, t, constraints) <- Inference.instantiate at scheme
@@ -407,8 +413,9 @@ functionCall env c parameters scheme = do
     at = callRegion c
     name = value (callee c)
 
--- | Checks a call of a function of the language. If the function has one form, or the labels select
--- one form, the arguments are checked against it. Other calls become constraints.
+-- | Checks a call of a function of the language. A form is one list of parameters with the type of
+-- the result. If only one form has the labels of the call, the arguments are checked against this
+-- form. Otherwise the call becomes a deferred constraint.
 builtinCall :: TypingEnvironment -> Call -> Checked.Builtin -> Infer Typed
 builtinCall env c builtin = do
   unknowns <- freshUnknowns
@@ -440,7 +447,8 @@ builtinCall env c builtin = do
     term values sol =
       Located at (Checked.Builtin builtin (withLabels (written c) (map ($ sol) values)))
 
--- | Adds the constraint of an overloaded call. Gives the type of its result.
+-- | Adds the deferred constraint of a call for which several forms are possible, and yields the
+-- type of its result. @types@ are the types of the arguments.
 overloadedCall :: Call -> Checked.Builtin -> [ArgumentLabel] -> [Type] -> Infer Type
 overloadedCall c builtin labels types = do
   callType <- Inference.freshType
@@ -456,21 +464,23 @@ overloadedCall c builtin labels types = do
     )
   pure callType
 
--- | The type of a call that the fast check has accepted. The type of an overloaded call records the
--- region of the call as the one that decided it, so that a later error can point there.
+-- | The type of a call that "Checked.Inference.Fast" has checked. If the function has several
+-- forms, the type records that the region @at@ of the call decided it. A later error can then point
+-- there.
 fastCallType :: Region -> FastInference.FastCall -> Infer Type
 fastCallType at c
   | FastInference.isOverloaded c = Inference.freshDecided at (FastInference.resultType c)
   | otherwise = pure (FastInference.resultType c)
 
--- | Checks an argument against the type of its parameter; tells if they agree.
+-- | Checks an argument whose parameter has the type @wanted@. The flag is false if the types
+-- differ, which is then reported.
 argument :: TypingEnvironment -> Type -> Surface.Expr -> Infer (Bool, Deferred Checked.Expr)
 argument env wanted e = do
   (t, e') <- infer env e
   agrees <- isEqual (region e) wanted t
   pure (agrees, e')
 
--- | The arguments of a call if none of them has a label.
+-- | The arguments of a call. 'Nothing' if one of them has a label, such as @near@.
 unlabelled :: Call -> Maybe [Surface.Expr]
 unlabelled c = traverse given (written c)
   where
@@ -485,7 +495,7 @@ labelOf a = case a of
   Surface.Chosen word _ -> Builtin.Word (value word)
   Surface.Ranked _ -> Builtin.Rank
 
--- | The values of the arguments; @first@ and @last@ have none.
+-- | The values of the arguments of a call. The labels @first@ and @last@ have no value.
 argumentValues :: Call -> [Surface.Expr]
 argumentValues c = concatMap valueOf (written c)
   where
@@ -494,7 +504,8 @@ argumentValues c = concatMap valueOf (written c)
       Surface.Chosen _ e -> [e]
       Surface.Ranked _ -> []
 
--- | Puts the labels of arguments before their checked values.
+-- | Makes the arguments of a checked call from the written arguments, for their labels, and from
+-- the checked values.
 withLabels :: [Surface.Argument] -> [Checked.Expr] -> [Checked.Argument]
 withLabels as vs = case (as, vs) of
   (Surface.Given _ : more, v : rest) -> Checked.Given v : withLabels more rest

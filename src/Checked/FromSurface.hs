@@ -1,8 +1,9 @@
--- | The checked program from the surface program: names resolved and types inferred.
+-- | Checks a surface program: resolves its names and infers its types.
 --
--- Definitions are checked in the order of the text and see only what is defined above them, so
--- every program terminates. A statement with a mistake is left out of the output, and the name
--- that it defines is poisoned: statements that use it are left out without further reports.
+-- Definitions are checked in the order of the text. Each of them can use only what is defined above
+-- it, so that every program terminates. A statement with a mistake is left out of the output. The
+-- name that such a statement defines is poisoned: statements that use it are left out without a
+-- further report.
 module Checked.FromSurface
   ( check,
     checkByInference,
@@ -46,11 +47,12 @@ import Data.Text (Text)
 import Surface.Syntax (Statement)
 import Surface.Syntax qualified as Surface
 
--- | Checks a program. The output holds all statements without mistakes.
+-- | Checks a program. The output contains all statements without mistakes.
 check :: Surface.Program -> Result w Error Program
 check = checkBy True
 
--- | 'check' with full inference for all terms, which gives the same result. Tests compare the two.
+-- | Checks a program as 'check' does, but with full inference for all terms. Tests compare the two
+-- functions, which must give the same result.
 checkByInference :: Surface.Program -> Result w Error Program
 checkByInference = checkBy False
 
@@ -67,7 +69,7 @@ checkBy isFast Surface.Program {Surface.statements = written} =
         ( catMaybes
             <$> mapM (statement TypingEnvironment {definitions = definedIn written, isFast}) written
         )
-    -- A file that could not be imported may define any name.
+    -- A file that could not be imported may define any name, so unknown names are not reported.
     isExcused e = isImportBroken && isUndefinedName e
     isImportBroken = or [True | Located _ (Surface.Broken (Just "import") _) <- written]
     program =
@@ -84,8 +86,8 @@ isUndefinedName e = case e of
   UndefinedName {} -> True
   _ -> False
 
--- | The names that statements define, each with the region of its first definition. Definitions
--- inside their blocks do not count.
+-- | The names that the statements define, with the regions of their first definitions. Definitions
+-- inside the blocks of the statements are left out.
 definedIn :: [Statement] -> Map Name Region
 definedIn statements =
   Map.fromListWith
@@ -106,8 +108,8 @@ definedName s = case s of
 
 -- Statements
 
--- | Checks a statement. Gives 'Nothing' if it contains a mistake or has no counterpart in the
--- checked program.
+-- | Checks a statement. 'Nothing' if it contains a mistake, or if the checked program has no such
+-- statement.
 statement :: TypingEnvironment -> Statement -> Infer (Maybe (Deferred Checked.Statement))
 statement env (Located at s) = case s of
   Surface.Part n _ -> Nothing <$ mentionDefinition n (Inference.Described "the name of the part")
@@ -167,7 +169,7 @@ statement env (Located at s) = case s of
     done = fmap (fmap (Located at .))
     one = done . Inference.separately
 
--- | Checks the statements of a block. Their definitions are known only inside it.
+-- | Checks the statements of a block. The names that they define are known only in this block.
 block :: TypingEnvironment -> [Statement] -> Infer [Deferred Checked.Statement]
 block env body = Inference.scoped (inBlock env body)
 
@@ -176,7 +178,8 @@ inBlock env body = catMaybes <$> mapM (statement inner) body
   where
     inner = env {definitions = Map.union (definedIn body) (definitions env)}
 
--- | Checks a repetition of statements. Its variable is poisoned if the list contains a mistake.
+-- | Checks a statement that repeats a block. Its variable is poisoned if the list contains a
+-- mistake.
 repeated ::
   TypingEnvironment ->
   Located Name ->
@@ -195,7 +198,7 @@ repeated env counter list body = do
 
 -- Definitions
 
--- | Checks the definition of a value. The given inference checks its expression.
+-- | Checks the definition of a value, and binds its name. @inside@ checks the expression.
 valueDefinition ::
   Located Name ->
   Infer (Type, Deferred Checked.Expr) ->
@@ -205,7 +208,7 @@ valueDefinition name inside = do
   d <- maybe (pure Dimension.none) (fmap Type.dimensionOf . Inference.resolved . fst) checked
   pure ((\(_, e) sol -> Checked.LetValue name (sol d) (e sol)) <$> checked)
 
--- | Checks the definition of a function.
+-- | Checks the definition of a function, and binds its name.
 functionDefinition ::
   TypingEnvironment ->
   Located Name ->
@@ -217,7 +220,7 @@ functionDefinition env name parameters body = do
   let make (_, e) sol = Checked.LetFunction (value name) (fmap value parameters) (e sol)
   pure (make <$> checked)
 
--- | Checks a function and generalises its type.
+-- | Checks a function, and generalises its type so that each call may use other types.
 function ::
   TypingEnvironment ->
   Located Name ->
@@ -235,7 +238,8 @@ function env name parameters body = do
   where
     locals = NonEmpty.toList parameters
 
--- | Reports each repetition of a name in a list. The report also points at the occurrence before.
+-- | Reports every parameter name that an earlier parameter has. The report also points at that
+-- earlier one.
 reportRepeated :: [Located Name] -> Infer ()
 reportRepeated names = case names of
   [] -> pure ()
@@ -245,7 +249,7 @@ reportRepeated names = case names of
       (take 1 (filter ((== value n) . value) rest))
     reportRepeated rest
 
--- | Checks the definition of a contour.
+-- | Checks the definition of a contour, and binds its name.
 contourDefinition ::
   TypingEnvironment ->
   Located Name ->
@@ -256,7 +260,7 @@ contourDefinition env name closure items = do
   checked <- defining name (const (Value (region name) Type.Contour)) (mapM (item env) items)
   pure ((\items' sol -> Checked.Contour name closure (resolveAll sol items')) <$> checked)
 
--- | Checks the definition of a table. If its lines come from a file, the file is already read.
+-- | Checks the definition of a table, and binds its name. Lines from a file are already read.
 tableDefinition ::
   TypingEnvironment -> Located Name -> Surface.Lines -> Infer (Maybe (Deferred Checked.Statement_))
 tableDefinition env name written = do
@@ -267,7 +271,7 @@ tableDefinition env name written = do
       Surface.WrittenLines ls -> ls
       Surface.LinesFromFile _ -> []
 
--- | Checks the definition of a piece.
+-- | Checks the definition of a piece, and binds its name.
 pieceDefinition ::
   TypingEnvironment ->
   Located Name ->
@@ -287,7 +291,8 @@ pieceDefinition env name e ciphers side joggles = do
         Checked.Piece name (e' sol) (resolveAll sol ciphers') side (resolveAll sol joggles')
   pure (make <$> checked)
 
--- | Checks an expression that must be a curve. Afterwards its columns are known.
+-- | Checks an expression that must be a curve. After the check, inference knows the columns of its
+-- table.
 curve :: TypingEnvironment -> Surface.Expr -> Infer (Type, Deferred Checked.Expr)
 curve env e = do
   t <- Type.Curve <$> Inference.freshType
@@ -295,9 +300,9 @@ curve env e = do
   Inference.settle
   pure (t, e')
 
--- | Checks a definition by the given inference and binds its name unless it is bound already. The
--- function makes the binding from the result. The name is poisoned if the definition contains a
--- mistake.
+-- | Runs @inside@, which checks a definition, and binds the name to a binding made of its result.
+-- If the name is bound already, the first binding remains. If the definition contains a mistake,
+-- the name is poisoned.
 defining :: Located Name -> (a -> Binding) -> Infer a -> Infer (Maybe a)
 defining name bindingOf inside = do
   checked <- Inference.separately (reportTaken name *> inside)
@@ -327,11 +332,12 @@ reportBuiltin :: Located Name -> Infer ()
 reportBuiltin (Located at name@(Name text)) =
   when (isBuiltin text) (Inference.mistake (NameTaken at name))
 
--- | Records the mention of a name at its definition.
+-- | Records the mention of a name in its definition, for editors.
 mentionDefinition :: Located Name -> Inference.Meaning -> Infer ()
 mentionDefinition (Located at (Name text)) = Inference.mention at (Just at) text
 
--- | The meaning of a bound name for editors; none for a poisoned one.
+-- | The meaning of a bound name for editors. 'Nothing' for a poisoned name, of which nothing is
+-- known.
 meaningOf :: Binding -> Maybe Inference.Meaning
 meaningOf binding = case binding of
   Value _ t -> Just (Inference.Valued t)
@@ -341,7 +347,8 @@ meaningOf binding = case binding of
 
 -- Settings, motions and commands
 
--- | Checks a machining statement with the given keyword, a contour, a side and settings.
+-- | Checks a machining statement. @keyword@ is its first word, @e@ the expression of its contour,
+-- and @options@ are the settings in its block. @make@ builds the checked statement.
 machining ::
   TypingEnvironment ->
   (Checked.Expr -> Located Surface.Side -> Checked.Settings -> Checked.Statement_) ->
@@ -355,7 +362,7 @@ machining env make keyword e side options =
     <$> expect env Type.Contour e
       <*> Settings.check env keyword options
 
--- | Gives the stops of a @rapid@ statement the rapid pace unless they say otherwise.
+-- | Gives a stop of a @rapid@ statement the rapid speed, unless the stop has a feed of its own.
 atPace :: Surface.DefaultPace -> Surface.Stop -> Surface.Stop
 atPace motion s = case (motion, Surface.pace s) of
   (Surface.RapidMotion, Surface.Cutting) -> s {Surface.pace = Surface.Rapid}
@@ -388,8 +395,8 @@ spindle env spin = case spin of
     speed' <- traverse (expect env Type.spindleSpeed) speed
     pure (\sol -> Checked.Spinning sense (($ sol) <$> speed'))
 
--- | Checks an assertion: a comparison, an equality with an optional tolerance, or another
--- expression that is true or false.
+-- | Checks an assertion. It is an inequality, an equality with an optional tolerance @within@, or
+-- another expression that is true or false.
 assertion ::
   TypingEnvironment ->
   Surface.Expr ->
@@ -399,7 +406,7 @@ assertion env e within = case (value e, within) of
   (Surface.Binary Surface.Equal l r, _) -> do
     (t, l', r') <- compared Surface.Equal l r
     kind <- Inference.resolved t
-    -- Operands that cannot be compared are reported already; any tolerance fits them.
+    -- If the operands do not fit, this is reported already, and no report on the tolerance follows.
     let toleranceType = case kind of
           Type.Quantity _ -> t
           _ -> Type.Wrong

@@ -1,9 +1,11 @@
--- | Type inference with deferred constraints and polymorphic functions.
+-- | Type inference with deferred constraints and polymorphic functions. An unknown is a type or a
+-- dimension that inference has yet to find.
 --
--- Equations between types are solved at once ("Checked.Inference.State"). Operations and
--- overloaded calls become constraints, which are solved when enough is known. At the end of each
--- statement the remaining constraints get defaults. The inferred type of a function is
--- generalised as in Hindley–Milner inference.
+-- Equations between types are solved at once ("Checked.Inference.State"). Operations and overloaded
+-- calls become constraints, which are solved when enough types are known. At the end of each
+-- statement the remaining constraints are solved by default rules. The type of a function is
+-- generalised as in Hindley–Milner inference: unknowns of its body become variables, for which each
+-- call has new unknowns.
 module Checked.Inference
   ( Infer,
     Solution,
@@ -65,7 +67,8 @@ import Data.IntMap.Strict qualified as IntMap
 import Data.IntSet qualified as IntSet
 import Data.List (partition)
 
--- | Checks a statement and settles its constraints; 'Nothing' when it contains a mistake.
+-- | Checks a statement, and solves all of its constraints at the end. 'Nothing' if it contains a
+-- mistake or depends on one.
 separately :: Infer a -> Infer (Maybe a)
 separately infer = do
   before <- gets isTainted
@@ -78,9 +81,10 @@ separately infer = do
 
 -- Functions
 
--- | Runs the inference of a function and generalises its type. The inference gives the types of the
--- parameters, the type of the result and a further value. Unknowns of the function are quantified
--- unless they are 'shared'. Constraints that its arguments may solve become part of the scheme.
+-- | Runs the inference of a function's definition, and generalises the type. @infer@ yields the
+-- types of the parameters, the type of the result, and a value that is passed on. The unknowns of
+-- the function become variables of the scheme, unless they are 'shared'. Constraints that the
+-- arguments of a call may solve become part of the scheme.
 generalise :: Infer ([Type], Type, a) -> Infer (Scheme, a)
 generalise infer = do
   outer <- gets firstOwn
@@ -99,22 +103,22 @@ generalise infer = do
   put state {firstOwn = outer}
   pure (Scheme {quantified, parameters, result, deferred}, a)
 
--- | All types of a constraint.
+-- | The types of the operands or arguments of a constraint, and the type of its result.
 constraintTypes :: DeferredConstraint -> [Type]
 constraintTypes constraint = case constraint of
   Operation a -> [snd (left a), snd (right a), outcome a]
   Overloaded c -> callType c : map snd (arguments c)
 
--- | The undecided unknowns in the present value of an unknown. The number may be that of an unknown
--- type or of an unknown dimension.
+-- | The unknowns that are not decided in the present value of the unknown with the number @n@. It
+-- may be an unknown type or an unknown dimension.
 unknownsIn :: InferenceState -> Int -> [Int]
 unknownsIn state n =
   Type.variables (resolve state (Variable n))
     <> Dimension.unknowns
       (resolveDimension (decisions state) (Dimension.atom (Dimension.Unknown n)))
 
--- | Solves pending constraints, merges equal ones among the others and gives them. If there are
--- more than 'maxDeferred', all are settled by defaults instead.
+-- | Solves the pending constraints as far as possible, merges equal ones among the others, and
+-- yields these. If more than 'maxDeferred' remain, all of them are solved by default rules instead.
 unsolved :: Infer [DeferredConstraint]
 unsolved = do
   waiting <- solvePending >>= mapM resolvedConstraint
@@ -127,11 +131,11 @@ unsolved = do
           modify' (\s -> s {pending = reverse merged}) *> unsolved
         else pure merged
 
--- | The largest number of deferred constraints in a scheme.
+-- | The largest number of deferred constraints that the scheme of a function may contain.
 maxDeferred :: Int
 maxDeferred = 50
 
--- | A constraint with its types resolved.
+-- | A constraint in whose types the decided unknowns are replaced by their values.
 resolvedConstraint :: DeferredConstraint -> Infer DeferredConstraint
 resolvedConstraint constraint = case constraint of
   Operation a -> do
@@ -144,8 +148,8 @@ resolvedConstraint constraint = case constraint of
     t <- resolved (callType c)
     pure (Overloaded c {arguments = types, callType = t})
 
--- | Merges equal operations on equal operands, and equal calls on equal arguments. Unifies the
--- types of their results.
+-- | Merges operations that have the same operator and operands, and calls that have the same
+-- function and arguments. Unifies the types of the results of merged constraints.
 mergeEqual :: [DeferredConstraint] -> Infer [DeferredConstraint]
 mergeEqual constraints = case constraints of
   [] -> pure []
@@ -165,15 +169,15 @@ mergeEqual constraints = case constraints of
       (Operation _, Overloaded _) -> False
       (Overloaded _, Operation _) -> False
 
--- | The region of a constraint and the type of its result.
+-- | The region of the operation or call of a constraint, and the type of its result.
 constraintResult :: DeferredConstraint -> (Region, Type)
 constraintResult constraint = case constraint of
   Operation a -> (arithmeticRegion a, outcome a)
   Overloaded c -> (callRegion c, callType c)
 
--- | Instantiates a scheme for a use at a region. Gives the types of the parameters and the result,
--- and an action that adds the scheme's constraints. The caller runs the action after it has checked
--- the arguments.
+-- | Instantiates a scheme: replaces its variables by new unknowns, for a call at the region @use@.
+-- The result contains the types of the parameters and the type of the call. The third component
+-- adds the scheme's constraints. The caller runs it after it has checked the arguments.
 instantiate :: Region -> Scheme -> Infer ([Type], Type, Infer ())
 instantiate use scheme = do
   renamed <- traverse (const freshNumber) (IntMap.fromSet id (quantified scheme))
@@ -188,7 +192,8 @@ instantiate use scheme = do
       mapM_ (require . atUse use inType) (deferred scheme)
     )
 
--- | A scheme's constraint with the region of a use. The function instantiates its types.
+-- | A constraint of a scheme, for a call at the region @use@. @inType@ replaces the variables of
+-- the scheme in a type.
 atUse :: Region -> (Type -> Type) -> DeferredConstraint -> DeferredConstraint
 atUse use inType constraint = case constraint of
   Operation a ->
@@ -209,20 +214,20 @@ atUse use inType constraint = case constraint of
 
 -- Deferred constraints
 
--- | Adds a constraint: solves it if enough is known, else makes it pending.
+-- | Adds a constraint. It is solved if enough is known, and is pending otherwise.
 require :: DeferredConstraint -> Infer ()
 require constraint = do
   isSolved <- solve constraint
   unless isSolved (modify' (\s -> s {pending = constraint : pending s}))
 
--- | Solves a constraint, or gives 'False' if too little is known yet.
+-- | Solves a constraint. 'False' if too little is known of its types yet.
 solve :: DeferredConstraint -> Infer Bool
 solve constraint = case constraint of
   Operation a -> solveArithmetic a
   Overloaded c -> solveCall c
 
--- | Solves pending constraints until no further one can be solved. Removes the unsolved ones from
--- the state and gives them, the oldest first.
+-- | Solves pending constraints until no further one can be solved. The other constraints are
+-- removed from the state and are the result, the oldest first.
 solvePending :: Infer [DeferredConstraint]
 solvePending = do
   waiting <- gets pending
@@ -235,8 +240,8 @@ solvePending = do
         then modify' (\s -> s {pending = reverse rest}) *> solvePending
         else pure rest
 
--- | Solves all pending constraints. If too little is known, an unknown operand becomes a quantity,
--- and an overloaded call gets the first form that fits.
+-- | Solves all pending constraints, if necessary by default rules: an unknown operand becomes a
+-- quantity, and an overloaded call gets the first form that fits.
 settle :: Infer ()
 settle = do
   waiting <- solvePending
@@ -250,7 +255,8 @@ settle = do
       chooseFirst first
       modify' (\s -> s {pending = reverse rest}) *> settle
 
--- | Makes an unknown type a quantity of unknown dimension.
+-- | Decides that an unknown type is a quantity, whose dimension remains unknown. Does nothing for a
+-- type that is known.
 defaultToQuantity :: (Region, Type) -> Infer ()
 defaultToQuantity (region, t) = do
   t' <- resolved t

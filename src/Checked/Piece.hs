@@ -1,7 +1,9 @@
--- | The checking of tables, and of the ciphers and joggles of pieces.
+-- | Checks tables, and the ciphers and joggles of pieces. The functions yield 'Deferred' terms,
+-- which are complete only when type inference has found all dimensions of the program.
 --
 -- The cells of a table may be numbers without units. Their dimension follows from the heading of
--- their column, or from the use of the column anywhere in the program.
+-- their column, or from the use of the column anywhere in the program. A heading is the name of a
+-- column, with an optional unit.
 module Checked.Piece
   ( table,
     columnsOf,
@@ -37,11 +39,12 @@ import Surface.Token (Numeral (..))
 
 -- Columns
 
--- | A column of a table. The size of its unit is in mm or radians; it is 'Nothing' for a heading
--- without a unit.
+-- | A column of a table. 'size' is the size of the heading's unit in mm, radians, minutes or turns.
+-- It is 'Nothing' if the heading has no unit.
 data Column = Column {heading :: Located Name, kind :: Type, size :: Maybe Double}
 
--- | Checks a table and gives its type. The first line must name the columns.
+-- | Checks the lines of a table and infers the type of the table. The first line must name the
+-- columns.
 table :: TypingEnvironment -> Located Name -> [Surface.TableLine] -> Infer (Type, Deferred Columns)
 table env name written = case written of
   Located at (Surface.Header headings) : rows -> do
@@ -59,8 +62,8 @@ table env name written = case written of
     missing = (Type.Wrong, const (Columns [] []))
     hasColumn text = any ((== Name text) . value . heading)
 
--- | Checks a heading. Columns x and y are lengths. The dimension of another column follows from its
--- unit or from its use.
+-- | Checks the heading of a column. The columns x and y are lengths. The dimension of any other
+-- column follows from the unit in its heading, or from its use.
 column :: Surface.Heading -> Infer Column
 column (Surface.Heading name unit) = case unit of
   Just u -> do
@@ -79,7 +82,8 @@ column (Surface.Heading name unit) = case unit of
 isCoordinate :: Name -> Bool
 isCoordinate name = name `elem` [Name "x", Name "y"]
 
--- | Reports every column with the name of an earlier one, and points at the first.
+-- | Reports every column whose name an earlier column has. The report also points at the first such
+-- column.
 reportRepeated :: [Located Name] -> Infer ()
 reportRepeated names = mapM_ report (zip [0 ..] names)
   where
@@ -87,25 +91,26 @@ reportRepeated names = mapM_ report (zip [0 ..] names)
       first : _ -> Inference.mistake (ColumnTwice (region name) (value name) (region first))
       [] -> pure ()
 
--- | Reports a column with the name of a constant of the language. Both are written without
--- arguments, so that a value along a curve could mean either of them.
+-- | Reports a column that has the name of a constant of the language. In a value along a curve the
+-- name could mean the column or the constant.
 reportConstant :: Located Name -> Infer ()
 reportConstant (Located at name@(Name text)) =
   when
     (maybe False Builtin.isConstant (Builtin.lookup text))
     (Inference.mistake (NameTaken at name))
 
--- | The type of a table with columns.
+-- | The type of a table that has the given columns.
 typeOfTable :: [Column] -> Type
 typeOfTable columns =
   Type.Table
     (Type.Fields [(text, kind c) | c <- columns, let Name text = value (heading c), isExtra c])
 
--- | Tells if a column is neither x nor y.
+-- | Is a column neither x nor y?
 isExtra :: Column -> Bool
 isExtra = not . isCoordinate . value . heading
 
--- | The columns besides x and y, and the rows in the order x, y, other columns.
+-- | The columns besides x and y with their dimensions, and the rows. The cells of a row are put
+-- into the order x, y, other columns.
 columnsAndRows :: [Column] -> [Row] -> Deferred Columns
 columnsAndRows columns rows sol =
   Columns
@@ -119,8 +124,9 @@ columnsAndRows columns rows sol =
       [i | text <- ["x", "y"], (i, c) <- numbered, value (heading c) == Name text]
         <> [i | (i, c) <- numbered, isExtra c]
 
--- | The columns that values along a curve of the given type may name; none if it is not the type of
--- a curve. 'Nothing' if the columns are unknown, or if the curve is already reported as wrong.
+-- | The columns, besides x and y, that values along a curve of type @t@ may name. Empty if @t@ is
+-- not the type of a curve. 'Nothing' if inference does not know the columns, or if the curve is
+-- already reported as wrong.
 columnsOf :: Type -> Infer (Maybe [(Text, Type)])
 columnsOf t = do
   t' <- Inference.resolved t
@@ -130,26 +136,26 @@ columnsOf t = do
     Type.Wrong -> Nothing
     _ -> Just []
 
--- | Runs an inference with columns as local names, which hide the names of the program. Mentions of
--- the columns get the given region.
+-- | Runs an inference in which the columns are local names. They hide names of the program. An
+-- editor finds the region @at@ as the definition of every column.
 withColumns :: Region -> [(Text, Type)] -> Infer a -> Infer a
 withColumns at columns = Inference.withLocals [(Located at (Name text), t) | (text, t) <- columns]
 
 -- Rows
 
--- | Rows of a table.
+-- | One or more rows of a table.
 data Row
-  = -- | several rows of numbers without units, as a file has them
+  = -- | several rows of numbers without units, as they come from a file
     Numbers NumberTable
   | -- | one row of numbers without units
     Literals Region (PrimArray Double)
-  | -- | one row with other cells
+  | -- | one row with at least one cell that is another expression
     Cells Region [Cell]
 
--- | A cell: a number in the unit of its column, or another expression.
+-- | A cell: a number, in the unit of its column, or another expression.
 data Cell = Literal Region Double | Written (Deferred Checked.Expr)
 
--- | Checks the rows of a table. Gives them in reverse order.
+-- | Checks the lines of a table below the headings. The rows of the result are in reverse order.
 rowsOf :: TypingEnvironment -> [Column] -> [Surface.TableLine] -> Infer [Row]
 rowsOf env columns = go 1 []
   where
@@ -162,7 +168,8 @@ rowsOf env columns = go 1 []
       Surface.Numbers numbers -> NumberTable.count numbers
       _ -> 1
 
--- | Checks a line of a table below its headings. The number is that of its first row, from 1.
+-- | Checks a line of a table below the headings. @number@ is the number, from 1, of the first row
+-- that the line gives. 'Nothing' if the line contains a mistake.
 row :: TypingEnvironment -> [Column] -> Int -> Surface.TableLine -> Infer (Maybe Row)
 row env columns number (Located at line) = case line of
   Surface.Header _ -> Nothing <$ Inference.mistake (HeadingsRepeated at)
@@ -189,7 +196,7 @@ row env columns number (Located at line) = case line of
       Literal _ x -> Just x
       Written _ -> Nothing
 
--- | Checks a cell of a column.
+-- | Checks a cell. The column @c@ gives the type that a cell with an expression must have.
 cell :: TypingEnvironment -> Column -> Surface.Expr -> Infer Cell
 cell env c e = case literalOf e of
   Just x -> pure $! Literal (region e) x
@@ -200,7 +207,7 @@ cell env c e = case literalOf e of
       Surface.Negate inner -> negate <$> literalOf inner
       _ -> Nothing
 
--- | Reverses rows, and joins neighbouring rows of numbers.
+-- | Reverses the rows, and joins neighbouring rows of numbers into one table of numbers.
 joinRows :: [Row] -> [Row]
 joinRows = go []
   where
@@ -212,8 +219,9 @@ joinRows = go []
       Literals at xs : before -> literals done ((at, xs) : found) before
       _ -> go (Numbers (NumberTable.fromList found) : done) rows
 
--- | The cells of rows with their columns in the given order. Numbers are multiplied by the sizes of
--- their units, which are given in the order of the text.
+-- | The cells of one or more rows. @order@ gives, for each column of the result, the index from 0
+-- of the column in the text. @sizes@ are the sizes of the units, in the order of the text; numbers
+-- are multiplied by them.
 cellsOf :: [Int] -> [Double] -> Row -> Deferred Cells
 cellsOf order sizes rows sol = case rows of
   Numbers numbers -> inOrder numbers
@@ -229,8 +237,9 @@ cellsOf order sizes rows sol = case rows of
 
 -- Ciphers
 
--- | Checks a cipher of a piece on a curve with columns. 'Nothing' when the digit or the number of
--- values is wrong, or when the columns are unknown because of an earlier mistake.
+-- | Checks a cipher on a curve whose table has the columns @known@. 'Nothing' if the digit or the
+-- number of values is wrong. Also 'Nothing' if the columns are unknown, because of a mistake that
+-- is already reported.
 cipher ::
   TypingEnvironment ->
   Maybe [(Text, Type)] ->
@@ -248,8 +257,8 @@ cipher env known (Located at (Surface.Cipher (Located digitRegion digit) given))
   where
     columns = fromMaybe [] known
 
--- | Checks the values of a cipher with a digit; 'Nothing' if no recalculation has this digit and
--- this number of values.
+-- | Checks the values of a cipher with the given digit. 'Nothing' if no recalculation has this
+-- digit and this number of values.
 recalculation ::
   TypingEnvironment ->
   [(Text, Type)] ->
@@ -285,7 +294,8 @@ recalculation env columns digit values = case (digit, values) of
     between p q =
       (\p' q' sol -> (p' sol, q' sol)) <$> expect env Type.aPoint p <*> expect env Type.aPoint q
 
--- | Checks a length that is the same along the whole piece. No column may occur in it.
+-- | Checks a length that is the same along the whole piece. It must not name a column. @digit@ is
+-- that of the cipher, for reports.
 constantLength ::
   TypingEnvironment -> [(Text, Type)] -> Text -> Surface.Expr -> Infer (Deferred Checked.Expr)
 constantLength env columns digit e =
@@ -293,7 +303,8 @@ constantLength env columns digit e =
     (r, n) : _ -> zero e <$ Inference.mistake (ColumnForWholePiece r digit n)
     [] -> expect env Type.len e
 
--- | Checks a value of a type that may vary along a curve. It may name the columns of the curve.
+-- | Checks a value of type @t@ that may vary along a curve. It may name the columns of the curve's
+-- table.
 valueAlong ::
   TypingEnvironment -> [(Text, Type)] -> Type -> Surface.Expr -> Infer (Deferred Checked.Expr)
 valueAlong env columns t e = do
@@ -308,12 +319,12 @@ valueAlong env columns t e = do
       let isKnown = text `elem` map fst columns || isJust (Builtin.lookup text)
       pure (if isNothing binding && not isKnown then Just (r, n) else Nothing)
 
--- | A substitute for a value that is reported as wrong.
+-- | A term that takes the place of a value that is reported as wrong.
 zero :: Surface.Expr -> Deferred Checked.Expr
 zero e = const (Located (region e) (Checked.Number 0))
 
--- | The names in an expression, with their regions, except those that the expression binds itself
--- and those of the functions that it calls.
+-- | The names that an expression uses as values, with their regions. Names that the expression
+-- binds itself, and names of functions that it calls, are left out.
 freeNames :: Surface.Expr -> [(Region, Name)]
 freeNames (Located at e) = case e of
   Surface.Literal _ _ -> []
@@ -336,7 +347,7 @@ freeNames (Located at e) = case e of
 
 -- Joggles
 
--- | Checks a joggle: four lengths.
+-- | Checks a joggle. All its four values must be lengths.
 joggle :: TypingEnvironment -> Surface.Joggle -> Infer (Deferred Checked.Joggle)
 joggle env (Located at (Surface.Joggle from to depth radius)) = do
   from' <- len from

@@ -1,7 +1,8 @@
--- | The check that a program has the statements that it needs, in the right order.
+-- | Checks that a program has the statements that it needs, in the right order.
 --
--- A program begins with @part@. Settings of the whole program occur once and outside of blocks.
--- A machining statement or a motion needs certain settings above it.
+-- A program begins with @part@. A setting of the whole program must occur once and outside of
+-- blocks. A machining statement or a move without cutting needs certain settings above it, such as
+-- the tool and the feed.
 module Checked.RequiredSetting
   ( check,
   )
@@ -18,7 +19,7 @@ import Data.Text qualified as Text
 import Surface.Syntax (Statement)
 import Surface.Syntax qualified as Surface
 
--- | Checks the statements of a program. Gives the mistakes in the order of the text.
+-- | Checks the statements of a program. The mistakes are in the order of the text.
 check :: [Statement] -> [Error]
 check statements = partFirst statements <> go Map.empty (concatMap (flatten False) statements)
   where
@@ -26,7 +27,7 @@ check statements = partFirst statements <> go Map.empty (concatMap (flatten Fals
       s : rest | (seen', errors) <- step seen s -> seen' `seq` (errors <> go seen' rest)
       [] -> []
 
--- | Reports a program that does not begin with @part@.
+-- | Reports a program whose first statement is not @part@.
 partFirst :: [Statement] -> [Error]
 partFirst statements = case statements of
   Located _ (Surface.Part _ _) : _ -> []
@@ -34,8 +35,9 @@ partFirst statements = case statements of
   Located at _ : _ -> [NoPart at {end = start at}]
   [] -> [NoPart (Region 0 0)]
 
--- | A statement, or the statements in its blocks if it has blocks. The flags tell if a statement is
--- in a block.
+-- | The statements in the blocks of a statement; for a statement without blocks, the statement
+-- itself. The flag of each result is true if it is in a block. @isInBlock@ is that flag of the
+-- argument.
 flatten :: Bool -> Statement -> [(Bool, Statement)]
 flatten isInBlock s = case s of
   Located _ (Surface.Repeat _ _ body) -> concatMap (flatten True) body
@@ -43,11 +45,12 @@ flatten isInBlock s = case s of
   Located _ (Surface.With _ body) -> concatMap (flatten True) body
   _ -> [(isInBlock, s)]
 
--- | The settings seen so far with their first regions. A setting that was already reported as
--- missing has no region.
+-- | The settings that occurred so far, with the regions of their first statements. A setting is
+-- also added without a region after its absence is reported, so that it is reported only once.
 type Seen = Map RequiredSetting (Maybe Region)
 
--- | Checks one statement, given the settings seen above it and the flag of 'flatten'.
+-- | Checks one statement. @seen@ are the settings above it, and @isInBlock@ is the flag from
+-- 'flatten'. The result also contains the settings for the next statement.
 step :: Seen -> (Bool, Statement) -> (Seen, [Error])
 step seen (isInBlock, Located at s) = (seen', misplaced <> missing <> repeated)
   where
@@ -68,20 +71,20 @@ step seen (isInBlock, Located at s) = (seen', misplaced <> missing <> repeated)
     now = [(setting, Nothing) | setting <- needed] <> [(setting, Just at) | Just setting <- [given]]
     seen' = Map.unionWith (<|>) seen (Map.fromList now)
 
--- | Tells if a statement changes the tool, which it may do often.
+-- | Does a statement change the tool? A program may do this several times, unlike other settings.
 isChange :: Surface.Statement_ -> Bool
 isChange s = case s of
   Surface.Change _ _ -> True
   Surface.Broken (Just "change") _ -> True
   _ -> False
 
--- | The setting that a statement makes, and the settings that it needs.
+-- | The setting that a statement makes, and the settings that it needs above it.
 data Requirement = Requirement
-  { -- | the count of characters of the keyword, which reports point at
+  { -- | the number of characters of the statement's keyword, at which reports point
     keywordLength :: Int,
-    -- | the setting that the statement makes
+    -- | the setting that the statement makes; 'Nothing' if it makes none that others need
     given :: Maybe RequiredSetting,
-    -- | the settings that must be made above the statement
+    -- | the settings that must occur above the statement
     needed :: [RequiredSetting],
     -- | true if the statement applies to the whole program and is not allowed in a block
     isGlobal :: Bool
@@ -125,7 +128,7 @@ requirement s = case s of
     milling = [ToolSetting, FeedSetting, ToleranceSetting, FromSetting]
     forDepth options = [ClearanceSetting | or [True | Located _ (Surface.Depth _ _) <- options]]
 
--- | The settings by the keywords of their statements.
+-- | The setting that each keyword of a statement makes.
 settingByKeyword :: [(Text, RequiredSetting)]
 settingByKeyword =
   [ ("part", PartSetting),
@@ -138,7 +141,8 @@ settingByKeyword =
     ("from", FromSetting)
   ]
 
--- | The keyword of a statement that applies to the whole program.
+-- | The keyword of a statement that applies to the whole program, for the report of such a
+-- statement in a block.
 globalKeyword :: Surface.Statement_ -> Text
 globalKeyword s = case s of
   Surface.Part _ _ -> "part"

@@ -1,4 +1,5 @@
--- | The meanings of names during type inference, and constraints that cannot be solved yet.
+-- | The meanings of names during type inference, and the constraints that it cannot solve yet. An
+-- unknown is a type or a dimension that inference has yet to find; it has a number.
 module Checked.Scheme
   ( Binding (..),
     Scheme (..),
@@ -18,45 +19,45 @@ import Data.Text (Text)
 
 -- | The meaning of a name in scope. The region is that of the name in its definition.
 data Binding
-  = -- | a constant of the program
+  = -- | a value that the program defines: its type
     Value Region Type
-  | -- | a function with the names of its parameters
+  | -- | a function that the program defines: the names of its parameters, and its type
     Function Region [Text] Scheme
-  | -- | a parameter of a function or the variable of a repetition
+  | -- | a parameter of a function, or the variable of a repetition: its type
     Local Region Type
-  | -- | a definition that is already reported as wrong
+  | -- | a name whose definition is already reported as wrong; uses of it are not reported again
     Poisoned Region
 
--- | The polymorphic type of a function.
+-- | The type of a function of the program. It is polymorphic: each call may use other types.
 data Scheme = Scheme
-  { -- | the numbers of the unknowns that are replaced by fresh unknowns at each use
+  { -- | the numbers of its variables: the unknowns for which each call has new unknowns
     quantified :: IntSet,
     parameters :: [Type],
     result :: Type,
-    -- | the constraints of the body that only the arguments of a call can solve
+    -- | the constraints of the function's body that only the arguments of a call can solve
     deferred :: [DeferredConstraint]
   }
 
--- | The meaning of one mention of a name, from which editors describe it.
+-- | The meaning of a mention of a name, from which editors describe the name.
 data Meaning
-  = -- | a value of a type
+  = -- | a value: its type
     Valued Type
-  | -- | a function with the names of its parameters
+  | -- | a function: the names of its parameters, and its type
     Callable [Text] Scheme
-  | -- | anything else, described in words
+  | -- | anything else: its description in words
     Described Text
 
--- | A constraint that can be solved only when more types are known.
+-- | A constraint that inference can solve only when it knows more types.
 data DeferredConstraint = Operation Arithmetic | Overloaded OverloadedCall
 
--- | An operation whose operands may have unknown types.
+-- | An operation with two operands, whose types may be unknown.
 data Arithmetic = Arithmetic
   { -- | the region of the whole operation
     arithmeticRegion :: Region,
     operator :: Operator,
-    -- | the left operand
+    -- | the region and the type of the left operand
     left :: (Region, Type),
-    -- | the right operand
+    -- | the region and the type of the right operand
     right :: (Region, Type),
     -- | the type of the result
     outcome :: Type
@@ -67,9 +68,9 @@ data OverloadedCall = OverloadedCall
   { -- | the region of the whole call
     callRegion :: Region,
     builtin :: Builtin,
-    -- | the labels of all arguments
+    -- | the labels of all arguments, such as @near@ or @first@
     labels :: [ArgumentLabel],
-    -- | the arguments with values: all but @first@ and @last@
+    -- | the regions and the types of the arguments that have a value: all but @first@ and @last@
     arguments :: [(Region, Type)],
     -- | the type of the result
     callType :: Type

@@ -1,4 +1,8 @@
--- | The checking of the settings in the block of a machining statement, and of stops.
+-- | Checks the settings in the block of a machining statement, and the stops of moves without
+-- cutting. A stop is the point at which such a move ends.
+--
+-- The functions yield 'Deferred' terms, which are complete only when type inference has found all
+-- dimensions of the program.
 module Checked.Settings
   ( check,
     stop,
@@ -21,16 +25,17 @@ import Data.Text (Text)
 import Surface.Keyword qualified as Keyword
 import Surface.Syntax qualified as Surface
 
--- | Checks the block of a statement with the given keyword. Each setting is allowed once, except
--- @approach@ and @retract@: the stops of several such settings are joined in their order.
+-- | Checks the settings in the block of a statement; @statement@ is the keyword of this statement.
+-- Each setting is allowed once. Only @approach@ and @retract@ may be repeated: the stops of all of
+-- them are joined in their order.
 check :: TypingEnvironment -> Text -> [Surface.Setting] -> Infer (Deferred Settings)
 check env statement written = do
   mapM_ reportRepeated (zip (drop 1 (scanl (flip (:)) [] written)) written)
   changes <- mapM (setting env statement) written
   pure (\sol -> foldl (\settings change -> change sol settings) unset changes)
 
--- | Reports a setting that occurs earlier in its block. The list contains the settings up to this
--- one in reverse order, so that it begins with this one.
+-- | Reports a setting that occurs before in its block. The list @upToHere@ begins with the setting
+-- itself. The settings before it follow in reverse order.
 reportRepeated :: ([Surface.Setting], Surface.Setting) -> Infer ()
 reportRepeated (upToHere, Located at s) =
   case [ r
@@ -41,8 +46,8 @@ reportRepeated (upToHere, Located at s) =
     before : _ -> Inference.mistake (RepeatedSetting at (subject s) before)
     [] -> pure ()
 
--- | Checks a setting of the statement with the given keyword, and that this statement allows it.
--- Gives a function that adds the setting to the settings before it.
+-- | Checks one setting, and that the statement with the keyword @statement@ allows it. The result
+-- adds this setting to the settings before it.
 setting :: TypingEnvironment -> Text -> Surface.Setting -> Infer (Deferred (Settings -> Settings))
 setting env statement (Located at s) = do
   unless
@@ -81,7 +86,7 @@ setting env statement (Located at s) = do
 stops :: TypingEnvironment -> NonEmpty Surface.Stop -> Infer (Deferred [Checked.Stop])
 stops env to = (\ps sol -> map ($ sol) ps) <$> mapM (stop env) (NonEmpty.toList to)
 
--- | Checks a stop of a motion: its point and its feed.
+-- | Checks a stop: the point at which the move ends, and the speed of the move.
 stop :: TypingEnvironment -> Surface.Stop -> Infer (Deferred Checked.Stop)
 stop env (Surface.Stop p pace) = do
   p' <- spatialPoint env p
@@ -91,7 +96,7 @@ stop env (Surface.Stop p pace) = do
     Surface.AtFeed f -> (Checked.AtFeed .) <$> expect env Type.feed f
   pure (\sol -> Checked.Stop (p' sol) (pace' sol))
 
--- | Checks a contour or a list of contours.
+-- | Checks an expression that must be a contour or a list of contours.
 contourOrContours :: TypingEnvironment -> Surface.Expr -> Infer (Deferred Checked.Expr)
 contourOrContours env e@(Located at _) = do
   t <- Inference.freshType
@@ -105,7 +110,7 @@ contourOrContours env e@(Located at _) = do
   unless same (Inference.mistake (Mismatch at wanted found elsewhere))
   pure e'
 
--- | The settings of an empty block.
+-- | The settings of a statement whose block is empty.
 unset :: Settings
 unset =
   Settings
@@ -125,7 +130,8 @@ unset =
       restAllowed = Nothing
     }
 
--- | The first words of a setting; empty for a setting with a mistake.
+-- | The words with which a setting begins. Empty for a setting that the parser has reported as
+-- wrong.
 keyword :: Surface.Setting_ -> Text
 keyword s = case s of
   Surface.Approach _ -> "approach"
@@ -145,7 +151,7 @@ keyword s = case s of
   Surface.RestAllowed -> "rest"
   Surface.BrokenSetting -> ""
 
--- | Names what a setting decides, for reports. A block may contain one setting with each name.
+-- | The name of a setting in reports. Two settings of a block must not have the same name.
 subject :: Surface.Setting_ -> Text
 subject s = case s of
   Surface.CutBy _ -> "climb or conventional"

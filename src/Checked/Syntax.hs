@@ -1,7 +1,8 @@
--- | The program after checking.
+-- | The syntax tree of a checked program.
 --
--- Every name is resolved and every term has the right type. All numbers are in mm, radians,
--- minutes and revolutions. Statements that contain a mistake are left out.
+-- Every name is resolved and every term has the right type. All numbers are in mm, radians, minutes
+-- and turns. Statements that contain a mistake are left out. A type whose name ends in an
+-- underscore has no region; the type without the underscore adds it.
 module Checked.Syntax
   ( Program (..),
     Mention (..),
@@ -77,42 +78,42 @@ data Program = Program
     title :: Maybe Text,
     machine :: Maybe (Located MachineRef),
     statements :: [Statement],
-    -- | all mentions of names, in no order
+    -- | all mentions of names, in no particular order
     mentions :: [Mention]
   }
   deriving stock (Eq, Show)
 
--- | A name where it is defined or used: its region, the region of its definition unless it is
--- built in, the word, and its meaning in words.
+-- | A name where it is defined or used. 'definition' is the region of its definition, or 'Nothing'
+-- for a built-in name. 'meaning' describes the name in words, for editors.
 data Mention = Mention {place :: Region, definition :: Maybe Region, word :: Text, meaning :: Text}
   deriving stock (Eq, Show)
 
 -- | A statement with its region.
 type Statement = Located Statement_
 
--- | A statement. Imports are replaced by the definitions of the imported files.
+-- | A statement. Imports do not occur, because the imported definitions have replaced them.
 data Statement_
   = Tool Cutter
   | Feed Expr
   | Tolerance Accuracy
   | Clearance Expr
   | From Expr
-  | -- | the name, the dimension of the value or of the quantities in it, the value
+  | -- | the name, the dimension of the quantities in the value, and the expression of the value
     LetValue (Located Name) Dimension Expr
   | LetFunction Name (NonEmpty Name) Expr
   | Table (Located Name) Columns
-  | -- | the name, the curve, its ciphers, the side, the joggles
+  | -- | the name, the curve, the ciphers, the side to which they shift the curve, and the joggles
     Piece (Located Name) Expr [Cipher] (Located Side) [Joggle]
   | Contour (Located Name) Closure [Item]
   | Assert Assertion
   | Mill Expr (Located Side) Settings
-  | -- | the contour, the stepover in mm
+  | -- | the contour, the stepover in mm, and the settings
     Pocket Expr Expr Settings
   | Turn Expr (Located Side) Settings
-  | -- | the points, the depth in mm
+  | -- | the point or the list of points, the depth in mm, and the settings
     Drill Expr Expr Settings
   | Travel (NonEmpty Stop)
-  | -- | the number of the tool, the tool
+  | -- | the number of the tool, and the tool
     Change Expr Cutter
   | Spindle Spin
   | Coolant Switch
@@ -122,71 +123,76 @@ data Statement_
   | With Expr [Statement]
   deriving stock (Eq, Show)
 
--- | The columns of a table besides x and y, with their dimensions, and the rows. The cells of a row
--- are x, y, and the other columns in this order.
+-- | The rows of a table. The first list holds the columns besides x and y, with their dimensions.
+-- The cells of a row are x, y, and then those of the other columns, in the order of that list.
 data Columns = Columns [(Name, Dimension)] [Cells]
   deriving stock (Eq, Show)
 
--- | Several rows of numbers, or one row that contains other expressions, with its region.
+-- | One or more rows of numbers, or one row in which other expressions occur, with its region.
 data Cells = Numbers {-# UNPACK #-} NumberTable | Written Region [Expr]
   deriving stock (Eq, Show)
 
 -- | A cipher with its region.
 type Cipher = Located Cipher_
 
--- | A recalculation of a curve (Kolsanova, section 5). With a bevel, distances are measured square
--- to the surface. Distances and bevels may name columns, whose values vary along the curve.
+-- | A recalculation of a curve: a shift by a distance (Kolsanova, section 5). If there is a bevel,
+-- the distance is measured square to the surface. Distances and bevels may name columns of the
+-- table, and then vary along the curve.
 data Cipher_
-  = -- | 1: a distance that varies uniformly from the first to the second value, with an optional
-    -- bevel, along the whole curve or between two of its points
+  = -- | cipher 1: the distance at the start and at the end, the bevel, and two points of the curve.
+    -- The distance grows uniformly between these points; without points, along the whole curve
     Growing Expr Expr (Maybe Expr) (Maybe (Expr, Expr))
-  | -- | 2: one distance, with an optional bevel
+  | -- | cipher 2: the distance, which is the same along the whole curve, and the bevel
     Constant Expr (Maybe Expr)
-  | -- | 4: the distance that follows from a bevel and a height, with an optional allowance
+  | -- | cipher 4: the bevel and the flange height, from which the distance follows, and an
+    -- allowance
     Bevelled Expr Expr (Maybe Expr)
-  | -- | 6: a distance at each point, with an optional bevel
+  | -- | cipher 6: the distance at each row of the table, and the bevel
     Pointwise Expr (Maybe Expr)
   deriving stock (Eq, Show)
 
 -- | A joggle with its region.
 type Joggle = Located Joggle_
 
--- | A joggle: its first and last x, its depth and its radius, in mm.
+-- | A joggle: the x at which it begins, the x at which it ends, its depth, and its radius, all in
+-- mm.
 data Joggle_ = Joggle Expr Expr Expr Expr
   deriving stock (Eq, Show)
 
 -- | A cutter with its region.
 type Cutter = Located Cutter_
 
--- | A cutter: a mill or a drill by its diameter, a turning tool by its nose radius.
+-- | A tool: a cutter or a drill by its diameter, a turning tool by the radius of its nose.
 data Cutter_
   = MillCutter Expr
   | DrillCutter Expr
   | TurningCutter Expr
-  | -- | a conical mill by the diameter of its tip, the bevel of its flank, and the height of the
-    -- contour above the tip
+  | -- | a conical cutter: the diameter of its tip, the bevel of its flank, and the height above the
+    -- tip at which the flank touches the contour
     ConeCutter Expr Expr Expr
-  | -- | a swivelling blade by its diameter and that of the gear wheel that swivels it
+  | -- | a swivelling blade: its diameter, and the diameter of the wheel that swivels it
     BladeCutter Expr Expr
   deriving stock (Eq, Show)
 
--- | The allowed distance between a curve and its chords in mm: the same on both sides, or one
--- inside and one outside of the material.
+-- | The allowed chord error in mm: the same on both sides of the toolpath, or one towards the
+-- material and one away from it.
 data Accuracy = Within Expr | Between Expr Expr
   deriving stock (Eq, Show)
 
--- | The command to a spindle: a sense with an optional speed in rpm, or a stop.
+-- | A command to the spindle: to rotate in a sense, with a speed in turns per minute if there is
+-- one, or to stop.
 data Spin = Spinning Sense (Maybe Expr) | SpindleStop
   deriving stock (Eq, Show)
 
--- | A condition that must be true.
+-- | A condition that must hold; otherwise evaluation reports a mistake.
 data Assertion
-  = -- | any other expression that is true or false
+  = -- | an expression that is true or false, and is no comparison
     Holds Expr
-  | -- | a comparison other than equality: the dimension of the operands, the region of the whole
-    -- comparison, the operator, the operands
+  | -- | a comparison other than equality: the dimension of its operands, the region of the
+    -- comparison, the operator, and the left and the right operand
     Compares Dimension Region Operator Expr Expr
-  | -- | an equality: the dimension of the operands, the operands, the tolerance if there is one
+  | -- | an equality: the dimension of its operands, the left and the right operand, and the
+    -- tolerance if there is one
     Agrees Dimension Expr Expr (Maybe Expr)
   deriving stock (Eq, Show)
 
@@ -194,25 +200,25 @@ data Assertion
 data Settings = Settings
   { approach :: [Stop],
     retract :: [Stop],
-    -- | the depth and the largest stepdown
+    -- | the depth of the lowest pass, and the largest stepdown if there are several passes
     depth :: Maybe (Expr, Maybe Expr),
-    -- | the form of the lead-in, and the length of the line or the radius of the arc
+    -- | the form of the lead-in, and the length of its line or the radius of its arc
     leadIn :: Maybe (LeadForm, Expr),
-    -- | as for 'leadIn'
+    -- | the form of the lead-out, and the length of its line or the radius of its arc
     leadOut :: Maybe (LeadForm, Expr),
-    -- | the material that each pass leaves
+    -- | the material that each pass leaves, in the order of the passes
     allowances :: Maybe (NonEmpty Expr),
     corners :: Corners,
     sense :: Maybe (Located CutSense),
     compensation :: Maybe (Located Compensation),
     startNear :: Maybe Expr,
-    -- | the feed downwards
+    -- | the feed of moves down into the material
     plunge :: Maybe Expr,
-    -- | the depth that is drilled between two retracts
+    -- | the depth to drill before the drill is retracted
     peck :: Maybe Expr,
-    -- | contours and lists of contours
+    -- | the islands of a pocket: expressions of contours and of lists of contours
     islands :: [Expr],
-    -- | the region of the setting that allows rest material
+    -- | the region of the setting that allows rest material; without it, rest material is a mistake
     restAllowed :: Maybe Region
   }
   deriving stock (Eq, Show)
@@ -222,10 +228,10 @@ type Expr = Located Expr_
 
 -- | An expression.
 data Expr_
-  = -- | in mm, radians, minutes and revolutions
+  = -- | a number in mm, radians, minutes and turns, or in a product of their powers
     Number Double
   | Variable Name
-  | -- | a call of a function of the program
+  | -- | a call of a function that the program defines
     Apply Name {-# UNPACK #-} (NonEmpty Expr)
   | Builtin Builtin [Argument]
   | Negate {-# UNPACK #-} Expr
@@ -239,11 +245,12 @@ data Expr_
   | Each Expr Name Expr
   deriving stock (Eq, Show)
 
--- | An argument of a built-in function: a value, a value after a word such as @near@, or a rank.
+-- | An argument of a built-in function: a value, a value after a word such as @near@, or a rank,
+-- which is @first@ or @last@.
 data Argument = Given {-# UNPACK #-} Expr | Chosen Selector Expr | Ranked Rank
   deriving stock (Eq, Show)
 
--- | The built-in functions and constants, which "Checked.Builtin" names and types.
+-- | The built-in functions and constants. "Checked.Builtin" gives their names and types.
 data Builtin
   = Pi
   | Truth
@@ -313,10 +320,11 @@ data Builtin
 -- | An item of a contour with its region.
 type Item = Located Item_
 
--- | An item in the braces of a contour.
+-- | An item in the braces of a contour: an element, a repetition of items, or a choice between
+-- items.
 data Item_
-  = -- | a circle with its sense, or a line, a point, a curve or a contour without one; its
-    -- modifiers and the link to the next element
+  = -- | a circle with its sense, or a line, a point, a curve or a contour without a sense; the
+    -- modifiers of the element, and the link to the next one
     Element (Maybe Sense) {-# UNPACK #-} Expr [Modifier] (Maybe Link)
   | For Name Expr [Item]
   | Choose Expr [Item] [Item]
@@ -325,28 +333,31 @@ data Item_
 -- | A modifier with its region.
 type Modifier = Located Modifier_
 
--- | A property of one element of a contour.
+-- | A property of one element of a contour: feed, slow-down at its end, allowance, or bevel.
 data Modifier_ = ElementFeed Expr | Slow | ElementAllowance Expr | Bevel Expr
   deriving stock (Eq, Show)
 
 -- | A link with its region.
 type Link = Located Link_
 
--- | The link between two elements of a contour, as in "Surface.Syntax".
+-- | The link between two elements of a contour.
 data Link_
   = Meet (Maybe Expr)
   | Smooth
   | Tangent
-  | -- | the radius in mm, positive for a clockwise arc
+  | -- | the radius in mm; a positive one means a clockwise arc, a negative one a counter-clockwise
+    -- arc
     Fillet {-# UNPACK #-} Expr
-  | -- | the distance of both ends from the intersection of the elements in mm
+  | -- | the distance in mm that the chamfer takes off each element, measured from their
+    -- intersection
     Chamfer {-# UNPACK #-} Expr
   deriving stock (Eq, Show)
 
--- | The end of a motion and the pace to it.
+-- | A stop: the point at which a move without cutting ends, and the speed of the move.
 data Stop = Stop {point :: Expr, pace :: Pace}
   deriving stock (Eq, Show)
 
--- | The pace of a motion: the present feed, rapid, or a feed of its own.
+-- | The speed of a move without cutting: the feed in force, the highest speed of the machine, or a
+-- feed of its own.
 data Pace = Cutting | Rapid | AtFeed Expr
   deriving stock (Eq, Show)

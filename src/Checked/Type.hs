@@ -1,4 +1,5 @@
--- | The types of the part language.
+-- | The types of the part language. An unknown is a type or a dimension that type inference has yet
+-- to find; it has a number.
 module Checked.Type
   ( Type (..),
     number,
@@ -29,7 +30,8 @@ import Surface.Token (Unit (..))
 data Type
   = -- | a number with a dimension
     Quantity Dimension
-  | -- | a pair of lengths. The power of 'PointWeight' is 1 for a point and 0 for a vector
+  | -- | a point or a vector, both of which are pairs of lengths. The power of 'PointWeight' is 1
+    -- for a point and 0 for a vector
     Spatial Dimension
   | Circle
   | Line
@@ -41,49 +43,51 @@ data Type
   | -- | a transformation of the plane
     Transformation
   | ListOf Type
-  | -- | a table, by the 'Fields' of its columns
+  | -- | a table, with the 'Fields' of its columns or an unknown in their place
     Table Type
-  | -- | a curve, by the 'Fields' of the table through which it passes
+  | -- | a curve, with the 'Fields' of the table through which it passes or an unknown in their
+    -- place
     Curve Type
-  | -- | the columns besides x and y, with their names
+  | -- | the columns of a table besides x and y: their names and the types of their cells
     Fields [(Text, Type)]
-  | -- | an unknown of type inference, by its number
+  | -- | an unknown type, by its number
     Variable Int
-  | -- | the type of a term that is already reported as wrong; it agrees with every type
+  | -- | the type of a term that is already reported as wrong; it fits every type, so that no
+    -- further report follows
     Wrong
   deriving stock (Eq, Show)
 
--- | A number without a dimension.
+-- | The type of a plain number.
 number :: Type
 number = Quantity Dimension.none
 
--- | A length, in mm after checking.
+-- | The type of a length. In checked programs lengths are in mm.
 len :: Type
 len = Quantity (Dimension.atom Length)
 
--- | An angle, in radians after checking.
+-- | The type of an angle. In checked programs angles are in radians.
 angle :: Type
 angle = Quantity (Dimension.atom Angle)
 
--- | A feed, in mm/min after checking.
+-- | The type of a feed. In checked programs feeds are in mm/min.
 feed :: Type
 feed =
   Quantity (Dimension.times (Dimension.atom Length) (Dimension.power (-1) (Dimension.atom Time)))
 
--- | A spindle speed, in revolutions per minute.
+-- | The type of a spindle speed, which is in turns per minute.
 spindleSpeed :: Type
 spindleSpeed = Quantity (Dimension.power (-1) (Dimension.atom Time))
 
--- | A point of the plane.
+-- | The type of a point of the plane.
 aPoint :: Type
 aPoint = Spatial (Dimension.atom PointWeight)
 
--- | A vector of the plane.
+-- | The type of a vector of the plane.
 aVector :: Type
 aVector = Spatial Dimension.none
 
--- | The type of a number with a unit, and the size of the unit in mm, radians, minutes and
--- revolutions.
+-- | The type of a number that has a unit, and the factor that converts this number to mm, radians,
+-- minutes and turns.
 ofUnit :: Unit -> (Type, Double)
 ofUnit unit = case unit of
   Millimetre -> (len, 1)
@@ -97,7 +101,7 @@ ofUnit unit = case unit of
   InPerMin -> (feed, 25.4)
   Rpm -> (spindleSpeed, 1)
 
--- | Describes a type in the words of a drawing, with its article.
+-- | The description of a type in the words of a drawing, with an article, such as "a length".
 describe :: Type -> Text
 describe t = case t of
   Quantity d -> Dimension.describe d
@@ -127,13 +131,13 @@ describe t = case t of
   Variable _ -> "a value"
   Wrong -> "a value"
 
--- | Names the columns of a table besides x and y; empty if there are none.
+-- | The words that name the columns of a table besides x and y. Empty if there are none.
 withColumns :: Type -> Text
 withColumns t = case t of
   Fields columns@(_ : _) -> " with " <> Text.intercalate ", " (map fst columns)
   _ -> ""
 
--- | Describes several values of a known type, without an article.
+-- | The description of several values of a type, without an article, such as "lengths".
 plural :: Type -> Text
 plural t = case Text.words (describe t) of
   [_, word, "in", unit] -> word <> " in " <> unit
@@ -141,33 +145,34 @@ plural t = case Text.words (describe t) of
   article : rest | article `elem` ["a", "an"] -> Text.unwords rest <> "s"
   phrase -> Text.unwords phrase
 
--- | Tells if only one thing is known of a quantity: that its dimension is a square.
+-- | Is a type a quantity of which only one fact is known: that its dimension is a square?
 isSquare :: Type -> Bool
 isSquare t = case t of
   Quantity d -> Dimension.isUnknownSquare d
   _ -> False
 
--- | The dimension of a quantity or of the quantities in a list; 'Dimension.none' for other types.
+-- | The dimension of a quantity, or of the quantities in a list. It is 'Dimension.none' for all
+-- other types.
 dimensionOf :: Type -> Dimension
 dimensionOf t = case t of
   Quantity d -> d
   ListOf item -> dimensionOf item
   _ -> Dimension.none
 
--- | The unknown dimensions in a type.
+-- | The numbers of the unknown dimensions in a type.
 dimensions :: Type -> [Int]
 dimensions t = case t of
   Quantity d -> Dimension.unknowns d
   Spatial d -> Dimension.unknowns d
   _ -> concatMap dimensions (components t)
 
--- | The unknown types in a type.
+-- | The numbers of the unknown types in a type.
 variables :: Type -> [Int]
 variables t = case t of
   Variable n -> [n]
   _ -> concatMap variables (components t)
 
--- | The types of which a type is directly composed.
+-- | The types that are direct parts of a type, such as the type of a list's items.
 components :: Type -> [Type]
 components t = case t of
   ListOf a -> [a]
@@ -185,7 +190,8 @@ components t = case t of
   Variable _ -> []
   Wrong -> []
 
--- | Applies one function to all dimensions in a type, and another one to all unknown types.
+-- | Applies @dimension@ to all dimensions in a type, and replaces its unknown types by @unknown@ of
+-- their numbers.
 substitute :: (Dimension -> Dimension) -> (Int -> Type) -> Type -> Type
 substitute dimension unknown t = case t of
   Quantity d -> Quantity (dimension d)

@@ -17,9 +17,9 @@ import Part.Expression (Environment)
 import Part.Expression qualified as Expression
 import Part.Value (Value (..))
 
--- | Fails when the assertion of a statement, which has the given region, does not hold. Two
--- quantities agree if they differ by at most 10⁻⁶ in units of mm, radians and minutes, unless the
--- program gives a tolerance.
+-- | Evaluates an assertion and fails with a mistake if it does not hold. @at@ is the region of its
+-- statement. In an equality the two numbers may differ by the tolerance that the program gives.
+-- Without one they may differ by 10⁻⁶ in mm, radians, minutes and turns.
 check :: Region -> Environment -> Checked.Assertion -> Eval ()
 check at env assertion = case assertion of
   Checked.Holds e -> do

@@ -1,6 +1,9 @@
--- | The operators of the language, and its functions of numbers and lists, patterns of points and
--- transformations. Functions of constructions are in 'Part.ConstructionBuiltin', those of curves in
+-- | Computes the operators of the language, and its functions of numbers, lists, patterns of points
+-- and transformations. Constructions are in 'Part.ConstructionBuiltin', functions of curves in
 -- 'Part.CurveBuiltin'.
+--
+-- A function of this module that yields a 'Maybe' handles some of the built-in functions. It yields
+-- 'Nothing' for all others, and 'apply' then tries the next one.
 module Part.Builtin
   ( apply,
     binary,
@@ -34,9 +37,9 @@ import Part.Value
 
 -- Operators
 
--- | The value of an operator for two operands. @and@ and @or@ are not handled here, because
--- 'Part.Expression.evaluate' may skip their second operand. Numbers that differ by at most
--- 'Tolerance.equal' are equal.
+-- | Applies an operator to its two operands. @region@ is that of the whole operation. @and@ and
+-- @or@ are missing here, because 'Part.Expression.evaluate' may skip their second operand.
+-- Comparisons treat numbers as equal if they differ by at most 'Tolerance.equal'.
 binary :: Region -> Operator -> Value -> Value -> Eval Value
 binary region op l r = case (op, l, r) of
   (Add, Spatial a, Spatial b) -> spatial region (Vec.add a b)
@@ -63,7 +66,8 @@ binary region op l r = case (op, l, r) of
 
 -- Functions
 
--- | The value of a function for its arguments. Their types are already checked.
+-- | Calls a built-in function. @region@ is that of the call, for mistakes. The arguments fit one
+-- form of the function, because the type checker has accepted the call.
 apply :: Region -> Builtin -> [Argument] -> Eval Value
 apply region builtin arguments =
   fromMaybe (bug "a function applied to values of other types") $
@@ -75,7 +79,7 @@ apply region builtin arguments =
         CurveBuiltin.apply region builtin arguments
       ]
 
--- | The value of a constant or of a function of numbers. Nothing for other functions and arguments.
+-- | Computes a constant or a function of numbers. 'Nothing' if @builtin@ is another function.
 numeric :: Region -> Builtin -> [Argument] -> Maybe (Eval Value)
 numeric region builtin arguments = case (builtin, arguments) of
   (Pi, []) -> number pi
@@ -107,8 +111,8 @@ numeric region builtin arguments = case (builtin, arguments) of
 
 -- Lists and patterns
 
--- | The value of a function of a list, or of a pattern of points. Nothing for other functions and
--- arguments.
+-- | Computes a function of a list, or a pattern of points. 'Nothing' if @builtin@ is another
+-- function.
 ofList :: Region -> Builtin -> [Argument] -> Maybe (Eval Value)
 ofList region builtin arguments = case (builtin, arguments) of
   (Count, [Plain (ListValue vs)]) ->
@@ -142,13 +146,13 @@ ofList region builtin arguments = case (builtin, arguments) of
     multiple :: Int -> Vec.Vec -> Vec.Vec
     multiple k = Vec.scale (fromIntegral k)
 
--- | A list of points, each within 'Tolerance.reach'.
+-- | Makes a list of points. Fails if a point is further than 'Tolerance.reach' from (0, 0).
 points :: Region -> [Point] -> Eval Value
 points region ps = ListValue . Vector.fromList <$> traverse (spatial region . offset) ps
 
--- | Points at equal steps on a circle, from their count and the angle of the first point in
--- radians. With a second angle, the last point is at that angle. Otherwise the steps divide the
--- whole circle.
+-- | Makes a list of @n@ points at equal steps on a circle, counter-clockwise. The first point is at
+-- the angle @a@, in radians from the x axis. If there is an angle @b@, the last point is at @b@;
+-- the sense then follows from the two angles. Without @b@ the steps divide the whole circle.
 around :: Region -> Circle -> Double -> Double -> Maybe Double -> Eval Value
 around region (Circle c r) n a b = do
   count <- whole region Parameter.PointCount n
@@ -162,7 +166,8 @@ around region (Circle c r) n a b = do
 
 -- Transformations
 
--- | A transformation, or the image of an argument. Nothing for other functions.
+-- | Computes a function that transforms a value, or that makes a transformation. 'Nothing' if
+-- @builtin@ is another function.
 transformation :: Region -> Builtin -> [Argument] -> Maybe (Eval Value)
 transformation region builtin arguments = case builtin of
   Moved -> Just . transformed region arguments $ \case
@@ -186,8 +191,9 @@ transformation region builtin arguments = case builtin of
       | k <= 0 = Evaluation.mistake (NotPositive region Parameter.ScalingFactor k)
       | otherwise = pure (Transformation.scaling k p)
 
--- | If the first argument is a value to transform, its image. Otherwise the transformation itself.
--- The function makes the transformation from the arguments that define it.
+-- | Transforms the first argument, if it is a value to transform; @make@ then gets the other
+-- arguments. Otherwise @make@ gets all arguments and the result is the transformation itself. A
+-- first argument that is a number, or the only argument, is not a value to transform.
 transformed :: Region -> [Argument] -> ([Value] -> Eval Transformation) -> Eval Value
 transformed region arguments make = case [v | Plain v <- arguments] of
   Quantity a : rest -> PlacementValue <$> make (Quantity a : rest)
@@ -195,7 +201,7 @@ transformed region arguments make = case [v | Plain v <- arguments] of
   original : rest -> make rest >>= \s -> image region s original
   [] -> bug "a transformation without arguments"
 
--- | The image of a value under a transformation.
+-- | Applies the transformation @s@ to the value @v@. @region@ is that of the call.
 image :: Region -> Transformation -> Value -> Eval Value
 image region s v = case v of
   Spatial p -> spatial region (offset (Transformation.point s (fromOrigin p)))

@@ -1,5 +1,8 @@
--- | Constructions with points, lines and circles: intersections, feet, tangents, parallels, circles
--- of a radius, distances and directions.
+-- | Constructions with points, lines and circles: intersections, perpendicular feet, tangents,
+-- parallels, circles of a given radius, distances and directions.
+--
+-- 'apply' tries functions that each know some of the constructions. Each of them yields 'Nothing'
+-- for a function or for arguments that it does not know.
 module Part.ConstructionBuiltin
   ( apply,
   )
@@ -37,12 +40,14 @@ import Part.Part (polyarcOf, reversedContour)
 import Part.Selection (Answers (..), answerPoints, picked)
 import Part.Value
 
--- | The value of a construction. Nothing for other functions and arguments.
+-- | Computes a construction. @region@ is that of the call. 'Nothing' if @builtin@ with these
+-- arguments is not a construction.
 apply :: Region -> Builtin -> [Argument] -> Maybe (Eval Value)
 apply region builtin arguments =
   asum [f region builtin arguments | f <- [pointFunction, lineFunction, circleFunction, measure]]
 
--- | The value of a construction that yields a point.
+-- | Computes a construction whose result is a point. 'Nothing' if the construction has another
+-- result.
 pointFunction :: Region -> Builtin -> [Argument] -> Maybe (Eval Value)
 pointFunction region builtin arguments = case (builtin, arguments) of
   (Polar, [Plain (Quantity r), Plain (Quantity a)]) ->
@@ -69,7 +74,8 @@ pointFunction region builtin arguments = case (builtin, arguments) of
       CurveValue _ -> True
       _ -> False
 
--- | The value of a construction that yields a line, or reverses a line, a curve or a contour.
+-- | Computes a construction whose result is a line, or reverses a line, a curve or a contour.
+-- 'Nothing' if the construction has another result.
 lineFunction :: Region -> Builtin -> [Argument] -> Maybe (Eval Value)
 lineFunction region builtin arguments = case (builtin, arguments) of
   (MakeLine, [Plain (Spatial p), Plain (Spatial q)])
@@ -97,7 +103,8 @@ lineFunction region builtin arguments = case (builtin, arguments) of
     line = Just . pure . LineValue
     at distance l = Just (LineValue l <$ within region distance)
 
--- | The value of a construction that yields a circle.
+-- | Computes a construction whose result is a circle. 'Nothing' if the construction has another
+-- result.
 circleFunction :: Region -> Builtin -> [Argument] -> Maybe (Eval Value)
 circleFunction region builtin arguments = case (builtin, arguments) of
   (MakeCircle, [Plain (Spatial c), Plain (Quantity r)]) -> Just (circleOf (fromOrigin c) r)
@@ -124,8 +131,8 @@ circleFunction region builtin arguments = case (builtin, arguments) of
       | r <= 0 = Evaluation.mistake (RadiusNotPositive region (Mm r))
       | otherwise = CircleValue (Circle c (Mm r)) <$ within region r
 
--- | The circles of this radius that touch two figures. A figure is a point, a line or a circle,
--- with or without a side.
+-- | All circles of radius @r@ that touch both figures @a@ and @b@. A figure is a point, a line or a
+-- circle. The argument may restrict the side on which the circle touches the figure.
 touchingCircles :: Mm -> Argument -> Argument -> Answers Circle
 touchingCircles r a b =
   Answers
@@ -137,8 +144,8 @@ touchingCircles r a b =
       answers = [c | ta <- touched a, tb <- touched b, c <- TangentCircle.circles r ta tb]
     }
 
--- | The value of a function that yields a distance, a direction, a length, a radius or a
--- coordinate.
+-- | Computes a function whose result is a distance, a direction, a length, a radius or a
+-- coordinate. 'Nothing' for any other function.
 measure :: Region -> Builtin -> [Argument] -> Maybe (Eval Value)
 measure region builtin arguments = case (builtin, arguments) of
   (Distance, [Plain (Spatial p), Plain (Spatial q)]) ->
@@ -170,7 +177,7 @@ measure region builtin arguments = case (builtin, arguments) of
 fault :: ConstructionFault -> Eval a
 fault = Evaluation.mistake . InConstruction
 
--- | The distance of a point from an infinite line, not negative.
+-- | The perpendicular distance between an infinite line and a point, never negative.
 distanceFrom :: Line -> Point -> Mm
 distanceFrom l p = let Mm d = Carrier.signedDistance l p in Mm (abs d)
 
@@ -178,14 +185,16 @@ distanceFrom l p = let Mm d = Carrier.signedDistance l p in Mm (abs d)
 ray :: Point -> Vec -> Line
 ray p v = Line p (Vec.shift v p)
 
--- | The carrier of a line or of a circle. The sense of the circle has no meaning here.
+-- | The carrier of a line or of a circle. The sense of the circle is arbitrary: constructions
+-- ignore it.
 carrier :: Value -> ElementCarrier
 carrier v = case v of
   LineValue l -> OnLine l
   CircleValue c -> OnCircle CounterClockwise c
   _ -> bug "a value that is no curve where one was checked"
 
--- | An intersection of two lines or circles. The arguments choose one of two intersections.
+-- | An intersection of two lines or circles. If there are two, the words in @choice@ (@near@,
+-- @left@, …) choose one of them.
 intersection :: Region -> ElementCarrier -> ElementCarrier -> [Argument] -> Eval Value
 intersection region a b choice = case meeting of
   Apart gap -> fault (NothingCommon region a b gap)
@@ -204,7 +213,7 @@ intersection region a b choice = case meeting of
       (OnCircle _ c, OnCircle _ d) -> Intersection.circles c d
       _ -> bug "an intersection of points"
 
--- | The point at which two lines or circles touch.
+-- | The point at which two lines or circles touch each other. Fails if they do not touch.
 tangency :: Region -> ElementCarrier -> ElementCarrier -> Eval Value
 tangency region a b = case (a, b) of
   (OnLine l, OnCircle _ c) -> lineAt l c
@@ -221,9 +230,9 @@ tangency region a b = case (a, b) of
     circleGap (Circle c (Mm r)) (Circle d (Mm s)) =
       let Mm gap = Vec.distance c d in Mm (min (abs (gap - r - s)) (abs (gap - abs (r - s))))
 
--- | The line from the first to the second argument. An argument is a point on the line, or a circle
--- to which the line is tangent. The side before a circle says on which side of the line the circle
--- lies.
+-- | The line that begins at figure @a@ and ends at figure @b@. A figure is a point on the line, or
+-- a circle to which the line is tangent. The word @left@ or @right@ before a circle says on which
+-- side of the line the circle lies. @sought@ and @candidate@ describe the result in reports.
 tangentLine :: Region -> Sought -> (Line -> Candidate) -> Argument -> Argument -> Eval Line
 tangentLine region sought candidate a b =
   case TangentCircle.tangentLines (sensesOf a, circleAt a) (sensesOf b, circleAt b) of
@@ -242,7 +251,7 @@ tangentLine region sought candidate a b =
       Choosing ToRight _ -> [Clockwise]
       _ -> [CounterClockwise, Clockwise]
 
--- | The reason why two circles have no common tangent that fits. A point is a circle of radius 0.
+-- | The reason why no line is tangent to both circles. A circle of radius 0 represents a point.
 obstacle :: Circle -> Circle -> TangentObstacle
 obstacle (Circle p r) (Circle q s)
   | r == Mm 0 && s == Mm 0 = SamePoints
@@ -258,8 +267,9 @@ obstacle (Circle p r) (Circle q s)
     Mm inside = minus (max r s) (min r s)
     Mm tolerance = Tolerance.coincident
 
--- | The contacts that a circle may have with a figure: on either side of a line, outside or inside
--- of a circle. A side that the program writes before the figure excludes the other contact.
+-- | The contacts that a circle may have with a figure: on the left or the right of a line, outside
+-- or inside of a circle, through a point. If the program writes a side before the figure, only the
+-- contact on that side remains.
 touched :: Argument -> [Touched]
 touched argument = case argument of
   Plain (Spatial p) -> [Through (fromOrigin p)]

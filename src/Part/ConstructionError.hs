@@ -1,7 +1,7 @@
 {-# OPTIONS_GHC -O0 #-}
 
--- | Faults of constructions that have no answer or several: intersections, tangents, circles of a
--- given radius, points of a curve.
+-- | Faults of constructions that have no answer, or several answers and no choice among them. The
+-- constructions are intersections, tangents, circles of a given radius, and points of a curve.
 module Part.ConstructionError
   ( ConstructionFault (..),
     Sought (..),
@@ -21,23 +21,25 @@ import Geometry.Vec qualified as Vec
 import Part.ErrorText (Candidate, at, describe, listed)
 import Report.Report (Report (..))
 
--- | A fault of a construction. The region of the call comes first in every constructor.
+-- | A fault of a construction. The first field of every constructor is the region of the function
+-- call. The comment of a constructor names the other fields in order.
 data ConstructionFault
-  = -- | two figures without a common point: both figures, and the gap between them
+  = -- | two figures without a common point: both figures, and the shortest distance between them
     NothingCommon Region ElementCarrier ElementCarrier Mm
-  | -- | an intersection or a tangency of two equal curves
+  | -- | the intersection or the point of contact of two figures that coincide
     SameThing Region
-  | -- | a construction with several answers and no choice among them: the answers
+  | -- | a construction with several answers, for which the program chooses none: these answers
     Several Region Sought [Candidate]
-  | -- | a choice that excludes all answers: the answers
+  | -- | a choice that excludes every answer: all answers
     NoneFits Region Sought [Candidate]
-  | -- | a choice that leaves several answers, or answers that are equally near: these answers
+  | -- | a choice that still leaves several answers, or @near@ with equally near answers: these
+    -- answers
     SeveralFit Region Sought [Candidate]
   | -- | a construction without an answer: the reason
     NoAnswer Region NoAnswer
-  | -- | a tangency of figures that do not touch: the gap between them
+  | -- | the point of contact of figures that do not touch: the gap between them
     NotTouching Region Mm
-  | -- | a circle through three points of one line
+  | -- | a circle through three points that lie on one line
     OnOneLine Region
   deriving stock (Eq, Show)
 
@@ -45,31 +47,32 @@ data ConstructionFault
 data Sought = SoughtPoint | SoughtTangency | SoughtLine | SoughtCircle
   deriving stock (Eq, Show)
 
--- | The reason why a construction has no answer.
+-- | The reason why a construction has no answer. 'Sought' is the kind of result that is missing.
 data NoAnswer
-  = -- | no circle of the given radius touches both figures on the given sides
+  = -- | no circle of the given radius touches both figures on the sides that the program demands
     NothingTouches Sought
-  | -- | the distance was requested for lines that are not parallel
+  | -- | the distance between two lines that are not parallel was requested
     LinesNotParallel
-  | -- | the direction was requested for a vector of length 0
+  | -- | the direction of a vector of length 0 was requested
     ZeroVector
-  | -- | two circles or points have no common tangent
+  | -- | two circles, or a point and a circle, have no common tangent: the reason
     NoTangent Sought TangentObstacle
-  | -- | the curve has no point with the given x: the curve's least and greatest x
+  | -- | the curve has no point with the given x: the least and the greatest x of the curve
     OutsideCurve Mm Mm
-  | -- | the given arc length is negative or exceeds the curve's length: that length
+  | -- | the given arc length is negative or exceeds the length of the curve: the length of the
+    -- curve
     BeyondLength Mm
   deriving stock (Eq, Show)
 
--- | The reason why two circles or points have no common tangent.
+-- | The reason why two circles, or a point and a circle, have no common tangent.
 data TangentObstacle
   = SamePoints
   | PointOnCircle Point
-  | -- | a point inside a circle: the point's distance from the circle
+  | -- | a point that lies inside the circle: its depth, that is, its distance from the circle
     PointInside Mm
   | SameCircles
   | CircleInCircle
-  | -- | circles that cross: the sum of their radii less the distance of their centres
+  | -- | circles that intersect: the sum of their radii minus the distance between their centres
     CirclesOverlap Mm
   deriving stock (Eq, Show)
 
@@ -106,7 +109,7 @@ toReport fault = case fault of
   OnOneLine region ->
     at region "E0337" "no circle goes through three points of one line"
 
--- | The name of a result in a report.
+-- | The name that a report uses for a kind of result.
 nameOf :: Sought -> Text
 nameOf sought = case sought of
   SoughtPoint -> "point"
@@ -114,7 +117,7 @@ nameOf sought = case sought of
   SoughtLine -> "line"
   SoughtCircle -> "circle"
 
--- | Advice on the choice among several answers.
+-- | The hint of a report that tells the user how to choose one of several answers.
 choiceHint :: Sought -> Text
 choiceHint sought = case sought of
   SoughtLine -> bySides
@@ -128,7 +131,8 @@ choiceHint sought = case sought of
       "Choose one that stays right when the part is turned: near P, left L or right L (of a \
       \directed line), inside C or outside C"
 
--- | The name of the result, and the sentence that says why there is none.
+-- | The two texts of a report on a missing answer: the name of the result, and the sentence with
+-- the reason.
 noAnswerTexts :: NoAnswer -> (Text, Text)
 noAnswerTexts reason = case reason of
   NothingTouches sought ->
@@ -146,7 +150,7 @@ noAnswerTexts reason = case reason of
     )
   BeyondLength l -> ("point", "The curve is " <> Decimal.mm l <> " long.")
 
--- | The sentence that says why there is no common tangent.
+-- | The sentence of a report that explains why there is no common tangent.
 obstacleText :: TangentObstacle -> Text
 obstacleText obstacle = case obstacle of
   SamePoints -> "The points are the same."

@@ -1,5 +1,5 @@
--- | Evaluation of contours: their elements with modifiers and links, and the starting point of a
--- closed contour.
+-- | Evaluates contours: their elements with modifiers and links, and the starting point of a closed
+-- contour.
 module Part.ContourElement
   ( contour,
     startingNear,
@@ -50,8 +50,9 @@ import Part.Piece qualified as Piece
 import Part.Value (Value (..))
 import Part.Value qualified as Value
 
--- | A contour with its name: 'LinkSolver' computes its segments. Fails with all faults of the
--- contour's elements, or else of its links.
+-- | Evaluates the items of a contour's body, and lets 'LinkSolver' compute the segments. If
+-- elements contain mistakes, it fails with all of these mistakes. Otherwise it fails with the
+-- faults of the links.
 contour :: Environment -> Located Name -> Checked.Closure -> [Item] -> Eval Contour
 contour env name closure items = do
   linked <- Evaluation.collect (item env) items
@@ -69,7 +70,7 @@ contour env name closure items = do
       Checked.Open -> Open
       Checked.Closed -> Closed
 
--- | An element as the part keeps it.
+-- | Keeps of an element what the program wrote, and drops its ends and bevels.
 asWritten :: LinkSolver.LinkedElement -> ContourElement
 asWritten w =
   ContourElement
@@ -80,8 +81,8 @@ asWritten w =
       Part.link = snd <$> LinkSolver.link w
     }
 
--- | The elements of one item of a contour's body. A repetition may have several, and so does an
--- open contour that is used as an element.
+-- | The elements that one item of a contour's body gives. A repetition gives its elements for every
+-- value. An open contour that is used as an element gives several elements, too.
 item :: Environment -> Item -> Eval [LinkSolver.LinkedElement]
 item env (Located _ i) = case i of
   For name list body -> do
@@ -98,8 +99,8 @@ item env (Located _ i) = case i of
     linked <- linkedElements (region e) sense v finish link'
     pure (if null bevel then linked else map (\w -> w {LinkSolver.bevel}) linked)
 
--- | The finish of an element after one more of its modifiers. A bevel does not belong to the
--- finish.
+-- | Adds the effect of one modifier to the finish that the earlier modifiers of the element gave. A
+-- bevel leaves the finish unchanged, because 'bevelOf' evaluates it.
 modified :: Environment -> Checked.Modifier -> Finish -> Eval Finish
 modified env (Located _ m) finish = case m of
   ElementFeed e -> (\f -> finish {ownFeed = Just f}) <$> feedOf env e
@@ -107,15 +108,16 @@ modified env (Located _ m) finish = case m of
   ElementAllowance e -> (\d -> finish {allowance = d}) <$> lengthOf env Parameter.Allowance e
   Bevel _ -> pure finish
 
--- | The bevels that an element's modifiers ask for: pairs of a station in mm and an angle in
--- radians. Empty without such a modifier.
+-- | The bevels that the modifiers of an element ask for; empty if none of them is a bevel. A pair
+-- is a station and an angle. The station is the arc length in mm from the start of the element. The
+-- angle between surface and tool axis is in radians.
 bevelOf :: Environment -> Value -> [Checked.Modifier] -> Eval [(Double, Double)]
 bevelOf env v modifiers = case [e | Located _ (Bevel e) <- modifiers] of
   [] -> pure []
   e : _ -> Piece.bevelled env (case v of CurveValue c -> Just c; _ -> Nothing) e
 
--- | The elements that a value gives, with the sense that the program writes before it: one element,
--- or several for an open contour.
+-- | The elements that a value gives: several for an open contour, otherwise one. @sense@ is the
+-- sense that the program writes before a circle.
 linkedElements ::
   Region ->
   Maybe Part.Sense ->
@@ -137,7 +139,7 @@ linkedElements at sense v finish link = case (v, sense) of
     Open -> pure (elementsOfContour at finish link (NonEmpty.toList (elements c)))
   _ -> bug "a value that is no element where one was checked"
   where
-    -- Forced here, so that no thunk retains the value.
+    -- Evaluated here: a thunk in the element would keep the value @v@ in memory.
     one carrier ownStart ownEnd =
       let w =
             LinkSolver.LinkedElement
@@ -152,8 +154,9 @@ linkedElements at sense v finish link = case (v, sense) of
               }
        in w `seq` pure [w]
 
--- | The segments of a contour as elements of another contour. They are joined to one another at
--- their ends. The modifiers hold for all of them, and the link follows the last one.
+-- | The segments of a contour, as elements of another contour. Fixed links join these elements to
+-- one another. All of them get the finish of the whole element. The link to the next element
+-- follows the last of them.
 elementsOfContour ::
   Region ->
   Finish ->
@@ -166,7 +169,8 @@ elementsOfContour at finish link segments = case Part.curveRuns segments of
   where
     fixed curve = Just (at, Fixed (Segment.end (Part.segment (NonEmpty.last curve))))
 
--- | One element from the segments of one line, arc or curve.
+-- | One element, made from the segments of one line, arc or curve. @finish@ applies where the
+-- segments have no modifiers of their own.
 elementOfRun ::
   Finish ->
   NonEmpty Part.Element ->
@@ -192,7 +196,8 @@ elementOfRun finish run@(e :| more) link =
     ends' = drop 1 (scanl (+) 0 [l | x <- NonEmpty.toList run, let Mm l = lengthOf' x])
     lengthOf' = Segment.length . Part.segment
 
--- | The finish of an element, with what it lacks taken from the finish of its contour.
+-- | Combines the modifiers of an element of a used contour, @own@, with the modifiers @whole@ of
+-- the whole used contour. A feed in @own@ has precedence.
 orElse :: Finish -> Finish -> Finish
 orElse own whole =
   Finish
@@ -201,7 +206,7 @@ orElse own whole =
       allowance = if allowance own == Mm 0 then allowance whole else allowance own
     }
 
--- | A link with its region.
+-- | Evaluates a link. The result keeps the region of the link.
 linkOf :: Environment -> Checked.Link -> Eval (Region, Link)
 linkOf env (Located at l) =
   (at,) <$> case l of
@@ -216,15 +221,15 @@ linkOf env (Located at l) =
         else signed r <$ Value.within (region e) r
     Checked.Chamfer e -> Chamfer <$> lengthOf env Parameter.Chamfer e
 
--- | A fillet from its signed radius: clockwise for a positive one, counter-clockwise for a negative
--- one (Kolsanova: links between pieces).
+-- | A fillet with the radius @abs r@ in mm. A positive @r@ makes a clockwise arc, a negative one a
+-- counter-clockwise arc (Kolsanova: links between pieces).
 signed :: Double -> Link
 signed r = Fillet (if r > 0 then Carrier.Clockwise else Carrier.CounterClockwise) (Mm (abs r))
 
 -- Starting points
 
--- | The same closed contour, beginning at its point that is nearest to a given point. If that is
--- not an end of a segment, the segment there is cut in two.
+-- | Moves the start of the closed contour @c@ to its point that is nearest to @p@. If this point
+-- lies inside a segment, the segment is cut in two there.
 startingNear :: Point -> Contour -> Contour
 startingNear p c = case splitAt (nearestElement p list) list of
   (before, e : after) -> case NonEmpty.nonEmpty (rotated before e after) of
@@ -243,8 +248,8 @@ startingNear p c = case splitAt (nearestElement p list) list of
           e : after <> before
         | otherwise -> after <> before <> [e]
 
--- | The index, from 0, of the element that is nearest to a point; the first one if several are
--- equally near. Bounding boxes exclude most elements.
+-- | The index, from 0, of the element that is nearest to @p@. Of equally near elements it is the
+-- first. The distance to an element's bounding box excludes most elements.
 nearestElement :: Point -> [Part.Element] -> Int
 nearestElement p = closest 0 (Mm (1 / 0)) 0
   where
@@ -257,8 +262,8 @@ nearestElement p = closest 0 (Mm (1 / 0)) 0
         | otherwise -> closest best least (i + 1) more
     boxDistance e = BoundingBox.distance p (BoundingBox.ofSegment (Part.segment e))
 
--- | Cuts a segment at its point that is nearest to a given point. Nothing if that is an end of the
--- segment.
+-- | Cuts the segment @s@ at its point that is nearest to @p@. 'Nothing' if this point is an end of
+-- @s@, so that no cut is needed.
 cutNear :: Point -> Segment.Segment -> Maybe (Segment.Segment, Segment.Segment)
 cutNear p s
   | t <= 0 || t >= 1 || Vec.isNear foot (Segment.start s) || Vec.isNear foot (Segment.end s) =
@@ -268,8 +273,8 @@ cutNear p s
     t = Segment.fraction s p
     foot = Segment.at t s
 
--- | Cuts an element in two, given the two parts of its segment. If the element slows down at its
--- end, only the second part does.
+-- | Cuts the element @e@ in two, whose segments are @a@ and @b@. If the cutter slows down at the
+-- end of @e@, it does so only at the end of the second part.
 cutElement :: Part.Element -> Segment.Segment -> Segment.Segment -> (Part.Element, Part.Element)
 cutElement e a b =
   ( e
@@ -289,9 +294,9 @@ cutElement e a b =
     share = if l > 0 then front / l else 0
     bevelAtCut = fmap (\(x, y) -> x + (y - x) * share) (Part.bevel e)
 
--- | The elements before a cut element, in order. Those that belong to the same curve as the cut
--- element no longer slow down, because the curve does so at its end and not at the cut. The flag is
--- true if the cut element continues the last of them.
+-- | Takes the slow-down away from the last of the given elements that belong to the same curve as
+-- the element after the list. The cutter slows down at the end of the whole curve, not where it was
+-- cut. @continued@ is true if the element after the list continues the last element of the list.
 withoutSlow :: Bool -> [Part.Element] -> [Part.Element]
 withoutSlow continued = reverse . go continued . reverse
   where

@@ -25,37 +25,38 @@ import Part.ErrorText (andMore, at, describe, downTo, stop)
 import Part.Tolerance qualified as Tolerance
 import Report.Report (Label (..), Report (..), ReportCode, quote)
 
--- | A fault of a contour. The region that the report points at comes first in every constructor.
+-- | A fault of a contour. The first field of every constructor is the region that the report points
+-- at. The comment of a constructor names the other fields in order.
 data ContourFault
   = EmptyContour Region Name
-  | -- | a closed contour of one element that is no circle and no closed curve
+  | -- | a closed contour whose only element is neither a circle nor a closed curve: that element
     LoneElement Region ElementCarrier
   | -- | a contour whose segments are all shorter than 'Tolerance.coincident'
     NoLength Region
-  | -- | a link after the only element of a contour, a circle or a closed curve
+  | -- | a link after the only element of a contour, although a circle or a closed curve needs none
     LinkOfLoneCircle Region
-  | -- | an open contour whose first or last element is a circle, which has no ends
+  | -- | an open contour whose first or last element is a circle, which has no ends: the circle
     NoEnd Region ElementCarrier
-  | -- | a link after the last element of an open contour: the regions of the link and of the first
-    -- element
+  | -- | a link after the last element of an open contour: the region of the contour's first element
     LinkAtEnd Region Region
-  | -- | a closed contour as an element of another
+  | -- | a closed contour as an element of another contour: the name of the closed contour
     ClosedElement Region Name
   | -- | a closed curve as the element of an open contour
     ClosedCurve Region
-  | -- | a statement that sets a starting point on an open contour: the contour's name
+  | -- | a statement that sets a starting point on an open contour: the name of the contour
     OpenBegins Region Name
   | -- | a link that cannot join its neighbours, whatever the other links do
     NotLinked Neighbours LinkFault
-  | -- | an element that is too short for the links at its ends: the element, the length that it
-    -- lacks, the regions of these links, the largest fillet radius that fits
+  | -- | an element that is too short for the links at its two ends: the element, the length that is
+    -- missing, the regions of these links, and the largest fillet radius that fits. There is no
+    -- radius if no link is a fillet or no fillet fits
     Overrun Region ElementCarrier Mm [Region] (Maybe Mm)
-  | -- | a contour that meets itself: the regions of the contour and of two elements, their common
-    -- point, true if the contour has fillets
+  | -- | a contour that meets itself: the regions of the two elements that meet, their common point,
+    -- and true if the contour has fillets
     CrossesItself Region Region Region Point Bool
   deriving stock (Eq, Show)
 
--- | Two neighbouring elements of a contour, and the link between them.
+-- | Two neighbouring elements of a contour, and the region of the link between them.
 data Neighbours = Neighbours
   { link :: Region,
     before :: {-# UNPACK #-} (Located ElementCarrier),
@@ -63,31 +64,33 @@ data Neighbours = Neighbours
   }
   deriving stock (Eq, Show)
 
--- | The reason why a link cannot join its neighbours.
+-- | The reason why a link cannot join its neighbours, the elements before and after it.
 data LinkFault
   = -- | the neighbours do not meet: the gap between them
     NoMeeting Mm
-  | -- | the neighbours are parallel lines: their distance
+  | -- | the neighbours are parallel lines: the distance between them
     ParallelLines Mm
   | SameCurve
-  | -- | the neighbours meet in several points, and the link chooses none of these
+  | -- | the neighbours meet in these points, and the link does not say which of them it means
     AmbiguousMeeting [Point]
-  | -- | the neighbours do not touch: the gap between them
+  | -- | the neighbours of a smooth link do not touch: the gap between them
     NotSmooth Mm
-  | -- | the neighbours touch at a corner: the angle between their directions
+  | -- | the neighbours of a smooth link touch at a corner: the angle between their directions
     Kinked Rad
-  | -- | the neighbours touch, but in opposite directions
+  | -- | the neighbours of a smooth link touch, but their directions there are opposite
     TurnsBack
   | TangentNeedsCircles
   | ConcentricTangent
   | CoincidentTangent
-  | -- | no tangent fits the senses of the circles: the senses that would have one
+  | -- | the circles have no common tangent with the senses that the program writes: the pairs of
+    -- senses that would have one
     NoCommonTangent [(Sense, Sense)]
-  | -- | a fillet or a chamfer next to an element that is a point
+  | -- | a fillet or a chamfer beside an element that is a point
     FilletAtPoint
-  | -- | no arc touches both neighbours: the radius, and the largest radius that fits
+  | -- | no arc of the given radius touches both neighbours: this radius, and the largest one that
+    -- fits
     NoFillet Mm (Maybe Mm)
-  | -- | two arcs make equally long contours: the centres of the arcs
+  | -- | two fillet arcs make equally long contours: the centres of both arcs
     AmbiguousFillet [Point]
   deriving stock (Eq, Show)
 
@@ -153,7 +156,8 @@ toReport fault = case fault of
           ]
       }
 
--- | The report of an element that is too short for the links at its ends.
+-- | The report of an element that is too short for the links at its ends. @overlap@ is the length
+-- that is missing; @largest@ is the largest fillet radius that fits.
 overrunReport :: Region -> ElementCarrier -> Mm -> [Region] -> Maybe Mm -> Report
 overrunReport region carrier overlap links largest =
   (at region "E0324" title)
@@ -285,14 +289,14 @@ linkReport j fault = case fault of
     titled = linkTitle j
     curved = any isCurve [before j, after j]
 
--- | An error at a link, with its neighbours in words.
+-- | An error that points at a link and labels its two neighbours.
 linkTitle :: Neighbours -> ReportCode -> Text -> Report
 linkTitle j code title =
   (at (link j) code title)
     { others = [Label r (describe carrier) | Located r carrier <- [before j, after j], r /= link j]
     }
 
--- | Two neighbours in words.
+-- | The descriptions of two neighbours, joined by "and".
 both :: Neighbours -> Text
 both j = describe (value (before j)) <> " and " <> describe (value (after j))
 
@@ -303,7 +307,7 @@ isCurve (Located _ carrier) = case carrier of
   OnCircle _ _ -> False
   AtPoint _ -> False
 
--- | The points in which two neighbours meet, at most 'mostPoints' of them.
+-- | The sentence that lists the points in which two neighbours meet. It lists at most 'mostPoints'.
 meetingPoints :: [Point] -> Text
 meetingPoints points =
   "They meet at "
@@ -313,11 +317,12 @@ meetingPoints points =
     <> andMore mostPoints points
     <> "."
 
--- | The largest number of points in a report.
+-- | The largest number of points that a report lists.
 mostPoints :: Int
 mostPoints = 6
 
--- | The hint that names the senses of the circles for which there is a common tangent.
+-- | The hint that names the pairs of senses with which the circles have a common tangent. If
+-- @senses@ is empty, they have none.
 tangentHint :: [(Sense, Sense)] -> Text
 tangentHint senses = case senses of
   [] ->
@@ -329,7 +334,8 @@ tangentHint senses = case senses of
       Clockwise -> "cw"
       CounterClockwise -> "ccw"
 
--- | The hints for a fillet that does not fit.
+-- | The hints for a fillet of radius @r@ that does not fit. @largest@ is the largest radius that
+-- fits, if any radius fits.
 filletHints :: Neighbours -> Mm -> Maybe Mm -> [Text]
 filletHints j r largest =
   ["The largest radius that fits here is " <> downTo m <> "." | Just m <- [largest]]
@@ -340,8 +346,8 @@ filletHints j r largest =
          \of the neighbours."
        ]
 
--- | The signed radius of a fillet, if exactly one of the two signs fits. A positive radius is
--- clockwise.
+-- | The text of the radius @r@ with the sign that makes the fillet fit. A positive sign means a
+-- clockwise arc. 'Nothing' if both signs fit or neither.
 otherSign :: Neighbours -> Mm -> Maybe Text
 otherSign j r = case (fits Clockwise, fits CounterClockwise) of
   (True, False) -> Just (Decimal.mm r)

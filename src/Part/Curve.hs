@@ -1,7 +1,8 @@
 -- | Tables and curves as values of a program.
 --
--- A curve is exact. A contour follows a polyarc within 'Tolerance.curve' of the curve instead. This
--- module makes that polyarc, and keeps the columns of the curve's table with the curve.
+-- A curve is exact. The segments of a contour are lines and arcs, so a contour that contains a
+-- curve uses a polyarc within 'Tolerance.curve' of it. This module makes that polyarc, and keeps
+-- the columns of the curve's table with the curve.
 module Part.Curve
   ( PartTable (..),
     points,
@@ -46,8 +47,8 @@ import Geometry.Vec (Point)
 import Geometry.Vec qualified as Vec
 import Part.Tolerance qualified as Tolerance
 
--- | The numbers of a table: x and y in mm, and then one column for each name. Lengths in a column
--- are in mm, angles in radians, times in minutes.
+-- | A table of the program. The columns of 'rows' are x and y in mm, and then one column for each
+-- of the 'names'. Lengths in a column are in mm, angles in radians, times in minutes.
 data PartTable = PartTable {rows :: NumberTable, names :: [Name]}
   deriving stock (Eq, Show)
 
@@ -59,7 +60,7 @@ points PartTable {rows} = Vector.unfoldrExactN (NumberTable.count rows) next 0
       let p = Vec.point (NumberTable.cell rows k 0) (NumberTable.cell rows k 1)
        in p `seq` (p, k + 1)
 
--- | The columns after x and y, with their names.
+-- | The columns of a table besides x and y: the name of each column, and its value in every row.
 columns :: PartTable -> [(Name, Vector Double)]
 columns PartTable {rows, names} =
   [ (n, Vector.generate (NumberTable.count rows) (\k -> NumberTable.cell rows k i))
@@ -69,17 +70,18 @@ columns PartTable {rows, names} =
 -- | A curve of a program: the exact curve and what belongs to it.
 data PartCurve = PartCurve
   { exact :: Exact.Curve,
-    -- | the columns of the table that the curve was made from, with their names: a number for
-    -- every row
+    -- | the columns besides x and y of the table from which the curve was made: the name of each
+    -- column, and its value in every row
     tableColumns :: [(Name, Vector Double)],
-    -- | for a curve of sections, the fit to its table
+    -- | for a curve whose sections were fitted to a table: that fit
     fitting :: Maybe Fitting,
     -- | lines and arcs within 'Tolerance.curve' of the exact curve
     approximation :: ~MeasuredPolyarc
   }
   deriving stock (Eq, Show)
 
--- | Sections fitted to the points of a table, their deviations from the points, and the points.
+-- | The result of fitting sections to the points of a table: the sections, their deviations from
+-- the points, and the points.
 data Fitting = Fitting
   { sections :: NonEmpty Section.Section,
     deviations :: [SectionFit.Deviation],
@@ -87,15 +89,15 @@ data Fitting = Fitting
   }
   deriving stock (Eq, Show)
 
--- | A curve from the columns of its table, the fit of its sections if it has any, and the exact
--- curve.
+-- | Makes a curve of the program. @tableColumns@ are the columns of its table besides x and y.
+-- @fitting@ is present if the curve consists of fitted sections.
 curve :: [(Name, Vector Double)] -> Maybe Fitting -> Exact.Curve -> PartCurve
 curve tableColumns fitting exact =
   PartCurve {exact, tableColumns, fitting, approximation = arcsAlong Tolerance.curve exact}
 
--- | Arcs and lines within a tolerance of a curve. A curve of arcs and lines keeps its arcs and
--- lines, with small kinks smoothed. A cubic spline is fitted by 'CubicFit', any other curve by
--- 'ParametricFit'.
+-- | A polyarc within @tolerance@ of a curve. A curve that consists of arcs and lines keeps them,
+-- but small kinks between them are smoothed. 'CubicFit' fits a cubic spline, and 'ParametricFit'
+-- any other curve.
 arcsAlong :: Mm -> Exact.Curve -> MeasuredPolyarc
 arcsAlong tolerance exact =
   case (Exact.toSegments exact, cubics) of
@@ -108,11 +110,11 @@ arcsAlong tolerance exact =
     fitted = ParametricFit.approximate tolerance
     cubics = Exact.cubics (times (0.5 * Tolerance.deviationShare) tolerance) exact
 
--- | A curve without columns and without a fit.
+-- | A curve that has no table: without columns and without a fit.
 plain :: Exact.Curve -> PartCurve
 plain = curve [] Nothing
 
--- | An exact curve as a function of its parameter, for 'ParametricFit'.
+-- | An exact curve as the function of its parameter that 'ParametricFit' takes.
 parametric :: Exact.Curve -> ParametricCurve
 parametric c =
   ParametricCurve
@@ -132,7 +134,8 @@ parametric c =
 ends :: PartCurve -> [Point]
 ends c = [Exact.start (exact c), Exact.end (exact c)]
 
--- | A curve in the opposite direction. The rows of its columns are in reverse order, too.
+-- | The curve with the opposite direction. The values of its columns are reversed, so that each
+-- value stays at its point.
 reversed :: PartCurve -> PartCurve
 reversed c =
   curve
@@ -140,32 +143,33 @@ reversed c =
     Nothing
     (Exact.reversed (exact c))
 
--- | The image of a curve. The columns keep their values even when the curve is scaled, because they
--- are dimensions of the part.
+-- | The image of the curve @c@ under the transformation @s@. The columns keep their values even if
+-- @s@ scales the curve, because they are dimensions of the part.
 transformed :: Transformation -> PartCurve -> PartCurve
 transformed s c = curve (tableColumns c) Nothing (Exact.transformed s (exact c))
 
--- | The angles of a column along a curve's polyarc: pairs of a station in mm and an angle in
--- radians, in the order of the stations. Linear interpolation between two pairs is within
--- 'Tolerance.bevel' of the column.
+-- | The bevels along the polyarc of a curve, from their values in radians at the rows of its table.
+-- A pair of the result is a station (the arc length from the start in mm) and the bevel there in
+-- radians. The stations rise. Linear interpolation between them differs from the bevels of the
+-- exact curve by at most 'Tolerance.bevel'.
 alongPolyarc :: PartCurve -> Vector Double -> [(Double, Double)]
 alongPolyarc c values = (0, angleAt 0) : concat (zipWith sampled stations (drop 1 stations))
   where
     stations = MeasuredPolyarc.stations (approximation c)
     column = Exact.column (exact c) values
-    -- A station of the polyarc is scaled to the curve, whose length differs a little.
+    -- A station on the polyarc is scaled, because the exact curve is a little longer or shorter.
     angleAt s =
       Exact.columnAt (exact c) column (Exact.parameterAtLength (exact c) (Mm (s * whole / total)))
     Mm whole = Exact.length (exact c)
     Mm total = MeasuredPolyarc.length (approximation c)
-    -- The first steps are small enough that none of them skips a row.
+    -- The first steps are small enough that none of them skips a row of the table.
     sampled a b =
       let count = max 1 (ceiling ((b - a) / stride)) :: Int
           marks = [a + (b - a) * fromIntegral k / fromIntegral count | k <- [0 .. count]]
        in concat (zipWith (halved (12 :: Int)) (map point marks) (map point (drop 1 marks)))
     point s = (s, angleAt s)
     stride = max 0.1 (total / (8 * fromIntegral (max 1 (Vector.length values))))
-    -- Bisects a step until linear interpolation is good enough at its half and at its quarter.
+    -- Bisects a step, at most 12 times, until interpolation is good at its half and its quarter.
     halved depth (a, x) (b, y)
       | depth <= 0 || abs (z - (x + y) / 2) <= slack && abs (z' - (3 * x + y) / 4) <= slack =
         [(b, y)]
@@ -176,7 +180,7 @@ alongPolyarc c values = (0, angleAt 0) : concat (zipWith sampled stations (drop 
         z' = angleAt ((a + m) / 2)
     Rad slack = Tolerance.bevel
 
--- | The least and the greatest x coordinate of a curve, measured on its polyarc.
+-- | The least and the greatest x coordinate of a curve, computed from its polyarc.
 xRange :: Exact.Curve -> (Mm, Mm)
 xRange c = (Mm (minimum xs), Mm (maximum xs))
   where
@@ -190,8 +194,9 @@ xRange c = (Mm (minimum xs), Mm (maximum xs))
         let Mm r = Segment.radius m p
          in q : filter (Segment.hasFootOf s) [Vec.shift (Vec.vec d 0) m | d <- [r, -r]]
 
--- | The sections as spans of a curve, and the curve's parameter at each row of the table. The
--- parameter is the index of the span, from 0, plus the fraction of the span before the row.
+-- | Makes the spans of a curve of the sections, one of each. The vector holds the curve's parameter
+-- at each row of the table: the index, from 0, of the row's span plus the fraction of the span
+-- before the row.
 spansOfSections :: Vector Point -> NonEmpty Section.Section -> (NonEmpty SpanShape, Vector Double)
 spansOfSections rows sections = (fmap spanOf sections, Vector.imap parameter rows)
   where
@@ -200,7 +205,7 @@ spansOfSections rows sections = (fmap spanOf sections, Vector.imap parameter row
       (i, s) : _ -> fromIntegral i + share s q
       [] -> fromIntegral (length sections)
 
--- | A section as a span of a curve.
+-- | The span of a curve that has the shape of the section @s@.
 spanOf :: Section.Section -> SpanShape
 spanOf s = case (Section.formula s, Section.segment s) of
   (Section.Polynomial a b c, Nothing) ->
@@ -210,7 +215,7 @@ spanOf s = case (Section.formula s, Section.segment s) of
     Segment.Arc {} -> Circular segment
   (Section.Circle _ _, Nothing) -> Line (Section.from s) (Section.to s)
 
--- | The fraction of a section, from 0 to 1, that lies before the x of a row.
+-- | The fraction, from 0 to 1, of the section @s@ that lies before the point @q@ of a row.
 share :: Section.Section -> Point -> Double
 share s q
   | Vec.x q == Vec.x (Section.from s) = 0

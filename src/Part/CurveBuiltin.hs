@@ -1,5 +1,8 @@
 -- | Functions of tables and curves: splines, polylines, parabolas, biarcs and fitted sections;
 -- points, directions, lengths and intersections of curves.
+--
+-- 'apply' tries functions that each know some of these functions. Each of them yields 'Nothing' for
+-- a function or for arguments that it does not know.
 module Part.CurveBuiltin
   ( apply,
   )
@@ -45,14 +48,16 @@ import Part.Selection (answerPoints, picked)
 import Part.Tolerance qualified as Tolerance
 import Part.Value
 
--- | The value of a function of tables or curves. Nothing for other functions and arguments.
+-- | Computes a function of tables or curves. @region@ is that of the call. 'Nothing' if @builtin@
+-- with these arguments is another function.
 apply :: Region -> Builtin -> [Argument] -> Maybe (Eval Value)
 apply region builtin arguments =
   asum [f region builtin arguments | f <- [newCurve, tableFunction, pointFunction, measure]]
 
 -- Tables and new curves
 
--- | The value of a function that makes a curve of points or of another curve.
+-- | Computes a function that makes a new curve from points or from another curve.
+-- 'Nothing' for any other function.
 newCurve :: Region -> Builtin -> [Argument] -> Maybe (Eval Value)
 newCurve region builtin arguments = case (builtin, arguments) of
   (MakeSpline, [t]) -> Just (curveThrough t (Exact.spline Exact.Natural))
@@ -89,13 +94,15 @@ newCurve region builtin arguments = case (builtin, arguments) of
       c <- either (faulty region table) pure (make (Curve.points table))
       pure (CurveValue (Curve.curve (Curve.columns table) Nothing c))
 
--- | Fails for a tolerance that is not above 0, or larger than 'Tolerance.reach'.
+-- | Fails if the tolerance @d@ of a curve, in mm, is not above 0 or is larger than
+-- 'Tolerance.reach'.
 toleranceOf :: Region -> Double -> Eval ()
 toleranceOf region d
   | d > 0 = within region d
   | otherwise = Evaluation.mistake (NotPositive region Parameter.CurveTolerance d)
 
--- | The value of a function that selects rows of a table or makes a list of its points.
+-- | Computes a function that selects rows of a table, or that makes a list of a table's points.
+-- 'Nothing' for any other function.
 tableFunction :: Region -> Builtin -> [Argument] -> Maybe (Eval Value)
 tableFunction region builtin arguments = case (builtin, arguments) of
   (RowsOf, [Plain (TableValue t), Plain (ListValue ns)]) -> Just $ do
@@ -106,7 +113,8 @@ tableFunction region builtin arguments = case (builtin, arguments) of
     ListValue . Vector.fromList <$> traverse (spatial region . offset) (pointsOf table)
   _ -> Nothing
 
--- | A table, or a list of points as a table without columns. Takes a step for every row.
+-- | The argument as a table; a list of points becomes a table without further columns. Spends one
+-- step of evaluation for every row.
 tableOf :: Region -> Argument -> Eval PartTable
 tableOf region t = case t of
   Plain (TableValue table) -> table <$ Evaluation.spend region (NumberTable.count (rows table))
@@ -122,14 +130,15 @@ tableOf region t = case t of
         }
     coordinates p = PrimArray.primArrayFromListN 2 [Vec.x p, Vec.y p]
 
--- | Biarcs through the points of a table or a list.
+-- | The curve of biarcs through the points of a table or a list. @ends@ says if the curve is
+-- closed.
 biarcs :: Region -> Argument -> Ends -> Eval Value
 biarcs region t ends = do
   table <- tableOf region t
   let points = Curve.points table
   case NonEmpty.nonEmpty (Vector.toList points) of
     Just ps@(_ :| _ : _) -> do
-      -- The polyline checks the points.
+      -- The polyline is not used: making it checks that the points are not coincident.
       _ <- either (faulty region table) pure (Exact.polyline points)
       c <- either (faulty region table) pure (Exact.fromSegmentsAt (Biarc.through ends ps) points)
       pure (CurveValue (Curve.curve (Curve.columns table) Nothing c))
@@ -138,7 +147,7 @@ biarcs region t ends = do
 pointsOf :: PartTable -> [Point]
 pointsOf = Vector.toList . Curve.points
 
--- | A curve that consists of these arcs and lines.
+-- | The curve that consists of the given arcs and lines. Fails if it has no length.
 ofSegments :: Region -> NonEmpty Exact.Segment -> Eval Value
 ofSegments region segments =
   either
@@ -146,7 +155,8 @@ ofSegments region segments =
     (pure . CurveValue . Curve.plain)
     (Exact.fromSegments segments)
 
--- | A curve that consists of these sections, with their deviations from the points of the table.
+-- | The curve that consists of the given sections, which were fitted to @points@. The curve keeps
+-- their deviations from these points.
 ofSections :: Region -> PartTable -> Section.PointTable -> NonEmpty Section.Section -> Eval Value
 ofSections region table points sections = do
   let (spans, parameters) = Curve.spansOfSections (Curve.points table) sections
@@ -154,10 +164,11 @@ ofSections region table points sections = do
   c <- either (faulty region table) pure (Exact.fromShapes spans parameters)
   pure (CurveValue (Curve.curve (Curve.columns table) (Just fitting) c))
 
--- | Fails because the points of a table make no curve. The mistake names the row that shows it.
+-- | Fails with the mistake that the points of the table make no curve. The report points at the row
+-- that @fault@ names.
 faulty :: Region -> PartTable -> Exact.CurveFault -> Eval a
 faulty region table fault = Evaluation.mistake $ case fault of
-  -- The last point of a closed curve may be the first one again.
+  -- The last point of a closed curve may repeat the first point.
   Exact.TooFew n
     | count >= n -> badPoints region table Nothing (FewDifferent (count - 1) n)
     | otherwise -> badPoints region table Nothing (FewPoints count n)
@@ -174,7 +185,8 @@ faulty region table fault = Evaluation.mistake $ case fault of
     count = NumberTable.count (rows table)
     noLength = InContour (NoLength region)
 
--- | Fails for a table whose x coordinates neither rise nor fall throughout.
+-- | Passes the result on, or fails if the x coordinates of the table neither rise throughout nor
+-- fall throughout.
 ordered :: Region -> PartTable -> Either Section.PointTableFault a -> Eval a
 ordered region table = either (Evaluation.mistake . fact) pure
   where
@@ -182,7 +194,7 @@ ordered region table = either (Evaluation.mistake . fact) pure
       Section.TooFewRows n -> badPoints region table Nothing (FewPoints n 2)
       Section.OutOfOrder k -> badPoints region table (rowAt table k) (Unordered k)
 
--- | Fails for sections whose rows do not cover the table in order.
+-- | Passes the result on, or fails if the rows of the sections do not cover the table in order.
 fitted :: Region -> PartTable -> Either SectionFit.SectionFault a -> Eval a
 fitted region table = either (Evaluation.mistake . fact) pure
   where
@@ -195,23 +207,24 @@ fitted region table = either (Evaluation.mistake . fact) pure
         badPoints region table Nothing (SectionJoint s begins needed)
       SectionFit.EndsEarly end count -> badPoints region table Nothing (SectionEnd end count)
 
--- | The mistake of points that make no curve, with the region of a row that shows it, if there is
--- one.
+-- | The mistake that points make no curve. @row@ is the region of the row that shows this; without
+-- it, the report points at the call.
 badPoints :: Region -> PartTable -> Maybe Region -> ListFault -> ValueFact
 badPoints region table row fault =
   InCurve (BadPoints region (listing region table) row fault)
 
--- | The mistake of a row number outside of a table.
+-- | The mistake that row @n@, counted from 1, does not exist in the table.
 noSuchRow :: Region -> PartTable -> Int -> ValueFact
 noSuchRow region table n =
   InCurve (NoSuchRow region (listing region table) n (NumberTable.count (rows table)))
 
--- | The source of a table's points: a table or a list of the program. The rows made of a list have
--- the region of the call.
+-- | Tells a table of the program from a list of points, which 'tableOf' has made a table. The rows
+-- of such a list all have the region of the call.
 listing :: Region -> PartTable -> Listing
 listing region table = if rowAt table 1 == Just region then InList else InTable
 
--- | The number of a row of the table, counted from 1. Fails if the table has no such row.
+-- | Converts the number @x@ to the number of a row, counted from 1. Fails if @x@ is not whole or if
+-- the table has no such row.
 rowNumber :: Region -> PartTable -> Double -> Eval Int
 rowNumber region table x
   | abs x > 1e7 || abs (x - fromIntegral n) > Tolerance.equal =
@@ -225,7 +238,7 @@ rowNumber region table x
       InTable -> Parameter.TableRowNumber
       InList -> Parameter.ListPointNumber
 
--- | The region of a row, by the row's number from 1.
+-- | The region of row @k@, counted from 1. 'Nothing' if the table has no such row.
 rowAt :: PartTable -> Int -> Maybe Region
 rowAt table k
   | k >= 1 && k <= NumberTable.count (rows table) = Just (NumberTable.regionOf (rows table) (k - 1))
@@ -233,7 +246,7 @@ rowAt table k
 
 -- Points and measures of a curve
 
--- | The value of a function that yields a point of a curve.
+-- | Computes a function whose result is a point of a curve. 'Nothing' for any other function.
 pointFunction :: Region -> Builtin -> [Argument] -> Maybe (Eval Value)
 pointFunction region builtin arguments = case (builtin, arguments) of
   (PointAtX, Plain (CurveValue c) : Plain (Quantity x) : choice) ->
@@ -248,7 +261,8 @@ pointFunction region builtin arguments = case (builtin, arguments) of
   where
     at = Just . spatial region . offset
 
--- | The point of a curve with this x coordinate. The arguments choose one of several.
+-- | A point of the curve @c@ with the coordinate @x@, in mm. If there are several, the words in
+-- @choice@ (@near@, @first@, …) choose one of them.
 pointAtX :: Region -> PartCurve -> Double -> [Argument] -> Eval Value
 pointAtX region c x choice = case Exact.atX x (exact c) of
   [] -> Evaluation.mistake (InConstruction (NoAnswer region (uncurry OutsideCurve range)))
@@ -261,7 +275,8 @@ pointAtX region c x choice = case Exact.atX x (exact c) of
   where
     range = Curve.xRange (exact c)
 
--- | The point of a curve at this arc length, in mm, from its start.
+-- | The point of the curve @c@ at the arc length @s@ in mm from its start. Fails if @s@ is negative
+-- or exceeds the length.
 pointAlong :: Region -> PartCurve -> Double -> Eval Value
 pointAlong region c s
   | s < -slack || s > whole' + slack =
@@ -272,7 +287,8 @@ pointAlong region c s
     Mm whole' = Exact.length (exact c)
     Mm slack = Tolerance.coincident
 
--- | The value of a function that yields a length, a distance, an angle or a curvature of a curve.
+-- | Computes a function whose result is a length, distance, angle or curvature of a curve.
+-- 'Nothing' for any other function.
 measure :: Region -> Builtin -> [Argument] -> Maybe (Eval Value)
 measure region builtin arguments = case (builtin, arguments) of
   (LengthAlong, [Plain (CurveValue c), Plain (Spatial p)]) ->
@@ -294,18 +310,18 @@ measure region builtin arguments = case (builtin, arguments) of
     distance p c =
       let Mm d = Vec.distance (fromOrigin p) (footOf c (fromOrigin p)) in Just (finite region d)
 
--- | The point of a curve nearest to a point.
+-- | The point of the curve @c@ that is nearest to @p@.
 footOf :: PartCurve -> Point -> Point
 footOf c p = Exact.at (exact c) (Exact.nearest p (exact c))
 
--- | The arc length from a curve's start to its point that is nearest to the given point.
+-- | The arc length from the start of the curve @c@ to its point that is nearest to @p@.
 lengthTo :: PartCurve -> Point -> Mm
 lengthTo c p = Exact.lengthAt (exact c) (Exact.nearest p (exact c))
 
 -- Intersections
 
--- | The carrier of a line, a circle or a curve, and the function that refines a point to an exact
--- point of it. Nothing for other values.
+-- | The carrier of a line, a circle or a curve. The function 'Foot' belonging to it moves an
+-- approximate intersection onto the exact figure. 'Nothing' for a value of another kind.
 exactly :: Value -> Maybe (ElementCarrier, Foot)
 exactly v = case v of
   LineValue l -> Just (OnLine l, Intersection.onLine l)
@@ -313,8 +329,9 @@ exactly v = case v of
   CurveValue c -> Just (OnCurve (approximation c), Intersection.onCurve (exact c))
   _ -> Nothing
 
--- | An intersection of a curve with a line, a circle or a curve. The arguments choose one of
--- several intersections. Polyarcs give approximate points, which are refined on the exact curves.
+-- | An intersection of a curve with a line, a circle or another curve. If there are several, the
+-- words in @choice@ choose one of them. The polyarcs of the curves give approximate points, and the
+-- functions @footA@ and @footB@ refine the chosen one.
 intersection ::
   Region ->
   (ElementCarrier, Foot) ->
@@ -339,8 +356,8 @@ intersection region (a, footA) (b, footB) choice = case MeasuredPolyarc.intersec
           (MeasuredPolyarc.segments p)
       _ -> BoundingBox.ofPoints (Vec.point 0 0) []
 
--- | The function to the distance of a point along a carrier. A circle has none, since it has no
--- start.
+-- | The functions that give the position of a point along a carrier, in mm, for the choices @first@
+-- and @last@. Empty for a circle, because a circle has no start.
 stationOn :: ElementCarrier -> [Point -> Mm]
 stationOn carrier = case carrier of
   OnCurve c -> [MeasuredPolyarc.nearestStation c]

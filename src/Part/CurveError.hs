@@ -1,7 +1,7 @@
 {-# OPTIONS_GHC -O0 #-}
 
--- | Faults of curves and pieces: points that make no curve, shifts with which a curve turns back or
--- opens a gap, bevels and joggles that do not fit.
+-- | Faults of curves and pieces. Points may make no curve, a shifted curve may turn back or have a
+-- gap, and a bevel or a joggle may not fit.
 module Part.CurveError
   ( CurveMistake (..),
     Listing (..),
@@ -20,60 +20,67 @@ import Geometry.Vec qualified as Vec
 import Part.ErrorText (Candidate (APoint), at, below, downTo, listed, stop)
 import Report.Report (Label (..), Report (..))
 
--- | A fault of a curve or a piece. The region of the call, the cipher or the expression comes first
--- in every constructor.
+-- | A fault of a curve or a piece. The first field of every constructor is the region of the call,
+-- the cipher or the expression. The comment of a constructor names the other fields in order.
 data CurveMistake
-  = -- | points that make no curve: their source, the region of the row that shows it, the reason
+  = -- | points that make no curve: their source, the region of the row that shows this, and the
+    -- reason
     BadPoints Region Listing (Maybe Region) ListFault
-  | -- | a row or a point that does not exist: its number, and how many there are
+  | -- | a row or a point that does not exist: the number of it, and the number of rows or points
     NoSuchRow Region Listing Int Int
-  | -- | a shift by at least the radius of curvature: the point of the curve, the distance of the
-    -- shift, and the radius there, which the distance must stay below
+  | -- | a shift by at least the radius of curvature, at which the curve would turn back: the point,
+    -- the distance of the shift, and the radius of curvature there
     Folds Region Point Mm Mm
-  | -- | a shift of a curve that has a corner: the point, the angle between the directions there
+  | -- | a shift of a curve that has a corner: the point, and the angle between the directions there
     ShiftsCorner Region Point Rad
-  | -- | a bevel of 90° or more, or of −90° or less: the number of its row in a table, the bevel
+  | -- | a bevel of 90° or more, or of −90° or less: the number, from 1, of its row in a table, and
+    -- the bevel. There is no number if the bevel is the same in all rows
     SteepBevel Region (Maybe Int) Rad
-  | -- | a change of the distance whose end lies before its start, in the direction of the curve
+  | -- | a cipher 1 whose second point does not lie after its first point in the direction of the
+    -- curve
     GrowthEnds Region
-  | -- | a joggle's x coordinate that the piece does not have exactly once: the coordinate, the
-    -- points with that x, and the least and greatest x of the piece
+  | -- | an x coordinate of a joggle that does not belong to exactly one point of the piece: this x,
+    -- the points that have it, and the least and the greatest x of the piece
     JoggleCoordinate Region Mm [Point] (Mm, Mm)
-  | -- | a joggle between two equal coordinates
+  | -- | a joggle whose two x coordinates are equal
     JoggleNowhere Region
   | -- | a joggle whose ramps are longer than the distance between its ends: its radius, that
-    -- distance, and the largest radius that fits
+    -- distance, and the largest radius that fits. There is none if no radius fits
     JoggleRadius Region Mm Mm (Maybe Mm)
-  | -- | a joggle's radius that is too small for its depth: the radius, and its lower limit
+  | -- | a joggle whose radius is too small for its depth: the radius, and the limit it must exceed
     JoggleDepth Region Mm Mm
   deriving stock (Eq, Show)
 
--- | The source of points: the rows of a table, or a list.
+-- | The source of points in the program: the rows of a table, or the points of a list.
 data Listing = InTable | InList
   deriving stock (Eq, Show)
 
--- | The reason why points make no curve. Rows and sections are counted from 1.
+-- | The reason why points make no curve. Rows, points and sections are counted from 1.
 data ListFault
-  = -- | too few points: how many there are, and how many are needed
+  = -- | too few points: the number of points, and the number that is needed
     FewPoints Int Int
-  | -- | too few different points for a closed curve: how many there are, and how many are needed
+  | -- | too few different points for a closed curve: the number of them, and the number that is
+    -- needed
     FewDifferent Int Int
-  | -- | a row with the same point as the row before it: its number
+  | -- | a row with the same point as the row before it: the number of the row
     SamePoint Int
-  | -- | parabolas through an even number of points: that number
+  | -- | parabolas through an even number of points, although an odd number is needed: the number of
+    -- points
     EvenPoints Int
-  | -- | a row at which x no longer rises, or no longer falls: its number
+  | -- | a row at which x stops rising, or stops falling: the number of the row
     Unordered Int
-  | -- | a section with neither two nor three rows: its number, and how many rows it has
+  | -- | a section with neither two nor three rows: the number of the section, and how many rows it
+    -- has
     SectionRows Int Int
-  | -- | a section whose row numbers do not rise: the section's number
+  | -- | a section whose row numbers do not rise: the number of the section
     SectionOrder Int
-  | -- | a section that does not begin with the last row of the section before it: the section's
-    -- number, the row with which it begins, the row with which it should begin
+  | -- | a section that does not begin with the last row of the section before it: the number of the
+    -- section, the row with which it begins, and the row with which it should begin
     SectionJoint Int Int Int
-  | -- | sections that end before the table: the last row of the sections, and of the table
+  | -- | sections that do not reach the end of the table: their last row, and the last row of the
+    -- table
     SectionEnd Int Int
-  | -- | a curve without a section
+  | -- | a curve for which the program lists no section
     NoSection
   deriving stock (Eq, Show)
 
@@ -141,7 +148,8 @@ toReport fault = case fault of
       { hints = ["Its radius must be more than half of its depth, " <> Decimal.mm least <> "."]
       }
 
--- | The report of a joggle's x coordinate that the piece does not have exactly once.
+-- | The report of a joggle whose coordinate @x@ does not belong to exactly one point of the piece.
+-- @low@ and @high@ are the least and the greatest x of the piece.
 coordinateReport :: Region -> Mm -> [Point] -> (Mm, Mm) -> Report
 coordinateReport region x points (low, high) =
   (at region "E0354" title)
@@ -156,7 +164,8 @@ coordinateReport region x points (low, high) =
       [] -> "It runs from x = " <> Decimal.mm low <> " to x = " <> Decimal.mm high <> "."
       _ -> listed (map APoint points)
 
--- | The report of a joggle that does not fit between its ends.
+-- | The report of a joggle with radius @r@ that needs more than the @available@ length between its
+-- ends. @largest@ is the largest radius that fits.
 radiusReport :: Region -> Mm -> Mm -> Maybe Mm -> Report
 radiusReport region r available largest =
   (at region "E0355" title) {message = [stop "14174"], hints = [maybe none fitting largest]}
@@ -173,7 +182,7 @@ radiusReport region r available largest =
         <> "."
     fitting m = "The largest radius that fits is " <> downTo m <> "."
 
--- | The title of a report on a row or point that does not exist.
+-- | The title of a report on row or point @n@, which does not exist among @count@ rows or points.
 noRowTitle :: Listing -> Int -> Int -> Text
 noRowTitle listing n count =
   "the "
@@ -185,13 +194,14 @@ noRowTitle listing n count =
     <> ", it has "
     <> (if count == 0 then "none" else Decimal.whole count)
 
--- | The noun for a member of a table or of a list.
+-- | The word for one member of the source: a row of a table, a point of a list.
 nounOf :: Listing -> Text
 nounOf listing = case listing of
   InTable -> "row"
   InList -> "point"
 
--- | The title of a report on points that make no curve. The noun comes from 'nounOf'.
+-- | The title of a report on points that make no curve. @noun@ is the word for one point, from
+-- 'nounOf'.
 listTitle :: Text -> ListFault -> Text
 listTitle noun fault = case fault of
   FewPoints count least ->
@@ -232,7 +242,8 @@ listTitle noun fault = case fault of
       1 -> "there is only one"
       _ -> "there are only " <> Decimal.whole n
 
--- | The hints of a report on points that make no curve. The noun comes from 'nounOf'.
+-- | The hints of a report on points that make no curve. @noun@ is the word for one point, from
+-- 'nounOf'.
 listHint :: Text -> ListFault -> [Text]
 listHint noun fault = case fault of
   FewPoints _ _ -> []

@@ -2,8 +2,8 @@
 
 -- | Mistakes in the values and the geometry of a part.
 --
--- A mistake is a fact: numbers and the regions that they come from. Only 'toReport' forms
--- sentences. Facts on contours, curves, constructions and pockets have types of their own.
+-- An error is a fact: numbers, and the regions that they come from. Only 'toReport' makes sentences
+-- of it. Facts about contours, curves, constructions and pockets have types of their own.
 module Part.Error
   ( Error (..),
     ValueFact (..),
@@ -34,40 +34,45 @@ import Part.PocketError (PocketMisfit)
 import Part.PocketError qualified as PocketError
 import Report.Report (Label (..), Report (..), quote)
 
--- | A fact, and the regions of the function calls that led to it, the innermost first.
+-- | A fact, and the regions of the function calls in whose evaluation it was found, the innermost
+-- call first.
 data Error = Error {fact :: ValueFact, calls :: [Region]}
   deriving stock (Eq, Show)
 
--- | A mistake in a value, a statement or the geometry. The region that the report points at comes
--- first in every constructor.
+-- | A mistake in a value, a statement or the geometry. The first field of every constructor is the
+-- region that the report points at. The comment of a constructor names the other fields in order.
 data ValueFact
   = DivisionByZero Region
   | OutOfDomain Region Domain
   | -- | a result that is infinite or not a number
     TooLarge Region
-  | -- | a length, radius or coordinate beyond the reach of any machine: that limit
+  | -- | a length, radius or coordinate that no machine can reach: the largest one that is allowed
     OutOfReach Region Mm
-  | -- | an evaluation that would take too many steps: their limit
+  | -- | a program whose evaluation takes too many steps: the number of steps that is allowed
     TooMuchWork Region Int
   | RadiusNotPositive Region Mm
-  | -- | a line through two equal points: the point
+  | -- | a line through two equal points: this point
     ZeroLine Region Point
-  | -- | a quantity that must be above 0: its value
+  | -- | a quantity that must be above 0: its kind and its value, in the unit of 'Parameter.written'
     NotPositive Region LimitedQuantity Double
-  | -- | a quantity that must be 0 or more: its value
+  | -- | a quantity that must be 0 or more: its kind and its value, in the unit of
+    -- 'Parameter.written'
     Negative Region LimitedQuantity Double
-  | -- | a number that is not whole, or outside of its range: the range, the number
+  | -- | a number that is not whole, or is outside of its range: its kind, the range, and the number
     NotWhole Region WholeNumber Range Double
-  | -- | an item that a list does not have: the item's number, and how many items the list has
+  | -- | an item that a list does not have: the number of the item, and the number of items in the
+    -- list
     NoSuchItem Region Int Int
   | StepOfZero Region
   | NothingToDrill Region
-  | -- | an assertion that does not hold: the values that it compares, with their regions
+  | -- | an assertion that is false: the operands of its comparison, each with its region and its
+    -- value. Empty if the assertion is no comparison
     DoesNotHold Region [(Region, Text)]
-  | -- | two values that should agree: both with their regions, their difference, and the largest
-    -- difference allowed
+  | -- | two values that the program asserts to be equal: each with its region, then their
+    -- difference and the largest difference that is allowed
     DoNotAgree Region (Region, Text) (Region, Text) Text Text
-  | -- | a statement that cannot be done with the cutter in the spindle: the kind of the cutter
+  | -- | a statement for which the tool in the spindle has the wrong kind: the statement, and that
+    -- kind
     WrongCutter Region CutterStatement CutterKind
   | -- | passes at several heights with a cutter that is widest at its tip
     StepsUndercut Region
@@ -81,7 +86,8 @@ data ValueFact
 data CutterStatement = MillStatement | TurnStatement | PocketStatement | DrillStatement
   deriving stock (Eq, Show)
 
--- | The report of a mistake, with the outermost and the innermost call that led to it.
+-- | The report of a mistake. It also points at the outermost and at the innermost function call in
+-- which the mistake was found.
 toReport :: Error -> Report
 toReport (Error fact calls) =
   report {others = others report <> [Label c "in this call" | c <- nub (innermost <> outermost)]}
@@ -90,7 +96,7 @@ toReport (Error fact calls) =
     innermost = take 1 calls
     outermost = take 1 (reverse calls)
 
--- | The report of a fact.
+-- | The report of a fact, without the function calls.
 factReport :: ValueFact -> Report
 factReport fact = case fact of
   DivisionByZero region -> at region "E0301" "this divides by zero"
@@ -188,8 +194,8 @@ factReport fact = case fact of
   InCurve fault -> CurveError.toReport fault
   InPocket fault -> PocketError.toReport fault
 
--- | The report of a statement with the wrong cutter. It points at the keyword that begins the
--- statement.
+-- | The report of a statement for which the tool has the wrong kind. It points at the keyword with
+-- which the statement begins.
 wrongCutterReport :: Region -> CutterStatement -> CutterKind -> Report
 wrongCutterReport (Region begin _) statement kind =
   (at (Region begin (begin + Text.length keyword)) "E0344" (quote keyword <> " needs " <> needed))

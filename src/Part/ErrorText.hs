@@ -1,5 +1,6 @@
--- | The texts of elements, answers, limits and control stops of the Minsk-22 system. All reports on
--- a part use them.
+-- | The phrases that all reports on a part share. They name elements and answers, round limits, and
+-- quote the control stops of the Minsk-22 system. A control stop is a numbered halt of that system
+-- at a wrong input.
 module Part.ErrorText
   ( at,
     describe,
@@ -26,11 +27,11 @@ import Geometry.Vec qualified as Vec
 import Report.Report (Report (..), ReportCode, ReportPlace (..), report)
 import Report.Report qualified as Report
 
--- | The report of an error, from its region, its code and its title.
+-- | An error report without any text except its title.
 at :: Region -> ReportCode -> Text -> Report
 at region code = report Report.Error code (InSource region)
 
--- | An element in words, with its coordinates.
+-- | The description of an element's carrier, with its coordinates.
 describe :: ElementCarrier -> Text
 describe carrier = case carrier of
   OnLine l -> describeLine l
@@ -49,11 +50,12 @@ describeCircle :: Circle -> Text
 describeCircle (Circle c r) =
   "the circle of radius " <> Decimal.mm r <> " about " <> Vec.toText 4 c
 
--- | One of the answers to a construction.
+-- | One of the answers to a construction, for a report.
 data Candidate = APoint Point | ALine Line | ACircle Circle
   deriving stock (Eq, Show)
 
--- | A sentence with the coordinates of the answers, at most 'mostCandidates' of them.
+-- | The sentence that lists the answers of a construction with their coordinates. It lists at most
+-- 'mostCandidates'.
 listed :: [Candidate] -> Text
 listed candidates = case candidates of
   [] -> "There is none."
@@ -76,28 +78,29 @@ listed candidates = case candidates of
       ALine l -> describeLine l
       ACircle c -> describeCircle c
 
--- | The largest number of answers in a report: eight circles of one radius can touch two circles.
+-- | The largest number of answers that a report lists. It suffices for eight circles of one radius,
+-- which can touch two circles.
 mostCandidates :: Int
 mostCandidates = 8
 
--- | The words for the answers that a report leaves out, given how many it lists. Empty if it lists
--- all of them.
+-- | The words " and 3 more", if a report lists @most@ of the given answers and 3 are left. Empty if
+-- the report lists all of them.
 andMore :: Int -> [a] -> Text
 andMore most answers = case length answers - most of
   n | n > 0 -> " and " <> Decimal.whole n <> " more"
   _ -> ""
 
--- | An upper limit that is itself not allowed, rounded down to three decimals. It adds
--- 'Tolerance.coincident' first: a whole number with a small error of rounding then stays whole.
+-- | An upper limit for values that must be below it, rounded down to three decimals.
+-- 'Tolerance.coincident' is added first, so that a rounding error does not turn 5 into 4.999.
 below :: Mm -> Text
 below (Mm x) = downTo (Mm (x + noise))
   where
     Mm noise = Tolerance.coincident
 
--- | An upper limit that is allowed, rounded down to three decimals.
+-- | An upper limit for values that may reach it, rounded down to three decimals.
 downTo :: Mm -> Text
 downTo (Mm x) = Decimal.mm (Mm (fromIntegral (floor (x * 1000) :: Int) / 1000))
 
--- | The sentence for a control stop of the Minsk-22 system.
+-- | The sentence that names the control stop of the Minsk-22 system for the same mistake.
 stop :: Text -> Text
 stop number = "The Minsk-22 system stopped here with " <> number <> "."

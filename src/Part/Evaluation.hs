@@ -1,6 +1,8 @@
--- | The monad of evaluation. A computation yields a value or fails with mistakes. It fails without
--- a mistake if it depends on a mistake that is already reported. The number of its steps is
--- limited, so that every evaluation ends.
+-- | The monad of evaluation. A computation yields a value, or it fails with mistakes. It fails
+-- without a mistake if it needs a value that is missing because of a mistake already reported.
+--
+-- A step is the unit of work: one node of an expression, one row, one item of a list. The number of
+-- steps is limited, so that every evaluation ends.
 module Part.Evaluation
   ( Eval,
     run,
@@ -20,15 +22,15 @@ import Data.Either (fromLeft)
 import GHC.Exts (oneShot)
 import Part.Error (Error (..), ValueFact (..))
 
--- | A computation: a function of the number of steps that are left.
+-- | A computation, as a function of the number of steps that it may still take.
 newtype Eval a = Eval (Int -> Outcome a)
 
--- | The outcome of a computation: the number of steps that are left, and the value or the mistakes.
--- There is no mistake if the cause is already reported.
+-- | The outcome of a computation: the number of steps that are left, and either the value or the
+-- mistakes. The list of mistakes is empty if the cause is already reported.
 data Outcome a = Found Int a | Failed Int [Error]
 
--- | A computation from a function of the number of steps. 'oneShot' promises GHC that the function
--- is called only once, so that GHC need not allocate a closure.
+-- | Makes a computation. 'oneShot' promises GHC that the function is called only once; GHC then
+-- need not allocate a closure.
 steps :: (Int -> Outcome a) -> Eval a
 steps f = Eval (oneShot f)
 
@@ -48,8 +50,8 @@ instance Monad Eval where
     Found left' a -> let Eval e' = f a in e' left'
     Failed left' errors -> Failed left' errors
 
--- | Runs a computation that may take the given number of steps. Yields its result and the number of
--- steps that are left.
+-- | Runs a computation that may take @fuel@ steps. The number in the result is the number of steps
+-- that are left.
 run :: Int -> Eval a -> (Either [Error] a, Int)
 run fuel (Eval e) = case e fuel of
   Found left a -> (Right a, left)
@@ -59,15 +61,17 @@ run fuel (Eval e) = case e fuel of
 mistake :: ValueFact -> Eval a
 mistake fact = mistakes [Error fact []]
 
--- | Fails with these mistakes.
+-- | Fails with several mistakes.
 mistakes :: [Error] -> Eval a
 mistakes errors = Eval (`Failed` errors)
 
--- | Fails without a mistake, because the cause is already reported.
+-- | Fails without a mistake: the computation needs something that is missing because of a mistake
+-- already reported.
 absent :: Eval a
 absent = mistakes []
 
--- | Runs all computations, even after a failure, and fails with the mistakes of all of them.
+-- | Runs all computations, even if some of them fail. If any failed, it fails with the mistakes of
+-- all of them.
 gather :: Traversable t => t (Eval a) -> Eval (t a)
 gather evals = do
   results <- traverse tried evals
@@ -79,8 +83,9 @@ gather evals = do
       Found left' a -> Found left' (Right a)
       Failed left' errors -> Found left' (Left errors)
 
--- | Runs a computation for each item, even after a failure, and concatenates the results. Fails
--- with the mistakes of all computations. Unlike 'gather', it needs no stack space for each item.
+-- | Applies @find@ to each item, even if it fails for some of them, and concatenates the results.
+-- If any computation failed, it fails with the mistakes of all of them. It is 'gather' for long
+-- lists, because it needs no stack space for each item.
 collect :: (a -> Eval [b]) -> [a] -> Eval [b]
 collect find items = Eval (collecting [] items)
   where
@@ -99,8 +104,9 @@ collect find items = Eval (collecting [] items)
               Found left' _ -> failing errors more left'
               Failed left' new -> failing (new : errors) more left'
 
--- | Takes a number of steps. If too few steps are left, it fails with a mistake and sets their
--- number to −1. Every later call then fails without a mistake.
+-- | Takes @wanted@ steps. If fewer are left, it fails with a mistake at @region@ and sets the
+-- number of steps to −1. Every later call then fails without a mistake, so that this mistake is
+-- reported once.
 spend :: Region -> Int -> Eval ()
 spend region wanted = steps $ \left -> case () of
   _
@@ -108,11 +114,11 @@ spend region wanted = steps $ \left -> case () of
     | wanted > left -> Failed (-1) [Error (TooMuchWork region mostSteps) []]
     | otherwise -> Found (left - wanted) ()
 
--- | How many steps the evaluation of a program may take.
+-- | The number of steps that the evaluation of a program may take.
 mostSteps :: Int
 mostSteps = 5000000
 
--- | Adds the region of a function call to the mistakes that occur in the call.
+-- | Adds the region of a function call to the mistakes that the computation of the call reports.
 inCall :: Region -> Eval a -> Eval a
 inCall region (Eval e) = steps $ \left -> case e left of
   Found left' a -> Found left' a

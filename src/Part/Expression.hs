@@ -1,6 +1,7 @@
--- | Evaluation of expressions, and the names that they use.
+-- | Evaluates expressions, and knows the names that expressions use.
 --
--- The types were checked by the stage before. A value of an unexpected type is a bug of partc.
+-- The compiler pass before this one has checked the types. A value of an unexpected type is
+-- therefore a bug of partc.
 module Part.Expression
   ( Value (..),
     Environment (..),
@@ -46,18 +47,19 @@ import Part.Part (polyarcOf)
 import Part.Value (Value (..))
 import Part.Value qualified as Value
 
--- | The definitions of the statements before. A name that has no value here depends on a mistake
--- that is already reported.
+-- | The names that the statements above define. If a name has no value here, the reason is a
+-- mistake that is already reported.
 data Environment = Environment
   { values :: Map Name Value,
-    -- | for each function, the local names at its definition, its parameters and its body
+    -- | for each function: the local names that were in scope at its definition, its parameters,
+    -- its body
     functions :: Map Name (Map Name Value, NonEmpty Name, Expr),
-    -- | parameters of functions and variables of repetitions
+    -- | the parameters of functions and the variables of repetitions
     locals :: Map Name Value
   }
   deriving stock (Show)
 
--- | The environment at the start of a program.
+-- | The environment at the start of a program, without any names.
 empty :: Environment
 empty = Environment Map.empty Map.empty Map.empty
 
@@ -65,7 +67,8 @@ empty = Environment Map.empty Map.empty Map.empty
 bind :: Name -> Value -> Environment -> Environment
 bind name v env = env {locals = Map.insert name v (locals env)}
 
--- | The value of an expression. Every node of the expression takes one step.
+-- | The value of an expression. Takes one step of 'Part.Evaluation' for every node of the
+-- expression.
 evaluate :: Environment -> Expr -> Eval Value
 evaluate env (Located region e) =
   Evaluation.spend region 1 *> case e of
@@ -108,8 +111,8 @@ evaluate env (Located region e) =
       Chosen choice x -> Value.Choosing choice <$> evaluate env x
       Ranked rank -> pure (Value.Ranking rank)
 
--- | The value of a function call, from the region of the call, the arguments, and the function. The
--- function's body is evaluated with the local names at its definition and with its arguments.
+-- | Calls a function of the program. The body sees the arguments, and the local names that were in
+-- scope at the definition. @region@ is that of the call, for mistakes.
 call ::
   Environment ->
   Region ->
@@ -121,14 +124,15 @@ call env region arguments (definitionLocals, parameters, body) = do
   let given = Map.fromList (zip (NonEmpty.toList parameters) (NonEmpty.toList vs))
   Evaluation.inCall region (evaluate env {locals = Map.union given definitionLocals} body)
 
--- | The value of a coordinate. Most coordinates are literals, which need no call of 'evaluate'.
+-- | The number of a coordinate, in mm. Most coordinates are literals, for which a call of
+-- 'evaluate' would be slow.
 coordinate :: Environment -> Expr -> Eval Double
 coordinate env x = case x of
   Located at (Number c) -> c <$ Evaluation.spend at 1
   _ -> number <$> evaluate env x
 
--- | The numbers from the first to the second limit in steps of the third number, as a list. Empty
--- if the steps lead away from the second limit.
+-- | The list of the numbers @a@, @a + by@, @a + 2·by@ and so on, up to @b@. It includes @b@ if a
+-- step reaches it. The list is empty if the steps lead away from @b@. Fails if @by@ is 0.
 range :: Region -> Double -> Double -> Double -> Eval Value
 range region a b by
   | by == 0 = Evaluation.mistake (StepOfZero region)
@@ -138,32 +142,32 @@ range region a b by
     Evaluation.spend region (fromInteger (max 0 (min 100000000 count)))
     pure (ListValue (Vector.generate (max 0 (fromInteger count)) item))
 
--- | The number in a value that was checked to be a number.
+-- | Takes the number out of a value that the type checker knows to be a number.
 number :: Value -> Double
 number v = case v of
   Quantity x -> x
   _ -> bug "a value that is no number where a number was checked"
 
--- | The point in a value that was checked to be a point of the plane.
+-- | Takes the point out of a value that the type checker knows to be a point of the plane.
 point :: Value -> Point
 point v = case v of
   Spatial p -> Value.fromOrigin p
   _ -> bug "a value that is no point where a point was checked"
 
--- | The truth of a value that was checked to be a truth value.
+-- | Takes the truth value out of a value that the type checker knows to be true or false.
 isTrue :: Value -> Bool
 isTrue v = case v of
   TruthValue b -> b
   _ -> bug "a value that is neither true nor false where one was checked"
 
--- | The items of a value that was checked to be a list.
+-- | Takes the items out of a value that the type checker knows to be a list.
 items :: Value -> [Value]
 items v = case v of
   ListValue vs -> Vector.toList vs
   _ -> bug "a value that is no list where a list was checked"
 
--- | A value as text, for editors and reports. The dimension is that of its quantities. Empty for a
--- transformation.
+-- | The text of a value, for editors and reports. @dimension@ is that of the numbers in the value
+-- and decides the unit. The text is empty for a transformation.
 written :: Dimension -> Value -> Text
 written dimension v = case v of
   Quantity x ->

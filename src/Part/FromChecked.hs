@@ -1,7 +1,7 @@
--- | Evaluation of a checked program: the exact geometry of the part and its operations.
+-- | Evaluates a checked program to the exact geometry of the part and its operations.
 --
 -- Statements are evaluated in order. A statement with a mistake is left out, and so is everything
--- that depends on it. The other statements give a part that later stages can check.
+-- that depends on it. The remaining statements give a part that later compiler passes can check.
 module Part.FromChecked
   ( evaluate,
   )
@@ -38,10 +38,10 @@ import Part.Piece qualified as Piece
 import Part.Transformation qualified as Transformation
 import Part.Value (Value (..))
 
--- | The state between two statements. All lists are in reverse order.
+-- | The state of evaluation between two statements. All lists are in reverse order.
 data State = State
   { context :: Context,
-    -- | the cutter before the first tool change
+    -- | the cutter that the program sets before its first tool change
     initialCutter :: Maybe Cutter,
     start' :: Maybe (Located SpacePoint),
     contours' :: [Contour],
@@ -49,11 +49,11 @@ data State = State
     readings' :: [(Region, Text)],
     fittings' :: [(Located Name, Fitting)],
     errors' :: [Error],
-    -- | how many steps of evaluation are left, see 'Evaluation.mostSteps'
+    -- | the number of evaluation steps that are left; see 'Evaluation.mostSteps'
     fuel :: Int
   }
 
--- | Evaluates a program.
+-- | Evaluates a program. The output is always present, but lacks the statements with mistakes.
 evaluate :: Checked.Program -> Result w Error Part
 evaluate program = Result {warnings = [], errors = reverse (errors' final), output = Just part}
   where
@@ -94,7 +94,7 @@ initial =
       fuel = Evaluation.mostSteps
     }
 
--- | The state after a statement.
+-- | Evaluates one statement.
 step :: State -> Checked.Statement -> State
 step state (Located at s) = case s of
   Checked.Tool c -> keep (Machining.cutterOf env c) (\c' -> (changed c') {initialCutter = Just c'})
@@ -158,21 +158,22 @@ step state (Located at s) = case s of
     within answer block =
       run state at answer (\a left -> leave state (block a state {fuel = left}))
 
--- | Evaluates the expressions of a statement. The function makes the next state from their value
--- and the steps that are left. After a mistake the state differs only in its errors and steps.
+-- | Evaluates @answer@, the expressions of the statement at the region @at@. @continue@ makes the
+-- next state of their value and of the number of steps that are left. If a mistake is found, the
+-- new state has more errors and fewer steps, but is the same otherwise.
 run :: State -> Region -> Eval a -> (a -> Int -> State) -> State
 run state at answer continue =
   case Evaluation.run (fuel state) (Evaluation.spend at statementSteps *> answer) of
     (Left found, left) -> state {errors' = reverse found <> errors' state, fuel = left}
     (Right a, left) -> continue a left
 
--- | The steps that a statement takes in addition to those of its expressions.
+-- | The number of steps that a statement takes in addition to the steps of its expressions.
 statementSteps :: Int
 statementSteps = 5
 
 -- Definitions
 
--- | Defines a name. The dimension is that of the quantities in its value.
+-- | Binds a name to the value @v@. @d@ is the dimension of the numbers in @v@.
 define :: State -> Located Name -> Dimension -> Value -> State
 define state name d v =
   (withEnvironment state env')
@@ -188,7 +189,7 @@ define state name d v =
           locals = Map.delete (value name) (locals env)
         }
 
--- | Defines a function, with the local names that its body may use.
+-- | Binds a name to a function, together with the local names that its body may use.
 defineFunction :: State -> Name -> NonEmpty Name -> Expr -> State
 defineFunction state name parameters body =
   withEnvironment
@@ -205,26 +206,26 @@ withEnvironment state env = state {context = (context state) {environment = env}
 
 -- Blocks
 
--- | The state after a block, from the states before the block and at its end. Names that the block
--- defines are forgotten.
+-- | Ends a block. The result is the state @inside@, at the end of the block, but with the names of
+-- the state @outside@, before the block.
 leave :: State -> State -> State
 leave outside inside = withEnvironment inside (environment (context outside))
 
--- | The items of a list over which a block is repeated. Each takes one step.
+-- | The items of the list over which a statement repeats its block. Every item takes one step.
 itemsOf :: Environment -> Expr -> Eval [Value]
 itemsOf env list = do
   vs <- Expression.items <$> Expression.evaluate env list
   vs <$ Evaluation.spend (region list) (length vs)
 
--- | Evaluates a block once for each value, with a local name bound to the value. Names that the
--- block defines in one repetition are unknown in the next.
+-- | Evaluates the block @body@ once for each value in @vs@, with the local name bound to this
+-- value. Names that one repetition defines are unknown in the next one.
 repeated :: Name -> [Checked.Statement] -> [Value] -> State -> State
 repeated name body vs state = foldl once state vs
   where
     env = environment (context state)
     once before v = foldl step (withEnvironment before (Expression.bind name v env)) body
 
--- | Evaluates a block and transforms its operations.
+-- | Evaluates the block @body@, and applies the transformation @placing@ to its operations.
 transformed :: [Checked.Statement] -> Transformation -> State -> State
 transformed body placing state =
   inside

@@ -8,18 +8,20 @@ import Base.Quantity (Mm)
 import Geometry.Carrier (Sense)
 import Geometry.Vec (Point)
 
--- | A link between an element and the element after it.
+-- | A link between an element of a contour and the element after it.
 data Link
-  = -- | at an intersection; of several, at the one nearest to the given point
+  = -- | at an intersection of the two elements; if there are several, at the one nearest to the
+    -- given point
     Meet (Maybe Point)
-  | -- | at this point. It joins the elements of a contour that is itself an element of another one
+  | -- | at this point. Such a link joins the segments of a contour that is used as an element of
+    -- another one
     Fixed Point
-  | -- | at a point where both have the same direction
+  | -- | at a point where both elements have the same direction
     Smooth
-  | -- | by the common tangent
+  | -- | by a straight segment that is tangent to both elements, which are circles or points
     Tangent
-  | -- | by an arc that is tangent to both: its sense and its radius
+  | -- | by an arc that is tangent to both elements: the sense and the radius of the arc
     Fillet Sense Mm
-  | -- | by a straight segment: the length that it cuts off each element
+  | -- | by a straight segment that cuts off the corner: the length that it takes off each element
     Chamfer Mm
   deriving stock (Eq, Show)

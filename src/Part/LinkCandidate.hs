@@ -1,8 +1,9 @@
--- | The joints by which a link can join two neighbouring elements of a contour: intersection,
--- smooth transition, common tangent, fillet, chamfer.
+-- | Computes the joints by which a link can join two neighbouring elements of a contour. A joint is
+-- one solution of a link: an intersection, a smooth transition, a common tangent, a fillet arc or a
+-- chamfer.
 --
--- The joints of a link do not depend on the other links of the contour. 'Part.LinkSolver' chooses
--- one of them.
+-- The joints of a link do not depend on the other links of the contour. If a link has several
+-- joints, 'Part.LinkSolver' chooses one of them.
 module Part.LinkCandidate
   ( Joint (..),
     through,
@@ -35,9 +36,9 @@ import Part.ContourError (ContourFault (..), LinkFault (..), Neighbours (..))
 import Part.Link (Link (..))
 import Part.Tolerance qualified as Tolerance
 
--- | The point at which the first element ends, the point at which the second one begins, and the
--- segment between these points. Without a segment the points are equal, up to the small gap of a
--- smooth transition.
+-- | A solution of a link. The element before the link ends at 'leave', the element after it begins
+-- at 'enter', and the segment 'inserted' leads from one point to the other. If no segment is
+-- inserted, the points are equal, up to the small gap that a smooth link allows.
 data Joint = Joint
   { leave :: {-# UNPACK #-} Point,
     enter :: {-# UNPACK #-} Point,
@@ -45,17 +46,17 @@ data Joint = Joint
   }
   deriving stock (Eq, Show)
 
--- | A joint at which both elements meet in one point.
+-- | The joint at which both elements meet in the point @p@.
 through :: Point -> Joint
 through p = Joint p p Nothing
 
--- | A joint by a straight segment.
+-- | The joint that inserts a straight segment from @p@ to @q@.
 straight :: Point -> Point -> Joint
 straight p q = Joint p q (Just (Straight p q))
 
--- | All joints by which a link can join its neighbours; fillets begin with the shortest one. The
--- points are the end of the first neighbour and the start of the second one, if they have any. Of
--- several intersections, the one at such a point is taken.
+-- | All joints by which a link can join the neighbours @j@. Fillets are sorted by length, the
+-- shortest first. The points @own@ are the end of the element before the link and the start of the
+-- element after it, as far as they have any. They decide between several intersections.
 candidates :: Neighbours -> [Point] -> Link -> Either ContourFault (NonEmpty Joint)
 candidates j own link = case link of
   Meet near -> (:| []) <$> meet j own near
@@ -65,14 +66,15 @@ candidates j own link = case link of
   Fillet sense r -> fillet j sense r
   Chamfer d -> (:| []) <$> chamfer j own d
 
--- | The carriers of two neighbours.
+-- | The carriers of the element before the link and of the element after it.
 shapes :: Neighbours -> (ElementCarrier, ElementCarrier)
 shapes j = (value (before j), value (after j))
 
 -- Intersections
 
--- | The intersection of two neighbours. Of several intersections, it is the one nearest to the
--- point that the link names. If the link names none, it is the one at an end of a neighbour.
+-- | The joint at an intersection of two neighbours. Of several intersections it takes the one
+-- nearest to the point @near@. Without @near@ it takes the one that is among the points @own@, the
+-- ends of the neighbours.
 meet :: Neighbours -> [Point] -> Maybe Point -> Either ContourFault Joint
 meet j own near = case shapes j of
   (AtPoint p, AtPoint q)
@@ -103,8 +105,9 @@ meet j own near = case shapes j of
       [p] -> Right (through p)
       ps -> choose j own near Tolerance.nearTie ps
 
--- | The choice among several intersections. Two distances that differ by at most the tolerance are
--- a tie, which is a fault.
+-- | Chooses one of the intersections @ps@: the nearest to @near@, or without @near@ the only one
+-- that is among the points @own@. Fails if the two smallest distances from @near@ differ by at most
+-- @tolerance@.
 choose :: Neighbours -> [Point] -> Maybe Point -> Mm -> [Point] -> Either ContourFault Joint
 choose j own near (Mm tolerance) ps =
   through <$> case (near, sortOn (\p -> maybe 0 (`distance` p) near) ps) of
@@ -114,8 +117,9 @@ choose j own near (Mm tolerance) ps =
   where
     distance a b = let Mm d = Vec.distance a b in d
 
--- | A joint at an element that is a point. Fails unless the point lies on the other neighbour. The
--- polyarc of a curve may deviate from the curve by up to 'Tolerance.curve'.
+-- | The joint of two neighbours, one of which is the point @p@. Fails if @p@ does not lie on the
+-- other neighbour, @carrier@. A point on a curve may be 'Tolerance.curve' away, because the curve
+-- is replaced by its polyarc.
 pointOn :: Neighbours -> Point -> ElementCarrier -> Either ContourFault Joint
 pointOn j p carrier
   | gap <= slack = Right (through p)
@@ -136,7 +140,7 @@ extent c =
     (BoundingBox.ofPoints (MeasuredPolyarc.start c) [])
     (MeasuredPolyarc.segments c)
 
--- | The distance of a point from an element's carrier.
+-- | The distance between a point and the carrier of an element.
 distanceTo :: ElementCarrier -> Point -> Mm
 distanceTo carrier p = case carrier of
   OnLine l -> let Mm d = Carrier.signedDistance l p in Mm (abs d)
@@ -146,7 +150,7 @@ distanceTo carrier p = case carrier of
 
 -- Smooth transitions
 
--- | The joint at which two neighbours touch and have the same direction.
+-- | The joint of a smooth link: two neighbours touch there and have the same direction.
 smooth :: Neighbours -> Either ContourFault Joint
 smooth j = case shapes j of
   (OnLine l, OnLine m) -> smoothLines j l m
@@ -162,7 +166,8 @@ smooth j = case shapes j of
     let q = MeasuredPolyarc.start c
      in smoothEnds j (facing a q) (q, MeasuredPolyarc.directionAt c (Mm 0))
 
--- | A smooth transition between two lines. They must coincide and have the same direction.
+-- | The joint of a smooth link between two lines. Fails unless they lie on one infinite line and
+-- have the same direction.
 smoothLines :: Neighbours -> Line -> Line -> Either ContourFault Joint
 smoothLines j l m
   | Vec.dot (Carrier.direction l) (Carrier.direction m) <= 0 = Left (NotLinked j TurnsBack)
@@ -172,9 +177,9 @@ smoothLines j l m
     Apart gap -> Left (NotLinked j (NotSmooth gap))
     _ -> meet j [] Nothing
 
--- | A smooth transition from the end of an element to the start of the next one, each given by a
--- point and a direction. Curves come from measured points, so a gap of 'Tolerance.smoothGap' and an
--- angle of 'Tolerance.smoothTurn' are allowed.
+-- | The joint of a smooth link, from the point and the direction at the end of one neighbour and
+-- those at the start of the next. It allows a gap of 'Tolerance.smoothGap' and an angle of
+-- 'Tolerance.smoothTurn', because curves may come from measured points.
 smoothEnds :: Neighbours -> (Point, Vec) -> (Point, Vec) -> Either ContourFault Joint
 smoothEnds j (p, u) (q, v)
   | Vec.distance p q > Tolerance.smoothGap =
@@ -186,7 +191,7 @@ smoothEnds j (p, u) (q, v)
     Rad angle = Vec.signedAngle u v
     Rad allowed = Tolerance.smoothTurn
 
--- | The point of an element that is nearest to a given point, and the element's direction there.
+-- | The point of an element that is nearest to @p@, and the element's direction there.
 facing :: ElementCarrier -> Point -> (Point, Vec)
 facing carrier p = case carrier of
   OnLine l -> (Carrier.foot l p, Carrier.direction l)
@@ -198,8 +203,8 @@ facing carrier p = case carrier of
      in (MeasuredPolyarc.at c s, MeasuredPolyarc.directionAt c s)
   AtPoint q -> (q, Vec.unit (Vec.to q p))
 
--- | A smooth transition between a line and a circle, in either order. The line must be tangent to
--- the circle and have the direction of its sense.
+-- | The joint of a smooth link between a line and a circle, in either order. Fails unless the line
+-- touches the circle and has, at that point, the direction of the circle's sense.
 smoothLineCircle :: Neighbours -> Line -> Sense -> Circle -> Either ContourFault Joint
 smoothLineCircle j l sense (Circle c (Mm r))
   | abs (abs h - r) <= tolerance && signum h /= Carrier.senseSign sense =
@@ -209,8 +214,8 @@ smoothLineCircle j l sense (Circle c (Mm r))
     Mm h = Carrier.signedDistance l c
     Mm tolerance = Tolerance.coincident
 
--- | A smooth transition between two circles. One of two circles with the same sense must touch the
--- other from inside; circles with different senses must touch from outside.
+-- | The joint of a smooth link between two circles. Fails unless they touch. Circles with the same
+-- sense must touch with one inside the other, circles with different senses from outside.
 smoothCircles :: Neighbours -> (Sense, Circle) -> (Sense, Circle) -> Either ContourFault Joint
 smoothCircles j (s, Circle c (Mm r)) (t, Circle d (Mm q))
   | distance <= tolerance = Left (NotLinked j SameCurve)
@@ -225,7 +230,8 @@ smoothCircles j (s, Circle c (Mm r)) (t, Circle d (Mm q))
     innerGap = abs (distance - abs (r - q))
     towards x = Vec.shift (Vec.scale x (Vec.unit (Vec.to c d))) c
 
--- | A joint at the point where two neighbours touch. Fails if the gap between them is too large.
+-- | The joint at the point @p@, at which two neighbours touch up to the distance @gap@ in mm. Fails
+-- if @gap@ exceeds 'Tolerance.coincident'.
 touching :: Neighbours -> Double -> Point -> Either ContourFault Joint
 touching j gap p
   | abs gap <= tolerance = Right (through p)
@@ -235,8 +241,8 @@ touching j gap p
 
 -- Inserted segments
 
--- | The common tangent of two circles that leaves the first and reaches the second in the
--- directions of their senses. A point counts as a circle of radius 0.
+-- | The joint by a straight segment that is tangent to both circles. It leaves the first circle,
+-- and reaches the second one, in the direction of their senses. A point is a circle of radius 0.
 tangent :: Neighbours -> Either ContourFault Joint
 tangent j = case shapes j of
   (OnLine _, _) -> Left (NotLinked j TangentNeedsCircles)
@@ -260,8 +266,8 @@ tangent j = case shapes j of
         Nothing ->
           Left (NotLinked j (NoCommonTangent [(s, t) | (s, t, _) <- TangentLine.all c d]))
 
--- | The arcs with the given sense and radius that are tangent to both neighbours, the shortest one
--- first.
+-- | The joints by arcs of sense @sense@ and radius @r@ that are tangent to both neighbours, the
+-- shortest arc first.
 fillet :: Neighbours -> Sense -> Mm -> Either ContourFault (NonEmpty Joint)
 fillet j sense r = case shapes j of
   (AtPoint _, _) -> Left (NotLinked j FilletAtPoint)
@@ -277,8 +283,8 @@ fillet j sense r = case shapes j of
         (Just (Segment.arc sense (Fillet.middle f) (Fillet.start f) (Fillet.end f)))
     arcLength = fmap Segment.length . inserted
 
--- | A straight segment that cuts off a corner. Its ends lie on the neighbours, at the given
--- distance along each of them from their intersection.
+-- | The joint by a straight segment that cuts off a corner. The ends of the segment lie on the two
+-- neighbours, at the arc length @d@ from their intersection.
 chamfer :: Neighbours -> [Point] -> Mm -> Either ContourFault Joint
 chamfer j own (Mm d) = case shapes j of
   (AtPoint _, _) -> Left (NotLinked j FilletAtPoint)
@@ -289,7 +295,8 @@ chamfer j own (Mm d) = case shapes j of
     checkReach j (after j) d corner
     Right (straight (along a (-d) corner) (along b d corner))
 
--- | Fails for an open curve that ends before a signed distance along it from one of its points.
+-- | Fails for an open curve that is too short for a chamfer: it ends before the arc length
+-- @distance@ from its point @p@. A negative @distance@ goes against the direction of the curve.
 checkReach :: Neighbours -> Located ElementCarrier -> Double -> Point -> Either ContourFault ()
 checkReach j (Located region carrier) distance p = case carrier of
   OnCurve c
@@ -304,8 +311,8 @@ checkReach j (Located region carrier) distance p = case carrier of
   where
     tooShort overlap = Left (Overrun region carrier (Mm overlap) [link j] Nothing)
 
--- | The point of an element at a signed distance along it from one of its points. Positive
--- distances follow the element's direction.
+-- | The point of an element at the arc length @s@ in mm from its point @p@. A negative @s@ goes
+-- against the direction of the element.
 along :: ElementCarrier -> Double -> Point -> Point
 along carrier s p = case carrier of
   OnLine l -> Vec.shift (Vec.scale s (Carrier.direction l)) p

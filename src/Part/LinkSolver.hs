@@ -1,9 +1,12 @@
 -- | Computes the segments of a contour from its elements and links.
 --
--- Every link can join its neighbours in a few ways, called joints: by one intersection or by two
--- fillets, for instance. Dynamic programming along the contour chooses one joint for each link, so
--- that no element runs backwards and the contour is as short as possible. Two equally short
--- contours are an error.
+-- Every link can join its neighbours by one or a few joints, such as two intersections or two
+-- fillets. Dynamic programming along the contour chooses one joint for each link. Its choice
+-- traverses no element backwards and makes the contour as short as possible. Two choices that make
+-- equally long contours are a fault.
+--
+-- A station is the position of a point on a curve: the arc length from the start of its polyarc, in
+-- mm.
 module Part.LinkSolver
   ( LinkedElement (..),
     Link (..),
@@ -47,22 +50,25 @@ import Part.Tolerance qualified as Tolerance
 data LinkedElement = LinkedElement
   { elementRegion :: Region,
     carrier :: ElementCarrier,
-    -- | the start and the end of the element by itself, whatever its links; a circle has neither
+    -- | the start and the end of the element as the program defines it, before any link shortens
+    -- it. A circle has neither
     ownStart :: Maybe Point,
     ownEnd :: Maybe Point,
     finish :: Finish,
-    -- | the bevels of the element's surface: pairs of a station in mm and an angle in radians, in
-    -- the order of the stations. A single bevel holds for the whole element
+    -- | the bevels of the element's surface: pairs of a station in mm and an angle in radians, with
+    -- rising stations. A single pair holds for the whole element
     bevel :: [(Double, Double)],
-    -- | the exact curve, for an element that is a curve
+    -- | the exact curve, if the element is a curve
     sourceCurve :: Maybe PartCurve,
-    -- | the region of the link, and the link
+    -- | the region of the link, and the link; absent if the element meets the next one or is the
+    -- last
     link :: Maybe (Region, Link)
   }
   deriving stock (Eq, Show)
 
--- | The segments of a contour, given the region of its name, or its faults. All links that cannot
--- join their neighbours are reported together. Otherwise only the first fault is reported.
+-- | Computes the segments of a contour. @region@ is that of the contour's name. If links cannot
+-- join their neighbours, it fails with the faults of all these links. Otherwise it fails with the
+-- first fault.
 solve ::
   Region ->
   Ends ->
@@ -74,8 +80,8 @@ solve region ends linked = case attempt region ends linked of
     let faults = fromMaybe (found :| []) (NonEmpty.nonEmpty (unlinked ends linked))
      in Left (fmap (withLargest region ends linked) faults)
 
--- | The faults of the links that cannot join their neighbours. A link inside a repetition is
--- reported once. Two links between the same two elements are reported once, too.
+-- | The faults of the links that cannot join their neighbours. Links of a repetition that have the
+-- same region, or join the same two elements, are reported once.
 unlinked :: Ends -> NonEmpty LinkedElement -> [ContourFault]
 unlinked ends linked = case linked of
   _ :| [] -> []
@@ -88,7 +94,7 @@ unlinked ends linked = case linked of
       NotLinked (Neighbours _ (Located a _) (Located b _)) _ -> (min a b, max a b)
       _ -> (at, at)
 
--- | Adds the largest radius that fits to a fault that may be caused by a fillet.
+-- | If the fault may be caused by a fillet that is too large, adds the largest radius that fits.
 withLargest :: Region -> Ends -> NonEmpty LinkedElement -> ContourFault -> ContourFault
 withLargest region ends linked fault = case fault of
   NotLinked j (NoFillet r _) ->
@@ -97,9 +103,10 @@ withLargest region ends linked fault = case fault of
     Overrun at shape overlap links (largestFillet region ends linked links)
   _ -> fault
 
--- | The largest radius of a fillet with which the contour has no fault. It is the radius of one of
--- the fillets with the given regions, while all others keep theirs. If changing one fillet is not
--- enough, it is the radius of all fillets that have the same radius as that one.
+-- | The largest fillet radius with which the contour has no fault, for the hint of a report.
+-- @links@ are the regions of the fillets to change. First one of these fillets changes, while all
+-- others keep their radii. If that never helps, all fillets of the same radius change together.
+-- 'Nothing' if no radius fits.
 largestFillet :: Region -> Ends -> NonEmpty LinkedElement -> [Region] -> Maybe Mm
 largestFillet region ends linked links =
   listToMaybe (mapMaybe (uncurry bisected) (map alone given <> map together given))
@@ -131,7 +138,7 @@ largestFillet region ends linked links =
       Just (at, Fillet sense r') | chosen at r' -> w {link = Just (at, Fillet sense (Mm r))}
       _ -> w
 
--- | The segments of a contour, or the first fault.
+-- | Computes the segments of a contour, or its first fault.
 attempt ::
   Region ->
   Ends ->
@@ -157,8 +164,8 @@ attempt region ends linked = do
       Just (_, Fillet _ _) -> True
       _ -> False
 
--- | A closed contour of one element: a circle, which begins at its rightmost point, or a closed
--- curve.
+-- | The segments of a closed contour that consists of one element. A circle begins at its rightmost
+-- point, a closed curve at its own start.
 singleElement :: LinkedElement -> Either ContourFault [Element]
 singleElement w@LinkedElement {elementRegion, carrier, link} = case (carrier, link) of
   (OnCircle _ _, Just (at, _)) -> Left (LinkOfLoneCircle at)
@@ -172,8 +179,8 @@ singleElement w@LinkedElement {elementRegion, carrier, link} = case (carrier, li
   (OnLine _, _) -> Left (LoneElement elementRegion carrier)
   (AtPoint _, _) -> Left (LoneElement elementRegion carrier)
 
--- | Marks the first segment of a closed curve as a continuation of the last one, unless they meet
--- at a corner.
+-- | Marks the first segment of a closed curve as a continuation of the last one. Leaves it unmarked
+-- if there is a corner between them.
 closedSmoothly :: [Element] -> [Element]
 closedSmoothly elements = case elements of
   first : rest@(_ : _)
@@ -181,17 +188,18 @@ closedSmoothly elements = case elements of
       first {continues = True} : rest
   _ -> elements
 
--- | Does the second segment continue the first one without a corner?
+-- | Does segment @b@ continue segment @a@ without a corner?
 isSmooth :: Segment -> Segment -> Bool
 isSmooth a b =
-  -- The sine of the angle excludes most corners, and costs less than the angle.
+  -- The cross product excludes most corners, and costs less than the angle.
   Rad (abs (Vec.cross u v)) <= times 2 Tolerance.smoothAngle
     && (let Rad angle = Vec.signedAngle u v in Rad (abs angle) <= Tolerance.smoothAngle)
   where
     u = Segment.endDirection a
     v = Segment.startDirection b
 
--- | An open contour, from the start of its first element to the end of its last.
+-- | The segments of an open contour, from the start of its first element to the end of its last
+-- one.
 open :: NonEmpty LinkedElement -> Either ContourFault [Element]
 open linked = do
   begin <- ownPoint ownStart first
@@ -211,7 +219,8 @@ open linked = do
     final = NonEmpty.last linked
     ownPoint side w = maybe (Left (NoEnd (elementRegion w) (carrier w))) Right (side w)
 
--- | A closed contour. It begins on its first element, at the end of the last link.
+-- | The segments of a closed contour. It begins at the point where the link after the last element
+-- reaches the first element.
 closed :: NonEmpty LinkedElement -> Either ContourFault [Element]
 closed linked
   | Right (c :| []) <- jointsOf (NonEmpty.last linked) (NonEmpty.head linked),
@@ -219,8 +228,9 @@ closed linked
     Right elements
   | otherwise = closedByShortest linked
 
--- | A closed contour that has a choice of joints, or a fault. Solves the contour for each joint of
--- the last link and takes the shortest result.
+-- | The segments of a closed contour for which a link has several joints, or which has a fault.
+-- Solves the contour once for each joint of the link after the last element, and takes the shortest
+-- result.
 closedByShortest :: NonEmpty LinkedElement -> Either ContourFault [Element]
 closedByShortest linked = do
   joints <- traverse (uncurry jointsOf) (zip list (drop 1 list))
@@ -238,12 +248,13 @@ closedByShortest linked = do
     list = NonEmpty.toList linked
     first = NonEmpty.head linked
     final = NonEmpty.last linked
-    -- Of several faults, the one with the smallest overlap helps the user most.
+    -- Of several faults, the one with the smallest missing length helps the user most.
     overlapOf fault = case fault of
       Overrun _ _ overlap _ _ -> overlap
       _ -> Mm 0
 
--- | All joints of an element with the element after it. Without a link they meet.
+-- | All joints of element @a@ with element @b@ after it. Two elements without a link between them
+-- meet.
 jointsOf :: LinkedElement -> LinkedElement -> Either ContourFault (NonEmpty Joint)
 jointsOf a b =
   LinkCandidate.candidates
@@ -251,7 +262,7 @@ jointsOf a b =
     (catMaybes [ownEnd a, ownStart b])
     (maybe (Meet Nothing) snd (link a))
 
--- | Two neighbouring elements with their link, for reports.
+-- | Two neighbouring elements with the region of the link between them, for reports.
 neighboursOf :: LinkedElement -> LinkedElement -> Neighbours
 neighboursOf a b =
   Neighbours
@@ -259,24 +270,26 @@ neighboursOf a b =
     (Located (elementRegion a) (carrier a))
     (Located (elementRegion b) (carrier b))
 
--- | The region of the link between two neighbours; without a link, the region of the second one.
+-- | The region of the link between two neighbours. Without a link it is the region of element @b@.
 linkRegion :: LinkedElement -> LinkedElement -> Region
 linkRegion a b = maybe (elementRegion b) fst (link a)
 
 -- Dynamic programming
 
--- | A choice of joints from the start of the contour up to some link: the length of the contour up
--- to there, and the joints in reverse order. If another choice is equally long, @ambiguous@ is the
--- fault that says so.
+-- | A choice of one joint for each link, from the start of the contour up to some link.
+--
+-- 'cost' is the length of the contour that it makes, and 'taken' are the joints, the last one
+-- first. If another choice makes an equally long contour, 'ambiguous' is the fault that reports
+-- this.
 data Route = Route {cost :: Mm, taken :: [Joint], ambiguous :: Maybe ContourFault}
 
--- | The constants of one run of the dynamic programming: the segment that the last link of a closed
--- contour inserts before the first element, and all elements.
+-- | The values that stay the same during one dynamic programming. 'previous' is the segment that
+-- the last link of a closed contour inserts before the first element.
 data Stage = Stage {previous :: Maybe Segment, allElements :: [LinkedElement]}
 
--- | The shortest route through all links. The arguments are the elements, the starting point on the
--- first of them, the segment inserted before that point if there is one, the joints at which the
--- last element may end, and the joints of each link.
+-- | The shortest route through all links. It starts at the point @begin@ of the first element, and
+-- @before@ is the segment inserted before this point. @final@ are the joints at which the last
+-- element may end. @joints@ are the joints of the links between the elements.
 shortest ::
   [LinkedElement] ->
   Point ->
@@ -294,9 +307,9 @@ shortest linked begin before final joints =
         go rest next more
       _ -> Right (minimumBy (comparing cost) (map snd states))
 
--- | One step of the dynamic programming. Extends each route from the point that it has reached on
--- an element to every joint at the element's end, and keeps the shortest route to each joint. The
--- element after it is only needed for a report.
+-- | One step of the dynamic programming. Each of the @states@ is a point on element @w@ and the
+-- route that reaches it. The step extends each route to each of the @joints@ at the end of @w@. It
+-- keeps only the shortest route to each joint. @next@ is the element after @w@, for a report.
 advance ::
   Stage ->
   LinkedElement ->
@@ -305,7 +318,7 @@ advance ::
   [Joint] ->
   Either ContourFault [(Point, Route)]
 advance stage w next states joints = case (states, joints) of
-  -- Most links join their neighbours at one point.
+  -- Most links have one joint, so that one route remains.
   ([state], [joint]) -> case extend (previous stage) w state joint of
     Left overlap -> Left (overrun stage w overlap next)
     Right route -> Right [(enter joint, route)]
@@ -318,8 +331,8 @@ advance stage w next states joints = case (states, joints) of
          in Left (overrun stage w (minimum overlaps) next)
       sound -> Right [(enter joint, withTie stage best others) | (joint, best, others) <- sound]
 
--- | The shortest route to a joint, with the fault of a tie if one of the other routes is equally
--- long.
+-- | The shortest route @best@ to a joint. If one of the routes @others@ is equally long, the result
+-- also holds the fault that reports this.
 withTie :: Stage -> Route -> [Route] -> Route
 withTie stage best others =
   case [o | o <- others, cost o <= plus (cost best) Tolerance.sameLength] of
@@ -331,7 +344,8 @@ withTie stage best others =
   where
     links = zipWith neighboursOf (allElements stage) (drop 1 (allElements stage))
 
--- | The fault of an element that is too short for the links at its ends, by the given overlap.
+-- | The fault that element @w@ is too short for the links at its ends; @overlap@ is the missing
+-- length.
 overrun :: Stage -> LinkedElement -> Mm -> Maybe LinkedElement -> ContourFault
 overrun stage w overlap next =
   Overrun
@@ -349,11 +363,12 @@ overrun stage w overlap next =
           Just (at, _) <- [link a]
       ]
 
--- | Fails for a route that has an equally long alternative.
+-- | Fails if another route is equally long.
 unambiguous :: Route -> Either ContourFault Route
 unambiguous route = maybe (Right route) Left (ambiguous route)
 
--- | The first link at which two routes differ, and their joints there.
+-- | The first link at which two lists of joints differ, with its joint in each of them. @js@ are
+-- the neighbours of all links, in the same order.
 firstDifference :: [Joint] -> [Joint] -> [Neighbours] -> Maybe (Neighbours, Joint, Joint)
 firstDifference as bs js = case (as, bs, js) of
   (a : as', b : bs', j : js')
@@ -361,17 +376,17 @@ firstDifference as bs js = case (as, bs, js) of
     | otherwise -> Just (j, a, b)
   _ -> Nothing
 
--- | The fault of two joints of one link that make equally long contours. Only two fillets are a
--- fault.
+-- | The fault that two joints of the link @j@ make equally long contours. 'Nothing' if they insert
+-- no segments.
 tie :: Neighbours -> [Joint] -> Maybe ContourFault
 tie j choice = case mapMaybe inserted choice of
   segments@(_ : _ : _) ->
     Just (NotLinked j (AmbiguousFillet [centre | Arc {centre} <- segments]))
   _ -> Nothing
 
--- | Extends a route that has reached a point of an element: along the element to a joint, and along
--- the segment that the joint inserts. If the element would have to run backwards, yields the length
--- by which it would.
+-- | Extends a route that has reached the point @at@ of element @w@. The extension follows @w@ to
+-- the joint, and then the segment that the joint inserts. 'Left' is the length in mm by which @w@
+-- would be traversed backwards; such a route is not allowed.
 extend :: Maybe Segment -> LinkedElement -> (Point, Route) -> Joint -> Either Mm Route
 extend before w (at, Route c js choice) joint
   | along < Mm 0 = Left (let Mm x = along in Mm (-x))
@@ -380,8 +395,8 @@ extend before w (at, Route c js choice) joint
     along = lengthOn (carrier w) (arrival before js) (inserted joint) at (leave joint)
     insertedLength = maybe (Mm 0) Segment.length (inserted joint)
 
--- | The segment inserted right before an element: by the last of the joints so far, or, for the
--- first element, the given one.
+-- | The segment inserted just before an element. The newest joint of the route inserts it; if there
+-- is no joint yet, it is @before@.
 arrival :: Maybe Segment -> [Joint] -> Maybe Segment
 arrival before js = case js of
   [] -> before
@@ -389,8 +404,8 @@ arrival before js = case js of
 
 -- Segments along elements
 
--- | The length along an element from one of its points to another, given the segments inserted
--- before and after the element. The length is negative if the second point lies before the first.
+-- | The length along an element from its point @a@ to its point @b@, negative if @b@ lies before
+-- @a@. @before@ and @after@ are the segments inserted at @a@ and @b@.
 lengthOn :: ElementCarrier -> Maybe Segment -> Maybe Segment -> Point -> Point -> Mm
 lengthOn shape before after a b = case shape of
   OnLine l
@@ -400,13 +415,13 @@ lengthOn shape before after a b = case shape of
   OnCurve c -> let (Mm from, Mm to) = stations c a b in Mm (to - from)
   AtPoint _ -> Mm 0
 
--- | The segments along an element from one of its points to another, given the segments inserted
--- before and after the element.
+-- | The segments along an element from its point @a@ to its point @b@. @before@ and @after@ are the
+-- segments inserted at @a@ and @b@.
 --
 -- On a circle, two equal points give a full circle. Without this rule, the shortest contour would
--- be one that skips the circle. The exception is a circle between straight segments of about the
--- same direction, such as the middle one of three equal circles joined by tangents. It gives no
--- segment.
+-- skip the circle. There is an exception for a circle between straight segments of about the same
+-- direction. An example is the middle one of three equal circles joined by tangents. Such a circle
+-- gives no segment.
 segmentsOn :: ElementCarrier -> Maybe Segment -> Maybe Segment -> Point -> Point -> [Segment]
 segmentsOn shape before after a b = case shape of
   OnLine (Line _ _) -> [Straight a b | not (Vec.isNear a b)]
@@ -428,8 +443,8 @@ segmentsOn shape before after a b = case shape of
         Vec.dot (Vec.unit (Vec.to p q)) (Vec.unit (Vec.to s t)) > 0.5
       _ -> False
 
--- | The stations of two points on a curve. On a closed curve the second station is always the
--- larger one, so it may exceed the curve's length.
+-- | The stations of the points @a@ and @b@ on the curve @c@. On a closed curve the station of @b@
+-- must be the larger one. The length of the curve is therefore added to it if necessary.
 stations :: MeasuredPolyarc -> Point -> Point -> (Mm, Mm)
 stations c a b
   | MeasuredPolyarc.isClosed c && (to <= from || Vec.isNear a b) =
@@ -443,8 +458,8 @@ stations c a b
         then MeasuredPolyarc.length c
         else MeasuredPolyarc.nearestStation c b
 
--- | The station of the first of two points on an element. Only curves have stations; for other
--- elements it is 0.
+-- | The station of the point @a@ on an element that is followed from @a@ to @b@. It is 0 on a line,
+-- a circle or a point, which have no stations.
 entryStation :: ElementCarrier -> Point -> Point -> Mm
 entryStation shape a b = case shape of
   OnCurve c -> fst (stations c a b)
@@ -452,9 +467,9 @@ entryStation shape a b = case shape of
   OnCircle _ _ -> Mm 0
   AtPoint _ -> Mm 0
 
--- | Makes the parts of a contour from the segments along one element. The first segment begins at
--- the given station of the element. Segments are cut at the stations of the bevels, and a segment
--- that continues the one before it without a corner is marked.
+-- | Makes the elements of the contour from the segments along one element. @from@ is the station in
+-- mm at which the first segment begins. Segments are cut at the stations of the bevels. A segment
+-- that continues the segment before it without a corner is marked.
 marked :: LinkedElement -> Mm -> [Segment] -> [Element]
 marked LinkedElement {elementRegion, carrier, finish, bevel} (Mm from) whole = case whole of
   [] -> []
@@ -476,7 +491,7 @@ marked LinkedElement {elementRegion, carrier, finish, bevel} (Mm from) whole = c
       OnLine _ -> (False, Nothing)
       OnCircle _ _ -> (False, Nothing)
       AtPoint _ -> (False, Nothing)
-    -- Stations may exceed the length of a closed curve, so its bevels are repeated once.
+    -- On a closed curve stations may exceed the length, so the bevels are repeated once.
     angles =
       Map.fromList (bevel <> [(s + l, a) | Just (Mm l) <- [closedLength], (s, a) <- drop 1 bevel])
     cuts =
@@ -487,7 +502,8 @@ marked LinkedElement {elementRegion, carrier, finish, bevel} (Mm from) whole = c
     marks = stationsOf cuts
     stationsOf = scanl (\s g -> let Mm l = Segment.length g in s + l) from
 
--- | Cuts a segment at the stations in a table, given the station of the segment's start.
+-- | Cuts the segment @s@ at those keys of the table that are stations inside it. @from@ is the
+-- station of its start in mm.
 cutAtKeys :: Map Double a -> Double -> Segment -> [Segment]
 cutAtKeys table from s = case Map.lookupGT (from + least) table of
   Just (at, _)
@@ -499,8 +515,8 @@ cutAtKeys table from s = case Map.lookupGT (from + least) table of
     Mm l = Segment.length s
     Mm least = Tolerance.coincident
 
--- | Interpolates linearly in a table. Outside of the table it is the nearest value, and nothing for
--- an empty table.
+-- | Interpolates linearly between the two keys of the table nearest to @s@. Outside of the keys the
+-- result is the value at the nearest key. 'Nothing' if the table is empty.
 interpolated :: Map Double Double -> Double -> Maybe Double
 interpolated table s = case (Map.lookupLE s table, Map.lookupGE s table) of
   (Just (a, x), Just (b, y)) -> Just (if b > a then x + (y - x) * (s - a) / (b - a) else x)
@@ -508,9 +524,10 @@ interpolated table s = case (Map.lookupLE s table, Map.lookupGE s table) of
   (Nothing, Just (_, y)) -> Just y
   (Nothing, Nothing) -> Nothing
 
--- | The segments of a contour without dynamic programming: possible if every link between the
--- elements has only one joint and no element runs backwards. The arguments are the elements, the
--- starting point on the first one, the segment before it, and the joint after the last element.
+-- | The segments of a contour, without dynamic programming. @begin@ is the starting point on the
+-- first element, @before@ the segment inserted before it, and @final@ the joint after the last
+-- element. 'Nothing' if a link has several joints or none, or if an element would be traversed
+-- backwards. The caller then uses dynamic programming.
 --
 -- Each joint is computed twice, which takes less time than keeping all of them.
 withoutChoice :: [LinkedElement] -> Point -> Maybe Segment -> Joint -> Maybe [Element]
@@ -539,8 +556,8 @@ withoutChoice linked begin before final
       OnLine _ -> lengthOn w Nothing Nothing a b >= Mm 0
       OnCurve _ -> lengthOn w Nothing Nothing a b >= Mm 0
 
--- | The segments along an element from one of its points to a joint, and the segment that the joint
--- inserts. The segment before the element is given.
+-- | The elements of the contour from the point @at@ of an element to a joint, with the segment that
+-- the joint inserts. @before@ is the segment inserted before @at@.
 between :: LinkedElement -> Point -> Maybe Segment -> Joint -> [Element]
 between w@LinkedElement {elementRegion, carrier, link} at before joint =
   marked w (entryStation carrier at (leave joint)) segments
@@ -550,8 +567,8 @@ between w@LinkedElement {elementRegion, carrier, link} at before joint =
   where
     segments = segmentsOn carrier before (inserted joint) at (leave joint)
 
--- | The segments of a contour for a chosen route. The starting point on the first element and the
--- segment before it are given.
+-- | The elements of a contour whose joints are those of a route. @begin@ is the starting point on
+-- the first element, and @before@ the segment inserted before it.
 elementsOf :: [LinkedElement] -> Point -> Maybe Segment -> Route -> [Element]
 elementsOf linked begin before route = go linked begin before (reverse (taken route))
   where

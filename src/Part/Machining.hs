@@ -1,8 +1,8 @@
--- | Evaluation of machining statements (milling, turning, pockets, drilling, moves without cutting)
--- and of cutters and tolerances.
+-- | Evaluates machining statements (milling, turning, pockets, drilling, moves without cutting),
+-- cutters and tolerances.
 --
--- A function yields nothing when a setting has no value because of a mistake that is already
--- reported.
+-- A function yields 'Nothing' if a setting that it needs has no value. Such a setting contains a
+-- mistake that is already reported, so the statement is left out without a further report.
 module Part.Machining
   ( Context (..),
     milling,
@@ -42,8 +42,8 @@ import Part.PocketCheck qualified as PocketCheck
 import Part.PocketError (PocketMisfit (StepTooWide))
 import Part.Value (Value (..))
 
--- | The names and the settings that are in force at a statement. A setting that the statement needs
--- has no value only after a mistake.
+-- | The names and the settings in force at a statement. A setting that the statement needs is
+-- 'Nothing' only if a mistake in it is already reported.
 data Context = Context
   { environment :: Environment,
     cutter :: Maybe Cutter,
@@ -55,8 +55,8 @@ data Context = Context
 
 -- Milling and turning
 
--- | The milling or turning of a contour, from the region, the contour, the side and the settings of
--- its statement.
+-- | Evaluates the milling or turning of a contour. @at@ is the region of the statement, and @e@ the
+-- expression of the contour.
 milling ::
   Context ->
   Work ->
@@ -73,22 +73,22 @@ milling context work at e side settings = do
   passes <- passesOf context at (contourOf v) settings
   pure (assembled context work side settings passes)
 
--- | The evaluated contour and settings of a milling or turning.
+-- | The evaluated contour and settings of a milling or turning statement.
 data Passes = Passes
   { path :: Contour,
-    -- | the approach; nothing after a mistake
+    -- | the stops of the approach; 'Nothing' if a mistake in them is reported
     approachStops :: Maybe [Stop],
-    -- | the retract; nothing after a mistake
+    -- | the stops of the retract; 'Nothing' if a mistake in them is reported
     retractStops :: Maybe [Stop],
     heights :: [Mm],
     plungeFeed :: Maybe (Located Feed),
-    -- | the lead-in and the lead-out
+    -- | the lead-in and the lead-out: the form, and the length of the line or the radius of the arc
     leads :: (Maybe (LeadForm, Mm), Maybe (LeadForm, Mm)),
-    -- | the allowances of the passes
+    -- | the allowance of each pass
     passAllowances :: NonEmpty Mm
   }
 
--- | Evaluates the settings of a milling or turning.
+-- | Evaluates the settings of a milling or turning statement. @at@ is its region.
 passesOf :: Context -> Region -> Contour -> Checked.Settings -> Eval Passes
 passesOf context at contour settings = do
   approachStops <- stopsOf context (Checked.approach settings)
@@ -118,7 +118,8 @@ passesOf context at contour settings = do
     env = environment context
     lead (form, x) = (form,) <$> lengthOf env Parameter.Lead x
 
--- | Puts a milling or turning together. Nothing if a setting that it needs has no value.
+-- | Makes the operation from the evaluated parts of its statement. 'Nothing' if a setting that it
+-- needs has no value.
 assembled :: Context -> Work -> Located Side -> Checked.Settings -> Passes -> Maybe Milling
 assembled context work side settings passes = do
   tool <- cutter context
@@ -159,8 +160,8 @@ contourOf v = case v of
   ContourValue c -> c
   _ -> bug "a value that is no contour where one was checked"
 
--- | The contour, beginning near the point that the statement gives, if it gives one. Fails for an
--- open contour.
+-- | The contour with its start moved to its point nearest to @near@, if the statement gives such a
+-- point. Fails if the contour is open.
 startedNear :: Environment -> Contour -> Maybe Expr -> Eval Contour
 startedNear env contour near = case near of
   Nothing -> pure contour
@@ -172,9 +173,9 @@ startedNear env contour near = case near of
          in Evaluation.mistake (InContour (OpenBegins (region e) name))
       else pure (ContourElement.startingNear p contour)
 
--- | The heights of the passes, from the highest to the lowest, from the depth and the stepdown of
--- the statement. The steps are equal and at most the stepdown. Without a stepdown there is one
--- pass.
+-- | The heights of the passes from the highest to the lowest, in mm and negative. @depth@ is the
+-- depth of the lowest pass, and @most@ the largest stepdown. All steps are equal. Without @most@
+-- there is one pass.
 levelsOf :: Environment -> (Expr, Maybe Expr) -> Eval [Mm]
 levelsOf env (depth, most) = do
   d <- lengthOf env Parameter.Depth depth
@@ -187,7 +188,7 @@ levelsOf env (depth, most) = do
     )
   pure [times (negate (fromIntegral k / fromIntegral count)) d | k <- [1 .. count]]
 
--- | Fails if a cutter that is widest at its tip would make passes at several heights.
+-- | Fails if there are passes at several @heights@ and the cutter is widest at its tip.
 checkSteps :: Context -> Region -> [Mm] -> Eval ()
 checkSteps context at heights = case cutter context of
   Just c
@@ -196,8 +197,8 @@ checkSteps context at heights = case cutter context of
 
 -- Pockets
 
--- | The clearing of the inside of a closed contour around islands, from the region, the outline,
--- the stepover and the settings of its statement.
+-- | Evaluates the clearing of a pocket: the inside of a closed contour without its islands. @at@ is
+-- the region of the statement, @e@ the expression of the outline, and @step@ that of the stepover.
 pocketing ::
   Context ->
   Region ->
@@ -229,7 +230,7 @@ pocketing context at e step settings = do
         ListValue vs -> map (named i . contourOf) (Vector.toList vs)
         _ -> [named i (contourOf v)]
 
--- | Fails for more than 10 000 passes, which no pocket needs.
+-- | Fails if the estimated number of passes, @count@, exceeds 10 000. No real pocket needs so many.
 checkPassCount :: Region -> Double -> Eval ()
 checkPassCount at count =
   when
@@ -240,8 +241,8 @@ checkPassCount at count =
 
 -- Drilling
 
--- | The drilling of a point or a list of points, from the region, the points, the depth and the
--- settings of its statement.
+-- | Evaluates the drilling of one hole or several holes. @at@ is the region of the statement, and
+-- @points@ is the expression of the point or the list of points.
 drilling ::
   Context ->
   Region ->
@@ -285,8 +286,8 @@ drilling context at points depth settings = do
 
 -- Moves
 
--- | The ends of moves without cutting, each with its speed. Nothing if a move needs the feed in
--- force and there is none.
+-- | The ends of moves without cutting, each with its speed. 'Nothing' if a move needs the feed in
+-- force and a mistake in this feed is already reported.
 stopsOf :: Context -> [Checked.Stop] -> Eval (Maybe [Stop])
 stopsOf context stops = fmap sequence (Evaluation.gather (map stop stops))
   where
@@ -303,7 +304,8 @@ stopsOf context stops = fmap sequence (Evaluation.gather (map stop stops))
             _ -> Nothing
       pure (Stop (Located (region p) target) level <$> pace)
 
--- | A point in space from a point with or without a height. Without a height it is at height 0.
+-- | Converts a value to a point in space. A point of the plane gets the height 0, the top of the
+-- part.
 spacePoint :: Value -> SpacePoint
 spacePoint v = case v of
   SpaceValue p z -> SpacePoint p z
@@ -311,7 +313,7 @@ spacePoint v = case v of
 
 -- Cutters and tolerances
 
--- | Fails if the statement cannot be done with the cutter in the spindle.
+-- | Fails if the kind of the tool in the spindle does not suit the statement.
 checkCutter :: Context -> Region -> CutterStatement -> Eval ()
 checkCutter context at statement = case cutter context of
   Just c | not (fits (kind c)) -> Evaluation.mistake (WrongCutter at statement (kind c))
@@ -323,7 +325,7 @@ checkCutter context at statement = case cutter context of
       PocketStatement -> cutterKind == MillingCutter
       DrillStatement -> cutterKind `elem` [DrillingCutter, MillingCutter]
 
--- | Does a cutter of this kind mill contours with its flank?
+-- | Is this the kind of a cutter that mills contours with its flank?
 isMill :: CutterKind -> Bool
 isMill cutterKind = case cutterKind of
   MillingCutter -> True
@@ -333,7 +335,7 @@ isMill cutterKind = case cutterKind of
   DrillingCutter -> False
   TurningCutter -> False
 
--- | A cutter, with its radius where it touches the part.
+-- | Evaluates a tool. The result holds the radius at which the tool touches the part.
 cutterOf :: Environment -> Checked.Cutter -> Eval Cutter
 cutterOf env (Located _ c) = case c of
   Checked.MillCutter e ->
@@ -350,8 +352,9 @@ cutterOf env (Located _ c) = case c of
     when (x < 0) (Evaluation.mistake (Negative (region e) Parameter.NoseRadius x))
     pure (Cutter TurningCutter (Mm x))
 
--- | A conical cutter, from its diameter 2R at the tip, its bevel μ and the height H at which its
--- flank touches the part. Its radius there is @a = R + H·tan μ@ (Kolsanova, section 3).
+-- | Evaluates a conical cutter from three expressions: the diameter 2R of its tip (@e@), the bevel
+-- μ of its flank (@lean@), and the height @h@. At this height H above the tip the flank touches the
+-- part. The radius there is @a = R + H·tan μ@ (Kolsanova, section 3).
 cone :: Environment -> Expr -> Expr -> Expr -> Eval Cutter
 cone env e lean h = do
   Mm d <- lengthOf env Parameter.CutterDiameter e
@@ -364,7 +367,7 @@ cone env e lean h = do
   when (a <= 0) (Evaluation.mistake (NotPositive (region lean) Parameter.RadiusAtHeight a))
   pure (Cutter (if mu < 0 then DovetailCutter else ConeCutter) (Mm a))
 
--- | The allowed chord error that a tolerance statement sets.
+-- | The allowed chord error that a @tolerance@ statement sets.
 accuracyOf :: Environment -> Checked.Accuracy -> Eval Accuracy
 accuracyOf env accuracy = case accuracy of
   Checked.Within e -> OnPath <$> lengthOf env Parameter.Tolerance e

@@ -1,4 +1,4 @@
--- | Evaluation of lengths, feeds and whole numbers, with checks of their limits.
+-- | Evaluates lengths, feeds and whole numbers, and checks their limits.
 module Part.Measure
   ( positive,
     lengthOf,
@@ -22,7 +22,8 @@ import Part.Parameter (LimitedQuantity, Range (FromTo), WholeNumber)
 import Part.Parameter qualified as Parameter
 import Part.Value qualified as Value
 
--- | A quantity above 0 and at most 'Tolerance.reach', made from its number by the function.
+-- | Evaluates a quantity that must be above 0 and at most 'Tolerance.reach'. @parameter@ names the
+-- quantity in mistakes, and @make@ turns the number into the result.
 positive :: Environment -> LimitedQuantity -> (Double -> q) -> Expr -> Eval q
 positive env parameter make e = do
   x <- Expression.number <$> Expression.evaluate env e
@@ -30,23 +31,24 @@ positive env parameter make e = do
     then Evaluation.mistake (NotPositive (region e) parameter x)
     else make x <$ Value.within (region e) x
 
--- | A length above 0 and at most 'Tolerance.reach'.
+-- | Evaluates a length that must be above 0 and at most 'Tolerance.reach'. @parameter@ names it in
+-- mistakes.
 lengthOf :: Environment -> LimitedQuantity -> Expr -> Eval Mm
 lengthOf env parameter = positive env parameter Mm
 
--- | A length from 0 to 'Tolerance.reach'.
+-- | Evaluates a length that must be from 0 to 'Tolerance.reach'. @parameter@ names it in mistakes.
 notNegative :: Environment -> LimitedQuantity -> Expr -> Eval Mm
 notNegative env parameter e = do
   x <- Expression.number <$> Expression.evaluate env e
   when (x < 0) (Evaluation.mistake (Negative (region e) parameter x))
   Mm x <$ Value.within (region e) x
 
--- | A feed above 0, with the region of its expression.
+-- | Evaluates a feed, which must be above 0. The result keeps the region of the expression.
 feedOf :: Environment -> Expr -> Eval (Located Feed)
 feedOf env e = Located (region e) <$> positive env Parameter.Feed Feed e
 
--- | A whole number from a lower to an upper limit, both included. Numbers within 'Tolerance.equal'
--- of a whole number are rounded to it.
+-- | Evaluates a whole number from @low@ to @high@, both included. A number within 'Tolerance.equal'
+-- of a whole number is rounded to it. @what@ names the number in mistakes.
 whole :: Environment -> WholeNumber -> (Int, Int) -> Expr -> Eval Int
 whole env what (low, high) e = do
   x <- Expression.number <$> Expression.evaluate env e

@@ -1,8 +1,8 @@
 -- | The quantities that statements and functions take as parameters, with their names and units in
 -- reports.
 --
--- A mistake keeps the kind of the quantity and the number. Only the functions of this module turn
--- them into words.
+-- A mistake keeps only the kind of a quantity and a number. The functions of this module turn them
+-- into words.
 module Part.Parameter
   ( LimitedQuantity (..),
     name,
@@ -20,23 +20,23 @@ import Base.Decimal qualified as Decimal
 import Base.Quantity (Mm (..), Rad, degrees)
 import Data.Text (Text)
 
--- | A quantity that must not be negative. Most of them must not be 0, either.
+-- | A quantity that must not be negative. Most of these quantities must not be 0, either.
 data LimitedQuantity
   = Feed
   | SpindleSpeed
   | ScalingFactor
   | ClearanceHeight
   | Tolerance
-  | -- | the larger limit of a tolerance band
+  | -- | the larger of the two limits of a tolerance that differs inwards and outwards
     OneSidedTolerance
-  | -- | the largest deviation of a fitted curve
+  | -- | the largest deviation of a fitted curve from the curve or the points it replaces
     CurveTolerance
   | CutterDiameter
   | DrillDiameter
   | BladeDiameter
   | WheelDiameter
   | FlankHeight
-  | -- | the radius of a cone where its flank touches the part
+  | -- | the radius of a conical cutter at the height at which its flank touches the part
     RadiusAtHeight
   | NoseRadius
   | Lead
@@ -51,7 +51,7 @@ data LimitedQuantity
     JoggleMeasure
   deriving stock (Eq, Show)
 
--- | The name of a quantity in a report.
+-- | The name that reports use for a quantity.
 name :: LimitedQuantity -> Text
 name parameter = case parameter of
   Feed -> "the feed"
@@ -78,8 +78,8 @@ name parameter = case parameter of
   FilletRadius -> "the radius of a fillet"
   JoggleMeasure -> "a measure of a joggle"
 
--- | The value of a quantity with its unit: mm\/min for the feed, turns per minute for the spindle,
--- no unit for a factor, mm for all others.
+-- | The text of a quantity with its unit. @x@ is in mm\/min for a feed, in turns per minute for a
+-- spindle speed, and in mm for a length. A factor has no unit.
 written :: LimitedQuantity -> Double -> Text
 written parameter x = case parameter of
   Feed -> Decimal.short 4 x <> " mm/min"
@@ -87,17 +87,17 @@ written parameter x = case parameter of
   ScalingFactor -> Decimal.short 6 x
   _ -> Decimal.mm (Mm x)
 
--- | The kinds of parameters that must be whole numbers.
+-- | The kind of a parameter that must be a whole number.
 data WholeNumber
   = ToolNumber
   | AuxiliaryCommand
   | PassCount
   | PeckCount
-  | -- | how many points one row of a pattern has
+  | -- | the number of points in one row of a pattern
     RowPointCount
-  | -- | how many rows a pattern has
+  | -- | the number of rows of a pattern
     RowCount
-  | -- | how many points a pattern on a circle has
+  | -- | the number of points of a pattern on a circle
     PointCount
   | -- | the number of an item of a list, from 1
     ItemNumber
@@ -107,7 +107,7 @@ data WholeNumber
     ListPointNumber
   deriving stock (Eq, Show)
 
--- | The name of a whole number in a report.
+-- | The name that reports use for a whole number.
 wholeName :: WholeNumber -> Text
 wholeName number = case number of
   ToolNumber -> "the number of a tool"
@@ -121,28 +121,30 @@ wholeName number = case number of
   TableRowNumber -> "the number of a row"
   ListPointNumber -> "the number of a point"
 
--- | The range of a whole number, with its limits included.
+-- | The range that a whole number must be in: up to a limit, or from one limit to another. The
+-- limits belong to the range.
 data Range = UpTo Int | FromTo Int Int
   deriving stock (Eq, Show)
 
--- | A range in words.
+-- | The words for a range in reports.
 rangeText :: Range -> Text
 rangeText range = case range of
   UpTo high -> "up to " <> Decimal.whole high
   FromTo low high -> "from " <> Decimal.whole low <> " to " <> Decimal.whole high
 
--- | A function with an argument outside of its domain.
+-- | A function whose argument is outside of its domain, with that argument.
 data Domain
   = -- | the tangent of an angle whose cosine is 0
     TangentAtPole Rad
   | ArcSineOf Double
   | ArcCosineOf Double
-  | -- | @atan2(0, 0)@
+  | -- | @atan2(0, 0)@, which is no angle
     ArcTangentOfZeros
   | RootOf Double
   deriving stock (Eq, Show)
 
--- | The name of the function, the wrong argument, and the arguments that the function takes.
+-- | The texts of a report on a wrong argument: the name of the function, the argument, and the
+-- arguments that the function accepts.
 domainTexts :: Domain -> (Text, Text, Text)
 domainTexts domain = case domain of
   TangentAtPole a ->

@@ -1,7 +1,7 @@
--- | The evaluated part: contours and operations as exact geometry in mm. Everything keeps the
--- region of the program that it comes from.
+-- | The evaluated part: contours and operations as exact geometry in mm. Contours, elements and
+-- operations keep the region of the program that they come from.
 --
--- Nothing here depends on a machine. Toolpaths belong to the next stage.
+-- Nothing here depends on a machine. The next compiler pass makes the toolpath.
 module Part.Part
   ( Part (..),
     Contour (..),
@@ -68,16 +68,17 @@ data Part = Part
   { name :: Maybe Name,
     title :: Maybe Text,
     machine :: Maybe (Located MachineRef),
-    -- | the cutter's position before the first frame
+    -- | the position of the cutter before the first frame
     start :: Maybe (Located SpacePoint),
-    -- | the cutter in the spindle before the first frame
+    -- | the tool in the spindle before the first frame
     firstCutter :: Maybe Cutter,
     contours :: [Contour],
-    -- | in the order of the tape
+    -- | all operations in the order in which the tape makes them
     operations :: [Operation],
-    -- | the curves whose sections were fitted to a table, with their names
+    -- | the curves that are made of sections fitted to a table, with their names
     fittings :: [(Located Name, Fitting)],
-    -- | the values of the definitions as text, each with the region of the defined name
+    -- | for editors: the values of the definitions as text, each with the region of the defined
+    -- name
     readings :: [(Region, Text)]
   }
   deriving stock (Eq, Show)
@@ -86,9 +87,10 @@ data Part = Part
 data Contour = Contour
   { contourName :: Located Name,
     ends :: Ends,
-    -- | segments, each of which begins where the segment before it ends
+    -- | the segments of the contour; each begins where the segment before it ends
     elements :: NonEmpty Element,
-    -- | the elements as the program writes them; empty after a transformation or a reversal
+    -- | the elements as the program writes them; empty if the contour was transformed or reversed,
+    -- because it then has other elements
     writtenElements :: [ContourElement]
   }
   deriving stock (Eq, Show)
@@ -97,37 +99,38 @@ data Contour = Contour
 data ContourElement = ContourElement
   { elementRegion :: Region,
     elementCarrier :: ElementCarrier,
-    -- | the exact curve, for an element that is a curve
+    -- | the exact curve, if the element is a curve
     elementCurve :: Maybe PartCurve,
     elementFinish :: Finish,
-    -- | the link to the element after it
+    -- | the link to the element after this one; absent if the program writes none
     link :: Maybe Link
   }
   deriving stock (Eq, Show)
 
--- | A segment of a contour, with the properties of the element or link that it comes from.
+-- | One segment of a contour, with the properties of the element that it is a part of, or of the
+-- link that inserted it.
 data Element = Element
   { segment :: Segment,
-    -- | the region of that element or link
+    -- | the region of this element or link
     origin :: Region,
     finish :: Finish,
     -- | true if the segment continues the segment before it in the same element, without a corner
     continues :: Bool,
-    -- | true for one of the arcs and lines that approximate a curve
+    -- | true if the segment is one of the arcs and lines that replace a curve
     ofCurve :: Bool,
-    -- | the bevels of the surface at the segment's start and end, if it has any: angles from the
-    -- axis of the tool in radians
+    -- | the bevels at the start and at the end of the segment, if its surface has bevels: angles
+    -- between the surface and the tool axis in radians
     bevel :: Maybe (Double, Double)
   }
   deriving stock (Eq, Show)
 
--- | The modifiers of one element.
+-- | The effect of the modifiers of one element: feed, slow-down and allowance.
 data Finish = Finish
-  { -- | the feed along the element, instead of that of the machining statement
+  { -- | the feed along the element; without it, the feed of the machining statement applies
     ownFeed :: Maybe (Located Feed),
     -- | true if the cutter slows down at the element's end
     slow :: Bool,
-    -- | an allowance in addition to that of the pass
+    -- | the material to leave on the element, in addition to the allowance of the pass
     allowance :: Mm
   }
   deriving stock (Eq, Show)
@@ -136,13 +139,15 @@ data Finish = Finish
 plainFinish :: Finish
 plainFinish = Finish {ownFeed = Nothing, slow = False, allowance = Mm 0}
 
--- | Groups segments that continue one another. Each group is one line, one arc or one smooth curve.
+-- | Groups the segments that continue one another. Each group is one line, one arc, or one curve
+-- without corners.
 curveRuns :: [Element] -> [NonEmpty Element]
 curveRuns es = case es of
   [] -> []
   e : rest -> let (same, others) = span continues rest in (e :| same) : curveRuns others
 
--- | A contour in the opposite direction. If segment B continued segment A, A now continues B.
+-- | The contour in the opposite direction. If segment B continued segment A before, A continues B
+-- in the result.
 reversedContour :: Contour -> Contour
 reversedContour c =
   c {elements = NonEmpty.reverse opposite, writtenElements = []}
@@ -154,8 +159,8 @@ reversedContour c =
         e {segment = Segment.reverse (segment e), bevel = fmap swap (bevel e), continues = next}
       )
 
--- | The segments of a contour as a polyarc. Every segment is evaluated, so that the polyarc does
--- not keep the elements in memory.
+-- | The segments of a contour as a polyarc. All segments are evaluated at once, so that the polyarc
+-- does not keep the elements in memory.
 polyarcOf :: Contour -> Polyarc.Polyarc
 polyarcOf contour = Polyarc.Polyarc (ends contour) (segment first :| segmentsOf others)
   where
@@ -164,17 +169,17 @@ polyarcOf contour = Polyarc.Polyarc (ends contour) (segment first :| segmentsOf 
       [] -> []
       e : rest -> let s = segment e in s `seq` (s : segmentsOf rest)
 
--- | A point of the plane and a height. Heights count from the top of the part, upwards; in the
--- material they are negative.
+-- | A point of the plane and a height. The height is 0 at the top of the part, positive above it
+-- and negative in the material.
 data SpacePoint = SpacePoint {plane :: Point, height :: Mm}
   deriving stock (Eq, Show)
 
--- | One operation: machining, moves without cutting, or an auxiliary function.
+-- | One operation of the program: machining, moves without cutting, or a command.
 data Operation
   = Mill (Located Milling)
   | Pocket (Located Pocketing)
   | Drill (Located Drilling)
-  | -- | moves without cutting
+  | -- | moves without cutting, by their ends in order
     Travel (NonEmpty Stop)
   | Command (Located Command)
   deriving stock (Eq, Show)
@@ -186,56 +191,56 @@ data Milling = Milling
     side :: Located Side,
     -- | the radius of the cutter where it touches the part, or of the nose of a turning tool
     radius :: Mm,
-    -- | only for a blade: the diameter of the wheel that swivels it
+    -- | the diameter of the wheel that swivels the blade; absent for other tools
     gear :: Maybe Mm,
     tolerance :: Accuracy,
     feed :: Located Feed,
     approach :: [Stop],
     retract :: [Stop],
-    -- | the heights of the passes, from the highest to the lowest; empty when the cutter keeps its
-    -- height
+    -- | the heights of the passes, from the highest to the lowest; empty if the program gives no
+    -- depth and the cutter keeps its height
     levels :: [Mm],
-    -- | the clearance height, at which rapid moves pass over everything
+    -- | the height at which rapid moves pass over everything
     clearance :: Maybe Mm,
-    -- | the feed of downward moves into the material
+    -- | the feed of moves down into the material
     plunge :: Maybe (Located Feed),
-    -- | the form of the lead-in, and its length or its radius
+    -- | the form of the lead-in, and the length of its line or the radius of its arc
     leadIn :: Maybe (LeadForm, Mm),
     leadOut :: Maybe (LeadForm, Mm),
-    -- | the allowance of each pass, in order
+    -- | the allowance of each pass, in the order of the passes
     allowances :: NonEmpty Mm,
-    -- | the form of the toolpath at outer corners
+    -- | the form of the toolpath around outer corners
     corners :: Corners,
-    -- | climb or conventional milling, if the statement asks for one of them
+    -- | climb or conventional milling; absent if the statement asks for neither
     sense :: Maybe (Located CutSense),
-    -- | the sense in which the spindle rotates
+    -- | the sense in which the spindle rotates, seen from above
     spindleSense :: Sense,
-    -- | the region of the setting that leaves cutter compensation to the control; without it, the
-    -- compiler computes the offset
+    -- | the region of the setting that leaves cutter compensation to the control; if it is absent,
+    -- the compiler computes the offset
     controlCompensation :: Maybe Region,
     rest :: RestPolicy
   }
   deriving stock (Eq, Show)
 
--- | The treatment of rest material. It remains in sharp inner corners, in concave arcs of a radius
--- below the cutter's, and in gaps narrower than the cutter.
+-- | The decision on rest material, which this cutter cannot reach. Rest material remains in sharp
+-- inner corners, in concave arcs with a radius below the cutter's, and in gaps narrower than the
+-- cutter.
 data RestPolicy
   = -- | rest material is an error, and there is no toolpath
     Refused
-  | -- | rest material remains, with a warning
+  | -- | rest material remains, and the compiler warns of it
     Allowed
   deriving stock (Eq, Show)
 
--- | A closed contour whose inside is cleared.
+-- | The clearing of a pocket: the inside of a closed contour.
 data Pocketing = Pocketing
-  { -- | the milling of the outline on its inside. Its linking moves, depths, allowances and feeds
-    -- are those of the whole pocket. It has round corners, no leads, and no compensation by the
-    -- control
+  { -- | the milling of the outline on its inside. The whole pocket has its linking moves, depths,
+    -- allowances and feeds. It has round corners, no leads, and no compensation by the control
     wall :: Milling,
-    -- | closed contours inside the outline whose material remains. They touch neither the outline
-    -- nor one another
+    -- | closed contours inside the outline, inside which the material remains. They touch neither
+    -- the outline nor one another
     islands :: [Contour],
-    -- | above 0 and at most the diameter of the cutter
+    -- | the distance between neighbouring passes, above 0 and at most the diameter of the cutter
     stepover :: Mm
   }
   deriving stock (Eq, Show)
@@ -246,13 +251,13 @@ data Work = Milled | Turned
 
 -- | The allowed chord error of a milling or turning.
 data Accuracy
-  = -- | the same limit to both sides; the ends of the chords lie on the toolpath
+  = -- | the same limit on both sides of the toolpath; the ends of the chords lie on it
     OnPath Mm
-  | -- | the limit into the material, and the limit away from it
+  | -- | the limit towards the material, and the limit away from it
     Band Mm Mm
   deriving stock (Eq, Show)
 
--- | The allowed chord errors: into the material, and away from it.
+-- | The largest chord errors that are allowed: towards the material, and away from it.
 deviationLimits :: Accuracy -> (Mm, Mm)
 deviationLimits accuracy = case accuracy of
   OnPath d -> (d, d)
@@ -263,30 +268,30 @@ data Drilling = Drilling
   { -- | the centres of the holes, in the order of drilling
     holes :: NonEmpty (Located Point),
     drillRadius :: Mm,
-    -- | the height of the bottom, below 0
+    -- | the height of the bottom of the holes, which is negative
     bottom :: Mm,
-    -- | the height of moves between the holes
+    -- | the height at which the drill moves from hole to hole
     travelHeight :: Mm,
-    -- | the largest depth that is drilled before the drill is retracted; without it, each hole is
+    -- | the largest depth to drill before the drill is retracted; if it is absent, each hole is
     -- drilled in one move
     peckDepth :: Maybe Mm,
     drillFeed :: Located Feed
   }
   deriving stock (Eq, Show)
 
--- | An auxiliary function of the machine.
+-- | A command to the machine: an auxiliary function.
 data Command
-  = -- | the sense, and the speed in turns per minute if the program gives one
+  = -- | the sense of rotation, and the speed in turns per minute if the program gives one
     SpindleOn Sense (Maybe Double)
   | SpindleOff
   | CoolantTo Switch
-  | -- | the auxiliary function of the machine with this number
+  | -- | the auxiliary function that has this number on the machine
     Auxiliary Int
-  | -- | the number of the new tool, and the tool
+  | -- | the number of the new tool, and the new tool
     ChangeTool Int Cutter
   deriving stock (Eq, Show)
 
--- | A tool: its kind, and its radius where it touches the part.
+-- | A tool: its kind, and the radius at which it touches the part.
 data Cutter = Cutter {kind :: CutterKind, cutterRadius :: Mm}
   deriving stock (Eq, Show)
 
@@ -294,23 +299,25 @@ data Cutter = Cutter {kind :: CutterKind, cutterRadius :: Mm}
 data CutterKind
   = -- | a cutter with a flank parallel to its axis
     MillingCutter
-  | -- | a cutter with a conical flank, narrowest at the tip
+  | -- | a cutter with a conical flank that is narrowest at the tip
     ConeCutter
-  | -- | a cutter with a conical flank, widest at the tip
+  | -- | a cutter with a conical flank that is widest at the tip
     DovetailCutter
-  | -- | a blade that swivels along the contour, driven by a wheel of this diameter
+  | -- | a blade that swivels along the contour; the diameter is that of the wheel that drives the
+    -- swivel
     BladeCutter Mm
   | DrillingCutter
   | TurningCutter
   deriving stock (Eq, Show)
 
--- | The end of a move without cutting, and the speed. Without a level the cutter keeps its height.
+-- | The end of a move without cutting, and the speed of the move. If it has no level, the cutter
+-- keeps its height.
 data Stop = Stop {place :: Located Point, level :: Maybe Mm, pace :: Pace}
   deriving stock (Eq, Show)
 
--- | The speed of a move.
+-- | The speed of a move without cutting.
 data Pace
   = Rapid
-  | -- | a feed, with the region of the program that sets it
+  | -- | the feed, with the region of the program that sets it
     At (Located Feed)
   deriving stock (Eq, Show)

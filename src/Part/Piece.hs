@@ -1,4 +1,5 @@
--- | Tables, and pieces: curves recalculated by ciphers and joggled (Kolsanova, sections 2 and 5).
+-- | Evaluates tables and pieces. A piece is a curve that is recalculated by ciphers and then
+-- joggled (Kolsanova, sections 2 and 5).
 module Part.Piece
   ( table,
     piece,
@@ -49,7 +50,8 @@ import Part.Parameter qualified as Parameter
 import Part.Value (Value (..))
 import Part.Value qualified as Value
 
--- | The rows of a table. Literal rows take no steps: their count is bounded by the text.
+-- | Evaluates the rows of a table. Rows of literals take no evaluation steps, because the length of
+-- the program's text limits their number.
 table :: Environment -> Columns -> Eval PartTable
 table env (Columns names written) = do
   parts <- Evaluation.collect (fmap pure . evaluated) written
@@ -67,8 +69,8 @@ table env (Columns names written) = do
       Value.within at (NumberTable.cell rows k 0)
       [] <$ Value.within at (NumberTable.cell rows k 1)
 
--- | A curve that is recalculated by its ciphers, in the order of the text, and then joggled. All
--- shifts go to the given side of the curve's direction.
+-- | Recalculates the curve @base@ by its ciphers in the order of the text, and then joggles it. All
+-- shifts go to the same side of the curve's direction.
 piece :: Environment -> PartCurve -> [Cipher] -> Located Side -> [Joggle] -> Eval PartCurve
 piece env base ciphers (Located _ side) joggles = do
   ciphered <- foldM (recalculated env base side') (exact base) ciphers
@@ -84,9 +86,9 @@ piece env base ciphers (Located _ side) joggles = do
 
 -- Ciphers
 
--- | A curve that is shifted by one cipher. @base@ is the curve of the table, before all ciphers,
--- and @lower@ the curve before this cipher. A column has a value for every row of the table; the
--- rows keep their parameters from curve to curve.
+-- | Shifts the curve @lower@, the result of the ciphers before this one. @base@ is the curve of the
+-- table, before all ciphers. A column has a value for every row of the table. A row keeps its
+-- parameter on all these curves, so the column applies to each of them.
 recalculated ::
   Environment ->
   PartCurve ->
@@ -124,8 +126,8 @@ recalculated env base side lower (Located at cipher) = do
 mistake :: CurveMistake -> Eval a
 mistake = Evaluation.mistake . InCurve
 
--- | The values of an expression at the rows of a curve's table. An expression that uses no column
--- of the table is evaluated only once.
+-- | The values of the expression @e@ at the rows of a curve's table. If @e@ names no column of the
+-- table, it is evaluated only once.
 alongRows :: Environment -> PartCurve -> Expr -> Eval (Vector Double)
 alongRows env base e
   | mentions names e = Vector.fromList <$> Evaluation.gather (map atRow [0 .. count - 1])
@@ -136,7 +138,7 @@ alongRows env base e
     atRow k = Expression.number <$> Expression.evaluate (foldl (bound k) env (tableColumns base)) e
     bound k env' (n, values) = Expression.bind n (Quantity (values Vector.! k)) env'
 
--- | Tells whether an expression uses one of some names.
+-- | Does the expression name one of these columns?
 mentions :: [Name] -> Expr -> Bool
 mentions names (Located _ e) = case e of
   Number _ -> False
@@ -159,8 +161,8 @@ mentions names (Located _ e) = case e of
       Checked.Chosen _ x -> again x
       Checked.Ranked _ -> False
 
--- | A curve that is shifted to a side by a distance. Fails when the shift opens a gap at a corner,
--- or when the shifted curve turns back in a cusp.
+-- | The curve @lower@, shifted to a side by @distance@. Fails if the shift opens a gap at a corner,
+-- or if the shifted curve turns back in a cusp.
 shiftedBy :: Region -> Carrier.Side -> Distance -> Exact.Curve -> Eval Exact.Curve
 shiftedBy at side distance lower = do
   let whole = Exact.shifted side distance lower
@@ -177,8 +179,8 @@ shiftedBy at side distance lower = do
           Rad a = Vec.signedAngle before after
        in Rad (abs a)
 
--- | The gap between the spans of a curve at a parameter. At 0 it is the gap between the curve's end
--- and its start.
+-- | The gap between two spans of a curve that should meet at the parameter @u@. If @u@ is 0, it is
+-- the gap between the curve's end and its start.
 gapAt :: Exact.Curve -> Double -> Mm
 gapAt whole u = Vec.distance before (Exact.pointFrom Exact.After whole (max 0 u))
   where
@@ -186,8 +188,8 @@ gapAt whole u = Vec.distance before (Exact.pointFrom Exact.After whole (max 0 u)
 
 -- Joggles
 
--- | A curve that is joggled to a side between its points with two x coordinates (Kolsanova, control
--- stops 15074 and 14174).
+-- | The curve @lower@ with a joggle to a side, between its points that have the two given x
+-- coordinates. Mistakes are those of the control stops 15074 and 14174 (Kolsanova).
 joggledBy :: Environment -> Carrier.Side -> Exact.Curve -> Joggle -> Eval Exact.Curve
 joggledBy env side lower (Located at (Joggle from to depth radius)) = do
   a <- parameterAtX env lower from
@@ -209,7 +211,8 @@ joggledBy env side lower (Located at (Joggle from to depth radius)) = do
     Left _ -> mistake (JoggleNowhere at)
     Right distance -> shiftedBy at side distance lower
 
--- | The parameter of a curve's point with this x coordinate. Fails unless there is exactly one.
+-- | The parameter of the point whose x coordinate is the value of @e@. Fails unless the curve has
+-- exactly one such point.
 parameterAtX :: Environment -> Exact.Curve -> Expr -> Eval Double
 parameterAtX env lower e = do
   x <- Expression.number <$> Expression.evaluate env e
@@ -219,16 +222,17 @@ parameterAtX env lower e = do
       let points = map (Exact.at lower) us
        in mistake (JoggleCoordinate (region e) (Mm x) points (Curve.xRange lower))
 
--- | The depth or the radius of a joggle: above 0 and at most 'Tolerance.reach'.
+-- | Evaluates the depth or the radius of a joggle, which must be above 0 and at most
+-- 'Tolerance.reach'.
 joggleMeasure :: Environment -> Expr -> Eval Mm
 joggleMeasure env e = do
   x <- Expression.number <$> Expression.evaluate env e
   when (x <= 0) (Evaluation.mistake (NotPositive (region e) Parameter.JoggleMeasure x))
   Mm x <$ Value.within (region e) x
 
--- | The largest radius r with which a joggle of depth d fits into a length. Its two ramps, of
--- length √(d·(4r − d)) each, then fill the length. Nothing when r would be at most half of the
--- depth.
+-- | The largest radius r of a joggle of depth d that fits into the length l, for the hint of a
+-- report. The joggle then consists of two ramps of the length √(d·(4r − d)) each, which fill l.
+-- 'Nothing' if r would be at most half of the depth.
 largestRadius :: Mm -> Mm -> Maybe Mm
 largestRadius depth@(Mm d) (Mm l) = if over r depth > 0.5 then Just r else Nothing
   where
@@ -236,9 +240,9 @@ largestRadius depth@(Mm d) (Mm l) = if over r depth > 0.5 then Just r else Nothi
 
 -- Bevels
 
--- | The bevels of an element's surface along the element: pairs of a station in mm and an angle in
--- radians. A curve has bevels along its polyarc. A line or a circle, for which no curve is given,
--- has one bevel.
+-- | Evaluates the bevels along an element: pairs of a station (the arc length from its start, in
+-- mm) and an angle in radians. If @on@ is a curve, the stations are those of its polyarc. Without a
+-- curve the element is a line or a circle, and has one bevel.
 bevelled :: Environment -> Maybe PartCurve -> Expr -> Eval [(Double, Double)]
 bevelled env on e = case on of
   Nothing -> do
@@ -247,7 +251,8 @@ bevelled env on e = case on of
     pure [(0, a)]
   Just c -> Curve.alongPolyarc c <$> (alongRows env c e >>= checkedBevels c e)
 
--- | Bevels in radians at the rows of a curve's table. Fails for a bevel of a right angle or more.
+-- | Passes on the bevels @values@, in radians, at the rows of a curve's table. Fails for a bevel of
+-- a right angle or more. @e@ is their expression.
 checkedBevels :: PartCurve -> Expr -> Vector Double -> Eval (Vector Double)
 checkedBevels c e values = case find ((>= bevelLimit) . abs . snd) numbered of
   Just (k, a) -> mistake (SteepBevel (region e) (if byRow then Just k else Nothing) (Rad a))
@@ -256,6 +261,7 @@ checkedBevels c e values = case find ((>= bevelLimit) . abs . snd) numbered of
     numbered = zip [1 ..] (Vector.toList values)
     byRow = mentions (map fst (tableColumns c)) e
 
--- | The upper limit of bevels in radians, not included. It is just below a right angle.
+-- | The limit that the absolute value of a bevel must stay below, in radians. It is just under a
+-- right angle.
 bevelLimit :: Double
 bevelLimit = pi / 2 - 1e-6

@@ -1,5 +1,5 @@
--- | Checks of a pocket's contours: all of them must be closed. The islands must lie inside the
--- outline, and must touch neither the outline nor one another.
+-- | Checks the contours of a pocket: the outline and the islands, which must all be closed. The
+-- islands must lie inside the outline, and must touch neither the outline nor one another.
 module Part.PocketCheck
   ( misfits,
     halfWidth,
@@ -30,8 +30,8 @@ import Part.PocketError (PocketMisfit (..))
 -- | A contour, and the region of the pocket statement that names it.
 data Named = Named {mention :: Region, contour :: Contour}
 
--- | The faults of a pocket with this outline and these islands. Contours are compared with one
--- another only if all of them are closed.
+-- | The faults of a pocket's contours. If some of them are open, only these are reported. Otherwise
+-- the contours are compared with one another.
 misfits :: Named -> [Named] -> [PocketMisfit]
 misfits outline islands = case filter isOpen numbered of
   [] -> map meets meetings <> mapMaybe (misplaced outline islands) apart
@@ -43,12 +43,13 @@ misfits outline islands = case filter isOpen numbered of
     meets (i, j, p) =
       let (a, b) = (named j, named i) in Meets (mention a) (nameOf a) (nameOf b) (i == 0) p
     named i = (outline : islands) !! i
-    -- An island that meets another contour is already reported.
+    -- An island that meets another contour is already reported as meeting it.
     apart = [(k, n) | (k, n) <- drop 1 numbered, k `notElem` met]
     met = concat [[i, j] | (i, j, _) <- meetings]
 
--- | The fault of an island outside of the outline or inside another island, given all islands and
--- this one with its number from 1. The island meets no other contour, so one of its points decides.
+-- | The fault of an island that lies outside of the outline or inside another island. @k@ is the
+-- number of the island, from 1; @islands@ are all islands. The island is known to meet no other
+-- contour, so testing one of its points suffices.
 misplaced :: Named -> [Named] -> (Int, Named) -> Maybe PocketMisfit
 misplaced outline islands (k, island)
   | not (encloses outline) = Just (Outside (mention island) (nameOf island) (nameOf outline))
@@ -62,8 +63,8 @@ misplaced outline islands (k, island)
       ]
     encloses n = WindingNumber.encloses (Part.polyarcOf (contour n)) (startOf island)
 
--- | The points in which two contours meet, with the numbers of both, the lower number first. Two
--- segments give at most one point.
+-- | The points in which two contours of the pocket meet, with the numbers of both contours, the
+-- lower number first. At most one point is given for two segments.
 crossings :: [(Int, Named)] -> [(Int, Int, Point)]
 crossings numbered =
   [ (i, j, p)
@@ -86,8 +87,8 @@ boxOf n = foldl BoundingBox.union first others
   where
     first :| others = fmap BoundingBox.ofSegment (Polyarc.segments (Part.polyarcOf (contour n)))
 
--- | Half of the shorter side of a contour's bounding box. No point inside the contour is further
--- from it.
+-- | Half of the shorter side of a contour's bounding box. The distance from the contour of a point
+-- inside it is never larger, which limits the number of passes.
 halfWidth :: Named -> Mm
 halfWidth n = let BoundingBox.BoundingBox l b r t = boxOf n in Mm (min (r - l) (t - b) / 2)
 
@@ -97,6 +98,6 @@ startOf n = Segment.start (Part.segment (NonEmpty.head (elements (contour n))))
 nameOf :: Named -> Name
 nameOf n = value (contourName (contour n))
 
--- | The region of a contour's name in its definition.
+-- | The region of the contour's name where the contour is defined.
 definition :: Named -> Region
 definition n = region (contourName (contour n))

@@ -1,4 +1,4 @@
--- | Faults of a pocket: its contours, and the stepover of its passes.
+-- | Faults of a pocket: of its contours, and of the stepover between its passes.
 module Part.PocketError
   ( PocketMisfit (..),
     toReport,
@@ -14,19 +14,19 @@ import Geometry.Vec qualified as Vec
 import Part.ErrorText (at)
 import Report.Report (Label (..), Report (..), quote)
 
--- | A fault of a pocket. The region of the pocket statement that is wrong comes first in every
--- constructor.
+-- | A fault of a pocket. The first field of every constructor is the region of the wrong expression
+-- in the pocket statement. The comment of a constructor names the other fields in order.
 data PocketMisfit
-  = -- | an open contour as the outline or as an island: its name, and the region of its definition
+  = -- | an open contour as the outline or as an island: the name, and the region of the definition
     OpenContour Region Name Region
   | -- | an island that lies outside of the outline: the names of the island and of the outline
     Outside Region Name Name
   | -- | an island that lies inside another island: the names of the inner and of the outer island
     InIsland Region Name Name
-  | -- | an island that crosses or touches another contour of its pocket: the names of the island
-    -- and of the other contour, true if that is the outline, and a common point
+  | -- | an island that crosses or touches another contour: the names of the island and of that
+    -- contour, true if that contour is the outline, and a common point
     Meets Region Name Name Bool Point
-  | -- | a stepover above the diameter of the cutter: the stepover and the diameter
+  | -- | a stepover that exceeds the diameter of the cutter: the stepover, and the diameter
     StepTooWide Region Mm Mm
   deriving stock (Eq, Show)
 

@@ -1,8 +1,8 @@
 -- | The choice of one of several answers to a construction: near a point, on a side of a line,
 -- inside or outside a circle, first or last along a line or a curve.
 --
--- No choice depends on the axes. So the same choice selects the same answer when the drawing is
--- moved and rotated.
+-- A choice does not refer to the directions of the x and y axes. It therefore selects the same
+-- answer after the drawing is moved and rotated.
 module Part.Selection
   ( Answers (..),
     answerPoints,
@@ -28,27 +28,28 @@ import Part.Evaluation (Eval)
 import Part.Evaluation qualified as Evaluation
 import Part.Value (Argument (..), Value (..), fromOrigin)
 
--- | The answers to a construction, and the means to choose among them.
+-- | The answers to a construction, and the functions that choose among them.
 data Answers a = Answers
   { sought :: Sought,
-    -- | shows an answer in a report
+    -- | the form of an answer in a report
     candidate :: a -> Candidate,
-    -- | the point by which an answer is chosen
+    -- | the point of an answer, by which distances and sides are measured
     keyPoint :: a -> Point,
-    -- | the functions to the distance of an answer along each line or curve of the construction.
-    -- The first function decides which answer is first and which is last
+    -- | one function for each line or curve of the construction: the position of an answer along
+    -- it, in mm. The first function decides which answer is @first@ and which is @last@
     stations :: [a -> Mm],
-    -- | two distances from a point that differ by at most this are a tie
+    -- | answers are equally near to a point if their distances from it differ by at most this
     tie :: Mm,
     answers :: [a]
   }
 
--- | Points as answers, given the largest difference that is a tie and the functions for 'stations'.
+-- | Answers that are points. @tie@ and @stations@ are the fields of these names.
 answerPoints :: Mm -> [Point -> Mm] -> [Point] -> Answers Point
 answerPoints tie stations answers =
   Answers {sought = SoughtPoint, candidate = APoint, keyPoint = id, stations, tie, answers}
 
--- | The answer that the arguments choose. Fails unless the choice leaves exactly one.
+-- | The answer that the words in @choice@ select, such as @near@ with a point. Fails unless exactly
+-- one answer fits. Without a choice there must be only one answer.
 picked :: Region -> Answers a -> [Argument] -> Eval a
 picked region Answers {sought, candidate, keyPoint, stations, tie = Mm tie, answers} choice =
   case (answers, choice) of

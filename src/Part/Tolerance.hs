@@ -1,5 +1,5 @@
--- | The tolerances for evaluating a part: for links between elements, for choices between
--- solutions, and for bevels.
+-- | The tolerances of evaluation: for links between elements, for choices among several solutions,
+-- and for bevels.
 module Part.Tolerance
   ( sameLength,
     smallestFillet,
@@ -12,29 +12,31 @@ where
 
 import Base.Quantity (Mm (..), Rad (..))
 
--- | Two contours whose lengths differ by at most this are equally long: the choice of the shorter
--- one is a tie.
+-- | Two contours are equally long if their lengths differ by at most this. A choice of the shorter
+-- one is then impossible, and is a fault.
 sameLength :: Mm
 sameLength = Mm 1e-6
 
--- | The smallest radius that is suggested for a fillet that does not fit.
+-- | The smallest fillet radius that a report suggests in place of one that does not fit.
 smallestFillet :: Mm
 smallestFillet = Mm 1e-3
 
--- | Two points whose distances from a third point differ by at most this are equally near: the
--- choice of the nearer one is a tie. Points on curves have errors up to 'Geometry.Tolerance.curve'.
+-- | Two points are equally near to a third one if their distances from it differ by at most this. A
+-- choice of the nearer one is then a fault. Points on curves have errors of up to
+-- 'Geometry.Tolerance.curve'.
 nearTie :: Mm
 nearTie = Mm 1e-4
 
--- | The largest error of linear interpolation between two bevels of an element.
+-- | The largest error of linear interpolation between the bevels of two points of an element.
 bevel :: Rad
 bevel = Rad 5e-5
 
--- | The largest gap at a smooth link. The link may join curves through measured points.
+-- | The largest gap between the elements of a smooth link. They may be curves through measured
+-- points, which do not meet exactly.
 smoothGap :: Mm
 smoothGap = Mm 1e-3
 
--- | The largest angle between the directions at a smooth link, 0.1°. The link may join curves
--- through measured points.
+-- | The largest angle between the elements of a smooth link, 0.1°. They may be curves through
+-- measured points, whose directions differ a little.
 smoothTurn :: Rad
 smoothTurn = Rad 1.75e-3

@@ -1,5 +1,5 @@
--- | Transformations of operations. Contours, points and sides are transformed; cutters, heights and
--- distances are not.
+-- | Transforms operations. A transformation changes contours, points and sides. It does not change
+-- cutters, heights and distances.
 module Part.Transformation
   ( operation,
   )
@@ -11,7 +11,8 @@ import Geometry.Transformation (Transformation)
 import Geometry.Transformation qualified as Transformation
 import Part.Part
 
--- | The image of an operation under a transformation. A reflection swaps the left and right side.
+-- | The image of the operation @o@ under the transformation @s@. If @s@ mirrors, left and right are
+-- swapped.
 operation :: Transformation -> Operation -> Operation
 operation s o = case o of
   Mill (Located at m) -> Mill (Located at (milling m))

@@ -1,4 +1,4 @@
--- | Values of the language, and the checks that functions make of their results.
+-- | The values of the language, and checks that the built-in functions make of their results.
 module Part.Value
   ( Value (..),
     Argument (..),
@@ -28,11 +28,11 @@ import Part.Evaluation qualified as Evaluation
 import Part.Parameter (Range (FromTo), WholeNumber)
 import Part.Part (Contour)
 
--- | A value of the language. Numbers are in mm, radians, minutes and turns, and in products of
--- these units.
+-- | A value of the language. Numbers are in mm, radians, minutes and turns, or in products of
+-- powers of these units.
 data Value
   = Quantity Double
-  | -- | a point of the plane, as the vector from (0, 0), or a vector
+  | -- | a vector, or a point of the plane as the vector from (0, 0) to it
     Spatial Vec
   | -- | a point with a height
     SpaceValue Point Mm
@@ -46,21 +46,23 @@ data Value
   | CurveValue PartCurve
   deriving stock (Eq, Show)
 
--- | An argument of a function: a value, a value after a word such as @near@ or @left@, or one of
--- the words @first@ and @last@.
+-- | An argument of a built-in function: a value, a value after a word such as @near@ or @left@, or
+-- one of the words @first@ and @last@.
 data Argument = Plain Value | Choosing Selector Value | Ranking Rank
   deriving stock (Eq, Show)
 
--- | A point or vector of at most 'Tolerance.reach' from (0, 0).
+-- | Makes the value of a point or vector. Fails if it is longer than 'Tolerance.reach'. @region@ is
+-- that of the call, as in the functions below.
 spatial :: Region -> Vec -> Eval Value
 spatial region v = Spatial v <$ within region (Vec.norm v)
 
--- | A point with a height, each of at most 'Tolerance.reach' from 0.
+-- | Makes the value of a point with the height @z@. Fails if the point or the height is further
+-- than 'Tolerance.reach' from 0.
 lifted :: Region -> Point -> Mm -> Eval Value
 lifted region p z@(Mm h) =
   SpaceValue p z <$ (within region (Vec.norm (offset p)) *> within region h)
 
--- | Fails for a length in mm, of either sign, beyond 'Tolerance.reach'.
+-- | Fails if the absolute value of the length @x@, in mm, exceeds 'Tolerance.reach'.
 within :: Region -> Double -> Eval ()
 within region x
   | abs x <= limit = pure ()
@@ -68,13 +70,13 @@ within region x
   where
     Mm limit = Tolerance.reach
 
--- | A number. Fails if the result of a computation is infinite or not a number.
+-- | Makes the value of a computed number. Fails if the number is infinite or not a number.
 finite :: Region -> Double -> Eval Value
 finite region x
   | isNaN x || isInfinite x = Evaluation.mistake (TooLarge region)
   | otherwise = pure (Quantity x)
 
--- | The end of a vector that starts at (0, 0).
+-- | The point at the end of a vector that starts at (0, 0).
 fromOrigin :: Vec -> Point
 fromOrigin v = Vec.shift v (Vec.point 0 0)
 
@@ -82,8 +84,8 @@ fromOrigin v = Vec.shift v (Vec.point 0 0)
 offset :: Point -> Vec
 offset = Vec.to (Vec.point 0 0)
 
--- | A whole number from 1 to 10⁷. Numbers within 'Tolerance.equal' of a whole number are rounded to
--- it.
+-- | Converts @x@ to a whole number from 1 to 10⁷. A number within 'Tolerance.equal' of a whole
+-- number is rounded to it. @what@ names the number in mistakes.
 whole :: Region -> WholeNumber -> Double -> Eval Int
 whole region what x
   | abs (x - fromIntegral n) > Tolerance.equal || n < 1 || x > 1e7 =

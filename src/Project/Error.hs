@@ -1,5 +1,5 @@
--- | Errors that concern a program as a whole: its machine is missing or unknown, or there is
--- nothing to punch.
+-- | Errors that concern a program as a whole: its machine is missing, unknown or wrongly described,
+-- or there is nothing to punch.
 module Project.Error
   ( Error (..),
     toReport,
@@ -15,18 +15,20 @@ import Data.Text qualified as Text
 import Report.Report (Report (..), ReportPlace (..), report)
 import Report.Report qualified as Report
 
--- | An error of a program as a whole. A region is that of the statement that names the machine; it
+-- | An error of a program as a whole. A region is that of the statement that names the machine. It
 -- is absent if the command line names the machine.
 data Error
-  = -- | neither the program nor the command line names a machine: names of the built-in machines
+  = -- | neither the program nor the command line names a machine: the names of the built-in
+    -- machines
     NoMachine [Text]
-  | -- | no machine has this name: the region, the name, the names of the built-in machines
+  | -- | no machine has this name: the region, this name, and the names of the built-in machines
     UnknownMachine (Maybe Region) Text [Text]
-  | -- | a machine description that cannot be read: the region, the name of the file, the reason
+  | -- | a machine description that cannot be read: the region, the name of its file, and the reason
     DescriptionMissing (Maybe Region) Text Text
-  | -- | a machine description with errors: the region, the name of the file, its text, the errors
+  | -- | a machine description with errors: the region, the name of its file, the text of the file,
+    -- and the errors
     DescriptionWrong (Maybe Region) Text Text [Report]
-  | -- | the program moves nothing
+  | -- | the program moves nothing, so that the tape would be empty
     NothingToPunch
   deriving stock (Eq, Show)
 
@@ -79,7 +81,8 @@ toReport err = case err of
   where
     wrong = report Report.Error
 
--- | One line for a report on a file, given the file's name and text: line, column and title.
+-- | A report on a machine description as one line of text: line, column and title. @file@ and
+-- @text@ are the name and the text of the description.
 inOneLine :: Text -> Text -> Report -> Text
 inOneLine file text r = case place r of
   InSource region ->

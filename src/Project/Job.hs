@@ -1,4 +1,4 @@
--- | The choices of one run of the compiler: parameter values, machines, verification.
+-- | The choices of one run of the compiler: parameter values, machines, and verification of tapes.
 module Project.Job
   ( Job (..),
     Verification (..),
@@ -16,28 +16,29 @@ import Project.Target qualified as Target
 import Report.Report (Report)
 import Toolpath.Toolpath (Toolpath)
 
--- | The choices of one run.
+-- | The choices of one run of the compiler.
 data Job = Job
-  { -- | values for parameters of the program, by their names
+  { -- | values for parameters of the program: the name and the text of each value
     values :: [(Text, Text)],
-    -- | chooses the machines for a part and its toolpath; without machines no tape is made
+    -- | chooses the machines for a part and its toolpath; if it chooses none, no tape is made
     machinesFor :: Part -> Toolpath -> Result Report Report [Machine],
     verification :: Verification
   }
 
--- | The check of a tape. A verified tape is read back and its motions are compared with the part;
--- an unverified one is only written.
+-- | The choice if a tape is verified. A verified tape is read back, and its motions are compared
+-- with the part. An unverified tape is only written.
 data Verification = Verified | Unverified
   deriving stock (Eq, Show)
 
--- | A job that makes a verified tape for each of the named machines. Without names the machine is
--- the one that the program names; it is an error if the program names none.
+-- | A job that makes a verified tape for each of the machines @names@. If there are no names, it
+-- uses the machine that the program names. It is an error if the program names none either.
+-- @values@ are those of the program's parameters.
 forTargets :: [Text] -> [(Text, Text)] -> LoadedProgram -> Job
 forTargets names values loaded =
   Job {values, machinesFor = Target.targets (descriptions loaded) names, verification = Verified}
 
--- | A job that makes a verified tape for the machine that the program names, or no tape if the
--- program names none.
+-- | A job that makes a verified tape for the machine that the program names. It makes no tape if
+-- the program names none. @values@ are those of the program's parameters.
 forOwnMachine :: [(Text, Text)] -> LoadedProgram -> Job
 forOwnMachine values loaded =
   Job {values, machinesFor = Target.ownMachines (descriptions loaded), verification = Verified}

@@ -1,8 +1,8 @@
--- | A part program with the files that belong to it: the files that it imports and the machine
+-- | A part program with the files that belong to it: the files that it imports, and the machine
 -- descriptions that it names. An input sheet is converted to a part program when it is loaded.
 --
--- Nothing here touches the disk: a 'Surface.Reader' supplies the texts. Names are not resolved and
--- values are not computed; that is the work of the compiler passes.
+-- Nothing here reads the disk: a 'Surface.Reader', which the caller supplies, gives the texts.
+-- Names are resolved and values are computed by later compiler passes.
 module Project.LoadedProgram
   ( LoadedProgram (..),
     load,
@@ -31,9 +31,10 @@ import System.FilePath (takeDirectory, takeExtension)
 
 -- | A part program and its files.
 data LoadedProgram = LoadedProgram
-  { -- | all texts, for the positions in reports
+  { -- | the texts of the program and of its imports, from which reports find lines and columns
     source :: Source,
-    -- | one syntax tree, with each import replaced by the definitions of the imported file
+    -- | the syntax tree of the program, in which each import is replaced by the imported
+    -- definitions
     surface :: Result Report Report Surface.Program,
     -- | the region of each import, and the path of the file that it names
     imports :: [(Region, Text)],
@@ -41,8 +42,8 @@ data LoadedProgram = LoadedProgram
     descriptions :: Descriptions
   }
 
--- | Loads a program, or an input sheet. The path names the program in reports; imports and machine
--- descriptions are looked for relative to its folder.
+-- | Loads a program or an input sheet with the text @text@. Reports name it by @path@. Imports and
+-- machine descriptions are looked for in the folder of @path@.
 load :: Monad m => Surface.Reader m -> FilePath -> Text -> m LoadedProgram
 load reader path text
   | isInputSheet path = pure (fromInputSheet path text)
@@ -60,7 +61,7 @@ load reader path text
           descriptions
         }
 
--- | The part program that an input sheet describes.
+-- | The part program that an input sheet with the text @text@ describes.
 fromInputSheet :: FilePath -> Text -> LoadedProgram
 fromInputSheet path text =
   LoadedProgram
@@ -70,7 +71,7 @@ fromInputSheet path text =
       descriptions = []
     }
 
--- | The files of machine descriptions that a program names.
+-- | The names of the machine description files that a program names.
 describedMachines :: Surface.Program -> [Text]
 describedMachines program =
   [ file
@@ -78,16 +79,17 @@ describedMachines program =
         Surface.statements program
   ]
 
--- | Loads a program of one text. Every import in it is an error.
+-- | Loads a program that consists of one text. An import in it is an error, because there are no
+-- other files.
 fromText :: Text -> Text -> LoadedProgram
 fromText path text = runIdentity (load withoutFiles (Text.unpack path) text)
   where
     withoutFiles = Surface.byName (const (pure (Left "only one text is looked at")))
 
--- | Is this the name of an input sheet's file? It ends in @.sheet@.
+-- | Does the file name mean an input sheet, that is, does it end in @.sheet@?
 isInputSheet :: FilePath -> Bool
 isInputSheet = (== ".sheet") . takeExtension
 
--- | Drops the syntax tree. Reports and file names do not need it, and it takes much memory.
+-- | Drops the syntax tree to free memory, for callers that need only reports and file names.
 withoutSurface :: LoadedProgram -> LoadedProgram
 withoutSurface loaded = loaded {surface = Result [] [] Nothing}

@@ -1,8 +1,8 @@
--- | The machines that a program can be compiled for: the built-in machines, and those described in
--- files of the user.
+-- | The machines for which a program can be compiled: the built-in machines, and machines that
+-- users describe in files.
 --
--- 'load' reads a description file with a function that its caller supplies. The functions that find
--- a machine are pure and search the loaded files.
+-- 'load' reads a description file, by a function that the caller supplies. The functions that find
+-- a machine read nothing; they search the loaded files.
 module Project.MachineDescription
   ( Descriptions,
     load,
@@ -24,12 +24,12 @@ import Machine.Machine (Machine, MachineName (..))
 import Report.Report (Report)
 import System.FilePath ((</>))
 
--- | Description files, by their names in the program or on the command line. Each has its text, or
--- the reason why it cannot be read.
+-- | The loaded description files. The name of a file is as in the program or on the command line.
+-- Next to it is the text, or the reason why the file cannot be read.
 type Descriptions = [(Text, Either Text Text)]
 
--- | Loads a description file, given a function that reads a file, a folder, and the file's name
--- relative to the folder. Yields the name with the text, or with the reason why it cannot be read.
+-- | Loads a description file. @contents@ reads a file, and @file@ is a name relative to @folder@.
+-- The result is the name with the text, or with the reason why the file cannot be read.
 load ::
   Monad m =>
   (FilePath -> m (Either Text Text)) ->
@@ -38,8 +38,8 @@ load ::
   m (Text, Either Text Text)
 load contents folder file = (file,) <$> contents (folder </> Text.unpack file)
 
--- | Is this the name of a description file rather than of a built-in machine? Such a name contains
--- a slash or ends in @.machine@.
+-- | Does the name mean a description file, and not a built-in machine? It does if it contains a
+-- slash or ends in @.machine@.
 isFileName :: Text -> Bool
 isFileName name = Text.any (== '/') name || Text.isSuffixOf ".machine" name
 
@@ -47,12 +47,12 @@ isFileName name = Text.any (== '/') name || Text.isSuffixOf ".machine" name
 data Missing
   = -- | no built-in machine has this name
     NoSuchMachine
-  | -- | the description cannot be read, for this reason
+  | -- | the description cannot be read: the reason
     NoDescription Text
-  | -- | the description has errors: its text, and the reports
+  | -- | the description has errors: the text of the description, and the errors
     BadDescription Text [Report]
 
--- | Finds a machine by its name, or by the name of its description file.
+-- | Finds a machine by the name of a built-in machine, or by the name of a loaded description file.
 find :: Descriptions -> Text -> Either Missing Machine
 find descriptions name
   | isFileName name = findDescribed descriptions name
@@ -62,7 +62,7 @@ find descriptions name
 findBuiltIn :: Text -> Either Missing Machine
 findBuiltIn name = maybe (Left NoSuchMachine) Right (BuiltIn.find (MachineName name))
 
--- | Finds a description file by its name, and parses the machine that it describes.
+-- | Finds a loaded description file by its name, and parses the machine that it describes.
 findDescribed :: Descriptions -> Text -> Either Missing Machine
 findDescribed descriptions file = case lookup file descriptions of
   Nothing -> Left (NoDescription "it was not looked for")

@@ -1,5 +1,5 @@
--- | The machines that a program is compiled for: those that the command line names, or else the one
--- that the program names.
+-- | The machines for which a program is compiled: those that the command line names, or else the
+-- one that the program names.
 module Project.Target
   ( targets,
     ownMachines,
@@ -26,8 +26,8 @@ import Report.Report (Report)
 import Toolpath.Toolpath (Toolpath)
 import Toolpath.Toolpath qualified as Toolpath
 
--- | The machines with these names, set up for the toolpath. Without names it is the machine that
--- the program names; it is an error if the program names none.
+-- | The machines with the given names, set up for the toolpath. If there are no names, it is the
+-- machine that the program names. It is an error if the program names none either.
 targets :: Descriptions -> [Text] -> Part -> Toolpath -> Result w Report [Machine]
 targets descriptions names part path =
   Result.mapErrors id Project.toReport $
@@ -36,17 +36,18 @@ targets descriptions names part path =
       ([], Just reference) -> pure <$> ownMachine descriptions reference
       (some, _) -> traverse (Result.fromEither . machineNamed descriptions) some
 
--- | The machine that the program names, set up for the toolpath. Empty if the program names none.
+-- | The machine that the program names, set up for the toolpath. Empty if the program names no
+-- machine.
 ownMachines :: Descriptions -> Part -> Toolpath -> Result w Report [Machine]
 ownMachines descriptions part path = case Part.machine part of
   Nothing -> pure []
   Just _ -> targets descriptions [] part path
 
--- | Sets a machine up for a toolpath. For turning, some machines reverse axes.
+-- | Prepares a machine description for a toolpath: for turning, some machines reverse axes.
 setUpFor :: Toolpath -> Machine -> Machine
 setUpFor path machine = if Toolpath.isTurned path then Machine.forTurning machine else machine
 
--- | The machine that a statement of the program names.
+-- | The machine that the @machine@ statement of the program names.
 ownMachine :: Descriptions -> Located MachineRef -> Result w Error Machine
 ownMachine descriptions (Located region reference) = case reference of
   Named name -> found name (MachineDescription.findBuiltIn name)
@@ -54,13 +55,13 @@ ownMachine descriptions (Located region reference) = case reference of
   where
     found name = either (Result.failed . missing (Just region) name) pure
 
--- | Finds a machine that the command line names, built in or by its description file.
+-- | Finds a machine that the command line names: a built-in machine, or a description file.
 machineNamed :: Descriptions -> Text -> Either Error Machine
 machineNamed descriptions name =
   either (Left . missing Nothing name) Right (MachineDescription.find descriptions name)
 
--- | The error for a machine that cannot be used: the region of the statement that names it, if
--- there is one, the name, and the reason.
+-- | The error for a machine that cannot be used. @region@ is that of the statement that names it,
+-- or 'Nothing' if the command line does. @why@ is the reason.
 missing :: Maybe Region -> Text -> Missing -> Error
 missing region name why = case why of
   NoSuchMachine -> UnknownMachine region name builtInNames

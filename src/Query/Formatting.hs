@@ -1,4 +1,4 @@
--- | The change from a program's text to its formatted text.
+-- | The change that turns the text of a program into its formatted text, for editors.
 module Query.Formatting
   ( Change (..),
     change,
@@ -9,12 +9,13 @@ import Base.Region (Region (..))
 import Data.Text (Text)
 import Data.Text qualified as Text
 
--- | New text for a region of whole lines.
+-- | A change of a text: the region that it replaces, which consists of whole lines, and the new
+-- text.
 data Change = Change {region :: Region, newText :: Text}
   deriving stock (Eq, Show)
 
--- | The change from one text to another. It replaces the lines from the first difference to the
--- last one. Nothing if the texts are equal.
+-- | The change that turns the text @before@ into the text @after@. It replaces all lines from the
+-- first difference to the last difference. 'Nothing' if the texts are equal.
 change :: Text -> Text -> Maybe Change
 change before after
   | before == after = Nothing
@@ -30,7 +31,7 @@ change before after
     (oldMiddle, newMiddle) = (reverse reversedOld, reverse reversedNew)
     from = sum (map Text.length front)
 
--- | The common prefix of two lists, and the rest of each.
+-- | The common prefix of two lists of lines, and the remaining lines of each list.
 splitCommonPrefix :: [Text] -> [Text] -> ([Text], [Text], [Text])
 splitCommonPrefix a b = case (a, b) of
   (x : as, y : bs)

@@ -1,4 +1,4 @@
--- | The names in a program: the regions that mention them, their meanings and their values.
+-- | The names in a program: the regions that mention them, their meanings, and their values.
 module Query.Mention
   ( Mentions (..),
     Mention (..),
@@ -13,17 +13,17 @@ import Data.Text (Text)
 import Part.Part (Part)
 import Part.Part qualified as Part
 
--- | All mentions of names, and the values of the definitions. A value is a text, beside the region
--- of the name in the definition.
+-- | All mentions of names in a program, and the values of its definitions. A value is a text, next
+-- to the region of the name that the definition gives it.
 data Mentions = Mentions {mentions :: [Mention], values :: [(Region, Text)]}
   deriving stock (Eq, Show)
 
--- | No mentions and no values, as for a program that cannot be checked.
+-- | No mentions and no values, for a program that cannot be checked.
 none :: Mentions
 none = Mentions [] []
 
--- | The mentions that the checker found, with the values of the evaluated part. Yields 'none' for a
--- program that cannot be checked.
+-- | Combines the mentions that the type checker has found with the values of the evaluated part. If
+-- the program could not be checked, the result is 'none'.
 facts :: Maybe ([Mention], Part) -> Mentions
 facts known = case known of
   Nothing -> none

@@ -1,7 +1,9 @@
--- | Answers about the name under the cursor.
+-- | Answers about the name under the cursor of an editor.
 --
--- The answers come from the snapshot of the present text. If errors of the present text hide the
--- name, the answers come from the last snapshot without errors.
+-- The answers come from a snapshot: a program with the results of its check. There are two
+-- snapshots. One is of the present text, the other of the last text without errors. The second one
+-- answers if errors of the present text hide the name. An offset is the number of characters before
+-- the cursor.
 module Query.Name
   ( Hover (..),
     hover,
@@ -23,15 +25,15 @@ import Query.RegionMap qualified as RegionMap
 import Query.Snapshot (Snapshot)
 import Query.Snapshot qualified as Snapshot
 
--- | The name under the cursor with its region, its value if it has one, and its meaning in words.
+-- | The name under the cursor: its region, its value if it has one, and its meaning in words.
 data Hover = Hover {place :: Region, name :: Text, value :: Maybe Text, meaning :: Text}
   deriving stock (Eq, Show)
 
--- | A region in one of the files of a source.
+-- | A region in one of the files of a program, to which an editor can jump.
 data Target = Target {source :: Source, region :: Region}
 
--- | The name at an offset of the present text. The snapshots are that of the present text and the
--- last one without errors.
+-- | Describes the name at the offset @at@ of the present text. @now@ is the snapshot of the present
+-- text, and @before@ the last snapshot without errors. 'Nothing' if there is no name.
 hover :: Snapshot -> Maybe Snapshot -> Int -> Maybe Hover
 hover now before at = shown <$> listToMaybe (found now before at)
   where
@@ -44,8 +46,9 @@ hover now before at = shown <$> listToMaybe (found now before at)
           meaning = Mention.meaning mention
         }
 
--- | The region that defines the name at an offset of the present text. The snapshots are that of
--- the present text and the last one without errors.
+-- | The region that defines the name at the offset @at@ of the present text. @now@ is the snapshot
+-- of the present text, and @before@ the last snapshot without errors. 'Nothing' if there is no name
+-- or it is built in.
 definition :: Snapshot -> Maybe Snapshot -> Int -> Maybe Target
 definition now before at = listToMaybe (mapMaybe target (found now before at))
   where
@@ -57,12 +60,13 @@ definition now before at = listToMaybe (mapMaybe target (found now before at))
           Target (Snapshot.source now) <$> RegionMap.forward regionMap region
       _ -> Just Target {source, region}
 
--- | A mention under the cursor: the snapshot that contains it; for an older snapshot, the map from
--- its text to the present text; the region of the mention in the present text.
+-- | A mention under the cursor: the snapshot that contains it, and the region of it in the present
+-- text. The map leads from the text of an older snapshot to the present text; it is absent for the
+-- present snapshot.
 data Found = Found Snapshot (Maybe RegionMap) Mention Region
 
--- | The mentions at an offset of the present text: that of the present snapshot first, then that of
--- the last snapshot without errors.
+-- | The mentions at the offset @at@ of the present text. If both snapshots contain one, that of the
+-- present snapshot @now@ comes first.
 found :: Snapshot -> Maybe Snapshot -> Int -> [Found]
 found now before at = present <> maybe [] past before
   where
@@ -76,7 +80,7 @@ found now before at = present <> maybe [] past before
           ]
     textOf = Region.text . Snapshot.source
 
--- | The mention that contains an offset, or else the mention that ends at it.
+-- | The mention that contains the offset @at@; if there is none, the mention that ends at @at@.
 under :: Mentions -> Int -> Maybe Mention
 under facts at = case find (within (<)) (Mention.mentions facts) of
   Just m -> Just m
@@ -84,6 +88,6 @@ under facts at = case find (within (<)) (Mention.mentions facts) of
   where
     within before m = let Region from to = Mention.place m in from <= at && at `before` to
 
--- | Does a region lie in the program's own file, and not in an imported one?
+-- | Does a region lie in the program's own file, rather than in an imported file?
 isOwn :: Source -> Region -> Bool
 isOwn source (Region from _) = from <= Text.length (Region.text source)

@@ -1,6 +1,8 @@
--- | A map of regions from an old text to a new one. The changed region of each text lies between
--- the common prefix and the common suffix of the texts. Regions outside of it are mapped; regions
--- that touch the change are not.
+-- | A map of regions from an old text to a new one, which keeps answers about the old text useful.
+--
+-- The changed region of each text lies between the common prefix and the common suffix of both
+-- texts. A region before or after the change is mapped; a region that overlaps the change is not.
+-- An offset is the number of characters before a position.
 module Query.RegionMap
   ( RegionMap,
     between,
@@ -15,12 +17,13 @@ import Data.Maybe qualified as Maybe
 import Data.Text (Text)
 import Data.Text qualified as Text
 
--- | The texts are equal up to the offset @same@. They are also equal from the offset @old@ of the
--- old text and the offset @new@ of the new text to their ends.
+-- | The texts are equal from the start to the offset @same@. The old text from the offset @old@ to
+-- its end equals the new text from the offset @new@ to its end.
 data RegionMap = RegionMap {same :: Int, old :: Int, new :: Int}
   deriving stock (Eq, Show)
 
--- | The map from an old text to a new one. A word that the change touches counts as changed.
+-- | The map from the old text @before@ to the new text @after@. A word that the change touches
+-- counts as changed.
 between :: Text -> Text -> RegionMap
 between before after =
   RegionMap
@@ -39,11 +42,11 @@ between before after =
     cutBack = if touches then Text.takeWhile isWordPart suffix else ""
     kept = Text.length suffix - Text.length cutBack
 
--- | The common prefix of two texts, and the rest of each.
+-- | The common prefix of two texts, and the remaining text of each.
 commonPrefix :: Text -> Text -> (Text, Text, Text)
 commonPrefix a b = Maybe.fromMaybe ("", a, b) (Text.commonPrefixes a b)
 
--- | The common suffix of two texts, and the rest of each.
+-- | The common suffix of two texts, and the remaining text of each.
 commonSuffix :: Text -> Text -> (Text, Text, Text)
 commonSuffix a b = (Text.takeEnd size a, Text.dropEnd size a, Text.dropEnd size b)
   where
@@ -55,16 +58,17 @@ commonSuffix a b = (Text.takeEnd size a, Text.dropEnd size a, Text.dropEnd size 
 isWordPart :: Char -> Bool
 isWordPart c = isAlphaNum c || c == '_'
 
--- | The region of the new text that corresponds to a region of the old text. Nothing for a region
--- that overlaps the change.
+-- | The region of the new text that corresponds to a region of the old text. 'Nothing' if the
+-- region overlaps the change.
 forward :: RegionMap -> Region -> Maybe Region
 forward RegionMap {same, old, new} (Region from to)
   | to <= same = Just (Region from to)
   | from >= old = Just (Region (from - old + new) (to - old + new))
   | otherwise = Nothing
 
--- | The offset in the old text that corresponds to an offset of the new text. Where text was only
--- deleted, it is the offset after the deleted text. Nothing within the change.
+-- | The offset in the old text that corresponds to the offset @at@ in the new text. At a point
+-- where text was only deleted, it is the offset after the deleted text. 'Nothing' if @at@ lies
+-- inside the change.
 back :: RegionMap -> Int -> Maybe Int
 back RegionMap {same, old, new} at
   | at >= new = Just (at - new + old)

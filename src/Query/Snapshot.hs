@@ -1,4 +1,4 @@
--- | A program at one moment, with everything that the answers to an editor need.
+-- | A program at one moment, with all results that are needed to answer an editor.
 module Query.Snapshot
   ( Snapshot (..),
     Check,
@@ -29,29 +29,30 @@ import Report.Report qualified as Report
 import Surface.Syntax (Program (..))
 import Prelude hiding (take)
 
--- | A function that finds the mistakes of a program. Editors and the command line use the same one.
+-- | A function that checks a loaded program and gives its mistakes and its results. Editors and the
+-- command line use the same function.
 type Check = LoadedProgram -> Result Report Report Analysis
 
--- | Checks a program up to the frames for the machine that it names. The values are those of the
--- program's parameters, by their names.
+-- | Checks a program with all compiler passes up to the frames for the machine that it names.
+-- @values@ are the names and the values of the program's parameters.
 checkWith :: [(Text, Text)] -> Check
 checkWith values loaded = Compile.check (Job.forOwnMachine values loaded) loaded
 
--- | A program at one moment.
+-- | A program at one moment, with the results of its check.
 data Snapshot = Snapshot
   { -- | the text of the program, and the texts that it imports
     source :: Source,
     -- | errors and warnings, in the order of the text
     reports :: [Report],
-    -- | the syntax tree of the text itself, without what it imports
+    -- | the syntax tree of the program's own text, in which imports are statements
     program :: Program,
-    -- | the mentions of names, and the values of the definitions
+    -- | the mentions of names in the program, and the values of its definitions
     facts :: Mentions,
     -- | the region of each import, and the path of the file that it names
     imports :: [(Region, Text)]
   }
 
--- | Takes a snapshot of a program.
+-- | Checks a program, and keeps its results as a snapshot.
 take :: Check -> LoadedProgram -> Snapshot
 take check loaded =
   Snapshot
@@ -72,12 +73,12 @@ take check loaded =
       Just analysis -> Just (Compile.mentions analysis, Compile.part analysis)
       Nothing -> first Checked.mentions <$> output (Compile.evaluate [] loaded)
 
--- | Has the program no errors? Warnings are allowed.
+-- | Is the program without errors? It may have warnings.
 isGood :: Snapshot -> Bool
 isGood = not . any Report.isError . reports
 
--- | The import statement of the program that includes the file of a region, directly or through
--- other imports. Nothing for a region of the program itself.
+-- | The region of the program's import statement that includes the file of the given region,
+-- directly or through other imports. 'Nothing' if that region lies in the program itself.
 importOf :: Snapshot -> Region -> Maybe Region
 importOf Snapshot {source, imports} = go (length imports)
   where

@@ -1,5 +1,5 @@
--- | The symbols of a program, for the outline in an editor: its definitions and its machining
--- statements.
+-- | The symbols of a program, which an editor shows as its outline. A definition or a machining
+-- statement has a symbol.
 module Query.Symbol
   ( DocumentSymbol (..),
     SymbolKind (..),
@@ -18,8 +18,8 @@ import Data.Text qualified as Text
 import Query.Snapshot (Snapshot (..))
 import Surface.Syntax (Program (..), Statement, Statement_ (..))
 
--- | A symbol: its name, a short addition such as a parameter list, its kind, the region of the
--- whole statement, and the region of the name within the statement.
+-- | A symbol: the name, a short addition such as a parameter list, the kind, the region of the
+-- whole statement, and the region to select in it.
 data DocumentSymbol = DocumentSymbol
   { name :: Text,
     detail :: Text,
@@ -33,13 +33,14 @@ data DocumentSymbol = DocumentSymbol
 data SymbolKind = Part' | Value | Function | Contour' | Machining
   deriving stock (Eq, Show, Enum, Bounded)
 
--- | The symbols of a program in the order of the text. Statements that only change a setting have
+-- | The symbols of a program in the order of the text. A statement that only changes a setting has
 -- no symbol.
 symbols :: Snapshot -> [DocumentSymbol]
 symbols Snapshot {source, program} = mapMaybe (symbol source) (statements program)
 
--- | The symbol of a statement, if it has one. A definition is shown by its name. A machining
--- statement is shown by its text up to the side, the depth or the stepover.
+-- | The symbol of a statement; 'Nothing' if the statement only changes a setting. A definition is
+-- shown by its name. A machining statement is shown by its text up to the side, the depth or the
+-- stepover.
 symbol :: Source -> Statement -> Maybe DocumentSymbol
 symbol source (Located whole s) = case s of
   Part name title -> definition Part' name (maybe "" value title)
@@ -84,11 +85,11 @@ symbol source (Located whole s) = case s of
             selection
           }
 
--- | The names of a function's parameters in round brackets.
+-- | The names of a function's parameters in round brackets, as the addition to its symbol.
 parameterList :: NonEmpty (Located Name) -> Text
 parameterList parameters =
   "(" <> Text.intercalate ", " [n | Located _ (Name n) <- NonEmpty.toList parameters] <> ")"
 
--- | The text of a region, joined to one line with single spaces.
+-- | The text of the region @part@ as one line, with single spaces between its words.
 slice :: Source -> Region -> Text
 slice source part = Text.unwords (concatMap Text.words (Region.linesIn source part))

@@ -1,4 +1,8 @@
--- | The typing of arithmetic and comparisons on quantities, points and vectors.
+-- | Infers the types of arithmetic and comparisons on quantities, points and vectors.
+--
+-- The functions yield 'True' if the operation is solved or reported as wrong. They yield 'False' if
+-- too little is known of its operands; the operation then remains a deferred constraint. The
+-- arguments @l@ and @r@ are the resolved types of its operands.
 module Checked.Inference.Arithmetic
   ( solveArithmetic,
   )
@@ -14,7 +18,7 @@ import Checked.Syntax (Operator (..))
 import Checked.Type (Type (..))
 import Checked.Type qualified as Type
 
--- | Solves an operation, or gives 'False' if too little is known of its operands yet.
+-- | Solves an operation. 'False' if too little is known of its operands yet.
 solveArithmetic :: Arithmetic -> Infer Bool
 solveArithmetic a = do
   l <- resolved (snd (left a))
@@ -33,7 +37,7 @@ solveArithmetic a = do
 isComparison :: Operator -> Bool
 isComparison op = op `elem` [Less, AtMost, Greater, AtLeast, Equal, Unequal]
 
--- | Types a comparison: only quantities of one dimension can be compared.
+-- | Solves a comparison. Its operands must be quantities of the same dimension.
 comparison :: Arithmetic -> Type -> Type -> Infer Bool
 comparison a l r = case (l, r) of
   (Variable _, Variable _) -> pure False
@@ -45,8 +49,8 @@ comparison a l r = case (l, r) of
           <*> unify (fst (right a)) (Quantity d) r
     if fits then solvedAs a Boolean else disagree a l r
 
--- | Types a sum or a difference. An unknown operand gets the kind of the known one: a quantity, or
--- a point or vector.
+-- | Solves a sum or a difference. If one operand is unknown, it gets the kind of the other operand:
+-- a quantity, or a point or vector.
 sumOrDifference :: Arithmetic -> Type -> Type -> Infer Bool
 sumOrDifference a l r = case (l, r) of
   (Quantity d, Quantity e) -> do
@@ -67,7 +71,7 @@ sumOrDifference a l r = case (l, r) of
       _ <- unify region t (Spatial d)
       solveArithmetic a
 
--- | Types a product: of two quantities, or of a number and a vector in either order.
+-- | Solves a product: of two quantities, or of a plain number and a vector in either order.
 product' :: Arithmetic -> Type -> Type -> Infer Bool
 product' a l r = case (l, r) of
   (Quantity d, Quantity e) -> solvedAs a (Quantity (Dimension.times d e))
@@ -79,7 +83,7 @@ product' a l r = case (l, r) of
   (Quantity _, Variable _) -> pure False
   (Variable _, Variable _) -> pure False
   _
-    -- A minus sign is typed as a product with −1, which has the region of the whole term.
+    -- A minus sign is a product with −1. The factor −1 has the region of the whole term.
     | leftRegion == arithmeticRegion a ->
       undefinedFor a UndefinedNegation [(rightRegion, r)]
     | otherwise -> undefinedFor a UndefinedProduct [(leftRegion, l), (rightRegion, r)]
@@ -87,7 +91,7 @@ product' a l r = case (l, r) of
     leftRegion = fst (left a)
     rightRegion = fst (right a)
 
--- | Types a quotient: of two quantities, or of a vector and a number.
+-- | Solves a quotient: of two quantities, or of a vector and a plain number.
 quotient :: Arithmetic -> Type -> Type -> Infer Bool
 quotient a l r = case (l, r) of
   (Quantity d, Quantity e) -> solvedAs a (Quantity (ratio d e))
@@ -101,8 +105,8 @@ quotient a l r = case (l, r) of
     leftRegion = fst (left a)
     rightRegion = fst (right a)
 
--- | Types a vector that is multiplied or divided by a number. The arguments after the operation are
--- the number and the vector.
+-- | Solves the product or quotient of a vector and a plain number. @factor@ and @vector@ are their
+-- types.
 scaledVector :: Arithmetic -> (Region, Type) -> (Region, Type) -> Infer Bool
 scaledVector a (numberRegion, factor) (vectorRegion, vector) = do
   isNumber <- unify numberRegion factor Type.number
@@ -116,17 +120,19 @@ scaledVector a (numberRegion, factor) (vectorRegion, vector) = do
 ratio :: Dimension -> Dimension -> Dimension
 ratio d e = Dimension.times d (Dimension.power (-1) e)
 
--- | Ends an operation with the type of its result.
+-- | Solves an operation: its result has the type @t@.
 solvedAs :: Arithmetic -> Type -> Infer Bool
 solvedAs a t = True <$ equate (arithmeticRegion a) (outcome a) t
 
--- | Reports that an operation is not defined for the given operands.
+-- | Reports that an operation is not defined for the given operands. The result gets the type
+-- 'Wrong', so that no further report follows.
 undefinedFor :: Arithmetic -> UndefinedOperation -> [(Region, Type)] -> Infer Bool
 undefinedFor a operation operands = do
   mistakeOnce [arithmeticRegion a] (NoOperation (arithmeticRegion a) operation operands)
   solvedAs a Wrong
 
--- | Reports operands of different kinds in a sum, a difference or a comparison.
+-- | Reports that the operands of a sum, a difference or a comparison have different kinds or
+-- dimensions.
 disagree :: Arithmetic -> Type -> Type -> Infer Bool
 disagree a l r = do
   elsewhere <- decidedElsewhere [(leftRegion, leftType, l), (rightRegion, rightType, r)]

@@ -1,8 +1,8 @@
--- | The fast twin of type inference for literals and for calls on literals.
+-- | A fast version of type inference for literals and for calls whose arguments are literals.
 --
 -- Most terms of a large program are numbers, points and calls on them. Their types are visible from
--- their syntax. This module checks them without unknowns. It gives the terms, types and errors that
--- "Checked.Expression" gives by full inference, and leaves all other terms to it.
+-- their syntax, so this module checks them without unknowns. It gives the same terms, types and
+-- errors as "Checked.Expression" would by full inference. All other terms are left to that module.
 module Checked.Inference.Fast
   ( literal,
     FastCall (..),
@@ -27,9 +27,10 @@ import Data.List.NonEmpty qualified as NonEmpty
 import Surface.Syntax qualified as Surface
 import Surface.Token (Numeral (..))
 
--- | Checks a literal, or a pair of literals, against a wanted type. A literal without a unit gets
--- the default unit of the wanted dimension. The result is 'Nothing' if the term contains anything
--- else, if the dimension is unknown, or if a unit belongs to another dimension.
+-- | Checks a literal, or a pair of literals, that must have the type @wanted@. A literal without a
+-- unit gets the default unit of the wanted dimension. 'Nothing' if the term contains anything else,
+-- if the wanted dimension is unknown, or if the unit does not fit it. The caller then uses full
+-- inference.
 literal :: Type -> Surface.Expr -> Maybe Checked.Expr
 literal wanted (Located at e) = case (e, wanted) of
   (Surface.Literal (Numeral _ x) Nothing, Type.Quantity d)
@@ -49,20 +50,21 @@ literal wanted (Located at e) = case (e, wanted) of
       here (Checked.Pair x' y')
   _ -> Nothing
   where
-    -- Evaluated at once: a thunk would keep the syntax tree alive.
+    -- Evaluated at once: a thunk would keep the syntax tree in memory.
     here found = Just $! Located at found
 
 -- | A call that was checked without full inference.
 data FastCall = FastCall
   { resultType :: Type,
-    -- | true if the function has several forms
+    -- | true if the function has several forms (lists of parameters), of which this call uses one
     isOverloaded :: Bool,
     checkedCall :: Deferred Checked.Expr
   }
 
--- | Checks a call of a built-in function on literals and pairs. They must fit exactly one form
--- without labels, and all types of that form must be known; otherwise the result is 'Nothing'. The
--- given function checks pairs that contain other terms.
+-- | Checks a call of a built-in function on literals and pairs. They must fit exactly one form of
+-- the function without labels, and all types of that form must be known. Otherwise the result is
+-- 'Nothing', and the caller uses full inference. @expect@ checks pairs that contain other terms
+-- than literals.
 call ::
   (Type -> Surface.Expr -> Infer (Deferred Checked.Expr)) ->
   Surface.Expr ->
@@ -77,7 +79,7 @@ call expect (Located at e) = case e of
           (and . zipWith fits shapes . map Builtin.type' . parameters . fst)
           (Builtin.unlabelled builtin (length es)) ->
       do
-        -- The program may have defined the name itself.
+        -- A definition of the program hides the built-in function of the same name.
         binding <- Inference.find name
         case binding of
           Just _ -> pure Nothing
@@ -103,8 +105,8 @@ call expect (Located at e) = case e of
       Surface.Chosen _ _ -> Nothing
       Surface.Ranked _ -> Nothing
 
--- | Checks arguments against a form and builds the call from them. If all are literals, the call is
--- evaluated at once.
+-- | Checks the arguments @es@ against a form, and lets @build@ make the call of them. If all
+-- arguments are literals, the call is made at once. @expect@ checks the other arguments.
 onForm ::
   (Type -> Surface.Expr -> Infer (Deferred Checked.Expr)) ->
   ([Checked.Argument] -> Checked.Expr) ->
@@ -121,8 +123,8 @@ onForm expect build form es = case zipWithM literalArgument types es of
       Just x' -> Just $! Checked.Given x'
       Nothing -> Nothing
 
--- | The information on a literal's type in its syntax: the literal is a quantity, with a dimension
--- if it has a unit, or a pair.
+-- | The facts about the type of a term that its syntax shows. A quantity has its dimension if the
+-- literal has a unit, and 'Nothing' if not. A pair is a point or a vector.
 data Shape = Quantity (Maybe Dimension) | Pair
 
 shapeOf :: Surface.Expr -> Maybe Shape
@@ -132,7 +134,7 @@ shapeOf (Located _ e) = case e of
   Surface.Pair _ _ -> Just Pair
   _ -> Nothing
 
--- | Tells if a term with a shape can have a type.
+-- | Can a term of this shape have the type @t@?
 fits :: Shape -> Type -> Bool
 fits shape t = case (shape, t) of
   (_, Type.Variable _) -> True

@@ -1,7 +1,9 @@
--- | The choice among the forms of an overloaded built-in function.
+-- | Chooses among the forms of an overloaded built-in function. A form is one list of parameters
+-- with the type of the result. A label is a word before an argument, such as @near@, or a rank
+-- (@first@ or @last@).
 --
 -- A form is chosen by the number of the arguments, by their labels, and by those of their types
--- that are known. A call is a deferred constraint until exactly one form fits.
+-- that are known. Until exactly one form fits, the call is a deferred constraint.
 module Checked.Inference.Overload
   ( solveCall,
     chooseFirst,
@@ -20,8 +22,8 @@ import Control.Monad (unless)
 import Data.Containers.ListUtils (nubOrd)
 import Data.Maybe (mapMaybe)
 
--- | Solves a call by the only form that fits, or reports that none fits. Gives 'False' if several
--- forms fit.
+-- | Solves a call if exactly one form fits, and reports it if no form fits. The result is 'False'
+-- if several forms fit, so that the call remains a constraint.
 solveCall :: OverloadedCall -> Infer Bool
 solveCall call = do
   candidates <- fittingForms call
@@ -34,19 +36,20 @@ solveCall call = do
     [only] -> True <$ chooseForm call only
     _ -> pure False
 
--- | Solves a call by the first form that fits, if there is one.
+-- | Solves a call by the first form that fits. Does nothing if no form fits.
 chooseFirst :: OverloadedCall -> Infer ()
 chooseFirst call = fittingForms call >>= mapM_ (chooseForm call) . take 1
 
--- | Unifies the types of the arguments and of the result of a call with those of a form.
+-- | Solves a call by a form: unifies the types of the arguments and of the result with those of the
+-- form.
 chooseForm :: OverloadedCall -> Form -> Infer ()
 chooseForm call form = do
   mapM_ (\((region, t), p) -> equate region p t) (zip (arguments call) (parameterTypes form))
   equate (callRegion call) (callType call) (Builtin.result form)
 
--- | Reports a call that fits no form. The report points at one argument if a form differs in that
--- argument only, and both its types are quantities or both are spatial. Otherwise it points at the
--- whole call.
+-- | Reports a call that fits no form; @types@ are the resolved types of its arguments. If
+-- 'oneMisfit' finds a single wrong argument for a form, the report points at this argument.
+-- Otherwise it points at the whole call.
 reportMisfit :: OverloadedCall -> [Type] -> Infer ()
 reportMisfit call types = case mapMaybe (oneMisfit call types) (formsByLabels call) of
   (region, wanted, written, found) : _ -> do
@@ -67,9 +70,12 @@ reportMisfit call types = case mapMaybe (oneMisfit call types) (formsByLabels ca
           length (Builtin.parameters f) == length (labels call)
       ]
 
--- | Finds the only argument that does not fit a form. Its type and the wanted type must both be
--- quantities or both be spatial. Gives its region, the wanted type, its unresolved and its resolved
--- type.
+-- | The only argument that does not fit a form. It is given only if its type and the type of the
+-- parameter are both quantities or both spatial. Otherwise, or if several arguments do not fit, the
+-- result is 'Nothing'.
+--
+-- The result contains the region of the argument, the type of the parameter, the type of the
+-- argument before it is resolved, and its resolved type.
 oneMisfit :: OverloadedCall -> [Type] -> Form -> Maybe (Region, Type, Type, Type)
 oneMisfit call types form =
   case [ (region, wanted, written, found)
@@ -85,21 +91,21 @@ oneMisfit call types form =
       (Spatial _, Spatial _) -> True
       _ -> False
 
--- | The types of those parameters of a form that take values: all but the ranks.
+-- | The types of the parameters that take a value: all parameters of a form except ranks.
 parameterTypes :: Form -> [Type]
 parameterTypes form = map Builtin.type' (filter ((/= Rank) . label) (Builtin.parameters form))
 
--- | The forms with the labels of a call.
+-- | The forms of the called function that have the same labels as the call.
 formsByLabels :: OverloadedCall -> [Form]
 formsByLabels call = Builtin.labelled plainUnknowns (builtin call) (labels call)
 
--- | Known types in the positions of unknowns, for forms that are only shown or compared.
+-- | Known types that replace the unknowns of a form, where forms are only shown or compared.
 plainUnknowns :: Fresh
 plainUnknowns = Fresh {dimension = Dimension.none, anything = Wrong}
 
--- | The forms that fit the types of a call that are known. First the arguments select forms, then
--- the use of the result. A use that fits no form is ignored here, so that no report blames the
--- arguments for it.
+-- | The forms that fit those types of a call that are known. The types of the arguments select
+-- forms; among these the type that the result must have selects again. If it would exclude all of
+-- them, it is ignored. Otherwise a wrong use of the result would be reported as wrong arguments.
 fittingForms :: OverloadedCall -> Infer [Form]
 fittingForms call = do
   types <- traverse (resolved . snd) (arguments call)

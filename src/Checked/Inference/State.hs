@@ -1,8 +1,14 @@
--- | The state of type inference: unknowns and decisions about them, names in scope, errors.
+-- | The state of type inference: unknowns and decisions about them, names in scope, and errors. An
+-- unknown is a type or a dimension that inference has yet to find; it has a number. An unknown is
+-- decided when it gets a value. A type is resolved when its decided unknowns are replaced by their
+-- values.
 --
 -- Types are unified as in Hindley–Milner inference. Dimensions are unified as elements of a
--- commutative group ("Checked.Dimension"). This module solves equations only.
--- "Checked.Inference" solves deferred constraints.
+-- commutative group ("Checked.Dimension"). This module solves equations only. "Checked.Inference"
+-- solves deferred constraints.
+--
+-- A statement is tainted if it contains a mistake or uses a name whose definition contains one. It
+-- is then left out of the checked program.
 module Checked.Inference.State
   ( Infer,
     Solution,
@@ -68,39 +74,42 @@ import Data.Text qualified as Text
 -- | A computation of type inference.
 type Infer = State InferenceState
 
--- | The final values of the unknown dimensions.
+-- | The final values of the unknown dimensions: a function that replaces the unknowns in a
+-- dimension.
 type Solution = Dimension -> Dimension
 
 -- | The state between two steps of inference.
 data InferenceState = InferenceState
-  { -- | the number for the next new unknown
+  { -- | the number of the next new unknown
     nextUnknown :: Int,
     -- | the values of the decided unknowns, by their numbers
     decisions :: IntMap Decision,
-    -- | unknowns with smaller numbers belong to definitions outside the present function
+    -- | the number of the first unknown of the present function; unknowns with smaller numbers
+    -- belong to definitions outside of it
     firstOwn :: Int,
-    -- | unknowns of the present function that must not be generalised, because they have one value
-    -- in all uses of it
+    -- | the unknowns of the present function that have the same value in all its uses;
+    -- 'Checked.Inference.generalise' must not quantify them
     shared :: IntSet,
     -- | constraints that are not solved yet, the newest first
     pending :: [DeferredConstraint],
-    -- | the mentions of names: the region, that of the definition, the word, its meaning
+    -- | the mentions of names: the region, the region of the definition unless the name is built
+    -- in, the word, and its meaning
     mentioned :: [(Region, Maybe Region, Text, Meaning)],
-    -- | the newest first
+    -- | the mistakes, the newest first
     errors :: [Error],
     -- | true if the present statement contains a mistake or depends on one
     isTainted :: Bool,
-    -- | the regions that the reports of 'mistakeOnce' point at
+    -- | the regions that 'mistakeOnce' has recorded as the causes of mistakes
     blamed :: Set Region,
-    -- | the names in scope, with their meanings
+    -- | the names in scope, with their meanings for inference
     scope :: Map Name Binding
   }
 
--- | The value of an unknown and the region that decided it.
+-- | The value of an unknown, and the region of the term that decided it.
 data Decision = TypeAt Region Type | DimensionAt Region Dimension
 
--- | Runs an inference from the empty state. Gives the errors in order, the solution, the result
--- and the mentions of names.
+-- | Runs an inference from the empty state. The result contains the errors in the order in which
+-- they were found, the solution, the result of the inference, and the mentions of names.
 run :: Infer a -> ([Error], Solution, a, [Mention])
 run infer = case runState infer start of
   (a, final) ->
@@ -126,7 +135,7 @@ run infer = case runState infer start of
           scope = Map.empty
         }
 
--- | Describes a meaning in the words that an editor shows.
+-- | The description of a meaning in words, as an editor shows it.
 describe :: InferenceState -> Meaning -> Text
 describe state meaning = case meaning of
   Valued t -> typeWords t
@@ -146,8 +155,9 @@ describe state meaning = case meaning of
 mistake :: Error -> Infer ()
 mistake e = modify' (\s -> s {errors = e : errors s, isTainted = True})
 
--- | Records a mistake that the given regions caused. If an earlier mistake was recorded for one of
--- them, the new one is its consequence and only taints the statement.
+-- | Records a mistake whose causes are at the given regions. If an earlier mistake has one of these
+-- regions as a cause, the new mistake only follows from it. The statement is then tainted without a
+-- further report.
 mistakeOnce :: [Region] -> Error -> Infer ()
 mistakeOnce regions e = do
   before <- gets blamed
@@ -164,7 +174,7 @@ taint = modify' (\s -> s {isTainted = True})
 find :: Name -> Infer (Maybe Binding)
 find name = gets (Map.lookup name . scope)
 
--- | Lists all names of the present scope.
+-- | All names of the present scope.
 namesInScope :: Infer [Name]
 namesInScope = gets (Map.keys . scope)
 
@@ -172,7 +182,8 @@ namesInScope = gets (Map.keys . scope)
 define :: Name -> Binding -> Infer ()
 define name binding = modify' (\s -> s {scope = Map.insert name binding (scope s)})
 
--- | Runs an inference and then restores the scope, so that its definitions are known only inside.
+-- | Runs an inference and then restores the scope. The names that the inference defines are
+-- therefore known only in it.
 scoped :: Infer a -> Infer a
 scoped infer = do
   before <- gets scope
@@ -180,14 +191,16 @@ scoped infer = do
   modify' (\s -> s {scope = before})
   pure a
 
--- | Runs an inference with local names, which hide others of the same spelling.
+-- | Runs an inference in which the given local names are in scope. They hide other names of the
+-- same spelling.
 withLocals :: [(Located Name, Type)] -> Infer a -> Infer a
 withLocals locals infer = scoped (mapM_ defineLocal locals *> infer)
   where
     defineLocal (Located at name, t) =
       define name (Local at t) *> mention at (Just at) (Name.text name) (Valued t)
 
--- | Records a mention: its region, the region of the definition, the word and its meaning.
+-- | Records a mention of the name @word@ at @region@, for editors. @definition@ is the region of
+-- its definition, or 'Nothing' for a built-in name.
 mention :: Region -> Maybe Region -> Text -> Meaning -> Infer ()
 mention region definition word meaning =
   modify' (\s -> s {mentioned = (region, definition, word, meaning) : mentioned s})
@@ -209,7 +222,8 @@ freshType = Variable <$> freshNumber
 freshDimension :: Infer Dimension
 freshDimension = Dimension.atom . Dimension.Unknown <$> freshNumber
 
--- | A new unknown that is decided already: its value is a type, decided at the given region.
+-- | A new unknown whose value is already known: the type @t@, decided at @region@. It keeps this
+-- region for the reports of later mistakes.
 freshDecided :: Region -> Type -> Infer Type
 freshDecided region t = do
   n <- freshNumber
@@ -219,17 +233,17 @@ freshDecided region t = do
 decideAs :: Int -> Decision -> Infer ()
 decideAs n decision = modify' (\s -> s {decisions = IntMap.insert n decision (decisions s)})
 
--- | Forbids generalisation over the unknowns of a dimension: they have one value in all uses of
--- the present function.
+-- | Forbids generalisation over the unknowns of a dimension. They then have the same value in all
+-- uses of the present function.
 monomorphic :: Dimension -> Infer ()
 monomorphic d =
   modify' (\s -> s {shared = IntSet.union (IntSet.fromList (Dimension.unknowns d)) (shared s)})
 
--- | A type in which all decided unknowns are replaced by their values.
+-- | The type @t@ in which all decided unknowns are replaced by their values.
 resolved :: Type -> Infer Type
 resolved t = gets (`resolve` t)
 
--- | As 'resolved', but for a given state.
+-- | Does what 'resolved' does, for a state that is given as an argument.
 resolve :: InferenceState -> Type -> Type
 resolve state t = Type.substitute (resolveDimension (decisions state)) unknown t
   where
@@ -238,7 +252,7 @@ resolve state t = Type.substitute (resolveDimension (decisions state)) unknown t
       Just (DimensionAt _ _) -> Variable n
       Nothing -> Variable n
 
--- | A dimension in which all decided unknowns are replaced by their values.
+-- | The dimension @d@ in which all decided unknowns are replaced by their values.
 resolveDimension :: IntMap Decision -> Dimension -> Dimension
 resolveDimension decided d =
   case [(n, b) | n <- Dimension.unknowns d, Just (DimensionAt _ b) <- [IntMap.lookup n decided]] of
@@ -246,7 +260,8 @@ resolveDimension decided d =
     replacements ->
       resolveDimension decided (foldl (\d' (n, b) -> Dimension.substitute n b d') d replacements)
 
--- | The first region that decided an unknown of an unresolved type.
+-- | The region at which the first of a type's unknowns was decided. The type must not be resolved,
+-- because a resolved type no longer contains these unknowns. 'Nothing' if none of them is decided.
 decidedAt :: Type -> Infer (Maybe Region)
 decidedAt t = gets (\s -> listToMaybe (ofType (decisions s) t))
   where
@@ -267,8 +282,9 @@ decidedAt t = gets (\s -> listToMaybe (ofType (decisions s) t))
           | n <- Dimension.unknowns d
         ]
 
--- | Regions outside of terms that decided the types of these terms, with the types. Each term is
--- given by its region, its unresolved type and its resolved type.
+-- | The regions outside of some terms at which the types of these terms were decided, with the
+-- types. A report then also points at these regions. A term is given by its region, its type before
+-- it is resolved, and its resolved type.
 decidedElsewhere :: [(Region, Type, Type)] -> Infer [(Region, Type)]
 decidedElsewhere terms = concat <$> traverse ofTerm terms
   where
@@ -278,7 +294,7 @@ decidedElsewhere terms = concat <$> traverse ofTerm terms
 
 -- Equations
 
--- | Makes two types equal at a region; 'False' when they differ.
+-- | Makes two types equal, by decisions at @region@. 'False' if they cannot become equal.
 unify :: Region -> Type -> Type -> Infer Bool
 unify region a b = do
   a' <- resolved a
@@ -298,7 +314,7 @@ unify region a b = do
       | map fst cs == map fst ds -> and <$> zipWithM (\(_, c) (_, d) -> unify region c d) cs ds
     _ -> pure (a' == b')
   where
-    -- An unknown inside its own value would be an infinite type.
+    -- An unknown that occurs in its own value would be an infinite type.
     bind n t
       | n `elem` Type.variables t = pure False
       | otherwise = do
@@ -306,7 +322,7 @@ unify region a b = do
         share n (Type.variables t <> Type.dimensions t)
         pure True
 
--- | Makes two dimensions equal at a region; 'False' when they differ.
+-- | Makes two dimensions equal, by decisions at @region@. 'False' if they cannot become equal.
 unifyDimensions :: Region -> Dimension -> Dimension -> Infer Bool
 unifyDimensions region a b = go (Dimension.times a (Dimension.power (-1) b))
   where
@@ -321,8 +337,8 @@ unifyDimensions region a b = go (Dimension.times a (Dimension.power (-1) b))
           share n (Dimension.unknowns e)
           go quotient'
 
--- | Makes the given unknowns 'shared' if the unknown @n@, in whose value they are, is shared or
--- belongs to an outer definition.
+-- | Makes the unknowns @others@, which occur in the value of the unknown @n@, 'shared' if @n@ is
+-- shared or belongs to an outer definition.
 share :: Int -> [Int] -> Infer ()
 share n others = do
   s <- get
@@ -330,7 +346,7 @@ share n others = do
     put s {shared = IntSet.union (IntSet.fromList others) (shared s)}
 
 -- | Unifies the type @wanted@ that the context of a term requires with the type @found@ of the
--- term. Reports a mistake if they differ.
+-- term. Records a mistake if they cannot become equal.
 equate :: Region -> Type -> Type -> Infer ()
 equate region wanted found = do
   wanted' <- resolved wanted
@@ -339,7 +355,7 @@ equate region wanted found = do
   same <- unify region wanted found
   unless same (mistakeOnce (region : map fst elsewhere) (Mismatch region wanted' found' elsewhere))
 
--- | Tells if two types can become equal when more unknowns are decided. Decides none itself.
+-- | Can two types become equal when more unknowns are decided? Decides none itself.
 isCompatible :: Type -> Type -> Bool
 isCompatible found wanted = case (found, wanted) of
   _ | found `elem` [Wrong, wanted] || wanted == Wrong -> True
