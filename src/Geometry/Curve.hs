@@ -1,7 +1,9 @@
 -- | Planar curves given by point tables, span shapes or segments, and their shifts (the ciphers of
 -- the Ural paper), without sampling.
 --
--- A curve maps a parameter, from 0 to the count of its spans, to a point. A shift adds a layer: it
+-- A curve maps a parameter, a number without unit from 0 to the count of its spans, to a point.
+-- Span k, counted from 0, has the parameters from k to k + 1. The base is the curve below all
+-- shifts; its table has rows, which are points with rising parameters. A shift adds a layer: it
 -- moves every point of the curve below along its normal, by a distance that is a function of the
 -- parameter. Points, directions and curvatures are computed by power series through all layers, so
 -- rounding is the only error. A shift of a curve with a corner leaves a gap or an overlap at the
@@ -117,11 +119,13 @@ import Geometry.Vec (Point, Vec)
 import Geometry.Vec qualified as Vec
 import Prelude hiding (length)
 
--- | Polyline through the points. It is closed when the last point equals the first.
+-- | Polyline through the points. It is closed when the last point equals the first. It is a fault
+-- if there are fewer than two points or if two neighbours coincide.
 polyline :: Vector Point -> Either CurveFault Curve
 polyline points = Unshifted <$> BasisCurve.polyline points
 
--- | Cubic spline through the points, with continuous second derivatives by chord length.
+-- | Cubic spline through the points. Its second derivatives by accumulated chord length are
+-- continuous.
 spline :: EndCondition -> Vector Point -> Either CurveFault Curve
 spline ends points = Unshifted <$> BasisCurve.spline ends points
 
@@ -129,7 +133,8 @@ spline ends points = Unshifted <$> BasisCurve.spline ends points
 parabola :: Vector Point -> Either CurveFault Curve
 parabola points = Unshifted <$> BasisCurve.parabola points
 
--- | Curve of consecutive spans. The second argument has the parameters of the table's rows, rising.
+-- | Curve of consecutive spans. @parameters@ are the rising parameters of the rows on the curve,
+-- from 0 to the count of spans.
 fromShapes :: NonEmpty SpanShape -> Vector Double -> Either CurveFault Curve
 fromShapes shapes parameters = Unshifted <$> BasisCurve.fromShapes shapes parameters
 
@@ -143,8 +148,9 @@ fromSegments segments = Unshifted <$> BasisCurve.fromSegments segments
 fromSegmentsAt :: NonEmpty Segment -> Vector Point -> Either CurveFault Curve
 fromSegmentsAt segments points = Unshifted <$> BasisCurve.fromSegmentsAt segments parameters
   where
-    -- Finds the parameter of each row. The row lies at the start of the next segment that starts at
-    -- its point; if there is none, at the end of the last segment.
+    -- Finds the parameter of each row. A row lies at the start of the next segment whose start is
+    -- the point of the row. If no such segment is left, the row lies at the end of the last
+    -- segment.
     parameters =
       Vector.unfoldrN
         (Vector.length points)
@@ -166,17 +172,19 @@ column curve = Column.column (base curve)
 rowCount :: Curve -> Int
 rowCount = Vector.length . BasisCurve.rows . base
 
--- | Value of a column at a parameter.
+-- | Value of column @c@ at parameter @u@, in the unit of the column's values.
 columnAt :: Curve -> Column -> Double -> Double
 columnAt curve c u =
   PowerSeries.value (Column.series 0 (base curve) c (ShiftedCurve.spanPoint After u curve))
 
--- | Values of the rows of a curve's table, in the order of the rows of the reversed curve.
+-- | Values of the rows of a curve's table, given in the order of the rows. The result has them in
+-- the order of the rows of the reversed curve.
 inReverseOrder :: Curve -> Vector Double -> Vector Double
 inReverseOrder curve = BasisCurve.inReverseOrder (base curve)
 
--- | Shift distance of a joggle on a curve. It is a fault if the joggle's radius is not above half
--- of its depth, or if its two ramps are longer than the curve between its two parameters.
+-- | Shift distance of a joggle on a curve. 'DeepJoggle' if the joggle's radius is not above half of
+-- its depth. 'LongJoggle' if the joggle's two ramps are longer than the curve between the joggle's
+-- two parameters.
 fitJoggle :: Joggle -> Curve -> Either CurveFault Distance
 fitJoggle joggle@Joggle {begins, ends, depth = Mm depth, radius = Mm r} curve
   | r <= 0 || abs depth >= 2 * r = Left DeepJoggle
@@ -186,49 +194,52 @@ fitJoggle joggle@Joggle {begins, ends, depth = Mm depth, radius = Mm r} curve
     needed = times 2 (ramp joggle)
     available = minus (lengthAt curve ends) (lengthAt curve begins)
 
--- | Segments of an unshifted curve that consists of lines and arcs only and has at least one arc;
--- nothing for any other curve. Each segment starts exactly where the one before ends.
+-- | Segments of an unshifted curve that consists of lines and arcs only and has at least one arc.
+-- Nothing for any other curve, so that the caller fits arcs to it. Each segment starts exactly
+-- where the one before ends.
 toSegments :: Curve -> Maybe (NonEmpty Segment)
 toSegments curve = case curve of
   Unshifted b -> BasisCurve.asSegments b
   Shifted {} -> Nothing
 
--- | Cubic spans in x and y within a tolerance of the curve, and the bound of their error; see
--- 'CubicSpans.along'.
+-- | Bound of the error, and the cubic spans in x and in y. They are within the given tolerance of
+-- the curve. Nothing if no such cubics are found; see 'CubicSpans.along'.
 cubics :: Mm -> Curve -> Maybe (Mm, Cubics, Cubics)
 cubics = CubicSpans.along
 
--- | Count of spans.
+-- | Count of spans, which is the parameter of the end.
 spans :: Curve -> Int
 spans curve = BasisCurve.count (base curve)
 
--- | Point at a parameter. Parameters outside of the domain give the nearer end.
+-- | Point at parameter @u@. A parameter outside of the domain gives the nearer end.
 at :: Curve -> Double -> Point
 at = pointFrom After
 
--- | Point at a parameter, approached from smaller or from larger parameters. Both points differ
--- where a shift has opened a corner.
+-- | Point at a parameter, as the limit from smaller ('Before') or from larger ('After') parameters.
+-- The two limits differ where a shift has opened a corner.
 pointFrom :: Approach -> Curve -> Double -> Point
 pointFrom approach curve u = TaylorExpansion.position (expansion approach 0 curve u)
 
--- | Unit tangent at the point that 'at' gives for a parameter.
+-- | Unit tangent at parameter @u@, as the limit from larger parameters.
 tangent :: Curve -> Double -> Vec
 tangent = PointSearch.unitTangent After
 
--- | Unit tangent just before or just after a parameter. On a closed curve, the tangent before the
--- start is that at the end, and the tangent after the end is that at the start.
+-- | Unit tangent just before or just after a parameter. The start and the end of a closed curve are
+-- one point: 'Before' the start gives the tangent at the end, and 'After' the end gives that at the
+-- start.
 tangentFrom :: Approach -> Curve -> Double -> Vec
 tangentFrom = PointSearch.unitTangentAcrossSeam
 
--- | Left unit normal at a parameter.
+-- | Unit normal at parameter @u@, to the left of the curve's direction.
 normal :: Curve -> Double -> Vec
 normal curve u = Vec.left (tangent curve u)
 
--- | Curvature at a parameter in 1/mm, positive where the curve bends to the left.
+-- | Curvature at parameter @u@ in 1/mm, positive where the curve bends to the left.
 curvature :: Curve -> Double -> Double
 curvature curve u = TaylorExpansion.curvature (expansion After 2 curve u)
 
--- | Taylor expansion of the point about a parameter, up to the given order.
+-- | Taylor expansion of the point, in mm, about parameter @u@, up to the power @n@ of the
+-- parameter.
 expansion :: Approach -> Int -> Curve -> Double -> TaylorExpansion
 expansion approach n curve u =
   ShiftedCurve.expansionAt n curve (ShiftedCurve.spanPoint approach u curve)
@@ -245,7 +256,7 @@ end curve = pointFrom Before curve (domain curve)
 isClosed :: Curve -> Bool
 isClosed = PointSearch.isClosed
 
--- | Arc length of the whole curve. Gaps that a shift opens at corners do not count.
+-- | Arc length of the whole curve. Gaps that a shift opens at corners do not add to it.
 length :: Curve -> Mm
 length curve = ArcLength.total (ShiftedCurve.arcLength curve)
 
@@ -253,12 +264,12 @@ length curve = ArcLength.total (ShiftedCurve.arcLength curve)
 lengthAt :: Curve -> Double -> Mm
 lengthAt curve = ArcLength.lengthAt (ShiftedCurve.arcLength curve)
 
--- | Parameter at an arc length from the start; the inverse of 'lengthAt'.
+-- | Parameter at an arc length from the start; inverse of 'lengthAt'.
 parameterAtLength :: Curve -> Mm -> Double
 parameterAtLength curve = ArcLength.parameterAt (ShiftedCurve.arcLength curve)
 
--- | Distance by which the outermost shift moves the point at a parameter, positive to the left; 0
--- for a curve without shifts.
+-- | Distance by which the outermost shift moves the point at parameter @u@, positive to the left.
+-- It is 0 for a curve without shifts.
 shiftDistance :: Curve -> Double -> Mm
 shiftDistance curve u = case curve of
   Unshifted _ -> Mm 0
@@ -290,7 +301,7 @@ transformed s curve = case curve of
         side' = if Transformation.mirrors s then Carrier.oppositeSide (side layer) else side layer
      in shifted side' (ShiftDistance.scaled (base lower') (factor s) (distance layer)) lower'
 
--- | Scale factor of a similarity.
+-- | Scale factor of a similarity: the ratio of an image's length to the original length.
 factor :: Transformation -> Double
 factor s =
   let Mm k =
