@@ -101,8 +101,7 @@ legendEntries Scene {page, shapes, cuts, restMaterial, feeds, rapids} =
     middle = Vec.shift (Vec.vec 4 0)
 
 -- | Scale bar: a round length of the part, 12 to 30 mm on paper, in four sections that are
--- alternately
--- black and white.
+-- alternately black and white.
 scaleBar :: Page -> [Svg]
 scaleBar page =
   zipWith step [0 ..] [LineStyle.black, "white", LineStyle.black, "white"]
