@@ -66,7 +66,8 @@ fromPart written part = case (Part.start part, runsOf (Part.operations part)) of
 refused :: Unfit -> Result w Unfit a
 refused e = Result [] [e] Nothing
 
--- | A milled contour with the stops before it. The milling has the region of its contour's name.
+-- | A milled contour: the stops before it, the region of the statement's keyword, and the milling.
+-- The milling has the region of the keyword too.
 data Run = Run {stops :: [Part.Stop], keywordRegion :: Region, milled :: (Region, Milling)}
 
 -- | The milled contours of a list of operations, and the stops after the last contour.
