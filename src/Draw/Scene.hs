@@ -102,11 +102,11 @@ data Cut = Cut
     -- | side of the path that faces away from the contour: +1 for its right, -1 for its left. It is
     -- a factor for 'Vec.left', which points to the right on paper, because y points down there
     away :: Double,
-    -- | true if the cutter's centre is on the contour
+    -- | True if the cutter's centre is on the contour
     isOnContour :: Bool,
-    -- | true if the nodes have numbers; false in a pocket
+    -- | True if the nodes have numbers; False in a pocket
     numbered :: Bool,
-    -- | true if the cutter is drawn where the cut begins; in a pocket only for the first cut
+    -- | True if the cutter is drawn where the cut begins; in a pocket only for the first cut
     showsCutter :: Bool
   }
 

@@ -195,8 +195,8 @@ fitJoggle joggle@Joggle {begins, ends, depth = Mm depth, radius = Mm r} curve
     available = minus (lengthAt curve ends) (lengthAt curve begins)
 
 -- | Segments of an unshifted curve that consists of lines and arcs only and has at least one arc.
--- Nothing for any other curve, so that the caller fits arcs to it. Each segment starts exactly
--- where the one before ends.
+-- Nothing for any other curve, which has to be approximated. Each segment starts exactly where the
+-- previous one ends.
 toSegments :: Curve -> Maybe (NonEmpty Segment)
 toSegments curve = case curve of
   Unshifted b -> BasisCurve.asSegments b

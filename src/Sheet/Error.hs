@@ -1,9 +1,10 @@
 {-# OPTIONS_GHC -O0 #-}
 
--- | Mistakes in the numbers of an input sheet. The parts of a sheet are the general data (16
--- numbers on part and tool), the points of the approach, and arrays of pieces with points after
--- each array. A word is a number, a sign without digits, or the end mark @-0@, which ends the
--- approach and each piece.
+-- | Mistakes in the numbers of an input sheet.
+--
+-- A sheet begins with the general data (16 numbers on part and tool) and the points of the
+-- approach. Then come arrays of pieces, with points after each array. A word is a number, a sign
+-- without digits, or the end mark @-0@, which ends the approach and each piece.
 module Sheet.Error
   ( Error (..),
     NumberPosition (..),
@@ -33,7 +34,7 @@ import Report.Report
   )
 import Sheet.Sheet (address, generalCount, maxArrays)
 
--- | Position of a word of the sheet: its region in the text, and the count of words up to it.
+-- | Position of a word of the sheet: its region in the text, and its ordinal number from 1.
 data NumberPosition = NumberPosition {site :: Region, number :: Int}
   deriving stock (Eq, Ord, Show)
 

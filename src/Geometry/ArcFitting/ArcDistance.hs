@@ -28,8 +28,8 @@ where
 
 import Geometry.ArcFitting.Biarc.Fast (Pose (..))
 
--- | Arc with the pose at its start (@origin@), its curvature in 1/mm, positive to the left
--- (@bend@), the pose at its end (@limit@), and the cosine and sine of its sweep.
+-- | Arc with the poses at its start (@origin@) and at its end (@limit@). @bend@ is its curvature in
+-- 1/mm, positive to the left; @cosine@ and @sine@ are those of its sweep.
 data FastArc = FastArc
   { origin :: {-# UNPACK #-} Pose,
     bend :: Double,

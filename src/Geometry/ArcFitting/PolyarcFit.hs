@@ -348,8 +348,8 @@ isTooFar chain largest first _ from final _ to =
 testedVertices :: Int
 testedVertices = 8
 
--- | Margin of 'isTooFar', as a share of the distance. It is twice the largest relative difference
--- between F and the distance.
+-- | Margin of 'isTooFar', as a share of the distance. F differs from the distance by less than half
+-- of this margin.
 slack :: Double
 slack = 0.05
 
@@ -439,10 +439,10 @@ distanceBound f p q l
     greater a b = if a > b then a else b
 
 -- | Absolute value of the extremum of F between two positions on a segment, in mm; 0 if there is
--- none. The arguments are F at the first position, the slopes of F at both, the sine of the sweep
--- between them, and the length between them (mm). The extremum is that of a parabola, corrected by
--- the square of the sine. The result is at most @|F| + 3/2·|slope|·length@ with F and the slope at
--- the first position.
+-- none. The arguments are F at the first position, and the slopes of F at both. Then come the sine
+-- of the sweep and the length (mm) between the positions. The extremum is that of a parabola,
+-- corrected by the square of the sine. The result is at most @|F| + 3/2·|slope|·length@ with F and
+-- the slope at the first position.
 extreme :: Double -> Double -> Double -> Double -> Double -> Double
 extreme from m n sweepSine l
   | m * n < 0 = abs (from - 0.5 * m * m * l / (n - m) * (1 + 2 * sweepSine * sweepSine))

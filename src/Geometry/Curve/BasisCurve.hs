@@ -2,7 +2,7 @@
 --
 -- The parameter runs from 0 to the count of spans, by 1 over each span; it has no unit. The local
 -- parameter of a span runs from 0 to 1. A base is a curve without shifts. It keeps the rows of the
--- table from which it was made, so that columns of numbers can be interpolated by the same method
+-- table from which it was made. Columns of numbers are interpolated between them by the same method
 -- as the points.
 module Geometry.Curve.BasisCurve
   ( BasisCurve (..),
@@ -429,8 +429,9 @@ count base = case spanList base of
 arcLength :: BasisCurve -> ArcLength
 arcLength = lengthTable
 
--- | Position on a curve: its parameter, the index (from 0) of the span in which it lies, the local
--- parameter (0 to 1) in this span, and the side from which the position is approached.
+-- | Position on a curve. @parameter@ is that of the whole curve. @number@ is the index, from 0, of
+-- the span in which the position lies; @local@ is the parameter in this span, from 0 to 1.
+-- @approach@ is the side from which the position is approached.
 data SpanPoint = SpanPoint
   { parameter :: Double,
     number :: Int,

@@ -1,5 +1,5 @@
--- | Cubic spans of a curve: the curve's own spans, or a cubic approximation of a shifted curve. The
--- caller can compute distances from cubics, but not from a shifted curve.
+-- | Cubic spans of a curve: the curve's own spans, or a cubic approximation of a shifted curve.
+-- Cubics have an error bound in closed form when arcs are fitted to them.
 --
 -- The approximation consists of Hermite cubics: each has the points and the derivatives of the
 -- curve at both ends of an interval. At the fraction t of the interval it differs from a smooth
@@ -24,8 +24,8 @@ import Linear.V2 (V2 (..))
 
 -- | Bound of the error in mm, and the cubic spans in x and in y. They are within the tolerance of
 -- the curve. Polynomial spans of an unshifted curve are returned unchanged, with the bound 0. The
--- result is Nothing for an unshifted curve with arcs, for a shifted curve whose speed is 0 or
--- nearly 0, and where 'maxHalvings' halvings do not suffice.
+-- result is Nothing for an unshifted curve with arcs, and for a shifted curve whose speed is 0 or
+-- nearly 0. It is also Nothing where 'maxHalvings' halvings do not suffice.
 along :: Mm -> Curve -> Maybe (Mm, Cubics, Cubics)
 along (Mm tolerance) curve = case curve of
   Unshifted b -> case spanList b of
@@ -102,9 +102,9 @@ hermiteSpan Interval {begin, end, first = Node px py vx vy, final = Node qx qy w
     hermite p q v w = Cubic p v (3 * (q - p) - 2 * v - w) (2 * (p - q) + v + w)
 
 -- | True if the Hermite cubics of both halves of an interval are within @tolerance@ (mm), so that
--- the interval is halved only once. Two tests use the differences at the middle of an interval,
--- those of the points and those of the derivatives. First, the differences of the whole interval
--- must promise that those of its halves are at most half of the tolerance. Second, the measured
+-- neither half is halved again. Two tests use the differences at the middle of an interval, those
+-- of the points and those of the derivatives. First, the differences of the whole interval must
+-- promise that those of its halves are at most half of the tolerance. Second, the measured
 -- differences of each half must be within the tolerance.
 areHalvesNear :: Double -> Interval -> Interval -> Interval -> Bool
 areHalvesNear tolerance interval firstHalf secondHalf =

@@ -1,8 +1,8 @@
 -- | Sections: lines, parabolas and circular arcs y(x) through two rows of a table.
 --
 -- The parabolas through two given rows form a family with one parameter t, and so do the arcs. At
--- every x between the two rows, y rises with t. The largest deviation in y is therefore least for a
--- t at which two rows deviate equally to opposite sides, or at a limit of the range of t.
+-- every x between the two rows, y rises with t. Therefore the largest deviation in y is least where
+-- two rows deviate equally to opposite sides, or at a limit of the range of t.
 module Geometry.Curve.Section
   ( -- * Tables
     PointTable,
@@ -97,8 +97,8 @@ data Section = Section
 -- | Shape of a section between its ends.
 data SectionShape
   = Line
-  | -- | the coefficient a, in 1/mm, of @y = chord + a·(x − x₁)·(x − x₂)@, where x₁ and x₂ are the
-    -- ends and chord is the y of the chord at x
+  | -- | the coefficient a, in 1/mm, of @y = chord + a·(x − x₁)·(x − x₂)@; x₁ and x₂ are the ends,
+    -- and chord is the y of the chord at x
     Parabola Double
   | -- | the angle between chord and arc at the ends, half of the sweep; positive for an arc above
     -- its chord
@@ -123,7 +123,7 @@ height p x
   | x == Vec.x (to p) = Vec.y (to p)
   | otherwise = Vec.y (from p) + rise (chordOf (from p) (to p)) (curve p) (x - Vec.x (from p))
 
--- | Equation of a section, as a report or a table shows it.
+-- | Equation of a section, in the coordinates of the table.
 data SectionFormula
   = -- | @y = a·x² + b·x + c@; a is 0 for a line and for an arc that is nearly straight
     Polynomial Double Double Double
@@ -131,7 +131,7 @@ data SectionFormula
     Circle Point Mm
   deriving stock (Eq, Show)
 
--- | Equation of a section.
+-- | Equation of section @p@, from which the span of a part's curve is made.
 formula :: Section -> SectionFormula
 formula p = case curve p of
   Line -> polynomial 0

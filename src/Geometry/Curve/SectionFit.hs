@@ -1,6 +1,6 @@
--- | Piecewise fit of a table of points. A section is a line, a parabola or a circular arc from one
--- row to a later one. The fit has the fewest sections within a tolerance of every row, or the
--- sections that the user chooses (second method of the Ural paper, Tables 1–4).
+-- | Piecewise fit of a table of points (second method of the Ural paper, Tables 1–4). A section is
+-- a line, a parabola or a circular arc from one row to a later one. The fit has the fewest sections
+-- within a tolerance of every row, or the sections that the user chooses.
 module Geometry.Curve.SectionFit
   ( fit,
     sections,

@@ -176,8 +176,8 @@ growthSeries n below interval Growth {from = Mm h1, to = Mm h2, between} positio
       | otherwise = PowerSeries.constant n h1
 
 -- | Power series of the distance of a joggle with the depth d and the radius r, up to the power
--- @n@. At the arc length t from the outer end of a ramp of length ℓ, the distance is @r − √(r² −
--- t²)@ up to the middle of the ramp. After the middle it is @d − (r − √(r² − (ℓ − t)²))@.
+-- @n@. Let t be the arc length from the outer end of a ramp of length ℓ. The distance is
+-- @r − √(r² − t²)@ up to the middle of the ramp, then @d − (r − √(r² − (ℓ − t)²))@.
 joggleSeries :: Int -> CurveBelow -> ShiftInterval -> Joggle -> SpanPoint -> PowerSeries
 joggleSeries n below interval joggle@Joggle {depth = Mm depth, radius = Mm r} position =
   PowerSeries.scale (signum depth) $
