@@ -211,7 +211,7 @@ cubics = CubicSpans.along
 spans :: Curve -> Int
 spans curve = BasisCurve.count (base curve)
 
--- | Point at parameter @u@. A parameter outside of the domain gives the nearer end.
+-- | Point at a parameter. A parameter outside of the domain gives the nearer end.
 at :: Curve -> Double -> Point
 at = pointFrom After
 
@@ -220,7 +220,7 @@ at = pointFrom After
 pointFrom :: Approach -> Curve -> Double -> Point
 pointFrom approach curve u = TaylorExpansion.position (expansion approach 0 curve u)
 
--- | Unit tangent at parameter @u@, as the limit from larger parameters.
+-- | Unit tangent at a parameter, as the limit from larger parameters.
 tangent :: Curve -> Double -> Vec
 tangent = PointSearch.unitTangent After
 

@@ -152,9 +152,9 @@ series n below interval distance position = case distance of
       (PowerSeries.cosine (Column.series n (under below) mu position))
   Joggled joggle -> joggleSeries n below interval joggle position
 
--- | Power series of the distance of a growth, up to the power @n@. The distance is @h₁ + (h₂ −
--- h₁)·s/S@ at the arc length s from the start of the growth. S is the arc length of the whole
--- growth (Kolsanova, cipher 1).
+-- | Power series of the distance of a growth, up to the power @n@. Let s be the arc length from the
+-- start of the growth, and S the arc length of the whole growth. The distance is
+-- @h₁ + (h₂ − h₁)·s/S@ (Kolsanova, cipher 1).
 growthSeries :: Int -> CurveBelow -> ShiftInterval -> Growth -> SpanPoint -> PowerSeries
 growthSeries n below interval Growth {from = Mm h1, to = Mm h2, between} position = case between of
   Nothing -> inside

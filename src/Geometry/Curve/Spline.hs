@@ -130,9 +130,9 @@ interpolate boundary steps values = generate (Unboxed.length steps) cubic
 -- the right-hand side.
 data Row = Row Double Double Double Double
 
--- | Second derivatives M at all values. With the steps h and the slopes Δ from each value to the
--- next, the first derivative is continuous if @h_{i−1}·M_{i−1} + 2·(h_{i−1} + h_i)·M_i +
--- h_i·M_{i+1} = 6·(Δ_i − Δ_{i−1})@.
+-- | Second derivatives M at all values. Let h be the steps and Δ the slopes from each value to the
+-- next. The first derivative is continuous if
+-- @h_{i−1}·M_{i−1} + 2·(h_{i−1} + h_i)·M_i + h_i·M_{i+1} = 6·(Δ_i − Δ_{i−1})@.
 secondDerivatives ::
   Boundary ->
   Unboxed.Vector Double ->
