@@ -112,8 +112,8 @@ areHalvesNear tolerance interval firstHalf secondHalf =
   where
     (points, derivatives) = difference interval
     isNear half = let (e, o) = difference half in e + oddShare * o <= tolerance
-    -- The maximum of t²(1−t)²·(t−½) is √5/250, at t = ½ ± √(1/20). Its derivative at the middle is
-    -- 1/16.
+    -- The maximum of t²(1−t)²·(t−½), which is √5/250 at t = ½ + √(1/20), divided by the derivative
+    -- of this function at the middle, 1/16.
     oddShare = 16 * sqrt 5 / 250
 
 -- | Differences between curve and Hermite cubic at the middle of an interval. The first is the
