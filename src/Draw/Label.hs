@@ -1,5 +1,6 @@
--- | Placement of labels beside points, so that they cover neither lines nor each other. The search
--- is greedy: each label takes the first of its candidate positions that is free.
+-- | Placement of labels beside points, so that the labels cover neither lines nor each other. The
+-- search is greedy: each label takes the first of its candidate positions that is free. A bounding
+-- box is the rectangle of a label on the paper.
 module Draw.Label
   ( PointLabel (..),
     size,
@@ -42,8 +43,9 @@ data PointLabel = PointLabel
 size :: Double
 size = 3
 
--- | Places labels in an area, in the order given, so that they do not cover the segments. The
--- result has the centre and the text of each label. A label without a free position is left out.
+-- | Centre and text of each placed label, in mm of paper. Labels are placed in @area@, in the given
+-- order, so that they do not cover the segments @drawn@. A label without a free position is left
+-- out.
 place :: Area -> BoxTree Segment -> [PointLabel] -> [(Point, Text)]
 place area drawn = catMaybes . snd . List.mapAccumL next Map.empty
   where
@@ -51,27 +53,29 @@ place area drawn = catMaybes . snd . List.mapAccumL next Map.empty
       Just box -> (occupied box taken, Just (middleOf box, caption label))
       Nothing -> (taken, Nothing)
 
--- | Centre of a box.
+-- | Centre of a bounding box.
 middleOf :: BoundingBox -> Point
 middleOf BoundingBox {left, bottom, right, top} =
   Vec.point ((left + right) / 2) ((bottom + top) / 2)
 
--- | Boxes of the labels placed so far, under each of the 'squares' that they touch.
+-- | Bounding boxes of the labels placed so far, under each of the 'squares' that they touch. Only
+-- labels in equal squares have to be compared.
 type Taken = Map (Int, Int) [BoundingBox]
 
--- | Adds the box of a label.
+-- | Adds the bounding box of a label to those of the placed labels.
 occupied :: BoundingBox -> Taken -> Taken
 occupied box taken =
   foldl' (\known square -> Map.insertWith (<>) square [box] known) taken (squares box)
 
--- | Column and row of the squares that a box touches, in a grid of 10 mm on the paper.
+-- | Column and row, counted from the upper left corner of the paper, of the grid squares that a
+-- bounding box touches. The squares are 10 mm wide and high.
 squares :: BoundingBox -> [(Int, Int)]
 squares BoundingBox {left, bottom, right, top} =
   [(i, j) | i <- [at left .. at right], j <- [at bottom .. at top]]
   where
     at x = floor (x / 10)
 
--- | Boxes of a label at its candidate positions, the preferred one first.
+-- | Bounding boxes of a label at its candidate positions, the preferred one first.
 candidates :: PointLabel -> [BoundingBox]
 candidates PointLabel {caption, anchor, outward, distances} = [at d a | d <- distances, a <- angles]
   where
@@ -80,7 +84,7 @@ candidates PointLabel {caption, anchor, outward, distances} = [at d a | d <- dis
     wide = max high (Draw.textWidth size caption / 2)
     at distance angle =
       let direction = Vec.rotate angle outward
-          -- Distance from the centre of the text to its edge in the label's direction.
+          -- Distance from the centre of the text to its edge, in the label's direction.
           inside =
             min
               (wide / max 1e-9 (abs (Vec.dot direction (Vec.vec 1 0))))
@@ -88,12 +92,12 @@ candidates PointLabel {caption, anchor, outward, distances} = [at d a | d <- dis
           p = Vec.shift (Vec.scale (distance + inside) direction) anchor
        in BoundingBox (Vec.x p - wide) (Vec.y p - high) (Vec.x p + wide) (Vec.y p + high)
 
--- | Angles between the preferred direction and the tried ones, in the order of the trials.
+-- | Angles from the preferred direction of a label to the directions that are tried, in this order.
 angles :: [Rad]
 angles = map radians [0, 30, -30, 60, -60, 90, -90, 180, 150, -150]
 
--- | True if a label may have this box: it lies in the area and keeps its distance from segments and
--- placed labels.
+-- | True if a label may have the bounding box @box@: it lies in the area, is more than 0.5 mm away
+-- from every segment, and does not touch a placed label.
 free :: Area -> BoxTree Segment -> Taken -> BoundingBox -> Bool
 free area drawn taken box@BoundingBox {left, bottom, right, top} =
   all (holds area) [Vec.point left bottom, Vec.point right top]
@@ -107,7 +111,6 @@ free area drawn taken box@BoundingBox {left, bottom, right, top} =
     around = BoundingBox.inflate (Mm 0.6) box
     half = (top - bottom) / 2
     y = (bottom + top) / 2
-    -- To test its distance from a segment, a text is taken for a horizontal line that is as thick
-    -- as the letters are high.
+    -- For its distance from a segment, a text counts as a thick line of the letters' height.
     middle = Straight (Vec.point (left + half / 2) y) (Vec.point (right - half / 2) y)
     clear s = let ClosestPoint (Mm d) _ = Distance.segments middle s in d > half + 0.5

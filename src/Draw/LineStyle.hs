@@ -43,8 +43,8 @@ grey = "#909090"
 blue = "#0b3d91"
 red = "#a01818"
 
--- | Pens of the drawing. Where the cutter's centre is on the contour, the white 'bedPen' is drawn
--- over the wider 'edgePen', which leaves two thin lines; the 'pathPen' is drawn between them.
+-- | Pens of the drawing. Where the cutter's centre runs on the contour, the contour is two thin
+-- lines: the white 'bedPen' is drawn over the wider 'edgePen'. The 'pathPen' is drawn between them.
 contourPen, edgePen, bedPen, pathPen, feedPen, rapidPen, cutterPen, framePen, axisPen :: Pen
 contourPen = Pen black 0.6 []
 edgePen = Pen black 1.3 []
@@ -68,13 +68,13 @@ restColour = "#f0a090"
 small :: TextStyle
 small = TextStyle {size = 2.5, ink = black, bold = False}
 
--- | Arrowhead whose tip is at a fraction of a segment, 0 at its start and 1 at its end. The segment
--- has a positive length.
+-- | Arrowhead in a colour on a segment. Its tip is at @fraction@ of the segment, 0 at the start and
+-- 1 at the end. The segment must have a positive length.
 arrowAt :: Text -> Double -> Segment -> Svg
 arrowAt colour fraction s =
   Svg.arrow colour 2.4 (Segment.directionAt fraction s) (Segment.at fraction s)
 
--- | Arrowhead as 'arrowAt' makes it; none if the segment is shorter than 4 mm.
+-- | Arrowhead as 'arrowAt' makes it; none if the segment is shorter than 4 mm of paper.
 arrowOn :: Text -> Double -> Segment -> [Svg]
 arrowOn colour fraction s
   | room < 4 = []
@@ -82,11 +82,11 @@ arrowOn colour fraction s
   where
     Mm room = Segment.length s
 
--- | Arrowhead at the end of an axis.
+-- | Arrowhead of a coordinate axis, by its direction (a unit vector) and its tip.
 axisArrow :: Vec -> Point -> Svg
 axisArrow = Svg.arrow grey 2.4
 
--- | Dot of a node; a larger one if it has a number.
+-- | Dot of a node; a larger one if @numbered@, that is, if the drawing shows the node's number.
 node :: Bool -> Point -> Svg
 node numbered = Svg.dot blue (if numbered then 0.6 else 0.35)
 
@@ -100,24 +100,24 @@ origin p = [Svg.dot "white" r p, quarter 0, quarter pi, Svg.ring (Pen black 0.2 
       let (from, to) = (rim a, rim (a - pi / 2))
        in Svg.area black [Straight p from, Segment.arc Clockwise p from to]
 
--- | Circle of a cutter with the cross of its axis; the radius in mm of paper.
+-- | Circle of a cutter about @p@, and the cross at its centre; @radius@ is in mm of paper.
 cutter :: Double -> Point -> [Svg]
 cutter radius p = Svg.ring cutterPen radius p : map bar (cross radius p)
   where
     bar s = Svg.stroke cutterPen [s]
 
--- | Cross at the axis of a cutter; the cutter's radius in mm of paper.
+-- | Two lines of the cross at the centre @p@ of a cutter; @radius@ is the cutter's, in mm of paper.
 cross :: Double -> Point -> [Segment]
 cross radius p = [bar (Vec.vec arm 0), bar (Vec.vec 0 arm)]
   where
     arm = max 1.6 (min 3 (radius + 1))
     bar v = Straight (Vec.shift (Vec.negate v) p) (Vec.shift v p)
 
--- | Symbol of the start position of the cutter.
+-- | Symbol of the start position of the cutter: a white diamond.
 start :: Point -> [Svg]
 start p = [Svg.area "white" (diamond p), Svg.loop (Pen black 0.25 []) (diamond p)]
 
--- | Outline of the symbol of the start position.
+-- | Edges of the symbol of the start position.
 diamond :: Point -> [Segment]
 diamond p = zipWith Straight corners (drop 1 corners <> take 1 corners)
   where

@@ -1,4 +1,5 @@
--- | Dots and numbers for the nodes of a cut. The node at the entry has the number 0.
+-- | Dots and numbers for the nodes of a cut. The nodes are the ends of the cut's sections. The node
+-- at the entry, where the cut begins, has the number 0.
 module Draw.NodeLabel
   ( dots,
     labels,
@@ -21,11 +22,11 @@ import Geometry.Segment qualified as Segment
 import Geometry.Vec (Point, Vec)
 import Geometry.Vec qualified as Vec
 
--- | Node: its position on paper, the direction away from the contour (a unit vector) in which its
--- label is best placed, and its number, which is 0 at the entry.
+-- | Node: position on paper, direction in which its label is best placed, and number. The direction
+-- is a unit vector that points away from the contour. The number is 0 at the entry.
 data Node = Node {place :: Point, outward :: Vec, number :: Int}
 
--- | Nodes of a cut: both of its ends and the points between its sections.
+-- | Nodes of a cut: its two ends and the points between its sections.
 nodes :: Cut -> NonEmpty Node
 nodes Cut {sections, away} =
   entry
@@ -35,7 +36,7 @@ nodes Cut {sections, away} =
     first = NonEmpty.head (NonEmpty.head sections)
     final = NonEmpty.last (NonEmpty.last sections)
     closed = Vec.isNear (Segment.start first) (Segment.end final)
-    -- A closed cut continues at its end with its first move; an open one continues straight on.
+    -- The segments before and after the ends: the cut itself if closed, else straight on.
     (before, after) = if closed then (final, first) else (first, final)
     entry =
       Node
@@ -50,13 +51,14 @@ nodes Cut {sections, away} =
       | otherwise =
         outwardAt away (heading Segment.endDirection s) (heading Segment.startDirection next)
 
--- | Direction of a segment by the given function; the zero vector if the segment has no length.
+-- | Direction of segment @s@, by a function such as 'Segment.startDirection'. It is the zero vector
+-- if the segment has no length.
 heading :: (Segment -> Vec) -> Segment -> Vec
 heading direction s = if Segment.length s > Mm 1e-9 then direction s else Vec.vec 0 0
 
--- | Direction away from the contour at a node, square to the mean of the arriving and the leaving
--- direction. The factor is the 'away' of the cut. At a point where the cut turns back, it is up on
--- the paper.
+-- | Direction in which a label is best placed at a node: away from the contour, and square to the
+-- mean of the directions @arriving@ and @leaving@. @away@ is that of the cut, +1 or -1. At a point
+-- where the cut reverses, the result points to the upper edge of the paper.
 outwardAt :: Double -> Vec -> Vec -> Vec
 outwardAt away arriving leaving
   | Vec.norm along > 1e-3 = Vec.scale away (Vec.left (Vec.unit along))
@@ -64,8 +66,8 @@ outwardAt away arriving leaving
   where
     along = Vec.add arriving leaving
 
--- | Dots of the nodes. If the nodes are closer than 1.5 mm on average, only those with a number
--- have a dot.
+-- | Dots of the nodes. If the nodes are closer than 1.5 mm on average, only a node whose number is
+-- shown has a dot.
 dots :: Cut -> [Svg]
 dots cut = [LineStyle.node (marked n) (place n) | n <- NonEmpty.toList numbered, marked n || roomy]
   where
@@ -74,8 +76,8 @@ dots cut = [LineStyle.node (marked n) (place n) | n <- NonEmpty.toList numbered,
     Mm whole = total (map Segment.length (NonEmpty.toList (Scene.lines cut)))
     roomy = whole / fromIntegral (NonEmpty.length numbered) > 1.5
 
--- | Labels with the numbers of the nodes. The last node of a closed cut is the entry and has only
--- the label of the entry.
+-- | Labels with the numbers of the nodes. The last node of a closed cut is the entry, and has only
+-- the label 0 of the entry.
 labels :: Cut -> [PointLabel]
 labels cut
   | Vec.isNear (place first) (place final) = entry "0" first : map plain between
@@ -90,8 +92,9 @@ labels cut
     entry words' n = PointLabel words' (place n) (outward n) (near <> [5.5, 7.5, 10])
     near = [1.2, 2, 3, 4]
 
--- | True of a node that has a label; @final@ is the number of the last node. Both ends have labels.
--- If there are more nodes than 'most', only every 2nd, 5th, 10th and so on has one.
+-- | True if a node has a label; @final@ is the number of the last node. Both ends of the cut have
+-- labels. If there are more nodes than 'most', only every 2nd, 5th, 10th and so on of the others
+-- has one.
 isMarked :: Int -> Node -> Bool
 isMarked final n = number n `mod` every == 0 || number n == final
   where
@@ -100,7 +103,7 @@ isMarked final n = number n `mod` every == 0 || number n == final
         then 1
         else round (1 / Page.round125 (fromIntegral most / fromIntegral final)) :: Int
 
--- | Greatest count of node numbers on one cut, and of numbered cuts on one drawing, that are
--- legible.
+-- | Greatest legible count: of node numbers on one cut, and of cuts with node numbers on one
+-- drawing.
 most :: Int
 most = 60

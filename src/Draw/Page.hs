@@ -1,6 +1,8 @@
 -- | Page of a drawing: an A4 page in landscape, its scale, and the position of the part on it.
 --
--- On paper x points right and y points down, in mm from the upper left corner of the page.
+-- On paper, x points right and y points down, in mm from the upper left corner of the page. On the
+-- part, y points up. The field is the area for the part; the strip below it has legend and title
+-- block.
 module Draw.Page
   ( Page,
     choose,
@@ -41,7 +43,7 @@ data Page = Page {scale :: Scale, middle :: Point}
 data Scale = Scale {paper :: Double, real :: Double}
   deriving stock (Eq, Show)
 
--- | Rectangle on paper, in mm; @upper@ is less than @lower@.
+-- | Rectangle on paper, in mm. As y points down, @upper@ is less than @lower@.
 data Area = Area {leftmost :: Double, upper :: Double, rightmost :: Double, lower :: Double}
   deriving stock (Eq, Show)
 
@@ -49,7 +51,7 @@ data Area = Area {leftmost :: Double, upper :: Double, rightmost :: Double, lowe
 wholePage :: Area
 wholePage = Area 0 0 297 210
 
--- | Field in which the part is drawn: the page without a margin of 10 mm and without the strip.
+-- | Field in which the part is drawn: the page without a margin of 10 mm and without the 'strip'.
 field :: Area
 field = Area 10 10 287 184
 
@@ -57,12 +59,13 @@ field = Area 10 10 287 184
 strip :: Area
 strip = Area 10 184 287 200
 
--- | Width that is kept free along the edges of the field, for labels.
+-- | Width in mm that is kept free along each edge of the field, for labels.
 padding :: Double
 padding = 6
 
--- | Chooses scale and position for a part with this bounding box. The box is centred in the field.
--- If the origin of the part also fits at this scale, the box with the origin is centred instead.
+-- | Page for a part with the given bounding box. The scale fits the box, which is centred in the
+-- field. If the box extended to the origin of the part fits at this scale too, the extended box is
+-- centred instead.
 choose :: BoundingBox -> Page
 choose box = Page {scale = chosen, middle = Vec.point ((left + right) / 2) ((bottom + top) / 2)}
   where
@@ -83,12 +86,12 @@ scaleFor box
       [Scale 1 m | m <- 2 : 2.5 : 5 : [d * 10 ^ e | e <- [1 .. 12 :: Int], d <- [1, 2, 5]]]
     enlargements = [Scale m 1 | m <- 2 : 5 : [d * 10 ^ e | e <- [1 .. 6 :: Int], d <- [1, 2, 5]]]
 
--- | True if a box fits into the field at a scale.
+-- | True if a bounding box on the part fits into the field at a scale.
 fits :: BoundingBox -> Scale -> Bool
 fits box s = filled box s <= 1
 
--- | Fraction of the field that a box takes at a scale, in width or in height, whichever is larger.
--- The field is taken without its 'padding'.
+-- | Fraction of the field that a bounding box takes at a scale, in width or in height, whichever is
+-- larger; above 1 if the box does not fit. The field is taken without its 'padding'.
 filled :: BoundingBox -> Scale -> Double
 filled BoundingBox {left, bottom, right, top} s =
   factor s * max ((right - left) / width) ((top - bottom) / height)
@@ -96,11 +99,11 @@ filled BoundingBox {left, bottom, right, top} s =
     width = rightmost field - leftmost field - 2 * padding
     height = lower field - upper field - 2 * padding
 
--- | Length on paper divided by the length on the part.
+-- | Length on paper divided by the length on the part: 0.5 at the scale 1:2.
 factor :: Scale -> Double
 factor s = paper s / real s
 
--- | Scale in the notation 1:2.5.
+-- | Scale in the notation 1:2.5, with at most four decimals.
 ratio :: Scale -> Text
 ratio s = Decimal.short 4 (paper s) <> ":" <> Decimal.short 4 (real s)
 
@@ -118,15 +121,15 @@ place Page {scale, middle} p =
     ((leftmost field + rightmost field) / 2 + factor scale * (Vec.x p - Vec.x middle))
     ((upper field + lower field) / 2 - factor scale * (Vec.y p - Vec.y middle))
 
--- | Converts a point on paper to the part.
+-- | Converts a point on paper to a point of the part.
 unplace :: Page -> Point -> Point
 unplace Page {scale, middle} p =
   Vec.point
     (Vec.x middle + (Vec.x p - (leftmost field + rightmost field) / 2) / factor scale)
     (Vec.y middle - (Vec.y p - (upper field + lower field) / 2) / factor scale)
 
--- | Converts a segment to paper. A counter-clockwise arc still looks counter-clockwise; its sweep
--- changes sign, because y points down.
+-- | Converts a segment of the part to paper. Its arcs look the same on paper, but their sweeps
+-- change sign, because y points down.
 segment :: Page -> Segment -> Segment
 segment page s = case s of
   Straight a b -> Straight (place page a) (place page b)
@@ -142,7 +145,7 @@ segment page s = case s of
 onPaper :: Page -> Mm -> Double
 onPaper page (Mm l) = factor (scale page) * l
 
--- | Smallest bounding box of a segment.
+-- | Smallest bounding box of a segment, which also contains the part of an arc beyond its ends.
 extent :: Segment -> BoundingBox
 extent s = case s of
   Straight a b -> BoundingBox.ofPoints a [b]
@@ -152,7 +155,7 @@ extent s = case s of
           [Vec.shift v centre | v <- [Vec.vec r 0, Vec.vec 0 r, Vec.vec (-r) 0, Vec.vec 0 (-r)]]
      in BoundingBox.ofPoints start (end : filter (Segment.hasFootOf s) quarters)
 
--- | True of a point on paper inside an area.
+-- | True if the area contains point @p@ of the paper; its edges belong to it.
 holds :: Area -> Point -> Bool
 holds area p =
   Vec.x p >= leftmost area

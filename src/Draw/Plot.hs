@@ -65,8 +65,9 @@ plot part path =
 
 -- The part
 
--- | Areas of material in grey, with windows in white. A shape that lies in another one is drawn
--- after it. If no shape has its material inside, each window gets a grey band around it.
+-- | Areas of material in grey, with windows in white. A body is a contour with the material inside,
+-- a window one with the material outside. A shape is drawn after the shape in which it lies. If
+-- there is no body around the windows, each window gets a grey band around it.
 material :: [Shape] -> [Svg]
 material shapes = bands <> map snd (sortOn fst (map painted bodies <> map painted windows))
   where
@@ -82,8 +83,7 @@ material shapes = bands <> map snd (sortOn fst (map painted bodies <> map painte
         Svg.area (colour s) (outline s)
       )
     colour s = if materialSide s == Inside then LineStyle.materialColour else "white"
-    -- Shapes are drawn in the order of this level: bodies before the windows in them, and windows
-    -- before the bodies in them.
+    -- Drawing order: a body before the windows in it, a window before the bodies in it.
     level s = 2 * inWindows s + (if materialSide s == Inside then 0 else 1)
     inWindows s =
       let p =
@@ -107,14 +107,15 @@ material shapes = bands <> map snd (sortOn fst (map painted bodies <> map painte
       s' : _ -> Segment.start s'
       [] -> Vec.point 0 0
 
--- | Line of a contour.
+-- | Line along the contour of a shape.
 contourLine :: Shape -> Svg
 contourLine Shape {ends, outline} = case ends of
   Open -> Svg.stroke LineStyle.contourPen outline
   Closed -> Svg.loop LineStyle.contourPen outline
 
--- | Thin axes through the origin. If the origin is not on the field, short axes through a point
--- with round coordinates near the lower left corner, labelled with these coordinates.
+-- | Thin axes through the origin of the part. If the origin is not on the field, two short axes
+-- cross near the lower left corner. They cross at a point with round coordinates, which are written
+-- beside it.
 axes :: Page -> [Svg]
 axes page
   | Page.holds Page.field origin =
@@ -145,13 +146,13 @@ axes page
     mark = Page.place page (Vec.point cx cy)
     (mx, my) = (Vec.x mark, Vec.y mark)
 
--- | Symbol of the origin, if the origin is on the field.
+-- | Symbol of the part's origin; none if the origin is not on the field.
 originMark :: Page -> [Svg]
 originMark page =
   concatMap LineStyle.origin (filter (Page.holds Page.field) [Page.place page (Vec.point 0 0)])
 
--- | Arrowheads and names of the axes. The arguments: the point where the axes cross, the right end
--- of the x axis, the upper end of the y axis.
+-- | Arrowheads and names of the axes, in mm of paper. The axes cross at (@px@, @py@). @right@ is
+-- the x of the right end of the x axis, @top@ the y of the upper end of the y axis.
 axisHeads :: Double -> Double -> Double -> Double -> [Svg]
 axisHeads px py right top =
   [ LineStyle.axisArrow (Vec.vec 1 0) (Vec.point right py),
@@ -160,14 +161,14 @@ axisHeads px py right top =
     Svg.text LineStyle.small Centred (Vec.point (px + 2.4) (top + 1)) "y"
   ]
 
--- | Spacing of the round coordinates: a length of the part that is 3.2 to 8 mm on paper.
+-- | Unit of the round coordinates: a length in mm of the part, which is 3.2 to 8 mm on paper.
 gridOf :: Page -> Double
 gridOf page = Page.round125 (8 / Page.onPaper page (Mm 1))
 
 -- The path
 
--- | Linking moves. A segment that is traversed in both directions is drawn once, with an arrow for
--- each direction.
+-- | Lines of the linking moves. A segment that the cutter traverses in both directions is drawn
+-- once, with an arrow for each direction.
 linkingMoves :: Scene -> [Svg]
 linkingMoves Scene {feeds, rapids} =
   map (line LineStyle.feedPen) lineFeeds <> map (line LineStyle.rapidPen) lineRapids <> arrows
@@ -177,8 +178,9 @@ linkingMoves Scene {feeds, rapids} =
     (lineFeeds, drawn) = once Set.empty feeds
     (lineRapids, _) = once drawn rapids
 
--- | Drops segments that are known already, in the same or the opposite direction, and repetitions.
--- The result: the remaining segments, and all segments that are known now.
+-- | Drops repeated segments, so that dashes are not drawn over dashes. A segment in the opposite
+-- direction counts as a repetition. @known@ are the segments drawn before. The result has the
+-- remaining segments, and @known@ with these added.
 once :: Set Segment -> [Segment] -> ([Segment], Set Segment)
 once known segments = case segments of
   [] -> ([], known)
@@ -188,9 +190,9 @@ once known segments = case segments of
     where
       key = min s (Segment.reverse s)
 
--- | Toolpath of a cut with five arrows, in a pocket one for every 40 mm but at least five; without
--- arrows if it is 12 mm long or less. A cut whose centre is on the contour is drawn between two
--- thin lines.
+-- | Toolpath of a cut with its arrows. A cut of at most 12 mm of paper has none, any other has
+-- five. In a pocket there is an arrow for every 40 mm, but at least five. Where the cutter's centre
+-- is on the contour, the toolpath is drawn between two thin lines.
 cutLine :: Cut -> [Svg]
 cutLine cut@Cut {isOnContour, numbered} =
   [Svg.stroke pen segments | isOnContour, pen <- [LineStyle.edgePen, LineStyle.bedPen]]
@@ -211,8 +213,9 @@ cutLine cut@Cut {isOnContour, numbered} =
         else []
     count = if numbered then 5 else max 5 (floor (over whole (Mm 40))) :: Int
 
--- | Arrow at a distance along segments. If possible it is 4 mm away from the ends of its segment.
--- None if the distance exceeds the length of the segments.
+-- | Arrow at a distance (mm of paper) from the start of consecutive segments. If possible it is 4
+-- mm away from both ends of the segment that it lies on. Nothing if the distance exceeds the length
+-- of the segments.
 arrowFrom :: [Segment] -> Mm -> Maybe Svg
 arrowFrom segments distance = case segments of
   [] -> Nothing
@@ -227,12 +230,12 @@ arrowFrom segments distance = case segments of
                 s
             )
 
--- | Cutter at the point where a cut begins.
+-- | Cutter, drawn at the point where a cut begins.
 cutter :: Cut -> [Svg]
 cutter cut@Cut {cutterRadius} =
   LineStyle.cutter cutterRadius (Segment.start (NonEmpty.head (Scene.lines cut)))
 
--- | Numbers of the nodes, placed so that they cover no line.
+-- | Node numbers of the cuts, placed so that they cover no line.
 numbers :: Scene -> [Svg]
 numbers Scene {shapes, cuts, feeds, rapids, start} =
   [Svg.text style Centred p words' | (p, words') <- Label.place Page.field index labels]
@@ -243,7 +246,7 @@ numbers Scene {shapes, cuts, feeds, rapids, start} =
         NodeLabel.labels
         (if length marked > NodeLabel.most then filter readable marked else marked)
     marked = filter numbered cuts
-    -- If there are many cuts, only the larger ones have numbers.
+    -- Node numbers would hide a cut that is no larger than a digit.
     readable cut =
       let BoundingBox {left, bottom, right, top} =
             foldr1 BoundingBox.union (fmap BoundingBox.ofSegment (Scene.lines cut))
@@ -257,7 +260,7 @@ numbers Scene {shapes, cuts, feeds, rapids, start} =
         <> rapids
         <> LineStyle.diamond start
 
--- | Segments of a cut and of its drawn cutter, which labels must not cover.
+-- | Segments of a cut, and of the cutter if one is drawn there; labels must not cover them.
 cutLines :: Cut -> [Segment]
 cutLines cut@Cut {cutterRadius, showsCutter} =
   (if showsCutter then rim : LineStyle.cross cutterRadius p else [])

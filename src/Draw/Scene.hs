@@ -1,4 +1,5 @@
--- | Objects of a drawing in mm of paper: contours, cuts, linking moves and rest material.
+-- | Objects of a drawing in mm of paper: contours, cuts, linking moves and rest material. An
+-- outline is a chain of segments that bounds an area.
 module Draw.Scene
   ( Scene (..),
     Shape (..),
@@ -74,11 +75,11 @@ data Scene = Scene
     rapids :: [Segment],
     -- | starting position of the cutter
     start :: Point,
-    -- | milling or turning, with the radius of the cutter or of the tool's nose in mm of the part
+    -- | kind of work, and radius in mm of the part: of the cutter, or of the nose of a turning tool
     tools :: [(Part.Work, Mm)]
   }
 
--- | Contour of the part, or a drilled hole.
+-- | Contour of the part, or circle of a drilled hole, in mm of paper.
 data Shape = Shape {ends :: Ends, materialSide :: MaterialSide, outline :: [Segment]}
 
 -- | Side of a contour on which the material of the part lies.
@@ -87,24 +88,25 @@ data MaterialSide
     Inside
   | -- | outside the contour
     Outside
-  | -- | not known: an open contour, or one that is not milled on one side
+  | -- | not known, because the contour is open or is not milled on exactly one side
     Unknown
   deriving stock (Eq)
 
--- | Toolpath of one cut: one pass along a contour, or the moves in a pocket between two lifts.
+-- | Toolpath of one cut: one pass along a contour, or the moves in a pocket from one plunge to the
+-- next lift.
 data Cut = Cut
-  { -- | the parts between two nodes, each one line or arc, or all arcs of one curve
+  { -- | the parts from node to node, each one line or arc, or all arcs of one curve
     sections :: NonEmpty (NonEmpty Segment),
     -- | radius of the cutter in mm of paper
     cutterRadius :: Double,
-    -- | side of the path that faces away from the contour: +1 for its right, -1 for its left; on
-    -- the paper, where y points down, 'Vec.left' is the right side
+    -- | side of the path that faces away from the contour: +1 for its right, -1 for its left. It is
+    -- a factor for 'Vec.left', which points to the right on paper, because y points down there
     away :: Double,
-    -- | true if the cutter's centre is on the contour
+    -- | True if the cutter's centre is on the contour
     isOnContour :: Bool,
-    -- | true if the nodes have numbers; false in a pocket
+    -- | True if the nodes have numbers; False in a pocket
     numbered :: Bool,
-    -- | true if the cutter is drawn where the cut begins; in a pocket only for the first cut
+    -- | True if the cutter is drawn where the cut begins; in a pocket only for the first cut
     showsCutter :: Bool
   }
 
@@ -140,7 +142,7 @@ fromPart part path =
     page =
       Page.choose (foldl BoundingBox.union (BoundingBox.ofPoints begin []) (boxesOf contours path))
 
--- | Drops contours that are equal to earlier ones.
+-- | Drops contours that are equal to earlier ones in the list.
 distinct :: [Part.Contour] -> [Part.Contour]
 distinct = catMaybes . snd . List.mapAccumL next Map.empty
   where
@@ -152,7 +154,8 @@ distinct = catMaybes . snd . List.mapAccumL next Map.empty
 beginning :: Part.Contour -> Point
 beginning = Segment.start . Part.segment . NonEmpty.head . Part.elements
 
--- | Contours that an operation mills: of a pocket, its wall and its islands.
+-- | Contours that an operation mills, each with its side. For a pocket they are its wall and its
+-- islands.
 millingOf :: Operation -> [Milling]
 millingOf operation = case operation of
   Mill job -> [value job]
@@ -165,8 +168,8 @@ millingOf operation = case operation of
   Travel _ -> []
   Command _ -> []
 
--- | Outlines of rest material, in mm of the part. If an outline is not known, a circle about the
--- cutter's centre marks the point. Its radius is a quarter of the offset distance.
+-- | Outlines of rest material, in mm of the part. If the outline at a point is not known, a circle
+-- about the cutter's centre marks the point. Its radius is a quarter of the offset distance.
 restMaterialOf :: Toolpath -> [[Segment]]
 restMaterialOf path = nubOrd (concatMap drawn (RestMaterial.ofPath path))
   where
@@ -183,7 +186,7 @@ restMaterialOf path = nubOrd (concatMap drawn (RestMaterial.ofPath path))
           (Vec.shift (Vec.vec (r / 4) 0) p)
       ]
 
--- | Drilled holes of an operation.
+-- | Drilled holes of an operation, as circles on the part.
 holesOf :: Operation -> [Circle]
 holesOf operation = case operation of
   Mill _ -> []
@@ -193,7 +196,7 @@ holesOf operation = case operation of
   Travel _ -> []
   Command _ -> []
 
--- | Linking moves of a block.
+-- | Linking moves of a block of the toolpath.
 movesBetween :: Block -> [Move]
 movesBetween block = case block of
   Travelling _ moves -> moves
@@ -203,14 +206,15 @@ movesBetween block = case block of
   Holing _ moves -> moves
   Commanding _ -> []
 
--- | Bounding boxes of everything that has to be on the page.
+-- | Bounding boxes, on the part, of everything that has to be on the page: contours, moves and
+-- cutters.
 boxesOf :: [Part.Contour] -> Toolpath -> [BoundingBox]
 boxesOf contours path =
   [Page.extent s | c <- contours, s <- NonEmpty.toList (Polyarc.segments (Part.polyarcOf c))]
     <> [Page.extent (Toolpath.segment m) | b <- Toolpath.blocks path, m <- Toolpath.moves b]
     <> concatMap cutterBox (Toolpath.blocks path)
 
--- | Boxes of the drawn cutters and the drilled holes of a block.
+-- | Bounding boxes, on the part, of the drawn cutters and of the drilled holes of a block.
 cutterBox :: Block -> [BoundingBox]
 cutterBox block = case block of
   Travelling _ _ -> []
@@ -227,8 +231,8 @@ cutterBox block = case block of
         (radius milling)
         (BoundingBox.ofPoints (Segment.start (Toolpath.segment (NonEmpty.head ms))) [])
 
--- | Converts a contour to paper. The map has, for a point, the millings of all contours that begin
--- there; they tell the material's side.
+-- | Converts a contour to paper. @millings@ has, for a point, the millings of all contours that
+-- begin there; the side of the milling tells on which side the material lies.
 shapeOf :: Page -> Map Point [Milling] -> Part.Contour -> Shape
 shapeOf page millings c =
   Shape
@@ -250,20 +254,20 @@ shapeOf page millings c =
             if (side == Carrier.LeftOf) == (Polyarc.signedArea bare > 0) then Outside else Inside
         _ -> Unknown
 
--- | Converts a drilled hole to paper.
+-- | Converts a drilled hole, given as a circle on the part, to paper.
 holeOf :: Page -> Circle -> Shape
 holeOf page circle@(Circle c r) =
   Shape {ends = Closed, materialSide = Outside, outline = [Page.segment page whole]}
   where
     whole = Segment.fullCircle CounterClockwise circle (Vec.shift (Vec.polar r (Rad 0)) c)
 
--- | Side of the contour on which the cutter runs; nothing if it runs on the contour.
+-- | Side of the contour on which the cutter runs; Nothing if its centre runs on the contour.
 sideOf :: Milling -> Maybe Carrier.Side
 sideOf milling = case Toolpath.leadingSide milling of
   Left _ -> Nothing
   Right side -> side
 
--- | Cuts of a block, converted to paper.
+-- | Cuts of a block of the toolpath, converted to paper.
 cutsOf :: Page -> Block -> [Cut]
 cutsOf page block = case block of
   Travelling _ _ -> []
@@ -276,7 +280,7 @@ cutsOf page block = case block of
           numbered = True
         }
     ]
-  -- Moves in a pocket between two lifts are one cut.
+  -- The moves from one plunge to the next lift in a pocket are one cut.
   Clearing {pocket = Located _ p, cleared} ->
     zipWith
       (\showsCutter ms -> (along (Part.wall p) ms) {showsCutter})
@@ -296,11 +300,12 @@ cutsOf page block = case block of
           showsCutter = True
         }
 
--- | True of a move in a pocket that cuts: at feed, and without a change of height.
+-- | True if a move in a pocket cuts: it is at feed and does not change the height.
 isCut :: Move -> Bool
 isCut m = Toolpath.pace m /= Rapid && uncurry (==) (Toolpath.heights m)
 
--- | Of the passes of a pocket that differ only in their depth, keeps the first one.
+-- | Drops blocks that would be drawn over others: passes of a pocket at greater depths. The first
+-- of such passes remains.
 drawnOnce :: [Block] -> [Block]
 drawnOnce blocks = map snd (nubOrdOn key (zip [0 ..] blocks))
   where
@@ -309,9 +314,9 @@ drawnOnce blocks = map snd (nubOrdOn key (zip [0 ..] blocks))
       Clearing {pass} -> Right (Toolpath.number pass, Toolpath.left pass)
       _ -> Left i
 
--- | The 'away' of a cut: the side of the path on which the labels are placed. If the cutter's
--- centre is on the contour, this is the outside of a closed contour and the left side of an open
--- one.
+-- | Value of 'away' for the cuts of a milling: +1 to place labels on the right of the path, -1 on
+-- its left. If the cutter's centre is on the contour, labels are outside of a closed contour and on
+-- the left of an open one.
 awayFrom :: Milling -> Double
 awayFrom milling = case (sideOf milling, Part.ends (contour milling)) of
   (Just Carrier.LeftOf, _) -> -1

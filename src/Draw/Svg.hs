@@ -40,7 +40,8 @@ import Text.Blaze.Svg11 qualified as Svg
 import Text.Blaze.Svg11.Attributes qualified as Attribute
 import Text.DocLayout qualified as DocLayout
 
--- | Document with the size of its page, its title, and its layers, the lowest one first.
+-- | SVG text of a drawing, by the area of its page, its title, and its layers, the lowest one
+-- first.
 document :: Area -> Text -> [Svg] -> Text
 document page title layers =
   Lazy.toStrict (Blaze.renderSvg (Svg.docTypeSvg ! size ! viewBox ! font $ rows (heading : layers)))
@@ -53,7 +54,7 @@ document page title layers =
     font = Attribute.fontFamily "Arial, Helvetica, sans-serif"
     heading = Svg.title (toSvg (printable title))
 
--- | Group of elements with a name.
+-- | Group of elements with a name, by which graphics programs show the layer.
 layer :: Text -> [Svg] -> Svg
 layer name things = Svg.g ! Attribute.id_ (toValue name) $ rows things
 
@@ -63,12 +64,12 @@ rows things = toSvg newLine *> traverse_ (\thing -> thing *> toSvg newLine) thin
   where
     newLine = "\n" :: Text
 
--- | Pen: colour, width in mm, and alternately the lengths of dashes and gaps in mm; none for a
--- solid line.
+-- | Pen: colour, width in mm, and alternately the lengths of dashes and gaps in mm. @dashes@ is
+-- empty for a solid line.
 data Pen = Pen {colour :: Text, width :: Double, dashes :: [Double]}
   deriving stock (Eq, Show)
 
--- | Open polyarc, drawn with a pen. Each segment begins where the one before ends.
+-- | Open polyarc, drawn with a pen. Each segment begins where the previous one ends.
 stroke :: Pen -> [Segment] -> Svg
 stroke pen segments =
   Svg.path ! Attribute.d (toValue (pathData segments)) ! Attribute.fill "none" ! drawnWith pen
@@ -81,7 +82,7 @@ loop pen segments =
     ! Attribute.fill "none"
     ! drawnWith pen
 
--- | Area that segments enclose, filled with a colour.
+-- | Area that segments enclose, filled with a colour. The last segment need not end at the start.
 area :: Text -> [Segment] -> Svg
 area colour segments =
   Svg.path ! Attribute.d (toValue (pathData segments <> "Z")) ! Attribute.fill (toValue colour)
@@ -97,11 +98,11 @@ rectangle pen colour Area {leftmost, upper, rightmost, lower} =
     ! Attribute.fill (toValue colour)
     ! drawnWith pen
 
--- | Filled circle of a colour and a radius about a point.
+-- | Filled circle of a colour about point @p@; @radius@ in mm.
 dot :: Text -> Double -> Point -> Svg
 dot colour radius p = circle radius p ! Attribute.fill (toValue colour)
 
--- | Circle of a radius about a point, drawn with a pen.
+-- | Circle about point @p@, drawn with a pen; @radius@ in mm.
 ring :: Pen -> Double -> Point -> Svg
 ring pen radius p = circle radius p ! Attribute.fill "none" ! drawnWith pen
 
@@ -113,16 +114,16 @@ circle radius p =
     ! Attribute.cy (number (Vec.y p))
     ! Attribute.r (number radius)
 
--- | Arrowhead of a colour and a length in mm. It points in a direction (a unit vector), and its tip
--- is at a point.
+-- | Filled arrowhead of a colour, whose length is @size@ in mm. It points in @direction@, a unit
+-- vector.
 arrow :: Text -> Double -> Vec -> Point -> Svg
 arrow colour size direction tip = area colour [Straight tip (back 1), Straight (back 1) (back (-1))]
   where
     along = Vec.scale (-size) direction
     back side = Vec.shift (Vec.add along (Vec.scale (side * size / 4) (Vec.left direction))) tip
 
--- | Point of a text that lies at the given position: start, middle or end of its base line, or the
--- centre of its digits.
+-- | Part of a text that lies at the text's position: start, middle or end of the base line, or the
+-- centre of the digits.
 data Anchor = Start | Middle | End | Centred
   deriving stock (Eq, Show)
 
@@ -130,7 +131,7 @@ data Anchor = Start | Middle | End | Centred
 data TextStyle = TextStyle {size :: Double, ink :: Text, bold :: Bool}
   deriving stock (Eq, Show)
 
--- | Text on one line at a point.
+-- | Text on one line, whose @anchor@ lies at point @p@.
 text :: TextStyle -> Anchor -> Point -> Text -> Svg
 text TextStyle {size, ink, bold} anchor p words' =
   Svg.text_
@@ -148,8 +149,8 @@ text TextStyle {size, ink, bold} anchor p words' =
       End -> ("end", 0)
       Centred -> ("middle", 0.36 * size)
 
--- | Estimated width in mm of a text whose size is given in mm. The estimate is rather too large
--- than too small.
+-- | Estimated width in mm of a text whose letter size is @size@ mm. The estimate is rarely too
+-- small, so that a text that is said to fit does fit.
 textWidth :: Double -> Text -> Double
 textWidth size words' =
   0.6
@@ -160,7 +161,7 @@ textWidth size words' =
   where
     wide c = c `elem` ("MWmwЖМФШЩЫЮжмфшщыю" :: String)
 
--- | Replaces a character that XML does not allow by a space.
+-- | Replaces every character that XML does not allow by a space.
 printable :: Text -> Text
 printable = Text.map (\c -> if Char.isControl c || c >= '\xFFFE' && c <= '\xFFFF' then ' ' else c)
 
@@ -176,8 +177,8 @@ drawnWith Pen {colour, width, dashes} =
       [] -> mempty
       _ -> Attribute.strokeDasharray (numbers dashes)
 
--- | Path data of an open polyarc: a command that moves to its beginning, then one for each line and
--- arc.
+-- | Path data of an open polyarc: a command that moves to its beginning, then commands for each
+-- line and arc.
 pathData :: [Segment] -> Text
 pathData segments = case segments of
   [] -> ""
@@ -190,8 +191,7 @@ pathCommands s = case s of
   Arc {start, centre, sweep = Rad a} ->
     let Mm r = Segment.radius centre start
         -- SVG gives an arc by its ends. With rounded ends the centre of a long arc is inexact, and
-        -- the two ends of a full circle do not determine it. So an arc is divided into parts of at
-        -- most a third of a circle.
+        -- the ends of a full circle do not determine it. So parts of at most a third of a circle.
         pieces = max 1 (ceiling (abs a * 3 / (2 * pi) - 1e-9)) :: Int
         sense = if a > 0 then "1 " else "0 "
         to i = Segment.at (fromIntegral i / fromIntegral pieces) s

@@ -1,5 +1,6 @@
--- | Picture of a tape as text: a line for each row, with its holes and its meaning. If the tape is
--- a text, the picture has a line for each line of it.
+-- | Picture of a tape as text, for the user to read: a line for each row, with the row's holes and
+-- its meaning. The medium of some machines is a text, without holes. Its picture has a line for
+-- each line of this text.
 module Draw.TapeRows
   ( RowRange (..),
     picture,
@@ -21,12 +22,12 @@ import Tape.Layout (RowKind (..))
 import Tape.RowMeaning (Row (..))
 import Tape.RowMeaning qualified as RowMeaning
 
--- | Range of a tape to show. Frames and rows count from 1; both ends are included. If the tape is a
--- text, its lines count as rows.
+-- | Part of a tape to show, as first and last number, both included. Frames and rows count from 1.
+-- If the medium is a text, 'Rows' counts its lines.
 data RowRange = Everything | Frames Int Int | Rows Int Int
   deriving stock (Eq, Show)
 
--- | Picture of the rows of a tape in a range; nothing if the range has no rows.
+-- | Picture of the given rows of a tape that are in @range@; Nothing if none is.
 picture :: Machine -> RowRange -> [Row] -> Maybe Text
 picture machine range rows = case (Machine.pitch (Machine.medium machine), found) of
   (_, []) -> Nothing
@@ -43,8 +44,8 @@ pictureLines machine range rows = case Machine.pitch (Machine.medium machine) of
   where
     chosen' r = filter (\(n, line) -> any (\row -> inRange r n row) line)
 
--- | Unit of a range, and the count of these units on the tape: frames, rows, or the lines of a
--- text.
+-- | Word for what @range@ counts, and the count of these on the whole tape: frames, rows, or lines
+-- of a text. Reports use both.
 extent :: Machine -> RowRange -> [Row] -> (Text, Int)
 extent machine range rows = case (range, Machine.pitch (Machine.medium machine)) of
   (Frames _ _, _) -> ("frame", foldl' max 0 (mapMaybe frame rows))
@@ -58,13 +59,13 @@ type Numbered = (Int, Row)
 chosen :: RowRange -> [Numbered] -> [Numbered]
 chosen range = filter (uncurry (inRange range)) . untilEnd
   where
-    -- The rows after the range are never computed.
+    -- Stops early, because the rows after the range need not be computed.
     untilEnd = case range of
       Everything -> id
       Rows _ b -> takeWhile ((<= b) . fst)
       Frames _ b -> takeWhile (maybe True (<= b) . frame . snd)
 
--- | True if a range contains the row with this number.
+-- | True if a range contains @row@, whose number from 1 is @n@.
 inRange :: RowRange -> Int -> Row -> Bool
 inRange range n row = case range of
   Everything -> True
@@ -73,24 +74,25 @@ inRange range n row = case range of
 
 -- Holes -------------------------------------------------------------------------------------------
 
--- | Heading with the numbers of the tracks.
+-- | Heading with the track numbers, for a tape with the given count of tracks.
 heading :: Int -> Text
 heading tracks = "   row  " <> acrossTracks tracks Decimal.whole
 
--- | Joins one text for each track, the highest track first, with the mark of the sprocket hole at
--- its position between two tracks.
+-- | Joins one text for each of @tracks@ tracks, the highest track first; @each@ gives the text of a
+-- track. The mark ∘ of the sprocket hole is inserted at its position between two tracks.
 acrossTracks :: Int -> (Int -> Text) -> Text
 acrossTracks tracks each =
   Text.unwords
     (concat [[each k] <> ["∘" | k == sprocket tracks + 1] | k <- [tracks, tracks - 1 .. 1]])
 
--- | Number of the track below the sprocket holes, from 1 for the lowest: they lie between tracks 2
--- and 3 of a five-track tape, and between tracks 3 and 4 of a wider one.
+-- | Number of the track below the sprocket holes, from 1 for the lowest, by the count of tracks.
+-- The sprocket holes lie between tracks 2 and 3 of a five-track tape, and between tracks 3 and 4 of
+-- a wider one.
 sprocket :: Int -> Int
 sprocket tracks = if tracks <= 5 then 2 else 3
 
--- | Groups neighbouring blank rows of one kind and one frame. Every other row is a group of its
--- own.
+-- | Groups neighbouring blank rows that are of one kind and belong to one frame. Every row with
+-- holes is a group alone.
 folded :: [Numbered] -> [NonEmpty Numbered]
 folded = NonEmpty.groupBy together
   where
@@ -110,7 +112,8 @@ isBlank row = case kind row of
 fewBlanks :: Int
 fewBlanks = 3
 
--- | Lines of a group. More than 'fewBlanks' blank rows share one line with their count.
+-- | Lines of the picture for a group of rows. More than 'fewBlanks' blank rows share one line,
+-- which shows their count.
 holed :: Machine -> NonEmpty Numbered -> [Text]
 holed machine group@((n, row) :| _)
   | count > fewBlanks =
@@ -140,14 +143,16 @@ holed machine group@((n, row) :| _)
 
 -- Text --------------------------------------------------------------------------------------------
 
--- | Divides the rows of a text into its lines; each line has its line end.
+-- | Divides the rows of a text medium into the lines of the text. Each line keeps the row with its
+-- line end.
 textLines :: [Row] -> [[Row]]
 textLines rows = case break ((== Just '\n') . symbol) rows of
   ([], []) -> []
   (line, []) -> [line]
   (line, end : more) -> (line <> [end]) : textLines more
 
--- | Line of the picture for a line of text, with its number and the meaning of its words.
+-- | Line of the picture for line @n@ (from 1) of a text medium: number, text, and meaning of the
+-- words. Nothing for a line without rows.
 printed :: Machine -> (Int, [Row]) -> Maybe Text
 printed machine (n, line) = case line of
   [] -> Nothing

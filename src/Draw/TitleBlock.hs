@@ -1,4 +1,5 @@
--- | Strip below the drawing: the legend, the scale bar and the title block (ISO 7200).
+-- | Strip below the drawing, with three fields: the legend, the scale bar and the title block (ISO
+-- 7200). The field of the page is the area above the strip, for the part.
 module Draw.TitleBlock
   ( name,
     block,
@@ -27,7 +28,7 @@ import Part.Part qualified as Part
 name :: Part -> Text
 name part = Text.intercalate ". " (catMaybes [Name.text <$> Part.name part, Part.title part])
 
--- | Borders of the field and the strip, and the content of the strip.
+-- | Borders of the page's field and of the strip, and the content of the strip.
 block :: Part -> Scene -> [Svg]
 block part scene = borders <> legend scene <> scaleBar (page scene) <> title part scene
 
@@ -51,7 +52,7 @@ borders =
         LineStyle.framePen
         [Straight (Vec.point x (upper Page.strip)) (Vec.point x (lower Page.strip))]
 
--- | Legend of the symbols that the drawing uses, in two rows.
+-- | Legend of the symbols that the drawing uses. Entries fill two rows, column by column.
 legend :: Scene -> [Svg]
 legend scene =
   concat (zipWith entry [0 ..] [(sample, words') | (True, sample, words') <- legendEntries scene])
@@ -64,8 +65,8 @@ legend scene =
               (upper Page.strip + 5 + 6.2 * fromIntegral row)
        in sample p <> [Svg.text LineStyle.small Start (Vec.shift (Vec.vec 10 0.9) p) words']
 
--- | Entries of the legend: true if the drawing uses the symbol; the symbol, drawn from a point to
--- the right; its meaning.
+-- | Possible entries of the legend. Each has True if the drawing uses the symbol, a function that
+-- draws the symbol from a point to the right, and the symbol's meaning.
 legendEntries :: Scene -> [(Bool, Point -> [Svg], Text)]
 legendEntries Scene {page, shapes, cuts, restMaterial, feeds, rapids} =
   [ (any (\s -> materialSide s == Unknown) shapes, line LineStyle.contourPen, "contour"),
@@ -99,8 +100,8 @@ legendEntries Scene {page, shapes, cuts, restMaterial, feeds, rapids} =
     right = Vec.shift (Vec.vec 8 0)
     middle = Vec.shift (Vec.vec 4 0)
 
--- | Scale bar: a round length of the part, 12 to 30 mm on paper, in four parts that are alternately
--- black and white.
+-- | Scale bar: a round length of the part, 12 to 30 mm on paper, in four sections that are
+-- alternately black and white.
 scaleBar :: Page -> [Svg]
 scaleBar page =
   zipWith step [0 ..] [LineStyle.black, "white", LineStyle.black, "white"]
@@ -147,8 +148,8 @@ title part Scene {page, tools} =
         [] -> []
         sizes -> [word <> Text.intercalate ", " sizes <> " mm"]
 
--- | Text that ends before the right edge of the strip. A text that is too long is set smaller, down
--- to 2 mm; if that is not enough, it is cut off.
+-- | Text from point @p@ on that ends before the right edge of the strip. A text that is too long
+-- gets smaller letters, down to 2 mm. If that is not enough, its end is cut off.
 fitted :: TextStyle -> Point -> Text -> Svg
 fitted style p words' =
   Svg.text style {size = chosen} Start p (if fits chosen words' then words' else short)
@@ -156,7 +157,7 @@ fitted style p words' =
     room = rightmost Page.strip - 3 - Vec.x p
     fits s w = widthOf s w <= room
     chosen = max 2 (min (size style) (size style * room / max 1 (widthOf (size style) words')))
-    -- Bold letters are wider.
+    -- Bold letters are wider than the estimate.
     widthOf s w = (if bold style then 1.1 else 1) * Svg.textWidth s w
     short = case filter (fits chosen) (map (<> "…") (reverse (Text.inits words'))) of
       longest : _ -> longest

@@ -8,7 +8,7 @@
 -- A shift adds a layer: it moves every point of the curve below along its normal, by a distance
 -- that is a function of the parameter. Points, directions and curvatures are computed by power
 -- series through all layers, so rounding is the only error. A shift of a curve with a corner leaves
--- a gap or an overlap at the corner. This module does not close it; the caller joins the two parts.
+-- a gap or an overlap at the corner. This module does not close it; the caller inserts a link there.
 --
 -- This module is the interface of the folder "Geometry.Curve". It does not export the fields of
 -- 'BasisCurve', 'Knot', 'Column' and 'Cusp'; these are read through the modules of the types.
@@ -120,7 +120,8 @@ import Geometry.Vec (Point, Vec)
 import Geometry.Vec qualified as Vec
 import Prelude hiding (length)
 
--- | Polyline through the points. It is closed when the last point equals the first.
+-- | Polyline through the points. It is closed when the last point equals the first. It is a fault
+-- if there are fewer than two points or if two neighbours coincide.
 polyline :: Vector Point -> Either CurveFault Curve
 polyline points = Unshifted <$> BasisCurve.polyline points
 
@@ -194,8 +195,9 @@ fitJoggle joggle@Joggle {begins, ends, depth = Mm depth, radius = Mm r} curve
     needed = times 2 (ramp joggle)
     available = minus (lengthAt curve ends) (lengthAt curve begins)
 
--- | Segments of an unshifted curve that consists of lines and arcs only and has at least one arc;
--- nothing for any other curve. Each segment starts exactly where the one before ends.
+-- | Segments of an unshifted curve that consists of lines and arcs only and has at least one arc.
+-- Nothing for any other curve, which has to be approximated. Each segment starts exactly where the
+-- previous one ends.
 toSegments :: Curve -> Maybe (NonEmpty Segment)
 toSegments curve = case curve of
   Unshifted b -> BasisCurve.asSegments b
@@ -255,7 +257,7 @@ end curve = pointFrom Before curve (domain curve)
 isClosed :: Curve -> Bool
 isClosed = PointSearch.isClosed
 
--- | Arc length of the whole curve. Gaps that a shift opens at corners do not count.
+-- | Arc length of the whole curve. Gaps that a shift opens at corners do not add to it.
 length :: Curve -> Mm
 length curve = ArcLength.total (ShiftedCurve.arcLength curve)
 

@@ -1,6 +1,10 @@
 {-# OPTIONS_GHC -O0 #-}
 
 -- | Mistakes in the numbers of an input sheet.
+--
+-- A sheet begins with the general data (16 numbers on part and tool) and the points of the
+-- approach. Then come arrays of pieces, with points after each array. A word is a number, a sign
+-- without digits, or the end mark @-0@, which ends the approach and each piece.
 module Sheet.Error
   ( Error (..),
     NumberPosition (..),
@@ -30,35 +34,36 @@ import Report.Report
   )
 import Sheet.Sheet (address, generalCount, maxArrays)
 
--- | The position of a word of the sheet: its region in the text, and its ordinal number from 1.
+-- | Position of a word of the sheet: its region in the text, and its ordinal number from 1.
 data NumberPosition = NumberPosition {site :: Region, number :: Int}
   deriving stock (Eq, Ord, Show)
 
--- | A mistake. The position at which it is reported comes first.
+-- | Mistake in a sheet. The first field is the position at which the report points.
 data Error
-  = -- | The word is no number.
+  = -- | The word is not a number, an end mark or a sign; the text is the word.
     NotANumber NumberPosition Text
-  | -- | The sheet has only the given count of general data.
+  | -- | The sheet ends in the general data; the count is that of the general data that it has.
     GeneralShort NumberPosition Int
   | -- | A number of the general data is wrong.
     GeneralWrong NumberPosition GeneralFault
-  | -- | A number is missing or doubled among the points of the approach.
+  | -- | A number is missing or written twice among the points of the approach.
     ApproachShifted NumberPosition ApproachFault
-  | -- | A number is missing or doubled among the points after an array.
+  | -- | A number is missing or written twice among the points after an array.
     RetractShifted NumberPosition RetractFault
   | -- | The cipher of a piece is wrong.
     CipherUnknown NumberPosition CipherFault
-  | -- | The numbers of a piece do not fit its cipher; the second position is that of the cipher.
+  | -- | The numbers of a piece do not fit its cipher. The second position is that of the cipher.
     PieceMisfit NumberPosition NumberPosition PieceMisfit
-  | -- | The array at this position exceeds 'maxArrays'.
+  | -- | At this position an array begins that exceeds 'maxArrays'.
     TooManyArrays NumberPosition
-  | -- | The sheet ends too early; the position is that of its last word.
+  | -- | The sheet ends too early. The position is that of its last word.
     EndMissing NumberPosition Expected
-  | -- | The word after the end mark of a piece is not the number that belongs there.
+  | -- | The word after the end mark of a piece is not the link or the allowance that belongs there.
     LinkMissing NumberPosition LinkNumber
   | -- | A number follows the end of the program.
     AfterTheEnd NumberPosition
-  | -- | The last point before an array has the rapid feed, which would be the feed of its pieces.
+  | -- | The last point before an array has the rapid feed. It would be the feed of the array's
+    -- pieces.
     NoWorkingFeed NumberPosition
   deriving stock (Eq, Ord, Show)
 
@@ -74,9 +79,9 @@ data GeneralFault
     NegativeGear
   | -- | negative height of a cone
     NegativeHeight
-  | -- | a swivelling blade with the bevel or the height of a cone
+  | -- | a swivelling blade whose bevel or height is not 0, though these belong to a cone
     BladeWithCone
-  | -- | the height of a cone that has no bevel
+  | -- | a height of a cone, but no bevel
     HeightWithoutBevel
   | -- | a side of the tool that is not 1, -1 or 0
     UnknownSide
@@ -86,18 +91,18 @@ data GeneralFault
 
 -- | A fault of the points of the approach.
 data ApproachFault
-  = -- | a sign without a number
+  = -- | a sign without digits
     SignInApproach
   | ApproachFeedNotPositive
   | NoApproachPoint
-  | -- | a count of numbers that is no multiple of four
+  | -- | a count of numbers that is not a multiple of four, the numbers of a point
     ApproachCount Int
   deriving stock (Eq, Ord, Show)
 
 -- | A fault of the points after an array.
 data RetractFault
   = NegativeFeed
-  | -- | the sheet ends before a point with the feed 0
+  | -- | the sheet ends before a point with the feed 0, which marks the last point of the sheet
     NoLastFeed
   | -- | an end mark or a sign in place of a coordinate or a feed
     NotACoordinate
@@ -108,15 +113,15 @@ data CipherFault
   = CipherNotWhole
   | -- | an end mark in place of the cipher
     MarkInsteadOfCipher
-  | -- | a sign without a number in place of the cipher
+  | -- | a sign without digits in place of the cipher
     SignInsteadOfCipher
   | -- | a digit other than 1, 2, 4 and 6
     UnknownDigit Char
-  | -- | a minus sign before a cipher whose first distance gives the side already
+  | -- | a minus sign before a cipher, although the sign of the first distance gives the side
     SignTwice
   deriving stock (Eq, Ord, Show)
 
--- | The next part of the sheet at the point where the sheet ends too early.
+-- | What must follow at the point where the sheet ends too early.
 data Expected
   = -- | another piece, or the feed 0 of the last point
     PieceOrLastFeed
@@ -128,21 +133,21 @@ data Expected
   | AllowanceOfPiece
   deriving stock (Eq, Ord, Show)
 
--- | One of the two numbers after the end mark of a piece.
+-- | Which of the two numbers after the end mark of a piece is missing.
 data LinkNumber = LinkNumber | AllowanceNumber
   deriving stock (Eq, Ord, Show)
 
 -- | The reason why the numbers of a piece do not fit its cipher.
 data PieceMisfit
-  = -- | No whole count of points is possible. The first four numbers are counts that the cipher
-    -- demands: before all points, with each point, after all points, and once more for each point.
-    -- The last one is the count of the piece's numbers.
+  = -- | No whole count of points is possible. The first four fields are the counts of numbers that
+    -- the cipher demands: before all points, with each point, after all points, and again for each
+    -- point after all points. The last field is the count of numbers that the piece has.
     CountOff Int Int Int Int Int
   | -- | fewer than two points
     PointsFew
   | -- | a flag of the feed that is neither 0 nor 1
     FlagOff
-  | -- | a sign without a number
+  | -- | a sign without digits
     LoneSign
   deriving stock (Eq, Ord, Show)
 
@@ -235,7 +240,7 @@ toReport err = case err of
         hints = ["Write the feed of the pieces here."]
       }
 
--- | The name of a number of the general data, and its range.
+-- | The name of a number of the general data, and the sentence on its allowed range.
 generalTexts :: GeneralFault -> (Text, Text)
 generalTexts fault = case fault of
   ProductCipherNotWhole -> ("the cipher of the product", nineDigits)
@@ -305,7 +310,7 @@ misfitReport position cipher misfit =
   where
     (short, long) = misfitTexts misfit
 
--- | The end of the report's title, and its message.
+-- | The end of the report's title, and the report's message.
 misfitTexts :: PieceMisfit -> (Text, Text)
 misfitTexts misfit = case misfit of
   CountOff before each after again count ->
@@ -338,7 +343,7 @@ misfitTexts misfit = case misfit of
 at :: NumberPosition -> ReportCode -> Text -> Report
 at position code = report Error code (InSource (site position))
 
--- | The sentence that tells the ordinal number and the octal address of a word.
+-- | The sentence that gives the number of a word on the sheet and the word's octal address.
 counted :: NumberPosition -> Text
 counted position =
   "This is number "
@@ -347,11 +352,11 @@ counted position =
     <> address (number position)
     <> "."
 
--- | The sentence that names the control stop of the Minsk-22 system.
+-- | The sentence on the control stop, by whose @code@ the Minsk-22 system reported the mistake.
 stop :: Text -> Text
 stop code = "The Minsk-22 system stopped here with " <> code <> "."
 
--- | The remedy for a word that is no number.
+-- | The hints on how to correct a word that is not a number.
 wordHint :: Text -> [Text]
 wordHint text
   | Text.any (== ',') text = ["Write the decimal point as a point: 59.3"]

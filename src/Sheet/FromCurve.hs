@@ -1,5 +1,6 @@
--- | Conversion of a curve with its shifts to a piece of an input sheet, with the cipher of these
--- shifts. Refuses a curve whose shifts no cipher can express.
+-- | Conversion of a curve with its shifts to a piece of an input sheet. The cipher of the piece
+-- expresses the shifts. The conversion refuses a curve with a shift that no digit of a cipher
+-- expresses.
 module Sheet.FromCurve
   ( piece,
     degreesOf,
@@ -30,17 +31,19 @@ import Sheet.Sheet
 import Sheet.Unsupported (PieceFault (..), Unfit (..), UnsupportedCipher (..))
 import Text.Read (readMaybe)
 
--- | One shift of a curve.
+-- | One shift of a curve, with the distance and the bevel that a sheet has for it.
 data Shift = Shift
-  { -- | side to which positive distances shift: 1 left of the curve's direction, -1 right of it
+  { -- | the side to which a positive distance shifts: 1 left of the curve's direction, -1 right of
+    -- it
     sign :: Double,
-    -- | the bevel at each point, in radians, if the distance is measured square to the surface;
-    -- nothing if it is measured in the plane
+    -- | the bevel at each point, in radians, if the distance is measured square to the part's
+    -- surface; Nothing if it is measured in the plane of the curve
     square :: Maybe (Vector Double),
     distance :: Distance
   }
 
--- | The piece for an element of a contour: the element's region for reports, its curve, its finish.
+-- | The piece for an element of a contour. The arguments are the element's region, at which reports
+-- point, its curve, and its finish: feed and allowance.
 piece :: Region -> Curve.Curve -> Finish -> Result w Unfit Piece
 piece at curve finish = do
   points <- pointsOf at (Curve.base curve)
@@ -71,7 +74,7 @@ piece at curve finish = do
       ShiftDistance.Bevelled {} -> True
       _ -> False
 
--- | A value without a region of its own.
+-- | A value that is not in the program, with an empty region.
 here :: a -> Located a
 here = Located (Region 0 0)
 
@@ -100,9 +103,10 @@ shiftOf (side, distance) = case distance of
     alone = Shift {sign, square = Nothing, distance}
     sign = Carrier.sideSign side
 
--- | The side of a piece as a sign: 1 left, -1 right. It is the side to which the first of the
--- distances that a sheet has before the points really shifts. Without such a distance, or if it is
--- 0, it is the side of the first shift; left without shifts.
+-- | The side of a piece as a sign: 1 left, -1 right. A sheet has the distances of ciphers 1 and 2
+-- before the points; the sign of the first one gives the side. So the result is the side to which
+-- this distance shifts. If there is no such distance or it is 0, the result is the side of the
+-- first shift, and 1 without shifts.
 signOfPiece :: [Shift] -> Double
 signOfPiece shifts = case listToMaybe [sign s * h | s <- shifts, Just h <- [headOf (distance s)]] of
   Just h | h /= 0 -> signum h
@@ -113,8 +117,7 @@ signOfPiece shifts = case listToMaybe [sign s * h | s <- shifts, Just h <- [head
       ShiftDistance.Growing Growth {from = Mm h} -> Just h
       _ -> Nothing
 
--- | The same shift, expressed with distances that are positive on the side @wanted@ (1 left, -1
--- right).
+-- | A shift equal to @s@ whose distances are positive on the side @wanted@ (1 left, -1 right).
 onSide :: Double -> Shift -> Shift
 onSide wanted s
   | wanted == sign s = s
@@ -132,7 +135,7 @@ onSide wanted s
     -- The spline of the column would be wrong now, but this module uses only its values.
     negative c = c {Column.values = Vector.map negate (Column.values c)}
 
--- | Refuses a shift that a sheet has no numbers for.
+-- | Refuses a shift that the numbers of a sheet cannot express.
 checkShift :: Region -> Shift -> Result w Unfit ()
 checkShift at s = case distance s of
   ShiftDistance.Bevelled _ _ (Mm delta) | delta /= 0 -> refused (NoCipher at AllowanceOfFour)
@@ -144,8 +147,9 @@ checkShift at s = case distance s of
   ShiftDistance.Constant _ -> pure ()
   ShiftDistance.Pointwise _ -> pure ()
 
--- | The surface at each of @count@ points; nothing if no shift uses a bevel. Refuses bevels or
--- heights that differ between the shifts, and distances that are not square to the surface.
+-- | The bevel and the flange height at each of @count@ points; Nothing if no shift uses a bevel.
+-- Refuses bevels or heights that differ between the shifts. Refuses a distance that is not square
+-- to the surface, because a piece with bevels has all distances square to it.
 surfaceOf :: Region -> Int -> [Shift] -> Result w Unfit (Maybe [Surface])
 surfaceOf at count shifts
   | null bevels = pure Nothing
@@ -183,8 +187,8 @@ recalculation s = case distance s of
     nonEmptyOf :: Vector Double -> Maybe (NonEmpty Double)
     nonEmptyOf = NonEmpty.nonEmpty . Vector.toList
 
--- | The shortest decimal number of degrees whose conversion to radians gives exactly @angle@; the
--- unrounded quotient if there is none.
+-- | An angle in radians as degrees: the shortest decimal number whose conversion to radians gives
+-- exactly @angle@. If there is none, the unrounded quotient.
 degreesOf :: Double -> Double
 degreesOf angle = case [d | k <- [0 .. 16], Just d <- [rounded k], d * (pi / 180) == angle] of
   d : _ -> d

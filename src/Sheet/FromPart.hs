@@ -1,6 +1,6 @@
--- | Conversion of an evaluated part to an input sheet: every milled contour becomes an array of
--- pieces, every stop between contours a point. Refuses a part with anything that a sheet has no
--- numbers for.
+-- | Conversion of an evaluated part to an input sheet. Every milled contour becomes an array of
+-- pieces, and every stop between contours a point. A stop is a point to which a statement moves the
+-- tool. The conversion refuses a part that the numbers of a sheet cannot express.
 module Sheet.FromPart
   ( fromPart,
   )
@@ -44,7 +44,7 @@ import Sheet.Unsupported
     UnsupportedCipher (..),
   )
 
--- | The sheet of a part, or the reasons why it cannot have one. The program is needed for the
+-- | The sheet of a part, or the reasons why there is no such sheet. The program @written@ gives the
 -- dimensions of a cone, because the part keeps only the radius at which the cone touches it.
 fromPart :: Checked.Program -> Part -> Result w Unfit Sheet
 fromPart written part = case (Part.start part, runsOf (Part.operations part)) of
@@ -66,10 +66,11 @@ fromPart written part = case (Part.start part, runsOf (Part.operations part)) of
 refused :: Unfit -> Result w Unfit a
 refused e = Result [] [e] Nothing
 
--- | A milled contour: the stops before it, the region of its statement's keyword, and the contour.
+-- | A milled contour: the stops before it, the region of the statement's keyword, and the milling.
+-- The milling has the region of the keyword too.
 data Run = Run {stops :: [Part.Stop], keywordRegion :: Region, milled :: (Region, Milling)}
 
--- | The milled contours of some operations, and the stops after the last one.
+-- | The milled contours of a list of operations, and the stops after the last contour.
 runsOf :: [Part.Operation] -> Either Unfit ([Run], [Part.Stop])
 runsOf = go []
   where
@@ -91,14 +92,15 @@ runsOf = go []
       Part.Auxiliary _ -> AuxiliaryCommand
       Part.ChangeTool _ _ -> SecondTool
 
--- | The region of a statement's keyword: @mill@ or @turn@.
+-- | The region of the keyword @mill@ or @turn@, which begins a statement with the given region.
+-- Both have four letters.
 keyword :: Region -> Region
 keyword (Region a b) = Region a (min b (a + 4))
 
 -- General data
 
--- | The general data, from the first contour. Refuses a further contour with another tool,
--- tolerance or side.
+-- | The general data of the sheet, from the first contour. A sheet has them once, so a later
+-- contour with another tool, tolerance or side is refused.
 generalData :: Checked.Program -> Part -> NonEmpty (Region, Milling) -> Result w Unfit General
 generalData written part ((at, one) :| more) = do
   mapM_ checkShared more
@@ -135,9 +137,10 @@ sideOf (Located at side) = case side of
   Part.Outside -> refused (NoNumbers at OutsideOfContour)
   Part.Inside -> refused (NoNumbers at InsideOfContour)
 
--- | Diameter in mm, bevel in degrees and height in mm of the tool, from the radius at which it
--- touches the part. They are those of the program's cone if the cone has this radius at its upper
--- end; otherwise those of a cylinder. A cone without a bevel is a cylinder.
+-- | Diameter in mm, bevel in degrees and height in mm of the tool that touches the part at
+-- @radius@. If the program has a cone with this radius at its upper end, they are those of the
+-- cone. Otherwise they are those of a cylinder, with bevel and height 0. A cone without a bevel is
+-- a cylinder.
 toolOf :: Checked.Program -> Mm -> (Double, Double, Double)
 toolOf written (Mm radius) =
   case [ (d, mu, h)
@@ -155,28 +158,30 @@ toolOf written (Mm radius) =
       Checked.Negate inner -> negate <$> literal inner
       _ -> Nothing
 
--- | The number in a part's name, if "Sheet.ToSurface" made the name; 0 for other names.
+-- | The number of the program in a part's name, if "Sheet.ToSurface" made the name; 0 for other
+-- names.
 numberOf :: Maybe Name -> Double
 numberOf name = fromMaybe 0 $ do
   Name text <- name
   wholeNumber =<< Text.stripPrefix "program_" text
 
--- | The numbers of the product and the part in a title, if "Sheet.ToSurface" made the title.
+-- | The numbers of the product and of the part in a title that "Sheet.ToSurface" made. Nothing for
+-- other titles.
 titleNumbers :: Text -> Maybe (Double, Double)
 titleNumbers title = do
   rest <- Text.stripPrefix "Product " title
   let (a, more) = Text.breakOn ", part " rest
   (,) <$> wholeNumber a <*> (wholeNumber =<< Text.stripPrefix ", part " more)
 
--- | A whole number of at most nine digits.
+-- | A whole number that is written with at most nine characters; Nothing for other texts.
 wholeNumber :: Text -> Maybe Double
 wholeNumber text =
   if Text.length text <= 9 && not (Text.any (== '.') text) then Decimal.parse text else Nothing
 
 -- The toolpath between the arrays
 
--- | The points up to the first array, and the points after each array. The arguments: the starting
--- position, the milled contours, and the stops after the last one.
+-- | The points up to the first array, and the points after each array. The arguments are the
+-- starting position, the milled contours, and the stops after the last contour.
 pathOf ::
   Part.SpacePoint ->
   [Run] ->
@@ -200,8 +205,8 @@ pathOf startPoint runs final = do
         (NonEmpty.nonEmpty retracts)
     _ -> refused (NoPath NothingMilled)
 
--- | Refuses points without a height after the first contour of a swivelling blade. The blade
--- changes its height on a contour, so the height of the point before is not in force any more.
+-- | Refuses stops without a height after the first contour of a swivelling blade. The blade changes
+-- its height along a contour, so the height before the contour does not hold after it.
 checkHeights :: [Run] -> [Part.Stop] -> Result w Unfit ()
 checkHeights runs final = case runs of
   Run {milled = (_, Part.Milling {Part.gear = Just _})} : others' ->
@@ -213,8 +218,8 @@ checkHeights runs final = case runs of
 -- | Coordinates x, y, z in mm.
 type Position = (Double, Double, Double)
 
--- | The positions of stops, each with its feed, and the height of the last one. The first argument
--- is the height before the first stop. A stop without a height has that of the stop before it.
+-- | The height (mm) after the last stop, and the position of each stop with its feed (mm\/min). @z@
+-- is the height before the first stop. A stop without a height keeps the height before it.
 located :: Double -> [(Part.Stop, Double)] -> (Double, [(Position, Double)])
 located z list = case list of
   [] -> (z, [])
@@ -225,7 +230,8 @@ located z list = case list of
      in (final, ((Vec.x p, Vec.y p, z'), pace) : others')
 
 -- | Makes waypoints of a first position and of further positions, each with the feed of the move to
--- it. A waypoint has the feed of the move after it; the last argument is the feed of the last one.
+-- it. A waypoint has the feed of the move that starts there. @final@ is the feed of the last
+-- waypoint. All feeds are in mm\/min.
 waypoints :: Position -> [(Position, Double)] -> Double -> NonEmpty Waypoint
 waypoints from list final = case list of
   [] -> waypoint from final :| []
@@ -233,9 +239,10 @@ waypoints from list final = case list of
   where
     waypoint (a, b, c) f = Waypoint {x = here a, y = here b, z = here c, feed = here f}
 
--- | The points after each array. The first arguments are the height and the feed at the end of the
--- first array. The list has for each array its region, the stops after it with their feeds, and the
--- feed of the next array.
+-- | The points after each array. The first arguments are the height (mm) and the feed (mm\/min) at
+-- the end of the first array. The list has an entry for each array: its region, the stops after it
+-- with the feeds of the moves to them, and the feed of the next array. The last array has Nothing
+-- there.
 retractsOf ::
   Double ->
   Double ->
@@ -251,17 +258,18 @@ retractsOf z f list = case list of
       (waypoints position others' f' :) <$> retractsOf z' f' rest
     (_, []) -> refused (NoPath (NoRetract at))
 
--- | A stop with the feed of the move to it, mm\/min.
+-- | A stop with the feed of the move to it, in mm\/min.
 paced :: Part.Stop -> Result w Unfit (Part.Stop, Double)
 paced s = case Part.pace s of
   Part.Rapid -> pure (s, rapidFeed)
   Part.At f -> (s,) <$> belowRapid f
 
--- | The feed of a contour, mm\/min.
+-- | The feed of a milled contour, in mm\/min.
 feedOfRun :: Run -> Result w Unfit Double
 feedOfRun = belowRapid . Part.feed . snd . milled
 
--- | A feed in mm\/min. Refuses 'rapidFeed' and higher feeds, which would mean a rapid move.
+-- | A feed in mm\/min. Refuses 'rapidFeed' and higher feeds, because a sheet takes them for rapid
+-- moves.
 belowRapid :: Located Feed -> Result w Unfit Double
 belowRapid (Located at (Feed f))
   | f >= rapidFeed = refused (NoFeed at FeedTooHigh)
@@ -269,7 +277,8 @@ belowRapid (Located at (Feed f))
 
 -- Arrays
 
--- | The array of a contour. The points after it are a placeholder, which 'fromPart' replaces.
+-- | The array of a contour. Its points after the array are a placeholder, which 'fromPart'
+-- replaces.
 arrayOf :: (Region, Milling) -> Result w Unfit Array
 arrayOf (at, m) = do
   mapM_ (refused . NoNumbers at) (unsupported m)
@@ -290,7 +299,7 @@ arrayOf (at, m) = do
     name = region (Part.contourName contour)
     nowhere = Waypoint {x = here 0, y = here 0, z = here 0, feed = here 0}
 
--- | The settings of a milling statement that a sheet has no numbers for.
+-- | The settings of a milling statement that a sheet cannot express.
 unsupported :: Milling -> [Feature]
 unsupported m =
   [TurningContour | Part.work m == Part.Turned]
@@ -300,7 +309,8 @@ unsupported m =
     <> [SharpCorner | Part.corners m == Part.Sharp]
     <> [ControlCompensation | Just _ <- [Part.controlCompensation m]]
 
--- | The piece of an element. Refuses elements that are not curves, and feeds of their own.
+-- | The piece of a contour element. Refuses elements that are not curves, and elements with a feed
+-- of their own.
 pieceOf :: Milling -> Part.ContourElement -> Result w Unfit Piece
 pieceOf m element = case Part.elementCurve element of
   Nothing -> refused (NoPiece at PlainElement)
@@ -321,8 +331,9 @@ pieceOf m element = case Part.elementCurve element of
       ]
 
 -- | Refuses a piece on which the blade does not swivel by the piece's bevel, which is 0 if the
--- piece has none. The last argument has the segments with the swivel at both ends, in radians. Each
--- is compared with the bevels of the points, interpolated at that end.
+-- piece has none. The last argument has the segments of the element, each with the blade's swivel
+-- at its two ends, in radians. Each swivel is compared with the bevel that is interpolated at this
+-- end.
 checkSwivel ::
   Region ->
   Curve.PartCurve ->
@@ -342,8 +353,9 @@ checkSwivel at curve piece bevels
       let Mm s = MeasuredPolyarc.nearestStation (Curve.approximation curve) p
        in abs (b - interpolated s marks) > 2 * slack
 
--- | Linear interpolation at the station @s@ between known stations, each with its value. The
--- stations increase. Constant before the first and after the last one; 0 without any.
+-- | The value at the arc length @s@ (mm) by linear interpolation. @known@ has pairs of an arc
+-- length and the value there, by rising arc length. The first and the last value hold outside of
+-- the pairs; the result is 0 if there are no pairs.
 interpolated :: Double -> [(Double, Double)] -> Double
 interpolated s known = case known of
   (a, x) : more@((b, y) : _)
@@ -353,7 +365,7 @@ interpolated s known = case known of
   [(_, x)] -> x
   [] -> 0
 
--- | The link of an element to the next one.
+-- | The sheet's link of an element to the next one. Refuses a link that a sheet does not have.
 linkOf :: Part.ContourElement -> Result w Unfit (Located Link)
 linkOf element = case Part.link element of
   Nothing -> pure (here Intersection)

@@ -1,7 +1,8 @@
 -- | Reader of input sheets: makes a sheet of its text.
 --
--- If words are no numbers, the reader reports all of them. Otherwise it reports only the first
--- wrong number: a missing or doubled number shifts the meaning of all numbers after it.
+-- The reader reports all words that are not numbers. If there are none, it reports only the first
+-- wrong number: a missing or doubled number shifts the meaning of all numbers after it. The reader
+-- is a state monad over the words that are still to be read. The end mark is the word @-0@.
 module Sheet.FromText
   ( read,
   )
@@ -31,7 +32,7 @@ import Sheet.Word (SheetWord (..), WordValue (..), figure)
 import Sheet.Word qualified as Word
 import Prelude hiding (read)
 
--- | Reads a sheet.
+-- | The sheet that a text describes.
 read :: Text -> Result w Error Sheet
 read text
   | not (null (lefts found)) = Result [] (lefts found) Nothing
@@ -45,7 +46,7 @@ read text
 
 -- Reading
 
--- | The words that are still to be read, and the position of the last word that has been read.
+-- | The words that are still to be read, and the position of the last word that was read.
 data Input = Input {unread :: [SheetWord], last' :: NumberPosition}
 
 type Reader = StateT Input (Either Error)
@@ -54,7 +55,7 @@ type Reader = StateT Input (Either Error)
 refuse :: Error -> Reader a
 refuse = lift . Left
 
--- | Reads a word; nothing at the end of the sheet.
+-- | Reads a word; Nothing at the end of the sheet.
 next :: Reader (Maybe SheetWord)
 next = do
   input <- gets unread
@@ -62,20 +63,20 @@ next = do
     [] -> pure Nothing
     e : rest -> Just e <$ put Input {unread = rest, last' = position e}
 
--- | The next word, which stays unread; nothing at the end of the sheet.
+-- | The next word, which stays unread; Nothing at the end of the sheet.
 peek :: Reader (Maybe SheetWord)
 peek = gets (listToMaybe . unread)
 
--- | The position of the last word that has been read.
+-- | The position of the last word that was read.
 latest :: Reader NumberPosition
 latest = gets last'
 
--- | Reads a word. An error at the end of the sheet; the argument says what should follow.
+-- | Reads a word. At the end of the sheet there is an error, which says that @expected@ is missing.
 needed :: Expected -> Reader SheetWord
 needed expected = next >>= maybe (latest >>= \s -> refuse (EndMissing s expected)) pure
 
--- | Reads the words before an end mark, and the mark. An error if there is no further mark; the
--- argument says what should follow.
+-- | Reads the words before the next end mark, and the mark. Without a further mark there is an
+-- error, which says that @expected@ is missing.
 upToMark :: Expected -> Reader ([SheetWord], SheetWord)
 upToMark expected = do
   (inside, rest) <- gets (break ((== Mark) . symbol) . unread)
@@ -97,7 +98,7 @@ sheet = do
   mapM_ (refuse . AfterTheEnd . position) remainder
   pure Sheet {general, approach, first, others}
 
--- | Reads the arrays after the first one; the argument is the number of the next array, from 1.
+-- | Reads the arrays from number @count@ on; the first array of the sheet has number 1.
 furtherArrays :: Int -> Reader [Array]
 furtherArrays count = do
   (one, hasMore) <- array count
@@ -147,8 +148,8 @@ generalData = do
   where
     isWhole x = x >= 0 && x < 1e9 && x == fromInteger (round x)
 
--- | Checks the dimensions of the tool, which is a cylinder, a cone or a swivelling blade: the wheel
--- of a blade, the bevel and the height of a cone.
+-- | Checks three numbers on the tool, which is a cylinder, a cone or a swivelling blade: the
+-- diameter of a blade's wheel, and the bevel and the height of a cone.
 checkTool :: Positioned -> Positioned -> Positioned -> Reader ()
 checkTool gear' bevel' height' = do
   check NegativeGear (>= 0) gear'
@@ -156,7 +157,7 @@ checkTool gear' bevel' height' = do
   when (value (snd gear') /= 0) (mapM_ (check BladeWithCone (== 0)) [bevel', height'])
   when (value (snd bevel') == 0) (check HeightWithoutBevel (== 0) height')
 
--- | An error if a number does not satisfy a condition.
+-- | Reports @fault@ at a number of the general data for which the predicate is False.
 check :: GeneralFault -> (Double -> Bool) -> Positioned -> Reader ()
 check fault isRight (s, n) = unless (isRight (value n)) (refuse (GeneralWrong s fault))
 
@@ -167,7 +168,7 @@ sideOf (s, n) = case value n of
   0 -> pure (Located (region n) Nothing)
   _ -> refuse (GeneralWrong s UnknownSide)
 
--- | Reads one of the general data; the argument is its number from 1.
+-- | Reads number @count@ of the general data, counted from 1.
 generalWord :: Int -> Reader Positioned
 generalWord count = do
   e <- next
@@ -190,20 +191,19 @@ approachPoints = do
     Just [] -> refuse (ApproachShifted (position mark) NoApproachPoint)
     Nothing -> refuse (ApproachShifted (position mark) (ApproachCount (length inside)))
 
--- | An error if the last point before an array has the rapid feed. The position is that of the
--- feed.
+-- | Reports a point before an array that has the rapid feed. The position is that of the feed.
 checkWorkingFeed :: (NumberPosition, Waypoint) -> Reader ()
 checkWorkingFeed (s, w) = when (value (feed w) == rapidFeed) (refuse (NoWorkingFeed s))
 
--- | Makes points of groups of four numbers, each with the position of its feed. Nothing if the
--- count of numbers is no multiple of four.
+-- | Makes points of groups of four numbers; each point has the position of its feed. Nothing if the
+-- count of numbers is not a multiple of four.
 fours :: [Positioned] -> Maybe [(NumberPosition, Waypoint)]
 fours numbers = case numbers of
   [] -> Just []
   (_, x) : (_, y) : (_, z) : (s, feed) : rest -> ((s, Waypoint {x, y, z, feed}) :) <$> fours rest
   _ -> Nothing
 
--- | Reads the points after an array; true if another array follows.
+-- | Reads the points after an array. The Bool is True if another array follows.
 retractPoints :: Reader (NonEmpty Waypoint, Bool)
 retractPoints = go []
   where
@@ -219,7 +219,7 @@ retractPoints = go []
           (points, True) <$ next
         _ -> go (point : before)
 
--- | Reads a point after an array, with the position of its feed.
+-- | Reads one point after an array. The position is that of its feed.
 retractPoint :: Reader (NumberPosition, Waypoint)
 retractPoint = do
   x <- coordinate
@@ -238,7 +238,7 @@ retractPoint = do
 
 -- Arrays and pieces
 
--- | Reads an array; true if another one follows. The argument is the number of the array, from 1.
+-- | Reads array @count@, counted from 1. The Bool is True if another array follows.
 array :: Int -> Reader (Array, Bool)
 array count = do
   begin <- peek
@@ -247,7 +247,7 @@ array count = do
   (retract, hasMore) <- retractPoints
   pure (Array {joined, final, retract}, hasMore)
 
--- | Reads the pieces of an array: all but the last one with their links, and the last one.
+-- | Reads the pieces of an array: all but the last one, each with its link, and the last one.
 piecesOfArray :: Reader ([LinkedPiece], Piece)
 piecesOfArray = do
   (one, link) <- piece
@@ -257,7 +257,7 @@ piecesOfArray = do
       (rest, final) <- piecesOfArray
       pure (LinkedPiece one l : rest, final)
 
--- | Reads a piece and its link to the next piece; the last piece of an array has none.
+-- | Reads a piece and its link to the next piece; Nothing after the last piece of an array.
 piece :: Reader (Piece, Maybe (Located Link))
 piece = do
   opening <- needed PieceOrLastFeed
@@ -273,7 +273,7 @@ piece = do
       (figure allowanceWord)
   pure (body {allowance}, link)
 
--- | The link that a word means; nothing for 0, which ends an array.
+-- | The link that a word means. Nothing for the number 0, which ends an array.
 linkOf :: SheetWord -> Reader (Maybe (Located Link))
 linkOf e = case symbol e of
   Figure 0 -> pure Nothing

@@ -20,7 +20,8 @@ import Sheet.Error (CipherFault (..), Error (..), NumberPosition (..), PieceMisf
 import Sheet.Sheet
 import Sheet.Word (SheetWord (..), WordValue (..), figure, isSign)
 
--- | The digits of a cipher; true if it has a minus sign.
+-- | The digits of a cipher. The Bool is True if the cipher has a minus sign. The number 0 is a
+-- cipher without digits.
 cipherOf :: SheetWord -> Either Error (Bool, [Digit])
 cipherOf e = case symbol e of
   Figure 0 -> pure (False, [])
@@ -40,15 +41,15 @@ cipherOf e = case symbol e of
       '6' -> pure Six
       _ -> unknown (UnknownDigit c)
 
--- | The counts of numbers that a cipher demands, without the flag.
+-- | The counts of numbers that a cipher demands. The flag of the feed is not included.
 data Layout = Layout
   { -- | before all points
     before :: Int,
     -- | with each point: 2 or 4
     each :: Int,
-    -- | after all points
+    -- | after all points, independent of their count
     after :: Int,
-    -- | after all points, once more for each point
+    -- | after all points, for each point
     again :: Int
   }
 
@@ -65,17 +66,17 @@ layoutOf digits =
 data Parts = Parts
   { -- | the distances before the points
     heads :: [Number],
-    -- | the numbers of each point
+    -- | the numbers of each point: x, y, and with digit 4 the bevel and the flange height
     pointRows :: [[Number]],
     -- | the second distances of the digits 1, after the points
     tails :: [Number],
-    -- | for each digit 6, the distances for all points
+    -- | a list for each digit 6, with a distance for each point
     given :: [[Number]],
     -- | the flag of the feed
     flag :: Maybe Number
   }
 
--- | Divides the numbers of a piece with a known count of points.
+-- | Divides the numbers of a piece, whose count of points is @points@, by their meaning.
 partsOf :: Layout -> Int -> [Number] -> Parts
 partsOf Layout {before, each, after, again} points numbers =
   Parts
@@ -91,9 +92,9 @@ partsOf Layout {before, each, after, again} points numbers =
     (tails, afterTails) = splitAt after afterBody
     (givenNumbers, rest) = splitAt (points * again) afterTails
 
--- | Makes a piece. The arguments: the word of its cipher; the sign and the digits of the cipher,
--- see 'cipherOf'; the words up to the end mark; the end mark. The allowance of the piece is 0,
--- because it comes after the end mark.
+-- | Makes a piece. @opening@ is the word of its cipher; @isNegative@ and @digits@ are what
+-- 'cipherOf' reads from this word. @inside@ are the words up to the end mark @mark@. The allowance
+-- of the piece is set to 0, because its word comes after the end mark.
 pieceOf :: SheetWord -> Bool -> [Digit] -> [SheetWord] -> SheetWord -> Either Error Piece
 pieceOf opening isNegative digits inside mark = do
   mapM_ (\e -> Left (misfitAt e LoneSign)) (filter isSign inside)
@@ -123,12 +124,12 @@ pieceOf opening isNegative digits inside mark = do
     misfitAt e = PieceMisfit (position e) (position opening)
     misfit :: PieceMisfit -> Either Error a
     misfit = Left . misfitAt mark
-    -- The sign of the first distance gives the side, so the distance itself is positive.
+    -- The first distance's sign is kept as the side, so the distance itself becomes positive.
     unsigned distances = case distances of
       [] -> []
       h : others -> fmap abs h : others
 
--- | The count of points, at least two, from the @count@ of a piece's numbers.
+-- | The count of points, at least two, of a piece with @count@ numbers. Other counts are a misfit.
 pointCount :: Layout -> Int -> (PieceMisfit -> Either Error Int) -> Either Error Int
 pointCount Layout {before, each, after, again} count misfit
   | remainder /= 0 = misfit (CountOff before each after again count)
@@ -137,8 +138,8 @@ pointCount Layout {before, each, after, again} count misfit
   where
     (points, remainder) = (count - before - after - 1) `divMod` (each + again)
 
--- | The flag of the feed: true for 1, which slows down at the end of the piece; nothing for a
--- number other than 0 and 1.
+-- | The flag of the feed: True for 1, which slows down at the end of the piece, False for 0.
+-- Nothing for any other number.
 flagOf :: Number -> Maybe (Located Bool)
 flagOf n = case value n of
   0 -> Just (False <$ n)
@@ -161,8 +162,8 @@ groups size list = case splitAt size list of
   ([], _) -> []
   (one, rest) -> one : groups size rest
 
--- | The recalculations of a cipher's digits. The arguments are those of 'Parts': the distances
--- before the points, the second distances after them, and the distances for each point.
+-- | The recalculations of a cipher's digits. @heads@ are the distances before the points, @tails@
+-- the second distances of the digits 1, and @given@ the distances for each point of the digits 6.
 recalculations :: [Digit] -> [Number] -> [Number] -> [[Number]] -> [Recalculation]
 recalculations digits heads tails given = case (digits, heads, tails, given) of
   (One : ds, h : hs, t : ts, _) -> Growing h t : recalculations ds hs ts given

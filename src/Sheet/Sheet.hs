@@ -1,8 +1,8 @@
--- | The input sheet of the Minsk-22 system as data: the meaning of every number
+-- | The input sheet of the Minsk-22 system as data, with the meaning of every number
 -- (docs/input-sheet.md).
 --
 -- Numbers have the units of the sheet: mm, degrees and mm\/min. Every number keeps its region in
--- the text, so that reports can point at it.
+-- the text, so that reports can point at it. A position of a word on the sheet is counted from 1.
 module Sheet.Sheet
   ( Sheet (..),
     General (..),
@@ -37,7 +37,7 @@ import Data.Text (Text)
 import Data.Text qualified as Text
 import Numeric (showOct)
 
--- | A whole sheet.
+-- | A whole sheet: the general data, the approach, and the arrays.
 data Sheet = Sheet
   { general :: General,
     -- | the points up to the first array; the first one is the cutter's starting position
@@ -50,7 +50,7 @@ data Sheet = Sheet
 -- | A number and its region.
 type Number = Located Double
 
--- | The general data.
+-- | The general data: the numbers that hold for the whole sheet.
 data General = General
   { -- | the identification number of the product, a whole number
     productCipher :: Number,
@@ -58,7 +58,7 @@ data General = General
     partCipher :: Number,
     -- | the number of the program, a whole number
     program :: Number,
-    -- | diameter of the tool, mm; that of a cone is measured at its tip
+    -- | diameter of the tool, mm; a cone has this diameter at its tip
     diameter :: Number,
     -- | diameter of the wheel that swivels a blade, mm; 0 for other tools
     gear :: Number,
@@ -68,35 +68,36 @@ data General = General
     height :: Number,
     -- | largest chord error, mm
     tolerance :: Number,
-    -- | side of the pieces on which the tool travels; nothing if its centre is on the pieces
+    -- | side of the pieces on which the tool travels; Nothing if its centre is on the pieces
     side :: Located (Maybe Side)
   }
   deriving stock (Eq, Show)
 
--- | A point in space, mm, and the feed of the move from it to the next point, mm\/min. The feed of
--- the last point before an array is that of the array's pieces; that of the sheet's last point is
--- 0.
+-- | A point in space, mm, and a feed, mm\/min. The feed is that of the move from this point to the
+-- next one. The last point before an array has the feed of the array's pieces; the last point of
+-- the sheet has the feed 0.
 data Waypoint = Waypoint {x :: Number, y :: Number, z :: Number, feed :: Number}
   deriving stock (Eq, Show)
 
--- | A run of linked pieces: all pieces but the last one, the last one, and the points after it.
+-- | A run of linked pieces: all pieces but the last one, the last one, and the points after it. A
+-- point of @retract@ may also lead to the next array.
 data Array = Array {joined :: [LinkedPiece], final :: Piece, retract :: NonEmpty Waypoint}
   deriving stock (Eq, Show)
 
--- | A piece, and its link to the next piece.
+-- | A piece, and the link that joins it to the next piece.
 data LinkedPiece = LinkedPiece Piece (Located Link)
   deriving stock (Eq, Show)
 
--- | A curve through points of the theoretical contour, and its recalculations. If one of these is a
--- digit 4, every point has a surface; otherwise no point has one.
+-- | A curve through points of the theoretical contour, and its recalculations. If a recalculation
+-- has the digit 4, every point has a surface. If not, no point has one.
 data Piece = Piece
-  { -- | the side to which positive distances shift the curve
+  { -- | the side to which a positive distance shifts the curve
     shiftSide :: Located Side,
     -- | the recalculations in their order
     cipher :: Located [Recalculation],
     -- | the points, at least two
     rows :: NonEmpty PointRow,
-    -- | the flag of the feed: true to slow down at the end of the piece
+    -- | the flag of the feed: True to slow down at the end of the piece
     slow :: Located Bool,
     -- | the material left on the piece, mm
     allowance :: Number
@@ -119,17 +120,17 @@ data Recalculation
     Pointwise (NonEmpty Number)
   deriving stock (Eq, Show)
 
--- | A point, mm, and the part's surface there.
+-- | A point, mm, and the surface of the part there; Nothing for a piece without the digit 4.
 data PointRow = PointRow {px :: Number, py :: Number, surface :: Maybe Surface}
   deriving stock (Eq, Show)
 
--- | The bevel, degrees, and the height of the flange, mm.
+-- | The bevel of the part's surface at a point, degrees, and the height of the flange there, mm.
 data Surface = Surface {mu :: Number, flangeHeight :: Number}
   deriving stock (Eq, Show)
 
--- | The link of two pieces.
+-- | The link that joins two neighbouring pieces.
 data Link
-  = -- | @+@: the pieces touch, with the same direction of travel
+  = -- | @+@: the pieces touch, and the direction of travel is the same on both
     Joint
   | -- | @-@: the pieces intersect
     Intersection
@@ -137,7 +138,7 @@ data Link
     Rounding Double
   deriving stock (Eq, Show)
 
--- | Left or right of the direction of travel.
+-- | Side of a curve, seen in the direction of travel.
 data Side = LeftSide | RightSide
   deriving stock (Eq, Show, Enum, Bounded)
 
@@ -149,7 +150,7 @@ arrays sheet = first sheet :| others sheet
 pieces :: Array -> NonEmpty Piece
 pieces array = foldr (\(LinkedPiece p _) rest -> p <| rest) (final array :| []) (joined array)
 
--- | The digit of a recalculation.
+-- | The digit by which a cipher names a recalculation.
 digitOf :: Recalculation -> Digit
 digitOf r = case r of
   Growing _ _ -> One
@@ -165,15 +166,16 @@ digitText digit = case digit of
   Four -> "4"
   Six -> "6"
 
--- | True of a piece whose points have a surface.
+-- | True if the points of a piece have a surface.
 hasSurface :: Piece -> Bool
 hasSurface piece = isJust (surface (NonEmpty.head (rows piece)))
 
--- | The feed that means a rapid move, mm\/min: the largest number of four digits.
+-- | The feed that means a rapid move: the largest number of four digits, in mm\/min.
 rapidFeed :: Double
 rapidFeed = 9999
 
--- | The largest number of arrays in a program (control stop 10746).
+-- | The largest count of arrays on a sheet. The Minsk-22 system stopped at more with the code
+-- 10746.
 maxArrays :: Int
 maxArrays = 30
 
@@ -181,10 +183,10 @@ maxArrays = 30
 firstAddress :: Int
 firstAddress = 0o70
 
--- | The count of general data, at the addresses 0070 to 0107.
+-- | The count of the general data; they have the addresses 0070 to 0107.
 generalCount :: Int
 generalCount = 16
 
--- | The octal address, in four digits, of a word of the sheet with this ordinal number from 1.
+-- | The octal address, in four digits, of the sheet's word @number@, counted from 1.
 address :: Int -> Text
 address number = Text.justifyRight 4 '0' (Text.pack (showOct (firstAddress + number - 1) ""))

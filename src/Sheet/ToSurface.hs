@@ -1,7 +1,7 @@
 -- | Conversion of an input sheet to a part program.
 --
--- Every node of the syntax tree has the region of the numbers from which it is made, so the reports
--- of later stages point at the sheet.
+-- Every node of the syntax tree has the region of the numbers from which it is made. So the reports
+-- of later compiler passes point at the sheet.
 module Sheet.ToSurface
   ( program,
     text,
@@ -38,18 +38,18 @@ program :: Sheet -> Surface.Program
 program sheet =
   Surface.Program {Surface.statements = concat (paragraphs sheet), Surface.comments = []}
 
--- | The program as text, in the canonical layout.
+-- | The program of a sheet as text, in the layout of the formatter.
 text :: Sheet -> Text
 text sheet =
   Text.intercalate
     "\n"
     [PrintProgram.program (Surface.Program statements []) | statements <- paragraphs sheet]
 
--- | The name of the part, made of the number of the program.
+-- | The name of the part, made of the program's number on the sheet.
 partName :: Double -> Text
 partName number = "program_" <> Decimal.exact number
 
--- | The title of the part, made of the ciphers of the product and the part.
+-- | The title of the part, made of the identification numbers of the product and the part.
 partTitle :: Double -> Double -> Text
 partTitle product' part' = "Product " <> Decimal.exact product' <> ", part " <> Decimal.exact part'
 
@@ -58,15 +58,15 @@ paragraphs :: Sheet -> [[Statement]]
 paragraphs sheet =
   [headStatement (general sheet)] : settings sheet : concatMap (arrayStatements sheet) (runs sheet)
 
--- | An array with its ordinal numbers and feeds in the sheet.
+-- | An array with its number, its feeds and the number of its first piece.
 data Run = Run
   { -- | the number of the array, from 1
     ordinal :: Int,
-    -- | the number of its first piece among all pieces of the sheet, from 1
+    -- | the number of the array's first piece, from 1, counted over all pieces of the sheet
     firstPiece :: Int,
-    -- | the feed of its pieces, mm\/min
+    -- | the feed of the array's pieces, mm\/min
     working :: Number,
-    -- | the feed of the pieces of the array before it; nothing for the first array
+    -- | the feed of the previous array's pieces, mm\/min; Nothing for the first array
     earlier :: Maybe Number,
     array :: Array
   }
@@ -97,7 +97,7 @@ headStatement g = Located (region number) (Part (Name . partName <$> number) (Ju
         (Region.merge (region (productCipher g)) (region (partCipher g)))
         (partTitle (value (productCipher g)) (value (partCipher g)))
 
--- | The machine, the tool, the feed, the tolerance and the starting position.
+-- | The statements for the machine, the tool, the feed, the tolerance and the starting position.
 settings :: Sheet -> [Statement]
 settings sheet@Sheet {general = g, approach} =
   [ Located at (Machine (Located at (Surface.Named "lkp-01f"))),
@@ -120,7 +120,8 @@ settings sheet@Sheet {general = g, approach} =
           (measured Millimetre (height g))
       | otherwise = Surface.MillCutter (measured Millimetre (diameter g))
 
--- | The paragraphs of an array: one for each piece, one for the contour, one for the milling.
+-- | The paragraphs of an array: one for each piece, one for the contour, one for the milling
+-- statement.
 arrayStatements :: Sheet -> Run -> [[Statement]]
 arrayStatements sheet run@Run {ordinal, firstPiece, working, earlier, array} =
   zipWith pieceStatements [firstPiece ..] (NonEmpty.toList (pieces array))
@@ -145,8 +146,8 @@ arrayStatements sheet run@Run {ordinal, firstPiece, working, earlier, array} =
             (linkingMoves sheet run)
         )
 
--- | The approach and the retract of an array. Only the first array has an approach: to each further
--- array leads the retract of the array before it.
+-- | The settings @approach@ and @retract@ of an array's milling statement. Only the first array has
+-- an approach: the retract of each array leads to the next one.
 linkingMoves :: Sheet -> Run -> [Setting]
 linkingMoves sheet Run {working, earlier, array} = approaching <> retracting
   where
@@ -174,8 +175,8 @@ isBlade sheet = value (gear (general sheet)) /= 0
 
 -- Points
 
--- | True if all heights of the sheet are 0 and the tool does not change its height. A swivelling
--- blade changes it.
+-- | True if the program can give points without heights: all heights of the sheet are 0, and the
+-- tool is not a swivelling blade, which changes its height.
 isFlat :: Sheet -> Bool
 isFlat sheet =
   not (isBlade sheet)
@@ -183,7 +184,7 @@ isFlat sheet =
   where
     retracts = map retract (NonEmpty.toList (arrays sheet))
 
--- | A point; without its height if the flag 'isFlat' is true.
+-- | A point as x and y if @isFlat'@, otherwise with its height.
 pointOf :: Bool -> Waypoint -> Expr
 pointOf isFlat' Waypoint {x, y, z}
   | isFlat' = Located (Region.merge (region x) (region y)) (Pair (unitless x) (unitless y))
@@ -191,8 +192,9 @@ pointOf isFlat' Waypoint {x, y, z}
     Located (Region.merge (region x) (region z)) (Triple (unitless x) (unitless y) (unitless z))
 
 -- | Converts waypoints to the stops of an approach or a retract. A waypoint has the feed of the
--- move after it, a stop the feed of the move to it. The arguments: the flag 'isFlat', the feed of
--- the pieces, the feed of the move to the first waypoint, the waypoints.
+-- move that starts there, a stop the feed of the move to it. @isFlat'@ is the result of 'isFlat'.
+-- @working@ is the feed of the pieces, which a stop need not name. @leaving@ is the feed of the
+-- move to the first waypoint.
 stops :: Bool -> Number -> Number -> [Waypoint] -> [Stop]
 stops isFlat' working leaving list = case list of
   [] -> []
@@ -205,8 +207,9 @@ stops isFlat' working leaving list = case list of
 
 -- Pieces
 
--- | The table of a piece, and the statement that defines the piece, or a curve if the cipher is 0.
--- The number of the piece makes their names.
+-- | The statement of a piece's table, and the statement that defines the piece. If the cipher is 0,
+-- the second statement defines a curve. @count@ is the number of the piece, from which both names
+-- are made.
 pieceStatements :: Int -> Piece -> [Statement]
 pieceStatements count piece =
   [ Located at (Table (Located at points) (tableOf piece)),
@@ -228,7 +231,8 @@ pieceStatements count piece =
       LeftSide -> Surface.LeftSide
       RightSide -> Surface.RightSide
 
--- | The table of a piece: a line for each point, with the surface and the distances there.
+-- | The table of a piece: for each point a line with its coordinates, its surface and its
+-- distances.
 tableOf :: Piece -> Surface.Lines
 tableOf piece = Surface.WrittenLines (Located at (Surface.Header headings) : map line linesOf)
   where
@@ -251,11 +255,12 @@ tableOf piece = Surface.WrittenLines (Located at (Surface.Header headings) : map
 pieceName :: Int -> Name
 pieceName count = Name ("piece_" <> Decimal.whole count)
 
--- | The names of @count@ columns of distances: @t@, or @t_1@, @t_2@ and so on.
+-- | The headings of @count@ columns of distances: @t@, or @t_1@, @t_2@ and so on.
 thicknessNames :: Int -> [Text]
 thicknessNames count = if count == 1 then ["t"] else ["t_" <> Decimal.whole k | k <- [1 .. count]]
 
--- | The ciphers of a piece. Distances of a piece with surfaces are measured square to the surface.
+-- | The ciphers of a piece, as the program writes them. If the piece has surfaces, its distances
+-- are measured square to them.
 ciphers :: Piece -> [Recalculation] -> [Surface.Cipher]
 ciphers piece recalculations =
   go (thicknessNames (length [() | Pointwise _ <- recalculations])) recalculations
@@ -279,8 +284,9 @@ ciphers piece recalculations =
       Four -> 4
       Six -> 6
 
--- | A piece as an element of its contour. The arguments: true if the tool is a swivelling blade;
--- the number of the piece; the piece; its link to the next piece.
+-- | A piece as an element of its contour. @isSwivelling@ is True if the tool is a swivelling blade.
+-- @count@ is the number of the piece, from 1. @link@ is the piece's link to the next piece, Nothing
+-- for the last one.
 item :: Bool -> Int -> Piece -> Maybe (Located Link) -> Item
 item isSwivelling count piece link =
   Located

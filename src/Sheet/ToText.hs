@@ -1,5 +1,5 @@
--- | Writer of input sheets: a line for each point and each group of numbers, an empty line before
--- each piece.
+-- | Writer of input sheets. It writes a line for each point and for each group of numbers, and an
+-- empty line before each piece.
 --
 -- 'Sheet.FromText.read' gives the same sheet again, except for the regions of its numbers.
 module Sheet.ToText
@@ -40,8 +40,8 @@ generalData g =
 waypoint :: Waypoint -> Text
 waypoint w = line [x w, y w, z w, feed w]
 
--- | An array; the first arguments are the number of the sheet's last array and that of this array,
--- both from 0. An end mark follows every array but the last.
+-- | The lines of an array. @lastArray@ is the index of the sheet's last array, @number'@ that of
+-- this array, both from 0. An end mark follows every array but the last.
 array :: Int -> Int -> Array -> [Text]
 array lastArray number' a =
   concatMap (\(LinkedPiece p (Located _ l)) -> piece p (linkText l)) (joined a)
@@ -50,8 +50,9 @@ array lastArray number' a =
     <> map waypoint (NonEmpty.toList (retract a))
     <> ["-0" | number' < lastArray]
 
--- | A piece with the text of its link. The sign of the first distance gives the side. If there is
--- no distance before the points, or the first one is 0, the sign of the cipher gives the side.
+-- | The lines of a piece; @link@ is the text of its link. The sign of the first distance before the
+-- points gives the side. If there is no such distance or it is 0, the sign of the cipher gives the
+-- side.
 piece :: Piece -> Text -> [Text]
 piece p link =
   ["", cipherText]
@@ -78,7 +79,7 @@ piece p link =
         distances -> distances
     line' = Text.unwords . map number
 
--- | The distance of a recalculation that the sheet has before the points, if it has one there.
+-- | The distance of a recalculation that the sheet has before the points; empty for digits 4 and 6.
 headOf :: Recalculation -> [Number]
 headOf r = case r of
   Growing h _ -> [h]
@@ -99,7 +100,7 @@ linkText link = case link of
 line :: [Number] -> Text
 line = Text.unwords . map (number . value)
 
--- | All digits of a number.
+-- | A number with as many digits as determine it exactly.
 number :: Double -> Text
 number = Decimal.exact
 

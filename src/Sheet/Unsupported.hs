@@ -1,4 +1,4 @@
--- | Features of parts that an input sheet has no numbers for, and their reports.
+-- | Features of parts that the numbers of an input sheet cannot express, and the reports on them.
 module Sheet.Unsupported
   ( Unfit (..),
     Feature (..),
@@ -18,27 +18,28 @@ import Data.Text (Text)
 import Report.Report (Report (..), ReportCode, ReportPlace (..), Severity (..), report)
 import Sheet.Sheet (maxArrays)
 
--- | The reason why a part cannot become a sheet, with the region of the program that is at fault.
+-- | The reason why a part cannot become a sheet. The region is that of the program's text at fault.
 data Unfit
-  = -- | A statement, or one of its settings, has no numbers on a sheet.
+  = -- | A sheet has no numbers for this statement or for one of its settings.
     NoNumbers Region Feature
-  | -- | An element is no piece, or a contour is no array of pieces.
+  | -- | An element cannot become a piece, or a contour cannot become an array of pieces.
     NoPiece Region PieceFault
-  | -- | The link after this element has no number on a sheet.
+  | -- | A sheet has no number for the link after this element.
     NoLink Region LinkFeature
-  | -- | The recalculations of this element have no cipher.
+  | -- | No cipher expresses the recalculations of this element.
     NoCipher Region UnsupportedCipher
-  | -- | A feed has no number on a sheet.
+  | -- | A sheet has no number for this feed.
     NoFeed Region FeedFault
-  | -- | A sheet has this setting only once, but the contour has another value than the first one.
+  | -- | A sheet has this setting only once, but the contour's value differs from that of the first
+    -- contour.
     TwoOfOne Region SharedSetting
   | -- | The toolpath does not begin or end as that of a sheet does.
     NoPath PathFault
-  | -- | The contour at this region exceeds 'maxArrays'.
+  | -- | The contour at this region is one more than 'maxArrays' allows.
     ManyArrays Region
   deriving stock (Eq, Ord, Show)
 
--- | A feature of the language without numbers on a sheet.
+-- | A feature of the language that the numbers of a sheet cannot express.
 data Feature
   = PocketClearing
   | DrillingHoles
@@ -46,7 +47,7 @@ data Feature
   | CoolantCommand
   | AuxiliaryCommand
   | SecondTool
-  | -- | different tolerances inside and outside
+  | -- | different tolerances inside and outside of the contour
     BandTolerance
   | -- | the side @outside@; a sheet has left and right only
     OutsideOfContour
@@ -58,13 +59,13 @@ data Feature
     Lead
   | -- | an allowance for the whole contour
     ContourAllowance
-  | -- | sharp corners of the offset
+  | -- | the setting by which the offset keeps sharp corners
     SharpCorner
   | -- | cutter compensation by the control
     ControlCompensation
   deriving stock (Eq, Ord, Show)
 
--- | The reason why an element is no piece, or a contour no array of pieces.
+-- | The reason why an element cannot become a piece, or a contour an array of pieces.
 data PieceFault
   = -- | a curve without points
     NoPoints
@@ -73,9 +74,9 @@ data PieceFault
   | -- | an element that is not a curve: a line, a circle or a point
     PlainElement
   | ClosedContour
-  | -- | a contour that is made of others, so that it has no written elements
+  | -- | a contour that is computed from others, so that the program does not write its elements
     DerivedContour
-  | -- | a contour as an element
+  | -- | an element of a contour that is itself a contour
     NestedContour
   deriving stock (Eq, Ord, Show)
 
@@ -89,20 +90,20 @@ data LinkFeature
 
 -- | The reason why the recalculations of a piece have no cipher.
 data UnsupportedCipher
-  = -- | a recalculation 4 with an allowance
+  = -- | a recalculation with digit 4 and an allowance
     AllowanceOfFour
-  | -- | a recalculation 1 whose distance changes between two points only
+  | -- | a recalculation with digit 1 whose distance changes only between two given points
     GrowthBetweenPoints
   | HasJoggle
   | -- | several recalculations with different bevels
     DifferentBevels
-  | -- | several recalculations 4 with different flange heights
+  | -- | several recalculations with digit 4 and different flange heights
     DifferentHeights
-  | -- | a distance that is not square to the surface, on a piece with a bevel
+  | -- | a distance that is not measured square to the surface, on a piece with a bevel
     DistanceNotSquare
   | -- | a blade that does not swivel on a piece with a bevel
     NotSwivelling
-  | -- | a blade that swivels by another bevel than that of the piece
+  | -- | a blade that swivels by a bevel other than that of the piece
     OtherSwivel
   deriving stock (Eq, Ord, Show)
 
@@ -125,9 +126,9 @@ data PathFault
   = -- | the program gives no starting position
     NoStart
   | NothingMilled
-  | -- | a point after the first contour without a height, for a swivelling blade
+  | -- | for a swivelling blade: a point after the first contour, without a height
     NoHeight Region
-  | -- | no point after this contour
+  | -- | no point to which the tool retracts after the contour at this region
     NoRetract Region
   deriving stock (Eq, Ord, Show)
 
@@ -203,7 +204,7 @@ featureText feature = case feature of
   SharpCorner -> "a sharp corner"
   ControlCompensation -> "a compensation by the control"
 
--- | The subject of the report's title, and its hint.
+-- | The subject of the report's title, and the report's hint; no hint if it is empty.
 pieceTexts :: PieceFault -> (Text, Text)
 pieceTexts fault = case fault of
   NoPoints -> ("a curve of no points", "")
@@ -229,7 +230,7 @@ linkText feature = case feature of
   TangentLink -> "a tangent"
   ChamferLink -> "a chamfer"
 
--- | The end of the report's title, and its hint.
+-- | The end of the report's title, and the report's hint.
 cipherTexts :: UnsupportedCipher -> (Text, Text)
 cipherTexts fault = case fault of
   AllowanceOfFour ->
@@ -258,7 +259,7 @@ cipherTexts fault = case fault of
       "Behind an element with a 4 write: bevel mu; behind another one: bevel 0"
     )
 
--- | The report's title and its hint.
+-- | The report's title and hint.
 feedTexts :: FeedFault -> (Text, Text)
 feedTexts fault = case fault of
   LeavingFeed ->
@@ -276,7 +277,7 @@ sharedText setting = case setting of
   SharedTolerance -> "tolerance"
   SharedSide -> "side of the walk"
 
--- | The place to which the report points, and its title.
+-- | The position to which the report points, and its title.
 pathTexts :: PathFault -> (ReportPlace, Text)
 pathTexts fault = case fault of
   NoStart -> (InFile, "the program does not say where the tool stands")

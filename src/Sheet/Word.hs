@@ -1,4 +1,4 @@
--- | The words of a sheet's text: numbers, end marks, and signs without digits.
+-- | The words of a sheet's text: numbers, end marks @-0@, and signs without digits.
 module Sheet.Word
   ( WordValue (..),
     SheetWord (..),
@@ -31,7 +31,7 @@ data WordValue
 -- | A word with its position.
 data SheetWord = SheetWord {position :: NumberPosition, symbol :: WordValue}
 
--- | The words of a text in order. A word that is no number, end mark or sign is an error.
+-- | The words of a text in order. A word is an error if it is not a number, an end mark or a sign.
 entries :: Text -> [Either Error SheetWord]
 entries text = zipWith entry [1 ..] (wordsOf text)
 
@@ -47,7 +47,7 @@ wordsOf = go 0
         trimmed = Text.dropWhile isSpace text
         from = at + Text.length text - Text.length trimmed
 
--- | The meaning of a word; the first argument is its ordinal number from 1.
+-- | The meaning of a word, whose position among all words is @number@, counted from 1.
 entry :: Int -> Located Text -> Either Error SheetWord
 entry number (Located at word) =
   maybe (Left (NotANumber here word)) (Right . SheetWord here) $ case Text.uncons word of
@@ -60,7 +60,7 @@ entry number (Located at word) =
   where
     here = NumberPosition at number
 
--- | A number with its region; nothing for marks and signs.
+-- | A number with its region; Nothing for end marks and signs.
 figure :: SheetWord -> Maybe Number
 figure e = case symbol e of
   Figure x -> Just (Located (site (position e)) x)
@@ -68,7 +68,7 @@ figure e = case symbol e of
   Plus -> Nothing
   Minus -> Nothing
 
--- | True of a sign without digits.
+-- | True if a word is a sign without digits.
 isSign :: SheetWord -> Bool
 isSign e = case symbol e of
   Plus -> True

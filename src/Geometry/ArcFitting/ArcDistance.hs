@@ -5,8 +5,10 @@
 -- point is at most @|F|·(1 + |k·F|)@ away from the circle. The largest value of |F| along a curve
 -- therefore bounds the distance from the curve to the arc.
 --
--- If the curve runs forwards in the directions of both ends of the arc, the feet of its points
--- cover the arc without a gap. Then the same bound holds from the arc to the curve.
+-- A foot of a point is the point of the arc that is nearest to it. If the curve runs forwards in
+-- the directions of both ends of the arc, the feet of its points cover the arc without a gap. Then
+-- the same bound holds from the arc to the curve. A pose is a position in mm with a direction of
+-- length 1.
 module Geometry.ArcFitting.ArcDistance
   ( -- * Arcs
     FastArc (..),
@@ -26,8 +28,8 @@ where
 
 import Geometry.ArcFitting.Biarc.Fast (Pose (..))
 
--- | Arc with its start (@origin@), its curvature in 1/mm (@bend@), its end (@limit@), and the
--- cosine and sine of its sweep.
+-- | Arc with the poses at its start (@origin@) and at its end (@limit@). @bend@ is its curvature in
+-- 1/mm, positive to the left; @cosine@ and @sine@ are those of its sweep.
 data FastArc = FastArc
   { origin :: {-# UNPACK #-} Pose,
     bend :: Double,
@@ -36,7 +38,8 @@ data FastArc = FastArc
     sine :: Double
   }
 
--- | Arc from its start, its curvature in 1/mm and its end.
+-- | Arc from the pose at its start, its curvature in 1/mm, positive to the left, and the pose at
+-- its end.
 fastArc :: Pose -> Double -> Pose -> FastArc
 fastArc origin bend limit =
   FastArc
@@ -48,19 +51,19 @@ fastArc origin bend limit =
     }
 {-# INLINE fastArc #-}
 
--- | True if an arc sweeps less than a quarter turn.
+-- | True if an arc sweeps less than a quarter turn, as the bound of the distance requires.
 isForwards :: FastArc -> Bool
 isForwards f = cosine f > 0
 {-# INLINE isForwards #-}
 
--- | Signed distance of a position, given by x and y, from the normal at an arc's end, positive
--- beyond it.
+-- | Signed distance in mm of the position (@x@, @y@) from the normal at the end of arc @f@. It is
+-- positive beyond the end.
 beyond :: FastArc -> Double -> Double -> Double
 beyond f x y = (x - px (limit f)) * dx (limit f) + (y - py (limit f)) * dy (limit f)
 {-# INLINE beyond #-}
 
--- | True if the direction of a pose makes less than a quarter turn with the directions of both ends
--- of an arc.
+-- | True if the direction of pose @p@ makes less than a quarter turn with the directions of both
+-- ends of arc @f@.
 runsForwards :: FastArc -> Pose -> Bool
 runsForwards f p =
   isForwardsBy
@@ -70,18 +73,19 @@ runsForwards f p =
 {-# INLINE runsForwards #-}
 
 -- | True if a direction makes less than a quarter turn with the directions of both ends of an arc.
--- It is given by its components along the direction of the arc's start and to the left of it.
+-- @along@ is the component of the direction along the direction of the arc's start, @across@ the
+-- component to the left of it.
 isForwardsBy :: FastArc -> Double -> Double -> Bool
 isForwardsBy f along across = along > 0 && along * cosine f + across * sine f > 0
 {-# INLINE isForwardsBy #-}
 
--- | F of an arc's circle at a position.
+-- | F, in mm, of an arc's circle at a position.
 level :: FastArc -> Pose -> Double
 level f = above (bend f) (origin f)
 {-# INLINE level #-}
 
--- | F at a position, of the circle that has the given curvature and passes the first pose in its
--- direction.
+-- | F, in mm, at the position of the second pose. The circle has the curvature @k@ (1/mm) and
+-- passes the pose @from@ in its direction.
 above :: Double -> Pose -> Pose -> Double
 above k from p = uy * dx from - ux * dy from - 0.5 * k * (ux * ux + uy * uy)
   where
@@ -89,14 +93,15 @@ above k from p = uy * dx from - ux * dy from - 0.5 * k * (ux * ux + uy * uy)
     uy = py p - py from
 {-# INLINE above #-}
 
--- | Derivative of F by arc length at a pose, in its direction.
+-- | Derivative of F by arc length, for a curve that passes pose @p@ in its direction.
 slope :: FastArc -> Pose -> Double
 slope f p =
   (dy p * dx (origin f) - dx p * dy (origin f))
     - bend f * ((px p - px (origin f)) * dx p + (py p - py (origin f)) * dy p)
 {-# INLINE slope #-}
 
--- | Bound of the distance from an arc for a value of |F|; infinite where no bound is known.
+-- | Bound in mm of the distance from an arc, for a value @d@ of |F| in mm. It is infinite where the
+-- value is too large for the bound to hold.
 distanceOfLevel :: FastArc -> Double -> Double
 distanceOfLevel f d = if k * d < 0.2 then d * (1 + k * d) else 1 / 0
   where

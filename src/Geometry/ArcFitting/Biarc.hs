@@ -37,15 +37,15 @@ import Geometry.Vec qualified as Vec
 
 -- Between two ends ------------------------------------------------------------------------------
 
--- | Biarc from one point and unit direction to another: two segments, or one where a line or a
--- single arc suffices. The chords of both arcs are equal, except where equal chords would give an
--- S-shape to a curve that bends to one side. In this case the arc at the end with the smaller angle
--- to the chord of the biarc gets a chord up to four times as long. Nothing if the points coincide,
--- or if an arc would sweep more than half a turn.
+-- | Biarc from one point and unit direction to another: two segments, or one if a line or a single
+-- arc suffices. The chords of both arcs are equal, except where they would give an S-shape to a
+-- curve that bends to one side. In this case one arc gets a chord up to four times as long as the
+-- other: the arc at the end whose direction is nearer to that of the whole chord. Nothing if the
+-- points coincide, or if an arc would sweep more than half a turn.
 join :: (Point, Vec) -> (Point, Vec) -> Maybe (NonEmpty Segment)
 join from to = joinWith (ratio from to) from to
 
--- | Biarc with a given ratio of the second arc's chord to the first one's.
+-- | As 'join', with the ratio @r@ of the second arc's chord to the first arc's chord.
 joinWith :: Double -> (Point, Vec) -> (Point, Vec) -> Maybe (NonEmpty Segment)
 joinWith r from@(p, _) to@(q, _) = do
   guard (not (Vec.isNear p q))
@@ -56,7 +56,7 @@ joinWith r from@(p, _) to@(q, _) = do
     (alpha, beta) = chordAngles from to
     gamma = -2 * atan2 (sin (alpha / 2) + r * sin (beta / 2)) (cos (alpha / 2) + r * cos (beta / 2))
     halfDifference = (alpha - beta) / 2
-    -- w|², in the notation of the derivation above.
+    -- The square of the absolute value of w, in the derivation of the module's header.
     square = 1 + r * r + 2 * r * cos halfDifference
     chord = Vec.to p q
     joint =
@@ -72,20 +72,20 @@ joinWith r from@(p, _) to@(q, _) = do
         arcBySweep p q (beta - alpha) :| []
       | otherwise = arcBySweep p joint (gamma - alpha) :| [arcBySweep joint q (beta - gamma)]
 
--- | True if an absolute angle does not exceed a limit.
+-- | True if the absolute value of angle @a@ (rad) does not exceed a limit.
 isWithin :: Double -> Rad -> Bool
 isWithin a (Rad limit) = abs a <= limit
 
--- | Angles from the chord to the end directions, in (−π, π].
+-- | Angles, in radians and in (−π, π], from the chord to the direction at the start and at the end.
 chordAngles :: (Point, Vec) -> (Point, Vec) -> (Double, Double)
 chordAngles (p, s) (q, t) = (a, b)
   where
     Rad a = Vec.signedAngle (Vec.to p q) s
     Rad b = Vec.signedAngle (Vec.to p q) t
 
--- | Ratio of the second arc's chord to the first one's that 'join' uses: 1, or the ratio that
--- avoids an S-shape. The latter makes each arc sweep at least half of the angle between the chord
--- of the biarc and the direction at the arc's end.
+-- | Chord ratio that 'join' uses: the second arc's chord divided by the first arc's chord. It is 1,
+-- or the ratio that avoids an S-shape. With the latter, each arc sweeps at least half of the angle
+-- between the whole chord and the direction at the arc's end of the biarc.
 ratio :: (Point, Vec) -> (Point, Vec) -> Double
 ratio from to
   | alpha * beta >= 0 || limited == gamma = 1
@@ -95,7 +95,8 @@ ratio from to
     gamma = -((alpha + beta) / 2)
     limited = max (min alpha beta / 2) (min (max alpha beta / 2) gamma)
 
--- | Arc between two points with a given sweep; a line where the sweep is negligible.
+-- | Arc between two points with the sweep @sweep@ (rad, positive counter-clockwise). It is a line
+-- if the sweep is negligible.
 arcBySweep :: Point -> Point -> Double -> Segment
 arcBySweep p q sweep
   | isWithin sweep Tolerance.straight = Straight p q
@@ -107,13 +108,13 @@ arcBySweep p q sweep
 
 -- Through points --------------------------------------------------------------------------------
 
--- | Smooth chain of arcs and lines through points in order; a closed chain returns to the first
+-- | Smooth chain of arcs and lines through points in order. A closed chain returns to the first
 -- point.
 --
 -- The direction at a point is that of the circle through the point and its two neighbours. At an
 -- end of an open chain it is that of the circle through the first or the last three points. At a
--- sharp corner, where the circle would sweep more than half a turn between two of its points, the
--- direction is the mean of the directions to and from the point.
+-- sharp corner, this circle would sweep more than half a turn from the point to a neighbour. There
+-- the direction is the mean of the directions to and from the point.
 --
 -- Two points give a line or, in a closed chain, the circle through both. Consecutive points that
 -- coincide count once. A single point gives a line of length 0.
@@ -136,8 +137,8 @@ through ends points = case distinctPoints ends points of
   where
     segmentsBetween a b = maybe [Straight (fst a) (fst b)] NonEmpty.toList (join a b)
 
--- | Drops points that coincide with the previous one; in a closed chain also last points that
--- coincide with the first.
+-- | Drops each point that coincides with the previous one. In a closed chain it also drops last
+-- points that coincide with the first.
 distinctPoints :: Ends -> NonEmpty Point -> NonEmpty Point
 distinctPoints ends (first :| others) = first :| withoutLast (withoutRepeats first others)
   where
@@ -150,9 +151,9 @@ distinctPoints ends (first :| others) = first :| withoutLast (withoutRepeats fir
       Open -> ps
       Closed -> reverse (dropWhile (Vec.isNear first) (reverse ps))
 
--- | Directions at three or more points of an open chain. The direction at an end mirrors the
--- neighbour's direction in the perpendicular bisector of the two points, so that the last
--- segment is a single arc.
+-- | Directions, as unit vectors, at three or more points of an open chain. The direction at an end
+-- point is that of its neighbour, mirrored in the perpendicular bisector of the two points. So the
+-- segment between them is a single arc.
 openDirections :: [Point] -> [Vec]
 openDirections ps = case (ps, reverse ps) of
   (a : b : _, z : y : _) ->
@@ -164,8 +165,9 @@ openDirections ps = case (ps, reverse ps) of
   where
     mirrored a b t = Vec.rotate (Vec.signedAngle t (Vec.to a b)) (Vec.unit (Vec.to a b))
 
--- | Direction at the middle one of three points; see 'through'. On the circle through the points,
--- the angle between a tangent and a chord equals the opposite angle of the triangle.
+-- | Unit direction at point @b@ of a chain with the neighbours @a@ and @c@; see 'through'. On the
+-- circle through three points, the angle between a tangent and a chord equals the opposite angle of
+-- the triangle.
 tangentAt :: Point -> Point -> Point -> Vec
 tangentAt a b c
   | not (Vec.isNear a c) && Vec.dot circleTangent ab >= 0 && Vec.dot circleTangent bc >= 0 =

@@ -14,10 +14,10 @@ import Data.STRef (STRef, newSTRef, readSTRef, writeSTRef)
 import Geometry.FlatPolyarc (FlatPolyarc (..))
 import Geometry.Polyarc (Ends (..))
 
--- | Array that grows by doubling.
+-- | Array of vertices, which doubles its capacity when it is full.
 newtype Vertices s = Vertices (STRef s (Buffer s))
 
--- | Count of vertices, and the array of x, y and bulge of each vertex in turn.
+-- | Count of vertices, and the array with x (mm), y (mm) and bulge of one vertex after the other.
 data Buffer s = Buffer Int (MutablePrimArray s Double)
 
 -- | Empty array.
@@ -40,7 +40,7 @@ push (Vertices ref) x y bulge = do
   PrimArray.writePrimArray array' (3 * n + 2) bulge
   writeSTRef ref (Buffer (n + 1) array')
 
--- | Open polyarc of all vertices. No vertex may be appended afterwards.
+-- | Open polyarc of all vertices. The caller may not append a vertex afterwards.
 polyarc :: Vertices s -> ST s FlatPolyarc
 polyarc (Vertices ref) = do
   Buffer n array <- readSTRef ref

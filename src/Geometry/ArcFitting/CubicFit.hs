@@ -3,9 +3,13 @@
 
 -- | Arc fitting of cubic spans by biarcs, with an error bound in closed form.
 --
--- The bound is that of "Geometry.ArcFitting.ArcDistance". On a cubic, F is a polynomial of degree
--- 6. Chebyshev economization reduces it to degree 3, plus a small remainder; the maximum of a cubic
--- is known in closed form.
+-- The bound, the function F and the arcs are those of "Geometry.ArcFitting.ArcDistance". On a
+-- cubic, F is a polynomial of degree 6. Chebyshev economization reduces it to degree 3, plus a
+-- small remainder; the maximum of a cubic is known in closed form.
+--
+-- The parameter of a curve rises by 1 over each span. A stretch is the part between two corners,
+-- given by the index @from@ of its first span and the index @to@ after its last. A pose is a
+-- position in mm with a unit direction.
 module Geometry.ArcFitting.CubicFit
   ( approximate,
   )
@@ -28,10 +32,10 @@ import Geometry.FlatPolyarc (FlatPolyarc)
 import Geometry.Tolerance qualified as Tolerance
 import Geometry.Vec qualified as Vec
 
--- | Arcs and lines within a tolerance of the curve whose spans have the given cubics in x and in y.
--- The tolerance holds from the curve to the arcs and from the arcs to the curve. Each biarc is as
--- long as possible, as in 'ParametricFit.approximate'. The speed must not vanish at the ends of
--- spans.
+-- | Arcs and lines within a tolerance of a curve. The arguments are the tolerance and the cubics of
+-- the curve's spans in x and in y. The tolerance holds from the curve to the arcs and from the arcs
+-- to the curve. Each biarc is as long as possible, as in 'ParametricFit.approximate'. The speed
+-- must not be 0 at the ends of spans.
 approximate :: Mm -> Cubics -> Cubics -> FlatPolyarc
 approximate (Mm tolerance) xs ys = runST $ do
   vertices <- Builder.new
@@ -50,12 +54,12 @@ approximate (Mm tolerance) xs ys = runST $ do
   where
     n = Spline.count xs
 
--- | The stretch of spans @from@ to @to − 1@. A biarc over one span is tried first.
+-- | Parameters of the spans @from@ to @to − 1@. A biarc over one span is tried first.
 stretchRange :: Int -> Int -> ParameterRange
 stretchRange from to =
   ParameterRange {inSpan = from, begin = fromIntegral from, final = fromIntegral to, step = 1}
 
--- | The spans @from@ to @to − 1@ as a curve.
+-- | The spans @from@ to @to − 1@ as a curve for the fit, within @tolerance@ (mm).
 stretchSpans :: Double -> Cubics -> Cubics -> Int -> Int -> Spans
 stretchSpans tolerance xs ys from to =
   Spans
@@ -67,22 +71,22 @@ stretchSpans tolerance xs ys from to =
       triesLonger = False
     }
   where
-    -- The general fit considers the current span and the 63 after it.
+    -- This fit's cost grows with the count of spans, so it gets the current one and the next 63.
     generalFit u =
       let i = max 0 (min (to - 1) (truncate u))
           end = min to (i + 64)
        in ParametricFit.oneBiarc (Mm tolerance) (parametricCurve xs ys i end) (fromIntegral end) u
 {-# INLINE stretchSpans #-}
 
--- | True if a cubic is linear. A span that is linear in x and in y is a line.
+-- | True if a cubic is linear. A span with linear x and linear y is a line.
 isStraight :: Cubic -> Bool
 isStraight (Cubic _ _ c d) = c == 0 && d == 0
 
--- | True if the curve has a corner at the start of a span other than the first.
+-- | True if the curve has a corner at the start of span @k@, which is not the first (0).
 hasCorner :: Cubics -> Cubics -> Int -> Bool
 hasCorner xs ys k = FastBiarc.isCorner (poseAt xs ys (k - 1) 1) (poseAt xs ys k 0)
 
--- | Position and direction in a span, by its index and the local parameter from 0 to 1.
+-- | Pose in span @i@, counted from 0, at the local parameter @t@ from 0 to 1.
 poseAt :: Cubics -> Cubics -> Int -> Double -> Pose
 poseAt xs ys i t = Pose (Spline.value a t) (Spline.value b t) (vx / v) (vy / v)
   where
@@ -93,8 +97,8 @@ poseAt xs ys i t = Pose (Spline.value a t) (Spline.value b t) (vx / v) (vy / v)
     v = sqrt (vx * vx + vy * vy)
 {-# INLINE poseAt #-}
 
--- | Position and direction at a parameter of the stretch of spans @from@ to @to − 1@, given the
--- parameter's span. Where two spans meet, the direction is the mean of both.
+-- | Pose at parameter @u@ of the stretch of spans @from@ to @to − 1@; @i@ is the index of the span
+-- that contains @u@. Where two spans meet, the direction is the mean of both.
 poseWithin :: Cubics -> Cubics -> Int -> Int -> Int -> Double -> Pose
 poseWithin xs ys from to i u
   | i >= to = poseAt xs ys (to - 1) 1
@@ -103,8 +107,9 @@ poseWithin xs ys from to i u
   where
     t = u - fromIntegral i
 
--- | Bounds of the distances of a biarc's two arcs from the curve between two parameters, each given
--- with its span and pose. A result above the limit @largest@ need not be a bound.
+-- | Bounds of the distances of a biarc's two arcs from the curve between two parameters. After the
+-- limit @largest@ (mm) come the span, the parameter and the pose of the first end, then those of
+-- the second. A result above the limit need not be a bound, as the caller rejects the biarc anyway.
 biarcDistances ::
   Cubics ->
   Cubics ->
@@ -133,13 +138,13 @@ biarcDistances xs ys largest first u from _ v to pair
     !one = fastArc from (bend1 pair) (if single pair then to else joint pair)
     !two = fastArc (joint pair) (bend2 pair) to
 
--- | Position on the curve, by its span and the local parameter; and the bound of the distance from
--- the arc up to this position.
+-- | Position on the curve, by the index of its span and its local parameter, and a bound in mm. It
+-- is that of the distance between arc and curve up to this position.
 data Reached = Reached Int Double Double
 
 -- | Advances on the curve along one arc and bounds their distance. It ends where the curve crosses
--- the normal at the arc's end or, if the arc is the @final@ one, at the parameter @v@. It also ends
--- once the bound exceeds @largest@.
+-- the normal at the arc's end, where the second arc begins. For the second arc, that is with
+-- @final@, it ends at parameter @v@. It also ends once the bound exceeds @largest@ (mm).
 advance :: Cubics -> Cubics -> Double -> Double -> Bool -> FastArc -> Reached -> Reached
 advance xs ys largest v final f (Reached i0 a0 d0) = go i0 a0 d0
   where
@@ -164,8 +169,8 @@ advance xs ys largest v final f (Reached i0 a0 d0) = go i0 a0 d0
         bound = distanceBound f x y
     larger d e = if e <= d then d else e
 
--- | Bound of the distance between an arc and a cubic span over the local parameters from @a@ to
--- @b@; infinite where the span might not run forwards.
+-- | Bound in mm of the distance between an arc and a span, over the span's local parameters from
+-- @a@ to @b@. It is infinite where the span might not run forwards.
 distanceBound :: FastArc -> Cubic -> Cubic -> Double -> Double -> Double
 distanceBound f p q a b = inFrame f p q a b $ \x@(Cubic _ x1 x2 x3) y@(Cubic _ y1 y2 y3) ->
   if isForwardsBy f x1 y1
@@ -174,8 +179,9 @@ distanceBound f p q a b = inFrame f p q a b $ \x@(Cubic _ x1 x2 x3) y@(Cubic _ y
     then distanceOfLevel f (largestLevel (bend f) x y)
     else 1 / 0
 
--- | A cubic span over the local parameters from @a@ to @b@ as cubics x and y in a parameter from 0
--- to 1, in the frame of an arc's start, passed to a continuation.
+-- | Passes a part of a span to the continuation @next@, as cubics x and y in the frame of the arc's
+-- start. The part has the local parameters from @a@ to @b@ of the span; the new cubics have the
+-- parameter from 0 to 1.
 inFrame :: FastArc -> Cubic -> Cubic -> Double -> Double -> (Cubic -> Cubic -> r) -> r
 inFrame f (Cubic p0 p1 p2 p3) (Cubic q0 q1 q2 q3) a b next =
   next
@@ -198,8 +204,8 @@ inFrame f (Cubic p0 p1 p2 p3) (Cubic q0 q1 q2 q3) a b next =
     uy3 = w * w * w * q3
 {-# INLINE inFrame #-}
 
--- | Bound of |F| for a curvature k, on a curve that is given by cubics x and y in a parameter from
--- 0 to 1.
+-- | Bound of |F|, in mm, for the circle of curvature @k@ (1/mm), along a curve. The curve is given
+-- by cubics x and y in a parameter from 0 to 1, in the frame of the circle's pose.
 largestLevel :: Double -> Cubic -> Cubic -> Double
 largestLevel k (Cubic x0 x1 x2 x3) (Cubic y0 y1 y2 y3) =
   largestCubic e0 e1 e2 e3 + abs c6 / 2048 + abs e5 / 512 + abs e4 / 128
@@ -224,8 +230,8 @@ largestLevel k (Cubic x0 x1 x2 x3) (Cubic y0 y1 y2 y3) =
     e0 = c0 - c6 / 2048 + e5 / 512 - e4 / 128
 {-# INLINE largestLevel #-}
 
--- | Largest absolute value of a cubic on [0, 1], which lies at an end or at a zero of the slope
--- @c₁ + 2·c₂·t + 3·c₃·t²@.
+-- | Largest absolute value, on [0, 1], of the cubic with the given coefficients. It lies at an end
+-- or at a zero of the slope @c₁ + 2·c₂·t + 3·c₃·t²@.
 largestCubic :: Double -> Double -> Double -> Double -> Double
 largestCubic c0 c1 c2 c3
   | square <= 0 = ends
@@ -237,8 +243,7 @@ largestCubic c0 c1 c2 c3
     q = if c2 > 0 then -(c2 + sqrt square) else sqrt square - c2
     inside t d = if t > 0 && t < 1 then greater d (abs (c0 + t * (c1 + t * (c2 + t * c3)))) else d
 
--- | Spans @from@ to @to − 1@ as a parametric curve for the general fit, whose cost grows with the
--- number of spans.
+-- | Spans @from@ to @to − 1@ as a parametric curve for "Geometry.ArcFitting.ParametricFit".
 parametricCurve :: Cubics -> Cubics -> Int -> Int -> ParametricCurve
 parametricCurve xs ys from to =
   ParametricCurve

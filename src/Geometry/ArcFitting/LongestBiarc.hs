@@ -3,6 +3,10 @@
 -- | Greedy arc fitting along a smooth stretch of a curve: each biarc is as long as the tolerance
 -- allows. It serves all curves for which a formula bounds the deviation from a biarc: cubics in
 -- "Geometry.ArcFitting.CubicFit" and polyarcs in "Geometry.ArcFitting.PolyarcFit".
+--
+-- A stretch is the part of a curve between two corners. A pose is a position in mm with a unit
+-- direction. The chord ratio of a biarc is the second arc's chord divided by the first one's. A
+-- step is the difference of the parameters at both ends of a biarc.
 module Geometry.ArcFitting.LongestBiarc
   ( ParameterRange (..),
     Spans (..),
@@ -24,8 +28,8 @@ import Geometry.Segment qualified as Segment
 import Geometry.Vec (Point, Vec)
 import Geometry.Vec qualified as Vec
 
--- | Range of parameters: the span in which it begins, its begin and its end, and the first step to
--- try.
+-- | Range of parameters: index, from 0, of the span in which it begins, first and last parameter,
+-- and the step that is tried first.
 data ParameterRange = ParameterRange
   { inSpan :: Int,
     begin :: Double,
@@ -33,21 +37,23 @@ data ParameterRange = ParameterRange
     step :: Double
   }
 
--- | Upper bounds, in mm, of the distances between the curve and the two arcs of a biarc. They hold
--- from the curve to the arcs and from the arcs to the curve. A bound is infinite where none is
--- known.
+-- | Upper bounds, in mm, of the distances between the curve and a biarc: for the first and for the
+-- second arc. They hold from the curve to the arcs and from the arcs to the curve. A bound is
+-- infinite where none is known.
 data ArcDistances = ArcDistances Double Double
 
 -- | Curve of consecutive spans, given by functions. A parameter at which two spans meet belongs to
 -- the later span.
 data Spans = Spans
-  { -- | index of the span that contains a parameter; the first argument is this span or an earlier
-    -- one
+  { -- | index, from 0, of the span that contains a parameter; the first argument is an index that
+    -- is not larger, at which the search begins
     seek :: Int -> Double -> Int,
-    -- | pose at a parameter, given its span; where spans meet, the direction is the mean of both
+    -- | pose at a parameter, given the index of its span; where spans meet, the direction is the
+    -- mean of both
     pose :: Int -> Double -> Pose,
-    -- | distances of a biarc from the curve between two parameters, each given with its span and
-    -- pose; the first argument is a limit, and a result above it need not be a bound
+    -- | distances of a biarc from the curve between its two ends. The arguments are a limit in mm,
+    -- then span, parameter and pose of the start and of the end. A result above the limit need not
+    -- be a bound
     arcDistances ::
       Double ->
       Int ->
@@ -58,19 +64,21 @@ data Spans = Spans
       Pose ->
       FastBiarc ->
       ArcDistances,
-    -- | biarc by the general fit of "Geometry.ArcFitting.ParametricFit", from a parameter with its
-    -- position and direction and with a first step; used where no step succeeds
+    -- | biarc by the general fit of "Geometry.ArcFitting.ParametricFit", used where no step
+    -- succeeds. The arguments are the parameter at the start, the position and direction there, and
+    -- the first step
     fallback :: Double -> (Point, Vec) -> Double -> FitStep,
-    -- | True if no biarc between two parameters, each given with its span and pose, can stay within
-    -- a distance, the first argument
+    -- | True if no biarc between two positions can be within a distance, so that the caller tries
+    -- none. The arguments are the distance in mm, then span, parameter and pose of both positions
     isHopeless :: Double -> Int -> Double -> Pose -> Int -> Double -> Pose -> Bool,
-    -- | True to try longer biarcs with other chord ratios where the curvature changes unevenly;
-    -- this saves a tenth of the biarcs on curves of few spans
+    -- | True to try longer biarcs with other chord ratios where the curvature changes unevenly. On
+    -- curves of few spans the result then has a tenth fewer biarcs
     triesLonger :: Bool
   }
 
--- | Run an action for each stretch between corners of a curve with @count@ spans. The action
--- receives the index of the stretch's first span and that of the span after its last one.
+-- | Runs an action for each stretch of a curve with @count@ spans. @isCornerAt@ is True for a span,
+-- by its index from 0, at whose start there is a corner. The action receives the index of the
+-- stretch's first span and the index after its last span.
 forStretches :: Int -> (Int -> Bool) -> (Int -> Int -> ST s ()) -> ST s ()
 forStretches count isCornerAt action = when (count > 0) (go 0 1)
   where
@@ -79,8 +87,9 @@ forStretches count isCornerAt action = when (count > 0) (go 0 1)
       | otherwise = action from to >> when (to < count) (go to (to + 1))
 {-# INLINE forStretches #-}
 
--- | Appends the biarcs along a range, each as long as the tolerance @aim@, in mm, allows. The
--- vertex at the end of the range is not appended, because the next range starts with it.
+-- | Appends the vertices of the biarcs along a range. Each biarc is as long as the tolerance @aim@
+-- (mm) allows. The vertex at the end of the range is not appended, because the next range starts
+-- with it.
 along :: Vertices s -> Double -> ParameterRange -> Spans -> ST s ()
 along
   vertices
@@ -102,9 +111,9 @@ along
             (1 / 0)
             1
             (if final - u <= 1.5 * step then final else u + step)
-      -- Bracketing search for the end of the biarc that starts at @u@. It lies between the longest
-      -- success so far (@u@ if there is none) and the nearest failure; @v@ is tried next, with the
-      -- chord ratio @r@.
+      -- Bracketing search for the end of the biarc that starts at @u@. The end lies between the
+      -- longest success so far (@u@ if there is none) and the nearest failure. The biarc to @v@
+      -- with the factor @r@ on its chord ratio is tried next.
       bracket !remaining !i !u !from before !success !failed !r !v
         | v <= u || remaining <= 0 = settle i u from before success
         | d <= aim =
@@ -141,7 +150,7 @@ along
           ArcDistances d1 d2 = arcDistances (1e6 * aim) i u from j v to pair
           d = if d1 > d2 then d1 else d2
           isKnown = d < 1e5 * aim
-          -- Shortens the arc with the larger deviation, to balance both deviations.
+          -- Factor for the chord ratio that shortens the arc with the larger deviation.
           imbalance = if isKnown && d1 > 0.01 * d && d2 > 0.01 * d then d1 / d2 else 1
           balanced = max 0.4 (min 2.5 (r * cubeRoot imbalance))
           expected = if imbalance > 1 then d / sqrt imbalance else d * sqrt imbalance
@@ -169,8 +178,8 @@ along
                 mapM_ writeSegment (NonEmpty.toList segments)
                   >> (let j = seek i v in go j v (pose j v) (v - u) 0)
               | otherwise -> pure ()
-      -- Tries biarcs beyond the one that was found: where the curvature changes unevenly, a longer
-      -- one can succeed although shorter ones fail.
+      -- Tries biarcs longer than the one found up to @v@. Where the curvature changes unevenly, a
+      -- longer one can succeed although shorter ones fail.
       lengthen !i !u !from before !j !v !to !pair !step
         | not triesLonger
             || v >= final
@@ -221,15 +230,15 @@ along
 {-# INLINE along #-}
 
 -- | Biarc within the tolerance: the parameter at its end, and the factor by which its chord ratio
--- differs from the default.
+-- is multiplied, compared with the default ratio.
 data Success = Success {reach :: Double, chords :: Double}
 
--- | Previous biarc: its length in the parameter, and the change of curvature from its first arc to
--- its second, divided by this length.
+-- | Previous biarc: its step, and the difference of curvature (1/mm) between its two arcs, divided
+-- by the step.
 data Previous = Previous {lastStep :: Double, lastRate :: Double}
 
--- | Relative change of 'lastRate' from one biarc to the next up to which the curvature changes
--- evenly.
+-- | Largest relative change of 'lastRate' from one biarc to the next for which the curvature is
+-- said to change evenly. Then longer biarcs are not tried.
 evenRate :: Double
 evenRate = 0.25
 
@@ -237,17 +246,16 @@ evenRate = 0.25
 maxTries :: Int
 maxTries = 20
 
--- | Share of the tolerance: a biarc that deviates by at least this much is long enough.
+-- | Share of the tolerance: a biarc that deviates by at least this share is long enough.
 longEnough :: Double
 longEnough = 0.9
 
--- | Largest gap between success and failure, relative to the biarc's length, at which the search
--- ends.
+-- | Largest gap between success and failure at which the search ends, as a share of the biarc's
+-- step.
 narrowBracket :: Double
 narrowBracket = 0.03
 
--- | Cube root of a positive number, by two Halley steps; accurate to a few percent between 1/1000
--- and 1000.
+-- | Cube root of a positive number, to a few percent between 1/1000 and 1000, by two Halley steps.
 cubeRoot :: Double -> Double
 cubeRoot a
   | a > 8 = 2 * cubeRoot (a / 8)

@@ -1,5 +1,9 @@
 -- | Arc fitting of parametric curves by biarcs. Deviations are measured at sample points, so the
 -- curve may be any function of its parameter.
+--
+-- A stretch is the part of a curve between two corners; a corner is a change of direction above
+-- 'Tolerance.kink'. A foot of a point on segments is the nearest point of the segments. A step is
+-- the difference of the parameters at both ends of a biarc.
 module Geometry.ArcFitting.ParametricFit
   ( ParametricCurve (..),
     OneSided (..),
@@ -29,7 +33,7 @@ import Geometry.Vec qualified as Vec
 data ParametricCurve = ParametricCurve
   { -- | point at a parameter
     place :: Double -> Point,
-    -- | unit direction at a parameter, from either side; both sides differ only where spans meet
+    -- | unit direction at a parameter, before or after it; the two differ only where spans meet
     direction :: OneSided -> Double -> Vec,
     -- | parameter at the start of the curve
     begin :: Double,
@@ -37,22 +41,22 @@ data ParametricCurve = ParametricCurve
     breaks :: NonEmpty Double
   }
 
--- | Side from which a direction at a point is taken: at the end of the curve before the point, or
--- at the start of the curve after it.
+-- | Side from which a direction at a point is taken: that with which the curve arrives at the
+-- point, or that with which it leaves.
 data OneSided = Arriving | Leaving
   deriving stock (Eq, Show)
 
--- | Stretch of a curve without corners: consecutive spans, each by its first and last parameter.
+-- | Stretch of a curve: consecutive spans, each by its first and last parameter.
 type Stretch = NonEmpty (Double, Double)
 
 -- | Arcs and lines within a tolerance of a curve. The tolerance holds from the curve to the arcs
 -- and from the arcs to the curve. The fit is greedy: each biarc is as long as possible. The result
--- has one group of segments for each stretch between corners; within a group there is no kink.
+-- has one group of segments for each stretch; within a group the direction is continuous.
 --
--- The ends of the biarcs lie on the curve and have its direction; at a kink that is no corner, the
--- mean of the directions on both sides. Where no biarc succeeds, a line over the share
--- 'Tolerance.finestStep' of a span is used. A biarc costs some dozens of curve points, and a few
--- more for each span that it passes.
+-- The ends of the biarcs lie on the curve and have the curve's direction. Where the directions
+-- before and after a parameter differ too little for a corner, it is their mean. Where no biarc
+-- succeeds, a line over the share 'Tolerance.finestStep' of a span is used. A biarc costs some
+-- dozens of curve points, and a few more for each span that it passes.
 approximate :: Mm -> ParametricCurve -> NonEmpty (NonEmpty Segment)
 approximate (Mm tolerance) curve =
   case concatMap (long . follow curve tolerance) (NonEmpty.toList (stretches curve)) of
@@ -64,7 +68,7 @@ approximate (Mm tolerance) curve =
     long segments =
       maybe [] pure (NonEmpty.nonEmpty (filter (\s -> Segment.start s /= Segment.end s) segments))
 
--- | Spans of a curve in groups between corners.
+-- | Stretches of a curve, in order.
 stretches :: ParametricCurve -> NonEmpty Stretch
 stretches curve =
   case filter
@@ -93,14 +97,14 @@ data FitState = FitState
     final :: Double,
     -- | parameter at which the next biarc starts
     at :: Double,
-    -- | position and direction there
+    -- | position and unit direction at @at@
     pose :: (Point, Vec),
-    -- | spans that end after @at@
+    -- | spans that end after @at@, each by its first and last parameter
     ahead :: [(Double, Double)]
   }
 
--- | Segments along a stretch, within a tolerance in mm. When the end is near, a biarc to the end is
--- tried first: a longer biarc can succeed where a shorter one fails.
+-- | Segments along a stretch, within a tolerance in mm. When the end of the stretch is near, a
+-- biarc to this end is tried first: a longer biarc can succeed where a shorter one fails.
 follow :: ParametricCurve -> Double -> Stretch -> [Segment]
 follow curve tolerance stretch = go initial (final initial - start)
   where
@@ -130,8 +134,9 @@ follow curve tolerance stretch = go initial (final initial - start)
 -- | Parameter at which a biarc ends on the curve, and the segments of the biarc.
 data FitStep = FitStep Double (NonEmpty Segment)
 
--- | Longest biarc within a tolerance of a stretch that ends at the parameter @final@. It starts at
--- the parameter @at@ with a given position and direction; @step@ is tried first.
+-- | Longest biarc along a stretch, within a tolerance. It starts at the parameter @at@ with the
+-- position and direction @pose@. @final@ is the parameter at the end of the stretch. The step
+-- @step@ is tried first.
 oneBiarc :: Mm -> ParametricCurve -> Double -> Double -> (Point, Vec) -> Double -> FitStep
 oneBiarc (Mm tolerance) curve final at pose step = FitStep reached biarc
   where
@@ -142,7 +147,7 @@ oneBiarc (Mm tolerance) curve final at pose step = FitStep reached biarc
     ahead = takeWhile ((< final) . fst) (dropWhile ((<= at) . snd) (zip (begin curve : ends) ends))
     ends = NonEmpty.toList (breaks curve)
 
--- | Direction of the curve at a parameter; where spans meet, the mean of both sides.
+-- | Unit direction of the curve at parameter @u@; where spans meet, the mean of both sides.
 heading :: FitState -> Double -> Vec
 heading w u
   | u >= final w = arriving
@@ -152,19 +157,19 @@ heading w u
     arriving = direction (curve w) Arriving u
     leaving = direction (curve w) Leaving u
 
--- | Biarc that was tried: the parameter at its end, its segments, and its largest distance from
--- the curve.
+-- | Biarc that was tried: the parameter at its end, its segments, and its largest distance from the
+-- curve in mm.
 data Trial = Trial {reached :: Double, biarc :: NonEmpty Segment, distance :: Double}
 
--- | Longest biarc within the tolerance, by a bracketing search that begins with a given step. On a
--- smooth curve the deviation grows with the third power of the step. By this rule the next step is
--- extrapolated; it is kept between the longest success and the shortest failure.
+-- | Longest biarc within the tolerance, by a bracketing search that begins with the step @first@.
+-- On a smooth curve the deviation grows with the third power of the step. The next step is
+-- extrapolated by this rule and clamped between the longest success and the shortest failure.
 longestBiarc :: FitState -> Double -> Trial
 longestBiarc w first = tryLonger (search w 24 Nothing Nothing first)
   where
     u = at w
-    -- If the biarc covers a sixteenth of the remaining stretch or more, longer biarcs are tried:
-    -- one of them can succeed where shorter ones fail.
+    -- Longer biarcs are tried if the best covers a sixteenth of the remaining stretch or more: one
+    -- of them can succeed where shorter ones fail.
     tryLonger best
       | final w - u > 16 * (reached best - u) = best
       | otherwise =
@@ -178,8 +183,9 @@ longestBiarc w first = tryLonger (search w 24 Nothing Nothing first)
           [] -> best
           t : _ -> search w 8 (Just t) Nothing (1.1 * (reached t - u))
 
--- | Bracketing search with at most @remaining@ further trials, given the longest success, the
--- parameter of the shortest failure, and the next step.
+-- | Bracketing search for the longest biarc, with at most @remaining@ further trials. @success@ is
+-- the longest trial within the tolerance so far, @failure@ the least parameter whose trial failed,
+-- both Nothing if there is none. @step@ is tried next.
 search :: FitState -> Int -> Maybe Trial -> Maybe Double -> Double -> Trial
 search w remaining success failure step
   | step <= leastStep w = fromMaybe (fallbackLine w) success
@@ -209,20 +215,21 @@ search w remaining success failure step
           gap = limit - reached best
        in max (a + 0.15 * gap) (min (a + 0.85 * gap) s)
 
--- | Smallest step that is tried with a biarc.
+-- | Smallest step for which a biarc is tried.
 leastStep :: FitState -> Double
 leastStep w = case ahead w of
   (lo, hi) : _ -> (hi - lo) * Tolerance.finestStep
   [] -> final w - at w
 
--- | Line over the smallest step, where no biarc succeeds.
+-- | Line over the smallest step, for positions from which no biarc succeeds.
 fallbackLine :: FitState -> Trial
 fallbackLine w = Trial v (Straight (fst (pose w)) (place (curve w) v) :| []) 0
   where
     v = min (final w) (at w + leastStep w)
 
--- | Biarc from the current position to a parameter, with its deviation. If the default chord ratio
--- fails, other ratios are tried. Some of them put the joint near a point at which spans meet.
+-- | Biarc from the current position to parameter @v@, with its deviation. If the default chord
+-- ratio (second chord divided by first) fails, other ratios are tried. Some of them put the joint
+-- near a point at which spans meet.
 try :: FitState -> Double -> Trial
 try w v
   | Vec.isNear p q = measured w v stations (Straight p q :| [])
@@ -248,16 +255,17 @@ try w v
     samples = concatMap snd stations
     stations = [(part, samplePoints (place (curve w)) 0.5 part) | part <- sampleCounts w v parts]
 
--- | Biarc that was tried: its largest distance from samples of the curve, its chord ratio, and its
--- segments.
+-- | Biarc that was tried: its largest distance in mm from samples of the curve, its chord ratio,
+-- and its segments.
 type Attempt = (Double, Double, NonEmpty Segment)
 
--- | The attempt with the least distance.
+-- | The attempt with the least distance from the samples.
 least :: [Attempt] -> Attempt
 least = minimumBy (comparing (\(d, _, _) -> d))
 
--- | Refines the chord ratio of an attempt by shrinking steps, if that can reach the tolerance
--- @aim@. @tried@ makes attempts with given ratios.
+-- | Refines the chord ratio of the attempt @best@ by steps of decreasing size, if this can reach
+-- the tolerance @aim@ (mm). @tried@ makes attempts with given ratios. At most @remaining@ steps
+-- follow; @factor@ is the factor from one ratio to the next.
 refineRatio :: Double -> ([Double] -> [Attempt]) -> Int -> Double -> Attempt -> Attempt
 refineRatio aim tried remaining factor best@(d, r, _)
   | remaining <= 0 || d <= aim || d > 4 * aim = best
@@ -269,9 +277,10 @@ refineRatio aim tried remaining factor best@(d, r, _)
       (sqrt factor)
       (least (best : tried [r / sqrt factor, r * sqrt factor]))
 
--- | Chord ratios of biarcs between two points of a curve whose joint is near a point at which two
--- of the given parts of spans meet. They help on chains of lines and arcs. A curve of more than
--- nine parts is no such chain; it gets none.
+-- | Chord ratios for biarcs between two points of a curve; the joint is then near a point at which
+-- two of the parts meet. A part is a span, or the rest of one, by its first and last parameter.
+-- Such ratios help on chains of lines and arcs. A curve of more than nine parts is not such a
+-- chain, and the list is empty.
 ratiosAtSpans :: ParametricCurve -> Point -> Point -> [(Double, Double)] -> [Double]
 ratiosAtSpans curve p q parts = case drop 1 parts of
   inner
@@ -286,15 +295,17 @@ ratiosAtSpans curve p q parts = case drop 1 parts of
       ]
   _ -> []
 
--- | Count of sample points and part of a span, with sample points within the part.
+-- | A count of sample points, a part of a span by its first and last parameter, and the samples of
+-- this part, each with its parameter.
 type Station = ((Int, (Double, Double)), [(Double, Point)])
 
--- | Largest distance, in mm, of some sample points from the nearest of some segments.
+-- | Largest distance, in mm, of the given sample points from the nearest of the segments.
 sampledDistance :: [(Double, Point)] -> NonEmpty Segment -> Double
 sampledDistance samples segments = maximum (map (distanceTo segments . snd) samples)
 
--- | Trial of segments from the current position to a parameter. If the sample points are within the
--- tolerance, the deviation is measured at twice as many points and between them.
+-- | Trial of segments from the current position to parameter @v@. If the sample points of
+-- @stations@ are within the tolerance, the deviation is measured at twice as many points and
+-- between them.
 measured :: FitState -> Double -> [Station] -> NonEmpty Segment -> Trial
 measured w v stations segments
   | sampled > aim w = Trial v segments sampled
@@ -306,9 +317,9 @@ measured w v stations segments
       concat [interleaved ms (samplePoints (place (curve w)) 0 part) | (part, ms) <- stations]
     interleaved as bs = concat (zipWith (\a b -> [a, b]) as bs)
 
--- | Counts of sample points for the parts of spans between the current parameter and @v@, each with
--- its part. A count is proportional to the part's share of the parameter range or of the length,
--- whichever is larger.
+-- | Counts of sample points for the parts of spans between the current parameter and @v@. Each part
+-- has its first and last parameter. The count of a part is proportional to its share of the
+-- parameter range or of the length, whichever is larger.
 sampleCounts :: FitState -> Double -> [(Double, Double)] -> [(Int, (Double, Double))]
 sampleCounts w v parts = case parts of
   [one] -> [(8, one)]
@@ -321,9 +332,9 @@ sampleCounts w v parts = case parts of
       [let Mm d = Vec.distance (place (curve w) a) (place (curve w) b) in d | (a, b) <- parts]
     whole = sum chords
 
--- | Sample points of a curve over a part of a span, with their parameters, shifted back by a share
--- of their spacing. The spacing is uneven, so that the samples cannot all fall on the zeros of a
--- periodic deviation.
+-- | Sample points on part of a span, with their parameters. There are @n@ points between the
+-- parameters @a@ and @b@, shifted back by the share @back@ of their spacing. The spacing is uneven,
+-- so that the samples cannot all fall on the zeros of a periodic deviation.
 samplePoints :: (Double -> Point) -> Double -> (Int, (Double, Double)) -> [(Double, Point)]
 samplePoints point back (n, (a, b)) =
   [ let u =
@@ -338,11 +349,11 @@ samplePoints point back (n, (a, b)) =
 distanceTo :: NonEmpty Segment -> Point -> Double
 distanceTo segments p = let Mm d = minimum (fmap (Distance.toPoint p) segments) in d
 
--- | Largest distance, in mm, between segments and a curve. The curve is given by a function of the
--- parameter and by sample points in order. The distance is measured at the sample points, near the
--- joint of the segments, and at every maximum between the samples. The result is infinite if the
--- feet of the samples on the segments jump or reverse, because then some point of the segments may
--- be far from the curve.
+-- | Largest distance, in mm, between segments and a curve. The curve is given by the function
+-- @point@ of the parameter and by the samples @points@ in order. The distance is measured at the
+-- samples, near the joint of the segments, and at every maximum between samples. The result is
+-- infinite if the feet of the samples on the segments jump or reverse: some point of the segments
+-- may be far from the curve.
 deviation :: (Double -> Point) -> Double -> NonEmpty Segment -> [(Double, Point)] -> Double
 deviation point aim segments points
   | largest > aim || isCovered point aim segments feet = largest
@@ -369,9 +380,10 @@ deviation point aim segments points
               (drop 2 known)
         )
 
--- | Maximum of a distance near the middle one of three neighbouring samples, by successive
--- parabolic interpolation. It is the middle sample itself unless that is the largest of the three
--- and at least 0.3 of the tolerance @aim@. A sample is a parameter and the distance there.
+-- | Parameter and value of a maximum of a distance near the middle one of three neighbouring
+-- samples, by successive parabolic interpolation. The middle sample is the result if it is not the
+-- largest of the three or is below 0.3 of the tolerance @aim@ (mm). A sample is a parameter and the
+-- distance there in mm.
 highest ::
   (Double -> Double) ->
   Double ->
@@ -399,8 +411,9 @@ highest distance aim remaining one@(a, da) two@(b, db) three@(c, dc)
     again = highest distance aim (remaining - 1)
     max' x y = if snd x > snd y then x else y
 
--- | True if the feet of a curve's points move forwards along the segments without a jump. Where a
--- foot moves much farther than its point, the interval is bisected.
+-- | True if the feet of a curve's points move forwards along the segments without a jump. Each
+-- entry of @feet@ has a parameter, the point there, and the length along the segments up to its
+-- foot. Where the foot moves much farther than the point, the interval is bisected.
 isCovered :: (Double -> Point) -> Double -> NonEmpty Segment -> [(Double, Point, Double)] -> Bool
 isCovered point aim segments feet = and (zipWith (isSteady (20 :: Int)) feet (drop 1 feet))
   where
@@ -417,7 +430,7 @@ isCovered point aim segments feet = and (zipWith (isSteady (20 :: Int)) feet (dr
     at w = let p = point w in (w, p, lengthAtFoot segments p)
     smallestStep = 0.1 * aim
 
--- | Length, in mm, along segments up to the point of them that is nearest to a given point.
+-- | Length, in mm, along the segments from their start to the foot of point @p@.
 lengthAtFoot :: NonEmpty Segment -> Point -> Double
 lengthAtFoot segments p = go 0 (NonEmpty.toList segments) (1 / 0, 0)
   where

@@ -4,9 +4,14 @@
 
 -- | Arc fitting of polyarcs by biarcs, with an error bound in closed form.
 --
--- The bound is that of "Geometry.ArcFitting.ArcDistance". Along a line or an arc that sweeps less
--- than a quarter turn, F has at most one extremum. It lies where the slope @F′ = d_y − k·(x·d_x +
--- y·d_y)@ is 0; this slope is nearly linear from one end to the other.
+-- The bound, the function F and the arcs are those of "Geometry.ArcFitting.ArcDistance". Along a
+-- line or an arc that sweeps less than a quarter turn, F has at most one extremum. It lies where
+-- the slope @F′ = d_y − k·(x·d_x + y·d_y)@ is 0; this slope is nearly linear from one end to the
+-- other.
+--
+-- The parameter of a polyarc is its arc length in mm. Segments are counted from 0. A stretch is the
+-- part between two corners, given by the index @from@ of its first segment and the index @to@ after
+-- its last. A pose is a position in mm with a unit direction.
 module Geometry.ArcFitting.PolyarcFit
   ( approximate,
     smoothed,
@@ -38,10 +43,9 @@ import Geometry.Segment qualified as Segment
 import Geometry.Tolerance qualified as Tolerance
 import Geometry.Vec qualified as Vec
 
--- | Polyarc in arrays, with its arc length in mm as the parameter. @stations@ are the arc lengths
--- at the starts of the segments; the last entry is the whole length. @entries@ has seven numbers
--- per segment: x and y of the start, the unit directions at the start and at the end, and the
--- curvature in 1/mm, positive to the left.
+-- | Polyarc in arrays. @stations@ are the arc lengths in mm at the starts of the segments; the last
+-- entry is the whole length. @entries@ has seven numbers per segment: x and y of the start in mm,
+-- the unit directions at the start and at the end, and the curvature in 1/mm, positive to the left.
 data SegmentTable = SegmentTable {stations :: Vector Double, entries :: Vector Double}
 
 -- | Arcs and lines within a tolerance of a polyarc. The tolerance holds from the polyarc to the
@@ -63,14 +67,14 @@ approximate (Mm tolerance) segments = runST $ do
     n = Unboxed.length (stations chain) - 1
     end = Segment.end (NonEmpty.last segments)
 
--- | The stretch of segments @from@ to @to − 1@. A biarc along all of it is tried first.
+-- | Arc lengths of the segments @from@ to @to − 1@. A biarc along all of them is tried first.
 stretchRange :: SegmentTable -> Int -> Int -> ParameterRange
 stretchRange chain from to = ParameterRange {inSpan = from, begin, final, step = final - begin}
   where
     begin = station chain from
     final = station chain to
 
--- | The segments @from@ to @to − 1@ as a curve.
+-- | The segments @from@ to @to − 1@ as a curve for the fit, within @tolerance@ (mm).
 stretchSpans :: Double -> SegmentTable -> Int -> Int -> Spans
 stretchSpans tolerance chain from to =
   Spans
@@ -83,17 +87,17 @@ stretchSpans tolerance chain from to =
     }
   where
     n = Unboxed.length (stations chain) - 1
-    -- The general fit considers the current segment and the 63 after it.
+    -- This fit's cost grows with the count of segments, so it gets the current one and the next 63.
     generalFit u =
       let i = min (to - 1) (BinarySearch.lastAtMost n u (stations chain))
           end = min to (i + 64)
        in ParametricFit.oneBiarc (Mm tolerance) (parametricCurve chain i end) (station chain end) u
 {-# INLINE stretchSpans #-}
 
--- | Polyarc within a tolerance of a given one that has no kinks except at corners. A kink is a
--- change of direction above 'Tolerance.smoothAngle', a corner one above 'Tolerance.kink'. Stretches
--- between corners that have no kink are kept, but neighbouring arcs on one circle are merged.
--- Stretches with kinks are replaced by the result of 'approximate'.
+-- | Polyarc within a tolerance of a given one, without kinks except at corners. A kink is a change
+-- of direction above 'Tolerance.smoothAngle', a corner one above 'Tolerance.kink'. A stretch
+-- without a kink is kept, but neighbouring arcs on one circle are merged. A stretch with kinks is
+-- replaced by the result of 'approximate'.
 smoothed :: Mm -> NonEmpty Segment -> NonEmpty Segment
 smoothed tolerance (first :| others) = groups (first :| []) first False others
   where
@@ -119,8 +123,8 @@ smoothed tolerance (first :| others) = groups (first :| []) first False others
           (MeasuredPolyarc.fromFlatPolyarc (approximate tolerance (NonEmpty.reverse before)))
       | otherwise = NonEmpty.reverse before
 
--- | One arc of at most half a turn in place of two consecutive arcs, if both lie on one circle to
--- rounding.
+-- | One arc of at most half a turn in place of two consecutive arcs. Nothing if they do not lie on
+-- one circle, up to rounding.
 mergedArc :: Segment -> Segment -> Maybe Segment
 mergedArc s next = case (s, next) of
   (Arc {start, centre, sweep = Rad a}, Arc {end, sweep = Rad b})
@@ -154,7 +158,8 @@ tableOf segments =
     n = NonEmpty.length segments
     list = NonEmpty.toList segments
 
--- | Writes the seven numbers of a segment at an index of the array; returns the index after them.
+-- | Writes the seven numbers of a segment to an array from index @i@ on; returns the index after
+-- them.
 writeSegment :: Mutable.MVector s Double -> Int -> Segment -> ST s Int
 writeSegment array i s = case s of
   Straight p q -> let d = Vec.unit (Vec.to p q) in writeNumbers p d d 0
@@ -172,35 +177,36 @@ writeSegment array i s = case s of
       pure (i + 7)
     put j = Mutable.unsafeWrite array (i + j)
 
--- | Arc length at the start of a segment; at the index after the last one, the whole length.
+-- | Arc length in mm at the start of a segment; for the index after the last one, the whole length.
 station :: SegmentTable -> Int -> Double
 station chain = Unboxed.unsafeIndex (stations chain)
 
--- | Pose at the start of a segment.
+-- | Pose at the start of segment @i@.
 beginning :: SegmentTable -> Int -> Pose
 beginning chain i = Pose (part 0) (part 1) (part 2) (part 3)
   where
     part k = Unboxed.unsafeIndex (entries chain) (7 * i + k)
 
--- | Unit direction at the end of a segment.
+-- | Unit direction, as x and y, at the end of segment @i@.
 ending :: SegmentTable -> Int -> (Double, Double)
 ending chain i =
   (Unboxed.unsafeIndex (entries chain) (7 * i + 4), Unboxed.unsafeIndex (entries chain) (7 * i + 5))
 {-# INLINE ending #-}
 
--- | Curvature of a segment in 1/mm, positive to the left.
+-- | Curvature of segment @i@ in 1/mm, positive to the left.
 curvature :: SegmentTable -> Int -> Double
 curvature chain i = Unboxed.unsafeIndex (entries chain) (7 * i + 6)
 
--- | True if the polyarc has a corner at the start of a segment other than the first.
+-- | True if the polyarc has a corner at the start of segment @k@, which is not the first (0).
 hasCorner :: SegmentTable -> Int -> Bool
 hasCorner chain k = FastBiarc.isCorner b {dx = ex, dy = ey} b
   where
     (ex, ey) = ending chain (k - 1)
     b = beginning chain k
 
--- | Index of the segment, below @to@, that contains the arc length @u@; @from@ is this segment or
--- an earlier one. Galloping (exponential) search followed by binary search.
+-- | Index of the segment, below @to@, that contains the arc length @u@ (mm). The search begins at
+-- @from@, which is this index or a smaller one. It is a galloping (exponential) search followed by
+-- a binary search.
 seekFrom :: SegmentTable -> Int -> Int -> Double -> Int
 seekFrom chain to from u = gallop from 1
   where
@@ -216,7 +222,8 @@ seekFrom chain to from u = gallop from 1
       where
         middle = (low + high) `div` 2
 
--- | Pose at the distance @s@ along a segment from a pose on it; @k@ is the segment's curvature.
+-- | Pose at the arc length @s@ (mm) after a given pose, along a segment with the curvature @k@
+-- (1/mm).
 poseAlong :: Double -> Pose -> Double -> Pose
 poseAlong k (Pose x y ux uy) s
   | k == 0 = Pose (x + s * ux) (y + s * uy) ux uy
@@ -232,8 +239,8 @@ poseAlong k (Pose x y ux uy) s
     n = sin (0.5 * k * s)
     chord = 2 * n / k
 
--- | Pose at an arc length in the stretch of segments @from@ to @to − 1@, given the segment that
--- contains it. Where two segments meet, the direction is the mean of both.
+-- | Pose at the arc length @u@ (mm) in the stretch of segments @from@ to @to − 1@; @i@ is the
+-- segment that contains @u@. Where two segments meet, the direction is the mean of both.
 poseWithin :: SegmentTable -> Int -> Int -> Int -> Double -> Pose
 poseWithin chain from to i u
   | u >= station chain to = arriving (to - 1)
@@ -247,8 +254,9 @@ poseWithin chain from to i u
           end = poseAlong (curvature chain j) (beginning chain j) whole
        in end {dx = ex, dy = ey}
 
--- | Bounds of the distances of a biarc's two arcs from the polyarc between two arc lengths, each
--- given with its segment and pose. A result above the limit @largest@ need not be a bound.
+-- | Bounds of the distances of a biarc's two arcs from the polyarc between two arc lengths. After
+-- the limit @largest@ (mm) come segment, arc length and pose of the first end, then those of the
+-- second. A result above the limit need not be a bound, as the caller rejects the biarc anyway.
 biarcDistances ::
   SegmentTable ->
   Double ->
@@ -276,15 +284,16 @@ biarcDistances chain largest first u from final v to pair
     _ -> unknown
   | otherwise = unknown
   where
-    -- Where segments meet, the polyarc continues in the direction of the later segment, not in the
-    -- mean direction, in which the biarc starts.
+    -- At a vertex the polyarc continues in the direction of the later segment; the biarc starts in
+    -- the mean direction.
     start = Reached first u (if u > station chain first then from else ownDirection) 0
     ownDirection = let b = beginning chain first in from {dx = dx b, dy = dy b}
     unknown = ArcDistances (1 / 0) (1 / 0)
 
--- | True if one of some vertices of the polyarc is farther than @largest@ from a biarc that starts
--- at a pose in segment @first@ and ends in segment @final@. This rejects most biarcs that are too
--- far off. Of many vertices only three are tested, of up to three all.
+-- | True if a tested vertex of the polyarc is farther than @largest@ (mm) from a biarc. The biarc
+-- starts at pose @from@ in segment @first@ and ends in segment @final@. This test rejects most
+-- biarcs that deviate too much, before the exact bound is computed. It tests up to three vertices,
+-- and only three of a longer run.
 isVertexFar :: SegmentTable -> Double -> Int -> Int -> Pose -> FastBiarc -> Bool
 isVertexFar chain largest first final from pair
   | final - first >= 4 = isQuarterFar 1 || isQuarterFar 2 || isQuarterFar 3
@@ -293,8 +302,8 @@ isVertexFar chain largest first final from pair
     isQuarterFar k = isFar (isOnFirst p) p
       where
         !p = beginning chain (first + k * (final - first) `quot` 4)
-    -- Tests the vertices one by one: against the first arc up to the normal at its end, then
-    -- against the second arc.
+    -- Tests one vertex after another: against the first arc up to the normal at the end of this
+    -- arc, then against the second arc.
     isAnyFar i
       | i > final = False
       | isOnFirst p = isFar True p || isAnyFar (i + 1)
@@ -312,9 +321,10 @@ isVertexFar chain largest first final from pair
       | otherwise = abs (above (bend2 pair) (joint pair) p) > largest
     {-# INLINE isFar #-}
 
--- | True if a vertex between two positions is farther than @largest@ from every biarc between them.
--- The positions are given with their segments and poses. All biarcs between them lie between two
--- circles through both positions: one has the start direction, the other the end direction.
+-- | True if a vertex between two positions is farther than @largest@ (mm) from every biarc between
+-- them, so that the caller tries none. Each position is given by its segment, arc length and pose.
+-- All biarcs between two poses lie between two circles through both positions: one has the start
+-- direction, the other the end direction.
 isTooFar :: SegmentTable -> Double -> Int -> Double -> Pose -> Int -> Double -> Pose -> Bool
 isTooFar chain largest first _ from final _ to =
   max (abs bendA) (abs bendB) * largest < slack / 2 && go 1
@@ -338,18 +348,19 @@ isTooFar chain largest first _ from final _ to =
 testedVertices :: Int
 testedVertices = 8
 
--- | Allowance of 'isTooFar', as a share of the distance. F differs from the distance by less than
--- half of it.
+-- | Margin of 'isTooFar', as a share of the distance. F differs from the distance by less than half
+-- of this margin.
 slack :: Double
 slack = 0.05
 
--- | Position on the polyarc, by its segment, its arc length and its pose; and the bound of the
--- distance from the arc up to this position.
+-- | Position on the polyarc, by its segment, its arc length (mm) and its pose, and a bound in mm.
+-- It is that of the distance between arc and polyarc up to this position.
 data Reached = Reached Int Double Pose Double
 
 -- | Advances on the polyarc along one arc and bounds their distance. It ends where the polyarc
--- crosses the normal at the arc's end or, if the arc is the @final@ one, at the arc length @v@ with
--- the pose @to@. It also ends once the bound exceeds @largest@.
+-- crosses the normal at the arc's end, where the second arc begins. For the second arc, that is
+-- with @final@, it ends at the arc length @v@ with the pose @to@. It also ends once the bound
+-- exceeds @largest@ (mm).
 advance :: SegmentTable -> Double -> Double -> Pose -> Bool -> FastArc -> Reached -> Reached
 advance !chain !largest !v !to !final !f (Reached i0 u0 begin d0) =
   go i0 u0 (px begin) (py begin) (dx begin) (dy begin) (level f begin) (abs (level f begin))
@@ -364,7 +375,8 @@ advance !chain !largest !v !to !final !f (Reached i0 u0 begin d0) =
             finishAtNormal i u end p arriving (larger d0 (distanceOfLevel f greatestLevel))
           | not (runsForwards f p && runsForwards f arriving) ->
             Reached (i + 1) end arriving (1 / 0)
-          -- Tests for an inner extremum above @greater@ only if there can be one, which is rare.
+          -- Tests for an inner extremum of F above @greater@ only if there can be one, which is
+          -- rare.
           | abs here + 1.5 * abs m * (end - u) > greater,
             e <- extreme here m (slope f arriving) (hx * ey - hy * ex) (end - u),
             e > greater ->
@@ -397,9 +409,9 @@ advance !chain !largest !v !to !final !f (Reached i0 u0 begin d0) =
     {-# NOINLINE finishAtNormal #-}
     larger d e = if e <= d then d else e
 
--- | Length along a part of a segment to the point at which it crosses the normal at an arc's end,
--- by one step of linear interpolation and one of Newton's method. The arguments are the arc, the
--- segment's curvature, the poses at both ends of the part, and its length.
+-- | Length in mm along a part of a segment to the point at which it crosses the normal at an arc's
+-- end. It takes one step of linear interpolation and one of Newton's method. The arguments are the
+-- arc, the segment's curvature (1/mm), the poses at both ends of the part, and its length (mm).
 normalCrossing :: FastArc -> Double -> Pose -> Pose -> Double -> Double
 normalCrossing f k p q l = newton (clamped (-l * from / (beyond f (px q) (py q) - from)))
   where
@@ -409,8 +421,8 @@ normalCrossing f k p q l = newton (clamped (-l * from / (beyond f (px q) (py q) 
        in clamped (a - beyond f (px b) (py b) / (dx b * dx (limit f) + dy b * dy (limit f)))
     clamped a = if a > 0 then if a < l then a else l else 0
 
--- | Bound of the distance between an arc and a part of a segment, given by the two poses at its
--- ends and its length. Infinite if the part might not run forwards.
+-- | Bound in mm of the distance between an arc and a part of a segment. The part is given by the
+-- poses at its ends and its length (mm). The bound is infinite if the part might not run forwards.
 distanceBound :: FastArc -> Pose -> Pose -> Double -> Double
 distanceBound f p q l
   | runsForwards f p && runsForwards f q =
@@ -426,11 +438,11 @@ distanceBound f p q l
     to = level f q
     greater a b = if a > b then a else b
 
--- | Absolute value of the extremum of F between two positions on a segment; 0 if there is none. The
--- arguments are F at the first position, the slopes at both, the sine of the sweep between them,
--- and the length between them. The extremum is that of a parabola, corrected by the square of the
--- sine. The result is at most @|F| + 3/2·|slope|·length@ with F and the slope at the first
--- position.
+-- | Absolute value of the extremum of F between two positions on a segment, in mm; 0 if there is
+-- none. The arguments are F at the first position, and the slopes of F at both. Then come the sine
+-- of the sweep and the length (mm) between the positions. The extremum is that of a parabola,
+-- corrected by the square of the sine. The result is at most @|F| + 3/2·|slope|·length@ with F and
+-- the slope at the first position.
 extreme :: Double -> Double -> Double -> Double -> Double -> Double
 extreme from m n sweepSine l
   | m * n < 0 = abs (from - 0.5 * m * m * l / (n - m) * (1 + 2 * sweepSine * sweepSine))

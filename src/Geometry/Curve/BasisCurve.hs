@@ -1,8 +1,9 @@
 -- | Unshifted curves: consecutive spans, each of them a cubic in x and in y, or an arc.
 --
--- The parameter runs from 0 to the count of spans, by 1 over each span. A base keeps the rows of
--- the table from which it was made, so that columns of numbers can be interpolated by the same
--- method as the points.
+-- The parameter runs from 0 to the count of spans, by 1 over each span; it has no unit. The local
+-- parameter of a span runs from 0 to 1. A base is a curve without shifts. It keeps the rows of the
+-- table from which it was made. Columns of numbers are interpolated between them by the same method
+-- as the points.
 module Geometry.Curve.BasisCurve
   ( BasisCurve (..),
     SpanList (..),
@@ -57,7 +58,7 @@ import Geometry.Vec (Point, Vec)
 import Geometry.Vec qualified as Vec
 import Linear.V2 (V2 (..))
 
--- | Unshifted curve with the rows of its table.
+-- | Base: an unshifted curve with the rows of its table.
 data BasisCurve = BasisCurve
   { -- | interpolation by which the points became spans
     method :: CurveKind,
@@ -65,7 +66,7 @@ data BasisCurve = BasisCurve
     rows :: ~(Vector Knot),
     -- | at least one span
     spanList :: SpanList,
-    -- | True if the curve ends where it begins
+    -- | True if the base ends where it begins
     closed :: Bool,
     -- | arc length along the base; read through 'arcLength'
     lengthTable :: ~ArcLength
@@ -74,13 +75,13 @@ data BasisCurve = BasisCurve
 
 -- | Spans in order.
 data SpanList
-  = -- | cubics in x, and equally many in y
+  = -- | the cubics in x and those in y, in mm; both have one cubic for each span
     Cubical Cubics Cubics
   | -- | spans of any kind, at least one of them an arc
     Mixed (Vector Span)
   deriving stock (Eq, Show)
 
--- | Interpolation of a curve through points.
+-- | Method by which the points of a curve became spans.
 data CurveKind
   = -- | a straight line from each row to the next
     Polyline
@@ -88,7 +89,7 @@ data CurveKind
     Spline EndCondition
   | -- | a parabola y(x) through rows 1–3, 3–5, and so on
     Parabola
-  | -- | spans that were given one by one
+  | -- | spans that were given one by one, not interpolated
     Joined
   deriving stock (Eq, Show)
 
@@ -106,13 +107,13 @@ data EndCondition
 data Knot = Knot {at :: Double, knotPoint :: Point}
   deriving stock (Eq, Show)
 
--- | Reason why the data give no curve. Rows and spans are counted from 1.
+-- | Reason why the given data do not describe a curve. Rows and spans are counted from 1.
 data CurveFault
-  = -- | too few points; the count that is needed
+  = -- | too few points; at least this count is needed
     TooFew Int
   | -- | the row with this number and the next one coincide
     Coincident Int
-  | -- | an even count of points, so that the last parabola lacks one
+  | -- | an even count of points, so that the last parabola has only two; the count
     EvenCount Int
   | -- | x reverses between the row with this number and the next one
     NotMonotone Int
@@ -127,11 +128,12 @@ data CurveFault
     Disordered Int
   | -- | the radius of a joggle is not above half of its depth
     DeepJoggle
-  | -- | the ramps of a joggle need the first length; only the second is available
+  | -- | the ramps of a joggle need the first length, but the curve between its parameters has only
+    -- the second
     LongJoggle Mm Mm
   deriving stock (Eq, Show)
 
--- | Base with the given fields and the table of its arc length.
+-- | Base with the given fields, to which the table of arc lengths is added.
 makeBase :: CurveKind -> Bool -> Vector Knot -> SpanList -> BasisCurve
 makeBase method closed rows spanList = base
   where
@@ -145,7 +147,7 @@ makeBase method closed rows spanList = base
         }
     speed u = let s = spanPoint After u base in speedAt base (number s) (local s)
 
--- | Speed in mm per unit of the parameter, in a span at its local parameter.
+-- | Speed in mm per unit of the parameter, in span @i@ (from 0) at the local parameter @t@.
 speedAt :: BasisCurve -> Int -> Double -> Double
 speedAt base i t = case spanList base of
   Cubical xs ys ->
@@ -162,8 +164,8 @@ spans base = case spanList base of
     Vector.generate (Spline.count xs) (\i -> Polynomial (Spline.at xs i) (Spline.at ys i))
   Mixed parts -> parts
 
--- | Segments of a base that consists of lines and arcs only and has at least one arc; nothing for
--- any other base. The base's spans join to a tolerance; the segments join exactly.
+-- | Segments of a base that consists of lines and arcs only and has at least one arc. Nothing for
+-- any other base. The base's spans join within a tolerance; the segments join exactly.
 asSegments :: BasisCurve -> Maybe (NonEmpty Segment)
 asSegments base = case spanList base of
   Cubical _ _ -> Nothing
@@ -179,7 +181,7 @@ asSegments base = case spanList base of
       | Segment.start s == p = s
       | otherwise = s {Segment.start = p}
 
--- | List of the given spans: cubics if all of them are polynomial.
+-- | List of the given spans: 'Cubical' if all of them are polynomial, otherwise 'Mixed'.
 toSpanList :: Vector Span -> SpanList
 toSpanList parts = case traverse polynomial parts of
   Just both ->
@@ -205,9 +207,9 @@ polyline points = do
         (\i -> Spline.line (part (points Vector.! i)) (part (points Vector.! (i + 1))))
     {-# INLINE lineCubics #-}
 
--- | Cubic spline through the points, with continuous second derivatives by chord length. At clamped
--- ends the first derivative by chord length is the given direction. The points of a periodic spline
--- may repeat the first one at the end or not.
+-- | Cubic spline through the points. Its second derivatives by accumulated chord length are
+-- continuous. At clamped ends, the first derivative by chord length is the given direction. The
+-- last point of a periodic spline may repeat the first one or not.
 spline :: EndCondition -> Vector Point -> Either CurveFault BasisCurve
 spline ends points = case ends of
   Natural -> do
@@ -245,7 +247,7 @@ spline ends points = case ends of
           (cubics Spline.Periodic Spline.Periodic looped)
       )
 
--- | Spans of a spline with the given boundary conditions for x and for y.
+-- | Spans of a spline whose boundary conditions are @forX@ in x and @forY@ in y.
 cubics :: Spline.Boundary -> Spline.Boundary -> Vector Point -> SpanList
 cubics forX forY points = Cubical (through forX Vec.x) (through forY Vec.y)
   where
@@ -259,7 +261,7 @@ distances points =
   Unboxed.convert
     (Vector.zipWith (\p q -> let Mm d = Vec.distance p q in d) points (Vector.drop 1 points))
 
--- | Distances between neighbouring rows, in mm. For a closed base whose last row does not repeat
+-- | Distances between neighbouring rows, in mm. For a closed base whose last row is not a copy of
 -- the first, the distance from the last row to the first is added.
 chords :: BasisCurve -> Unboxed.Vector Double
 chords base
@@ -268,16 +270,17 @@ chords base
   where
     points = Vector.map knotPoint (rows base)
 
--- | Position of the middle row of each parabola: the local parameter, from 0 to 1, in its span.
+-- | Position of the middle one of the three rows of each parabola: the local parameter, from 0 to
+-- 1, in the span of this parabola.
 fractions :: BasisCurve -> Vector Double
 fractions base =
   Vector.generate
     (count base)
     (\i -> maybe 0.5 (\row -> at row - fromIntegral i) (rows base Vector.!? (2 * i + 1)))
 
--- | Parabolas y(x) through points 1–3, 3–5, and so on (Lagrange; Ural paper, sections 3–8 and
--- 8–13 of the template). Each span is one parabola. Its parameter is proportional to x, which
--- must rise or fall throughout.
+-- | Parabolas y(x) through points 1–3, 3–5, and so on (Lagrange; Ural paper, sections 3–8 and 8–13
+-- of the template). Each span is one parabola. Its parameter is proportional to x. Over the whole
+-- table, x must rise throughout or fall throughout.
 parabola :: Vector Point -> Either CurveFault BasisCurve
 parabola points
   | Vector.length points < 3 = Left (TooFew 3)
@@ -304,21 +307,20 @@ parabola points
   where
     x i = Vec.x (points Vector.! i)
     sense = signum (x 1 - x 0)
-    -- Points with equal x do not lie on one parabola y(x), even if they are far apart.
+    -- Points with equal x do not lie on one parabola y(x), even if they are far apart in y.
     advance p q = sense * (Vec.x q - Vec.x p) - (let Mm d = Tolerance.coincident in d)
     middle i = (x (2 * i + 1) - x (2 * i)) / (x (2 * i + 2) - x (2 * i))
 
--- | Base of consecutive spans. The second argument has the parameters of the table's rows, rising.
+-- | Base of consecutive spans of given shapes, with the rising parameters of the table's rows.
 fromShapes :: NonEmpty SpanShape -> Vector Double -> Either CurveFault BasisCurve
 fromShapes = ofSpans . vector Span.fromShape
 
--- | Base of consecutive lines and arcs. The second argument has the parameters of the table's rows,
--- rising.
+-- | Base of consecutive lines and arcs, with the rising parameters of the table's rows.
 fromSegmentsAt :: NonEmpty Segment -> Vector Double -> Either CurveFault BasisCurve
 fromSegmentsAt = ofSpans . vector Span.fromSegment
 
--- | Base of consecutive spans, with the rising parameters of the table's rows. It is a fault if
--- spans do not join or if the parameters are not in order.
+-- | Base of consecutive spans. @parameters@ are those of the table's rows, which must rise. It is a
+-- fault if they do not, or if two spans do not join.
 ofSpans :: Vector Span -> Vector Double -> Either CurveFault BasisCurve
 ofSpans parts parameters = do
   checkJoined parts
@@ -363,7 +365,7 @@ fromSegments segments = do
     base = chain Vector.empty parts
     starts = Vector.fromList (map Segment.start (NonEmpty.toList segments))
 
--- | Strict map of a list into a vector.
+-- | Vector of the results of a function on a list, each of them evaluated.
 vector :: (a -> b) -> NonEmpty a -> Vector b
 vector f list = Vector.unfoldrN (NonEmpty.length list) next (NonEmpty.toList list)
   where
@@ -371,7 +373,7 @@ vector f list = Vector.unfoldrN (NonEmpty.length list) next (NonEmpty.toList lis
       [] -> Nothing
       a : rest -> let b = f a in b `seq` Just (b, rest)
 
--- | Base of at least one span with the given rows. The spans must join.
+-- | Base of at least one span with the given rows. The caller has checked that the spans join.
 chain :: Vector Knot -> Vector Span -> BasisCurve
 chain rows parts = makeBase Joined (Vec.isNear first lastPoint) rows (toSpanList parts)
   where
@@ -406,17 +408,18 @@ checkDistinct needed points
           [1 .. Vector.length points - 1]
       )
 
--- | True if the last of at least three points repeats the first.
+-- | True if there are at least three points and the last one coincides with the first.
 isLoop :: Vector Point -> Bool
 isLoop points = case (points Vector.!? 0, points Vector.!? (Vector.length points - 1)) of
   (Just p, Just q) -> Vector.length points > 2 && Vec.isNear p q
   _ -> False
 
--- | Rows with the given points, at the ends of the spans.
+-- | Rows with the given points, of which each lies at the start of a span or at the end of the
+-- last.
 rowsAtEnds :: Vector Point -> Vector Knot
 rowsAtEnds = Vector.imap (\i p -> Knot {at = fromIntegral i, knotPoint = p})
 
--- | Count of spans, which is the parameter of the end.
+-- | Count of spans, which is also the parameter of the end.
 count :: BasisCurve -> Int
 count base = case spanList base of
   Cubical xs _ -> Spline.count xs
@@ -426,8 +429,9 @@ count base = case spanList base of
 arcLength :: BasisCurve -> ArcLength
 arcLength = lengthTable
 
--- | Position on a curve: the parameter, the index of its span, the local parameter in the span,
--- and the side from which the position is approached.
+-- | Position on a curve. @parameter@ is that of the whole curve. @number@ is the index, from 0, of
+-- the span in which the position lies; @local@ is the parameter in this span, from 0 to 1.
+-- @approach@ is the side from which the position is approached.
 data SpanPoint = SpanPoint
   { parameter :: Double,
     number :: Int,
@@ -436,7 +440,8 @@ data SpanPoint = SpanPoint
   }
   deriving stock (Eq, Show)
 
--- | Position at a parameter. Parameters outside of the domain give the nearer end.
+-- | Position at parameter @u@, approached from the given side. A parameter outside of the domain
+-- gives the nearer end.
 spanPoint :: Approach -> Double -> BasisCurve -> SpanPoint
 spanPoint approach u base =
   SpanPoint {parameter, number, local = parameter - fromIntegral number, approach}
@@ -447,7 +452,7 @@ spanPoint approach u base =
       After -> min (n - 1) (truncate parameter)
       Before -> max 0 (ceiling parameter - 1)
 
--- | Taylor expansion of the point about a position, up to the given order.
+-- | Taylor expansion of the point, in mm, about a position, up to the power @n@ of the parameter.
 expansion :: Int -> BasisCurve -> SpanPoint -> TaylorExpansion
 expansion n base s = case spanList base of
   Cubical xs ys ->
@@ -475,18 +480,19 @@ reversed base =
       Parabola -> Parabola
       Joined -> Joined
 
--- | Applies a function to the spans.
+-- | Span list of a base after a function was applied to the vector of its spans.
 mapSpans :: (Vector Span -> Vector Span) -> BasisCurve -> SpanList
 mapSpans f base = toSpanList (f (spans base))
 
--- | Values of the rows of a base, in the order of the rows of the reversed base.
+-- | Values of the rows of a base, given in the order of its rows. The result has them in the order
+-- of the rows of the reversed base.
 inReverseOrder :: BasisCurve -> Vector a -> Vector a
 inReverseOrder base values
   | lacksRepeatedStart base = Vector.cons (Vector.head values) (Vector.reverse (Vector.tail values))
   | otherwise = Vector.reverse values
 
--- | True if the base is closed, its first row is at the parameter 0, and no row repeats it at the
--- end.
+-- | True if the base is closed, its first row has the parameter 0, and no row at the end repeats
+-- the first row.
 lacksRepeatedStart :: BasisCurve -> Bool
 lacksRepeatedStart base =
   case (rows base Vector.!? 0, rows base Vector.!? (Vector.length (rows base) - 1)) of

@@ -2,8 +2,9 @@
 -- interpolation is that of the points: linear on a polyline, by parabolas on a chain of parabolas,
 -- by a spline on a spline.
 --
--- On a base of spans that were given one by one, the speed jumps from span to span. There the
--- column is a cubic spline by arc length: a natural one, or a periodic one on a closed base.
+-- The base is the unshifted curve to which the table belongs. If its spans were given one by one,
+-- the speed jumps from span to span. In this case the column is a cubic spline by arc length: a
+-- natural one, or a periodic one on a closed base.
 module Geometry.Curve.Column
   ( Column (..),
     Interpolation (..),
@@ -30,15 +31,15 @@ import Geometry.Numeric.PowerSeries (PowerSeries)
 import Geometry.Numeric.PowerSeries qualified as PowerSeries
 import Geometry.Numeric.TaylorExpansion qualified as TaylorExpansion
 
--- | Row values in any unit, and their interpolation.
+-- | Row values, in any unit and one for each row, and their interpolation.
 data Column = Column {values :: Vector Double, interpolation :: Interpolation}
   deriving stock (Eq, Show)
 
 -- | Interpolation of a column between the rows.
 data Interpolation
-  = -- | a cubic for every span of the base, over the local parameter from 0 to 1
+  = -- | a cubic for every span of the base, over the span's local parameter from 0 to 1
     BySpan Cubics
-  | -- | the arc lengths (mm) at the rows, and a cubic for each interval between two of them
+  | -- | the arc lengths (mm) at the rows, rising, and a cubic for each interval between two of them
     ByLength (Unboxed.Vector Double) Cubics
   deriving stock (Eq, Show)
 
@@ -51,7 +52,7 @@ column base values
   where
     flat = Unboxed.convert values
     first = Vector.take 1 values
-    -- A table that repeats its first point may give the repeated row another value.
+    -- The first point may occur again as the last row, with another value; then the column jumps.
     isPeriodic =
       BasisCurve.lacksRepeatedStart base || first == Vector.drop (Vector.length values - 1) values
     periodicValues =
@@ -76,7 +77,8 @@ column base values
       Parabola -> BySpan (Spline.parabolas (BasisCurve.fractions base) flat)
       Joined -> byLength base values
 
--- | Spline through the values by arc length along the base; a single value gives a constant.
+-- | Interpolation of the values by a spline in arc length along the base. A single value gives a
+-- constant.
 byLength :: BasisCurve -> Vector Double -> Interpolation
 byLength base values = case Vector.toList values of
   [] -> BySpan (Spline.generate (BasisCurve.count base) (const (Cubic 0 0 0 0)))
@@ -115,7 +117,7 @@ byLength base values = case Vector.toList values of
             (Unboxed.fromList (Vector.toList vs))
         )
 
--- | Power series of a column's value about a position, up to the given order.
+-- | Power series of the value of column @c@ about a position, up to the power @n@ of the parameter.
 series :: Int -> BasisCurve -> Column -> SpanPoint -> PowerSeries
 series n base c spanPoint = case interpolation c of
   BySpan cubics -> Spline.series n (Spline.at cubics (number spanPoint)) (local spanPoint)
@@ -124,7 +126,7 @@ series n base c spanPoint = case interpolation c of
     | currentLength > Unboxed.last stations -> PowerSeries.polynomial (tangentAt 1) fraction
     | otherwise -> PowerSeries.polynomial (Spline.coefficients (Spline.at cubics i)) fraction
     where
-      -- The column is continued linearly before the first row and after the last.
+      -- Before the first row and after the last, the column continues linearly.
       tangentAt t =
         let ahead = Spline.series 1 (Spline.at cubics i) t
             rise = PowerSeries.coefficient 1 ahead
@@ -141,22 +143,24 @@ series n base c spanPoint = case interpolation c of
             (TaylorExpansion.speed (BasisCurve.expansion n base spanPoint))
       fraction = PowerSeries.scale (1 / width) (PowerSeries.plusConstant (-from) lengthSeries)
 
--- | Rising parameters at which one cubic of a spline by arc length follows another: those of the
--- rows. None for any other column, whose cubics change only where the base's spans do.
+-- | Rising parameters of the rows, at which one cubic of a spline by arc length follows another.
+-- The list is empty for a column by spans, whose cubics change only where the spans of the base do.
 knots :: BasisCurve -> Column -> [Double]
 knots base c = case interpolation c of
   BySpan _ -> []
   ByLength _ _ -> map BasisCurve.at (Vector.toList (BasisCurve.rows base))
 
--- | Index of the interval that contains an arc length; for a length outside of all intervals, the
--- first or the last index.
+-- | Index, from 0, of the interval that contains the arc length @s@ (mm). @stations@ are the rising
+-- arc lengths at the ends of the intervals. A length outside of all intervals gives the first or
+-- the last index.
 intervalAt :: Double -> Unboxed.Vector Double -> Int
 intervalAt s stations = BinarySearch.lastAtMost (Unboxed.length stations - 1) s stations
 
--- | Column on the given base with its values multiplied by a factor.
+-- | Column @c@ with its values multiplied by the factor @k@, on the given base, which is scaled
+-- already.
 scaled :: BasisCurve -> Double -> Column -> Column
 scaled base k c = column base (Vector.map (k *) (values c))
 
--- | Column for the reversed base, given the original base and the reversed one.
+-- | Column @c@ of the base @old@, as a column of the reversed base @new@.
 reversed :: BasisCurve -> BasisCurve -> Column -> Column
 reversed old new c = column new (BasisCurve.inReverseOrder old (values c))

@@ -1,4 +1,5 @@
 -- | Cubic spans of a curve: the curve's own spans, or a cubic approximation of a shifted curve.
+-- Cubics have an error bound in closed form when arcs are fitted to them.
 --
 -- The approximation consists of Hermite cubics: each has the points and the derivatives of the
 -- curve at both ends of an interval. At the fraction t of the interval it differs from a smooth
@@ -21,10 +22,10 @@ import Geometry.Numeric.PowerSeries qualified as PowerSeries
 import Geometry.Tolerance qualified as Tolerance
 import Linear.V2 (V2 (..))
 
--- | Cubic spans in x and in y within a tolerance of the curve, and the bound of their error in mm.
--- Polynomial spans of an unshifted curve are returned as they are, with the bound 0. The result is
--- nothing for an unshifted curve with arcs, for a shifted curve whose speed is 0 or nearly 0, and
--- where 'maxHalvings' halvings do not suffice.
+-- | Bound of the error in mm, and the cubic spans in x and in y. They are within the tolerance of
+-- the curve. Polynomial spans of an unshifted curve are returned unchanged, with the bound 0. The
+-- result is Nothing for an unshifted curve with arcs, and for a shifted curve whose speed is 0 or
+-- nearly 0. It is also Nothing where 'maxHalvings' halvings do not suffice.
 along :: Mm -> Curve -> Maybe (Mm, Cubics, Cubics)
 along (Mm tolerance) curve = case curve of
   Unshifted b -> case spanList b of
@@ -58,26 +59,29 @@ along (Mm tolerance) curve = case curve of
         secondHalf = between nodeAt m middleNode end final
     Mm still = Tolerance.stationary
 
--- | Largest count of halvings of one interval.
+-- | Largest count of successive halvings of one interval, after which the approximation is given
+-- up.
 maxHalvings :: Int
 maxHalvings = 24
 
--- | Point, in mm, and derivative, in mm per unit of the parameter, at a parameter: x, y, x′, y′.
+-- | Point of the curve, in mm, and derivative, in mm per unit of the curve's parameter. The order
+-- is x, y, x′, y′.
 data Node = Node Double Double Double Double
 
 -- | Speed at a node, in mm per unit of the parameter.
 speed :: Node -> Double
 speed (Node _ _ vx vy) = sqrt (vx * vx + vy * vy)
 
--- | Interval between two parameters with the nodes at its ends and at its middle, and the
--- function that gives nodes.
+-- | Interval between the parameters @begin@ and @end@ of the curve, with the nodes at both ends and
+-- at the middle. @nodeAt@ gives the node at any parameter of the curve.
 data Interval = Interval
   { begin, end :: Double,
     first, middleNode, final :: Node,
     nodeAt :: Double -> Node
   }
 
--- | Interval between two nodes, with a new node at its middle.
+-- | Interval from parameter @begin@ with node @first@ to parameter @end@ with node @final@. The
+-- node at the middle is computed by @nodeAt@.
 between :: (Double -> Node) -> Double -> Node -> Double -> Node -> Interval
 between nodeAt begin first end final =
   Interval {begin, end, first, middleNode = nodeAt (middle begin end), final, nodeAt}
@@ -86,10 +90,10 @@ between nodeAt begin first end final =
 middle :: Double -> Double -> Double
 middle a b = 0.5 * (a + b)
 
--- | Span with a cubic in x and one in y.
+-- | Span with a cubic in x and one in y, in mm, over a local parameter from 0 to 1.
 data Span = Span {inX :: Cubic, inY :: Cubic}
 
--- | Hermite cubics over an interval.
+-- | Span of the Hermite cubics over an interval, by its nodes at both ends.
 hermiteSpan :: Interval -> Span
 hermiteSpan Interval {begin, end, first = Node px py vx vy, final = Node qx qy wx wy} =
   Span {inX = hermite px qx (h * vx) (h * wx), inY = hermite py qy (h * vy) (h * wy)}
@@ -97,23 +101,23 @@ hermiteSpan Interval {begin, end, first = Node px py vx vy, final = Node qx qy w
     h = end - begin
     hermite p q v w = Cubic p v (3 * (q - p) - 2 * v - w) (2 * (p - q) + v + w)
 
--- | True if the Hermite cubics of both halves of an interval are within the tolerance. There are
--- two tests, which use the difference of the points at the middle of an interval and that of the
--- derivatives there. First, the differences of the whole interval must promise that those of its
--- halves are at most half of the tolerance. Second, the measured differences of each half must be
--- within the tolerance.
+-- | True if the Hermite cubics of both halves of an interval are within @tolerance@ (mm), so that
+-- neither half is halved again. Two tests use the differences at the middle of an interval, those
+-- of the points and those of the derivatives. First, the differences of the whole interval must
+-- promise that those of its halves are at most half of the tolerance. Second, the measured
+-- differences of each half must be within the tolerance.
 areHalvesNear :: Double -> Interval -> Interval -> Interval -> Bool
 areHalvesNear tolerance interval firstHalf secondHalf =
   points <= 8 * tolerance && derivatives <= 16 * tolerance && all isNear [firstHalf, secondHalf]
   where
     (points, derivatives) = difference interval
     isNear half = let (e, o) = difference half in e + oddShare * o <= tolerance
-    -- Maximum of t²(1−t)²·(t−½), which is √5/250 at t = ½ ± √(1/20), divided by its derivative at
-    -- the middle, 1/16.
+    -- The maximum of t²(1−t)²·(t−½), which is √5/250 at t = ½ + √(1/20), divided by the derivative
+    -- of this function at the middle, 1/16.
     oddShare = 16 * sqrt 5 / 250
 
--- | Differences between curve and Hermite cubic at the middle of an interval: that of the points in
--- mm, and that of the derivatives in mm per interval.
+-- | Differences between curve and Hermite cubic at the middle of an interval. The first is the
+-- distance of the points in mm. The second is that of the derivatives, in mm per whole interval.
 difference :: Interval -> (Double, Double)
 difference
   Interval

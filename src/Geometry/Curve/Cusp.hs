@@ -1,5 +1,6 @@
--- | Cusps of shifted curves. Where a curve is shifted towards its centre of curvature by more than
--- the radius of curvature, the shifted curve runs backwards between two cusps.
+-- | Cusps of shifted curves, which are an error of the part program. Where a curve is shifted
+-- towards its centre of curvature by more than the radius of curvature, the shifted curve runs
+-- backwards between two cusps.
 module Geometry.Curve.Cusp
   ( Cusp (..),
     firstCusp,
@@ -21,24 +22,24 @@ import Geometry.Vec (Point)
 import Geometry.Vec qualified as Vec
 import Linear.V2 (V2 (..))
 
--- | Point at which a shift exceeds the radius of curvature by the largest factor.
+-- | Point of a shift at which the ratio of the distance to the radius of curvature is largest.
 data Cusp = Cusp
-  { -- | number of the shift, counted from 1 at the innermost
+  { -- | number of the shift; the innermost one has number 1
     layer :: Int,
-    -- | parameter on the curve
+    -- | parameter of the point on the curve
     parameter :: Double,
-    -- | point on the curve that is shifted
+    -- | point on the curve before this shift
     place :: Point,
-    -- | absolute value of the requested distance at this point
+    -- | absolute value of the shift distance at this point
     requested :: Mm,
-    -- | radius of curvature at this point
+    -- | radius of curvature, at this point, of the curve before this shift
     curvatureRadius :: Mm
   }
   deriving stock (Eq, Show)
 
--- | Cusp of the innermost shift that has one. Nothing if every shift d, positive to the left, of a
--- curve with the curvature κ satisfies @1 − d·κ > 0@ everywhere. Only smooth stretches are tested,
--- not the corners between them.
+-- | Cusp of the innermost shift that has one. Nothing if no shift has a cusp: @1 − d·κ > 0@
+-- everywhere, with the shift distance d, positive to the left, and the curvature κ of the curve
+-- before the shift. Only smooth stretches between corners are tested, not the corners.
 firstCusp :: Curve -> Maybe Cusp
 firstCusp curve = case curve of
   Unshifted _ -> Nothing
@@ -46,8 +47,8 @@ firstCusp curve = case curve of
     Just found -> Just found
     Nothing -> cuspOfLayer top lower curve
 
--- | Cusp of the outermost shift alone. The arguments are its layer, the curve below, and the whole
--- curve.
+-- | Cusp of the outermost shift; Nothing if it has none. @top@ is this shift, @lower@ the curve
+-- that it shifts, and @whole@ the shifted curve.
 cuspOfLayer :: Layer -> Curve -> Curve -> Maybe Cusp
 cuspOfLayer top lower whole
   | overshoot >= 1 =
@@ -76,7 +77,7 @@ cuspOfLayer top lower whole
             (PointSearch.positionWithin stretch whole parameter)
         )
     -- Candidates for the maximum of @d·κ@ on a stretch: the samples, the maxima between them, and
-    -- the local minima of the speed of the curve below, near which the curvature is large.
+    -- the minima of the speed of @lower@, near which the curvature is large.
     candidates s =
       [ (s, u, shareAt s u)
         | u <- PointSearch.samples s <> maxima s <> speedMinima lower whole s
@@ -92,8 +93,9 @@ cuspOfLayer top lower whole
         (\u -> slopes (snd (productAt s 2 u)))
         [(u, fst (slopes (snd (productAt s 1 u)))) | u <- PointSearch.samples s]
 
--- | Parameters, within a stretch, of the local minima of a curve's speed. The arguments are this
--- curve, its shift, and a stretch of the shift.
+-- | Parameters, within a stretch, of the local minima of the speed of @lower@. @whole@ is this
+-- curve after a shift. The stretch is a pair of first and last parameter, between which @whole@ is
+-- smooth.
 speedMinima :: Curve -> Curve -> (Double, Double) -> [Double]
 speedMinima lower whole stretch =
   RootFinding.rising slope [(u, fst (slope u)) | u <- PointSearch.samples stretch]
@@ -108,12 +110,13 @@ speedMinima lower whole stretch =
             )
     square a = PowerSeries.multiply a a
 
--- | First and second derivative of a power series at its parameter.
+-- | First and second derivative of a power series at the parameter about which it is taken.
 slopes :: PowerSeries -> (Double, Double)
 slopes g = (PowerSeries.coefficient 1 g, 2 * PowerSeries.coefficient 2 g)
 
--- | Power series of @d·κ@ about a parameter, up to the given order, and true. Where the speed of
--- the curve that is shifted is 0, the power series of d alone, and false.
+-- | Power series of @d·κ@ (without unit) about parameter @u@, up to the power @n@, and True. Where
+-- the speed of @lower@ is 0, κ is not defined. There the result is the power series of d (mm)
+-- alone, and False.
 productSeries :: Int -> Layer -> Curve -> Curve -> (Double, Double) -> Double -> (PowerSeries, Bool)
 productSeries n top lower whole stretch u
   | Mm (Vec.norm (TaylorExpansion.velocity expansion)) > Tolerance.stationary =

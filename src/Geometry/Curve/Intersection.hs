@@ -1,8 +1,9 @@
 -- | Refinement of intersections of curves, lines and circles from a nearby starting point.
 --
 -- The starting point is an intersection of the polyarcs that approximate the curves to
--- 'Tolerance.curve'. Newton's method leads from it to the exact intersection of the curves: each
--- step goes to the intersection of the tangents at both feet of the current point.
+-- 'Tolerance.curve'. Newton's method leads from it to the exact intersection of the curves. The
+-- foot of a point on a curve is the point of the curve where the perpendicular from the first point
+-- meets it. Each step goes to the intersection of the tangents at both feet of the current point.
 module Geometry.Curve.Intersection
   ( Foot,
     onLine,
@@ -21,27 +22,27 @@ import Geometry.Tolerance qualified as Tolerance
 import Geometry.Vec (Point, Vec)
 import Geometry.Vec qualified as Vec
 
--- | Function that gives the foot of the perpendicular from a point to a curve, and the unit tangent
--- of the curve at the foot.
+-- | Function that maps a point to its foot on a curve and to the unit tangent of the curve at the
+-- foot.
 type Foot = Point -> (Point, Vec)
 
--- | Foot on a line.
+-- | Foot of a point on a line.
 onLine :: Line -> Foot
 onLine l p = (Carrier.foot l p, Carrier.direction l)
 
--- | Foot on a circle.
+-- | Foot of a point on a circle.
 onCircle :: Circle -> Foot
 onCircle (Circle c (Mm r)) p = (Vec.shift (Vec.scale r out) c, Vec.left out)
   where
     out = Vec.unit (Vec.to c p)
 
--- | Foot on a curve: the point of the curve that is nearest, which may be an end.
+-- | Foot of a point on a curve: the nearest point of the curve, which may be an end.
 onCurve :: Curve -> Foot
 onCurve c p = let u = Curve.nearest p c in (Curve.at c u, Curve.tangent c u)
 
--- | Intersection of two curves near a point that is within 'Tolerance.curve' of both. The point is
--- returned unchanged if there is no intersection nearby, for example because a curve ends, or if
--- the curves are nearly parallel.
+-- | Intersection of two curves, given by their feet, near a point that is within 'Tolerance.curve'
+-- of both. The point is returned unchanged if there is no intersection nearby, for example because
+-- a curve ends, or if the curves are nearly parallel.
 refine :: Foot -> Foot -> Point -> Point
 refine footA footB initial = newton (8 :: Int) initial
   where
@@ -55,8 +56,8 @@ refine footA footB initial = newton (8 :: Int) initial
         (a, u) = footA p
         (b, v) = footB p
         sine = Vec.cross u v
-        -- Bound of the distance from the starting point to the exact intersection, for two curves
-        -- that meet at this angle. The factor 8 allows for their curvature.
+        -- Bound of the distance from @initial@ to the exact intersection, by the angle at which the
+        -- curves meet. The factor 8 allows for their curvature.
         reach = times (8 / abs sine) Tolerance.curve
     -- Curves that meet at an angle with a smaller sine count as parallel.
     smallestSine = 1e-5

@@ -1,9 +1,11 @@
 -- | Search for points on a curve: the nearest to a given point, those with a given x, and the
 -- corners.
 --
--- Every smooth stretch is sampled at equal steps of the parameter. The search for the nearest point
--- adds samples where the curve bends. Where neighbouring samples enclose a solution, Newton's
--- method with bisection finds it. Two solutions between neighbouring samples may both be missed.
+-- A smooth stretch is the part of the curve between two neighbouring parameters of
+-- 'ShiftedCurve.breaks'. Every smooth stretch is sampled at equal steps of the parameter. The
+-- search for the nearest point adds samples where the curve bends. Where neighbouring samples
+-- enclose a solution, Newton's method with bisection finds it. Two solutions between neighbouring
+-- samples may both be missed.
 module Geometry.Curve.PointSearch
   ( nearest,
     atX,
@@ -33,7 +35,7 @@ import Geometry.Vec (Point, Vec)
 import Geometry.Vec qualified as Vec
 import Linear.V2 (V2 (..))
 
--- | Smooth stretches of the curve as pairs of parameters.
+-- | Smooth stretches of the curve as pairs of first and last parameter.
 stretches :: Curve -> [(Double, Double)]
 stretches curve = let bs = ShiftedCurve.breaks curve in zip bs (drop 1 bs)
 
@@ -44,16 +46,17 @@ samples (a, b) =
     | k <- [0 .. sampleSteps]
   ]
 
--- | Count of steps in which a smooth stretch is sampled.
+-- | Count of equal steps in which a smooth stretch is sampled.
 sampleSteps :: Int
 sampleSteps = 8
 
--- | Position at a parameter of a stretch, approached from within the stretch.
+-- | Position at parameter @u@ of a stretch, approached from within the stretch. At a corner, the
+-- direction is therefore that of this stretch.
 positionWithin :: (Double, Double) -> Curve -> Double -> SpanPoint
 positionWithin (_, b) curve u = ShiftedCurve.spanPoint (if u >= b then Before else After) u curve
 
--- | Parameter of the curve's point that is nearest to a given point; the first one if several are
--- equally near.
+-- | Parameter of the curve's point that is nearest to point @p@; the smallest parameter if several
+-- points are equally near.
 nearest :: Point -> Curve -> Double
 nearest p curve =
   fst
@@ -74,8 +77,8 @@ nearest p curve =
       let jet = ShiftedCurve.expansionAt 1 curve (positionWithin stretch curve u)
        in (u, TaylorExpansion.position jet, TaylorExpansion.velocity jet)
     best = minimum [Vec.distance p q | (_, found) <- sampled, (_, q, _) <- found]
-    -- Finds each minimum of the distance that two neighbouring samples enclose, unless the minimum
-    -- is certainly larger than the distance of the best sample.
+    -- Finds each minimum of the distance from @p@ that two neighbouring samples enclose. Skips a
+    -- minimum that is certainly larger than the distance of the best sample.
     feet (stretch, found) =
       [ ( u,
           Vec.distance
@@ -97,8 +100,9 @@ nearest p curve =
         v = TaylorExpansion.velocity jet
         acceleration = Vec.vec (2 * PowerSeries.coefficient 2 x) (2 * PowerSeries.coefficient 2 y)
 
--- | Samples with further ones inserted, by bisection, where the direction changes by more than
--- 'largestChange' between neighbours. A sample is a parameter, the point and the velocity there.
+-- | Samples of a stretch, with further ones inserted by bisection. They are inserted between
+-- neighbours whose directions differ by more than 'largestChange'. A sample is a parameter, the
+-- point there, and the velocity there (mm per unit of the parameter).
 refineSamples ::
   (Double -> (Double, Point, Vec)) ->
   [(Double, Point, Vec)] ->
@@ -114,12 +118,12 @@ refineSamples sample = go
         abs change > largestChange =
         let m = sample ((u + w) / 2) in between (n - 1) a m <> [m] <> between (n - 1) m b
       | otherwise = []
-    -- Largest change of direction between samples, in radians, and the largest count of halvings.
+    -- Largest change of direction between samples, in radians, and most halvings of one step.
     largestChange = 0.3
     halvings = 6 :: Int
 
--- | Rising parameters at which the curve has the given x (mm). A stretch on which x is constant
--- contributes its ends.
+-- | Rising parameters at which the curve has the x @abscissa@ (mm). A stretch on which x is
+-- constantly @abscissa@ contributes its two ends.
 atX :: Double -> Curve -> [Double]
 atX abscissa curve = distinct (concatMap found (stretches curve))
   where
@@ -146,8 +150,8 @@ atX abscissa curve = distinct (concatMap found (stretches curve))
         roots _ = []
     -- Differences up to 'Tolerance.equal' count as 0.
     deviation v = if abs (v - abscissa) <= Tolerance.equal then 0 else v - abscissa
-    -- Merges consecutive solutions between which the curve has the given x. They become one
-    -- solution, or the two ends of a vertical stretch.
+    -- Merges consecutive parameters between which x is constantly @abscissa@. They become one
+    -- parameter, or the first and the last parameter of a vertical stretch.
     distinct us = case us of
       [] -> []
       a : rest ->
@@ -191,8 +195,9 @@ isClosed curve = Vec.isNear (end After 0) (end Before (ShiftedCurve.domain curve
       TaylorExpansion.position
         (ShiftedCurve.expansionAt 0 curve (ShiftedCurve.spanPoint approach u curve))
 
--- | Unit tangent just before or just after a parameter. On a closed curve, the tangent before the
--- start is that at the end, and the tangent after the end is that at the start.
+-- | Unit tangent just before or just after parameter @u@. The start and the end of a closed curve
+-- are one point: 'Before' the start gives the tangent at the end, and 'After' the end gives that at
+-- the start.
 unitTangentAcrossSeam :: Approach -> Curve -> Double -> Vec
 unitTangentAcrossSeam approach curve u
   | approach == Before && u <= 0 && isClosed curve =
@@ -201,9 +206,10 @@ unitTangentAcrossSeam approach curve u
     unitTangent After curve 0
   | otherwise = unitTangent approach curve u
 
--- | Unit tangent just before or just after a parameter; at an end of the curve, the tangent of the
--- curve there. Where the speed is 0, the tangent is the limit from the given side. Where a shift
--- has collapsed a stretch to a point, it is the tangent of the curve below.
+-- | Unit tangent just before or just after parameter @u@. At the start and at the end of the curve,
+-- the only tangent is taken for both. Where the speed is 0, the tangent is the limit from the given
+-- side. Where a shift has collapsed a stretch to a point, it is the tangent of the curve below the
+-- shift.
 unitTangent :: Approach -> Curve -> Double -> Vec
 unitTangent approach curve u = case TaylorExpansion.direction approach (expansion 1) of
   Just d -> d

@@ -1,8 +1,8 @@
 -- | Sections: lines, parabolas and circular arcs y(x) through two rows of a table.
 --
 -- The parabolas through two given rows form a family with one parameter t, and so do the arcs. At
--- every x between the ends, y rises with t. The largest deviation in y is therefore least for a t
--- at which two rows deviate equally to opposite sides, or at a limit of the range of t.
+-- every x between the two rows, y rises with t. Therefore the largest deviation in y is least where
+-- two rows deviate equally to opposite sides, or at a limit of the range of t.
 module Geometry.Curve.Section
   ( -- * Tables
     PointTable,
@@ -42,7 +42,8 @@ import Geometry.Vec qualified as Vec
 
 -- Tables ----------------------------------------------------------------------------------------
 
--- | Table of at least two rows whose x rises throughout or falls throughout; in mm.
+-- | Table of at least two rows, as the lists of x and of y in mm. x rises throughout or falls
+-- throughout.
 data PointTable = PointTable {xs :: Vector Double, ys :: Vector Double}
   deriving stock (Eq, Show)
 
@@ -50,7 +51,7 @@ data PointTable = PointTable {xs :: Vector Double, ys :: Vector Double}
 data PointTableFault
   = -- | too few rows; the count of rows
     TooFewRows Int
-  | -- | the first row at which x leaves the order of the first two rows
+  | -- | the first row, counted from 1, whose x does not rise or fall as the first two rows do
     OutOfOrder Int
   deriving stock (Eq, Show)
 
@@ -73,7 +74,7 @@ table points = case points of
 rows :: PointTable -> Int
 rows t = Vector.length (xs t)
 
--- | Row with an index that is counted from 0.
+-- | Row with index @k@, counted from 0.
 row :: PointTable -> Int -> Point
 row t k = Vec.point (xs t Vector.! k) (ys t Vector.! k)
 
@@ -81,14 +82,14 @@ row t k = Vec.point (xs t Vector.! k) (ys t Vector.! k)
 
 -- | Section through two rows of the table.
 data Section = Section
-  { -- | number of its first row, counted from 1
+  { -- | number of the section's first row, counted from 1
     first :: Int,
-    -- | number of its last row
+    -- | number of the section's last row, counted from 1
     final :: Int,
     from :: Point,
     to :: Point,
     curve :: SectionShape,
-    -- | largest absolute deviation in y at its rows
+    -- | largest absolute deviation in y, over the rows from first to last
     largestDeviation :: Mm
   }
   deriving stock (Eq, Show)
@@ -96,7 +97,8 @@ data Section = Section
 -- | Shape of a section between its ends.
 data SectionShape
   = Line
-  | -- | the coefficient a, in 1/mm, of @y = chord + a·(x − x₁)·(x − x₂)@
+  | -- | the coefficient a, in 1/mm, of @y = chord + a·(x − x₁)·(x − x₂)@; x₁ and x₂ are the ends,
+    -- and chord is the y of the chord at x
     Parabola Double
   | -- | the angle between chord and arc at the ends, half of the sweep; positive for an arc above
     -- its chord
@@ -114,14 +116,14 @@ kind c = case c of
   Parabola _ -> ParabolaKind
   Arc _ -> ArcKind
 
--- | y in mm of a section at an x between its ends.
+-- | y in mm of section @p@ at an x (mm) between its ends.
 height :: Section -> Double -> Double
 height p x
   | x == Vec.x (from p) = Vec.y (from p)
   | x == Vec.x (to p) = Vec.y (to p)
   | otherwise = Vec.y (from p) + rise (chordOf (from p) (to p)) (curve p) (x - Vec.x (from p))
 
--- | Equation of a section.
+-- | Equation of a section, in the coordinates of the table.
 data SectionFormula
   = -- | @y = a·x² + b·x + c@; a is 0 for a line and for an arc that is nearly straight
     Polynomial Double Double Double
@@ -129,7 +131,7 @@ data SectionFormula
     Circle Point Mm
   deriving stock (Eq, Show)
 
--- | Equation of a section.
+-- | Equation of section @p@, from which the span of a part's curve is made.
 formula :: Section -> SectionFormula
 formula p = case curve p of
   Line -> polynomial 0
@@ -142,23 +144,24 @@ formula p = case curve p of
     (x1, y1, x2) = (Vec.x (from p), Vec.y (from p), Vec.x (to p))
     polynomial a = let s = h / w in Polynomial a (s - a * (x1 + x2)) (y1 - s * x1 + a * x1 * x2)
 
--- | Deviation in y of a section from a point, positive where the section is above.
+-- | y of section @p@ minus y of point @q@, in mm, at the x of @q@.
 deviationFrom :: Section -> Point -> Double
 deviationFrom p q = height p (Vec.x q) - Vec.y q
 
--- | Shape of the parabola through three points, relative to the chord from the first to the last.
+-- | Parabola y(x) through three points, as the shape of a section from the first to the last.
 parabola :: Point -> Point -> Point -> SectionShape
 parabola a m b = Parabola ((up - x * h / w) / (x * (x - w)))
   where
     Chord w h = chordOf a b
     Chord x up = chordOf a m
 
--- | True if an arc with this angle between chord and arc, in radians, counts as a line by
--- 'Tolerance.straight'.
+-- | True if an arc is so flat that 'Tolerance.straight' takes it for a line. @t@ is the angle
+-- between chord and arc in radians.
 isFlat :: Double -> Bool
 isFlat t = Rad (2 * abs t) <= Tolerance.straight
 
--- | Centre of an arc, which lies on the perpendicular bisector of the chord.
+-- | Centre of the arc of section @p@. @t@ is the angle between chord and arc at the ends, in
+-- radians and not 0.
 centre :: Section -> Double -> Point
 centre p t =
   Vec.shift
@@ -184,23 +187,24 @@ segment p = case curve p of
             (to p)
         )
 
--- | Differences in x and in y from one end of a section to the other.
+-- | Differences in x and in y, in mm, from the first end of a section to the last.
 data Chord = Chord Double Double
 
 -- | Chord from one point to another.
 chordOf :: Point -> Point -> Chord
 chordOf a b = Chord (Vec.x b - Vec.x a) (Vec.y b - Vec.y a)
 
--- | Difference in y between a section's point at a distance @x@ from its first end, and that end.
+-- | y of a section minus y of its first end, in mm. @x@ is measured from the first end, in mm and
+-- with its sign.
 rise :: Chord -> SectionShape -> Double -> Double
 rise chord@(Chord w h) c x = case c of
   Line -> x * h / w
   Parabola a -> x * h / w + a * x * (x - w)
   Arc (Rad t) -> arcRise chord (tan t) x
 
--- | 'rise' of an arc, given the tangent of its angle with the chord. The circles through (0, 0) and
--- (w, h) are @μ·(x·(x − w) + y·(y − h)) + x·h − y·w = 0@, where |μ| is this tangent. The arc is the
--- solution y that tends to the chord for μ → 0.
+-- | 'rise' of an arc. @tangent@ is the tangent of the angle between chord and arc. The circles
+-- through (0, 0) and (w, h) are @μ·(x·(x − w) + y·(y − h)) + x·h − y·w = 0@, where |μ| is
+-- @tangent@. The arc is the solution y that tends to the chord for μ → 0.
 arcRise :: Chord -> Double -> Double -> Double
 arcRise (Chord w h) tangent x = 2 * q / (p + signum w * sqrt (max 0 (p * p - 4 * mu * q)))
   where
@@ -209,15 +213,16 @@ arcRise (Chord w h) tangent x = 2 * q / (p + signum w * sqrt (max 0 (p * p - 4 *
     q = mu * x * (x - w) + x * h
 {-# INLINE arcRise #-}
 
--- | Section of a kind between two rows (indices from 0) with the least largest deviation; and this
--- deviation, in mm, of the rows between.
+-- | Section of kind @k@ between the rows @i@ and @j@ (indices from 0) with the least largest
+-- deviation. The result is this deviation in mm, taken over the rows between, and the shape.
 best :: PointTable -> SectionKind -> Int -> Int -> (Double, SectionShape)
 best t k i j = let (worst, c, _) = bestWithin (1 / 0) Nothing t k i j in (worst, c)
 
--- | As 'best', but only exact up to a limit: if the least largest deviation exceeds the limit, the
--- first result is a lower bound of it, also above the limit. The third result is the pair of rows
--- that determines the first result. This pair is a good initial pair, the second argument, for a
--- slightly longer section: it saves most of the work.
+-- | As 'best', but the search ends once the deviation exceeds a limit. The first argument is the
+-- limit in mm. The second is a pair of row indices from which the search starts, or Nothing. If the
+-- least largest deviation exceeds the limit, the first result is a lower bound of this deviation,
+-- also above the limit. The third result is the pair of rows that determines the first. Given as
+-- second argument for a slightly longer section, this pair saves most of the work.
 bestWithin ::
   Double ->
   Maybe (Int, Int) ->
@@ -267,8 +272,9 @@ bestWithin limit initialPair t@(PointTable xs ys) k i j = case k of
     up m = Vector.unsafeIndex ys m - Vector.unsafeIndex ys i
     relative c m = rise chord c (across m) - up m
 
--- | Rows strictly between two others with the lowest and the highest value, and these values. The
--- values are 0 if there are no rows between.
+-- | Row with the lowest value and that value, then row with the highest value and that value. Only
+-- the rows strictly between @i@ and @j@ (indices from 0) count. If there are none, both rows are
+-- @i@ and both values 0.
 extremes :: Int -> Int -> (Int -> Double) -> (Int, Double, Int, Double)
 extremes i j value
   | j <= i + 1 = (i, 0, i, 0)
@@ -283,14 +289,17 @@ extremes i j value
         v = value m
 {-# INLINE extremes #-}
 
--- | Minimax fit of the parameter t by single exchange (Remez): the least largest deviation, the
--- parameter, and the two rows that determine it.
+-- | Minimax fit of the parameter t of the family by single exchange (Remez). The result is the
+-- least largest deviation in mm, the t for which it occurs, and the two rows that determine it.
+-- Only the rows strictly between @i@ and @j@ (indices from 0) count. @limit@ is in mm;
+-- @initialPair@ has the two rows of the first round.
 --
--- @balance@ gives the t for which two rows deviate equally to opposite sides, and @deviation@ the
--- deviation of a row for a t. At the optimum, two rows balance and no other row deviates more. As
--- long as another row deviates more, it replaces the row of the pair on the same side. The balanced
--- deviation rises with every exchange, so the iteration ends; it also ends once this deviation
--- exceeds the limit. It takes about four rounds, or one or two from a good initial pair.
+-- @balance@ gives the t for which two rows deviate equally to opposite sides. @deviation@ gives the
+-- deviation of a row, in mm, for a t. At the optimum, two rows balance and no other row deviates
+-- more. As long as another row deviates more, it replaces the row of the pair on the same side of
+-- the curve. The balanced deviation rises with every exchange, so the iteration ends; it also ends
+-- once this deviation exceeds the limit. It takes about four rounds, or one or two from a good
+-- initial pair.
 minimax ::
   Double ->
   Maybe (Int, Int) ->
@@ -316,10 +325,10 @@ minimax limit initialPair balance deviation i j =
         worst = max (-vLow) vHigh
 {-# INLINE minimax #-}
 
--- | Root of a rising function between @−limit@ and @limit@, to nearly full precision, by the
--- Illinois variant of the false-position method. If the function has no sign change, the result is
--- the end of the range at which it is nearer to 0. The Illinois rule halves the function's value at
--- an end of the bracket that did not move, so that this end moves next.
+-- | Zero of the rising function @f@ between @−limit@ and @limit@, to nearly full precision, by the
+-- Illinois variant of the false-position method. If @f@ has no sign change, the result is the end
+-- of the range at which @f@ is nearer to 0. The Illinois rule halves the value of @f@ at an end of
+-- the bracket that did not move, so that this end moves next.
 root :: Double -> (Double -> Double) -> Double
 root limit f
   | f (-limit) >= 0 = -limit

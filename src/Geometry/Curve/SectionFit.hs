@@ -1,6 +1,6 @@
--- | Piecewise fit of a table of points: the fewest lines, parabolas and circular arcs within a
--- tolerance of every row, or the sections that the user chooses (second method of the Ural
--- paper, Tables 1–4).
+-- | Piecewise fit of a table of points (second method of the Ural paper, Tables 1–4). A section is
+-- a line, a parabola or a circular arc from one row to a later one. The fit has the fewest sections
+-- within a tolerance of every row, or the sections that the user chooses.
 module Geometry.Curve.SectionFit
   ( fit,
     sections,
@@ -35,10 +35,10 @@ import Geometry.Tolerance qualified as Tolerance
 -- Choice of sections ---------------------------------------------------------------------------
 
 -- | Fewest sections of the given kinds within a tolerance in y. Of the fits with the fewest
--- sections, those with the least largest deviation are taken. Of these, the one with the simplest
--- sections is the result: each section has the simplest kind that keeps the largest deviation, and
--- the sum of the kinds' ranks is least; then the sum of the deviations decides. A fit always
--- exists, because a line joins any two neighbouring rows.
+-- sections, those with the least largest deviation are kept. Of these, the fit with the simplest
+-- sections is the result. The rank of a kind is its index in 'SectionKind'; the sum of the ranks is
+-- least, then the sum of the deviations. A fit always exists, because a line joins any two
+-- neighbouring rows.
 --
 -- A section that deviates by more than /twice/ the tolerance d is not extended. This pruning loses
 -- no fit. Proof: let a section A start at row i, end after row j and keep within d. Let B be
@@ -60,20 +60,21 @@ fit kinds (Mm tolerance) t = fmap section (simplest t steps (bottleneck steps))
     steps = layers t (toList (NonEmpty.nub (NonEmpty.sort kinds))) tolerance
     section (i, j, k) = let (d, c) = best t k i j in sectionBetween t i j c (Mm d)
 
--- | Section between two rows (indices from 0) with a shape and its largest deviation.
+-- | Section between the rows @i@ and @j@ (indices from 0) with a shape and its largest deviation.
 sectionBetween :: PointTable -> Int -> Int -> SectionShape -> Mm -> Section
 sectionBetween t i j curve largestDeviation =
   Section {first = i + 1, final = j + 1, from = row t i, to = row t j, curve, largestDeviation}
 
--- | Sections that start at one row: the last row of each, and its kinds with their deviations.
+-- | Sections that start at one row. Each has the index of its last row, from 0, and the kinds that
+-- are possible, with their largest deviations in mm.
 type SectionsFrom = [(Int, NonEmpty (SectionKind, Double))]
 
--- | Sections that a chain of the fewest sections can contain: for each position in the chain, by
--- their first row.
+-- | Sections that a fit with the fewest sections can contain. The list has one map for each
+-- position in the fit; the key is the index of a section's first row, from 0.
 type Layers = NonEmpty (IntMap SectionsFrom)
 
--- | Breadth-first search for the last row. Step k finds the rows that k sections reach from the
--- first row, but fewer do not.
+-- | Layers within @tolerance@ (mm), by breadth-first search from the first row to the last. Step k
+-- finds the rows that are reached by k sections and not by fewer.
 layers :: PointTable -> [SectionKind] -> Double -> Layers
 layers t kinds tolerance = go (IntMap.singleton 0 ()) (IntMap.singleton 0 ())
   where
@@ -94,9 +95,9 @@ layers t kinds tolerance = go (IntMap.singleton 0 ()) (IntMap.singleton 0 ())
         ( NonEmpty.nonEmpty
             [(k, d) | (k, d, _) <- deviationsOf [(k, Nothing) | k <- kinds] i final, d <= within]
         )
-    -- Lengthens the sections from a row, one for each kind, from last row @j@ on. Drops the kinds
-    -- that can no longer come within the tolerance; keeps with each kind the two rows of its
-    -- largest deviations. Skips rows that were reached before.
+    -- Sections from row @i@ to @j@ and later rows, of each candidate kind. Drops the kinds that can
+    -- no longer come within the tolerance. Keeps with each kind the two rows of its largest
+    -- deviations. Skips rows that were reached by fewer sections.
     lengthen reached i j candidates
       | j > final || null candidates = []
       | reached j = lengthen reached i (j + 1) candidates
@@ -117,7 +118,7 @@ layers t kinds tolerance = go (IntMap.singleton 0 ()) (IntMap.singleton 0 ())
       | otherwise =
         [(k, d, most) | (k, before) <- ks, let (d, _, most) = bestWithin within before t k i j]
 
--- | Least possible largest deviation, in mm, of a chain through the layers.
+-- | Least possible value, over all fits through the layers, of a fit's largest deviation in mm.
 bottleneck :: Layers -> Double
 bottleneck steps = minimum (IntMap.elems (foldl advance (IntMap.singleton 0 0) steps))
   where
@@ -130,9 +131,10 @@ bottleneck steps = minimum (IntMap.elems (foldl advance (IntMap.singleton 0 0) s
             (j, ks) <- ps
         ]
 
--- | Simplest chain with the given largest deviation: first row, last row and kind of each
--- section. Deviations are summed in whole steps of 'Tolerance.equal', so that rounding decides
--- nothing. Of equal chains the one with the earlier rows is taken.
+-- | Simplest fit whose largest deviation is at most @deviation@ (mm): index of the first row, index
+-- of the last row (both from 0), and kind of each section. Deviations are summed in whole steps of
+-- 'Tolerance.equal', so that rounding does not decide. Of equally good fits, the one whose sections
+-- end at earlier rows is taken.
 simplest :: PointTable -> Layers -> Double -> NonEmpty (Int, Int, SectionKind)
 simplest t steps deviation = case NonEmpty.nonEmpty (reverse reversedChain) of
   Just chain -> chain
@@ -153,10 +155,10 @@ simplest t steps deviation = case NonEmpty.nonEmpty (reverse reversedChain) of
             (k, d) <- take 1 (NonEmpty.filter ((<= deviation + Tolerance.equal) . snd) ks)
         ]
 
--- | Fault of the user's sections. Rows and sections are counted from 1.
+-- | Fault of the sections that the user chose. Rows and sections are counted from 1.
 data SectionFault
   = NoSections
-  | -- | the number of a section, and its count of rows, which is neither two nor three
+  | -- | the number of a section, and the count of its rows, which is neither two nor three
     WrongCount Int Int
   | -- | the number of a section, and a row that the table does not have
     NoSuchRow Int Int
@@ -168,10 +170,10 @@ data SectionFault
     EndsEarly Int Int
   deriving stock (Eq, Show)
 
--- | Sections that the user chooses, each by the rows (counted from 1) through which it passes: two
--- rows give a line, three rows a parabola. The first section must begin at row 1, and every other
--- one at the last row of the section before it. The last section must end at the last row of the
--- table.
+-- | Sections that the user chooses. Each inner list of @chosen@ has the rows, counted from 1,
+-- through which a section passes: two rows give a line, three rows a parabola. The first section
+-- must begin at row 1, and every other one at the last row of the section before it. The last
+-- section must end at the last row of the table.
 sections :: PointTable -> [[Int]] -> Either SectionFault (NonEmpty Section)
 sections t chosen = case NonEmpty.nonEmpty chosen of
   Nothing -> Left NoSections
@@ -200,18 +202,20 @@ sections t chosen = case NonEmpty.nonEmpty chosen of
 
 -- Deviations ------------------------------------------------------------------------------------
 
--- | Deviation of a row from its section.
+-- | Vertical distance of a row from the section that contains it.
 data Deviation = Deviation
   { -- | number of the row, counted from 1
     rowNumber :: Int,
-    -- | number of the section that contains the row, counted from 1; the earlier of two
+    -- | number of the section that contains the row, counted from 1; the earlier one if two meet at
+    -- the row
     sectionNumber :: Int,
     -- | y of the section minus y of the row, as in the paper's tables
     signedDeviation :: Mm
   }
   deriving stock (Eq, Show)
 
--- | Deviations of all rows. A row in two sections is listed once, with the earlier section.
+-- | Deviations of all rows from the sections. A row at which two sections meet is listed once, with
+-- the earlier section.
 deviations :: PointTable -> NonEmpty Section -> [Deviation]
 deviations t fitted = concat (zipWith onOne [1 ..] (toList fitted))
   where

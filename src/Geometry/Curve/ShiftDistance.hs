@@ -1,7 +1,8 @@
 -- | Distances of shifts along a curve: the ciphers of the Ural paper.
 --
 -- A distance belongs to the curve that it shifts and may depend on that curve's arc length. It is
--- in mm, and positive towards the side of the shift.
+-- in mm, and positive towards the side of the shift. A position on a curve is a parameter together
+-- with the side from which it is approached.
 module Geometry.Curve.ShiftDistance
   ( Distance (..),
     Growth (..),
@@ -35,36 +36,37 @@ import Geometry.Numeric.TaylorExpansion qualified as TaylorExpansion
 data Distance
   = -- | constant (cipher 2)
     Constant Mm
-  | -- | in mm at the rows, interpolated between them (cipher 6)
+  | -- | the distances in mm at the rows of the table, interpolated between them (cipher 6)
     Pointwise Column
-  | -- | @H·tan μ + δ@ for a bevel μ (radians), a height H (mm) and an allowance δ (cipher 4)
+  | -- | @H·tan μ + δ@ for a bevel μ (radians), a flange height H (mm) and an allowance δ (cipher 4)
     Bevelled Column Column Mm
   | -- | linear in arc length (cipher 1)
     Growing Growth
-  | -- | measured square to a surface with the bevel μ (radians): the inner distance divided by
-    -- @cos μ@
+  | -- | a distance in the plane for one that is measured square to a surface with the bevel μ
+    -- (radians): the second field divided by @cos μ@
     Square Column Distance
-  | -- | local step of the edge, zero elsewhere
+  | -- | a local step of the edge; the distance is 0 outside of it
     Joggled Joggle
   deriving stock (Eq, Show)
 
--- | Linear growth from one distance to another, over the whole curve or, if @between@ is given,
--- between these two rising parameters. Before them the first distance holds, after them the second.
+-- | Linear growth of the distance along the curve. @between@ has the two rising parameters between
+-- which it grows, Nothing for the whole curve. Before the first parameter the distance is @from@,
+-- after the second it is @to@.
 data Growth = Growth {from :: Mm, to :: Mm, between :: Maybe (Double, Double)}
   deriving stock (Eq, Show)
 
 -- | Joggle between two rising parameters. Inside of this interval, a ramp at each end leads to the
--- full depth; it consists of two arcs of the given radius. The radius is more than half of the
+-- full depth. A ramp consists of two arcs of the given radius, which is more than half of the
 -- depth. A negative depth shifts away from the side of the shift.
 data Joggle = Joggle {begins :: Double, ends :: Double, depth :: Mm, radius :: Mm}
   deriving stock (Eq, Show)
 
--- | Length of a joggle's ramp, @√(d·(4r − d))@ with the depth d and the radius r.
+-- | Length in mm of a joggle's ramp, @√(d·(4r − d))@ with the depth d and the radius r.
 ramp :: Joggle -> Mm
 ramp Joggle {depth = Mm d, radius = Mm r} = Mm (sqrt (max 0 (abs d * (4 * r - abs d))))
 
--- | Interval over which a distance changes: the parameters at which its formula changes, and the
--- arc lengths at which the change begins and ends.
+-- | Interval over which a distance changes. It has the parameters at which the distance's formula
+-- changes, and the arc lengths at which the change begins and ends.
 data ShiftInterval = ShiftInterval
   { -- | parameters in rising order
     marks :: [Double],
@@ -72,8 +74,8 @@ data ShiftInterval = ShiftInterval
     final :: Mm
   }
 
--- | All intervals compare equal, because an interval is determined by the distance and by the curve
--- that it shifts, which are compared as well.
+-- | All intervals compare equal: a distance and its curve, which are compared as well, determine
+-- the interval.
 instance Eq ShiftInterval where
   _ == _ = True
 
@@ -103,8 +105,8 @@ intervalOf arcLength distance = case distance of
   where
     wholeCurve = ShiftInterval {marks = [], first = Mm 0, final = ArcLength.total arcLength}
 
--- | Rising parameters of the base at which the third derivative of a distance may jump, other than
--- its 'marks' and the ends of the base's spans.
+-- | Rising parameters of the base at which the third derivative of a distance may jump. They do not
+-- include the 'marks' of the distance or the ends of the base's spans.
 knots :: BasisCurve -> Distance -> [Double]
 knots base distance = case distance of
   Constant _ -> []
@@ -115,7 +117,8 @@ knots base distance = case distance of
   Square mu _ -> Column.knots base mu
   Joggled _ -> []
 
--- | True if a distance is 0 in a neighbourhood of a position, as outside of a joggle.
+-- | True if a distance is 0 at a position and near it, as outside of a joggle. Then the curve need
+-- not be shifted there.
 vanishes :: Distance -> SpanPoint -> Bool
 vanishes distance position = case distance of
   Joggled Joggle {begins, ends} -> not (position `isPast` begins) || position `isPast` ends
@@ -125,12 +128,12 @@ vanishes distance position = case distance of
   Bevelled {} -> False
   Growing _ -> False
 
--- | Properties of the curve that is shifted: its base curve, its arc length, and its Taylor
--- expansion about the position. The arc length is evaluated only for distances that depend on it.
+-- | Properties of the curve that is shifted: its base, its arc length, and its Taylor expansion
+-- about a position. The arc length is evaluated only for distances that depend on it.
 data CurveBelow = CurveBelow {under :: BasisCurve, along :: ~ArcLength, near :: TaylorExpansion}
 
--- | Power series of the distance about a position, up to the given order. The expansion of the
--- curve below must have one order more.
+-- | Power series of the distance in mm about a position, up to the power @n@ of the parameter. The
+-- expansion in @below@ must go to the power @n + 1@.
 series :: Int -> CurveBelow -> ShiftInterval -> Distance -> SpanPoint -> PowerSeries
 series n below interval distance position = case distance of
   Constant (Mm h) -> PowerSeries.constant n h
@@ -149,8 +152,9 @@ series n below interval distance position = case distance of
       (PowerSeries.cosine (Column.series n (under below) mu position))
   Joggled joggle -> joggleSeries n below interval joggle position
 
--- | Power series of a growth: @h₁ + (h₂ − h₁)·s/S@ at the arc length s from the start of the
--- growth, which has the length S (Kolsanova, cipher 1).
+-- | Power series of the distance of a growth, up to the power @n@. Let s be the arc length from the
+-- start of the growth, and S the arc length of the whole growth. The distance is
+-- @h₁ + (h₂ − h₁)·s/S@ (Kolsanova, cipher 1).
 growthSeries :: Int -> CurveBelow -> ShiftInterval -> Growth -> SpanPoint -> PowerSeries
 growthSeries n below interval Growth {from = Mm h1, to = Mm h2, between} position = case between of
   Nothing -> inside
@@ -171,9 +175,9 @@ growthSeries n below interval Growth {from = Mm h1, to = Mm h2, between} positio
           )
       | otherwise = PowerSeries.constant n h1
 
--- | Power series of a joggle of depth d and radius r. At the arc length t from the outer end of a
--- ramp of length ℓ it is @r − √(r² − t²)@ up to the middle of the ramp, then
--- @d − (r − √(r² − (ℓ − t)²))@.
+-- | Power series of the distance of a joggle with the depth d and the radius r, up to the power
+-- @n@. Let t be the arc length from the outer end of a ramp of length ℓ. The distance is
+-- @r − √(r² − t²)@ up to the middle of the ramp, then @d − (r − √(r² − (ℓ − t)²))@.
 joggleSeries :: Int -> CurveBelow -> ShiftInterval -> Joggle -> SpanPoint -> PowerSeries
 joggleSeries n below interval joggle@Joggle {depth = Mm depth, radius = Mm r} position =
   PowerSeries.scale (signum depth) $
@@ -209,7 +213,7 @@ joggleSeries n below interval joggle@Joggle {depth = Mm depth, radius = Mm r} po
         d
         (PowerSeries.scale (-1) (arcRise (PowerSeries.plusConstant (-l) t)))
 
--- | Power series of the arc length up to the position.
+-- | Power series of the arc length in mm from the start to the position, up to the power @n@.
 lengthSeries :: Int -> CurveBelow -> SpanPoint -> PowerSeries
 lengthSeries n below position = case n of
   0 -> PowerSeries.constant 0 runLength
@@ -217,17 +221,19 @@ lengthSeries n below position = case n of
   where
     Mm runLength = ArcLength.lengthAt (along below) (parameter position)
 
--- | Count of marks before the position.
+-- | Count of the given marks (parameters) before a position. It tells which formula applies there.
 marksBefore :: SpanPoint -> [Double] -> Int
 marksBefore position = length . filter (position `isPast`)
 
--- | True if a mark lies before a position.
+-- | True if the parameter @mark@ lies before a position, or at it and the position is approached
+-- from larger parameters.
 isPast :: SpanPoint -> Double -> Bool
 isPast position mark = case approach position of
   After -> mark <= parameter position
   Before -> mark < parameter position
 
--- | Distance for the curve scaled by a factor, given the scaled base. Angles are unchanged.
+-- | Distance for a curve that is scaled by the factor @k@, given the scaled base. Angles do not
+-- change.
 scaled :: BasisCurve -> Double -> Distance -> Distance
 scaled on k distance = case distance of
   Constant h -> Constant (times k h)
@@ -239,7 +245,7 @@ scaled on k distance = case distance of
   Joggled joggle ->
     Joggled joggle {depth = times k (depth joggle), radius = times k (radius joggle)}
 
--- | Distance for the reversed curve, given the original base and the reversed one.
+-- | Distance for the reversed curve. @old@ is the base of the curve, @new@ the reversed base.
 reversed :: BasisCurve -> BasisCurve -> Distance -> Distance
 reversed old new distance = case distance of
   Constant h -> Constant h

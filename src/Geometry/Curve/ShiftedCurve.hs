@@ -33,7 +33,7 @@ import Geometry.Vec qualified as Vec
 data Curve
   = -- | a curve without shifts
     Unshifted BasisCurve
-  | -- | the curve below, moved along its normal; the arc length is that of the result
+  | -- | the shift, the curve below, and the arc length of the result
     Shifted Layer Curve ~ArcLength
   deriving stock (Eq, Show)
 
@@ -41,7 +41,8 @@ data Curve
 data Layer = Layer {side :: Side, distance :: Distance, interval :: ~ShiftInterval}
   deriving stock (Eq, Show)
 
--- | Curve moved along its normal to a side, by a distance that is given along this curve.
+-- | Curve @lower@ moved along its normal to a side. The distance is a function of the position on
+-- @lower@.
 shifted :: Side -> Distance -> Curve -> Curve
 shifted side distance lower = whole
   where
@@ -52,7 +53,7 @@ shifted side distance lower = whole
         (ArcLength.fromSpeed speed (merge (breaks whole) (knots whole)))
     speed u = Vec.norm (TaylorExpansion.velocity (expansionAt 1 whole (spanPoint After u whole)))
 
--- | Base under all shifts.
+-- | Base, the unshifted curve below all shifts.
 base :: Curve -> BasisCurve
 base curve = case curve of
   Unshifted b -> b
@@ -66,7 +67,8 @@ layers curve = reverse (outermost curve)
       Unshifted _ -> []
       Shifted layer lower _ -> (side layer, distance layer) : outermost lower
 
--- | Rising parameters between which the curve is smooth, its start and its end included.
+-- | Rising parameters between which the curve is smooth. The first is 0, the last is that of the
+-- end.
 breaks :: Curve -> [Double]
 breaks curve = case curve of
   Unshifted b -> map fromIntegral [0 .. BasisCurve.count b]
@@ -75,8 +77,9 @@ breaks curve = case curve of
   where
     isInside u = u > 0 && u < domain curve
 
--- | Rising parameters within spans at which a column changes from one cubic to the next. The curve
--- is smooth there, but its speed is not.
+-- | Rising parameters within spans at which a column changes from one cubic to the next. The
+-- tangent is continuous there, but a higher derivative may jump, so arc length is integrated up to
+-- them.
 knots :: Curve -> [Double]
 knots curve = case curve of
   Unshifted _ -> []
@@ -95,7 +98,7 @@ merge as bs = case (as, bs) of
     | b < a -> b : merge as bs'
     | otherwise -> a : merge as' bs'
 
--- | Parameter of the end, which is the count of spans.
+-- | Parameter of the curve's end, which is the count of spans.
 domain :: Curve -> Double
 domain = fromIntegral . BasisCurve.count . base
 
@@ -105,12 +108,14 @@ arcLength curve = case curve of
   Unshifted b -> BasisCurve.arcLength b
   Shifted _ _ along -> along
 
--- | Position at a parameter. Parameters outside of the domain give the nearer end.
+-- | Position at parameter @u@, approached from the given side. A parameter outside of the domain
+-- gives the nearer end.
 spanPoint :: Approach -> Double -> Curve -> SpanPoint
 spanPoint approach u curve = BasisCurve.spanPoint approach u (base curve)
 
--- | Taylor expansion of the point about a position, up to the given order. For a shift, the curve
--- below is expanded to one order more, except where the shift's distance is identically 0.
+-- | Taylor expansion of the point, in mm, about a position, up to the power @n@ of the parameter.
+-- To evaluate a shift, the curve below is expanded to one power more, except where the shift's
+-- distance is identically 0.
 expansionAt :: Int -> Curve -> SpanPoint -> TaylorExpansion
 expansionAt n curve s = case curve of
   Unshifted b -> BasisCurve.expansion n b s
@@ -121,8 +126,9 @@ expansionAt n curve s = case curve of
             expansionAt (n + 1) lower s
        in TaylorExpansion.offset (distanceAt n layer lower near s) near
 
--- | Power series of a shift's distance, positive to the left, about a position. The arguments are
--- the order, the shift, the curve below, and the expansion of that curve about the position.
+-- | Power series of a shift's distance in mm, positive to the left, about a position. The arguments
+-- are the highest power, the shift, the curve below, the expansion of that curve about the
+-- position, and the position.
 distanceAt :: Int -> Layer -> Curve -> TaylorExpansion -> SpanPoint -> PowerSeries
 distanceAt n layer lower near s = case side layer of
   LeftOf -> d

@@ -1,4 +1,4 @@
--- | Spans: the consecutive parts of a curve.
+-- | Spans: the consecutive parts of a curve. A span has a local parameter from 0 to 1.
 module Geometry.Curve.Span
   ( Span (..),
     SpanShape (..),
@@ -31,7 +31,7 @@ import Linear.V2 (V2 (..))
 
 -- | Part of a curve over a local parameter from 0 to 1.
 data Span
-  = -- | a cubic in x and one in y
+  = -- | a cubic in x and one in y, in mm
     Polynomial Cubic Cubic
   | -- | an arc at constant speed
     Round Segment
@@ -41,7 +41,8 @@ data Span
 data SpanShape
   = -- | a straight line from one point to another
     Line Point Point
-  | -- | @y = a·x² + b·x + c@ with a (1/mm), b and c (mm), from one x to another
+  | -- | @y = a·x² + b·x + c@ with a (1/mm), b and c (mm), from one x to another (mm); the fields
+    -- are in this order
     Quadratic Double Double Double Double Double
   | -- | an arc
     Circular Segment
@@ -58,7 +59,7 @@ fromShape shape = case shape of
           (Cubic (c + from * (b + from * a)) (d * (b + 2 * a * from)) (a * d * d) 0)
   Circular s -> fromSegment s
 
--- | Span of a line or an arc.
+-- | Span along a line or an arc.
 fromSegment :: Segment -> Span
 fromSegment s = case s of
   Straight p q -> fromShape (Line p q)
@@ -73,20 +74,21 @@ ends s = case s of
      in (place 0, place 1)
   Round g -> (Segment.start g, Segment.end g)
 
--- | Span as a segment, if it is a line or an arc.
+-- | Span as a segment; Nothing if it is neither a line nor an arc.
 segment :: Span -> Maybe Segment
 segment s = case s of
   Polynomial (Cubic _ _ 0 0) (Cubic _ _ 0 0) -> let (p, q) = ends s in Just (Straight p q)
   Polynomial _ _ -> Nothing
   Round g -> Just g
 
--- | True if a span has no length. A full circle ends where it begins, but has a length.
+-- | True if a span has no length, so that a curve cannot contain it. A full circle ends where it
+-- begins, but has a length.
 isPoint :: Span -> Bool
 isPoint s = case s of
   Polynomial _ _ -> let (p, q) = ends s in Vec.isNear p q
   Round g -> Segment.length g <= Tolerance.coincident
 
--- | Taylor expansion of the point about a local parameter, up to the given order.
+-- | Taylor expansion of the point, in mm, about the local parameter @t@, up to the power @n@.
 expansion :: Int -> Span -> Double -> TaylorExpansion
 expansion n s t = case s of
   Polynomial x y -> V2 (Spline.series n x t) (Spline.series n y t)
@@ -98,7 +100,8 @@ expansion n s t = case s of
      in fromCoefficients n centre terms
   Round (Straight p q) -> fromCoefficients n p [Vec.scale t (Vec.to p q), Vec.to p q]
 
--- | Taylor expansion with a constant term and the given further coefficients.
+-- | Taylor expansion up to the power @n@. Its constant term is a point, and @terms@ are the
+-- coefficients of the powers from 1 on.
 fromCoefficients :: Int -> Point -> [Vec] -> TaylorExpansion
 fromCoefficients n p terms =
   V2 (part (Vec.x p) (map fst parts)) (part (Vec.y p) (map snd parts))
@@ -113,7 +116,7 @@ reversed s = case s of
   Polynomial x y -> Polynomial (Spline.reversed x) (Spline.reversed y)
   Round g -> Round (Segment.reverse g)
 
--- | Image of a span under a similarity; that of a cubic is computed from its coefficients.
+-- | Image of a span under a similarity. For a cubic, the coefficients are mapped.
 transformed :: Transformation -> Span -> Span
 transformed s g = case g of
   Polynomial (Cubic x0 x1 x2 x3) (Cubic y0 y1 y2 y3) ->
@@ -124,12 +127,12 @@ transformed s g = case g of
      in Polynomial (Cubic (Vec.x p) a1 a2 a3) (Cubic (Vec.y p) b1 b2 b3)
   Round arc -> Round (Transformation.segment s arc)
 
--- | Image of a displacement: rotated, scaled and reflected, but not moved.
+-- | Image of the displacement @v@: it is rotated, scaled and reflected, but not moved.
 image :: Transformation -> Vec -> Vec
 image s v = Vec.to (Transformation.point s origin) (Transformation.point s (Vec.shift v origin))
   where
     origin = Vec.point 0 0
 
--- | x and y of a displacement.
+-- | x and y of a displacement in mm.
 components :: Vec -> (Double, Double)
 components v = (Vec.dot v (Vec.vec 1 0), Vec.dot v (Vec.vec 0 1))

@@ -1,7 +1,7 @@
 -- | Cubic splines through a table of numbers, with continuous second derivatives.
 --
 -- The second derivatives solve a tridiagonal system by the Thomas algorithm (Gaussian elimination
--- without pivoting).
+-- without pivoting). The numbers have any unit; in this product they are mm or radians.
 module Geometry.Curve.Spline
   ( -- * One cubic
     Cubic (..),
@@ -33,27 +33,27 @@ import Data.Vector.Unboxed.Mutable qualified as Mutable
 import Geometry.Numeric.PowerSeries (PowerSeries)
 import Geometry.Numeric.PowerSeries qualified as PowerSeries
 
--- | @c₀ + c₁·t + c₂·t² + c₃·t³@ for t from 0 to 1.
+-- | Cubic @c₀ + c₁·t + c₂·t² + c₃·t³@ by its coefficients; t is the local parameter from 0 to 1.
 data Cubic = Cubic Double Double Double Double
   deriving stock (Eq, Show)
 
--- | Coefficients in the order of rising powers.
+-- | The four coefficients in the order of rising powers.
 coefficients :: Cubic -> [Double]
 coefficients (Cubic a b c d) = [a, b, c, d]
 
--- | Linear function from one value at 0 to another at 1.
+-- | Linear function with the value @p@ at 0 and @q@ at 1.
 line :: Double -> Double -> Cubic
 line p q = Cubic p (q - p) 0 0
 
--- | Value at a parameter.
+-- | Value at the local parameter @t@.
 value :: Cubic -> Double -> Double
 value (Cubic a b c d) t = a + t * (b + t * (c + t * d))
 
--- | First derivative at a parameter.
+-- | First derivative at the local parameter @t@.
 rate :: Cubic -> Double -> Double
 rate (Cubic _ b c d) t = b + t * (2 * c + 3 * t * d)
 
--- | Power series about a parameter, up to the given order.
+-- | Power series about the local parameter @t@, up to the power @n@.
 series :: Int -> Cubic -> Double -> PowerSeries
 series n (Cubic a b c d) t =
   PowerSeries.cubic
@@ -63,15 +63,15 @@ series n (Cubic a b c d) t =
     (c + 3 * t * d)
     d
 
--- | Cubic with the parameter reversed: c(1 − t).
+-- | Cubic c(1 − t) for a cubic c(t), for a curve in the opposite direction.
 reversed :: Cubic -> Cubic
 reversed (Cubic a b c d) = Cubic (a + b + c + d) (-(b + 2 * c + 3 * d)) (c + 3 * d) (-d)
 
--- | Vector of cubics, stored as four coefficients for each.
+-- | Vector of cubics, stored as four coefficients for each one.
 newtype Cubics = Cubics (Unboxed.Vector Double)
   deriving newtype (Eq, Show)
 
--- | Vector of @n@ cubics, made by a function of the index.
+-- | Vector of @n@ cubics, each made from its index, which is counted from 0.
 generate :: Int -> (Int -> Cubic) -> Cubics
 generate n cubic = Cubics $
   Unboxed.create $ do
@@ -92,14 +92,15 @@ generate n cubic = Cubics $
 count :: Cubics -> Int
 count (Cubics array) = Unboxed.length array `div` 4
 
--- | Cubic at an index from 0; the index is not checked.
+-- | Cubic at index @i@, counted from 0. The caller must not exceed the count, because it is not
+-- checked.
 at :: Cubics -> Int -> Cubic
 at (Cubics array) i = Cubic (coefficient 0) (coefficient 1) (coefficient 2) (coefficient 3)
   where
     coefficient k = Unboxed.unsafeIndex array (4 * i + k)
 {-# INLINE at #-}
 
--- | Boundary condition of a spline.
+-- | Condition at both ends of a spline.
 data Boundary
   = -- | zero second derivatives at both ends
     Natural
@@ -109,9 +110,9 @@ data Boundary
     Periodic
   deriving stock (Eq, Show)
 
--- | Spline through values, with given steps of the parameter between them. The steps are above 0. A
--- periodic spline needs at least three steps, any other at least one. Each cubic has a local
--- parameter from 0 to 1.
+-- | Spline through @values@, whose parameters differ by @steps@. There is one step fewer than
+-- values, and all steps are above 0. A periodic spline needs at least three steps, any other at
+-- least one. The result has a cubic for each step, with a local parameter from 0 to 1.
 interpolate :: Boundary -> Unboxed.Vector Double -> Unboxed.Vector Double -> Cubics
 interpolate boundary steps values = generate (Unboxed.length steps) cubic
   where
@@ -125,13 +126,13 @@ interpolate boundary steps values = generate (Unboxed.length steps) cubic
         m = Unboxed.unsafeIndex second i
         m' = Unboxed.unsafeIndex second (i + 1)
 
--- | One equation of a tridiagonal system: the factors below, on and above the diagonal, and the
--- right-hand side.
+-- | One equation of a tridiagonal system: the coefficients below, on and above the diagonal, and
+-- the right-hand side.
 data Row = Row Double Double Double Double
 
--- | Second derivatives M at all values. With the steps h and the slopes Δ between neighbours, the
--- first derivative is continuous if @h_{i−1}·M_{i−1} + 2·(h_{i−1} + h_i)·M_i + h_i·M_{i+1} =
--- 6·(Δ_i − Δ_{i−1})@.
+-- | Second derivatives M at all values. Let h be the steps and Δ the slopes from each value to the
+-- next. The first derivative is continuous if
+-- @h_{i−1}·M_{i−1} + 2·(h_{i−1} + h_i)·M_i + h_i·M_{i+1} = 6·(Δ_i − Δ_{i−1})@.
 secondDerivatives ::
   Boundary ->
   Unboxed.Vector Double ->
@@ -162,8 +163,8 @@ secondDerivatives boundary steps values = case boundary of
     inner i = row (step (i - 1)) (step i) (rise (i - 1)) (rise i)
     row h h' slope slope' = Row h (2 * (h + h')) h' (6 * (slope' - slope))
 
--- | Solves a tridiagonal system of @n@ equations. Pivoting is not needed, because the matrix of a
--- spline is diagonally dominant.
+-- | Solution of a tridiagonal system of @n@ equations; @row@ gives the equation with an index from
+-- 0. Pivoting is not needed, because the matrix of a spline is diagonally dominant.
 tridiagonal :: Int -> (Int -> Row) -> Unboxed.Vector Double
 tridiagonal n row = Unboxed.create $ do
   superDiagonal <- Mutable.unsafeNew (max 0 n)
@@ -199,9 +200,9 @@ tridiagonal n row = Unboxed.create $ do
         substitute superDiagonal solved (i - 1) m
 {-# INLINE tridiagonal #-}
 
--- | Solves a cyclic tridiagonal system: the first equation also contains the last unknown, and the
--- last equation the first unknown. The two elements in the corners of the matrix are treated as a
--- change of rank one (Sherman–Morrison).
+-- | Solution of a cyclic tridiagonal system of @n@ equations: the first equation also contains the
+-- last unknown, and the last equation the first unknown. The two elements in the corners of the
+-- matrix are treated as a change of rank one (Sherman–Morrison).
 cyclic :: Int -> (Int -> Row) -> Unboxed.Vector Double
 cyclic n row = Unboxed.zipWith (\x z -> x - factor * z) plain corner
   where
@@ -219,8 +220,8 @@ cyclic n row = Unboxed.zipWith (\x z -> x - factor * z) plain corner
     factor = weighted plain / (1 + weighted corner)
 {-# INLINE cyclic #-}
 
--- | Parabolas (Lagrange) through values 1–3, 3–5, and so on. For each parabola, the first argument
--- has the local parameter of its middle value. The count of values is odd.
+-- | Parabolas (Lagrange) through values 1–3, 3–5, and so on. @fractions@ has, for each parabola,
+-- the local parameter from 0 to 1 of its middle value. The count of values is odd.
 parabolas :: Vector Double -> Unboxed.Vector Double -> Cubics
 parabolas fractions values =
   generate (Vector.length fractions) (\i -> parabola i (fractions Vector.! i))

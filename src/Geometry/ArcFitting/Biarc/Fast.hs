@@ -23,7 +23,7 @@ import Geometry.Tolerance qualified as Tolerance
 -- | Position in mm and direction of length 1.
 data Pose = Pose {px :: Double, py :: Double, dx :: Double, dy :: Double}
 
--- | The second pose with the mean direction of both. They have one position.
+-- | Pose @b@ with the mean of its direction and that of @a@. Both have the same position.
 meanPose :: Pose -> Pose -> Pose
 meanPose a b = b {dx = sx / s, dy = sy / s}
   where
@@ -31,15 +31,15 @@ meanPose a b = b {dx = sx / s, dy = sy / s}
     sy = dy a + dy b
     s = sqrt (sx * sx + sy * sy)
 
--- | True if the change between the directions of two poses is more than 'Tolerance.kink'.
+-- | True if the directions of two poses differ by more than 'Tolerance.kink'.
 isCorner :: Pose -> Pose -> Bool
 isCorner a b = not (dx a * dx b + dy a * dy b > 0 && abs (dx a * dy b - dy a * dx b) <= sin kink)
   where
     Rad kink = Tolerance.kink
 
--- | Two arcs with a common tangent at the joint.
+-- | Biarc from one pose to another: two arcs with a common tangent at the joint.
 data FastBiarc = FastBiarc
-  { -- | True if one line or arc suffices: then the first arc is all, and 'joint' is the end pose
+  { -- | True if one line or arc suffices; it is then the first arc, and 'joint' is the end pose
     single :: Bool,
     -- | curvature of the first arc in 1/mm, positive to the left
     bend1 :: Double,
@@ -53,9 +53,10 @@ data FastBiarc = FastBiarc
     bulge2 :: Double
   }
 
--- | Biarc from one pose to another. The ratio of its chords is that of
--- 'Geometry.ArcFitting.Biarc.join', multiplied by the first argument. Curvatures and bulges are NaN
--- where an end direction makes a quarter turn or more with the chord, and where the ends coincide.
+-- | Biarc from one pose to another. Its chord ratio (second chord divided by first) is that of
+-- 'Geometry.ArcFitting.Biarc.join' times the factor @times@. Curvatures and bulges are NaN if an
+-- end direction makes a quarter turn or more with the chord, or if the ends coincide. A caller's
+-- test of the deviation then fails.
 biarc :: Double -> Pose -> Pose -> FastBiarc
 biarc times from end = withRatio times (between from end)
 {-# INLINE biarc #-}
@@ -64,10 +65,10 @@ biarc times from end = withRatio times (between from end)
 data Biarcs
   = -- | one line or arc for every ratio
     Only FastBiarc
-  | -- | numbers that do not depend on the chord ratio: the start; the chord as a vector, its length
-    -- and its direction; cosine and sine of half the angle from the chord to the direction at the
-    -- start (a) and at the end (b); the sines of the whole angles; and the chord ratio of
-    -- 'Geometry.ArcFitting.Biarc.join'
+  | -- | numbers that do not depend on the chord ratio: the start in mm; the chord as a vector in
+    -- mm, its length and its direction; cosine and sine of half the angle from the chord to the
+    -- direction at the start (a) and at the end (b); the sines of the whole angles; and the chord
+    -- ratio of 'Geometry.ArcFitting.Biarc.join'
     Biarcs
       { x0 :: Double,
         y0 :: Double,
@@ -115,8 +116,8 @@ between (Pose x0 y0 sx sy) final@(Pose x1 y1 ex ey)
     Rad straight = Tolerance.straight
     Rad oneArc = Tolerance.oneArc
 
--- | Biarc whose chord ratio is that of 'Geometry.ArcFitting.Biarc.join', multiplied by the first
--- argument.
+-- | Biarc of a family whose chord ratio is that of 'Geometry.ArcFitting.Biarc.join' times the
+-- factor @times@.
 withRatio :: Double -> Biarcs -> FastBiarc
 withRatio times biarcs = case biarcs of
   Only pair -> pair
@@ -158,9 +159,9 @@ withRatio times biarcs = case biarcs of
   where
     Rad straight = Tolerance.straight
 
--- | Chord ratio of a biarc: that of 'Geometry.ArcFitting.Biarc.join', multiplied by the first
--- argument. If an arc then has a negligible sweep, so that it is output as a line, the result is
--- the ratio for which this arc is exactly a line. So there is no kink at the joint.
+-- | Chord ratio for a biarc of a family: that of 'Geometry.ArcFitting.Biarc.join' times the factor
+-- @times@. If this gives an arc whose sweep is negligible, the arc is output as a line. Then the
+-- result is the ratio for which the arc is exactly a line, so that there is no kink at the joint.
 chordRatio :: Double -> Biarcs -> Double
 chordRatio times biarcs = case biarcs of
   Only _ -> 1
@@ -180,8 +181,8 @@ chordRatio times biarcs = case biarcs of
 {-# INLINE chordRatio #-}
 
 -- | Chord ratio of 'Geometry.ArcFitting.Biarc.ratio', from sines and cosines of the angles from the
--- chord to both end directions. It is 1, except where the angles have opposite signs and one is
--- more than twice the other in size.
+-- chord to the directions at the start (A) and at the end (B). It is 1, except where the angles
+-- have opposite signs and one is more than twice the other in size.
 ratio :: Double -> Double -> Double -> Double -> Double
 ratio sinA cosA sinB cosB
   | sinA * sinB >= 0
