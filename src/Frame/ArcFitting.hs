@@ -22,19 +22,20 @@ import Machine.Machine (Axis (..), Machine)
 import Machine.Machine qualified as Machine
 import Toolpath.Toolpath (Move (segment))
 
--- | Largest distance of the fitted arcs from the curve: the smaller one of the bounds on both
--- sides, but at least 'leastShare' of a pulse. The smaller bound is nearly 0 for a tolerance on one
--- side of the contour only. Then 'roundingAllowance' is smaller by the excess.
+-- | Largest distance in mm of the fitted arcs from the curve. It is the smaller one of the bounds
+-- on both sides, but at least 'leastShare' of a pulse. The smaller bound is nearly 0 for a
+-- tolerance on one side of the contour only. Then the result exceeds this bound, and
+-- 'roundingAllowance' is smaller by the excess.
 fitTolerance :: Machine -> Bounds -> Mm
 fitTolerance machine bounds =
   max (times leastShare (Machine.planeResolution machine)) (min (left bounds) (right bounds))
 
--- | Share of a pulse that the fitted arcs may always deviate.
+-- | Share of a pulse by which the fitted arcs may always deviate, as a fraction.
 leastShare :: Double
 leastShare = 0.1
 
--- | Error allowed for rounding: one pulse, less the amount by which the fitted arcs may exceed the
--- bounds.
+-- | Error in mm allowed for rounding: one pulse, less the amount by which 'fitTolerance' exceeds
+-- the smaller bound.
 roundingAllowance :: Machine -> Bounds -> Mm
 roundingAllowance machine bounds =
   minus
@@ -62,8 +63,8 @@ divisions machine bounds run
   where
     fitted = fit run
     moves = NonEmpty.toList run
-    -- True for moves that become chords in the second division. A line becomes what the arc before
-    -- it becomes.
+    -- For each move True when it becomes chords in the second division. A line becomes what the arc
+    -- before it becomes.
     kinds = drop 1 (scanl (\before m -> fromMaybe before (isRemote (segment m))) False moves)
     part ms@((isRemotePart, _) :| _)
       | isRemotePart = Chords (fmap snd ms)
@@ -77,10 +78,11 @@ divisions machine bounds run
     -- that it becomes a line.
     isRemoteBend s =
       isRemote s == Just True && Segment.sagitta s >= times 0.5 (Machine.planeResolution machine)
-    -- Compares a lower bound of the number of chords of the whole run with the number of frames of
-    -- the first division. A chord deviates from a fitted arc by at most the sum of both bounds and
-    -- twice the error of the fit. A chord across the joint of two arcs counts for both. In the
-    -- first division a remote bend becomes chords, which deviate by a fraction of a pulse.
+    -- True when chords for the whole run may need fewer frames than the first division. Compares a
+    -- lower bound of the number of these chords with the number of frames of the first division. A
+    -- chord deviates from a fitted arc by at most the sum of both bounds and twice the error of the
+    -- fit. A chord across the joint of two arcs counts for both. In the first division a remote
+    -- bend becomes chords, which deviate by a fraction of a pulse.
     mayNeedFewerChords =
       sum (fmap (leastChords band) fitted) - length fitted
         < sum
@@ -105,8 +107,8 @@ leastChords sagitta s = case s of
     let Mm r = Segment.radius centre start
      in max 1 (ceiling (abs a / (2 * acos (max (-1) (1 - sagitta / r)))))
 
--- | Arcs and lines within a distance of a run, with the same ends, and at most as many as the run
--- has.
+-- | Arcs and lines whose distance from the run is at most @tolerance@ mm, with the ends of the run.
+-- They are at most as many as the moves of the run.
 arcs :: Mm -> NonEmpty Move -> NonEmpty Segment
 arcs tolerance run =
   case NonEmpty.nonEmpty (filter ((> Mm 0) . Segment.length) (map segment (NonEmpty.toList run))) of

@@ -4,7 +4,8 @@
 -- | Positions in whole pulses, and the splitting of straight moves that are too long for one frame.
 --
 -- Every position is rounded by itself as an absolute position, so rounding errors never add up. An
--- increment is the difference of two rounded positions.
+-- increment is the difference of two rounded positions. Machine coordinates have one resolution for
+-- each axis, the size of its pulse in mm.
 module Frame.Rounding
   ( PathPosition,
     rounded,
@@ -25,7 +26,7 @@ import Machine.Machine (Axis (..), AxisMeasure (..), Machine)
 import Machine.Machine qualified as Machine
 import Toolpath.Toolpath (Move (..), heights)
 
--- | Position in mm: the point in the plane, and the height.
+-- | Position in mm: the point in the plane x, y, and the height z.
 type PathPosition = (Point, Mm)
 
 -- | Nearest whole number of pulses on each axis; half a pulse is rounded up.
@@ -35,7 +36,8 @@ rounded machine (p, Mm z) = Pulses3 (pulses X (Vec.x p)) (pulses Y (Vec.y p)) (p
     pulses axis x =
       let Mm step = Machine.resolutionOf machine axis in Pulses (floor (x / step + 0.5))
 
--- | Height at a fraction of a move, by linear interpolation; the height of its end from 1 on.
+-- | Height in mm at the fraction @t@ of a move, by linear interpolation. For a @t@ of 1 or more it
+-- is the height of the move's end.
 heightAt :: Double -> Move -> Mm
 heightAt t m
   | t >= 1 = snd (heights m)
@@ -59,10 +61,10 @@ isFlat (m :| more) = case heights m of
       n : others -> case heights n of
         (Mm a, Mm b) -> a == z && b == z && go z others
 
--- | Ends of the frames for a straight move, given by its start in pulses and its exact ends. The
--- move is divided into the fewest equal parts whose increments fit their fields, and each end is
--- rounded by itself. A field for absolute positions takes a move of any length, so the move is not
--- divided.
+-- | Ends, in pulses, of the frames for a straight move from @begin@, its rounded start. The pair
+-- has the exact start and end of the move. The move is divided into the fewest equal parts whose
+-- increments fit their fields, and each end is rounded by itself. A field for absolute positions
+-- takes a move of any length, so there the move is not divided.
 split :: Machine -> Pulses3 -> (PathPosition, PathPosition) -> [Pulses3]
 split machine begin ((a, za), (b, zb)) = case Machine.measure (Machine.layout machine) of
   Positions -> [finish]
@@ -91,8 +93,8 @@ split machine begin ((a, za), (b, zb)) = case Machine.measure (Machine.layout ma
       x : _ -> x
       [] -> [finish]
 
--- | Number of part counts that 'split' tries beyond the smallest one. Rounding makes a part at most
--- one pulse longer, so this is always enough for an axis with two digits or more.
+-- | Number of larger part counts that 'split' tries after the smallest one. Rounding makes a part
+-- at most one pulse longer, so this is always enough for an axis with two digits or more.
 spareParts :: Int
 spareParts = 1000
 
