@@ -50,11 +50,11 @@ data InstructionContext = InstructionContext
     -- | True when the tape has a field for z, but the source of the machine description mentions no
     -- axis z
     isHeightUncertain :: Bool,
-    -- | error for the start of the toolpath, if it is out of reach
+    -- | error for the start of the toolpath, if the start is out of reach
     startError :: Maybe Error
   }
 
--- | Context for a machine, a start point and the region that names it.
+-- | Context for a machine and a start point in mm. The region of the program names this point.
 contextOf :: Machine -> Region -> Point -> InstructionContext
 contextOf machine startRegion start =
   InstructionContext
@@ -72,11 +72,11 @@ data InstructionFindings = InstructionFindings
     withoutCode :: [Error],
     -- | points out of reach, at most one for each run
     outOfReach :: [Error],
-    -- | number of frames, as estimated before they are made
+    -- | number of frames of all instructions so far, as estimated before the frames are made
     count :: Int,
-    -- | error for the run with which the frames become too many
+    -- | error for the run with which the number of frames exceeds 'mostFrames'
     tooMany :: Maybe Error,
-    -- | first move in z that the machine may not have
+    -- | warning about the first move in z that the machine may not have
     uncertainHeight :: Maybe Warning
   }
 
@@ -97,7 +97,7 @@ noFindings =
 isBounded :: InstructionFindings -> Bool
 isBounded findings = null (outOfReach findings) && null (tooMany findings)
 
--- | Feeds without a code, in order.
+-- | Errors about feeds without a code, in the order of the instructions.
 feedErrors :: InstructionFindings -> [Error]
 feedErrors = reverse . withoutCode
 
@@ -109,8 +109,8 @@ boundErrors findings = reverse (outOfReach findings) <> maybeToList (tooMany fin
 heightWarnings :: InstructionFindings -> [Warning]
 heightWarnings = maybeToList . uncertainHeight
 
--- | Adds the findings in the next instruction. The third argument is the ends of the chords of its
--- run; they are evaluated only along a curve on a machine without arcs.
+-- | Adds the findings in the next instruction. @chordEnds@ are the ends of the chords of its run;
+-- they are evaluated only along a curve on a machine without arcs.
 check ::
   InstructionContext ->
   Instruction ->
@@ -127,7 +127,7 @@ check context instruction chordEnds before = case instruction of
       chordEnds
       (checkReach context run (checkHeights context run (checkFeed context feedMode run before)))
 
--- | Adds the error of a feed without a code.
+-- | Adds the error of a feed without a code, if the run @moves@ has such a feed.
 checkFeed ::
   InstructionContext ->
   FeedMode ->
@@ -178,8 +178,8 @@ checkReach context moves before
           <|> reachError (origin m) (Vec.point r t)
           <|> startError context
 
--- | True for a segment that is certainly within reach: a line with both ends, or an arc with its
--- full circle.
+-- | True for a segment that is certainly within reach, so that its bounding box is not computed: a
+-- line with both ends within reach, or an arc with its full circle within reach.
 isSurelyInReach :: Segment -> Bool
 isSurelyInReach s = case s of
   Straight a b -> isInReach 0 a && isInReach 0 b
@@ -191,13 +191,14 @@ isInReach margin p = max (abs (Vec.x p)) (abs (Vec.y p)) <= limit - margin
   where
     Mm limit = Tolerance.reach
 
--- | The error of a point that is out of reach.
+-- | The error of a point in mm that is out of reach; Nothing for a point within reach.
 reachError :: Region -> Point -> Maybe Error
 reachError region p =
   if isInReach 0 p then Nothing else Just (OutOfReach region p Tolerance.reach)
 
--- | Adds the number of frames of a run, without making them. On a machine with arcs a level run
--- counts as one frame, so the number is a lower bound there.
+-- | Adds the number of frames of the run @moves@, without making them. On a machine with arcs a
+-- level run counts as one frame, so there the number is a lower bound. A level run stays at one
+-- height.
 counted ::
   InstructionContext ->
   ChordTolerance ->
