@@ -133,8 +133,8 @@ speedWarnings region c CommandWord {value} = case (value, spindleSpeed c) of
 speedSlack :: Double
 speedSlack = 0.1
 
--- | Step of the spindle gear with the speed nearest to @asked@, and its speed; the lower step if
--- two are equally near. Speeds are in turns per minute. Nothing for an empty table.
+-- | Number in @table@ of the speed nearest to @asked@, and that speed; the smaller number if two
+-- speeds are equally near. Speeds are in turns per minute. Nothing for an empty table.
 nearestStep :: Map.Map Int Double -> Double -> Maybe (Int, Double)
 nearestStep table asked = case Map.toList table of
   [] -> Nothing
