@@ -85,7 +85,8 @@ halved halvings context begin s = case s of
        in halved (halvings - 1) context begin front <> halved (halvings - 1) context middle back
 
 -- | Steps of a rounded arc about the best grid point. Grid points near the exact centre have
--- priority. Nothing when all candidates exceed the tolerance.
+-- priority. Nothing when the arcs about all candidates exceed the tolerance; then the arc is
+-- halved.
 asArcs :: ArcContext -> RoundedArc -> Maybe [ArcStep]
 asArcs context arc =
   listToMaybe

@@ -42,7 +42,7 @@ roundingAllowance machine bounds =
     (Machine.planeResolution machine)
     (max (Mm 0) (minus (fitTolerance machine bounds) (min (left bounds) (right bounds))))
 
--- | Part of a run, and its representation in frames.
+-- | Part of a run, and the form in which it becomes frames.
 data RunPart
   = -- | moves to be divided into chords
     Chords (NonEmpty Move)
@@ -70,7 +70,7 @@ divisions machine bounds run
       | isRemotePart = Chords (fmap snd ms)
       | otherwise = Arcs (fit (fmap snd ms))
     fit = arcs (fitTolerance machine bounds)
-    -- True for an arc whose centre does not fit its field; Nothing for a line.
+    -- True for an arc whose centre does not fit its field: a remote arc. Nothing for a line.
     isRemote s = case s of
       Straight _ _ -> Nothing
       Arc {start, centre} -> Just (Segment.radius centre start >= largestRadius)
@@ -93,13 +93,13 @@ divisions machine bounds run
       let Pulses n = Machine.centreCapacity machine
        in times (fromIntegral n) (minimum [Machine.resolutionOf machine axis | axis <- [X, Y]])
 
--- | Largest number of fitted arcs for which other divisions are tried although the centres of all
+-- | Largest number of fitted arcs for which other divisions are tried even if the centres of all
 -- fitted arcs fit. With more arcs the attempts would take longer than the rest of the compilation.
 mostTried :: Int
 mostTried = 1000
 
--- | Least number of chords of a segment with at most @sagitta@ mm of chord error: a chord of an arc
--- of radius r spans at most @2·arccos(1 − y/r)@.
+-- | Least number of chords of a segment with a chord error of at most @sagitta@ mm (y). A chord of
+-- an arc of radius r spans at most @2·arccos(1 − y/r)@.
 leastChords :: Double -> Segment -> Int
 leastChords sagitta s = case s of
   Straight _ _ -> 1

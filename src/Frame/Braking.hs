@@ -43,8 +43,8 @@ obtained machine m = case pace m of
   Rapid -> let Feed v = FeedCode.rapidFeed machine in v / 60
   At (Located _ asked) -> let Feed v = nearestFeed machine asked in v / 60
 
--- | Feed that the machine gives for the feed asked for, limited to the machine's range. On machines
--- whose feed depends on the direction it is the feed asked for.
+-- | Feed that the machine gives for the feed @asked@ in mm/min, limited to the machine's range. On
+-- machines whose feed depends on the direction it is @asked@ itself.
 nearestFeed :: Machine -> Feed -> Feed
 nearestFeed machine (Feed asked) = case Machine.feedMeasure (Machine.feeds machine) of
   LeadingAxis -> Feed asked
@@ -102,7 +102,7 @@ data FeedLimit = FeedLimit
 -- braking; the feed in mm/s at the end of the section; the number of the section.
 data BrakingEnd = BrakingEnd {brakingLength :: Double, to :: Double, within :: Int}
 
--- | Instructions with the braking sections before every lower feed divided off. At the end of an
+-- | Instructions with a braking section divided off before every lower feed. At the end of an
 -- element with braking, and at the end of the program, the feed has to come down to @least@.
 withBrakedFrames :: Machine -> Feed -> [Instruction] -> [Instruction]
 withBrakedFrames machine least instructions = concatMap cut marked

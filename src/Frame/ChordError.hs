@@ -56,7 +56,7 @@ chordTolerance machine job = \run ->
     then onCurve
     else segmentTolerance side job (segment (NonEmpty.head run))
   where
-    -- These two values are the same for all runs of a job, so they are computed once per job.
+    -- Both values are the same for all runs of a job, so they are computed once per job.
     side = fromRight Nothing (Toolpath.leadingSide job)
     onCurve = OnCurve (curveBounds machine side job)
 
@@ -126,8 +126,8 @@ raisedToRounding machine tolerance = case tolerance of
     -- The arcs of a run themselves deviate from the curve by up to 'Tolerance.curve'.
     leastOnCurve = minus least Tolerance.curve
 
--- | Ends of the chords of a run with their heights. If a curve has more than @limit@ chords, the
--- list is incomplete but has at least @limit@ entries.
+-- | Ends of the chords of a run in mm, with their heights. If a curve has more than @limit@ chords,
+-- the list is incomplete but has at least @limit@ entries.
 ends :: Int -> Machine -> ChordTolerance -> NonEmpty Move -> [PathPosition]
 ends limit machine tolerance run = case tolerance of
   Sagitta y -> withHeights (chords machine y (segment m))

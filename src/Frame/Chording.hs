@@ -223,7 +223,7 @@ limitsOf bounds tightness =
     }
   where
     Mm least = shortest bounds
-    -- A point within 'Tolerance.coincident' of the chord lies on it.
+    -- A point within 'Tolerance.coincident' of the chord counts as lying on the chord.
     share d = let Mm y = max Tolerance.coincident (times (tightness * tightness) d) in y
 
 -- Points of the run -------------------------------------------------------------------------------
@@ -458,7 +458,7 @@ turningPoints limits view move t = case segment move of
   Arc {start, centre, sweep = Rad s} ->
     let Mm r = Segment.radius centre start
         away = Vec.to centre (eye view)
-        -- Chords meet on a concentric circle.
+        -- Along an arc, chords meet on a concentric circle.
         ratio = (r + signum s * aside limits) / Vec.norm away
         fractions =
           [ u
@@ -488,7 +488,7 @@ turnLimit limits before move = case segment move of
 -- the line. Directions are measured as in 'Sector'.
 data Tangents = Tangents {onLeft :: [Double], onRight :: [Double]}
 
--- | The tangents to a move.
+-- | The directions of the lines from the viewpoint that are 'Tangents' to a move; none for a line.
 tangentsTo :: Limits -> Viewpoint -> MoveRest -> Tangents
 tangentsTo limits view move =
   Tangents {onLeft = touching (-1) (leftOf limits), onRight = touching 1 (rightOf limits)}

@@ -83,7 +83,7 @@ wordsFor table c = case c of
   Part.Auxiliary _ -> auxiliary table
   Part.ChangeTool _ _ -> toolChange table
 
--- | Kind of a command, for reports.
+-- | The 'CommandKind' that reports about a command name.
 kindOf :: Command -> CommandKind
 kindOf c = case c of
   Part.Auxiliary _ -> AuxiliaryCommand
@@ -115,6 +115,7 @@ spindleSpeed c = case c of
   Part.ChangeTool _ _ -> Nothing
 
 -- | Warning about a spindle speed that differs from the one asked for by more than 'speedSlack'.
+-- Empty for every other command.
 speedWarnings :: Region -> Command -> CommandWord -> [Warning]
 speedWarnings region c CommandWord {value} = case (value, spindleSpeed c) of
   (Step table, Just asked) ->

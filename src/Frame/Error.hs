@@ -26,8 +26,8 @@ import Report.Report qualified as Report
 
 -- | Reason why no frames are made. Every error has the region of the part program that causes it.
 data Error
-  = -- | a feed along the path without a feed code: the feed asked for, the lowest and the highest
-    -- feed of the machine
+  = -- | a feed along the path for which the machine has no code: the feed asked for, and the lowest
+    -- and the highest feed of the machine
     FeedOutOfRange Region Feed Feed Feed
   | -- | a feed for which the leading axis would need a frequency that the machine does not have:
     -- the feed asked for, and this frequency in pulses per second; the lowest and the highest
@@ -38,8 +38,8 @@ data Error
   | -- | a milling statement in which the sum of the tolerance and one pulse is not below the radius
     -- of the cutter: the tolerance and the radius in mm
     ToleranceTooLarge Region Mm Mm
-  | -- | a number of a command that is too high for the machine, and the highest one that it has; 0
-    -- if it has no such command
+  | -- | a number of a command that is too high for the machine, and the highest number that the
+    -- machine has. The latter is 0 if the machine has no such command
     NoSuchCommand Region CommandKind Int Int
   | -- | more than the given number of frames, the largest that is allowed
     TooManyFrames Region Int
@@ -50,7 +50,7 @@ data Error
     NoSuchAxis Region Axis
   | -- | a position in mm on an axis that does not fit its field, and the largest position that fits
     PositionOutOfField Region Axis Mm Mm
-  | -- | a control without cutter compensation
+  | -- | a request for cutter compensation on a control without it
     NoCompensation Region
   | -- | a cutter diameter in mm that the word for it cannot hold
     DiameterOutOfRange Region Mm
@@ -60,7 +60,8 @@ data Error
 data Warning
   = -- | the feed asked for, and the lowest and the highest feed that the frames get
     FeedDiffers Region Feed Feed Feed
-  | -- | the start in the program, and the nearest position in whole pulses
+  | -- | a start that is not in whole pulses: the start in the program, and the nearest position in
+    -- whole pulses, both in mm
     StartRounded Region Point Point
   | -- | a move in z on a machine whose historical source does not mention moves in z
     HeightUncertain Region
@@ -72,7 +73,7 @@ data Warning
     SpindleSpeedMissing Region
   deriving stock (Eq, Ord, Show)
 
--- | What a command concerns: spindle, coolant, tool, or an auxiliary function.
+-- | The device that a command concerns: spindle, coolant, tool, or an auxiliary function.
 data CommandKind = SpindleCommand | CoolantCommand | ToolCommand | AuxiliaryCommand
   deriving stock (Eq, Ord, Show)
 

@@ -34,7 +34,7 @@ import Geometry.Vec qualified as Vec
 import Machine.Machine (Arcs (..), Axis (..), AxisMeasure (..), CommandName, FeedCode (..), Machine)
 import Machine.Machine qualified as Machine
 
--- | One frame as the tape holds it.
+-- | One frame with the numbers that the tape holds.
 data Frame = Frame
   { motion :: FrameMotion,
     -- | pulses along x, y and z from the beginning of the frame to its end
@@ -143,7 +143,7 @@ segment machine at f = case motion f of
 data Violation
   = -- | an increment that does not fit its field: the axis, and the increment in pulses
     OverCapacity Int Axis Pulses
-  | -- | a centre at the beginning of its arc, or one that does not fit its field
+  | -- | a centre that is at the beginning of its arc, or that does not fit its field
     BadCentre Int
   | -- | a feed code that the machine does not have, or a feed code other than 0 where the motion
     -- takes none
@@ -177,7 +177,7 @@ frameViolations machine n f = case faults of
         (commandFaults machine n f)
     isEmpty = not (isMoving f) && null (commands f)
 
--- | Broken rules on increments, feed codes, motions and commands.
+-- | Broken rules of a frame in four lists: on increments, feed codes, motions and commands.
 data Faults = Faults [Violation] [Violation] [Violation] [Violation]
 
 -- | Increments that do not fit their fields. A field for absolute positions limits the position and

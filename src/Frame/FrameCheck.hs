@@ -57,14 +57,15 @@ contextOf machine =
 data FrameFindings = FrameFindings
   { -- | range of the feeds that the frames get, for each feed of the program with its region
     obtained :: Map (Region, Feed) FeedRange,
-    -- | feed of the program in the last frame, and its code
+    -- | feed in the program of the last frame, and the frame's code
     lastPace :: Pace,
     lastCode :: FeedCode,
-    -- | for each feed of the program, the first frame for which the leading axis has no code
+    -- | for each feed of the program, the error of the first frame for which the leading axis has
+    -- no code
     withoutCode :: Map (Region, Feed) Error,
-    -- | first move along an axis that the machine does not have
+    -- | error of the first move along an axis that the machine does not have
     missingAxis :: Maybe Error,
-    -- | first position that does not fit its field
+    -- | error of the first position that does not fit its field
     outOfField :: Maybe Error
   }
 

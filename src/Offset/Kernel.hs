@@ -82,8 +82,8 @@ data OffsetFault
     Uncertain
   deriving stock (Eq, Show)
 
--- | The region that the cutter's centre can reach. The contours are all closed, or there is a
--- single open one.
+-- | The region that the cutter's centre can reach, as the request describes it. The contours are
+-- all closed, or there is a single open one.
 offset :: OffsetRequest -> [FlatPolyarc] -> Either OffsetFault ReachableRegion
 offset request contours = do
   wanted <-
@@ -182,8 +182,8 @@ rawWith request tolerance original c = case extra request of
     rawAt uneven at corner =
       RawOffset.raw tolerance Tolerance.tangential (corners request) uneven at corner c
     {-# INLINE rawAt #-}
-    -- An additional distance moves an arc towards its centre by no more than its radius. Moved
-    -- further, it would leave its sector.
+    -- An additional distance moves an arc towards its centre by no more than the arc's radius.
+    -- Moved further, the arc would leave its sector.
     limited i
       | requestedDistance > d && signed * indexPrimArray (ClosedPolyarcs.bulges c) i < 0 =
         min requestedDistance (max d (0.5 * ClosedPolyarcs.diameter c i))
@@ -203,7 +203,8 @@ data Problem = Problem
     least :: Double,
     -- | the largest distance that the cutter's centre keeps from any segment
     widest :: Double,
-    -- | the distance of a segment, by its number in the flat arrays
+    -- | the distance that the cutter's centre keeps from a segment, by the segment's number in the
+    -- flat arrays
     distances :: Int -> Double,
     -- | the raw offset of contours, and the contours with their smooth joints marked
     rawOf :: ClosedPolyarcs -> (ClosedPolyarcs, ClosedPolyarcs)

@@ -38,7 +38,7 @@ data OffsetLoops = OffsetLoops
     raws :: PrimArray Int32
   }
 
--- | No loops.
+-- | Offset loops without any loop: the boundary of an empty region.
 none :: OffsetLoops
 none =
   OffsetLoops

@@ -119,9 +119,9 @@ request OffsetSource {style, side, radius, elements} numbers =
           else Just (extra style . indexPrimArray numbers)
     }
 
--- | A run: one segment of a loop, or consecutive segments on one arc.
+-- | A run: one segment of a loop, or consecutive segments on one arc. The fields speak of this run.
 data Run = Run
-  { -- | the element or corner of the contour of which it is the offset
+  { -- | the element or corner of the contour whose offset the run is
     origin :: Origin,
     -- | number of its first segment in the flat contour. An open contour of @n@ segments is
     -- traversed there and back, so its numbers go up to @2n − 1@
@@ -133,11 +133,11 @@ data Run = Run
     isBeside :: Bool,
     -- | True when the run is a line that joins the offsets of two elements at an inner corner
     isConnecting :: Bool,
-    -- | the point where it begins
+    -- | the point where the run begins
     from :: {-# UNPACK #-} Point,
-    -- | the point where it ends
+    -- | the point where the run ends
     to :: {-# UNPACK #-} Point,
-    -- | signed sweep in radians; 0 for a line
+    -- | sweep in radians, positive counter-clockwise; 0 for a line
     turned :: Double
   }
 
@@ -154,8 +154,8 @@ circuit r k = circuitFrom r a z (fromMaybe (leastStart r a z) beyond)
     a = indexPrimArray (Loop.starts (loops r)) k
     z = indexPrimArray (Loop.starts (loops r)) (k + 1)
 
--- | The runs of the raw offset that are beside the contour, without connecting lines. The cutter
--- passes all corners of the contour.
+-- | The runs of the raw offset that are beside the contour, without connecting lines. Their path
+-- passes all corners of the contour, as no part of the raw offset is trimmed.
 rawCircuit :: LoopRegion -> Circuit
 rawCircuit r
   | z == 0 = Circuit (Along 0) []
@@ -247,8 +247,8 @@ originAt r i = if isAroundAt r i then Around element else Along element
     n = sizeofPrimArray (numbers r)
     element = indexPrimArray (numbers r) (if k < n then k else 2 * n - 1 - k)
 
--- | True of a segment on the cutter's side of the contour: not on the traversal back along an open
--- contour, and not on the arcs about its ends.
+-- | True of a segment on the cutter's side of the contour. False for an open contour on the
+-- traversal back, and on the arcs about the ends of the contour.
 isBesideAt :: LoopRegion -> Int -> Bool
 isBesideAt r i = contourEnds r == Closed || flatAt r i < (if isAroundAt r i then n - 1 else n)
   where
@@ -330,12 +330,12 @@ exactSegment structure source front run back = OffsetSegment (origin run) $ case
     | turned run /= 0 -> both (`cornerArc` i)
     | otherwise -> Straight (snapped i (from run)) (snapped i (to run))
   where
-    -- Mostly both offsets are the same, and the segment is computed once.
+    -- When both offsets have one radius, the segment is computed once.
     both f =
       let exact = f source
           structural = if radius structure == radius source then exact else f structure
        in partOf front run back structural exact
-    -- The exact point of the corner that agrees with a vertex, or the vertex itself.
+    -- The exact point of the corner after element i that agrees with the vertex p, or p itself.
     snapped i p
       | Vec.isNear p nearest = snd pair
       | otherwise = p

@@ -44,7 +44,8 @@ data Cause
   = -- | an arc whose centre is on the cutter's side: its number, and its radius, which is smaller
     -- than the distance between the cutter's centre and the arc
     Concave Int Mm
-  | -- | a corner that turns towards the cutter: the elements before and after it, and its vertex
+  | -- | a corner that turns towards the cutter: the numbers of the elements before and after it,
+    -- and its vertex
     InnerCorner Int Int Point
   | -- | a gouge: the cutter's centre moves along the offset of the first element, and at the given
     -- point the cutter cuts the second element
@@ -52,7 +53,8 @@ data Cause
   deriving stock (Eq, Show)
 
 -- | The obstacles at single elements and corners: first concave arcs, then inner corners, then
--- elements that are too short between slight inner corners.
+-- elements that are too short between slight inner corners. 'Offset.SourceOffset.Corner' explains
+-- the kinds of corners.
 localCauses :: OffsetSource -> [Cause]
 localCauses source =
   [Concave i r | i <- numbers, Just r <- [tooTight source i]]

@@ -210,9 +210,9 @@ offsetPolyarc
                ) =
           k (if di == dj then Smooth else Step) 0 0
         -- The direction reverses here: a cusp. With different distances a cusp that is open towards
-        -- the cutter is an inner corner, because the cutter cannot enter it. With one common
+        -- the cutter is an inner corner, because the cutter cannot enter the cusp. With one common
         -- distance every cusp can be treated as an outer corner: an arc about the tip of an open
-        -- cusp lies in the unreachable region, so trimming removes it.
+        -- cusp lies in the unreachable region, so trimming removes this arc.
         | dt < 0 && abs (cr * d) <= tolerance =
           k
             ( if uneven
@@ -233,8 +233,9 @@ offsetPolyarc
           cr = ax * by - ay * bx
           dt = ax * bx + ay * by
           cut = abs (d * cr / (1 + dt))
-          -- The least length of both lines for which cutting them is right: the part cut off then
-          -- lies beside them. With one common distance all points beyond are unreachable anyway.
+          -- The least length in mm of both lines for which cutting them is right: then the part
+          -- that is cut off lies beside the lines. With one common distance all points beyond are
+          -- unreachable anyway.
           needed
             | uneven = max cut (if dt > 0 then abs (d * cr) else abs d)
             | otherwise = cut
@@ -285,8 +286,8 @@ offsetPolyarc
           Smooth -> next k1 endMark
           Step -> put k1 fx fy 0 ClosedPolyarcs.aroundMark i >> next (k1 + 1) 0
           Trimmed -> next k1 0
-          -- With different distances a straight line could run through the material to its other
-          -- side. Two lines through the vertex cannot.
+          -- With different distances a straight line could run through the material to the
+          -- material's opposite side. Two lines through the vertex cannot.
           Over
             | uneven ->
               put k1 fx fy 0 ClosedPolyarcs.connectingMark i

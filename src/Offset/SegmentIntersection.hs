@@ -217,8 +217,8 @@ isDisjoint !tolerance !c !i !j =
     !arcStart = ux * wy - uy * wx
     !arcEnd = arcStart + turning
     !rise = -0.5 * b * (ux * dx + uy * dy)
-    -- Twice the signed areas of the triangles between the chord and the line's ends, positive on
-    -- the arc's side, and the same area for the arc's apex.
+    -- Twice the signed areas in mm² of the triangles between the chord and the line's ends,
+    -- positive on the arc's side. @height@ is the same for the arc's apex.
     !sign = if b > 0 then 1 else -1
     !lineStart = sign * (dx * wy - dy * wx)
     !lineEnd = lineStart + sign * turning
@@ -341,11 +341,11 @@ crossingAt c visitor !i !j !px !py = do
 
 -- | The verdict on an intersection of two segments' carriers.
 data Verdict
-  = -- | it is on both segments
+  = -- | the intersection is on both segments
     Crosses
-  | -- | it is not on both segments
+  | -- | the intersection is not on both segments
     Passes
-  | -- | it is nearer to an end of a segment than rounding allows to decide
+  | -- | the intersection is nearer to an end of a segment than rounding allows to decide
     Doubtful
   deriving stock (Eq)
 
@@ -395,8 +395,8 @@ arcs !tolerance !c visitor report !i !j
     !x0 = indexPrimArray (ClosedPolyarcs.xs c) i
     !y0 = indexPrimArray (ClosedPolyarcs.ys c) i
     -- The difference of the powers of a point with respect to both circles is a linear function of
-    -- the point. It is zero on the radical axis, on which the circles intersect. (gx, gy) is its
-    -- gradient.
+    -- the point; (gx, gy) is its gradient. The function is zero on the radical axis, which passes
+    -- through the intersections of the circles.
     !gx =
       ClosedPolyarcs.gradient
         c

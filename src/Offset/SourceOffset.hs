@@ -65,7 +65,7 @@ data CornerStyle = CornerStyle
     extra :: Int -> Mm
   }
 
--- | A contour, and the offset of it that is wanted.
+-- | A contour, and the request for an offset of it.
 data OffsetSource = OffsetSource
   { style :: CornerStyle,
     -- | the cutter's side of the contour
@@ -156,7 +156,7 @@ shortened front back s
 data Corner
   = -- | none: an open contour ends here
     NoCorner
-  | -- | the direction changes by no more than 'Tolerance.smoothAngle'
+  | -- | a smooth joint: the direction changes by no more than 'Tolerance.smoothAngle'
     Smooth
   | -- | turns towards the cutter by a small angle θ: the gap between the vertex and the cutter's
     -- edge is at most 'Tolerance.smallestRest'. The number is the length @r·tan(θ/2)@ in mm by

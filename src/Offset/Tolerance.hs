@@ -33,12 +33,12 @@ smallestRest = Mm 1e-5
 resolution :: Mm
 resolution = Mm 1e-6
 
--- | The rounding error of a point that the offset kernel computes, as a share of the largest
+-- | The rounding error of a point that the offset kernel computes, as a fraction of the largest
 -- coordinate: about fifty units in the last place.
 rounding :: Double
 rounding = 1e-14
 
 -- | The sine of the largest angle between two directions that the offset kernel treats as equal.
--- Offset points move by no more than this share of the distance.
+-- This moves offset points by at most the product of the sine and the offset's distance.
 tangential :: Double
 tangential = 1e-9

@@ -55,7 +55,7 @@ data TrimmedOffset = TrimmedOffset
   }
   deriving stock (Eq, Show)
 
--- | The paths beside a contour, in the contour's order. A contour that intersects itself has none.
+-- | The paths beside a contour, in the contour's order; empty for a contour that intersects itself.
 along :: OffsetSource -> [TrimmedOffset]
 along source = maybe [] (pathsIn source source) (LoopPath.region source)
 
@@ -126,7 +126,8 @@ openPath structure source count (before, runs, after) =
 whole :: OffsetSource -> OffsetSource -> Maybe [OffsetSegment]
 whole structure source = case LoopPath.region structure of
   Just region -> case pathsIn structure source region of
-    -- The checks of the next case would keep the whole path in memory.
+    -- This case comes first, because the checks of the next one would keep the whole path in
+    -- memory.
     path : _ | isUncut region -> Just (NonEmpty.toList (pieces path))
     [path]
       | SourceOffset.ends source == ends path,
@@ -140,7 +141,7 @@ whole structure source = case LoopPath.region structure of
     nothingLeft
       | all (hasShrunk structure) [0 .. elementCount structure - 1] = Just []
       | otherwise = Nothing
-    -- True when nothing stops the cutter at the path's ends but elements whose offset is a point.
+    -- True when only elements whose offset is a point stop the cutter at the ends of the path.
     isOpenAtEnds path =
       maybe True (< firstOf path) (fst (stops path))
         && maybe True (> finalOf path) (snd (stops path))

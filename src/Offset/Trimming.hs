@@ -125,8 +125,8 @@ sortOccurrences c xs begins order = do
           writePrimArray begins i (a + v)
           accumulate (i + 1) (a + v)
   accumulate 2 0
-  -- While occurrences are placed, entry s + 1 of begins is the index for the next occurrence of
-  -- segment s. In the end it is the index of the first occurrence of segment s + 1.
+  -- While occurrences are placed, entry s + 1 of @begins@ is the index in @order@ for the next
+  -- occurrence of segment s. In the end it is the index of the first occurrence of segment s + 1.
   forM' total $ \o -> do
     let s = segmentOf o
         t = parameterOf xs o
@@ -173,7 +173,7 @@ rangeEnd (Slices c _ begins _) w =
   fromIntegral (indexPrimArray begins (ClosedPolyarcs.repeatedVertex c w))
 {-# INLINE rangeEnd #-}
 
--- | Runs an action for every index from 0 to n − 1. Unlike 'forM_' it allocates no list.
+-- | Runs the action @f@ for every index from 0 to @n − 1@. Unlike 'forM_' it allocates no list.
 forM' :: Int -> (Int -> ST s ()) -> ST s ()
 forM' n f = go 0
   where
@@ -260,8 +260,8 @@ joinSlices !wanted slices@(Slices !c !xs _ !order) lefts outermost = do
           copySegments out c from to l
           pure (l + to - from, made + 1)
         | otherwise = pure (l, made)
-      -- Follows the polyarc from occurrence q to the next one. Then it continues at the same
-      -- intersection on the other segment.
+      -- Follows the polyarc from the sorted occurrence at q to the next one. Then it continues at
+      -- the same intersection on the intersection's second segment.
       follow !q0 !q !l = do
         writePrimArray lefts q visited
         let w = if single then 0 else fromIntegral (indexPrimArray polyarcOf q)
@@ -291,7 +291,7 @@ joinSlices !wanted slices@(Slices !c !xs _ !order) lefts outermost = do
     !position = positions slices
     -- A single polyarc needs no lookup.
     !polyarcOf = if single then mempty else polyarcNumbers slices
-    -- The mark of a visited slice. It is no winding number.
+    -- The mark of a visited slice, which no winding number equals.
     visited = minBound :: Int32
 
 -- | For each occurrence its index among the sorted ones.

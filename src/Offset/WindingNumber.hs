@@ -50,8 +50,8 @@ contribution c px py i = crossed + between
       if b /= 0 && aside * b < 0 && ClosedPolyarcs.power c i px py < 0
         then (if b > 0 then 1 else -1)
         else 0
-    -- A point on the chord counts as slightly left of it, as in the comparisons above. A point on a
-    -- horizontal chord counts as slightly above it.
+    -- On the chord the area has no sign. A point there counts as slightly left of the
+    -- chord, as in the comparisons above; on a horizontal chord it counts as slightly above.
     aside
       | side /= 0 = side
       | y1 /= y0 = y1 - y0
@@ -105,8 +105,8 @@ extreme outward c boxes w = go start start 0 (1e300 :: Double)
                 if isBetween && ex < least1 && t' > endMargin && t' < 1 - endMargin
                   then go (i + 1) i t' ex
                   else go (i + 1) best1 t1 least1
-    -- When the outermost point of an arc is nearer to an end than this fraction of its chord, the
-    -- vertex at this end is taken instead.
+    -- The fraction of an arc's chord within which its outermost point is replaced by the nearer end
+    -- of the arc.
     endMargin = Tolerance.negligibleShare
 
 -- | The factor, 1 or −1, by which x is multiplied so that the outermost point has the least

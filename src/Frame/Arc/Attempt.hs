@@ -172,7 +172,7 @@ attempt context arc c
     -- Rounding moves each end and the centre by up to a pulse, which changes the sweep.
     sweepSlack = min (pi / 2) (4 * pulse (grid context) / r)
 
--- | True when one frame of the machine can be a full circle.
+-- | True when one frame of the machine can hold a full circle.
 allowsFullCircle :: ArcContext -> Bool
 allowsFullCircle context = case Machine.arcs (machine (grid context)) of
   NoArcs -> False
@@ -209,7 +209,8 @@ legBetween context arc c from to =
     m = Context.gridPoint (grid context) c
     a = Context.gridPoint (grid context) from
 
--- | The step of a leg about the grid point @c@.
+-- | The leg about the grid point @c@ in the form of an 'ArcStep', with its centre relative to its
+-- start.
 stepOf :: RoundedArc -> Pulses2 -> Leg -> ArcStep
 stepOf arc c Leg {from, to = Pulses2 x y, isStraight} =
   ArcStep
@@ -239,7 +240,7 @@ isValid context c (from, to) =
     Mm a = Vec.distance (inMm c) (inMm from)
     Mm b = Vec.distance (inMm c) (inMm to)
 
--- | Sweep of an arc in radians; 0 for a line.
+-- | Sweep of an arc in radians, positive counter-clockwise; 0 for a line.
 swept :: Segment -> Double
 swept s = case s of
   Straight _ _ -> 0
@@ -258,8 +259,9 @@ isStraightEnough :: ArcContext -> Segment -> [Pulses2] -> Bool
 isStraightEnough context exact stops = case exact of
   Straight _ _ -> True
   Segment.Arc {Segment.start = begin, Segment.centre = middle}
-    -- The arc is at most its sagitta away from its chord, and the chord is at most as far from the
-    -- line as their ends are. If the sum is small, the whole arc lies near the line.
+    -- The arc is at most its sagitta away from its chord. The chord is at most as far from the line
+    -- as the ends of both are from each other. If the sum is small, the whole arc lies near the
+    -- line.
     | [a, b] <- points,
       plus
         (Segment.sagitta exact)

@@ -30,7 +30,7 @@ data Grid = Grid
     pulseY :: Double,
     -- | size in mm of the larger one of both pulses
     pulse :: Double,
-    -- | largest number of pulses in the field of a centre
+    -- | largest number of pulses that the field of a centre holds
     largestCentre :: Pulses
   }
 
@@ -63,7 +63,7 @@ data ArcTolerance = ArcTolerance
   }
   deriving stock (Eq, Show)
 
--- | Conditions under which an arc is rounded.
+-- | Data that stay the same while an arc is rounded.
 data ArcContext = ArcContext
   { grid :: Grid,
     tolerance :: ArcTolerance,
@@ -78,7 +78,7 @@ data ArcContext = ArcContext
 roundedPoint :: ArcContext -> Point -> Pulses3
 roundedPoint context p = Rounding.rounded (machine (grid context)) (p, height context)
 
--- | Exact arc with its rounded ends.
+-- | Exact arc in mm with its ends rounded to grid points.
 data RoundedArc = RoundedArc
   { -- | rounded start
     begin :: Pulses3,

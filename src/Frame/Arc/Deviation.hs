@@ -33,7 +33,7 @@ data FrameArc = FrameArc
     -- | vector from the centre of the frame's arc to its beginning
     startX :: Double,
     startY :: Double,
-    -- | radii at both ends
+    -- | radii of the frame's arc at its beginning and at its end
     startRadius :: Double,
     endRadius :: Double,
     -- | sweep of the frame's arc in radians, positive counter-clockwise
@@ -119,8 +119,8 @@ deviationAtEnds tolerance arc
 roundingError :: Double
 roundingError = 1e-9
 
--- | Deviation from samples at every eighth of the sweep, and at the points that are nearest to and
--- furthest from the exact centre.
+-- | Largest deviation at every eighth of the sweep, and at the points of the arc that are nearest
+-- to and furthest from the exact centre.
 sampledDeviation :: FrameArc -> ArcDeviation
 sampledDeviation arc =
   foldl'

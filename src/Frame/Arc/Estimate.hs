@@ -44,10 +44,11 @@ data ArcEnds = ArcEnds
     -- | distances of the rounded ends from the exact circle, positive outside
     beginError :: Double,
     finishError :: Double,
-    -- | unit direction from the exact centre to the arc's middle less that to its start
+    -- | unit vector from the exact centre to the arc's middle less the unit vector to the arc's
+    -- start
     halfX :: Double,
     halfY :: Double,
-    -- | unit direction from the exact centre to the arc's end less that to its start
+    -- | unit vector from the exact centre to the arc's end less the unit vector to the arc's start
     wholeX :: Double,
     wholeY :: Double
   }
