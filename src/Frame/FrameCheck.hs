@@ -53,7 +53,7 @@ contextOf machine =
   where
     capacities = [(axis, Machine.capacity machine axis) | axis <- [X, Y, Z]]
 
--- | Findings in the frames so far.
+-- | Findings in the frames that are checked so far: errors, and feeds for warnings.
 data FrameFindings = FrameFindings
   { -- | range of the feeds that the frames get, for each feed of the program with its region
     obtained :: Map (Region, Feed) FeedRange,
@@ -115,7 +115,8 @@ checkFeed :: FrameContext -> Pace -> Frame -> FrameFindings -> FrameFindings
 checkFeed context asked f before = case asked of
   Rapid -> before
   At (Located region v)
-    -- Codes along the path give the same feed for the same code, so nothing new can be found.
+    -- Where codes are feeds along the path, the same code gives the same feed, so nothing new can
+    -- be found.
     | isAlongPath context && lastCode before == feedCode f && lastPace before == asked -> before
     | otherwise ->
       checkNewFeed context (region, v) f before {lastPace = asked, lastCode = feedCode f}
@@ -146,7 +147,7 @@ checkNewFeed FrameContext {machine, isAlongPath} key@(region, v) f before =
         (low, FeedCode.feedAlongAxis machine low)
         (high, FeedCode.feedAlongAxis machine high)
 
--- | The range that contains two ranges.
+-- | The smallest range that contains both ranges.
 united :: FeedRange -> FeedRange -> FeedRange
 united (FeedRange a b) (FeedRange c d) = FeedRange (min a c) (max b d)
 

@@ -66,8 +66,8 @@ import Toolpath.FromPart qualified as Toolpath
 import Toolpath.Toolpath (Move (..), Toolpath (Toolpath), heights)
 import Toolpath.Toolpath qualified as Toolpath
 
--- | Frames of a toolpath. Errors that keep the frames from being made at all, or that make them too
--- many, are found before the frames are made.
+-- | Frames of a toolpath. Two kinds of errors are found before the frames are made: those that keep
+-- the frames from being made, and those about too many frames.
 quantise :: Machine -> Toolpath -> Result Warning Error FrameProgram
 quantise
   machine
@@ -142,7 +142,7 @@ startWarning machine region asked begin =
 
 -- Errors that need no frames ----------------------------------------------------------------------
 
--- | Error of a block whose tolerance is too large for its cutter.
+-- | Error of a block whose tolerance is too large for its cutter; Nothing for every other block.
 toleranceError :: Machine -> Toolpath.Block -> Maybe Error
 toleranceError machine block = case block of
   Toolpath.Cutting {Toolpath.job = Located _ job} -> tooLarge job
@@ -201,7 +201,7 @@ data Making = Making
     translations :: [Translation],
     -- | number of frames so far
     count :: Int,
-    -- | origin of the first frame beyond the allowed number
+    -- | text in the part program that asks for the first frame beyond the allowed number
     tooManyFrom :: Maybe Region,
     instructionFindings :: InstructionCheck.InstructionFindings,
     frameFindings :: FrameCheck.FrameFindings
@@ -222,7 +222,8 @@ initial here at =
       frameFindings = FrameCheck.noFindings
     }
 
--- | Frames of instructions as a lazy list, which ends with the final state.
+-- | Frames of instructions as a lazy list, which ends with the final state. @made@ is the state
+-- before the instructions.
 framesOf :: Context -> Making -> [Instruction] -> LazyList Making PlannedFrame
 framesOf context made instructions = case instructions of
   [] ->
@@ -434,7 +435,8 @@ segmentSteps Context {machine, grid} tolerance chordError m =
     )
     (fst (heights m))
 
--- | Ends of the chords of a run in mm, with their heights.
+-- | Ends of the chords of a run in mm, with their heights. Tolerances below the rounding error are
+-- raised.
 chordEndsOf :: Machine -> ChordTolerance -> NonEmpty Move -> [PathPosition]
 chordEndsOf machine tolerance =
   ChordError.ends

@@ -30,7 +30,7 @@ import Part.Part qualified as Part
 import Toolpath.Toolpath (Block, Move (..), Sent, Toolpath, heights, pace)
 import Toolpath.Toolpath qualified as Toolpath
 
--- | One instruction.
+-- | One instruction: a run of moves, or the words of a command.
 data Instruction
   = -- | moves along one line, arc or curve
     Run
@@ -55,7 +55,7 @@ data FeedMode
     BrakingTo Feed
   deriving stock (Eq, Show)
 
--- | Instructions for a toolpath, in order.
+-- | Instructions for a toolpath, in the order of the toolpath.
 instructions :: Machine -> Toolpath -> [Instruction]
 instructions machine path =
   concat (zipWith (ofBlock machine) (Toolpath.passNumbers blocks) blocks)

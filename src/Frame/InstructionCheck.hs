@@ -45,7 +45,7 @@ mostFrames = 1000000
 -- | Facts that are the same for all instructions.
 data InstructionContext = InstructionContext
   { machine :: Machine,
-    -- | True when the feed of a frame does not depend on its direction
+    -- | True when the feed of a frame does not depend on the direction of the frame
     isAlongPath :: Bool,
     -- | True when the tape has a field for z, but the source of the machine description mentions no
     -- axis z
@@ -64,13 +64,13 @@ contextOf machine startRegion start =
       startError = reachError startRegion start
     }
 
--- | Findings in the instructions so far; the lists have the latest first.
+-- | Findings in the instructions that are checked so far; the lists have the latest first.
 data InstructionFindings = InstructionFindings
   { -- | feed of the run that was checked last
     lastPace :: Pace,
-    -- | feeds along the path that no code gives
+    -- | errors about feeds along the path that no code gives
     withoutCode :: [Error],
-    -- | points out of reach, at most one for each run
+    -- | errors about points out of reach, at most one for each run
     outOfReach :: [Error],
     -- | number of frames of all instructions so far, as estimated before the frames are made
     count :: Int,
@@ -101,11 +101,12 @@ isBounded findings = null (outOfReach findings) && null (tooMany findings)
 feedErrors :: InstructionFindings -> [Error]
 feedErrors = reverse . withoutCode
 
--- | Errors that keep the frames from being made: points out of reach, too many frames.
+-- | Errors that keep the frames from being made: points out of reach in the order of the
+-- instructions, then too many frames.
 boundErrors :: InstructionFindings -> [Error]
 boundErrors findings = reverse (outOfReach findings) <> maybeToList (tooMany findings)
 
--- | Warning about moves in z that the machine may not have.
+-- | Warning about moves in z that the machine may not have; empty if there are none.
 heightWarnings :: InstructionFindings -> [Warning]
 heightWarnings = maybeToList . uncertainHeight
 
@@ -149,7 +150,8 @@ checkFeed context feedMode moves before = case (feedMode, asked) of
   where
     asked = pace (NonEmpty.head moves)
 
--- | Adds the warning about the first move in z that the machine may not have.
+-- | Adds the warning about the first move in z that the machine may not have, if the run @moves@
+-- contains it.
 checkHeights :: InstructionContext -> NonEmpty Move -> InstructionFindings -> InstructionFindings
 checkHeights context moves before
   | isHeightUncertain context,
@@ -161,7 +163,7 @@ checkHeights context moves before
       }
   | otherwise = before
 
--- | Adds the error of the first point of a run that is out of reach.
+-- | Adds the error of the first point of the run @moves@ that is out of reach, if there is one.
 checkReach :: InstructionContext -> NonEmpty Move -> InstructionFindings -> InstructionFindings
 checkReach context moves before
   | null (startError context) && all (isSurelyInReach . segment) moves = before
@@ -185,7 +187,8 @@ isSurelyInReach s = case s of
   Straight a b -> isInReach 0 a && isInReach 0 b
   Arc {start = from, centre} -> let Mm r = Segment.radius centre from in isInReach r centre
 
--- | True for a point that stays at least @margin@ mm within 'Tolerance.reach' along both axes.
+-- | True for a point whose coordinates are at most 'Tolerance.reach' less @margin@, in mm and
+-- without sign.
 isInReach :: Double -> Point -> Bool
 isInReach margin p = max (abs (Vec.x p)) (abs (Vec.y p)) <= limit - margin
   where

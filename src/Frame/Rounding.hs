@@ -29,7 +29,7 @@ import Toolpath.Toolpath (Move (..), heights)
 -- | Position in mm: the point in the plane x, y, and the height z.
 type PathPosition = (Point, Mm)
 
--- | Nearest whole number of pulses on each axis; half a pulse is rounded up.
+-- | Position in whole pulses that is nearest on each axis; half a pulse is rounded up.
 rounded :: Machine -> PathPosition -> Pulses3
 rounded machine (p, Mm z) = Pulses3 (pulses X (Vec.x p)) (pulses Y (Vec.y p)) (pulses Z z)
   where
@@ -43,7 +43,8 @@ heightAt t m
   | t >= 1 = snd (heights m)
   | otherwise = plus (fst (heights m)) (times t (minus (snd (heights m)) (fst (heights m))))
 
--- | True for moves that all stay at one height, in whole pulses.
+-- | True for moves that all stay at one height when heights are rounded to whole pulses. Only such
+-- a run can have arcs.
 isLevel :: Machine -> NonEmpty Move -> Bool
 isLevel machine ms =
   isFlat ms || all (\m -> isSameLevel (fst (heights m)) && isSameLevel (snd (heights m))) ms
@@ -51,7 +52,8 @@ isLevel machine ms =
     isSameLevel z = level z == level (fst (heights (NonEmpty.head ms)))
     level z = component Z (rounded machine (Vec.point 0 0, z))
 
--- | True for moves that all stay at one height exactly, as most do.
+-- | True for moves that all stay at one height exactly. Most runs do, so 'isLevel' tries this quick
+-- test first.
 isFlat :: NonEmpty Move -> Bool
 isFlat (m :| more) = case heights m of
   (Mm first, Mm final) -> first == final && go first more
@@ -72,7 +74,7 @@ split machine begin ((a, za), (b, zb)) = case Machine.measure (Machine.layout ma
   where
     finish = rounded machine (b, zb)
     fewest = maximum (1 : [partCount axis d | (axis, d) <- axes (finish - begin)])
-    -- An axis without a field, of capacity 0, is reported by "Frame.FrameCheck".
+    -- An axis without a field has the capacity 0. "Frame.FrameCheck" reports it.
     partCount axis (Pulses d) =
       let Pulses c = Machine.capacity machine axis
        in if d == 0 || c == 0 then 1 else (abs d + c - 1) `div` c
@@ -98,7 +100,7 @@ split machine begin ((a, za), (b, zb)) = case Machine.measure (Machine.layout ma
 spareParts :: Int
 spareParts = 1000
 
--- | Component of a position along an axis, in pulses.
+-- | Component of a position along the given axis, in pulses.
 component :: Axis -> Pulses3 -> Pulses
 component axis (Pulses3 x y z) = case axis of
   X -> x

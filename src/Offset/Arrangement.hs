@@ -48,9 +48,9 @@ import Offset.WindingNumber qualified as WindingNumber
 
 -- | A directed edge between two nodes.
 data Edge = Edge
-  { -- | the node at which it begins
+  { -- | the node at which the edge begins
     from :: Int,
-    -- | the node at which it ends
+    -- | the node at which the edge ends
     to :: Int,
     -- | the multiplicity: the number of its segments in this direction less the number of those in
     -- the opposite direction
@@ -61,9 +61,9 @@ data Edge = Edge
     segment :: Int
   }
 
--- | An arrangement. Nodes and edges are numbered from 0.
+-- | An arrangement of closed polyarcs. Nodes and edges are numbered from 0.
 data Arrangement = Arrangement
-  { -- | the polyarcs
+  { -- | the polyarcs of which the arrangement was made
     chain :: ClosedPolyarcs,
     -- | x and y of the nodes, in mm
     nodes :: Vector (Double, Double),
@@ -302,9 +302,9 @@ merged tolerance coordinates cut =
 -- | A half-edge at the node that it leaves.
 data Leaving = Leaving
   { halfEdge :: Int,
-    -- | the direction in which it leaves, as an angle in radians
+    -- | the direction in which the half-edge leaves the node, as an angle in radians
     angle :: Double,
-    -- | the direction in which it leaves, of length 1
+    -- | the direction in which the half-edge leaves the node, as a vector of length 1
     directionX, directionY :: Double,
     -- | the length of the half-edge's chord in mm
     chordLength :: Double,
@@ -558,7 +558,8 @@ loops sense wanted a =
           (more, rest') <- follow first e' (IntSet.delete e' rest)
           Just (e : more, rest')
       _ -> Nothing
-    -- The next edge of the reachable face: the neighbour of edge e at the node where e ends.
+    -- The edge after edge @e@ on the boundary of the reachable face: the neighbour of @e@ at the
+    -- node where @e@ ends. Nothing when this neighbour is not kept.
     next e = do
       halves <- IntMap.lookup (to (edges a Vector.! e)) (rings a)
       k <- Vector.elemIndex (2 * e + 1) halves
@@ -596,7 +597,7 @@ loopVertex a run = (x, y, joined, i)
     (x, y) = nodes a Vector.! from e
     (x', y') = nodes a Vector.! to e'
     i = segment e
-    -- True when the edges are the whole segment. It keeps its bulge.
+    -- True when the edges are the whole segment, which then keeps its bulge.
     isEntire =
       indexPrimArray (vertexNodes a) i == from e
         && indexPrimArray (vertexNodes a) (i + 1) == to e'

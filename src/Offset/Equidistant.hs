@@ -75,7 +75,8 @@ styled style side radius contour = case attempt source of
   where
     source = SourceOffset.fromContour style side radius contour
 
--- | The equidistant, or the first reason why the cutter does not fit.
+-- | The equidistant, or the first reason why the cutter does not fit. Reasons at single elements
+-- and corners come before collisions.
 attempt :: OffsetSource -> Either Cause (NonEmpty OffsetSegment)
 attempt source = case Obstacle.localCauses source of
   cause : _ -> Left cause
@@ -159,9 +160,9 @@ largestOf fits low high = fst (BinarySearch.bisect Tolerance.resolution fits low
 data UnreachedPart = UnreachedPart
   { -- | the obstacle, with the radius of the largest cutter that it does not stop
     stop :: Obstacle,
-    -- | where the cutter's centre is when it is stopped
+    -- | the position of the cutter's centre when the obstacle stops the cutter
     cutterCentre :: Point,
-    -- | the material that remains there
+    -- | the material that remains at this part of the contour
     restMaterial :: RestMaterial
   }
   deriving stock (Eq, Show)
@@ -342,10 +343,11 @@ largestPast source causes =
 -- | A step of the bisection between two radii, as a lazy tree that all causes share, so that each
 -- radius is examined at most once.
 data Halving = Halving
-  { -- | the radius in the middle
+  { -- | the middle of both radii, in mm
     middling :: Mm,
     -- | the numbers of the causes that do not stop a cutter of this radius
     passed :: ~IntSet,
-    -- | the steps for the smaller and the larger half
+    -- | the next steps: between the smaller radius and the middle, and between the middle and the
+    -- larger radius
     below, above :: ~Halving
   }

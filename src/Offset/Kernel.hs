@@ -51,9 +51,9 @@ import Offset.Trimming qualified as Trimming
 import Offset.WindingNumber (Outward (..))
 import Offset.WindingNumber qualified as WindingNumber
 
--- | A request for an offset.
+-- | A request for an offset: the side, the form of the corners, and the distances.
 data OffsetRequest = OffsetRequest
-  { -- | the cutter's side of every contour, as seen in its direction of travel
+  { -- | the cutter's side of every contour: left or right in the contour's direction of travel
     side :: Side,
     corners :: Corners,
     -- | distance in mm of the cutter's centre from the contours; not negative
