@@ -59,6 +59,7 @@ data Joint
 
 -- | The raw offset of the polyarcs @c@, and @c@ itself with its smooth joints marked. The other
 -- arguments are:
+--
 -- * @tolerance@: segments of the raw offset that are shorter (mm) are omitted;
 -- * @smoothness@: two directions are equal when the sine of the angle between them is at most this;
 -- * @corners@: the form of outer corners;
