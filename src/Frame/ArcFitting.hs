@@ -51,9 +51,9 @@ data RunPart
   deriving stock (Eq, Show)
 
 -- | Alternative divisions of a level run into parts; the caller chooses the one with the fewest
--- frames. The first consists of fitted arcs only. If the centres of some arcs of the run do not fit
--- their fields, the second has chords for these moves and fitted arcs for the others, and the third
--- has chords for the whole run.
+-- frames. The first division consists of fitted arcs only. There are more divisions if the centres
+-- of some arcs of the run do not fit their fields. The second division then has chords for the
+-- moves with these centres, and fitted arcs for the others. The third has chords for the whole run.
 divisions :: Machine -> Bounds -> NonEmpty Move -> NonEmpty [RunPart]
 divisions machine bounds run
   | or kinds && (any isRemoteBend fitted || length fitted <= mostTried) =

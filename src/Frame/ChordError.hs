@@ -1,8 +1,8 @@
 -- | Allowed chord errors, and the chords of single segments.
 --
--- The module derives from the tolerance of a job how far a chord may lie from the toolpath, divides
--- an arc into equal chords within that error, and counts chords and frames in advance. Curves of
--- several moves are divided by "Frame.Chording".
+-- The module derives from the tolerance of a job how far a chord may lie from the toolpath. It
+-- divides an arc into equal chords within that error, and counts chords and frames in advance.
+-- Curves of several moves are divided by "Frame.Chording".
 module Frame.ChordError
   ( ChordTolerance (..),
     chordTolerance,
@@ -111,9 +111,9 @@ segmentTolerance leading job s = case (Part.tolerance job, s) of
 sideless :: Mm -> Mm -> Mm
 sideless a b = if a > Mm 0 && b > Mm 0 then min a b else max a b
 
--- | The chord error @tolerance@. If it is smaller than the one that 'remainder' gives for a
--- tolerance of one pulse, it is raised to that one, because rounding makes smaller ones pointless.
--- A band stays unchanged when one of its sides is that wide.
+-- | The chord error @tolerance@, raised to a least value if it is smaller, because rounding makes
+-- smaller ones pointless. This least value is the result of 'remainder' for a tolerance of one
+-- pulse. A band stays unchanged when one of its sides is that wide.
 raisedToRounding :: Machine -> ChordTolerance -> ChordTolerance
 raisedToRounding machine tolerance = case tolerance of
   Sagitta y -> Sagitta (max least y)

@@ -449,9 +449,9 @@ lastWithin function (first, atFirst) (final, atFinal) =
             else (low + high) / 2
         secant = low + (high - low) * (a / (a - b))
 
--- | Fractions of a move below @t@, in descending order, at which the line from the viewpoint to the
--- point where chords meet stops rotating one way and starts rotating the other way. The points
--- where chords meet lie on a circle. At these fractions the line is tangent to this circle.
+-- | Fractions of a move below @t@, in descending order, at which the direction of a chord changes
+-- its sense of rotation. The chord leads from the viewpoint to the point where chords meet. These
+-- points lie on a circle, and the chord is tangent to it at the fractions of the result.
 turningPoints :: Limits -> Viewpoint -> MoveRest -> Double -> [Double]
 turningPoints limits view move t = case segment move of
   Straight _ _ -> []
@@ -483,9 +483,9 @@ turnLimit limits before move = case segment move of
       | signum s * (heading before + s * (1 - from move) - end) <= Tolerance.equal = 1
       | otherwise = max (from move) (from move + (end - heading before) / s)
 
--- | Directions of lines from the viewpoint for which the furthest point of an arc has exactly the
--- allowed distance, on the left or on the right of the line. At this point the arc is parallel to
--- the line. Directions are measured as in 'Sector'.
+-- | Directions of lines from the viewpoint that an arc leaves by exactly the allowed distance, on
+-- the left or on the right of the line. At its furthest point the arc is parallel to the line.
+-- Directions are measured as in 'Sector'.
 data Tangents = Tangents {onLeft :: [Double], onRight :: [Double]}
 
 -- | The directions of the lines from the viewpoint that are 'Tangents' to a move; none for a line.

@@ -227,8 +227,9 @@ reachableFitting style side radius contour
 -- touches there.
 data Gap = Gap {reason :: Cause, touching :: Touching}
 
--- | The gaps of @paths@. At a gap a path continues from one element of the contour to another one
--- that does not follow it, or the path begins or ends elsewhere than the contour.
+-- | The gaps of paths. A gap is where a path continues from one element of the contour to another
+-- one that does not follow it. A path that begins or ends elsewhere than the contour has a gap
+-- there, too.
 gapsOf :: OffsetSource -> [TrimmedOffset] -> [Gap]
 gapsOf source = concatMap gapsAlong
   where

@@ -112,9 +112,9 @@ collision source path
     found = gouges source (NonEmpty.toList path)
 
 -- | The points at which a cutter on segments of an offset would cut the contour. Each result has
--- four parts: the distance of the cutter's centre from the contour, the number of the element
--- beside which the cutter moves, the number of the element that it cuts, and the position of its
--- centre.
+-- the distance of the cutter's centre from the contour, and the position of this centre. Between
+-- them are two numbers: that of the element beside which the cutter moves, and that of the element
+-- that it cuts.
 gouges :: OffsetSource -> [OffsetSegment] -> [(Mm, Int, Int, Point)]
 gouges source = concatMap gougesOf
   where

@@ -247,10 +247,10 @@ offsetPolyarc
         writePrimArray rb k b
         writePrimArray rm k (m :: Word8)
         writePrimArray rs k (indexPrimArray (ClosedPolyarcs.sources c) s)
-      -- Writes segment @i@ and all later segments of the polyarc, from index @k@ on. The arguments
-      -- after @k@ are: the segment's directions at its start and its end, its chord's length, the
-      -- length cut off at its start, the mark of a smooth start, and the joint at the end of the
-      -- polyarc.
+      -- Writes segment @i@ and all later segments of the polyarc, from index @k@ on. Then come the
+      -- segment's directions at its start and its end, and its chord's length @l@. @cut@ is the
+      -- length cut off at the segment's start, @beginMark@ the mark of a smooth start, and
+      -- @closing@ the joint at the end of the polyarc.
       go !i !k !sx !sy !ex !ey !l !cut !beginMark closing
         | i == e - 1 = case closing () of
           (kind, bend, back) ->
@@ -329,9 +329,9 @@ offsetPolyarc
       {-# INLINE segment #-}
 {-# INLINE offsetPolyarc #-}
 
--- | Passes five numbers to the continuation @k@: x and y of the direction at the start of segment
--- @i@, x and y of the direction at its end, both of length 1, and the length of its chord in mm.
--- The directions deviate from the chord by half the sweep.
+-- | Passes five numbers to the continuation @k@: the direction at the start of segment @i@, x and
+-- y; the direction at its end, x and y; and the length of its chord in mm. The directions have the
+-- length 1, and deviate from the chord by half the sweep.
 endDirections ::
   ClosedPolyarcs -> Int -> (Double -> Double -> Double -> Double -> Double -> r) -> r
 endDirections c i k =

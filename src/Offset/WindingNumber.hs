@@ -31,8 +31,8 @@ at c boxes px py =
   SegmentBoxTree.around boxes (-1e300) py px py 0 (\total i -> total + contribution c px py i)
 
 -- | The contribution of segment @i@ to the winding number around the point (@px@, @py@). It is ±1
--- when the segment's chord crosses the ray from the point to the left, plus ±1 when the point lies
--- between an arc and its chord; else 0.
+-- when the segment's chord crosses the ray from the point to the left, else 0. A point between an
+-- arc and its chord adds ±1.
 contribution :: ClosedPolyarcs -> Double -> Double -> Int -> Int
 contribution c px py i = crossed + between
   where

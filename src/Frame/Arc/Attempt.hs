@@ -220,8 +220,8 @@ stepOf arc c Leg {from, to = Pulses2 x y, isStraight} =
   where
     Pulses3 _ _ z = finish arc
 
--- | True for the ends of an arc about the grid point @c@ when the increments between them and the
--- centre fit their fields, and the radii at both ends differ by at most two pulses.
+-- | True when an arc from @from@ to @to@ about the grid point @c@ can be a frame. Its increments
+-- and its centre have to fit their fields. The radii at both ends may differ by at most two pulses.
 isValid :: ArcContext -> Pulses2 -> (Pulses2, Pulses2) -> Bool
 isValid context c (from, to) =
   from /= c
