@@ -417,7 +417,8 @@ lastBetween sectorOf marks = case marks of
              ]
   _ -> Nothing
 
--- | Bisection: the last number for which @holds@ is True. It is True at @low@ and False at @high@.
+-- | Bisection: the last number for which @holds@ is True. The two numbers are the ends of the
+-- interval: @holds@ is True at the first one and False at the second one.
 bisected :: (Double -> Bool) -> Double -> Double -> Double
 bisected holds = go (40 :: Int)
   where

@@ -35,8 +35,8 @@ data Visitor s = Visitor
     touching :: Int -> Int -> Double -> Double -> ST s ()
   }
 
--- | Reports all intersections of two different segments @i@ and @j@ to @visitor@, except the vertex
--- that neighbours share. @i@ is less than @j@.
+-- | Reports all intersections of two different segments to @visitor@, except the vertex that
+-- neighbours share. The number of the first segment is less than that of the second.
 meet :: Double -> ClosedPolyarcs -> Visitor s -> Int -> Int -> ST s ()
 meet !tolerance !c visitor = pair
   where
