@@ -37,9 +37,10 @@ import Geometry.Segment (Segment (Straight))
 import Geometry.Segment qualified as Segment
 import Geometry.Vec (Point)
 
--- | Steps along a segment at a constant height. They begin at the segment's rounded start, the
--- given position in pulses, and end at its rounded end. The function divides parts that cannot be
--- arcs into chords: it takes the rounded start of a part, and returns the ends of its chords.
+-- | Steps along a segment at the constant height @height@ in mm. They begin at the segment's
+-- rounded start, the given position in pulses, and end at its rounded end. Parts that cannot be
+-- arcs are divided by @chordsOf@: it takes the rounded start of a part, and returns the ends of its
+-- chords in pulses.
 steps ::
   Grid ->
   ArcTolerance ->
@@ -55,7 +56,8 @@ steps grid tolerance chordsOf height =
 mostHalvings :: Int
 mostHalvings = 5
 
--- | Steps along a segment, which may be halved at most the given number of times.
+-- | Steps along the segment @s@, from its rounded start @begin@. The segment may be halved at most
+-- @halvings@ times.
 halved :: Int -> ArcContext -> Pulses3 -> Segment -> [ArcStep]
 halved halvings context begin s = case s of
   Straight _ _ -> asLine
@@ -83,7 +85,8 @@ halved halvings context begin s = case s of
        in halved (halvings - 1) context begin front <> halved (halvings - 1) context middle back
 
 -- | Steps of a rounded arc about the best grid point. Grid points near the exact centre have
--- priority. Nothing when all candidates exceed the tolerance.
+-- priority. Nothing when the arcs about all candidates exceed the tolerance; then the arc is
+-- halved.
 asArcs :: ArcContext -> RoundedArc -> Maybe [ArcStep]
 asArcs context arc =
   listToMaybe
@@ -92,8 +95,9 @@ asArcs context arc =
         [Centre.nearCentres context arc, Centre.remoteCentres context arc]
     )
 
--- | True for an arc whose centre fits its field, whether it is counted from the arc's start or from
--- any other point of the arc. Otherwise only some parts of the arc could be frames.
+-- | True for an arc whose centre fits its field, no matter from which point of the arc the centre
+-- is counted. Otherwise only some parts of the arc could be frames. @centre@ and @r@ are the exact
+-- centre and radius in mm; the third argument is the rounded start.
 isCentreFitting :: ArcContext -> Pulses3 -> Point -> Mm -> Bool
 isCentreFitting context (Pulses3 x y _) centre (Mm r) =
   abs (i - x) < largest

@@ -22,26 +22,27 @@ import Machine.Machine (Axis (..), Machine)
 import Machine.Machine qualified as Machine
 import Toolpath.Toolpath (Move (segment))
 
--- | Largest distance of the fitted arcs from the curve: the smaller one of the bounds on both
--- sides, but at least 'leastShare' of a pulse. The smaller bound is nearly 0 for a tolerance on one
--- side of the contour only. Then 'roundingAllowance' is smaller by the excess.
+-- | Largest distance in mm of the fitted arcs from the curve. It is the smaller one of the bounds
+-- on both sides, but at least 'leastShare' of a pulse. The smaller bound is nearly 0 for a
+-- tolerance on one side of the contour only. Then the result exceeds this bound, and
+-- 'roundingAllowance' is smaller by the excess.
 fitTolerance :: Machine -> Bounds -> Mm
 fitTolerance machine bounds =
   max (times leastShare (Machine.planeResolution machine)) (min (left bounds) (right bounds))
 
--- | Share of a pulse that the fitted arcs may always deviate.
+-- | Share of a pulse by which the fitted arcs may always deviate, as a fraction.
 leastShare :: Double
 leastShare = 0.1
 
--- | Error allowed for rounding: one pulse, less the amount by which the fitted arcs may exceed the
--- bounds.
+-- | Error in mm allowed for rounding: one pulse, less the amount by which 'fitTolerance' exceeds
+-- the smaller bound.
 roundingAllowance :: Machine -> Bounds -> Mm
 roundingAllowance machine bounds =
   minus
     (Machine.planeResolution machine)
     (max (Mm 0) (minus (fitTolerance machine bounds) (min (left bounds) (right bounds))))
 
--- | Part of a run, and its representation in frames.
+-- | Part of a run, and the form in which it becomes frames.
 data RunPart
   = -- | moves to be divided into chords
     Chords (NonEmpty Move)
@@ -50,9 +51,9 @@ data RunPart
   deriving stock (Eq, Show)
 
 -- | Alternative divisions of a level run into parts; the caller chooses the one with the fewest
--- frames. The first consists of fitted arcs only. If the centres of some arcs of the run do not fit
--- their fields, the second has chords for these moves and fitted arcs for the others, and the third
--- has chords for the whole run.
+-- frames. The first division consists of fitted arcs only. There are more divisions if the centres
+-- of some arcs of the run do not fit their fields. The second division then has chords for the
+-- moves with these centres, and fitted arcs for the others. The third has chords for the whole run.
 divisions :: Machine -> Bounds -> NonEmpty Move -> NonEmpty [RunPart]
 divisions machine bounds run
   | or kinds && (any isRemoteBend fitted || length fitted <= mostTried) =
@@ -62,14 +63,14 @@ divisions machine bounds run
   where
     fitted = fit run
     moves = NonEmpty.toList run
-    -- True for moves that become chords in the second division. A line becomes what the arc before
-    -- it becomes.
+    -- For each move True when it becomes chords in the second division. A line becomes what the arc
+    -- before it becomes.
     kinds = drop 1 (scanl (\before m -> fromMaybe before (isRemote (segment m))) False moves)
     part ms@((isRemotePart, _) :| _)
       | isRemotePart = Chords (fmap snd ms)
       | otherwise = Arcs (fit (fmap snd ms))
     fit = arcs (fitTolerance machine bounds)
-    -- True for an arc whose centre does not fit its field; Nothing for a line.
+    -- True for an arc whose centre does not fit its field: a remote arc. Nothing for a line.
     isRemote s = case s of
       Straight _ _ -> Nothing
       Arc {start, centre} -> Just (Segment.radius centre start >= largestRadius)
@@ -77,10 +78,11 @@ divisions machine bounds run
     -- that it becomes a line.
     isRemoteBend s =
       isRemote s == Just True && Segment.sagitta s >= times 0.5 (Machine.planeResolution machine)
-    -- Compares a lower bound of the number of chords of the whole run with the number of frames of
-    -- the first division. A chord deviates from a fitted arc by at most the sum of both bounds and
-    -- twice the error of the fit. A chord across the joint of two arcs counts for both. In the
-    -- first division a remote bend becomes chords, which deviate by a fraction of a pulse.
+    -- True when chords for the whole run may need fewer frames than the first division. Compares a
+    -- lower bound of the number of these chords with the number of frames of the first division. A
+    -- chord deviates from a fitted arc by at most the sum of both bounds and twice the error of the
+    -- fit. A chord across the joint of two arcs counts for both. In the first division a remote
+    -- bend becomes chords, which deviate by a fraction of a pulse.
     mayNeedFewerChords =
       sum (fmap (leastChords band) fitted) - length fitted
         < sum
@@ -91,13 +93,13 @@ divisions machine bounds run
       let Pulses n = Machine.centreCapacity machine
        in times (fromIntegral n) (minimum [Machine.resolutionOf machine axis | axis <- [X, Y]])
 
--- | Largest number of fitted arcs for which other divisions are tried although the centres of all
+-- | Largest number of fitted arcs for which other divisions are tried even if the centres of all
 -- fitted arcs fit. With more arcs the attempts would take longer than the rest of the compilation.
 mostTried :: Int
 mostTried = 1000
 
--- | Least number of chords of a segment with at most @sagitta@ mm of chord error: a chord of an arc
--- of radius r spans at most @2·arccos(1 − y/r)@.
+-- | Least number of chords of a segment with a chord error of at most @sagitta@ mm (y). A chord of
+-- an arc of radius r spans at most @2·arccos(1 − y/r)@.
 leastChords :: Double -> Segment -> Int
 leastChords sagitta s = case s of
   Straight _ _ -> 1
@@ -105,8 +107,8 @@ leastChords sagitta s = case s of
     let Mm r = Segment.radius centre start
      in max 1 (ceiling (abs a / (2 * acos (max (-1) (1 - sagitta / r)))))
 
--- | Arcs and lines within a distance of a run, with the same ends, and at most as many as the run
--- has.
+-- | Arcs and lines whose distance from the run is at most @tolerance@ mm, with the ends of the run.
+-- They are at most as many as the moves of the run.
 arcs :: Mm -> NonEmpty Move -> NonEmpty Segment
 arcs tolerance run =
   case NonEmpty.nonEmpty (filter ((> Mm 0) . Segment.length) (map segment (NonEmpty.toList run))) of

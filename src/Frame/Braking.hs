@@ -28,22 +28,23 @@ import Part.Part (Pace (..))
 import Toolpath.Toolpath (Move, pace)
 import Toolpath.Toolpath qualified as Toolpath
 
--- | Instructions with their runs cut at the beginning of the braking sections.
+-- | Instructions with their runs cut where a braking section begins, in the form that the machine
+-- needs.
 applied :: Machine -> [Instruction] -> [Instruction]
 applied machine instructions = case brakingForm (Machine.braking machine) of
   ByControl -> instructions
   SlowFrames -> concatMap (slowedAtEnd machine) instructions
   BrakedFrames least -> withBrakedFrames machine least instructions
 
--- | Feed of a move in mm/s, as the machine gives it. On machines whose feed depends on the
--- direction it is the feed asked for.
+-- | Feed in mm/s that the machine gives for a move. On machines whose feed depends on the direction
+-- it is the feed asked for.
 obtained :: Machine -> Move -> Double
 obtained machine m = case pace m of
   Rapid -> let Feed v = FeedCode.rapidFeed machine in v / 60
   At (Located _ asked) -> let Feed v = nearestFeed machine asked in v / 60
 
--- | Feed that the machine gives for the feed asked for, limited to the machine's range. On machines
--- whose feed depends on the direction it is the feed asked for.
+-- | Feed that the machine gives for the feed @asked@ in mm/min, limited to the machine's range. On
+-- machines whose feed depends on the direction it is @asked@ itself.
 nearestFeed :: Machine -> Feed -> Feed
 nearestFeed machine (Feed asked) = case Machine.feedMeasure (Machine.feeds machine) of
   LeadingAxis -> Feed asked
@@ -51,7 +52,8 @@ nearestFeed machine (Feed asked) = case Machine.feedMeasure (Machine.feeds machi
     Machine.Given _ v -> Feed v
     Machine.NoSuchFeed low high -> Feed (max low (min high asked))
 
--- | Instruction divided into the run at its feed and the slow end, where the program asks for one.
+-- | The instruction divided in two when the program asks for braking at its end: the run at its
+-- feed, and the slow end at the lowest feed code.
 slowedAtEnd :: Machine -> Instruction -> [Instruction]
 slowedAtEnd machine instruction = case instruction of
   Run {run = ms}
@@ -63,7 +65,8 @@ slowedAtEnd machine instruction = case instruction of
        in divided instruction (concat parts)
   _ -> [instruction]
   where
-    -- Moves from the last one on, with the length in mm that is still to be slow.
+    -- Divides a move, from the last move of the run backwards. @left@ is the length in mm that is
+    -- still to be slow.
     slowEnd left m
       | left <= 0 = (0, [(AsProgrammed, m)])
       | left >= l = (left - l, [(LowestCode, m)])
@@ -73,7 +76,8 @@ slowedAtEnd machine instruction = case instruction of
       where
         Mm l = Instruction.lengthOf m
 
--- | Run divided into one instruction for each stretch of the same feed mode.
+-- | The run of an instruction divided into one instruction for each stretch of moves with the same
+-- feed mode. @parts@ has the moves of the run with their feed modes.
 divided :: Instruction -> [(FeedMode, Move)] -> [Instruction]
 divided instruction parts = case instruction of
   Words _ _ -> [instruction]
@@ -84,21 +88,21 @@ divided instruction parts = case instruction of
 
 -- Frames that are marked as braking ---------------------------------------------------------------
 
--- | Limit that the moves after a point of the toolpath set for the feed there.
+-- | Limit of the feed at a point of the toolpath, set by the moves after this point.
 data FeedLimit = FeedLimit
-  { -- | square of the highest feed there, in (mm/s)²
+  { -- | square of the highest feed at this point, in (mm/s)²
     square :: Double,
-    -- | feed in mm/s at the end of the braking section
+    -- | feed in mm/s at the end of the braking section that this limit needs
     target :: Double,
-    -- | number of the braking section, counted from the end of the program
+    -- | number of this braking section, counted from the end of the program from 0
     section :: Int
   }
 
--- | Part of a braking section within a move: its length in mm at the end of the move, the feed in
--- mm/s at the end of the section, the number of the section.
+-- | Part of a braking section within one move: its length in mm at the end of the move, or 0 for no
+-- braking; the feed in mm/s at the end of the section; the number of the section.
 data BrakingEnd = BrakingEnd {brakingLength :: Double, to :: Double, within :: Int}
 
--- | Instructions with the braking sections before every lower feed divided off. At the end of an
+-- | Instructions with a braking section divided off before every lower feed. At the end of an
 -- element with braking, and at the end of the program, the feed has to come down to @least@.
 withBrakedFrames :: Machine -> Feed -> [Instruction] -> [Instruction]
 withBrakedFrames machine least instructions = concatMap cut marked
@@ -131,16 +135,17 @@ withBrakedFrames machine least instructions = concatMap cut marked
          in [(AsProgrammed, front), (brakingTo e, back)]
       where
         Mm l = Instruction.lengthOf m
-    -- A section shorter than a pulse is not cut off a run.
+    -- A section shorter than a pulse is not cut off a run, because its frame could have no motion.
     isTooShort e = Map.findWithDefault 0 (within e) sectionLengths < pulse
 
--- | Moves of a run, of which only the last one keeps the request to brake at its end. The arcs of a
--- curve share one request.
+-- | The moves of a run. Only the last one keeps the request to brake at its end, because the moves
+-- along a curve share one request.
 brakedAtEnd :: NonEmpty Move -> [Move]
 brakedAtEnd ms = map Toolpath.withoutBraking (NonEmpty.init ms) <> [NonEmpty.last ms]
 
--- | From the limit at the end of a move: the limit at its start, and the braking section at its
--- end. The second argument is the feed in mm/s at the end of an element with braking.
+-- | The braking of the move @m@, from the feed limit @after@ at its end: the limit at its start,
+-- and the part of a braking section at its end. @slow@ is the feed in mm/s to which the cutter
+-- brakes at the end of an element with braking.
 mark :: Machine -> Double -> FeedLimit -> Move -> (FeedLimit, (Move, BrakingEnd))
 mark machine slow after m
   | l <= 0 = (limit, (m, BrakingEnd 0 (target limit) (section limit)))

@@ -1,8 +1,8 @@
 -- | Allowed chord errors, and the chords of single segments.
 --
--- The module derives from the tolerance of a job how far a chord may lie from the toolpath, divides
--- an arc into equal chords within that error, and counts chords and frames in advance. Curves of
--- several moves are divided by "Frame.Chording".
+-- The module derives from the tolerance of a job how far a chord may lie from the toolpath. It
+-- divides an arc into equal chords within that error, and counts chords and frames in advance.
+-- Curves of several moves are divided by "Frame.Chording".
 module Frame.ChordError
   ( ChordTolerance (..),
     chordTolerance,
@@ -39,38 +39,41 @@ import Toolpath.Toolpath qualified as Toolpath
 
 -- | Allowed chord error of a run of moves.
 data ChordTolerance
-  = -- | largest sagitta of a segment; the ends of its chords lie on the segment
+  = -- | largest sagitta in mm between a segment and its chords; the ends of the chords lie on the
+    -- segment
     Sagitta Mm
-  | -- | band about an arc: distance towards its centre, distance away from it
+  | -- | band about an arc, in mm: the distance towards its centre, and the distance away from it
     ArcBand Mm Mm
   | -- | bounds on both sides of a curve of several moves
     OnCurve Chording.Bounds
   deriving stock (Eq, Show)
 
--- | Allowed chord error of the runs of a milling job.
+-- | Allowed chord error of the runs of a milling job. Apply the first two arguments once, and the
+-- result to many runs.
 chordTolerance :: Machine -> Milling -> NonEmpty Move -> ChordTolerance
 chordTolerance machine job = \run ->
   if Toolpath.isCurve run
     then onCurve
     else segmentTolerance side job (segment (NonEmpty.head run))
   where
-    -- These two values are the same for all runs of a job, so they are computed once per job.
+    -- Both values are the same for all runs of a job, so they are computed once per job.
     side = fromRight Nothing (Toolpath.leadingSide job)
     onCurve = OnCurve (curveBounds machine side job)
 
--- | Chord error that a tolerance allows when the ends of the chords are rounded to whole pulses:
--- the tolerance less half the diagonal of a pulse, but at least 0. The result is reduced by the
--- share 'Tolerance.equal' for the rounding of doubles.
+-- | Chord error in mm that a tolerance in mm allows when the ends of the chords are rounded to
+-- whole pulses: the tolerance less half the diagonal of a pulse, but at least 0. The result is
+-- reduced by the share 'Tolerance.equal' for the rounding of doubles.
 remainder :: Machine -> Mm -> Mm
 remainder machine tolerance =
   times
     (1 - Tolerance.equal)
     (max (Mm 0) (minus tolerance (times (sqrt 0.5) (Machine.planeResolution machine))))
 
--- | Bounds for the chords of a curve. Where a chord lies inside of the material, the curve is on
--- the cutter's side of it. The arcs of a curve are approximations themselves, so 'Tolerance.curve'
--- is subtracted from the tolerance. Heights have the smaller one of the bounds to the left and to
--- the right, but at least a pulse.
+-- | Bounds for the chords of a curve; the side is that of the cutter, Nothing when it is unknown.
+-- Where a chord lies inside of the material, the curve is on the cutter's side of the chord. The
+-- arcs of a curve are approximations themselves, so 'Tolerance.curve' is subtracted from the
+-- tolerance. Heights have the smaller one of the bounds to the left and to the right, but at least
+-- a pulse.
 curveBounds :: Machine -> Maybe Carrier.Side -> Milling -> Chording.Bounds
 curveBounds machine side job =
   Chording.Bounds
@@ -88,8 +91,9 @@ curveBounds machine side job =
       (Part.Band a b, Nothing) -> let d = sideless a b in (less d, less d)
     less d = max (Mm 0) (minus d Tolerance.curve)
 
--- | Allowed chord error of one segment. A band has different tolerances into the material and
--- out of it. The cutter's side decides which of the two is towards the centre of an arc.
+-- | Allowed chord error of the segment @s@. @leading@ is the cutter's side; Nothing when it is
+-- unknown. A band has different tolerances into the material and out of it. The cutter's side
+-- decides which of the two is towards the centre of an arc.
 segmentTolerance :: Maybe Carrier.Side -> Milling -> Segment -> ChordTolerance
 segmentTolerance leading job s = case (Part.tolerance job, s) of
   (Part.OnPath d, _) -> Sagitta d
@@ -102,13 +106,14 @@ segmentTolerance leading job s = case (Part.tolerance job, s) of
       | otherwise -> ArcBand a b
     Nothing -> Sagitta (sideless a b)
 
--- | Tolerance where the side of the cutter is unknown: the smaller one of a band's two tolerances,
--- or the larger one if the smaller one is 0.
+-- | Tolerance in mm where the side of the cutter is unknown. It is the smaller one of a band's two
+-- tolerances, or the larger one if the smaller one is 0.
 sideless :: Mm -> Mm -> Mm
 sideless a b = if a > Mm 0 && b > Mm 0 then min a b else max a b
 
--- | Chord error, raised to the one that 'remainder' gives for a tolerance of one pulse, if it is
--- smaller. A band stays as it is when one of its sides is that wide.
+-- | The chord error @tolerance@, raised to a least value if it is smaller, because rounding makes
+-- smaller ones pointless. This least value is the result of 'remainder' for a tolerance of one
+-- pulse. A band stays unchanged when one of its sides is that wide.
 raisedToRounding :: Machine -> ChordTolerance -> ChordTolerance
 raisedToRounding machine tolerance = case tolerance of
   Sagitta y -> Sagitta (max least y)
@@ -118,11 +123,11 @@ raisedToRounding machine tolerance = case tolerance of
     | otherwise -> OnCurve bounds {Chording.left = leastOnCurve, Chording.right = leastOnCurve}
   where
     least = remainder machine (Machine.planeResolution machine)
-    -- The arcs of a curve are off by up to 'Tolerance.curve' themselves.
+    -- The arcs of a run themselves deviate from the curve by up to 'Tolerance.curve'.
     leastOnCurve = minus least Tolerance.curve
 
--- | Ends of the chords of a run with their heights. If a curve has more than @limit@ chords, the
--- list is incomplete but has at least @limit@ entries.
+-- | Ends of the chords of a run in mm, with their heights. If a curve has more than @limit@ chords,
+-- the list is incomplete but has at least @limit@ entries.
 ends :: Int -> Machine -> ChordTolerance -> NonEmpty Move -> [PathPosition]
 ends limit machine tolerance run = case tolerance of
   Sagitta y -> withHeights (chords machine y (segment m))
@@ -138,18 +143,19 @@ ends limit machine tolerance run = case tolerance of
         ]
 
 -- | Ends of the chords of a segment, the last of which is the end of the segment. The steps are
--- equal and stay within the sagitta y: @Δφ = 2·arccos(1 − y/R) = 4·arcsin √(y/2R)@ (Ural paper; R
--- is the radius of the toolpath). No chord spans more than a quarter turn.
+-- equal, and each chord stays within @sagitta@ (y, in mm) of the segment: @Δφ = 2·arccos(1 − y/R) =
+-- 4·arcsin √(y/2R)@ (Ural paper; R is the radius of the toolpath). No chord spans more than a
+-- quarter turn.
 chords :: Machine -> Mm -> Segment -> [Point]
 chords machine sagitta segment =
   [Segment.at (fromIntegral k / fromIntegral n) segment | k <- [1 .. n]]
   where
     n = chordCount machine sagitta segment
 
--- | Ends of the chords of a segment within a band: the distance δ₁ towards the centre of the arc,
--- and δ₂ away from it. The first and the last end lie on the arc. The corners between lie on the
--- outer edge of the band, @ρ = R + δ₂@, and the chords touch its inner edge: @cos(Δφ/2) = (R −
--- δ₁)/ρ@.
+-- | Ends of the chords of the segment @s@ within a band. The band has the width @toward@ (δ₁, in
+-- mm) towards the centre of the arc, and @away@ (δ₂) away from it. The first and the last end lie
+-- on the arc. The corners between them lie on the outer edge of the band, @ρ = R + δ₂@, and the
+-- chords touch its inner edge: @cos(Δφ/2) = (R − δ₁)/ρ@.
 bandChords :: Machine -> Mm -> Mm -> Segment -> [Point]
 bandChords machine toward away s = case s of
   Straight _ b -> [b]
@@ -162,7 +168,8 @@ bandChords machine toward away s = case s of
       Mm r = Segment.radius centre p
       inner = max 0 (let Mm d = toward in r - d)
       outer = let Mm d = away in r + d
-      -- Angle from an end of the arc to the point where its chord touches the inner edge.
+      -- Angle in radians from an end of the arc to the point where its chord touches the inner
+      -- edge.
       toInnerEdge = acos (inner / r)
       toFirstCorner = min (pi / 4) (toInnerEdge + acos (inner / outer))
       widest =
@@ -177,9 +184,9 @@ bandChords machine toward away s = case s of
           (Vec.scale (outer / r) (Vec.rotate (Rad (signum angle * a)) (Vec.to centre p)))
           centre
 
--- | Number of frames for a run, from the ends of its chords: each chord is split to fit the fields
--- of a frame. The number may be too small by one for each chord. Only for a curve are the given
--- ends used.
+-- | Number of frames for a run, to reject a program with too many frames before they are made. Each
+-- chord is split to fit the fields of a frame. The number may be too small by one for each chord.
+-- @chordEnds@ are the ends of the run's chords; they are used only for a curve.
 frameCount :: Machine -> ChordTolerance -> NonEmpty Move -> [PathPosition] -> Int
 frameCount machine tolerance run chordEnds = case tolerance of
   Sagitta y -> equalChords y
@@ -202,8 +209,9 @@ frameCount machine tolerance run chordEnds = case tolerance of
     Mm pulse = Machine.planeResolution machine
     Pulses field = max 1 (minimum [Machine.capacity machine axis | axis <- [X, Y]])
 
--- | Number of equal chords of a segment within a sagitta; 1 for a line. Chords shorter than a pulse
--- are useless, so there the length of the arc in pulses limits the number.
+-- | Number of equal chords of a segment within the sagitta @y@ in mm; 1 for a line. Chords shorter
+-- than a pulse are useless. Where the sagitta would need them, the length of the arc in pulses is
+-- the number of chords.
 chordCount :: Machine -> Mm -> Segment -> Int
 chordCount machine (Mm y) segment = case segment of
   Straight _ _ -> 1
@@ -216,7 +224,7 @@ chordCount machine (Mm y) segment = case segment of
         byPulse = ceiling (l / pulse)
      in max 1 (if step * r < pulse then byPulse else bySagitta)
 
--- | Share of a step that is ignored when steps are counted. Without it the rounding of doubles
--- would add a chord where a step fits a whole number of times.
+-- | Share of a step that is ignored when steps are counted, as a fraction. Without it the rounding
+-- of doubles would add a chord where the arc is a whole number of steps.
 countSlack :: Double
 countSlack = 1e-9

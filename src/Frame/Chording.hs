@@ -3,13 +3,16 @@
 -- the bounds allow, across any number of arcs.
 --
 -- The method is known from polyline simplification as cone intersection (Sklansky and Gonzalez,
--- 1980). A chord has to pass every point of the run within the bounds, so each point leaves a
--- sector of directions for the chord. The chord can be lengthened as long as the intersection of
--- these sectors is not empty. An arc narrows the sector at its end and where its tangent is
--- parallel to an edge of the sector; no points are sampled.
+-- 1980). The start of a chord is called its viewpoint. A chord has to pass every point of the run
+-- within the bounds, so each point leaves a sector of directions for the chord. The chord can be
+-- lengthened as long as the intersection of these sectors is not empty. An arc narrows the sector
+-- at its end and where its tangent is parallel to an edge of the sector; no points are sampled.
 --
 -- If the bounds on the two sides differ, chords may also meet beside the run, in the middle between
 -- the bounds, where that gives fewer chords. The first and the last end always lie on the run.
+--
+-- A position on a move is a fraction of the move's length, from 0 to 1. All lengths and heights are
+-- in mm, all angles in radians.
 module Frame.Chording
   ( Bounds (..),
     chordEnds,
@@ -30,21 +33,21 @@ import Geometry.Vec qualified as Vec
 import Toolpath.Toolpath (Move)
 import Toolpath.Toolpath qualified as Toolpath
 
--- | Largest distances of a run from its chords.
+-- | Largest distances in mm of a run from its chords.
 data Bounds = Bounds
-  { -- | to the left of the chord
+  { -- | of points of the run to the left of the chord
     left :: Mm,
-    -- | to the right of the chord
+    -- | of points of the run to the right of the chord
     right :: Mm,
-    -- | above and below the chord: between its height and the run's at the same share of the length
+    -- | difference of heights between the run and the chord at the same share of their lengths
     rise :: Mm,
-    -- | length along the run that every chord may have, even if it exceeds the other bounds
+    -- | length in mm along the run that every chord may have, even if it exceeds the other bounds
     shortest :: Mm
   }
   deriving stock (Eq, Show)
 
--- | Ends of the chords of a run with their heights. The last one is the end of the run. If there
--- are more than @limit@ chords, the list is incomplete but has at least @limit@ entries.
+-- | Ends of the chords of a run in mm, with their heights. The last one is the end of the run. If
+-- there are more than @limit@ chords, the list is incomplete but has at least @limit@ entries.
 chordEnds :: Int -> Bounds -> NonEmpty Move -> [(Point, Mm)]
 chordEnds limit bounds run =
   map
@@ -62,7 +65,7 @@ chordEnds limit bounds run =
 data MoveRest = MoveRest
   { -- | the whole segment of the move
     segment :: Segment,
-    -- | the fraction of its length
+    -- | the fraction of the segment's length at which the part begins
     from :: Double,
     -- | heights in mm at both ends of the whole move
     heights :: (Double, Double)
@@ -73,7 +76,11 @@ data RunPoint = RunPoint {point :: Point, level :: Double, rest :: [MoveRest]}
 
 -- Choice of the chords ----------------------------------------------------------------------------
 
--- | Ends of the chords of a run; the last argument is the end of the run. The thorough plans take
+-- | Ends of the chords of a run whose end is @final@. The numbers of chords are compared only up to
+-- @limit@.
+--
+-- Two kinds of plans are compared. A quick plan looks for the end of a chord mostly at the ends of
+-- moves ('AtEnds'); a thorough plan looks at all points ('Anywhere'). The thorough plans take
 -- longer, and can save a chord only on a run that bends to both sides. They are tried when the
 -- chords are so few that one less matters.
 ends :: Int -> Bounds -> NonEmpty MoveRest -> RunPoint -> [RunPoint]
@@ -102,18 +109,19 @@ ends limit bounds run final =
 fewChords :: Int
 fewChords = 16
 
--- | Largest number of chords that are made equally long. Of a longer run only the last ones are.
+-- | Largest number of chords that are made equally long. Of a run with more chords only the last
+-- ones are.
 mostEqualised :: Int
 mostEqualised = 256
 
--- | Number of bisections of the tightness in 'equalised'.
+-- | Number of bisections in 'equalised' by which the tightness of the limits is found.
 bisections :: Int
 bisections = 5
 
--- | Chords of nearly equal length in place of @others@, the last chords of a plan; the chords
--- before them are @kept@. Greedy chords are as long as the bounds allow, so the last one is a short
--- remainder. Bisection finds the tightest limits that need no more chords. Under these limits the
--- last chord is about as long as the others.
+-- | Ends of chords of nearly equal length in place of @others@, the ends of the last chords of a
+-- plan. The ends of the chords before them are @kept@. Greedy chords are as long as the bounds
+-- allow, so the last one is a short remainder. Bisection finds the tightest limits that need no
+-- more chords. Under these limits the last chord is about as long as the others.
 equalised :: ChordPlan -> [RunPoint] -> [RunPoint] -> [RunPoint]
 equalised plan kept others = go bisections (1 - 1 / fromIntegral (length others)) 1 others
   where
@@ -126,7 +134,7 @@ equalised plan kept others = go bisections (1 - 1 / fromIntegral (length others)
         middle = (low + high) / 2
         tighter = chordsFrom plan middle (NonEmpty.last (begin plan :| kept))
 
--- | True for a run that bends to both sides. On any other run the longest chords are the fewest.
+-- | True for a run with arcs of both senses. On any other run the longest chords are the fewest.
 bendsBothWays :: NonEmpty MoveRest -> Bool
 bendsBothWays run = any (> 0) sweeps && any (< 0) sweeps
   where
@@ -138,12 +146,13 @@ data ChordPlan = ChordPlan
     begin :: RunPoint,
     -- | ends of the chords under the full bounds
     widest :: [RunPoint],
-    -- | ends of the chords from a point on, under limits of the given tightness (see 'limitsOf')
+    -- | ends of the chords from a point to the end of the run. The limits have the given tightness
+    -- from 0 to 1 (see 'limitsOf')
     chordsFrom :: Double -> RunPoint -> [RunPoint]
   }
 
--- | Plans for a run: with all ends on the run and, if the bounds differ, with ends beside it. The
--- last argument converts the ends of chords on a reversed run into those of the original run.
+-- | Plans for a run: one with all ends on the run and, if the bounds differ, one with ends beside
+-- it. @restore@ converts the ends of chords on a reversed run into those of the original run.
 plans :: EndSearch -> Bounds -> NonEmpty MoveRest -> ([RunPoint] -> [RunPoint]) -> [ChordPlan]
 plans search bounds run restore =
   [ ChordPlan {begin, widest = chordsFrom 1 begin, chordsFrom}
@@ -165,7 +174,7 @@ plans search bounds run restore =
 mirrored :: Bounds -> Bounds
 mirrored bounds = bounds {left = right bounds, right = left bounds}
 
--- | Whole moves in the opposite direction.
+-- | The run in the opposite direction. All its moves are whole.
 reversed :: NonEmpty MoveRest -> NonEmpty MoveRest
 reversed run =
   NonEmpty.reverse (fmap (\m -> MoveRest (Segment.reverse (segment m)) 0 (swap (heights m))) run)
@@ -174,9 +183,10 @@ reversed run =
 
 -- | Part of a move in which the end of a chord is looked for.
 data EndSearch
-  = -- | its end; or points within it, if the chord can reach its start
+  = -- | the end of the move; or a point within the move, if the chord can reach the start of the
+    -- move
     AtEnds
-  | -- | all points, even if the chord can reach neither its start nor its end
+  | -- | all points of the move, even if the chord can reach neither its start nor its end
     Anywhere
   deriving stock (Eq)
 
@@ -188,17 +198,18 @@ data Limits = Limits
     rightOf :: Double,
     -- | distance from the run to the points where chords meet, positive to the right
     aside :: Double,
-    -- | above and below the chord
+    -- | largest difference of heights between the run and a chord
     rising :: Double,
     -- | angle in radians by which the run may turn within one chord
     turning :: Double,
-    -- | shortest length of a chord along the run
+    -- | length in mm along the run that every chord may have, whatever the other limits are
     least :: Double,
     search :: EndSearch
   }
 
--- | Limits for a tightness from 0 to 1; 1 gives the full bounds. A chord of an arc spans the
--- fraction @tightness@ of its largest angle when its sagitta has the fraction @tightness²@.
+-- | Limits for a tightness from 0 to 1; 1 gives the full bounds. The largest angle of an arc that a
+-- chord may span grows with the root of the sagitta. Therefore a chord spans the fraction
+-- @tightness@ of it when the sagitta has the fraction @tightness²@.
 limitsOf :: Bounds -> Double -> Limits
 limitsOf bounds tightness =
   Limits
@@ -212,19 +223,18 @@ limitsOf bounds tightness =
     }
   where
     Mm least = shortest bounds
-    -- A point within 'Tolerance.coincident' of the chord lies on it.
+    -- A point within 'Tolerance.coincident' of the chord counts as lying on the chord.
     share d = let Mm y = max Tolerance.coincident (times (tightness * tightness) d) in y
 
 -- Points of the run -------------------------------------------------------------------------------
 
--- | Ends of the longest chords from a point to the end of the run.
+-- | Ends of the longest chords from the point @p@ to the end of the run.
 chords :: Limits -> RunPoint -> [RunPoint]
 chords limits p
   | null (rest p) = []
   | otherwise = let next = furthest limits p in next : chords limits next
 
--- | End of a chord at fraction @t@ of the first move of a run. The arguments are this move, the
--- fraction, and the run.
+-- | End of a chord at the fraction @t@ of @move@, which is the first move of @run@.
 pointOn :: Limits -> MoveRest -> Double -> [MoveRest] -> RunPoint
 pointOn limits move t run =
   RunPoint
@@ -233,23 +243,24 @@ pointOn limits move t run =
       rest = if t >= 1 then drop 1 run else move {from = t} : drop 1 run
     }
 
--- | Point where two chords meet near fraction @t@ of the first move of a run. It lies 'aside' to
--- the right of the run's point @on@ at this fraction. At the end of the run it is the run's end.
+-- | Point where two chords meet near the fraction @t@ of @move@, the first move of @run@. It lies
+-- 'aside' to the right of @on@, the point of the run at this fraction. At the end of the run it is
+-- the run's end.
 meeting :: Limits -> MoveRest -> Double -> Point -> [MoveRest] -> Point
 meeting limits move t on run
   | t >= 1 && null (drop 1 run) || aside limits == 0 = on
   | otherwise =
     Vec.shift (Vec.scale (-(aside limits)) (Vec.left (Segment.directionAt t (segment move)))) on
 
--- | Height in mm at a fraction of a move.
+-- | Height in mm at the fraction @t@ of a move.
 levelAt :: Double -> MoveRest -> Double
 levelAt t move = let (a, b) = heights move in if t >= 1 then b else a + t * (b - a)
 
--- | Length in mm between two fractions of a move.
+-- | Length in mm between the fractions @a@ and @b@ of a move.
 lengthBetween :: Double -> Double -> MoveRest -> Double
 lengthBetween a b move = let Mm l = Segment.length (segment move) in l * (b - a)
 
--- | Point of the run after @distance@ mm, or the end of the run.
+-- | The point @distance@ mm along the run after the point @p@, or the end of the run.
 advanced :: Limits -> Double -> RunPoint -> RunPoint
 advanced limits distance p = case rest p of
   [] -> p
@@ -267,40 +278,42 @@ data Viewpoint = Viewpoint {eye :: Point, eyeLevel :: Double, forward :: Vec}
 -- | Directions in which a chord from a viewpoint passes the run within the limits, up to some point
 -- of the run. Directions are angles in radians from 'forward', counter-clockwise.
 data Sector = Sector
-  { -- | the least and the largest of these directions
+  { -- | the least and the largest direction of the sector
     leastDirection :: Double,
     mostDirection :: Double,
-    -- | slopes that keep the heights within the limits, in mm per mm along the run
+    -- | the least and the largest slope of a chord, in mm per mm along the run, that keeps the
+    -- heights within the limits
     leastSlope :: Double,
     mostSlope :: Double,
-    -- | direction of the run at this point, and its extremes up to this point
+    -- | direction of the run at this point, and the least and the largest direction of the run from
+    -- the viewpoint to this point
     heading :: Double,
     leastHeading :: Double,
     mostHeading :: Double,
     -- | length of the run up to this point in mm
     travelled :: Double,
-    -- | side on which a chord to this point would be out of the sector
+    -- | side on which a chord that ends at this point is outside of the sector
     miss :: Miss,
-    -- | angle or slope by which a chord to this point would be out of the sector; at most 0 for a
-    -- chord within the limits
+    -- | angle or slope by which a chord that ends at this point is outside of the sector; at most 0
+    -- for a chord within the limits
     excess :: Double
   }
 
--- | Position of a chord relative to the sector, by direction and by slope: 'LT' is below, 'EQ'
--- within, 'GT' above.
+-- | Position of a chord relative to the sector, first by direction and then by slope: 'LT' is
+-- below, 'EQ' within, 'GT' above.
 data Miss = Miss Ordering Ordering
   deriving stock (Eq)
 
--- | True if a chord to the point stays within the limits.
+-- | True if a chord that ends at the point of the sector stays within the limits.
 isReachable :: Sector -> Bool
 isReachable sector = excess sector <= 0
 
--- | True for a sector without any direction or without any slope.
+-- | True for a sector that contains no direction or no slope, so that no chord can be longer.
 isClosed :: Sector -> Bool
 isClosed sector =
   leastDirection sector > mostDirection sector || leastSlope sector > mostSlope sector
 
--- | Sector before anything of the run has been passed.
+-- | Sector at the viewpoint itself, which contains all directions and slopes.
 unrestricted :: Sector
 unrestricted =
   Sector
@@ -316,8 +329,8 @@ unrestricted =
       excess = -1
     }
 
--- | End of the longest chord from a point, or the point at the shortest length if no chord reaches
--- that far.
+-- | End of the longest chord from the point @p@. It is the point at the shortest length if no chord
+-- within the limits reaches that far.
 furthest :: Limits -> RunPoint -> RunPoint
 furthest limits p = case rest p of
   [] -> p
@@ -328,10 +341,10 @@ furthest limits p = case rest p of
           Just (l, end) | l >= least limits -> end
           _ -> advanced limits (least limits) p
 
--- | Last point of a run that a chord can reach, with the length of the run up to this point. The
--- third argument is the last one found so far, the fourth one the sector at the start of the run. A
--- chord may miss a point and still reach a later one. Therefore the search ends only when the
--- sector is closed or the run has turned too far.
+-- | Last point of @run@ that a chord from the viewpoint can reach, with the length in mm of the run
+-- from the viewpoint to this point. @best@ is the last such point found so far, and @before@ the
+-- sector at the start of @run@. A chord may miss a point and still reach a later one. Therefore the
+-- search ends only when the sector is closed or the run has turned too far.
 furthestReachable ::
   Limits ->
   Viewpoint ->
@@ -353,7 +366,7 @@ furthestReachable limits view best before run = case run of
       found u =
         Just (travelled before + lengthBetween (from move) u move, pointOn limits move u run)
 
--- | A move in which a chord from a viewpoint may end, with all that the search in it needs.
+-- | A move in which a chord from a viewpoint may end, with all that the search for this end needs.
 data Outlook = Outlook
   { limits :: Limits,
     view :: Viewpoint,
@@ -362,12 +375,12 @@ data Outlook = Outlook
     move :: MoveRest,
     -- | the run that begins with the move
     run :: [MoveRest],
-    -- | the directions in which the move touches the limits
+    -- | the directions of chords at which an arc touches the limits
     tangents :: Tangents
   }
 
--- | Last fraction of a move that a chord can reach. The second argument is the last fraction to be
--- tried, with its sector.
+-- | Last fraction of a move that a chord can reach; Nothing if it can reach none. @t@ is the last
+-- fraction to be tried, and @after@ the sector there.
 lastReachable :: Outlook -> (Double, Sector) -> Maybe Double
 lastReachable outlook@Outlook {limits, view, before, move} (t, after) = case search limits of
   AtEnds
@@ -385,9 +398,9 @@ lastReachable outlook@Outlook {limits, view, before, move} (t, after) = case sea
           <> [(from move, before)]
       )
 
--- | Last fraction that a chord can reach. The list has fractions with their sectors, in descending
--- order. Between two neighbouring fractions the direction of the chord changes monotonically. The
--- lowest fraction itself is not a result.
+-- | Last fraction of a move that a chord can reach; Nothing if it can reach none. @marks@ has
+-- fractions with their sectors, in descending order. Between two neighbouring fractions the
+-- direction of the chord changes monotonically. The lowest fraction itself is not a result.
 lastBetween :: (Double -> Sector) -> [(Double, Sector)] -> Maybe Double
 lastBetween sectorOf marks = case marks of
   (high, atHigh) : earlier@((low, atLow) : _)
@@ -404,8 +417,8 @@ lastBetween sectorOf marks = case marks of
              ]
   _ -> Nothing
 
--- | Bisection: the last number for which a predicate holds that is true at @low@ and false at
--- @high@.
+-- | Bisection: the last number for which @holds@ is True. The two numbers are the ends of the
+-- interval: @holds@ is True at the first one and False at the second one.
 bisected :: (Double -> Bool) -> Double -> Double -> Double
 bisected holds = go (40 :: Int)
   where
@@ -416,10 +429,10 @@ bisected holds = go (40 :: Int)
       where
         middle = (low + high) / 2
 
--- | Last number at which a function is at most 0, by the Illinois variant of regula falsi. The
--- function is given with its values at both ends of the interval: at most 0 at the first, more than
--- 0 at the second. The Illinois rule halves the value at an end that is kept twice. Every fourth
--- step is a bisection, so the interval always shrinks.
+-- | Last number at which a function is at most 0, by the Illinois variant of regula falsi. The two
+-- pairs are the ends of the interval with the function's values: at most 0 at the first end, more
+-- than 0 at the second. The Illinois rule halves the value at an end that is kept twice. Every
+-- fourth step is a bisection, so the interval always shrinks.
 lastWithin :: (Double -> Double) -> (Double, Double) -> (Double, Double) -> Double
 lastWithin function (first, atFirst) (final, atFinal) =
   go (160 :: Int) EQ first atFirst final atFinal
@@ -437,16 +450,16 @@ lastWithin function (first, atFirst) (final, atFinal) =
             else (low + high) / 2
         secant = low + (high - low) * (a / (a - b))
 
--- | Fractions of a move below @t@, in descending order, at which the direction from the viewpoint
--- to the point where chords meet changes its sense of rotation. There this line is tangent to the
--- circle on which chords meet.
+-- | Fractions of a move below @t@, in descending order, at which the direction of a chord changes
+-- its sense of rotation. The chord leads from the viewpoint to the point where chords meet. These
+-- points lie on a circle, and the chord is tangent to it at the fractions of the result.
 turningPoints :: Limits -> Viewpoint -> MoveRest -> Double -> [Double]
 turningPoints limits view move t = case segment move of
   Straight _ _ -> []
   Arc {start, centre, sweep = Rad s} ->
     let Mm r = Segment.radius centre start
         away = Vec.to centre (eye view)
-        -- Chords meet on a concentric circle.
+        -- Along an arc, chords meet on a concentric circle.
         ratio = (r + signum s * aside limits) / Vec.norm away
         fractions =
           [ u
@@ -459,7 +472,7 @@ turningPoints limits view move t = case segment move of
      in sortOn negate fractions
 
 -- | Fraction of a move at which the run has turned by the largest angle that one chord may span; 1
--- if it does not turn so far.
+-- if the run does not turn so far. @before@ is the sector at the start of the move.
 turnLimit :: Limits -> Sector -> MoveRest -> Double
 turnLimit limits before move = case segment move of
   Straight _ _ -> 1
@@ -471,11 +484,12 @@ turnLimit limits before move = case segment move of
       | signum s * (heading before + s * (1 - from move) - end) <= Tolerance.equal = 1
       | otherwise = max (from move) (from move + (end - heading before) / s)
 
--- | Directions of lines from the viewpoint from which the furthest point of an arc has exactly the
--- allowed distance, to the left or to the right of the line. There the arc is parallel to the line.
+-- | Directions of lines from the viewpoint that an arc leaves by exactly the allowed distance, on
+-- the left or on the right of the line. At its furthest point the arc is parallel to the line.
+-- Directions are measured as in 'Sector'.
 data Tangents = Tangents {onLeft :: [Double], onRight :: [Double]}
 
--- | The tangents to a move.
+-- | The directions of the lines from the viewpoint that are 'Tangents' to a move; none for a line.
 tangentsTo :: Limits -> Viewpoint -> MoveRest -> Tangents
 tangentsTo limits view move =
   Tangents {onLeft = touching (-1) (leftOf limits), onRight = touching 1 (rightOf limits)}
@@ -493,8 +507,8 @@ tangentsTo limits view move =
           [let Rad toCentre = Vec.signedAngle (forward view) away in toCentre - asin sine]
       _ -> []
 
--- | Sector at fraction @t@ of a move. Its fields 'miss' and 'excess' are those of the chord to the
--- point where chords meet near this fraction.
+-- | Sector at the fraction @t@ of the move of @outlook@. Its fields 'miss' and 'excess' are those
+-- of the chord to the point where chords meet near this fraction.
 sectorAt :: Outlook -> Double -> Sector
 sectorAt outlook@Outlook {limits, view, before, move, run} t =
   Sector
@@ -532,9 +546,9 @@ sectorAt outlook@Outlook {limits, view, before, move, run} t =
     high = leftmostDirection outlook after direction distance
     after = headingAt move (heading before) t
 
--- | The least direction of a chord that passes a move within the limits, up to a point of it. The
--- arguments are the move, the heading of the run at the point, and the direction and the distance
--- of the point from the viewpoint.
+-- | The least direction of a chord that passes the move within the limits, up to a point of the
+-- move. @after@ is the heading of the run at this point; @direction@ and @distance@ (mm) are those
+-- of the point as seen from the viewpoint.
 rightmostDirection :: Outlook -> Double -> Double -> Double -> Double
 rightmostDirection Outlook {limits, before, tangents} after direction distance =
   maximum
@@ -543,7 +557,8 @@ rightmostDirection Outlook {limits, before, tangents} after direction distance =
         <> [d | d <- onLeft tangents, after <= d, d <= heading before]
     )
 
--- | The largest direction of such a chord; see 'rightmostDirection'.
+-- | The largest direction of a chord that passes the move within the limits, up to a point of the
+-- move. The arguments are those of 'rightmostDirection'.
 leftmostDirection :: Outlook -> Double -> Double -> Double -> Double
 leftmostDirection Outlook {limits, before, tangents} after direction distance =
   minimum
@@ -552,19 +567,21 @@ leftmostDirection Outlook {limits, before, tangents} after direction distance =
         <> [d | d <- onRight tangents, heading before <= d, d <= after]
     )
 
--- | Direction of the run at fraction @t@ of a move, given the direction at the start of the move.
+-- | Direction of the run at the fraction @t@ of a move, in radians from that at the viewpoint.
+-- @before@ is the direction at the start of the part of the move.
 headingAt :: MoveRest -> Double -> Double -> Double
 headingAt move before t = case segment move of
   Straight _ _ -> before
   Arc {sweep = Rad s} -> before + s * (t - from move)
 
--- | Position of a number relative to an interval: 'LT' is below, 'EQ' within, 'GT' above.
+-- | Position of @x@ relative to the interval from @low@ to @high@: 'LT' is below, 'EQ' within, 'GT'
+-- above.
 side :: Double -> Double -> Double -> Ordering
 side low high x
   | x < low = LT
   | x > high = GT
   | otherwise = EQ
 
--- | Distance of a number from an interval; at most 0 within.
+-- | Distance of @x@ from the interval from @low@ to @high@; at most 0 within it.
 outside :: Double -> Double -> Double -> Double
 outside low high x = max (low - x) (x - high)

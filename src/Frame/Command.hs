@@ -2,8 +2,8 @@
 --
 -- A command for which a machine has no word becomes a warning, because the operator can carry it
 -- out by hand. An auxiliary command without a word is an error; so is a number that does not fit
--- its word. Commands are pending until the next move, and are put into its frame. A command whose
--- word is pending already first gives the pending ones a frame of their own.
+-- its word. Commands are pending until the next move, and are put into its frame. When the word of
+-- a new command is already pending, the pending words first get a frame of their own.
 module Frame.Command
   ( Translation (..),
     translated,
@@ -48,7 +48,7 @@ import Part.Part qualified as Part
 
 -- | Words of a machine for a command, and the reports about it.
 data Translation = Translation
-  { -- | the words with their numbers; none when the machine has no word, or a number is unknown
+  { -- | the words with their numbers; empty when the machine has no word, or a number is unknown
     numbers :: [(CommandName, Int)],
     warnings :: [Warning],
     errors :: [Error]
@@ -72,7 +72,7 @@ translated machine (Located region c) = case wordsFor (Machine.commandWords mach
             n > most
         ]
 
--- | Words that a machine has for a command. None when the operator has to carry it out.
+-- | Words that a machine has for a command. Empty when the operator has to carry the command out.
 wordsFor :: CommandWords -> Command -> [CommandWord]
 wordsFor table c = case c of
   Part.SpindleOn Clockwise _ -> spindleClockwise table
@@ -83,7 +83,7 @@ wordsFor table c = case c of
   Part.Auxiliary _ -> auxiliary table
   Part.ChangeTool _ _ -> toolChange table
 
--- | Kind of a command, for reports.
+-- | The 'CommandKind' that reports about a command name.
 kindOf :: Command -> CommandKind
 kindOf c = case c of
   Part.Auxiliary _ -> AuxiliaryCommand
@@ -92,7 +92,7 @@ kindOf c = case c of
   Part.CoolantTo _ -> CoolantCommand
   Part.ChangeTool _ _ -> ToolCommand
 
--- | Numbers of a word for a command: one, or none if the number is the spindle speed and the
+-- | The word with its number for a command. Empty if the number is the spindle speed and the
 -- program does not give it.
 numbersFor :: Command -> CommandWord -> [(CommandName, Int)]
 numbersFor c CommandWord {commandName, value} = map (commandName,) $ case value of
@@ -104,7 +104,8 @@ numbersFor c CommandWord {commandName, value} = map (commandName,) $ case value 
   Step table -> [n | Just asked <- [spindleSpeed c], Just (n, _) <- [nearestStep table asked]]
   Diameter -> []
 
--- | Spindle speed that a command asks for, in turns per minute.
+-- | Spindle speed that a command asks for, in turns per minute. Nothing for a command without a
+-- speed.
 spindleSpeed :: Command -> Maybe Double
 spindleSpeed c = case c of
   Part.SpindleOn _ speed -> speed
@@ -114,6 +115,7 @@ spindleSpeed c = case c of
   Part.ChangeTool _ _ -> Nothing
 
 -- | Warning about a spindle speed that differs from the one asked for by more than 'speedSlack'.
+-- Empty for every other command.
 speedWarnings :: Region -> Command -> CommandWord -> [Warning]
 speedWarnings region c CommandWord {value} = case (value, spindleSpeed c) of
   (Step table, Just asked) ->
@@ -128,11 +130,12 @@ speedWarnings region c CommandWord {value} = case (value, spindleSpeed c) of
     whole asked = fromIntegral (round asked :: Int)
     differs asked obtained = abs (obtained - asked) > speedSlack * asked
 
--- | Share of the spindle speed by which the obtained speed may differ without a warning.
+-- | Share of the requested spindle speed by which the machine's speed may differ without a warning.
 speedSlack :: Double
 speedSlack = 0.1
 
--- | Step with the nearest speed, and that speed; the lower step if two are equally near.
+-- | Number in @table@ of the speed nearest to @asked@, and that speed; the smaller number if two
+-- speeds are equally near. Speeds are in turns per minute. Nothing for an empty table.
 nearestStep :: Map.Map Int Double -> Double -> Maybe (Int, Double)
 nearestStep table asked = case Map.toList table of
   [] -> Nothing
@@ -140,9 +143,10 @@ nearestStep table asked = case Map.toList table of
 
 -- Cutter compensation -----------------------------------------------------------------------------
 
--- | Words that switch cutter compensation on, for a cutter of the given radius on one side of the
--- contour. The diameter goes into the word as a decimal number. On a machine with a mirrored plane
--- left and right are exchanged.
+-- | Words that switch cutter compensation on, for a cutter with the radius @radius@ in mm on one
+-- side of the contour. @asked@ is the region of the program that asks for it. The diameter goes
+-- into the word as a decimal number. On a machine with a mirrored plane left and right are
+-- exchanged.
 compensationOn :: Machine -> Region -> Side -> Mm -> Translation
 compensationOn machine asked side radius@(Mm r) =
   case Machine.compensation (Machine.commandWords machine) of
@@ -180,14 +184,14 @@ compensationOff machine =
 
 -- The frames of commands --------------------------------------------------------------------------
 
--- | Commands that no frame holds yet: the region of the first one, and the words in the order of
--- the layout.
+-- | Commands that no frame holds yet: the region of the program that asks for the first one, and
+-- the words in the order of the frame layout.
 data Pending = Pending {asked :: Region, given :: [(CommandName, Int)]}
   deriving stock (Eq, Show)
 
--- | Adds the words of a command to the pending ones. No word may occur twice in a frame. The result
--- is the groups of words that need frames of their own now, and the group that is pending then. A
--- command that repeats a word is divided into several groups.
+-- | Adds the words of a command to the pending ones. No word may occur twice in a frame. Therefore
+-- a command that repeats a word is divided into several groups. The result has the groups of words
+-- that need frames of their own now, and the group that remains pending.
 add ::
   Machine ->
   Region ->
@@ -209,8 +213,9 @@ add machine region commandWords pending = case (withoutRepetition commandWords, 
         ws : others | fst o `notElem` map fst ws -> (o : ws) : others
         others -> [o] : others
 
--- | Words in the order in which the machine's frame has them, as words of their own or as bits in
--- the service track of other words.
+-- | Words in the order in which the machine's frame has them. A word of a command is a word of its
+-- own in the frame, or some bits in the service track of other words. The service track is a track
+-- of the tape besides those that hold the number of a word.
 inOrder :: Machine -> [(CommandName, Int)] -> [(CommandName, Int)]
 inOrder machine = sortOn (\(o, _) -> elemIndex o names)
   where
@@ -224,7 +229,7 @@ inOrder machine = sortOn (\(o, _) -> elemIndex o names)
       FeedWord -> bits w
     bits w = [o | CommandBit o _ <- Machine.service (form w)]
 
--- | Words of the frames that end every program of a machine.
+-- | Words of the frames that end every program of a machine: one list for each frame.
 finalFrames :: Machine -> [[(CommandName, Int)]]
 finalFrames machine =
   [ inOrder machine [(commandName o, n) | o <- NonEmpty.toList group, Fixed n <- [value o]]

@@ -26,56 +26,58 @@ import Report.Report qualified as Report
 
 -- | Reason why no frames are made. Every error has the region of the part program that causes it.
 data Error
-  = -- | a feed along the path without a feed code: the feed asked for, the lowest and the highest
-    -- feed of the machine
+  = -- | a feed along the path for which the machine has no code: the feed asked for, and the lowest
+    -- and the highest feed of the machine
     FeedOutOfRange Region Feed Feed Feed
   | -- | a feed for which the leading axis would need a frequency that the machine does not have:
     -- the feed asked for, and this frequency in pulses per second; the lowest and the highest
     -- frequency of the machine, each with its feed along an axis
     FrequencyOutOfRange Region Feed Double (Double, Feed) (Double, Feed)
-  | -- | a point further from the zero of the part than the given limit
+  | -- | a point further from the zero of the part than the given limit in mm
     OutOfReach Region Point Mm
   | -- | a milling statement in which the sum of the tolerance and one pulse is not below the radius
-    -- of the cutter: the tolerance, the radius
+    -- of the cutter: the tolerance and the radius in mm
     ToleranceTooLarge Region Mm Mm
-  | -- | a number of a command that is too high for the machine, and the highest one that it has; 0
-    -- if it has no such command
+  | -- | a number of a command that is too high for the machine, and the highest number that the
+    -- machine has. The latter is 0 if the machine has no such command
     NoSuchCommand Region CommandKind Int Int
-  | -- | more than the given number of frames
+  | -- | more than the given number of frames, the largest that is allowed
     TooManyFrames Region Int
-  | -- | more than the given number of contours; the region is that of the first contour beyond it
+  | -- | more than the given number of contours, the largest that is allowed. The region is that of
+    -- the first contour beyond this number
     TooManyContours Region Int
   | -- | a move along an axis that the machine does not have
     NoSuchAxis Region Axis
-  | -- | a position on an axis that does not fit its field, and the largest one that does
+  | -- | a position in mm on an axis that does not fit its field, and the largest position that fits
     PositionOutOfField Region Axis Mm Mm
-  | -- | a control without cutter compensation
+  | -- | a request for cutter compensation on a control without it
     NoCompensation Region
-  | -- | a cutter diameter that the word for it cannot hold
+  | -- | a cutter diameter in mm that the word for it cannot hold
     DiameterOutOfRange Region Mm
   deriving stock (Eq, Ord, Show)
 
 -- | Difference between a request of the program and the frames.
 data Warning
-  = -- | the feed asked for, the lowest and the highest feed obtained
+  = -- | the feed asked for, and the lowest and the highest feed that the frames get
     FeedDiffers Region Feed Feed Feed
-  | -- | the start in the program, and the nearest position in whole pulses
+  | -- | a start that is not in whole pulses: the start in the program, and the nearest position in
+    -- whole pulses, both in mm
     StartRounded Region Point Point
-  | -- | a move in z on a machine whose source does not mention one
+  | -- | a move in z on a machine whose historical source does not mention moves in z
     HeightUncertain Region
-  | -- | a command for which the machine has no word
+  | -- | a command for which the machine has no word, so that the operator has to carry it out
     ManualCommand Region CommandKind
-  | -- | spindle speeds in turns per minute: the one asked for, the one obtained
+  | -- | spindle speeds in turns per minute: the one asked for, and the one that the machine gives
     SpindleSpeedDiffers Region Double Double
   | -- | a spindle command without the speed that its word needs
     SpindleSpeedMissing Region
   deriving stock (Eq, Ord, Show)
 
--- | What a command concerns: spindle, coolant, tool, or an auxiliary function.
+-- | The device that a command concerns: spindle, coolant, tool, or an auxiliary function.
 data CommandKind = SpindleCommand | CoolantCommand | ToolCommand | AuxiliaryCommand
   deriving stock (Eq, Ord, Show)
 
--- | Report of an error on a machine.
+-- | Report of an error; @machine@ is the machine for which the program is compiled.
 toReport :: Machine -> Error -> Report
 toReport machine err = case err of
   FeedOutOfRange region asked lowest highest ->
@@ -221,7 +223,7 @@ toReport machine err = case err of
           ]
       }
 
--- | Report of a warning on a machine.
+-- | Report of a warning; @machine@ is the machine for which the program is compiled.
 warningReport :: Machine -> Warning -> Report
 warningReport machine warning = case warning of
   FeedDiffers region asked lowest highest ->
@@ -321,7 +323,7 @@ warningReport machine warning = case warning of
         (Machine.LeadingAxis, _) -> "the machine's feeds are steps along the axis that leads"
     turns n = Decimal.short 1 n <> " turns a minute"
 
--- | Name of the number of a command.
+-- | Words for a report on the number of a command: what is numbered.
 numbered :: CommandKind -> Text
 numbered kind = case kind of
   SpindleCommand -> "spindle speed"
@@ -337,6 +339,6 @@ axisName axis = Machine.contentName (Machine.Along axis)
 machineName :: Machine -> Text
 machineName machine = let MachineName name = Machine.name machine in name
 
--- | Feed with its unit.
+-- | Feed with its unit, for a report.
 feed :: Feed -> Text
 feed (Feed f) = Decimal.short 2 f <> " mm/min"

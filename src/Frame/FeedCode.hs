@@ -23,18 +23,19 @@ import Geometry.Segment qualified as Segment
 import Machine.Machine (FeedChoice (..), FeedCode, FeedMeasure (..), Machine)
 import Machine.Machine qualified as Machine
 
--- | Code for a feed in a frame of the given length. The code that the frame holds is ignored.
+-- | Code of the machine for the feed @v@ in the frame @f@, whose length is @l@. The code that the
+-- frame already holds is ignored.
 codeFor :: Machine -> Feed -> Frame -> Mm -> FeedChoice
 codeFor machine v f l = Machine.choose machine (codeValue machine v f l)
 
--- | Feed in the unit of the machine's codes, for a frame of the given length: mm/min along the
--- path, or pulses per second of the leading axis.
+-- | The feed @v@ in the unit of the machine's codes, for the frame @f@ of length @l@: mm/min along
+-- the path, or pulses per second of the leading axis.
 codeValue :: Machine -> Feed -> Frame -> Mm -> Double
 codeValue machine (Feed v) f l = maybe v (v / 60 *) (pulsesPerMm machine f l)
 
--- | Feed along the path that the code of a frame gives, for a frame of the given length. None for
--- a frame without motion, for a motion that is rapid by itself, and for a code that the machine
--- does not have.
+-- | Feed along the path that the code of the frame @f@ gives; @l@ is the length of the frame.
+-- Nothing for a frame without motion, for a motion that is rapid by itself, and for a code that the
+-- machine does not have.
 feedOf :: Machine -> Frame -> Mm -> Maybe Feed
 feedOf machine f l = case motion f of
   NoMotion -> Nothing
@@ -48,8 +49,8 @@ feedOf machine f l = case motion f of
         (Machine.valueOf machine (feedCode f))
 
 -- | Pulses of the leading axis per mm of the path. Nothing on a machine whose codes are feeds along
--- the path. On an arc the leading axis changes, so the pulses of a move along an axis are taken,
--- and also for a frame without length.
+-- the path. On an arc the leading axis changes. Therefore an arc counts as a move along one axis,
+-- and so does a frame of length 0.
 pulsesPerMm :: Machine -> Frame -> Mm -> Maybe Double
 pulsesPerMm machine f (Mm l) = case Machine.feedMeasure (Machine.feeds machine) of
   AlongPath -> Nothing
@@ -60,7 +61,8 @@ pulsesPerMm machine f (Mm l) = case Machine.feedMeasure (Machine.feeds machine) 
       Circular _ -> 0
       _ -> let Pulses3 x y z = abs (increment f); Pulses n = max x (max y z) in n
 
--- | Length of a frame in mm, in space for a straight one.
+-- | Length of a frame in mm: for a straight frame the length in space, for an arc that in the
+-- plane.
 frameLength :: Machine -> Frame -> Mm
 frameLength machine f = case motion f of
   Circular _ -> plane
@@ -68,8 +70,8 @@ frameLength machine f = case motion f of
   where
     plane = Segment.length (Frame.segment machine 0 f)
 
--- | Code for a feed in a frame. For a feed outside of the machine's range it is the lowest or the
--- highest code.
+-- | Code for the feed @v@ in the frame @f@. For a feed outside of the machine's range it is the
+-- lowest or the highest code.
 nearestCode :: Machine -> Feed -> Frame -> FeedCode
 nearestCode machine v f = case Machine.choose machine asked of
   Given code _ -> code
@@ -79,13 +81,14 @@ nearestCode machine v f = case Machine.choose machine asked of
   where
     asked = codeValue machine v f (frameLength machine f)
 
--- | Feed of rapid moves along an axis; 0 if the description does not give it.
+-- | Feed in mm/min of rapid moves along an axis; 0 if the machine description does not give it.
 rapidFeed :: Machine -> Feed
 rapidFeed machine =
   maybe (Feed 0) (feedAlongAxis machine) (Machine.valueOf machine (Machine.rapidCode machine))
 
--- | Feed that the machine gives for the feed asked for. Exact where codes are feeds along the path.
--- For frequencies the direction is not known here, so the result is the feed asked for.
+-- | Feed that the machine gives for the feed asked for. The result is exact where codes are feeds
+-- along the path. Where codes are frequencies, the direction of the frame is needed but not known
+-- here, so the result is the feed asked for.
 expectedFeed :: Machine -> Feed -> Feed
 expectedFeed machine asked@(Feed v) =
   case (Machine.feedMeasure (Machine.feeds machine), Machine.choose machine v) of
@@ -93,7 +96,7 @@ expectedFeed machine asked@(Feed v) =
     (AlongPath, NoSuchFeed _ _) -> asked
     (LeadingAxis, _) -> asked
 
--- | Feed along an axis, from a feed in the unit of the machine's codes.
+-- | Feed in mm/min along an axis, from the feed @x@ in the unit of the machine's codes.
 feedAlongAxis :: Machine -> Double -> Feed
 feedAlongAxis machine x = case Machine.feedMeasure (Machine.feeds machine) of
   AlongPath -> Feed x

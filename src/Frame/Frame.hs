@@ -2,7 +2,7 @@
 --
 -- The module owns the frame, the program of frames and the rules that every frame of a machine
 -- keeps; 'violations' lists the broken rules. Positions in mm are derived from pulses here and
--- nowhere else.
+-- nowhere else. Passes are numbered from 0, and frames from 1.
 module Frame.Frame
   ( Frame (..),
     FrameMotion (..),
@@ -34,12 +34,12 @@ import Geometry.Vec qualified as Vec
 import Machine.Machine (Arcs (..), Axis (..), AxisMeasure (..), CommandName, FeedCode (..), Machine)
 import Machine.Machine qualified as Machine
 
--- | One frame as the tape holds it.
+-- | One frame with the numbers that the tape holds.
 data Frame = Frame
   { motion :: FrameMotion,
-    -- | pulses from the beginning of the frame to its end
+    -- | pulses along x, y and z from the beginning of the frame to its end
     increment :: {-# UNPACK #-} Pulses3,
-    -- | pulses from the beginning of an arc to its centre; 0 for every other motion
+    -- | pulses along x and y from the beginning of an arc to its centre; 0 for every other motion
     centre :: {-# UNPACK #-} Pulses2,
     -- | feed code; 0 for a frame without motion and for 'Rapid'
     feedCode :: FeedCode,
@@ -59,7 +59,7 @@ data FrameMotion
     Rapid
   | -- | straight line
     Linear
-  | -- | circular arc in the plane x, y; a full circle where the increment is 0
+  | -- | circular arc in the plane x, y. An arc whose increment is 0 is a full circle
     Circular Sense
   deriving stock (Eq, Show)
 
@@ -85,16 +85,17 @@ data PlannedFrame = PlannedFrame
     role :: Role,
     -- | the text in the part program that asks for the frame
     origin :: Region,
-    -- | radius of the cutter in the spindle
+    -- | radius in mm of the cutter in the spindle; 0 for a frame of commands
     cutterRadius :: Mm
   }
   deriving stock (Eq, Show)
 
--- | Purpose of a frame. The number counts the passes along contours and in pockets, from 0.
+-- | Purpose of a frame. The number of the first three is that of the pass along a contour or in a
+-- pocket, from 0.
 data Role = Approaching Int | Cutting Int | Retracting Int | Linking | Drilling | Commanding
   deriving stock (Eq, Show)
 
--- | Number of the pass that a frame belongs to, from 0; none for frames outside of passes.
+-- | Number of the pass to which a frame belongs, from 0; Nothing for frames outside of passes.
 passNumber :: Role -> Maybe Int
 passNumber role = case role of
   Approaching n -> Just n
@@ -109,7 +110,7 @@ passNumber role = case role of
 data FrameProgram = FrameProgram {start :: Pulses3, plannedFrames :: [PlannedFrame]}
   deriving stock (Eq, Show)
 
--- | Position in the plane in mm, from a position in pulses.
+-- | Position in mm in the plane x, y, from a position in pulses.
 position :: Machine -> Pulses3 -> Point
 position machine (Pulses3 (Pulses x) (Pulses y) _) =
   Vec.point (fromIntegral x * px) (fromIntegral y * py)
@@ -122,14 +123,14 @@ height :: Machine -> Pulses3 -> Mm
 height machine (Pulses3 _ _ (Pulses z)) =
   let Mm p = Machine.resolutionOf machine Z in Mm (fromIntegral z * p)
 
--- | Centre in mm of an arc that begins at the given position.
+-- | Centre in mm of the arc of the frame @f@, which begins at the given position in pulses.
 centreOf :: Machine -> Pulses3 -> Frame -> Point
 centreOf machine (Pulses3 x y z) f =
   let Pulses2 i j = centre f in position machine (Pulses3 (x + i) (y + j) z)
 
--- | Line or arc in mm that a frame describes in the plane, from the given position on. An arc has
--- the centre of the frame and ends where the frame ends, so by rounding the radii at its two ends
--- may differ.
+-- | Line or arc in mm that the frame @f@ describes in the plane, from the position @at@ in pulses.
+-- An arc has the centre of the frame and ends where the frame ends, so by rounding the radii at its
+-- two ends may differ.
 segment :: Machine -> Pulses3 -> Frame -> Segment
 segment machine at f = case motion f of
   Circular sense -> Segment.arcOrCircle sense (centreOf machine at f) begin finish
@@ -138,11 +139,11 @@ segment machine at f = case motion f of
     begin = position machine at
     finish = position machine (at + increment f)
 
--- | Rule that a frame breaks. The first number is that of the frame, from 1.
+-- | Rule that a frame breaks. The first number of each is the number of the frame, from 1.
 data Violation
-  = -- | an increment that does not fit its field
+  = -- | an increment that does not fit its field: the axis, and the increment in pulses
     OverCapacity Int Axis Pulses
-  | -- | a centre at the beginning of its arc, or one that does not fit its field
+  | -- | a centre that is at the beginning of its arc, or that does not fit its field
     BadCentre Int
   | -- | a feed code that the machine does not have, or a feed code other than 0 where the motion
     -- takes none
@@ -155,12 +156,13 @@ data Violation
     EmptyFrame Int
   deriving stock (Eq, Show)
 
--- | All broken rules in the frames of a program, in the order of the frames; empty for a valid one.
+-- | All broken rules in the frames of a program, in the order of the frames; empty for valid
+-- frames.
 violations :: Machine -> [Frame] -> [Violation]
 violations machine = concat . zipWith (frameViolations machine) [1 ..]
 
--- | Rules that a frame with the given number breaks. Nearly all frames keep every rule; for them no
--- list is built.
+-- | Rules that the frame @f@ with the number @n@ breaks. Nearly all frames keep every rule; for
+-- them no list is built. In the functions below @f@ and @n@ mean the same.
 frameViolations :: Machine -> Int -> Frame -> [Violation]
 frameViolations machine n f = case faults of
   Faults [] [] [] [] | not isEmpty -> []
@@ -175,7 +177,7 @@ frameViolations machine n f = case faults of
         (commandFaults machine n f)
     isEmpty = not (isMoving f) && null (commands f)
 
--- | Broken rules on increments, feed codes, motions and commands.
+-- | Broken rules of a frame in four lists: on increments, feed codes, motions and commands.
 data Faults = Faults [Violation] [Violation] [Violation] [Violation]
 
 -- | Increments that do not fit their fields. A field for absolute positions limits the position and
@@ -229,7 +231,7 @@ commandFaults machine n f =
   ]
 
 -- | True for an arc within one quadrant about its centre, computed in whole pulses: both ends lie
--- in the same quadrant, and the arc does not leave it in between.
+-- in the same quadrant, and the arc does not leave this quadrant between them.
 isInQuadrant :: Sense -> Frame -> Bool
 isInQuadrant sense f = a * c >= 0 && b * d >= 0 && isForward (a * d - b * c)
   where

@@ -32,9 +32,10 @@ data FrameContext = FrameContext
   { machine :: Machine,
     -- | True when a code gives the same feed along the path in every frame
     isAlongPath :: Bool,
-    -- | axes that the machine does not have
+    -- | axes that the machine does not have, that is, that have no field in its frames
     missingAxes :: [Axis],
-    -- | largest positions that fit their fields, on a machine with absolute positions
+    -- | largest positions in pulses that fit their fields, on a machine with absolute positions;
+    -- empty on other machines
     largestPositions :: [(Axis, Pulses)]
   }
 
@@ -52,18 +53,19 @@ contextOf machine =
   where
     capacities = [(axis, Machine.capacity machine axis) | axis <- [X, Y, Z]]
 
--- | Findings in the frames so far.
+-- | Findings in the frames that are checked so far: errors, and feeds for warnings.
 data FrameFindings = FrameFindings
-  { -- | range of the feeds obtained for each feed of the program
+  { -- | range of the feeds that the frames get, for each feed of the program with its region
     obtained :: Map (Region, Feed) FeedRange,
-    -- | feed of the program in the last frame, and its code
+    -- | feed in the program of the last frame, and the frame's code
     lastPace :: Pace,
     lastCode :: FeedCode,
-    -- | for each feed of the program, the first frame for which the leading axis has no code
+    -- | for each feed of the program, the error of the first frame for which the leading axis has
+    -- no code
     withoutCode :: Map (Region, Feed) Error,
-    -- | first move along an axis that the machine does not have
+    -- | error of the first move along an axis that the machine does not have
     missingAxis :: Maybe Error,
-    -- | first position that does not fit its field
+    -- | error of the first position that does not fit its field
     outOfField :: Maybe Error
   }
 
@@ -90,12 +92,12 @@ errors findings =
     <> maybeToList (missingAxis findings)
     <> maybeToList (outOfField findings)
 
--- | Share of the feed by which the obtained feed may differ without a warning.
+-- | Share of the feed in the program by which the feed of a frame may differ without a warning.
 feedSlack :: Double
 feedSlack = 0.1
 
--- | One warning for each feed of the program from which some frame differs by more than
--- 'feedSlack', with the range of the feeds obtained for it.
+-- | One warning for each feed of the program for which some frame has a feed that differs by more
+-- than 'feedSlack'. The warning has the range of the feeds obtained.
 warnings :: FrameFindings -> [Warning]
 warnings findings =
   [ FeedDiffers region (Feed v) (Feed low) (Feed high)
@@ -103,22 +105,24 @@ warnings findings =
       max (v - low) (high - v) > (feedSlack + Tolerance.equal) * v
   ]
 
--- | Adds the findings in the next frame. The arguments are its feed in the program, 'Rapid' where
--- the compiler sets the feed itself, the position at its end, and the frame.
+-- | Adds the findings in the next frame @p@. @asked@ is its feed in the program, 'Rapid' where the
+-- compiler sets the feed itself. @at@ is the position at its end in pulses.
 check :: FrameContext -> Pace -> Pulses3 -> PlannedFrame -> FrameFindings -> FrameFindings
 check context asked at p = checkPosition context at p . checkFeed context asked (frame p)
 
--- | Adds the finding in the feed of a frame.
+-- | Adds the finding in the feed of the frame @f@. @asked@ is its feed in the program.
 checkFeed :: FrameContext -> Pace -> Frame -> FrameFindings -> FrameFindings
 checkFeed context asked f before = case asked of
   Rapid -> before
   At (Located region v)
-    -- Codes along the path give the same feed for the same code, so nothing new can be found.
+    -- Where codes are feeds along the path, the same code gives the same feed, so nothing new can
+    -- be found.
     | isAlongPath context && lastCode before == feedCode f && lastPace before == asked -> before
     | otherwise ->
       checkNewFeed context (region, v) f before {lastPace = asked, lastCode = feedCode f}
 
--- | Adds the finding in the feed of a frame, given the region that asks for the feed, and the feed.
+-- | Adds the finding in the feed of the frame @f@. @v@ is the feed in the program, and @region@ the
+-- text that asks for it.
 checkNewFeed :: FrameContext -> (Region, Feed) -> Frame -> FrameFindings -> FrameFindings
 checkNewFeed FrameContext {machine, isAlongPath} key@(region, v) f before =
   case (FeedCode.codeFor machine v f l, FeedCode.feedOf machine f l) of
@@ -126,7 +130,7 @@ checkNewFeed FrameContext {machine, isAlongPath} key@(region, v) f before =
       before {obtained = Map.insertWith united key (FeedRange g g) (obtained before)}
     (Machine.Given _ _, Nothing) -> before
     (Machine.NoSuchFeed low high, _)
-      -- "Frame.InstructionCheck" has reported it already.
+      -- "Frame.InstructionCheck" has reported this feed already.
       | isAlongPath -> before
       | otherwise ->
         before
@@ -143,11 +147,11 @@ checkNewFeed FrameContext {machine, isAlongPath} key@(region, v) f before =
         (low, FeedCode.feedAlongAxis machine low)
         (high, FeedCode.feedAlongAxis machine high)
 
--- | The range that contains two ranges.
+-- | The smallest range that contains both ranges.
 united :: FeedRange -> FeedRange -> FeedRange
 united (FeedRange a b) (FeedRange c d) = FeedRange (min a c) (max b d)
 
--- | Adds the findings in the axes of a frame, and in the position at its end.
+-- | Adds the findings in the axes of the frame @p@, and in the position @at@ at its end in pulses.
 checkPosition :: FrameContext -> Pulses3 -> PlannedFrame -> FrameFindings -> FrameFindings
 checkPosition FrameContext {machine, missingAxes, largestPositions} at p before
   | not (any isUsed missingAxes) && all isFitting largestPositions = before

@@ -4,6 +4,9 @@
 -- tolerance elsewhere. Positions are rounded to whole pulses, moves are split to fit their fields,
 -- and every frame gets its feed code, its braking mark and its commands. Requests that the machine
 -- cannot carry out are refused or reported as warnings, see "Frame.Error".
+--
+-- A step is a motion of one frame, before the frame has its feed and its commands. A level run
+-- stays at one height.
 module Frame.FromToolpath
   ( quantise,
     chords,
@@ -63,14 +66,14 @@ import Toolpath.FromPart qualified as Toolpath
 import Toolpath.Toolpath (Move (..), Toolpath (Toolpath), heights)
 import Toolpath.Toolpath qualified as Toolpath
 
--- | Frames of a toolpath. Errors that keep the frames from being made at all, or that make them too
--- many, are found before the frames are made.
+-- | Frames of a toolpath. Two kinds of errors are found before the frames are made: those that keep
+-- the frames from being made, and those about too many frames.
 quantise :: Machine -> Toolpath -> Result Warning Error FrameProgram
 quantise
   machine
   path@Toolpath {Toolpath.start = Located startRegion (SpacePoint startPoint startHeight)} =
     -- These errors are evaluated before the frames are made. Otherwise they would keep the whole
-    -- toolpath in memory while the frames are made.
+    -- toolpath in memory.
     foldr seq () (tooCoarse <> tooMany) `seq` case errorsOf tooCoarse tooMany made of
       [] -> Result warnings [] (Just (FrameProgram begin frames))
       problems
@@ -98,8 +101,8 @@ quantise
       startWarnings = startWarning machine startRegion startPoint begin
       warnings = nubOrd (startWarnings <> warningsOf made)
 
--- | All errors, each once. The arguments are the errors of the tolerances, those of the number of
--- contours, and the state after the last instruction.
+-- | All errors, each once. @tooCoarse@ are the errors of the tolerances, @tooMany@ that of the
+-- number of contours, and @made@ is the state after the last instruction.
 errorsOf :: [Error] -> [Error] -> Making -> [Error]
 errorsOf tooCoarse tooMany made =
   nubOrd
@@ -118,18 +121,19 @@ errorsOf tooCoarse tooMany made =
         Nothing -> FrameCheck.errors (frameFindings made)
       | otherwise = []
 
--- | Warnings of the frames and of the commands, from the state after the last instruction.
+-- | Warnings about frames and commands, from the state after the last instruction.
 warningsOf :: Making -> [Warning]
 warningsOf made =
   FrameCheck.warnings (frameFindings made)
     <> InstructionCheck.heightWarnings (instructionFindings made)
     <> commandWarnings made
 
--- | Warnings of the commands.
+-- | Warnings about commands, in the order of the program.
 commandWarnings :: Making -> [Warning]
 commandWarnings made = concatMap Command.warnings (reverse (translations made))
 
--- | Warning about a start point between two pulses.
+-- | Warning about the start point @asked@ in mm if it lies between two pulses. @begin@ is its
+-- rounded position; the region names the point.
 startWarning :: Machine -> Region -> Point -> Pulses3 -> [Warning]
 startWarning machine region asked begin =
   [StartRounded region asked given | not (Vec.isNear given asked)]
@@ -138,7 +142,7 @@ startWarning machine region asked begin =
 
 -- Errors that need no frames ----------------------------------------------------------------------
 
--- | Error of a block whose tolerance is too large for its cutter.
+-- | Error of a block whose tolerance is too large for its cutter; Nothing for every other block.
 toleranceError :: Machine -> Toolpath.Block -> Maybe Error
 toleranceError machine block = case block of
   Toolpath.Cutting {Toolpath.job = Located _ job} -> tooLarge job
@@ -155,7 +159,8 @@ toleranceError machine block = case block of
       where
         tolerance = uncurry max (Part.deviationLimits (Part.tolerance job))
 
--- | Error of more contours than the machine allows. A contour counts once for all of its passes.
+-- | Error of more contours than the machine allows; empty if there are not too many. A contour
+-- counts once for all of its passes.
 contourErrors :: Machine -> Toolpath -> [Error]
 contourErrors machine path = case Machine.mostContours (Machine.limits machine) of
   Nothing -> []
@@ -182,9 +187,9 @@ data Context = Context
     frameContext :: FrameCheck.FrameContext
   }
 
--- | State after the instructions so far. It keeps none of them in memory.
+-- | State after the instructions so far. No instruction is kept in memory.
 data Making = Making
-  { -- | position of the cutter
+  { -- | position of the cutter in pulses
     at :: Pulses3,
     -- | region of the part program that asks for the last move or command
     here :: Region,
@@ -192,17 +197,17 @@ data Making = Making
     pending :: Maybe Pending,
     -- | frames of the current instruction, the latest first
     latest :: [PlannedFrame],
-    -- | all commands, the latest first
+    -- | the words of all commands so far, the latest first
     translations :: [Translation],
-    -- | number of frames
+    -- | number of frames so far
     count :: Int,
-    -- | origin of the first frame beyond the allowed number
+    -- | text in the part program that asks for the first frame beyond the allowed number
     tooManyFrom :: Maybe Region,
     instructionFindings :: InstructionCheck.InstructionFindings,
     frameFindings :: FrameCheck.FrameFindings
   }
 
--- | State before the first instruction.
+-- | State before the first instruction, with the region and the rounded position of the start.
 initial :: Region -> Pulses3 -> Making
 initial here at =
   Making
@@ -217,7 +222,8 @@ initial here at =
       frameFindings = FrameCheck.noFindings
     }
 
--- | Frames of instructions as a lazy list, which ends with the final state.
+-- | Frames of instructions as a lazy list, which ends with the final state. @made@ is the state
+-- before the instructions.
 framesOf :: Context -> Making -> [Instruction] -> LazyList Making PlannedFrame
 framesOf context made instructions = case instructions of
   [] ->
@@ -227,11 +233,11 @@ framesOf context made instructions = case instructions of
     let made' = next context emptied instruction
      in LazyList.prependReversed (latest made') (framesOf context made' more)
   where
-    -- The frames of the last instruction are in the list already.
+    -- The list already has the frames of the instruction before.
     emptied = made {latest = []}
 
 -- | Makes the frames of the next instruction. The words of commands wait for the frame of the next
--- move. When frames are too many or a point is out of reach, no more moves become frames.
+-- move. When there are too many frames or a point is out of reach, no more moves become frames.
 next :: Context -> Making -> Instruction -> Making
 next context@Context {machine, instructionContext} made instruction = case instruction of
   Words region translation ->
@@ -263,8 +269,8 @@ next context@Context {machine, instructionContext} made instruction = case instr
       Words _ _ -> []
       Run {tolerance, run} -> chordEndsOf machine tolerance run
 
--- | Adds the frames after the last move: one for the commands that are still pending, and those
--- that end every program of the machine.
+-- | Adds the frames after the last move: one for the commands that are still pending, and the
+-- frames that end every program of the machine.
 ended :: Context -> Making -> Making
 ended context@Context {machine} made =
   foldl'
@@ -282,7 +288,8 @@ addCommands context made Pending {asked, given} =
     (PlannedFrame (Frame.commandFrame given) Commanding asked (Mm 0))
     made
 
--- | Adds the frame of a step, with the pending commands. A step without motion has no frame.
+-- | Adds the frame of a step of the instruction, with the pending commands. A step without motion
+-- has no frame.
 addStep :: Context -> Instruction -> Making -> ArcStep -> Making
 addStep context@Context {machine} instruction made step = case instruction of
   Words _ _ -> made
@@ -298,8 +305,8 @@ addStep context@Context {machine} instruction made step = case instruction of
               (PlannedFrame f' role (origin m) cutterRadius)
               made {pending = Nothing}
 
--- | Adds a frame. The second argument is its feed in the program, 'Part.Rapid' where the compiler
--- sets the feed; the third one is the position at its end.
+-- | Adds the frame @p@. @feed@ is its feed in the program, 'Part.Rapid' where the compiler sets the
+-- feed; @end@ is the position at its end in pulses.
 addFrame :: Context -> Pace -> Pulses3 -> PlannedFrame -> Making -> Making
 addFrame Context {frameContext} feed end p@(PlannedFrame _ _ asked _) made =
   made
@@ -313,7 +320,7 @@ addFrame Context {frameContext} feed end p@(PlannedFrame _ _ asked _) made =
       frameFindings = FrameCheck.check frameContext feed end p (frameFindings made)
     }
 
--- | Frame of a step from a position. Nothing for a step without motion.
+-- | Frame of a step from the position @begin@ in pulses. Nothing for a step without motion.
 frameOf :: Machine -> FeedMode -> Pace -> Pulses3 -> ArcStep -> Maybe Frame
 frameOf machine feedMode pace begin ArcStep {target, turnsAbout} = case turnsAbout of
   Nothing
@@ -334,7 +341,8 @@ frameOf machine feedMode pace begin ArcStep {target, turnsAbout} = case turnsAbo
 
 -- Steps of a run ----------------------------------------------------------------------------------
 
--- | Steps of an instruction from a position, given the ends of the chords of its run.
+-- | Steps of an instruction from the position @begin@ in pulses. @chordEnds@ are the ends of the
+-- chords of its run in mm.
 stepsOf :: Context -> Pulses3 -> Instruction -> [PathPosition] -> [ArcStep]
 stepsOf context@Context {machine} begin instruction chordEnds = case instruction of
   Words _ _ -> []
@@ -351,11 +359,11 @@ stepsOf context@Context {machine} begin instruction chordEnds = case instruction
       Sagitta _ -> True
       ArcBand _ _ -> True
 
--- | Straight step.
+-- | Straight step to a position in pulses.
 straightTo :: Pulses3 -> ArcStep
 straightTo target = ArcStep {target, turnsAbout = Nothing}
 
--- | Steps of a level run on a machine with arcs.
+-- | Steps of a level run on a machine with arcs, from the position @begin@ in pulses.
 arcSteps :: Context -> Pulses3 -> ChordTolerance -> NonEmpty Move -> [ArcStep]
 arcSteps context@Context {machine} begin tolerance run = case tolerance of
   OnCurve bounds -> curveSteps context begin bounds run
@@ -373,8 +381,9 @@ arcSteps context@Context {machine} begin tolerance run = case tolerance of
         begin
         (segment m)
 
--- | Steps of a level run along a curve: those of the division with the fewest steps. The deviation
--- of the fitted arcs from the curve is subtracted from the tolerance of their steps.
+-- | Steps of a level run along a curve, from the position @begin@ in pulses. Of the run's possible
+-- divisions into arcs and chords the one with the fewest steps is chosen. The deviation of the
+-- fitted arcs from the curve is subtracted from the tolerance of their steps.
 curveSteps :: Context -> Pulses3 -> Bounds -> NonEmpty Move -> [ArcStep]
 curveSteps context begin bounds run =
   minimumBy
@@ -384,8 +393,9 @@ curveSteps context begin bounds run =
         (ArcFitting.divisions (machine context) bounds run)
     )
 
--- | Position at the end of a part of a run, and its steps. The third argument is a move of the run;
--- it gives the height, the feed and the origin.
+-- | Position in pulses at the end of a part of a run, and the steps of the part. @begin@ is the
+-- position at the beginning of the part. @m@ is any move of the run; it gives the height, the feed
+-- and the origin.
 partSteps ::
   Context -> Bounds -> Move -> Pulses3 -> RunPart -> (Pulses3, [ArcStep])
 partSteps context@Context {machine} bounds m begin part = case part of
@@ -407,7 +417,8 @@ partSteps context@Context {machine} bounds m begin part = case part of
     level = fst (heights m)
     lastOr p ps = fromMaybe p (listToMaybe (reverse ps))
 
--- | Steps along one segment, as arcs or as chords. The move gives all but the geometry.
+-- | Steps along one segment, as arcs or as chords, from a position in pulses. The move @m@ gives
+-- the height.
 segmentSteps ::
   Context -> ArcTolerance -> ChordTolerance -> Move -> Pulses3 -> Segment -> [ArcStep]
 segmentSteps Context {machine, grid} tolerance chordError m =
@@ -424,7 +435,8 @@ segmentSteps Context {machine, grid} tolerance chordError m =
     )
     (fst (heights m))
 
--- | Ends of the chords of a run in mm, with their heights.
+-- | Ends of the chords of a run in mm, with their heights. Tolerances below the rounding error are
+-- raised.
 chordEndsOf :: Machine -> ChordTolerance -> NonEmpty Move -> [PathPosition]
 chordEndsOf machine tolerance =
   ChordError.ends
@@ -432,7 +444,8 @@ chordEndsOf machine tolerance =
     machine
     (ChordError.raisedToRounding machine tolerance)
 
--- | Ends of the steps along the chords of a run in pulses, from a position on.
+-- | Ends in pulses of the steps along the chords of a run, from the position @begin@ on. @ends@ are
+-- the ends of the chords in mm.
 chordSteps :: Machine -> Pulses3 -> NonEmpty Move -> [PathPosition] -> [Pulses3]
 chordSteps machine begin run ends =
   concat

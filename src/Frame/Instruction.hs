@@ -1,8 +1,8 @@
 -- | Instructions: the toolpath as runs of moves and commands, before anything is rounded.
 --
--- An instruction is either a run of moves along one line, arc or curve, with its purpose, its
--- tolerance and its feed, or the words of a command. "Frame.Braking" divides runs, and
--- "Frame.FromToolpath" makes frames of the instructions.
+-- A run is a sequence of moves along one line, arc or curve. An instruction is either a run with
+-- its purpose, its tolerance and its feed, or the words of a command. "Frame.Braking" divides runs,
+-- and "Frame.FromToolpath" makes frames of the instructions.
 module Frame.Instruction
   ( Instruction (..),
     FeedMode (..),
@@ -30,39 +30,39 @@ import Part.Part qualified as Part
 import Toolpath.Toolpath (Block, Move (..), Sent, Toolpath, heights, pace)
 import Toolpath.Toolpath qualified as Toolpath
 
--- | One instruction.
+-- | One instruction: a run of moves, or the words of a command.
 data Instruction
   = -- | moves along one line, arc or curve
     Run
       { role :: Role,
         tolerance :: ChordTolerance,
-        -- | radius of the cutter
+        -- | radius of the cutter in mm
         cutterRadius :: Mm,
         feedMode :: FeedMode,
         run :: NonEmpty Move
       }
-  | -- | words of a command, or those that switch cutter compensation, and the region that asks for
-    -- them
+  | -- | words of a command, or the words that switch cutter compensation, and the region of the
+    -- program that asks for them
     Words Region Translation
 
 -- | The feed with which a run is made.
 data FeedMode
   = -- | the feed that the program gives
     AsProgrammed
-  | -- | the machine's lowest feed code
+  | -- | the machine's lowest feed code, at the end of an element with braking
     LowestCode
-  | -- | this feed, in frames that are marked as braking
+  | -- | this feed at the end of the braking section, in frames that are marked as braking
     BrakingTo Feed
   deriving stock (Eq, Show)
 
--- | Instructions for a toolpath, in order.
+-- | Instructions for a toolpath, in the order of the toolpath.
 instructions :: Machine -> Toolpath -> [Instruction]
 instructions machine path =
   concat (zipWith (ofBlock machine) (Toolpath.passNumbers blocks) blocks)
   where
     blocks = Toolpath.blocks path
 
--- | Instructions for a block with the number of its pass.
+-- | Instructions for the block @b@; @n@ is the number of its pass, from 0.
 ofBlock :: Machine -> Int -> Block -> [Instruction]
 ofBlock machine n b = case b of
   Toolpath.Travelling radius ms -> straightRuns Linking radius ms
@@ -96,28 +96,30 @@ ofBlock machine n b = case b of
               milled machine (Retracting n) job retract
             ]
 
--- | Runs outside of milling: one for each move. All moves are straight, so the chord error is 0.
+-- | Runs outside of milling, one for each move, with the cutter's radius in mm. All moves are
+-- straight, so the chord error is 0.
 straightRuns :: Role -> Mm -> [Move] -> [Instruction]
 straightRuns r radius = map (Run r (Sagitta (Mm 0)) radius AsProgrammed . (:| []))
 
--- | Runs of a milling job.
+-- | Runs along the moves of a milling job, all with the role @r@.
 milled :: Machine -> Role -> Milling -> [Move] -> [Instruction]
 milled machine r job =
   map (\ms -> Run r (tolerance ms) (Part.radius job) AsProgrammed ms) . Toolpath.curveRuns
   where
     tolerance = ChordError.chordTolerance machine job
 
--- | Role of a move in a pocket. Where material or an island lies between two cuts, the cutter
--- retracts with a rapid move and approaches again.
+-- | Role of the move @m@ in the pocket that is pass @n@. Where material or an island lies between
+-- two cuts, the cutter retracts with a rapid move and approaches again.
 roleInPocket :: Int -> Move -> Role
 roleInPocket n m
   | pace m == Part.Rapid = Retracting n
   | uncurry (/=) (heights m) = Approaching n
   | otherwise = Cutting n
 
--- | Instructions for a pass with cutter compensation: the control gets the edge of the part, and
--- the words that switch compensation on and off. Every move of the edge is a run of its own, even
--- along a curve. If the machine has no such words, the instructions consist of their errors only.
+-- | Instructions for pass @n@ with cutter compensation, for which the region @asked@ asks. The
+-- control gets the edge of the part, and the words that switch compensation on and off. Every move
+-- of the edge is a run of its own, even along a curve. If the machine has no such words, the
+-- instructions contain only the errors about them.
 compensated :: Machine -> Int -> Region -> Milling -> Sent -> [Instruction]
 compensated machine n asked job edge
   | null (Command.errors on) =
@@ -135,14 +137,15 @@ compensated machine n asked job edge
     on = Command.compensationOn machine asked (Toolpath.side edge) (Part.radius job)
     single r m = milled machine r job [m {continues = False}]
 
--- | Length of a move in space.
+-- | Length of a move in space, in mm.
 lengthOf :: Move -> Mm
 lengthOf m = Mm (sqrt (l * l + h * h))
   where
     Mm l = Segment.length (segment m)
     Mm h = uncurry minus (heights m)
 
--- | Two parts of a move, cut @distance@ mm before its end. The move has to be longer than that.
+-- | The two parts of a move that is cut @distance@ mm before its end. The move has to be longer
+-- than that.
 cutBeforeEnd :: Double -> Move -> (Move, Move)
 cutBeforeEnd distance m =
   ( Toolpath.withoutBraking (Toolpath.atHeights (fst (heights m), z) m) {segment = front},

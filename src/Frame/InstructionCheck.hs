@@ -45,16 +45,16 @@ mostFrames = 1000000
 -- | Facts that are the same for all instructions.
 data InstructionContext = InstructionContext
   { machine :: Machine,
-    -- | True when the feed of a frame does not depend on its direction
+    -- | True when the feed of a frame does not depend on the direction of the frame
     isAlongPath :: Bool,
     -- | True when the tape has a field for z, but the source of the machine description mentions no
     -- axis z
     isHeightUncertain :: Bool,
-    -- | error for the start of the toolpath, if it is out of reach
+    -- | error for the start of the toolpath, if the start is out of reach
     startError :: Maybe Error
   }
 
--- | Context for a machine, a start point and the region that names it.
+-- | Context for a machine and a start point in mm. The region of the program names this point.
 contextOf :: Machine -> Region -> Point -> InstructionContext
 contextOf machine startRegion start =
   InstructionContext
@@ -64,19 +64,19 @@ contextOf machine startRegion start =
       startError = reachError startRegion start
     }
 
--- | Findings in the instructions so far; the lists have the latest first.
+-- | Findings in the instructions that are checked so far; the lists have the latest first.
 data InstructionFindings = InstructionFindings
   { -- | feed of the run that was checked last
     lastPace :: Pace,
-    -- | feeds along the path that no code gives
+    -- | errors about feeds along the path that no code gives
     withoutCode :: [Error],
-    -- | points out of reach, at most one for each run
+    -- | errors about points out of reach, at most one for each run
     outOfReach :: [Error],
-    -- | number of frames, as estimated before they are made
+    -- | number of frames of all instructions so far, as estimated before the frames are made
     count :: Int,
-    -- | error for the run with which the frames become too many
+    -- | error for the run with which the number of frames exceeds 'mostFrames'
     tooMany :: Maybe Error,
-    -- | first move in z that the machine may not have
+    -- | warning about the first move in z that the machine may not have
     uncertainHeight :: Maybe Warning
   }
 
@@ -97,20 +97,21 @@ noFindings =
 isBounded :: InstructionFindings -> Bool
 isBounded findings = null (outOfReach findings) && null (tooMany findings)
 
--- | Feeds without a code, in order.
+-- | Errors about feeds without a code, in the order of the instructions.
 feedErrors :: InstructionFindings -> [Error]
 feedErrors = reverse . withoutCode
 
--- | Errors that keep the frames from being made: points out of reach, too many frames.
+-- | Errors that keep the frames from being made: points out of reach in the order of the
+-- instructions, then too many frames.
 boundErrors :: InstructionFindings -> [Error]
 boundErrors findings = reverse (outOfReach findings) <> maybeToList (tooMany findings)
 
--- | Warning about moves in z that the machine may not have.
+-- | Warning about moves in z that the machine may not have; empty if there are none.
 heightWarnings :: InstructionFindings -> [Warning]
 heightWarnings = maybeToList . uncertainHeight
 
--- | Adds the findings in the next instruction. The third argument is the ends of the chords of its
--- run; they are evaluated only along a curve on a machine without arcs.
+-- | Adds the findings in the next instruction. @chordEnds@ are the ends of the chords of its run;
+-- they are evaluated only along a curve on a machine without arcs.
 check ::
   InstructionContext ->
   Instruction ->
@@ -127,7 +128,7 @@ check context instruction chordEnds before = case instruction of
       chordEnds
       (checkReach context run (checkHeights context run (checkFeed context feedMode run before)))
 
--- | Adds the error of a feed without a code.
+-- | Adds the error of a feed without a code, if the run @moves@ has such a feed.
 checkFeed ::
   InstructionContext ->
   FeedMode ->
@@ -149,7 +150,8 @@ checkFeed context feedMode moves before = case (feedMode, asked) of
   where
     asked = pace (NonEmpty.head moves)
 
--- | Adds the warning about the first move in z that the machine may not have.
+-- | Adds the warning about the first move in z that the machine may not have, if the run @moves@
+-- contains it.
 checkHeights :: InstructionContext -> NonEmpty Move -> InstructionFindings -> InstructionFindings
 checkHeights context moves before
   | isHeightUncertain context,
@@ -161,7 +163,7 @@ checkHeights context moves before
       }
   | otherwise = before
 
--- | Adds the error of the first point of a run that is out of reach.
+-- | Adds the error of the first point of the run @moves@ that is out of reach, if there is one.
 checkReach :: InstructionContext -> NonEmpty Move -> InstructionFindings -> InstructionFindings
 checkReach context moves before
   | null (startError context) && all (isSurelyInReach . segment) moves = before
@@ -178,26 +180,28 @@ checkReach context moves before
           <|> reachError (origin m) (Vec.point r t)
           <|> startError context
 
--- | True for a segment that is certainly within reach: a line with both ends, or an arc with its
--- full circle.
+-- | True for a segment that is certainly within reach, so that its bounding box is not computed: a
+-- line with both ends within reach, or an arc with its full circle within reach.
 isSurelyInReach :: Segment -> Bool
 isSurelyInReach s = case s of
   Straight a b -> isInReach 0 a && isInReach 0 b
   Arc {start = from, centre} -> let Mm r = Segment.radius centre from in isInReach r centre
 
--- | True for a point that stays at least @margin@ mm within 'Tolerance.reach' along both axes.
+-- | True for a point whose coordinates are at most 'Tolerance.reach' less @margin@, in mm and
+-- without sign.
 isInReach :: Double -> Point -> Bool
 isInReach margin p = max (abs (Vec.x p)) (abs (Vec.y p)) <= limit - margin
   where
     Mm limit = Tolerance.reach
 
--- | The error of a point that is out of reach.
+-- | The error of a point in mm that is out of reach; Nothing for a point within reach.
 reachError :: Region -> Point -> Maybe Error
 reachError region p =
   if isInReach 0 p then Nothing else Just (OutOfReach region p Tolerance.reach)
 
--- | Adds the number of frames of a run, without making them. On a machine with arcs a level run
--- counts as one frame, so the number is a lower bound there.
+-- | Adds the number of frames of the run @moves@, without making them. On a machine with arcs a
+-- level run counts as one frame, so there the number is a lower bound. A level run stays at one
+-- height.
 counted ::
   InstructionContext ->
   ChordTolerance ->

@@ -4,7 +4,8 @@
 -- | Positions in whole pulses, and the splitting of straight moves that are too long for one frame.
 --
 -- Every position is rounded by itself as an absolute position, so rounding errors never add up. An
--- increment is the difference of two rounded positions.
+-- increment is the difference of two rounded positions. Machine coordinates have one resolution for
+-- each axis, the size of its pulse in mm.
 module Frame.Rounding
   ( PathPosition,
     rounded,
@@ -25,23 +26,25 @@ import Machine.Machine (Axis (..), AxisMeasure (..), Machine)
 import Machine.Machine qualified as Machine
 import Toolpath.Toolpath (Move (..), heights)
 
--- | Position in mm: the point in the plane, and the height.
+-- | Position in mm: the point in the plane x, y, and the height z.
 type PathPosition = (Point, Mm)
 
--- | Nearest whole number of pulses on each axis; half a pulse is rounded up.
+-- | Position in whole pulses that is nearest on each axis; half a pulse is rounded up.
 rounded :: Machine -> PathPosition -> Pulses3
 rounded machine (p, Mm z) = Pulses3 (pulses X (Vec.x p)) (pulses Y (Vec.y p)) (pulses Z z)
   where
     pulses axis x =
       let Mm step = Machine.resolutionOf machine axis in Pulses (floor (x / step + 0.5))
 
--- | Height at a fraction of a move, by linear interpolation; the height of its end from 1 on.
+-- | Height in mm at the fraction @t@ of a move, by linear interpolation. For a @t@ of 1 or more it
+-- is the height of the move's end.
 heightAt :: Double -> Move -> Mm
 heightAt t m
   | t >= 1 = snd (heights m)
   | otherwise = plus (fst (heights m)) (times t (minus (snd (heights m)) (fst (heights m))))
 
--- | True for moves that all stay at one height, in whole pulses.
+-- | True for moves that all stay at one height when heights are rounded to whole pulses. Only such
+-- a run can have arcs.
 isLevel :: Machine -> NonEmpty Move -> Bool
 isLevel machine ms =
   isFlat ms || all (\m -> isSameLevel (fst (heights m)) && isSameLevel (snd (heights m))) ms
@@ -49,7 +52,8 @@ isLevel machine ms =
     isSameLevel z = level z == level (fst (heights (NonEmpty.head ms)))
     level z = component Z (rounded machine (Vec.point 0 0, z))
 
--- | True for moves that all stay at one height exactly, as most do.
+-- | True for moves that all stay at one height exactly. Most runs do, so 'isLevel' tries this quick
+-- test first.
 isFlat :: NonEmpty Move -> Bool
 isFlat (m :| more) = case heights m of
   (Mm first, Mm final) -> first == final && go first more
@@ -59,10 +63,10 @@ isFlat (m :| more) = case heights m of
       n : others -> case heights n of
         (Mm a, Mm b) -> a == z && b == z && go z others
 
--- | Ends of the frames for a straight move, given by its start in pulses and its exact ends. The
--- move is divided into the fewest equal parts whose increments fit their fields, and each end is
--- rounded by itself. A field for absolute positions takes a move of any length, so the move is not
--- divided.
+-- | Ends, in pulses, of the frames for a straight move from @begin@, its rounded start. The pair
+-- has the exact start and end of the move. The move is divided into the fewest equal parts whose
+-- increments fit their fields, and each end is rounded by itself. A field for absolute positions
+-- takes a move of any length, so there the move is not divided.
 split :: Machine -> Pulses3 -> (PathPosition, PathPosition) -> [Pulses3]
 split machine begin ((a, za), (b, zb)) = case Machine.measure (Machine.layout machine) of
   Positions -> [finish]
@@ -70,7 +74,7 @@ split machine begin ((a, za), (b, zb)) = case Machine.measure (Machine.layout ma
   where
     finish = rounded machine (b, zb)
     fewest = maximum (1 : [partCount axis d | (axis, d) <- axes (finish - begin)])
-    -- An axis without a field, of capacity 0, is reported by "Frame.FrameCheck".
+    -- An axis without a field has the capacity 0. "Frame.FrameCheck" reports it.
     partCount axis (Pulses d) =
       let Pulses c = Machine.capacity machine axis
        in if d == 0 || c == 0 then 1 else (abs d + c - 1) `div` c
@@ -91,12 +95,12 @@ split machine begin ((a, za), (b, zb)) = case Machine.measure (Machine.layout ma
       x : _ -> x
       [] -> [finish]
 
--- | Number of part counts that 'split' tries beyond the smallest one. Rounding makes a part at most
--- one pulse longer, so this is always enough for an axis with two digits or more.
+-- | Number of larger part counts that 'split' tries after the smallest one. Rounding makes a part
+-- at most one pulse longer, so this is always enough for an axis with two digits or more.
 spareParts :: Int
 spareParts = 1000
 
--- | Component of a position along an axis, in pulses.
+-- | Component of a position along the given axis, in pulses.
 component :: Axis -> Pulses3 -> Pulses
 component axis (Pulses3 x y z) = case axis of
   X -> x

@@ -1,15 +1,18 @@
 {-# OPTIONS_GHC -O2 #-}
 
--- | Planar arrangement of closed polyarcs: they are cut at all their self-intersections, and
--- every edge gets the winding numbers on its left and on its right.
+-- | Planar arrangement of closed polyarcs: they are cut at all their self-intersections, and every
+-- edge gets the winding numbers on its left and on its right.
 --
 -- This module handles polyarcs whose segments coincide, touch or intersect at vertices. Points that
 -- agree within a tolerance become one node. Segments between the same two nodes with the same
 -- sagitta become one edge with a multiplicity. Every edge has two half-edges, one leaving each of
 -- its nodes. The half-edges at each node are sorted by angle, and the winding numbers are
 -- propagated from edge to edge (de Berg et al., "Computational Geometry", chapter 8). 'arrange'
--- refuses an arrangement whose winding numbers contradict each other at a node: then the
--- half-edges are in the wrong order.
+-- refuses an arrangement whose winding numbers contradict each other at a node: then the half-edges
+-- are in the wrong order.
+--
+-- Nodes, edges and segments are given by number from 0. The two half-edges of edge @e@ have the
+-- numbers @2e@ and @2e + 1@. Coordinates are in mm, tolerances too.
 module Offset.Arrangement
   ( Arrangement,
     arrange,
@@ -45,21 +48,22 @@ import Offset.WindingNumber qualified as WindingNumber
 
 -- | A directed edge between two nodes.
 data Edge = Edge
-  { -- | the node at which it begins
+  { -- | the node at which the edge begins
     from :: Int,
-    -- | the node at which it ends
+    -- | the node at which the edge ends
     to :: Int,
-    -- | the number of its segments in this direction less those in the opposite direction
+    -- | the multiplicity: the number of its segments in this direction less the number of those in
+    -- the opposite direction
     times :: Int,
     -- | @tan(sweep/4)@, 0 for a line
     bulge :: Double,
-    -- | the number of the first segment of the polyarcs that runs along it in this direction
+    -- | the number of the first segment of the polyarcs that runs along the edge in this direction
     segment :: Int
   }
 
--- | An arrangement. Nodes and edges are numbered from 0.
+-- | An arrangement of closed polyarcs. Nodes and edges are numbered from 0.
 data Arrangement = Arrangement
-  { -- | the polyarcs
+  { -- | the polyarcs of which the arrangement was made
     chain :: ClosedPolyarcs,
     -- | x and y of the nodes, in mm
     nodes :: Vector (Double, Double),
@@ -67,7 +71,7 @@ data Arrangement = Arrangement
     vertexNodes :: PrimArray Int,
     edges :: Vector Edge,
     -- | the half-edges that leave each node, counter-clockwise; half-edge @2e@ leaves the node at
-    -- which edge @e@ begins, @2e + 1@ the one at which it ends
+    -- which edge @e@ begins, and @2e + 1@ leaves the node at which edge @e@ ends
     rings :: IntMap (Vector Int),
     -- | the winding number on the left of every edge
     lefts :: IntMap Int,
@@ -75,10 +79,9 @@ data Arrangement = Arrangement
     proper :: [(Int, Int)]
   }
 
--- | Builds the arrangement of polyarcs, given the tolerance (mm) and the segments' bounding-box
--- tree, whose boxes are inflated by at least the tolerance. Points whose coordinates differ by at
--- most four tolerances become one node. The result is Nothing when the winding numbers contradict
--- each other.
+-- | Builds the arrangement of the polyarcs @c@. @boxes@ is the bounding-box tree of their segments,
+-- inflated by at least the tolerance (mm). Points whose coordinates differ by at most four
+-- tolerances become one node. The result is Nothing when the winding numbers contradict each other.
 arrange :: Double -> ClosedPolyarcs -> SegmentBoxTree -> Maybe Arrangement
 arrange tolerance c boxes
   | isConsistent arrangement = Just arrangement
@@ -107,9 +110,9 @@ arrange tolerance c boxes
           proper = pairs
         }
 
--- | The cuts, each with the number of the segment and the point, and the pairs of segments that
--- cross between their ends. Arcs are also cut at their leftmost points, so that the leftmost point
--- of every connected component is a node.
+-- | The points at which segments are cut, and the pairs of segments that cross between their ends.
+-- Each cut has the number of the segment, and x and y of the point in mm. Arcs are also cut at
+-- their leftmost points, so that the leftmost point of every connected component is a node.
 intersections ::
   Double ->
   ClosedPolyarcs ->
@@ -150,8 +153,8 @@ intersections tolerance c boxes = runST $ do
       where
         b = indexPrimArray (ClosedPolyarcs.bulges c) i
 
--- | The coordinates of the nodes, the node of every vertex, and for each segment the nodes of its
--- cuts, in no order.
+-- | The coordinates of the nodes, the node of every vertex, and the nodes of each segment's @cuts@,
+-- which are in no order. The cuts are those of 'intersections'.
 nodesOf ::
   Double ->
   ClosedPolyarcs ->
@@ -170,7 +173,8 @@ nodesOf tolerance c cuts =
       ]
         <> [(x, y, n + k) | (k, (_, x, y)) <- zip [0 ..] cuts]
     clusters = concatMap (clustered snd3 . sortOn snd3) (clustered fst3 (sortOn fst3 points))
-    -- Divides sorted points where a coordinate grows by more than four tolerances.
+    -- Divides sorted points into clusters where the coordinate @f@ grows by more than four
+    -- tolerances.
     clustered f ps = case ps of
       [] -> []
       p : rest -> let (same, others) = grab f (f p) rest in (p : same) : clustered f others
@@ -192,14 +196,15 @@ nodesOf tolerance c cuts =
         (concat [map (\p -> (number p, k)) ps | (k, ps) <- zip [0 ..] clusters])
     own = clonePrimArray ids 0 n
 
--- | An array of the given size, filled at the given indices.
+-- | An array of size @n@, filled with pairs of index and value.
 runPrimArray' :: Int -> [(Int, Int)] -> PrimArray Int
 runPrimArray' n filled = runPrimArray $ do
   a <- newPrimArray n
   mapM_ (uncurry (writePrimArray a)) filled
   pure a
 
--- | The segments cut at their nodes, each as first node, last node, segment number, bulge.
+-- | The segments cut at their nodes. Each slice has the numbers of its first node, its last node
+-- and its segment, and its bulge.
 slices ::
   ClosedPolyarcs ->
   Vector (Double, Double) ->
@@ -247,8 +252,8 @@ slices c coordinates nodeOf cutNodes =
             (coordinates Vector.! p, coordinates Vector.! q)
        in ClosedPolyarcs.partialBulge c i x y x' y'
 
--- | The position of a node along the chord of segment @i@, multiplied by the
--- chord's length (mm²).
+-- | The position of a node along the chord of segment @i@, in mm from the chord's start, multiplied
+-- by the chord's length in mm. Nodes on one segment are sorted by it.
 alongChord :: ClosedPolyarcs -> Vector (Double, Double) -> Int -> Int -> Double
 alongChord c coordinates i node =
   ClosedPolyarcs.chord c i $ \dx dy ->
@@ -256,8 +261,8 @@ alongChord c coordinates i node =
      in (x - indexPrimArray (ClosedPolyarcs.xs c) i) * dx
           + (y - indexPrimArray (ClosedPolyarcs.ys c) i) * dy
 
--- | Merges slices between the same nodes with the same sagitta into one edge. When as many slices
--- run forwards as backwards, they cancel and give no edge.
+-- | Merges slices between the same nodes with the same sagitta into one edge. The slices are those
+-- of 'slices'. When as many slices run forwards as backwards, they cancel and give no edge.
 merged :: Double -> Vector (Double, Double) -> [(Int, Int, Int, Double)] -> [Edge]
 merged tolerance coordinates cut =
   concatMap
@@ -294,22 +299,22 @@ merged tolerance coordinates cut =
         second (_, i, _) = i
         net = sum [if forth then 1 else -1 | (forth, _, _) <- list] :: Int
 
--- | A half-edge at its node.
+-- | A half-edge at the node that it leaves.
 data Leaving = Leaving
   { halfEdge :: Int,
-    -- | the direction in which it leaves, as an angle in radians
+    -- | the direction in which the half-edge leaves the node, as an angle in radians
     angle :: Double,
-    -- | the direction in which it leaves, of length 1
+    -- | the direction in which the half-edge leaves the node, as a vector of length 1
     directionX, directionY :: Double,
-    -- | the length of its chord in mm
+    -- | the length of the half-edge's chord in mm
     chordLength :: Double,
-    -- | in 1/mm, positive to the left
+    -- | the half-edge's curvature in 1/mm, positive to the left
     curvature :: Double
   }
 
--- | The half-edges of a node, sorted counter-clockwise. The order begins after the widest angle
--- between two neighbours. At the leftmost node of a component this is the angle that contains the
--- direction to the left.
+-- | The half-edges of a node, given and returned by number, sorted counter-clockwise. The order
+-- begins after the widest angle between two neighbours. At the leftmost node of a component this is
+-- the angle that contains the direction to the left.
 ring :: Vector (Double, Double) -> Vector Edge -> [Int] -> [Int]
 ring coordinates es halves = case halves of
   [_] -> halves
@@ -339,7 +344,7 @@ ring coordinates es halves = case halves of
     angleFrom from' a =
       let t = a - from' in t - 2 * pi * fromIntegral (floor (t / (2 * pi)) :: Int)
 
--- | A half-edge, given by its number, at its node.
+-- | Half-edge number @h@ with its direction, length and curvature.
 leaving :: Vector (Double, Double) -> Vector Edge -> Int -> Leaving
 leaving coordinates es h =
   Leaving
@@ -364,8 +369,9 @@ leaving coordinates es h =
     directionX = ux * co + uy * si
     directionY = uy * co - ux * si
 
--- | The order of half-edges by their angles. Half-edges with nearly equal directions are compared a
--- short distance from the node: the one further to the left comes later.
+-- | The order of half-edges by their angles, counter-clockwise. Rounding can exchange two
+-- directions that are nearly equal. Such half-edges are compared a short distance from the node:
+-- the one further to the left comes later.
 counterClockwise :: Leaving -> Leaving -> Ordering
 counterClockwise first second
   | abs (angle first - angle second) > tie = compare (angle first) (angle second)
@@ -375,12 +381,13 @@ counterClockwise first second
     lean = asin (max (-1) (min 1 cross))
     cross = directionX first * directionY second - directionY first * directionX second
 
--- | The order of directions that differ by less than this angle (radians) may be wrong by rounding.
+-- | The difference of two directions (radians) below which rounding may exchange them.
 tie :: Double
 tie = 1e-3
 
 -- | The winding number on the left of every edge. It is propagated over each connected component
--- from its leftmost node, on whose left is the outside of the component.
+-- from the component's leftmost node, on whose left is the outside of the component. @ordered@ has
+-- the sorted half-edges of each node.
 propagated :: Vector (Double, Double) -> Vector Edge -> IntMap (Vector Int) -> IntMap Int
 propagated coordinates es ordered =
   foldl'
@@ -396,8 +403,8 @@ propagated coordinates es ordered =
       _ -> known
     outside = outsideNumber coordinates es (componentsOf es ordered)
 
--- | The winding number, at a node, of all components other than the node's own. Apply the first
--- three arguments once, and the result to many nodes.
+-- | The winding number, at a node, of all components other than the node's own. @components@ has
+-- the component of every node. Apply the first three arguments once, and the result to many nodes.
 outsideNumber :: Vector (Double, Double) -> Vector Edge -> IntMap Int -> Int -> Int
 outsideNumber coordinates es components =
   \k ->
@@ -418,9 +425,9 @@ outsideNumber coordinates es components =
         ]
     tree = SegmentBoxTree.build 0 edgePolyarcs
 
--- | Adds the winding number on the left of every edge that is connected with some half-edges. Each
--- half-edge is given with the winding number on its right as it leaves its node. Known edges are
--- not visited again.
+-- | Adds to @known@ the winding number on the left of every edge that is connected with the
+-- half-edges @todo@. Each of these comes with the winding number on its right as it leaves its
+-- node. Known edges are not visited again.
 spread :: Vector Edge -> IntMap (Vector Int) -> IntMap Int -> [(Int, Int)] -> IntMap Int
 spread es ordered known todo = case todo of
   [] -> known
@@ -440,8 +447,9 @@ spread es ordered known todo = case todo of
       edge = es Vector.! e
       left = if even h then right + times edge else right
   where
-    -- The other half-edges of a node, from half-edge @h@ on counter-clockwise. The winding number
-    -- on the left of each is the one on the right of the next.
+    -- The other half-edges of node @k@, counter-clockwise from half-edge @h@ on, each with the
+    -- winding number on its right. @leftward@ is the winding number on the left of @h@. The winding
+    -- number on the left of each is the one on the right of the next.
     othersAround k h leftward = case ordered IntMap.!? k of
       Nothing -> []
       Just halves ->
@@ -455,7 +463,7 @@ spread es ordered known todo = case todo of
     go right (h : more) = (h, right) : go (right + gain h) more
     gain h = let m = times (es Vector.! (h `div` 2)) in if even h then m else -m
 
--- | The connected component of every node: the least number of its nodes.
+-- | The connected component of every node, named by the least number of the component's nodes.
 componentsOf :: Vector Edge -> IntMap (Vector Int) -> IntMap Int
 componentsOf es ordered =
   foldl'
@@ -474,7 +482,8 @@ componentsOf es ordered =
             (maybe [] (map other . Vector.toList) (IntMap.lookup k ordered) <> rest)
     other h = let e = es Vector.! (h `div` 2) in if even h then to e else from e
 
--- | True when the winding numbers agree in every sector of every node.
+-- | True when the winding numbers agree in every sector of every node: the number on the left of
+-- each half-edge is that on the right of the next one.
 isConsistent :: Arrangement -> Bool
 isConsistent a =
   all
@@ -488,7 +497,7 @@ isConsistent a =
   where
     fits h h' = fst (sides a h) == snd (sides a h')
 
--- | The winding numbers on the left and on the right of a half-edge as it leaves its node.
+-- | The winding numbers on the left and on the right of half-edge @h@ as it leaves its node.
 sides :: Arrangement -> Int -> (Int, Int)
 sides a h = if even h then (left, left - m) else (left - m, left)
   where
@@ -503,9 +512,10 @@ windingNumbers a =
     (0, 0)
     (concat [[l, r] | e <- [0 .. Vector.length (edges a) - 1], let (l, r) = sides a (2 * e)])
 
--- | Two segments that intersect, given the least and the largest allowed winding number. Prefers a
--- pair that crosses between its ends. Otherwise the first segment has a winding number out of
--- bounds on one side, and the second one, not a neighbour, meets it at a node.
+-- | The numbers of two segments that intersect. The caller reports them as the reason why a winding
+-- number is below @low@ or above @high@. Pairs that cross between their ends have priority.
+-- Otherwise the first segment has such a winding number on one side. The second one meets it at a
+-- node, and is not its neighbour.
 intersectingSegments :: (Int, Int) -> Arrangement -> Maybe (Int, Int)
 intersectingSegments (low, high) a =
   listToMaybe
@@ -522,9 +532,9 @@ intersectingSegments (low, high) a =
            ]
     )
 
--- | The loops that bound the reachable faces. Their edges are, for the sense counter-clockwise,
--- those with the wanted winding number on their left; for the sense clockwise, those with the
--- wanted number less one on their right. The result is Nothing when a loop does not close.
+-- | The loops that bound the reachable faces. For the sense counter-clockwise, their edges are
+-- those with the winding number @wanted@ on their left. For the sense clockwise, their edges are
+-- those with @wanted − 1@ on their right. The result is Nothing when a loop does not close.
 loops :: Sense -> Int -> Arrangement -> Maybe OffsetLoops
 loops sense wanted a =
   toLoops . map vertices
@@ -548,7 +558,8 @@ loops sense wanted a =
           (more, rest') <- follow first e' (IntSet.delete e' rest)
           Just (e : more, rest')
       _ -> Nothing
-    -- The next edge of the reachable face: the neighbour of edge e at the node where e ends.
+    -- The edge after edge @e@ on the boundary of the reachable face: the neighbour of @e@ at the
+    -- node where @e@ ends. Nothing when this neighbour is not kept.
     next e = do
       halves <- IntMap.lookup (to (edges a Vector.! e)) (rings a)
       k <- Vector.elemIndex (2 * e + 1) halves
@@ -564,7 +575,8 @@ loops sense wanted a =
       (front, rest) | not (null rest) -> rest <> front
       _ -> loop
 
--- | Loops as flat arrays, from their vertices: x, y, bulge, number of the segment.
+-- | Loops as flat arrays. Each vertex has x, y, the bulge of the segment that starts there, and the
+-- number of the raw segment from which that segment was cut.
 toLoops :: [[(Double, Double, Double, Int)]] -> OffsetLoops
 toLoops made =
   OffsetLoops
@@ -576,8 +588,7 @@ toLoops made =
   where
     listed f = primArrayFromList (map f (concat made))
 
--- | Consecutive edges of one segment as one vertex of a loop: x and y of its start, its bulge, and
--- the number of the segment.
+-- | Consecutive edges of one segment as one vertex of a loop, in the form that 'toLoops' takes.
 loopVertex :: Arrangement -> NonEmpty.NonEmpty Int -> (Double, Double, Double, Int)
 loopVertex a run = (x, y, joined, i)
   where
@@ -586,7 +597,7 @@ loopVertex a run = (x, y, joined, i)
     (x, y) = nodes a Vector.! from e
     (x', y') = nodes a Vector.! to e'
     i = segment e
-    -- True when the edges are the whole segment. It keeps its bulge.
+    -- True when the edges are the whole segment, which then keeps its bulge.
     isEntire =
       indexPrimArray (vertexNodes a) i == from e
         && indexPrimArray (vertexNodes a) (i + 1) == to e'

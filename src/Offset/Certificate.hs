@@ -1,10 +1,12 @@
 {-# OPTIONS_GHC -O2 #-}
 
 -- | Independent check of the offset kernel: one point of every loop keeps the requested distance
--- from the source, that is, the contours that were offset.
+-- from the source. The source is the contours that were offset. The point is the midpoint of the
+-- loop's first segment.
 --
 -- The check uses the source and the finished loops only. It does not depend on the algorithm that
--- made the loops (McConnell et al., "Certifying algorithms").
+-- made the loops (McConnell et al., "Certifying algorithms"). Loops and segments are given by
+-- number from 0; coordinates and distances are in mm.
 module Offset.Certificate
   ( Clearance (..),
     isClear,
@@ -21,31 +23,30 @@ import Geometry.Index.SegmentBoxTree qualified as SegmentBoxTree
 import Offset.Loop (OffsetLoops)
 import Offset.Loop qualified as Loop
 
--- | The requirement on the cutter's centre. Distances are in mm.
+-- | The distances that the cutter's centre has to keep. All are in mm.
 data Clearance = Clearance
-  { -- | permitted error
+  { -- | error by which a distance may be too small
     slack :: Double,
-    -- | distance required from every segment of the source; also the smallest one that 'distance'
-    -- gives
+    -- | distance required from every segment of the source; no result of 'distance' is smaller
     leastDistance :: Double,
-    -- | largest distance that 'distance' gives
+    -- | the largest result of 'distance'
     largestDistance :: Double,
-    -- | distance required from a segment, by its number, of points on the cutter's side of it whose
-    -- nearest point of the segment is not an end
+    -- | distance required from the segment with the given number. It is required only of a point on
+    -- the cutter's side whose nearest point on the segment is not an end
     distance :: Int -> Double,
-    -- | sense of an outer contour around the cutter: counter-clockwise when the cutter is on the
-    -- left of the source
+    -- | sense of a contour around the cutter: counter-clockwise when the cutter is on the left of
+    -- the source
     sense :: Sense
   }
 
--- | True when the midpoint of a loop's first segment keeps the required distance from every
--- segment of the source. The arguments are the source with its bounding-box tree, and the loops
--- with the number of one of them.
+-- | True when the midpoint of the first segment of loop @k@ keeps the required distance from every
+-- segment of the source. @boxes@ is the bounding-box tree of the source.
 isClear :: Clearance -> ClosedPolyarcs -> SegmentBoxTree -> OffsetLoops -> Int -> Bool
 isClear measure source boxes l k = uncurry (isFarFrom measure source boxes) (witness l k)
 
--- | True when a cutter whose centre is at the midpoint of the loop's first segment reaches every
--- segment of the source.
+-- | True when a cutter whose centre is at the midpoint of the first segment of loop @k@ reaches
+-- every segment of the source. The kernel discards a loop of which this is true when 'isClear' is
+-- False for it.
 coversSource :: Clearance -> ClosedPolyarcs -> OffsetLoops -> Int -> Bool
 coversSource measure source l k =
   and
@@ -60,12 +61,12 @@ coversSource measure source l k =
   where
     (x, y) = witness l k
 
--- | The distance of a segment of the source, in mm.
+-- | The distance in mm that 'distance' requires from segment @i@ of the source.
 required :: Clearance -> ClosedPolyarcs -> Int -> Double
 required measure source i =
   distance measure (fromIntegral (indexPrimArray (ClosedPolyarcs.sources source) i))
 
--- | The midpoint of a loop's first segment.
+-- | The midpoint, x and y in mm, of the first segment of loop @k@.
 witness :: OffsetLoops -> Int -> (Double, Double)
 witness l k = (x0 + 0.5 * (dx + b * dy), y0 + 0.5 * (dy - b * dx))
   where
@@ -75,7 +76,7 @@ witness l k = (x0 + 0.5 * (dx + b * dy), y0 + 0.5 * (dy - b * dx))
     (dx, dy) = (indexPrimArray (Loop.xs l) j - x0, indexPrimArray (Loop.ys l) j - y0)
     b = indexPrimArray (Loop.bulges l) i
 
--- | True when a point keeps the required distance from every segment.
+-- | True when the point (@x@, @y@) keeps the required distance from every segment of the source.
 isFarFrom :: Clearance -> ClosedPolyarcs -> SegmentBoxTree -> Double -> Double -> Bool
 isFarFrom measure source boxes x y =
   SegmentBoxTree.around boxes (x - widest) (y - widest) (x + widest) (y + widest) True $ \isFar i ->
@@ -99,7 +100,8 @@ isFarFrom measure source boxes x y =
       CounterClockwise -> isLeftOf source i x y
       Clockwise -> not (isLeftOf source i x y)
 
--- | True when a point lies on the left of a line, or on the left of an arc's circle.
+-- | True when the point (@x@, @y@) lies on the left of segment @i@: on the left of a line, inside
+-- the circle of a counter-clockwise arc, or outside the circle of a clockwise one.
 isLeftOf :: ClosedPolyarcs -> Int -> Double -> Double -> Bool
 isLeftOf c i x y
   | b == 0 =
@@ -111,9 +113,10 @@ isLeftOf c i x y
   where
     b = indexPrimArray (ClosedPolyarcs.bulges c) i
 
--- | The distance (mm) of a point from a segment, passed to a continuation together with the
--- distance (mm) of the nearest point from the nearer end of the segment. The second number is zero
--- or negative when the nearest point is an end.
+-- | Passes two lengths in mm to the continuation @k@. The first one is the distance of the point
+-- (@x@, @y@) from segment @i@. The second one says how far the point of the segment that is nearest
+-- to (@x@, @y@) lies from the nearer end of the segment; it is zero or negative when that nearest
+-- point is an end.
 fromPoint :: ClosedPolyarcs -> Int -> Double -> Double -> (Double -> Double -> r) -> r
 fromPoint c i x y k
   | b == 0 = ClosedPolyarcs.chord c i $ \ux uy ->
@@ -139,7 +142,7 @@ fromPoint c i x y k
     (gx, gy) = ClosedPolyarcs.gradient c i x y (,)
     (px, py) = ClosedPolyarcs.gradient c i x0 y0 (,)
     (qx, qy) = ClosedPolyarcs.gradient c i x1 y1 (,)
-    -- The smaller one of the nearest point's signed distances from the radii to both ends.
+    -- The nearest point's signed distances from the radii to both ends of the arc: the smaller one.
     inSector =
       0.5
         * min (signum b * (px * gy - py * gx)) (signum b * (gx * qy - gy * qx))

@@ -61,12 +61,13 @@ import Offset.Tolerance qualified as Tolerance
 import Offset.TrimmedOffset (TrimmedOffset (TrimmedOffset))
 import Offset.TrimmedOffset qualified as TrimmedOffset
 
--- | The equidistant for a cutter's radius, which is not negative, with arcs about outer corners.
--- Its segments are in the order of the contour.
+-- | The equidistant for a cutter's radius in mm, which is not negative, with arcs about outer
+-- corners. Its segments are in the order of the contour.
 equidistant :: Side -> Mm -> Polyarc -> Either Obstacle (NonEmpty OffsetSegment)
 equidistant = styled CornerStyle {sharp = False, extra = const (Mm 0)}
 
--- | The equidistant with a style of corners and extra distances.
+-- | The equidistant for a cutter's radius in mm, with a style of corners and extra distances from
+-- single elements.
 styled :: CornerStyle -> Side -> Mm -> Polyarc -> Either Obstacle (NonEmpty OffsetSegment)
 styled style side radius contour = case attempt source of
   Right path -> Right path
@@ -74,7 +75,8 @@ styled style side radius contour = case attempt source of
   where
     source = SourceOffset.fromContour style side radius contour
 
--- | The equidistant, or the first reason why the cutter does not fit.
+-- | The equidistant, or the first reason why the cutter does not fit. Reasons at single elements
+-- and corners come before collisions.
 attempt :: OffsetSource -> Either Cause (NonEmpty OffsetSegment)
 attempt source = case Obstacle.localCauses source of
   cause : _ -> Left cause
@@ -88,12 +90,13 @@ attempt source = case Obstacle.localCauses source of
       Left (Obstacle.collision source (connected source (TrimmedOffset.untrimmed source)))
   where
     -- In a slot as wide as the cutter the centre can move along a line, and the kernel finds no
-    -- region. It does for a slightly smaller cutter.
+    -- region. The kernel does find one for a slightly smaller cutter.
     smaller = source {radius = minus (radius source) Tolerance.clearance}
     fitting = if radius smaller > Mm 0 then TrimmedOffset.whole smaller source else Nothing
 
--- | The crevices beside a path: cusps of the contour that the cutter cannot enter. The path goes on
--- from the element before such a cusp to the one after it, without an arc about the vertex.
+-- | The crevices beside a path, as reasons why the cutter does not fit. A crevice is a cusp of the
+-- contour that the cutter cannot enter. The path goes directly from the element before such a cusp
+-- to the element after it, without an arc about the vertex.
 crevices :: OffsetSource -> [OffsetSegment] -> [Cause]
 crevices source path
   -- The path of a contour without cusps is not examined here, so it is never in memory as a whole.
@@ -108,8 +111,8 @@ crevices source path
   where
     around = if SourceOffset.ends source == Closed then take 1 path else []
 
--- | The path of a cutter with radius 0: the elements at their extra distances, joined by straight
--- lines where the distance changes.
+-- | The path of a cutter with radius 0: the elements at their extra distances. Straight lines join
+-- the elements where the distance changes.
 pointed :: OffsetSource -> [OffsetSegment]
 pointed source = concatMap along [0 .. elementCount source - 1]
   where
@@ -121,9 +124,9 @@ pointed source = concatMap along [0 .. elementCount source - 1]
     cutsAfter i =
       SourceOffset.cutsAt source i (movedElement source i) (movedElement source (next source i))
 
--- | The path without segments of no length, and with exact joints. A cutter that just fits into an
--- arc does not move there, so the segment is left out. Beside a contour of such arcs alone the
--- path is one segment of no length.
+-- | The path without segments of length 0, and with exact joints. A cutter that just fits into an
+-- arc does not move there, so the segment is left out. Beside a contour of such arcs alone the path
+-- is one segment of length 0.
 connected :: OffsetSource -> [OffsetSegment] -> NonEmpty OffsetSegment
 connected source =
   maybe
@@ -132,8 +135,9 @@ connected source =
     . NonEmpty.nonEmpty
     . filter ((> Tolerance.coincident) . Segment.length . segment)
 
--- | The largest cutter radius, below the requested one, that fits everywhere. Nothing when not even
--- a tiny cutter fits. Found by bisection: every cutter smaller than a fitting one fits too.
+-- | The largest cutter radius in mm, below the requested one, that fits everywhere. Nothing when
+-- not even a tiny cutter fits. The radius is found by bisection, since every cutter smaller than a
+-- fitting one fits too.
 largestFitting :: OffsetSource -> Maybe Mm
 largestFitting source
   | fits smallest = Just (largestOf fits smallest (radius source))
@@ -144,25 +148,27 @@ largestFitting source
       Right _ -> True
       Left _ -> False
 
--- | The largest radius that fits, between one that fits and one that does not.
+-- | The largest radius for which @fits@ is True. @fits@ is True for the radius @low@ and False for
+-- @high@.
 largestOf :: (Mm -> Bool) -> Mm -> Mm -> Mm
 largestOf fits low high = fst (BinarySearch.bisect Tolerance.resolution fits low high)
 
 -- Reachable paths ---------------------------------------------------------------------------------
 
--- | A part of the contour that the cutter does not reach.
+-- | A part of the contour that the cutter does not reach, because an obstacle stops the cutter
+-- there.
 data UnreachedPart = UnreachedPart
-  { -- | why the cutter does not reach it, and the largest cutter that passes
+  { -- | the obstacle, with the radius of the largest cutter that it does not stop
     stop :: Obstacle,
-    -- | where the cutter's centre is when it is stopped
+    -- | the position of the cutter's centre when the obstacle stops the cutter
     cutterCentre :: Point,
-    -- | the material that remains there
+    -- | the material that remains at this part of the contour
     restMaterial :: RestMaterial
   }
   deriving stock (Eq, Show)
 
 -- | The paths that the cutter's centre can take beside a contour, in the contour's order, and the
--- parts of the contour that they leave out. The radius is positive.
+-- parts of the contour that these paths leave out. The radius in mm is positive.
 reachable :: CornerStyle -> Side -> Mm -> Polyarc -> ([TrimmedOffset], [UnreachedPart])
 reachable style side radius contour =
   ( if sharp style then map (sharpened asked) paths else paths,
@@ -183,8 +189,8 @@ reachable style side radius contour =
           restMaterial = IntMap.findWithDefault Unbounded k material
         }
 
--- | A path with sharp corners in place of round ones. A corner stays round when its arc is trimmed,
--- or when the cutter on the two lines would cut another element.
+-- | A path with sharp corners in place of round ones. A corner stays round in two cases: its arc is
+-- trimmed, or the cutter on the two lines of the sharp corner would cut another element.
 sharpened :: OffsetSource -> TrimmedOffset -> TrimmedOffset
 sharpened source =
   \path -> path {TrimmedOffset.pieces = corner =<< TrimmedOffset.pieces path}
@@ -201,9 +207,10 @@ sharpened source =
           a :| [b]
       _ -> p :| []
 
--- | The reachable paths of a cutter that also enters slots exactly as wide as itself. In such a
--- slot its centre can only move along a line, and the kernel finds no region. When there are such
--- slots, the paths are those of a cutter whose radius is smaller by 'Tolerance.clearance'.
+-- | The reachable paths, and the parts of the contour that they leave out, of a cutter that also
+-- enters slots exactly as wide as itself. In such a slot its centre can only move along a line, and
+-- the kernel finds no region. When there are such slots, the paths are those of a cutter whose
+-- radius is smaller by 'Tolerance.clearance'.
 reachableFitting :: CornerStyle -> Side -> Mm -> Polyarc -> ([TrimmedOffset], [UnreachedPart])
 reachableFitting style side radius contour
   | less > Mm 0 && minus (lengthOf smaller) (lengthOf own) > Tolerance.ignoredSlot = smaller
@@ -220,8 +227,9 @@ reachableFitting style side radius contour
 -- touches there.
 data Gap = Gap {reason :: Cause, touching :: Touching}
 
--- | The gaps of paths. At a gap a path goes on from one element to another one that does not follow
--- it on the contour, or it begins or ends elsewhere than the contour.
+-- | The gaps of paths. A gap is where a path continues from one element of the contour to another
+-- one that does not follow it. A path that begins or ends elsewhere than the contour has a gap
+-- there, too.
 gapsOf :: OffsetSource -> [TrimmedOffset] -> [Gap]
 gapsOf source = concatMap gapsAlong
   where
@@ -243,7 +251,7 @@ gapsOf source = concatMap gapsAlong
         (front, back) = (Segment.start (segment first), Segment.end (segment final))
     stopped o o' p = Gap (Collision (numberOf o) (numberOf o') p) (Touching o o' p)
 
--- | The gap between two consecutive segments of a path, if there is one.
+-- | The gap between the consecutive segments @p@ and @q@ of a path; empty if there is none.
 gapBetween :: OffsetSource -> OffsetSegment -> OffsetSegment -> [Gap]
 gapBetween source p q =
   [Gap c (Touching (origin p) (origin q) (Segment.end (segment p))) | c <- inTheWay]
@@ -275,8 +283,9 @@ gapBetween source p q =
           Rad smooth = Tolerance.smoothAngle
        in abs turned > smooth
 
--- | True when all elements with these numbers are arcs about the point, with the cutter's radius,
--- and there is at least one. The cutter cuts them while its centre does not move.
+-- | True when the cutter cuts the elements @numbers@ while its centre stays at the point @p@, so
+-- that their absence from a path is no gap. Such elements are arcs about @p@ with the cutter's
+-- radius. False for no elements.
 isSpent :: OffsetSource -> Point -> [Int] -> Bool
 isSpent source p numbers = not (null numbers) && all standsStill numbers
   where
@@ -286,8 +295,8 @@ isSpent source p numbers = not (null numbers) && all standsStill numbers
          in Mm (abs d) <= Tolerance.clearance && Vec.distance p centre <= Tolerance.clearance
       Straight _ _ -> False
 
--- | For each cause, by its number from 0, the largest cutter radius that it does not stop. All are
--- below the requested radius. Found by bisection.
+-- | The largest cutter radius in mm, below the requested one, that the cause with the given number
+-- from 0 does not stop. Nothing when it stops even a tiny cutter. The radius is found by bisection.
 largestPast :: OffsetSource -> [Cause] -> Int -> Maybe Mm
 largestPast source causes =
   \k -> if IntSet.member k passSmallest then Just (bisect k smallest asked everywhere) else Nothing
@@ -308,7 +317,8 @@ largestPast source causes =
               below = halvings low middling,
               above = halvings middling high
             }
-    -- The causes that do not stop a cutter of this radius, and whose elements it can reach.
+    -- The numbers of the causes that do not stop a cutter of this radius, and whose elements that
+    -- cutter can reach.
     passing r =
       IntSet.fromDistinctAscList
         [ k
@@ -325,19 +335,20 @@ largestPast source causes =
         on =
           IntSet.fromList
             [numberOf (origin p) | w <- found, p <- NonEmpty.toList (TrimmedOffset.pieces w)]
-    -- No cutter reaches into an inner corner, however small it is.
+    -- No cutter reaches into an inner corner, not even a tiny one.
     between c = case c of
       Concave i _ -> Just [i]
       Collision i j _ -> Just [min i j, max i j]
       InnerCorner {} -> Nothing
 
--- | A step of the bisection between two radii, as a lazy tree that all causes share: each radius is
--- examined at most once.
+-- | A step of the bisection between two radii, as a lazy tree that all causes share, so that each
+-- radius is examined at most once.
 data Halving = Halving
-  { -- | the radius in the middle
+  { -- | the middle of both radii, in mm
     middling :: Mm,
-    -- | the causes that do not stop a cutter of this radius
+    -- | the numbers of the causes that do not stop a cutter of this radius
     passed :: ~IntSet,
-    -- | the steps for the smaller and the larger half
+    -- | the next steps: between the smaller radius and the middle, and between the middle and the
+    -- larger radius
     below, above :: ~Halving
   }

@@ -51,24 +51,24 @@ import Offset.Trimming qualified as Trimming
 import Offset.WindingNumber (Outward (..))
 import Offset.WindingNumber qualified as WindingNumber
 
--- | A request for an offset.
+-- | A request for an offset: the side, the form of the corners, and the distances.
 data OffsetRequest = OffsetRequest
-  { -- | the cutter's side of every contour, as seen in its direction of travel
+  { -- | the cutter's side of every contour: left or right in the contour's direction of travel
     side :: Side,
     corners :: Corners,
-    -- | distance of the cutter's centre from the contours; not negative
+    -- | distance in mm of the cutter's centre from the contours; not negative
     distance :: Mm,
-    -- | additional distance from a segment, not negative, by the segment's number; segments are
-    -- numbered from 0 through all contours
+    -- | additional distance in mm from a segment, not negative, by the segment's number. Segments
+    -- are numbered from 0 through all contours. Nothing when there are no additional distances
     extra :: Maybe (Int -> Mm)
   }
 
--- | A request for one distance and round corners.
+-- | A request for the same distance (mm) from all segments, with round corners.
 roundOffset :: Side -> Mm -> OffsetRequest
 roundOffset side distance = OffsetRequest {side, corners = Round, distance, extra = Nothing}
 
--- | The loops that bound the region, and the raw offset from which they were cut. Both have the
--- contours' direction of travel.
+-- | The loops that bound the reachable region, and the raw offset from which they were cut. Both
+-- have the contours' direction of travel.
 data ReachableRegion = ReachableRegion {loops :: OffsetLoops, raw :: ClosedPolyarcs}
 
 -- | A reason why there is no offset.
@@ -82,8 +82,8 @@ data OffsetFault
     Uncertain
   deriving stock (Eq, Show)
 
--- | The region that the cutter's centre can reach. The contours are all closed, or there is a
--- single open one.
+-- | The region that the cutter's centre can reach, as the request describes it. The contours are
+-- all closed, or there is a single open one.
 offset :: OffsetRequest -> [FlatPolyarc] -> Either OffsetFault ReachableRegion
 offset request contours = do
   wanted <-
@@ -109,7 +109,7 @@ offset request contours = do
     raws@(_, source) = rawOf problem chain
     sourceBoxes = SegmentBoxTree.build (rounding problem) source
 
--- | The raw offset before trimming. Here a contour may intersect itself.
+-- | The raw offset before trimming. The contours may intersect themselves.
 rawOffset :: OffsetRequest -> [FlatPolyarc] -> ClosedPolyarcs
 rawOffset request contours = fst (rawOf problem chain)
   where
@@ -119,8 +119,9 @@ rawOffset request contours = fst (rawOf problem chain)
 isOpen :: [FlatPolyarc] -> Bool
 isOpen = any ((== Open) . FlatPolyarc.ends)
 
--- | The number of a segment in the given contours, by its number in the flat arrays. An open
--- contour is traversed forwards and then backwards there, so each of its segments has two numbers.
+-- | The number of a segment in the given contours, by its number in the flat arrays. The numbers
+-- differ only for an open contour: in the flat arrays it is traversed forwards and then backwards,
+-- so each of its segments has two numbers there.
 originalNumber :: [FlatPolyarc] -> Int -> Int
 originalNumber contours
   | isOpen contours = \i -> if i >= count then 2 * count - 1 - i else i
@@ -128,7 +129,7 @@ originalNumber contours
   where
     count = sum (map FlatPolyarc.size contours)
 
--- | The request in the form in which the kernel works on it, and the contours as flat arrays.
+-- | The parameters that the kernel derives from the request, and the contours as flat arrays.
 problemOf :: OffsetRequest -> [FlatPolyarc] -> (Problem, ClosedPolyarcs)
 problemOf request contours = (problem, chain)
   where
@@ -157,16 +158,15 @@ problemOf request contours = (problem, chain)
     -- At the distance 0 the raw offset is the contours themselves, with their smooth joints marked.
     unmoved c = let (_, marked) = raw c in (marked, marked)
 
--- | The additional distance of a segment in mm, by its number in the flat arrays. The second
--- argument gives its number in the given contours.
+-- | The additional distance in mm of segment @i@ of the flat arrays. @original@ is 'originalNumber'
+-- of the contours.
 additional :: OffsetRequest -> (Int -> Int) -> Int -> Double
 additional request original i = case extra request of
   Nothing -> 0
   Just f -> let Mm e = f (original i) in e
 
--- | The raw offset of contours in flat arrays, and the contours with their smooth joints marked.
--- The arguments are the request, the tolerance for rounding in mm, the numbers as in 'additional',
--- and the contours.
+-- | The raw offset of the contours @c@ in flat arrays, and @c@ itself with its smooth joints
+-- marked. @tolerance@ (mm) covers rounding; @original@ is 'originalNumber' of the contours.
 rawWith ::
   OffsetRequest ->
   Double ->
@@ -182,8 +182,8 @@ rawWith request tolerance original c = case extra request of
     rawAt uneven at corner =
       RawOffset.raw tolerance Tolerance.tangential (corners request) uneven at corner c
     {-# INLINE rawAt #-}
-    -- An additional distance moves an arc towards its centre by no more than its radius. Moved
-    -- further, it would leave its sector.
+    -- An additional distance moves an arc towards its centre by no more than the arc's radius.
+    -- Moved further, the arc would leave its sector.
     limited i
       | requestedDistance > d && signed * indexPrimArray (ClosedPolyarcs.bulges c) i < 0 =
         min requestedDistance (max d (0.5 * ClosedPolyarcs.diameter c i))
@@ -193,32 +193,34 @@ rawWith request tolerance original c = case extra request of
     requested i =
       d + additional request original (fromIntegral (indexPrimArray (ClosedPolyarcs.sources c) i))
 
--- | The parameters that all contours share. Distances are in mm.
+-- | The parameters that all contours of a request share. Distances are in mm.
 data Problem = Problem
   { -- | the sense in which the outer boundary of the reachable region is traversed
     sense :: Sense,
     -- | the tolerance for rounding, in mm
     rounding :: Double,
-    -- | the smallest distance of all segments
+    -- | the smallest distance that the cutter's centre keeps from any segment
     least :: Double,
-    -- | the largest distance of all segments
+    -- | the largest distance that the cutter's centre keeps from any segment
     widest :: Double,
-    -- | the distance of a segment, by its number in the flat arrays
+    -- | the distance that the cutter's centre keeps from a segment, by the segment's number in the
+    -- flat arrays
     distances :: Int -> Double,
     -- | the raw offset of contours, and the contours with their smooth joints marked
     rawOf :: ClosedPolyarcs -> (ClosedPolyarcs, ClosedPolyarcs)
   }
 
--- | The reachable region of contours, given the wanted winding number. Computes their raw offset
--- first.
+-- | The reachable region beside the contours @c@: the positions with the winding number @wanted@.
+-- Computes the raw offset of @c@ first.
 regionOfContours :: Problem -> Int -> ClosedPolyarcs -> Either OffsetFault ReachableRegion
 regionOfContours problem wanted c =
   let raws@(_, source) =
         rawOf problem c
    in regionOf problem wanted raws (SegmentBoxTree.build (rounding problem) source)
 
--- | The reachable region, given the wanted winding number, the raw offset with the contours from
--- which it was made, and the bounding-box tree of these contours.
+-- | The reachable region: the positions with the winding number @wanted@. @untrimmed@ is the raw
+-- offset, @source@ the contours from which it was made, and @sourceBoxes@ the bounding-box tree of
+-- these contours.
 regionOf ::
   Problem ->
   Int ->
@@ -266,24 +268,27 @@ regionOf problem wanted (untrimmed, source) sourceBoxes =
         isSound = Certificate.isClear measure source sourceBoxes found
         isCovering = Certificate.coversSource measure source found
 
--- | True for a tiny loop of few segments, which may be an artefact of rounding (tolerance in mm).
+-- | True for a tiny loop of few segments, which may be an artefact of rounding. @k@ is the number
+-- of the loop in @answer@; the tolerance is in mm.
 isArtefact :: Double -> OffsetLoops -> Int -> Bool
 isArtefact tolerance answer k =
   Loop.size answer k <= 4
     && abs (FlatPolyarc.area (Loop.polyarc answer k)) <= tolerance * tolerance
 
--- | True when an outer contour, one of several, bounds a region too small for the cutter. The
--- winding numbers of all contours together would count such a region as reachable where the cutter
--- covers it completely. The offset of this contour alone has no loops.
+-- | True when contour @w@ is an outer contour, one of several, and bounds a region too small for
+-- the cutter. The winding numbers of all contours together would count such a region as reachable
+-- where the cutter covers it completely. Therefore the kernel omits the contour. The test is that
+-- the offset of this contour alone has no loops.
 isUnreachable :: Problem -> ClosedPolyarcs -> Int -> Bool
 isUnreachable problem c w = ClosedPolyarcs.loopCount c > 1 && isOuter && isSmall && hasNoLoops
   where
     o = ClosedPolyarcs.toFlatPolyarc c w
     area = FlatPolyarc.area o
-    -- If one point is at most d away from every segment, the enclosed area is at most d/2 times the
-    -- total length of the segments. In a larger region no cutter position reaches every segment.
+    -- If one point is at most @d@ mm away from every segment, the enclosed area is at most @d/2@
+    -- times the total length of the segments. In a larger region no cutter position reaches every
+    -- segment.
     isSmall = let Mm l = FlatPolyarc.length o in abs area <= 0.5 * widest problem * l * (1 + 1e-9)
-    -- The second value is the winding number on the left of this contour alone.
+    -- @left@ is the winding number on the left of this contour alone.
     (isOuter, left) = case sense problem of
       CounterClockwise -> (area > 0, 1)
       Clockwise -> (area < 0, 0)
@@ -291,9 +296,11 @@ isUnreachable problem c w = ClosedPolyarcs.loopCount c > 1 && isOuter && isSmall
       Right region -> Loop.count (loops region) == 0
       Left _ -> False
 
--- | The wanted winding number: the one on the left of every contour, and so on the left of every
--- loop of the result. It is 1 when the outermost contours are counter-clockwise, else 0. Refuses
--- contours that intersect or whose senses do not fit their nesting.
+-- | The winding number of the reachable positions. It is the winding number on the left of every
+-- contour, and so on the left of every loop of the result: 1 when the outermost contours are
+-- counter-clockwise, else 0. The result is a fault for contours that intersect or whose senses do
+-- not fit their nesting. @tolerance@ (mm) covers rounding; @open@ is True when the contour is open;
+-- @boxes@ is the bounding-box tree of the contours @source@.
 wantedNumber ::
   Double ->
   Sense ->
@@ -338,9 +345,10 @@ wantedNumber tolerance sense open source boxes
           )
             <$> WindingNumber.leftExcess e
 
--- | The wanted winding number from an arrangement, for contours whose segments touch or coincide.
--- The first argument makes the fault for two segments that intersect. The second one is the answer
--- when the contours enclose nothing.
+-- | The winding number of the reachable positions, as in 'wantedNumber', from an arrangement. This
+-- serves contours whose segments touch or coincide. @crossed@ makes the fault for the numbers of
+-- two segments that intersect. @unbounded@ is the answer when the contours enclose nothing. The
+-- tolerance (mm) covers rounding.
 numberByArrangement ::
   (Int -> Int -> OffsetFault) ->
   Int ->

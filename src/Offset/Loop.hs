@@ -1,7 +1,7 @@
 {-# OPTIONS_GHC -O2 #-}
 
--- | Closed loops of lines and arcs, which bound the region that the cutter's centre can reach, in
--- flat arrays.
+-- | Offset loops in flat arrays: closed loops of lines and arcs. They bound the region that the
+-- cutter's centre can reach. Loops, segments and vertices are numbered from 0.
 module Offset.Loop
   ( OffsetLoops (..),
     none,
@@ -23,8 +23,8 @@ import Geometry.FlatPolyarc (FlatPolyarc (FlatPolyarc))
 import Geometry.FlatPolyarc qualified as FlatPolyarc
 import Geometry.Polyarc (Ends (..))
 
--- | The loops, one after the other. Segment @i@ leads from vertex @i@ to the next vertex of its
--- loop.
+-- | The loops, one after the other in arrays that all loops share. Segment @i@ leads from vertex
+-- @i@ to the next vertex of its loop; the last segment of a loop leads to the loop's first vertex.
 data OffsetLoops = OffsetLoops
   { -- | the index of each loop's first vertex, followed by the number of all vertices
     starts :: PrimArray Int,
@@ -34,11 +34,11 @@ data OffsetLoops = OffsetLoops
     ys :: PrimArray Double,
     -- | @tan(sweep/4)@ of the segments, 0 for a line
     bulges :: PrimArray Double,
-    -- | for each segment the number of the segment of the raw offset from which it was cut
+    -- | for each segment: the number of the segment of the raw offset from which it was cut
     raws :: PrimArray Int32
   }
 
--- | No loops.
+-- | Offset loops without any loop: the boundary of an empty region.
 none :: OffsetLoops
 none =
   OffsetLoops
@@ -69,11 +69,11 @@ untrimmed c =
 count :: OffsetLoops -> Int
 count l = sizeofPrimArray (starts l) - 1
 
--- | The number of segments of a loop.
+-- | The number of segments of the loop with the number @k@.
 size :: OffsetLoops -> Int -> Int
 size l k = indexPrimArray (starts l) (k + 1) - indexPrimArray (starts l) k
 
--- | One loop as a polyarc.
+-- | The loop with the number @k@ as a polyarc.
 polyarc :: OffsetLoops -> Int -> FlatPolyarc
 polyarc l k = FlatPolyarc Closed (cut (xs l)) (cut (ys l)) (cut (bulges l))
   where
@@ -84,11 +84,12 @@ polyarc l k = FlatPolyarc Closed (cut (xs l)) (cut (ys l)) (cut (bulges l))
 polyarcs :: OffsetLoops -> [FlatPolyarc]
 polyarcs l = map (polyarc l) [0 .. count l - 1]
 
--- | The enclosed area in mm². The area inside a clockwise loop is subtracted.
+-- | The area in mm² that all loops enclose. A clockwise loop, the boundary of a hole, counts as
+-- negative.
 area :: OffsetLoops -> Double
 area = sum . map FlatPolyarc.area . polyarcs
 
--- | The loops whose numbers satisfy a predicate.
+-- | The loops for whose numbers @keep@ is True. They get new numbers from 0, in the old order.
 filtered :: (Int -> Bool) -> OffsetLoops -> OffsetLoops
 filtered keep l
   | length kept == count l = l

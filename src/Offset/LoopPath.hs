@@ -8,6 +8,12 @@
 -- coordinates come from the element ("Offset.SourceOffset"): a vertex that agrees with an exact
 -- point of the element's offset is replaced by this point. A vertex where the offsets of two
 -- distant elements intersect keeps the kernel's coordinates.
+--
+-- The flat contour is the contour with arcs over half a turn divided into two. Its segments, the
+-- elements of the contour, and the loops and their segments are numbered from 0. Two offsets occur
+-- in many functions: @structure@ is the one that the kernel computed, @source@ the one whose
+-- coordinates are wanted. They differ only for a cutter that just fits: then the radius of
+-- @structure@ is smaller by 'Tolerance.clearance'.
 module Offset.LoopPath
   ( LoopRegion (..),
     region,
@@ -59,8 +65,7 @@ import Offset.SourceOffset
   )
 import Offset.Tolerance qualified as Tolerance
 
--- | A region, given by the kernel's loops. The flat contour is the contour with arcs over half a
--- turn divided into two.
+-- | A region, given by the kernel's loops.
 data LoopRegion = LoopRegion
   { -- | whether the contour is open or closed
     contourEnds :: Ends,
@@ -89,7 +94,7 @@ region source = case Kernel.offset (request source numbers) [flat] of
   where
     (flat, numbers) = FlatPolyarc.fromSegments (ends source) (elements source)
 
--- | The raw offset as one loop, nothing of it trimmed.
+-- | The whole raw offset as the only loop, untrimmed.
 rawRegion :: OffsetSource -> LoopRegion
 rawRegion source = LoopRegion {contourEnds = ends source, loops = Loop.untrimmed raw, raw, numbers}
   where
@@ -100,7 +105,8 @@ rawRegion source = LoopRegion {contourEnds = ends source, loops = Loop.untrimmed
 flatCount :: LoopRegion -> Int
 flatCount = sizeofPrimArray . numbers
 
--- | The request to the kernel, given the elements' numbers for the segments of the flat contour.
+-- | The request to the kernel. @numbers@ has the element's number for each segment of the flat
+-- contour.
 request :: OffsetSource -> PrimArray Int -> Kernel.OffsetRequest
 request OffsetSource {style, side, radius, elements} numbers =
   Kernel.OffsetRequest
@@ -113,34 +119,34 @@ request OffsetSource {style, side, radius, elements} numbers =
           else Just (extra style . indexPrimArray numbers)
     }
 
--- | A run: one segment of a loop, or consecutive segments on one arc.
+-- | A run: one segment of a loop, or consecutive segments on one arc. The fields speak of this run.
 data Run = Run
-  { -- | the element or corner of the contour of which it is the offset
+  { -- | the element or corner of the contour whose offset the run is
     origin :: Origin,
-    -- | number of its first segment in the flat contour; an open contour of @n@ segments is
+    -- | number of its first segment in the flat contour. An open contour of @n@ segments is
     -- traversed there and back, so its numbers go up to @2n − 1@
     flat :: Int,
-    -- | True when it joins the two halves of an arc over half a turn
+    -- | True when the run joins the two halves of an arc over half a turn
     isInterior :: Bool,
-    -- | True when it lies on the cutter's side of the contour. False only for an open contour:
-    -- on its other side and about its ends
+    -- | True when the run lies on the cutter's side of the contour. False only for an open contour:
+    -- on the contour's opposite side and about its ends
     isBeside :: Bool,
-    -- | True when it is a line that joins the offsets of two elements at an inner corner
+    -- | True when the run is a line that joins the offsets of two elements at an inner corner
     isConnecting :: Bool,
-    -- | the point where it begins
+    -- | the point where the run begins
     from :: {-# UNPACK #-} Point,
-    -- | the point where it ends
+    -- | the point where the run ends
     to :: {-# UNPACK #-} Point,
-    -- | signed sweep in radians; 0 for a line
+    -- | sweep in radians, positive counter-clockwise; 0 for a line
     turned :: Double
   }
 
 -- | The runs once around a loop, and the origin of the run before the first one. Connecting lines
--- before the first run are skipped.
+-- before the first run are skipped. A connecting line joins two offsets at an inner corner.
 data Circuit = Circuit {before :: Origin, runs :: [Run]}
 
--- | The runs of a loop, by the loop's number. The first one is a run that is not beside the
--- contour. When there is none, it is the run with the least origin.
+-- | The runs of loop @k@ of the region @r@. The first one is a run that is not beside the contour.
+-- When there is none, it is the run with the least origin.
 circuit :: LoopRegion -> Int -> Circuit
 circuit r k = circuitFrom r a z (fromMaybe (leastStart r a z) beyond)
   where
@@ -148,8 +154,8 @@ circuit r k = circuitFrom r a z (fromMaybe (leastStart r a z) beyond)
     a = indexPrimArray (Loop.starts (loops r)) k
     z = indexPrimArray (Loop.starts (loops r)) (k + 1)
 
--- | The runs of the raw offset that are beside the contour, without connecting lines. The cutter
--- passes all corners of the contour.
+-- | The runs of the raw offset that are beside the contour, without connecting lines. Their path
+-- passes all corners of the contour, as no part of the raw offset is trimmed.
 rawCircuit :: LoopRegion -> Circuit
 rawCircuit r
   | z == 0 = Circuit (Along 0) []
@@ -159,8 +165,8 @@ rawCircuit r
     z = if Loop.count (loops r) == 0 then 0 else indexPrimArray (Loop.starts (loops r)) 1
 
 -- | The first segment of the run with the least origin, among the segments from @a@ to @z − 1@ of a
--- loop. When this run continues from the last segment to the first one, it begins near the end of
--- the numbers, unless it is a full circle.
+-- loop. This run may continue from the segment @z − 1@ to the segment @a@. Then its first segment
+-- is near @z − 1@, unless the run is a full circle.
 leastStart :: LoopRegion -> Int -> Int -> Int
 leastStart r a z = if first == a then backwards a (z - 1) else first
   where
@@ -176,8 +182,8 @@ leastStart r a z = if first == a then backwards a (z - 1) else first
       | i > a && originAt r i == origin && flatAt r i <= flatAt r start = backwards i (i - 1)
       | otherwise = start
 
--- | The runs of the loop with the segments from @a@ to @z − 1@. The last argument is the segment
--- with which they begin.
+-- | The runs of the loop with the segments from @a@ to @z − 1@. The first run begins with segment
+-- @begin@.
 circuitFrom :: LoopRegion -> Int -> Int -> Int -> Circuit
 circuitFrom r a z begin = Circuit (earlier begin) (go begin (z - a))
   where
@@ -192,7 +198,7 @@ circuitFrom r a z begin = Circuit (earlier begin) (go begin (z - a))
       where
         after = if i + 1 == z then a else i + 1
 
--- | The run of one segment of a loop. The last argument is the number of the vertex where it ends.
+-- | The run of segment @i@ of a loop. @j@ is the number of the vertex where the segment ends.
 runAt :: LoopRegion -> Int -> Int -> Run
 runAt r i j =
   Run
@@ -212,15 +218,15 @@ runAt r i j =
     l = loops r
     vertex k = Vec.point (indexPrimArray (Loop.xs l) k) (indexPrimArray (Loop.ys l) k)
 
--- | The number of the segment of the raw offset from which a segment of a loop was cut.
+-- | The number of the raw offset's segment from which segment @i@ of a loop was cut.
 rawAt :: LoopRegion -> Int -> Int
 rawAt r i = fromIntegral (indexPrimArray (Loop.raws (loops r)) i)
 
--- | The marks of that segment of the raw offset.
+-- | The marks of the raw offset's segment from which segment @i@ of a loop was cut.
 markAt :: LoopRegion -> Int -> Word8
 markAt r i = indexPrimArray (ClosedPolyarcs.marks (raw r)) (rawAt r i)
 
--- | True of a segment about a corner.
+-- | True of a segment that goes round a corner.
 isAroundAt :: LoopRegion -> Int -> Bool
 isAroundAt r i = ClosedPolyarcs.hasMark ClosedPolyarcs.aroundMark (markAt r i)
 
@@ -228,12 +234,12 @@ isAroundAt r i = ClosedPolyarcs.hasMark ClosedPolyarcs.aroundMark (markAt r i)
 isConnectingAt :: LoopRegion -> Int -> Bool
 isConnectingAt r i = ClosedPolyarcs.hasMark ClosedPolyarcs.connectingMark (markAt r i)
 
--- | The number, in the flat contour, of the segment from which a segment of a loop comes. For an
--- open contour of @n@ segments the numbers from @n@ on are those of the traversal back.
+-- | The number of the flat contour's segment from which segment @i@ of a loop comes. For an open
+-- contour of @n@ segments the numbers from @n@ on are those of the traversal back.
 flatAt :: LoopRegion -> Int -> Int
 flatAt r i = fromIntegral (indexPrimArray (ClosedPolyarcs.sources (raw r)) (rawAt r i))
 
--- | The element or corner from which a segment of a loop comes.
+-- | The element or corner of the contour from which segment @i@ of a loop comes.
 originAt :: LoopRegion -> Int -> Origin
 originAt r i = if isAroundAt r i then Around element else Along element
   where
@@ -241,18 +247,16 @@ originAt r i = if isAroundAt r i then Around element else Along element
     n = sizeofPrimArray (numbers r)
     element = indexPrimArray (numbers r) (if k < n then k else 2 * n - 1 - k)
 
--- | True of a segment on the cutter's side of the contour: not on the traversal back along an open
--- contour, and not on the arcs about its ends.
+-- | True of a segment on the cutter's side of the contour. False for an open contour on the
+-- traversal back, and on the arcs about the ends of the contour.
 isBesideAt :: LoopRegion -> Int -> Bool
 isBesideAt r i = contourEnds r == Closed || flatAt r i < (if isAroundAt r i then n - 1 else n)
   where
     n = sizeofPrimArray (numbers r)
 
--- | The segments of a path along runs. The first argument is the offset that the kernel computed,
--- the second one the offset whose coordinates are wanted. They differ for a cutter that just fits:
--- the first radius is then smaller by 'Tolerance.clearance'. The third argument is the origin of
--- the run before the first one, for a closed path. Where two segments join, their ends may differ
--- by up to 'Tolerance.coincident'.
+-- | The segments of a path along runs. @previous@ is the origin of the run before the first one for
+-- a closed path; Nothing for an open path. Where two segments join, their ends may differ by up to
+-- 'Tolerance.coincident'.
 path :: OffsetSource -> OffsetSource -> Maybe Origin -> [Run] -> [OffsetSegment]
 path structure source previous runs = case joined (filter (not . isNegligible structure) runs) of
   [] -> []
@@ -287,8 +291,9 @@ isNegligible structure run = case origin run of
     isShort = Vec.distance (from run) (to run) <= Tolerance.clearance
 
 -- | The lengths to cut off two neighbouring segments of a path that join at a smooth or slight
--- corner. The first offset is the one that the kernel computed, the second one gives the lengths.
--- Nothing for all other neighbours, and when the kernel joined both elsewhere.
+-- corner. @p@ is the origin of the first segment, @run@ the run of the second one. The lengths
+-- belong to the offset @source@. Nothing for all other neighbours, and when the kernel joined both
+-- elsewhere.
 jointBetween :: OffsetSource -> OffsetSource -> Origin -> Run -> Maybe Cuts
 jointBetween structure source p run = case (p, origin run) of
   (Along i, Along j)
@@ -309,13 +314,13 @@ jointBetween structure source p run = case (p, origin run) of
         Mm r = distanceAt structure i
         Mm close = Tolerance.coincident
         angle = indexPrimArray (turnings structure) i
-        -- The distance between the point where the kernel joined both and the end of the first
-        -- element's offset.
+        -- The distance in mm between the point where the kernel joined both and the end of the
+        -- first element's offset.
         distance = Vec.distance (from run) (Segment.end (movedElement structure i))
 
--- | The segment of a run. The first offset is the one that the kernel computed, the second one
--- gives the coordinates. The lengths, if any, are cut off the exact segment's start and end.
--- Without a length, an end that agrees with the run's end is exact; otherwise it is the run's.
+-- | The segment of a run, with the coordinates of @source@. @front@ and @back@ are lengths in mm to
+-- cut off the start and the end of the exact segment. Without a length, an end that agrees with the
+-- run's end is exact; otherwise it is the run's.
 exactSegment :: OffsetSource -> OffsetSource -> Maybe Double -> Run -> Maybe Double -> OffsetSegment
 exactSegment structure source front run back = OffsetSegment (origin run) $ case origin run of
   Along i
@@ -325,12 +330,12 @@ exactSegment structure source front run back = OffsetSegment (origin run) $ case
     | turned run /= 0 -> both (`cornerArc` i)
     | otherwise -> Straight (snapped i (from run)) (snapped i (to run))
   where
-    -- Mostly both offsets are the same, and the segment is computed once.
+    -- When both offsets have one radius, the segment is computed once.
     both f =
       let exact = f source
           structural = if radius structure == radius source then exact else f structure
        in partOf front run back structural exact
-    -- The exact point of the corner that agrees with a vertex, or the vertex itself.
+    -- The exact point of the corner after element i that agrees with the vertex p, or p itself.
     snapped i p
       | Vec.isNear p nearest = snd pair
       | otherwise = p
@@ -338,8 +343,9 @@ exactSegment structure source front run back = OffsetSegment (origin run) $ case
         pair@(nearest, _) = minimumBy (comparing (Vec.distance p . fst)) points
         points = zip (cornerPoints structure i) (cornerPoints source i)
 
--- | The part of an exact segment that a run covers. The first of both segments belongs to the
--- offset that the kernel computed, the second one to the offset whose coordinates are wanted.
+-- | The part of an exact segment that a run covers. @structural@ is the whole segment in the offset
+-- that the kernel computed; @exact@ is the same segment in the offset whose coordinates are wanted.
+-- @front@ and @back@ are those of 'exactSegment'.
 partOf :: Maybe Double -> Run -> Maybe Double -> Segment -> Segment -> Segment
 partOf front run back structural exact
   | startsThere && endsThere = whole

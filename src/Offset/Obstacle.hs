@@ -1,11 +1,12 @@
 {-# LANGUAGE BangPatterns #-}
 
--- | The reasons why a cutter does not fit beside a contour.
+-- | The reasons why a cutter does not fit beside a contour. Elements of the contour are numbered
+-- from 0.
 --
--- A concave arc and an inner corner are found without the other elements. A collision with a
--- distant element is found by the distance between the raw offset and the contour. This takes
--- longer, so it is done only after the kernel has found that the cutter does not reach every
--- element.
+-- A concave arc or an inner corner is an obstacle by itself, so it is found without the other
+-- elements. A collision with a distant element is found by the distance between the raw offset and
+-- the contour. This search takes longer. Therefore it is made only after the kernel has found that
+-- the cutter does not reach every element.
 module Offset.Obstacle
   ( Obstacle (..),
     Cause (..),
@@ -33,23 +34,27 @@ import Geometry.Vec (Point)
 import Offset.SourceOffset
 import Offset.Tolerance qualified as Tolerance
 
--- | A reason why a cutter does not fit, and the largest cutter radius that fits, if there is one.
+-- | A reason why a cutter does not fit, and the largest cutter radius that fits; Nothing when no
+-- cutter fits.
 data Obstacle = Obstacle {cause :: Cause, largest :: Maybe Mm}
   deriving stock (Eq, Show)
 
 -- | A reason why a cutter does not fit. Elements of the contour are given by their numbers from 0.
 data Cause
-  = -- | a concave arc and its radius, which is smaller than the cutter's
+  = -- | an arc whose centre is on the cutter's side: its number, and its radius, which is smaller
+    -- than the distance between the cutter's centre and the arc
     Concave Int Mm
-  | -- | a corner that turns towards the cutter: the elements before and after it, and its vertex
+  | -- | a corner that turns towards the cutter: the numbers of the elements before and after it,
+    -- and its vertex
     InnerCorner Int Int Point
-  | -- | on its path along the first element the cutter would cut the second one; the point is the
-    -- position of its centre there
+  | -- | a gouge: the cutter's centre moves along the offset of the first element, and at the given
+    -- point the cutter cuts the second element
     Collision Int Int Point
   deriving stock (Eq, Show)
 
 -- | The obstacles at single elements and corners: first concave arcs, then inner corners, then
--- elements that are too short between slight inner corners.
+-- elements that are too short between slight inner corners. 'Offset.SourceOffset.Corner' explains
+-- the kinds of corners.
 localCauses :: OffsetSource -> [Cause]
 localCauses source =
   [Concave i r | i <- numbers, Just r <- [tooTight source i]]
@@ -61,8 +66,9 @@ localCauses source =
   where
     numbers = [0 .. elementCount source - 1]
 
--- | The radius of an element that is a concave arc, if it is smaller than the offset's distance
--- from it.
+-- | The radius of element @i@ if it is an arc whose centre is on the cutter's side and whose radius
+-- is smaller than the offset's distance. Such an arc is too tight for the cutter. Nothing for every
+-- other element.
 tooTight :: OffsetSource -> Int -> Maybe Mm
 tooTight source i = case elements source Vector.! i of
   Arc {start, centre, sweep = Rad angle}
@@ -72,8 +78,9 @@ tooTight source i = case elements source Vector.! i of
       Just old
   _ -> Nothing
 
--- | The corners at elements whose offset is no longer than the lengths that the corners at its ends
--- cut off.
+-- | The corners where an element is too short for the corners at its ends. Each slight corner cuts
+-- a length off the offsets that meet there. An element is too short when its offset is no longer
+-- than the sum of both lengths.
 tooShort :: OffsetSource -> [Cause]
 tooShort source = go 0 frontOfFirst (movedElement source 0)
   where
@@ -91,9 +98,9 @@ tooShort source = go 0 frontOfFirst (movedElement source 0)
         corner = InnerCorner a (next source a) (Segment.end s)
         a = if front > 0 && (i > 0 || back <= 0) then (i - 1) `mod` count else i
 
--- | The collision at the point where a cutter on a path along all elements would cut the contour
--- deepest. When it cuts nowhere, the path only intersects itself; then the start of the path is the
--- point, and its element is given twice.
+-- | The collision at the point where a cutter on @path@, the offset of all elements, would cut the
+-- contour deepest. When the cutter cuts nowhere, the path only intersects itself. Then the result
+-- has the start of the path as its point, and the element of the first segment twice.
 collision :: OffsetSource -> NonEmpty OffsetSegment -> Cause
 collision source path
   | null found =
@@ -105,8 +112,9 @@ collision source path
     found = gouges source (NonEmpty.toList path)
 
 -- | The points at which a cutter on segments of an offset would cut the contour. Each result has
--- the distance of its centre from the contour, the number of the segment's element, the number of
--- the element that it cuts, and the position of its centre.
+-- the distance of the cutter's centre from the contour, and the position of this centre. Between
+-- them are two numbers: that of the element beside which the cutter moves, and that of the element
+-- that it cuts.
 gouges :: OffsetSource -> [OffsetSegment] -> [(Mm, Int, Int, Point)]
 gouges source = concatMap gougesOf
   where

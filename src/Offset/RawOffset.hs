@@ -1,15 +1,20 @@
 {-# LANGUAGE BangPatterns #-}
 {-# OPTIONS_GHC -O2 #-}
 
--- | The raw offset: every segment is moved sideways by its distance and joined to the next one.
+-- | The raw offset: every segment of closed polyarcs is moved sideways by its distance and joined
+-- to the next one.
 --
--- Segments at an outer corner are joined by an arc about the vertex, or by two lines up to the
--- intersection of the tangents. At an inner corner two sufficiently long lines are cut at their
--- intersection; other segments are joined by a straight line. At a smooth joint the moved segments
--- meet. When the distance exceeds the radius of an arc, the arc keeps its bulge and then runs
--- backwards. The raw offset deforms continuously as the distance grows from 0. Its winding numbers
--- therefore show what the cutter's centre can reach (Chen and McMains, "Polygon offsetting by
--- computing winding numbers", 2005).
+-- An outer corner turns away from the cutter, an inner one towards it. Segments at an outer corner
+-- are joined by an arc about the vertex, or by two lines up to the intersection of the tangents. At
+-- an inner corner two sufficiently long lines are cut at their intersection; other segments are
+-- joined by a straight line. At a smooth joint, where the direction does not change, the moved
+-- segments meet. When the distance exceeds the radius of an arc, the arc keeps its bulge and then
+-- runs backwards. The raw offset deforms continuously as the distance grows from 0. Its winding
+-- numbers therefore show what the cutter's centre can reach (Chen and McMains, "Polygon offsetting
+-- by computing winding numbers", 2005).
+--
+-- Segments and vertices are given by their numbers in 'ClosedPolyarcs'. Lengths and coordinates are
+-- in mm. The marks of a segment are those of 'ClosedPolyarcs'.
 module Offset.RawOffset
   ( Corners (..),
     raw,
@@ -40,9 +45,9 @@ data Filling s
 
 -- | The kind of joint between two moved segments.
 data Joint
-  = -- | no corner, and one distance: they meet
+  = -- | no corner, and both segments have the same distance: they meet
     Smooth
-  | -- | no corner, but two distances: a line across joins them
+  | -- | no corner, but different distances: a line across joins them
     Step
   | -- | an outer corner: an arc or two lines go round the vertex
     Outer
@@ -52,16 +57,16 @@ data Joint
     Over
   deriving stock (Eq)
 
--- | The raw offset of closed polyarcs, and the polyarcs with their smooth joints marked. The
--- arguments are, in order:
+-- | The raw offset of the polyarcs @c@, and @c@ itself with its smooth joints marked. The other
+-- arguments are:
 --
--- * the tolerance: shorter segments (mm) are omitted;
--- * the smoothness: two directions are equal when the sine of their angle is at most this;
--- * the form of outer corners;
--- * True when the segments' distances differ;
--- * each segment's distance in mm, positive to the right of the direction of travel;
--- * the radius, with the same sign, of arcs about each segment's ends; it may be larger than the
---   distance.
+-- * @tolerance@: segments of the raw offset that are shorter (mm) are omitted;
+-- * @smoothness@: two directions are equal when the sine of the angle between them is at most this;
+-- * @corners@: the form of outer corners;
+-- * @uneven@: True when the segments' distances differ;
+-- * @distance@: each segment's distance in mm, positive to the right of the direction of travel;
+-- * @corner@: the radius in mm, with the sign of the distance, of arcs about each segment's ends;
+--   it may be larger than the distance.
 raw ::
   Double ->
   Double ->
@@ -109,7 +114,7 @@ raw !tolerance !smoothness corners uneven distance corner !c = runST $ do
   pure (result, c {ClosedPolyarcs.marks = marks'})
 {-# INLINE raw #-}
 
--- | Arrays with room for a number of vertices.
+-- | Arrays with room for @capacity@ vertices.
 newFilling :: Int -> ST s (Filling s)
 newFilling capacity =
   Filling
@@ -119,8 +124,8 @@ newFilling capacity =
       <*> newPrimArray capacity
       <*> newPrimArray capacity
 
--- | The polyarcs of arrays, cut to the used number of vertices, with the first vertices of the
--- polyarcs.
+-- | The polyarcs in the filled arrays, of which @used@ entries are in use. @heads@ has the index of
+-- each polyarc's first vertex.
 frozen :: Filling s -> Int -> MutablePrimArray s Int -> ST s ClosedPolyarcs
 frozen (Filling rx ry rb rm rs) used heads = do
   mapM_ (`shrinkMutablePrimArray` used) [rx, ry, rb]
@@ -134,8 +139,8 @@ frozen (Filling rx ry rb rm rs) used heads = do
       <*> unsafeFreezePrimArray rs
       <*> unsafeFreezePrimArray heads
 
--- | Copies the vertex at the first index, where a polyarc begins, to the second one, just after its
--- last segment. Marks the first and the last segment.
+-- | Closes a polyarc whose first vertex is at index @k@ and whose last segment is just before index
+-- @k'@. Copies the vertex from @k@ to @k'@, and marks the first and the last segment.
 closeUp :: Filling s -> Int -> Int -> ST s ()
 closeUp (Filling rx ry rb rm rs) k k' = do
   readPrimArray rx k >>= writePrimArray rx k'
@@ -148,9 +153,10 @@ closeUp (Filling rx ry rb rm rs) k k' = do
   m' <- readPrimArray rm (k' - 1)
   writePrimArray rm (k' - 1) (m' + ClosedPolyarcs.lastMark)
 
--- | Writes the raw offset of one polyarc. The arguments up to the polyarcs are those of 'raw'; then
--- follow the marks of the polyarcs' segments, the arrays to write to, the polyarc's first vertex,
--- its repeated vertex, and the first free index. The result is the next free index.
+-- | Writes the raw offset of one of the polyarcs @c@. The arguments up to @c@ are those of 'raw'.
+-- @marks@ are the marks of the segments of @c@, to which smooth joints are added. The polyarc to be
+-- offset has its first vertex at index @a@ and its repeated vertex at @e@. The raw offset is
+-- written from index @k0@ on; the result is the next free index.
 offsetPolyarc ::
   Double ->
   Double ->
@@ -190,12 +196,13 @@ offsetPolyarc
         Smooth ->
           readPrimArray marks i >>= \m -> writePrimArray marks i (m + ClosedPolyarcs.smoothMark)
         _ -> pure ()
-      -- The joint between segment i, which ends in the direction (ax, ay), and segment j, which
-      -- starts in the direction (bx, by): its kind, tan(θ/4) of an outer corner that turns by θ,
-      -- and the length by which both lines of an inner corner are cut. restI and restJ are the
-      -- lengths that earlier cuts leave of both lines. Rounding of the vertices changes the
-      -- direction of a chord. Therefore a corner counts as smooth when it moves no offset point by
-      -- more than the tolerance.
+      -- The joint between segment @i@, which ends in the direction (@ax@, @ay@), and segment @j@,
+      -- which starts in the direction (@bx@, @by@). Passes to @k@: the kind of the joint; tan(θ/4)
+      -- of an outer corner that turns by θ; the length in mm by which both lines of an inner corner
+      -- are cut. @shorter@ is the length of the shorter chord. @restI@ and @restJ@ are the lengths
+      -- that earlier cuts leave of both lines. Rounding of the vertices changes the direction of a
+      -- chord. Therefore a corner counts as smooth when it moves no offset point by more than the
+      -- tolerance.
       joint i j ax ay bx by shorter restI restJ k
         | dt > 0
             && ( abs cr <= smoothness
@@ -204,9 +211,9 @@ offsetPolyarc
                ) =
           k (if di == dj then Smooth else Step) 0 0
         -- The direction reverses here: a cusp. With different distances a cusp that is open towards
-        -- the cutter is an inner corner, because the cutter cannot enter it. With one common
+        -- the cutter is an inner corner, because the cutter cannot enter the cusp. With one common
         -- distance every cusp can be treated as an outer corner: an arc about the tip of an open
-        -- cusp lies in the unreachable region, so trimming removes it.
+        -- cusp lies in the unreachable region, so trimming removes this arc.
         | dt < 0 && abs (cr * d) <= tolerance =
           k
             ( if uneven
@@ -227,8 +234,9 @@ offsetPolyarc
           cr = ax * by - ay * bx
           dt = ax * bx + ay * by
           cut = abs (d * cr / (1 + dt))
-          -- The least length of both lines for which cutting them is right: the part cut off then
-          -- lies beside them. With one common distance all points beyond are unreachable anyway.
+          -- The least length in mm of both lines for which cutting them is right: then the part
+          -- that is cut off lies beside the lines. With one common distance all points beyond are
+          -- unreachable anyway.
           needed
             | uneven = max cut (if dt > 0 then abs (d * cr) else abs d)
             | otherwise = cut
@@ -239,9 +247,10 @@ offsetPolyarc
         writePrimArray rb k b
         writePrimArray rm k (m :: Word8)
         writePrimArray rs k (indexPrimArray (ClosedPolyarcs.sources c) s)
-      -- Writes segment i and all that follow, from index k on. The arguments are the segment's
-      -- directions at its start and its end, its chord's length, the length cut off at its start,
-      -- the mark of a smooth start, and the joint at the end of the polyarc.
+      -- Writes segment @i@ and all later segments of the polyarc, from index @k@ on. Then come the
+      -- segment's directions at its start and its end, and its chord's length @l@. @cut@ is the
+      -- length cut off at the segment's start, @beginMark@ the mark of a smooth start, and
+      -- @closing@ the joint at the end of the polyarc.
       go !i !k !sx !sy !ex !ey !l !cut !beginMark closing
         | i == e - 1 = case closing () of
           (kind, bend, back) ->
@@ -255,7 +264,8 @@ offsetPolyarc
                   markSmooth (i + 1) kind
                   segment i (i + 1) k sx sy ex ey l cut cut' beginMark kind bend $ \k' beginMark' ->
                     go (i + 1) k' sx' sy' ex' ey' l' cut' beginMark' closing
-      -- Writes segment i and its joint to segment j, of the given kind and bend.
+      -- Writes segment @i@ and its joint to segment @j@. @kind@ and @bend@ are the results of
+      -- 'joint'; @next@ gets the next free index and the mark of a smooth start.
       segment !i !j !k !sx !sy !ex !ey !l !cut !cut' !beginMark kind !bend next = do
         let d = distance i
             b = bulge i
@@ -265,8 +275,7 @@ offsetPolyarc
             vy = indexPrimArray (ClosedPolyarcs.ys c) (i + 1)
             fx = vx + d * ey
             fy = vy - d * ex
-            -- Compares the length of the moved line, or the chord of the moved arc. An arc whose
-            -- centre is on the left grows when it moves to the right.
+            -- An arc whose centre is on the left grows when it moves to the right.
             isLongEnough =
               if b == 0
                 then l - cut - cut' > tolerance
@@ -278,8 +287,8 @@ offsetPolyarc
           Smooth -> next k1 endMark
           Step -> put k1 fx fy 0 ClosedPolyarcs.aroundMark i >> next (k1 + 1) 0
           Trimmed -> next k1 0
-          -- With different distances a straight line could run through the material to its other
-          -- side. Two lines through the vertex cannot.
+          -- With different distances a straight line could run through the material to the
+          -- material's opposite side. Two lines through the vertex cannot.
           Over
             | uneven ->
               put k1 fx fy 0 ClosedPolyarcs.connectingMark i
@@ -320,8 +329,9 @@ offsetPolyarc
       {-# INLINE segment #-}
 {-# INLINE offsetPolyarc #-}
 
--- | The unit directions at the start and at the end of segment @i@, and the length of its chord,
--- passed to a continuation. The directions deviate from the chord by half the sweep.
+-- | Passes five numbers to the continuation @k@: the direction at the start of segment @i@, x and
+-- y; the direction at its end, x and y; and the length of its chord in mm. The directions have the
+-- length 1, and deviate from the chord by half the sweep.
 endDirections ::
   ClosedPolyarcs -> Int -> (Double -> Double -> Double -> Double -> Double -> r) -> r
 endDirections c i k =

@@ -1,9 +1,10 @@
 -- | The boundaries of the rest material beside a contour, which a cutter cannot reach.
 --
--- At a gap of a path the cutter leaves the contour and touches it again farther on. Between these
--- two positions lies a stretch of the contour that no path touches. The boundary of the material
--- consists of such stretches and of edges of the cutter in turn. It is followed from gap to gap
--- until it closes. Where two edges of the cutter intersect, it changes from one edge to the other.
+-- At a gap of a path the cutter leaves the contour and touches it again farther on. The part of the
+-- contour between these two positions is called a stretch; no path touches it. The boundary of the
+-- rest material consists of stretches and of edges of the cutter in turn. The edge of the cutter is
+-- an arc of its circumference at a gap. The boundary is followed from gap to gap until it closes.
+-- Where two edges of the cutter intersect, it changes from one edge to the other.
 module Offset.RestMaterial
   ( RestMaterial (..),
     Touching (..),
@@ -38,7 +39,7 @@ data RestMaterial
   = -- | material inside a closed boundary of stretches of the contour and edges of the cutter; the
     -- last segment is the cutter's edge at this gap
     Within (NonEmpty Segment)
-  | -- | the material that is listed at another gap, where the cutter's centre is at this point
+  | -- | the material that is listed at another gap, at which the cutter's centre is at this point
     SameAs Point
   | -- | material whose boundary was not found
     Unbounded
@@ -48,9 +49,9 @@ data RestMaterial
 -- the gap, and the position of its centre.
 data Touching = Touching {before :: Origin, after :: Origin, centreAt :: Point}
 
--- | The rest material beside a contour, by the numbers of the gaps from 0. The arguments are the
--- cutter's side, the contour, the paths beside it, and their gaps. A gap without an entry is at
--- material whose boundary was not found.
+-- | The rest material beside a contour, by the numbers of the gaps from 0. @side@ is the cutter's
+-- side of the contour; @paths@ are the paths beside it, and @gaps@ their gaps. A gap without an
+-- entry is at material whose boundary was not found.
 restMaterials :: Side -> Polyarc -> [TrimmedOffset] -> [Touching] -> IntMap.IntMap RestMaterial
 restMaterials side contour paths gaps =
   IntMap.union
@@ -73,7 +74,7 @@ restMaterials side contour paths gaps =
         | (k, g) <- zip [0 ..] gaps,
           let at = centreAt g
       ]
-    -- The material at gaps where one stretch and the cutter's edge at the gap bound it.
+    -- The material at gaps whose boundary is one stretch and the cutter's edge at the gap.
     alone =
       IntMap.fromList
         [ found
@@ -83,18 +84,21 @@ restMaterials side contour paths gaps =
             found <- materials side (Vector.singleton (Bound s k at))
         ]
     isSameElement (Position i _) (Position j _) = i == j
-    -- For the remaining gaps: the position at which the cutter leaves the contour, with its centre,
-    -- by gap; and the gap by the position at which the cutter touches the contour again.
+    -- For the remaining gaps: by gap, the position at which the cutter leaves the contour, and its
+    -- centre. @arrivals@ has the gap by the position at which the cutter touches the contour again.
     open = IntMap.fromList [(k, (a, at)) | (k, a, _, at) <- numbered, IntMap.notMember k alone]
     arrivals = Map.fromList [(b, k) | (k, _, b, _) <- numbered, IntMap.notMember k alone]
     nextArrival from = case (Map.lookupGE from arrivals, Polyarc.ends contour) of
       (Nothing, Closed) -> Map.lookupMin arrivals
       (found, _) -> found
 
--- | All stretches from gap to gap until they return to the given gap, if it has the least number of
--- these gaps. The stretch that ends at the given gap is the last. The functions give the stretch
--- between two positions, and the next position at which the cutter touches the contour, with its
--- gap. The map has the position at which the cutter leaves the contour at a gap, and its centre.
+-- | All stretches from gap to gap until they return to the gap with the number @first@. That gap
+-- must have the least number of all these gaps, so that each cycle is found once; else the result
+-- is Nothing. The stretch that ends at the gap @first@ is the last.
+--
+-- @stretch@ gives the stretch between two positions on the contour. @nextArrival@ gives the next
+-- position at which the cutter touches the contour, and the number of its gap. @open@ has, for each
+-- gap, the position at which the cutter leaves the contour, and its centre.
 cycleFrom ::
   (Position -> Position -> Maybe (NonEmpty Segment)) ->
   (Position -> Maybe (Position, Int)) ->
@@ -119,10 +123,10 @@ cycleFrom stretch nextArrival open first = go IntSet.empty [] first
 -- the position of the cutter's centre there.
 data Bound = Bound {along :: NonEmpty Segment, gap :: Int, cutterAt :: Point}
 
--- | The rest materials of a cycle of stretches: the cutter's edge at the end of each stretch leads
--- to the start of the next one. Where edges of the cutter intersect there are several materials.
--- Each is listed with its boundary at the gap before its first stretch, and as the same material at
--- the gaps before its other stretches.
+-- | The rest materials of a cycle of stretches, by the numbers of their gaps: the cutter's edge at
+-- the end of each stretch leads to the start of the next one. Where edges of the cutter intersect
+-- there are several materials. Each material is listed with its boundary at the gap before its
+-- first stretch. At the gaps before its other stretches it is listed as 'SameAs'.
 materials :: Side -> Vector Bound -> [(Int, RestMaterial)]
 materials side bounds = go IntSet.empty [0 .. Vector.length bounds - 1]
   where
@@ -137,10 +141,10 @@ materials side bounds = go IntSet.empty [0 .. Vector.length bounds - 1]
             <> go (IntSet.union (IntSet.fromList others) done) more
         | otherwise -> go done more
 
--- | The boundary that begins with the numbered stretch of a cycle, and the numbers of the other
--- stretches in it. After each stretch it follows the cutter's edge to the next stretch, or to the
--- intersection with another edge. Nothing when it encloses an area on the wrong side of the
--- contour.
+-- | The boundary that begins with the stretch with index @first@ of a cycle, and the indices of the
+-- other stretches in the boundary. After each stretch the boundary follows the cutter's edge to the
+-- next stretch, or to the intersection with another edge. Nothing when the boundary encloses an
+-- area on the wrong side of the contour.
 boundaryFrom :: Side -> Vector Bound -> Int -> Maybe (NonEmpty Segment, [Int])
 boundaryFrom side bounds first =
   follow (4 * count) [] (stretchAt first) first (edges Vector.! first)
@@ -148,7 +152,8 @@ boundaryFrom side bounds first =
     count = Vector.length bounds
     edges = cutterEdges side bounds
     stretchAt i = along (bounds Vector.! i)
-    -- Follows the boundary from the remaining part of edge i on, for a limited number of steps.
+    -- Follows the boundary along @rest@, the remaining part of edge @i@, for at most @steps@ steps.
+    -- @done@ is the boundary so far, and @others@ are the stretches in it after the first.
     follow :: Int -> [Int] -> NonEmpty Segment -> Int -> Segment -> Maybe (NonEmpty Segment, [Int])
     follow steps others done i rest
       | steps <= 0 = Nothing
@@ -165,12 +170,12 @@ boundaryFrom side bounds first =
       where
         closed = done <> (rest :| [])
 
--- | The number of the stretch after the given one in a cycle.
+-- | The index of the stretch after stretch @i@ in a cycle. The first one follows the last one.
 following :: Vector Bound -> Int -> Int
 following bounds i = if i + 1 == Vector.length bounds then 0 else i + 1
 
--- | The cutter's edge after each stretch of a cycle, to the next stretch. The material is on the
--- cutter's side of the stretches, and outside the cutter's edge.
+-- | The cutter's edge from the end of each stretch of a cycle to the start of the next stretch. The
+-- material is on the cutter's side of the stretches, and outside the cutter's edge.
 cutterEdges :: Side -> Vector Bound -> Vector Segment
 cutterEdges side bounds = Vector.generate (Vector.length bounds) $ \i ->
   Segment.arc
@@ -179,8 +184,9 @@ cutterEdges side bounds = Vector.generate (Vector.length bounds) $ \i ->
     (Segment.end (NonEmpty.last (along (bounds Vector.! i))))
     (Segment.start (NonEmpty.head (along (bounds Vector.! following bounds i))))
 
--- | The intersections of the remaining part of edge @i@ with the other edges: the fraction along
--- this part, the number of the other edge, the fraction along the other edge.
+-- | The intersections of @rest@, the remaining part of edge @i@, with the other edges. Each result
+-- has the position along @rest@, the index of the other edge, and the position along that edge.
+-- Both positions are fractions of the length from 0 to 1.
 crossings :: Vector Segment -> Int -> Segment -> [(Double, Int, Double)]
 crossings edges i rest =
   [ (t, j, u)
@@ -192,7 +198,8 @@ crossings edges i rest =
       Just u <- [inside other p]
   ]
   where
-    -- The fraction along an edge at a point. Nothing within the clearance of an end of the edge.
+    -- The position of point @p@ along edge @e@, as a fraction. Nothing within the clearance of an
+    -- end of the edge.
     inside e p =
       let t = Segment.fraction e p
           Mm l = Segment.length e
@@ -204,20 +211,23 @@ crossings edges i rest =
 data Position = Position Int Double
   deriving stock (Eq, Ord)
 
--- | The position at which a cutter, with its centre at a point, touches an element or a corner.
+-- | The position at which a cutter with its centre at the point @at@ touches the element or corner
+-- @o@.
 touchedAt :: Vector Segment -> Point -> Origin -> Position
 touchedAt elements at o = case o of
   Around i -> Position i 1
   Along i -> Position i (foot elements i at)
 
--- | The fraction of an element's length at which the element is nearest to a point, from 0 to 1.
+-- | The position on element @i@ that is nearest to the point @p@, as a fraction of the element's
+-- length from 0 to 1.
 foot :: Vector Segment -> Int -> Point -> Double
 foot elements i p =
   let s = elements Vector.! i in max 0 (min 1 (Segment.fraction s (snd (Distance.nearest p s))))
 
--- | The stretch of a contour from one position to another one, given the segments of the paths
--- by the element that they belong to. Nothing when a path touches it, when both positions are one
--- point, or when an open contour ends between them.
+-- | The stretch of a contour from the position @Position i from@ to the position @Position j to@.
+-- @onPaths@ has the segments of the paths by the number of the element along which they run. The
+-- result is Nothing when a path touches the stretch, when both positions are one point, or when an
+-- open contour ends between them.
 stretchBetween ::
   IntMap.IntMap [OffsetSegment] ->
   Ends ->

@@ -6,7 +6,10 @@
 -- latter two are decided within a tolerance. The caller's 'Visitor' has an action for each kind.
 --
 -- Arcs are handled through the power of a point with respect to their circle
--- ("Geometry.ClosedPolyarcs"); the circle's centre is not needed.
+-- ("Geometry.ClosedPolyarcs"); the circle's centre is not needed. In all functions @tolerance@ (mm)
+-- covers rounding, and @c@ contains the segments and vertices, which are given by number. Vertex
+-- @i@ is the start of segment @i@, and vertex @i + 1@ is its end. A position along a chord is a
+-- fraction from 0 to 1. Neighbours are segments that share a vertex.
 module Offset.SegmentIntersection
   ( Visitor (..),
     meet,
@@ -21,20 +24,19 @@ import Geometry.ClosedPolyarcs qualified as ClosedPolyarcs
 
 -- | The actions for each kind of intersection. Segments and vertices are given by number.
 data Visitor s = Visitor
-  { -- | for two segments that cross between their ends: the first segment and the fraction of the
-    -- crossing along its chord, the second segment and its fraction, x and y of the point in mm,
-    -- and a number with the sign of the cross product of both directions. The sign is positive
-    -- when the second segment crosses to the left of the first
+  { -- | for two segments that cross between their ends: the first segment and the crossing's
+    -- position along its chord, as a fraction; the same for the second segment; x and y of the
+    -- crossing in mm; and a number with the sign of the cross product of both directions. The sign
+    -- is positive when the second segment crosses to the left of the first
     crossing :: Int -> Double -> Int -> Double -> Double -> Double -> Double -> ST s (),
-    -- | for an end that lies on a segment: the segment, and the vertex at the end
+    -- | for an end that lies on a segment: the segment, and the vertex at that end
     resting :: Int -> Int -> ST s (),
     -- | for two segments that touch between their ends: both segments, x and y of the point in mm
     touching :: Int -> Int -> Double -> Double -> ST s ()
   }
 
--- | Reports all intersections of two different segments to the visitor, except the vertex that
--- neighbours share. The number of the first segment is less than that of the second. The tolerance
--- (mm) covers rounding.
+-- | Reports all intersections of two different segments to @visitor@, except the vertex that
+-- neighbours share. The number of the first segment is less than that of the second.
 meet :: Double -> ClosedPolyarcs -> Visitor s -> Int -> Int -> ST s ()
 meet !tolerance !c visitor = pair
   where
@@ -47,9 +49,10 @@ meet !tolerance !c visitor = pair
     mark m k = ClosedPolyarcs.hasMark m (indexPrimArray (ClosedPolyarcs.marks c) k)
 {-# INLINE meet #-}
 
--- | True for neighbours that certainly meet at their common vertex only: their joint is smooth, or
--- both are lines that do not fold back. False when the first one begins a polyarc and may have the
--- other end in common as well.
+-- | True for neighbours @i@ and @j@ that certainly meet at their common vertex only, so that 'meet'
+-- skips the exact test. Their joint is smooth, or both are lines that do not fold back. False when
+-- segment @i@ begins a polyarc, because both segments may then have their other ends in common as
+-- well.
 meetsOnlyAtJoint :: Double -> ClosedPolyarcs -> Int -> Int -> Bool
 meetsOnlyAtJoint tolerance c i j
   | ClosedPolyarcs.hasMark ClosedPolyarcs.firstMark (indexPrimArray (ClosedPolyarcs.marks c) i) =
@@ -63,8 +66,8 @@ meetsOnlyAtJoint tolerance c i j
       (\ux uy -> ClosedPolyarcs.chord c j (\vx vy -> not (foldsBack tolerance ux uy vx vy)))
 {-# INLINE meetsOnlyAtJoint #-}
 
--- | True when the second of two consecutive chords leads back along the first within the tolerance
--- (mm), so that the end of one lies on the other.
+-- | True when the chord (@vx@, @vy@) leads back along the chord (@ux@, @uy@) before it within the
+-- tolerance (mm), so that the end of one lies on the other.
 foldsBack :: Double -> Double -> Double -> Double -> Double -> Bool
 foldsBack tolerance ux uy vx vy =
   ux * vx + uy * vy < 0 && cross * cross <= tolerance * tolerance * (if uu > vv then uu else vv)
@@ -79,8 +82,8 @@ isArc :: ClosedPolyarcs -> Int -> Bool
 isArc c k = indexPrimArray (ClosedPolyarcs.bulges c) k /= 0
 {-# INLINE isArc #-}
 
--- | Intersections of two segments of which the second follows the first, or the first one begins a
--- polyarc and the second one ends a polyarc, perhaps another one.
+-- | Intersections of segments @i@ and @j@ of which one of two things is true: @j@ follows @i@, or
+-- @i@ begins a polyarc and @j@ ends a polyarc, perhaps another one.
 adjacent :: Double -> ClosedPolyarcs -> Visitor s -> Int -> Int -> ST s ()
 adjacent !tolerance !c visitor !i !j
   | after && before = when (isArc c i || isArc c j) (sharingEnds tolerance c visitor i j)
@@ -88,8 +91,8 @@ adjacent !tolerance !c visitor !i !j
   | before = neighbours tolerance c visitor j i i
   | otherwise = unconnected tolerance c visitor i j
   where
-    -- True when the second segment begins where the first ends; 'before' is True when it ends where
-    -- the first begins.
+    -- True when the second segment begins where the first ends. 'before' is True when the second
+    -- segment ends where the first begins.
     after = j == i + 1
     mark m k = ClosedPolyarcs.hasMark m (indexPrimArray (ClosedPolyarcs.marks c) k)
     before =
@@ -118,7 +121,7 @@ unconnected !tolerance !c visitor = pair
     bySize !i !j = arcs tolerance c visitor (crossingAt c visitor i j) i j
 {-# INLINE unconnected #-}
 
--- | Intersections of two lines that are not neighbours.
+-- | Intersections of lines @i@ and @j@, which are not neighbours.
 lines' :: Double -> ClosedPolyarcs -> Visitor s -> Int -> Int -> ST s ()
 lines' !tolerance !c visitor !i !j =
   ClosedPolyarcs.chord c i $ \ux uy -> ClosedPolyarcs.chord c j $ \vx vy -> do
@@ -149,7 +152,7 @@ lines' !tolerance !c visitor !i !j =
         else rests tolerance c visitor i j
 {-# INLINE lines' #-}
 
--- | Reports the ends of each of two segments that lie on the other one.
+-- | Reports the ends of each of the segments @i@ and @j@ that lie on the other one.
 rests :: Double -> ClosedPolyarcs -> Visitor s -> Int -> Int -> ST s ()
 rests !tolerance !c visitor !i !j = do
   when (liesOn tolerance c j i) (resting visitor j i)
@@ -157,7 +160,7 @@ rests !tolerance !c visitor !i !j = do
   when (liesOn tolerance c i j) (resting visitor i j)
   when (liesOn tolerance c i (j + 1)) (resting visitor i (j + 1))
 
--- | True when an end of one of two segments lies on the other one.
+-- | True when an end of segment @i@ lies on segment @j@, or an end of @j@ on @i@.
 eitherRests :: Double -> ClosedPolyarcs -> Int -> Int -> Bool
 eitherRests tolerance c i j =
   liesOn tolerance c i j
@@ -189,9 +192,9 @@ liesOn !tolerance !c !i !k =
                 && abs (ClosedPolyarcs.power c i px py)
                   <= tolerance * (ClosedPolyarcs.diameter c i + tolerance)
 
--- | True when line @i@ and arc @j@ are certainly disjoint. The arc lies in a rectangle between its
--- chord and the tangent at its apex. Either the rectangle lies on one side of the line, or the line
--- lies beyond the chord or beyond the tangent.
+-- | True when line @i@ and arc @j@ are certainly disjoint, so that the exact test is skipped. The
+-- arc lies in a rectangle between its chord and the tangent at its apex. Either the rectangle lies
+-- on one side of the line, or the line lies beyond the chord or beyond the tangent.
 isDisjoint :: Double -> ClosedPolyarcs -> Int -> Int -> Bool
 isDisjoint !tolerance !c !i !j =
   above nearLine arcStart arcEnd rise
@@ -209,13 +212,13 @@ isDisjoint !tolerance !c !i !j =
     !wx = x j - x i
     !wy = y j - y i
     !turning = ux * dy - uy * dx
-    -- Twice the signed areas of the triangles between the line and the arc's ends, and what the
-    -- height of the apex adds to them.
+    -- Twice the signed areas of the triangles between the line and the arc's ends. @rise@ is the
+    -- amount that the height of the apex adds to both areas.
     !arcStart = ux * wy - uy * wx
     !arcEnd = arcStart + turning
     !rise = -0.5 * b * (ux * dx + uy * dy)
-    -- Twice the signed areas of the triangles between the chord and the line's ends, positive on
-    -- the arc's side, and the same area for the arc's apex.
+    -- Twice the signed areas in mm² of the triangles between the chord and the line's ends,
+    -- positive on the arc's side. @height@ is the same for the arc's apex.
     !sign = if b > 0 then 1 else -1
     !lineStart = sign * (dx * wy - dy * wx)
     !lineEnd = lineStart + sign * turning
@@ -226,12 +229,13 @@ isDisjoint !tolerance !c !i !j =
     {-# INLINE above #-}
 {-# INLINE isDisjoint #-}
 
--- | Intersections of line @i@ and arc @j@ that are not neighbours. @report@ gets the fraction of a
--- crossing along the line. The power of a point on the line is @aa·s² + 2·half·s + c0@, where the
--- fraction s is measured from the foot of the perpendicular from the arc's start.
+-- | Intersections of line @i@ and arc @j@, which are not neighbours. @report@ gets the position of
+-- a crossing along the line, as a fraction. The power of a point on the line is @aa·s² + 2·half·s +
+-- c0@, where the fraction @s@ is measured from the foot of the perpendicular from the arc's start.
+-- Its two zeros are the intersections with the arc's circle.
 --
--- At a crossing angle α the error of the point is the tolerance divided by sin α. When a crossing
--- is nearer than that to an end of a segment, @closely@ examines both crossings.
+-- At a crossing angle α the error of the crossing is the tolerance divided by sin α. When a
+-- crossing is nearer than this error to an end of a segment, @closely@ examines both crossings.
 lineArc :: Double -> ClosedPolyarcs -> Visitor s -> (Double -> ST s ()) -> Int -> Int -> ST s ()
 lineArc !tolerance !c visitor report !i !j
   | disc < -verge = pure ()
@@ -313,7 +317,7 @@ crossingAlong c visitor !i !j !s = ClosedPolyarcs.chord c i $ \ux uy -> do
   crossing visitor i s j t px py cross
 {-# INLINE crossingAlong #-}
 
--- | Reports the crossing of arcs @i@ and @j@ at a point.
+-- | Reports the crossing of arcs @i@ and @j@ at the point (@px@, @py@) in mm.
 crossingAt :: ClosedPolyarcs -> Visitor s -> Int -> Int -> Double -> Double -> ST s ()
 crossingAt c visitor !i !j !px !py = do
   let !s = parameter c i px py
@@ -337,23 +341,24 @@ crossingAt c visitor !i !j !px !py = do
 
 -- | The verdict on an intersection of two segments' carriers.
 data Verdict
-  = -- | it is on both segments
+  = -- | the intersection is on both segments
     Crosses
-  | -- | it is not on both segments
+  | -- | the intersection is not on both segments
     Passes
-  | -- | it is nearer to an end of a segment than rounding allows to decide
+  | -- | the intersection is nearer to an end of a segment than rounding allows to decide
     Doubtful
   deriving stock (Eq)
 
--- | Reports those of two intersections of carriers that are on both segments. If one of them is
--- doubtful, the first argument examines both instead.
+-- | Reports those of two intersections of carriers that are on both segments. @first@ and @second@
+-- are the verdicts on them; @reportFirst@ and @reportSecond@ report them. If one of them is
+-- doubtful, @closely@ examines both instead.
 reportCertain :: ST s () -> Verdict -> ST s () -> Verdict -> ST s () -> ST s ()
 reportCertain closely first reportFirst second reportSecond
   | first == Doubtful || second == Doubtful = closely
   | otherwise = when (first == Crosses) reportFirst >> when (second == Crosses) reportSecond
 {-# INLINE reportCertain #-}
 
--- | True when a point lies within a distance (mm) of an end of a segment.
+-- | True when the point (@px@, @py@) lies within @within@ mm of an end of segment @i@.
 nearEnds :: ClosedPolyarcs -> Int -> Double -> Double -> Double -> Bool
 nearEnds c i within px py = near i || near (i + 1)
   where
@@ -363,8 +368,8 @@ nearEnds c i within px py = near i || near (i + 1)
        in dx * dx + dy * dy <= within * within
 {-# INLINE nearEnds #-}
 
--- | Intersections of two arcs that are not neighbours, the one with the smaller circle first.
--- @report@ gets x and y of a crossing.
+-- | Intersections of arcs @i@ and @j@, which are not neighbours; the circle of @i@ is not the
+-- larger one. @report@ gets x and y of a crossing in mm.
 arcs ::
   Double ->
   ClosedPolyarcs ->
@@ -390,8 +395,8 @@ arcs !tolerance !c visitor report !i !j
     !x0 = indexPrimArray (ClosedPolyarcs.xs c) i
     !y0 = indexPrimArray (ClosedPolyarcs.ys c) i
     -- The difference of the powers of a point with respect to both circles is a linear function of
-    -- the point. It is zero on the radical axis, on which the circles intersect. (gx, gy) is its
-    -- gradient.
+    -- the point; (gx, gy) is its gradient. The function is zero on the radical axis, which passes
+    -- through the intersections of the circles.
     !gx =
       ClosedPolyarcs.gradient
         c
@@ -408,8 +413,8 @@ arcs !tolerance !c visitor report !i !j
         (\_ ay -> ClosedPolyarcs.gradient c j x0 y0 (\_ by -> ay - by))
     !gg = gx * gx + gy * gy
     !dist = 0.5 * sqrt gg
-    -- When the circles overlap by 1 mm more, the square of half their common chord grows by twice
-    -- this.
+    -- The square of half the circles' common chord, in mm², grows by twice this number of mm when
+    -- the circles overlap by 1 mm more.
     !opening = 0.5 * ClosedPolyarcs.diameter c i * ClosedPolyarcs.diameter c j / (2 * dist)
     !g0 = -(ClosedPolyarcs.power c j x0 y0)
     -- A point of the radical axis. At the point that is s gradients further along the axis, the
@@ -459,8 +464,8 @@ arcs !tolerance !c visitor report !i !j
         else try (q / gg) >> try (if half == 0 then -(q / gg) else c0 / q)
 {-# INLINE arcs #-}
 
--- | Intersections of segments @i@ and @j@, of which the second begins where the first ends, other
--- than this common vertex. The last argument is the number of the vertex.
+-- | Intersections of the neighbours @i@ and @j@ other than their common vertex, whose number is
+-- @vertex@.
 neighbours :: Double -> ClosedPolyarcs -> Visitor s -> Int -> Int -> Int -> ST s ()
 neighbours !tolerance !c visitor !i !j !vertex
   | not (isArc c i) && not (isArc c j) =
@@ -478,8 +483,9 @@ neighbours !tolerance !c visitor !i !j !vertex
       when (liesOn tolerance c i (j + 1)) (resting visitor i (j + 1))
 {-# NOINLINE neighbours #-}
 
--- | Reports the second intersection of line @l@ and arc @arc@, which meet at a vertex. The line
--- starts there when it has the number of the vertex; otherwise it ends there.
+-- | Reports the second intersection of the line @l@ and the arc @arc@, which meet at vertex
+-- @vertex@. The line starts at this vertex when @l@ is equal to @vertex@; otherwise the line ends
+-- there.
 secondOfLineAndArc :: Double -> ClosedPolyarcs -> Visitor s -> Int -> Int -> Int -> ST s ()
 secondOfLineAndArc !tolerance !c visitor !vertex !l !arc =
   ClosedPolyarcs.chord c l $ \ux uy -> ClosedPolyarcs.gradient c arc vx0 vy0 $ \gx gy -> do
@@ -503,7 +509,7 @@ secondOfLineAndArc !tolerance !c visitor !vertex !l !arc =
     vx0 = indexPrimArray (ClosedPolyarcs.xs c) vertex
     vy0 = indexPrimArray (ClosedPolyarcs.ys c) vertex
 
--- | Reports the second intersection of arcs @i@ and @j@, which meet at a vertex.
+-- | Reports the second intersection of the arcs @i@ and @j@, which meet at vertex @vertex@.
 secondOfArcs :: Double -> ClosedPolyarcs -> Visitor s -> Int -> Int -> Int -> ST s ()
 secondOfArcs !tolerance !c visitor !vertex !i !j =
   ClosedPolyarcs.gradient c i vx0 vy0 $ \ax ay ->
@@ -537,13 +543,15 @@ secondOfArcs !tolerance !c visitor !vertex !i !j =
     vy0 = indexPrimArray (ClosedPolyarcs.ys c) vertex
 
 -- | True when the region between two segments that meet twice is no wider than the tolerance (mm).
--- The width is estimated from the squared distance of the two points, and half the difference of
--- the curvatures.
+-- Then the second intersection is not reported. The width is estimated from @hh@, the squared
+-- distance of the two intersections in mm², and @bend@, half the difference of the curvatures in
+-- 1/mm.
 isThin :: Double -> Double -> Double -> Bool
 isThin tolerance hh bend = hh <= tolerance * tolerance || hh * bend <= 16 * tolerance
 
--- | Intersections of two segments that share both ends and are not both lines. When they coincide,
--- the start of the second is reported as lying on the first; otherwise they meet nowhere else.
+-- | Intersections of the segments @i@ and @j@, which share both ends and are not both lines. When
+-- the segments coincide, the start of @j@ is reported as lying on @i@; otherwise they meet nowhere
+-- else.
 sharingEnds :: Double -> ClosedPolyarcs -> Visitor s -> Int -> Int -> ST s ()
 sharingEnds !tolerance !c visitor !i !j =
   -- The bulge of an arc changes its sign when the arc is reversed.
@@ -559,10 +567,10 @@ sharingEnds !tolerance !c visitor !i !j =
       )
       $ resting visitor i j
 
--- | True when a point of an arc's circle belongs to the arc, that is, it lies on the arc's side of
--- the chord. Near the ends of a flat arc rounding would decide that. Therefore a point of a flat
--- arc's circle belongs to the arc when its foot on the chord lies between the chord's ends, and it
--- is nearer to the chord than the chord is long.
+-- | True when the point (@px@, @py@) of the circle of arc @i@ belongs to the arc, that is, it lies
+-- on the arc's side of the chord. Near the ends of a flat arc rounding would decide that. Therefore
+-- a point of a flat arc's circle belongs to the arc under two conditions: its foot on the chord
+-- lies between the chord's ends, and it is nearer to the chord than the chord is long.
 isOnArc :: ClosedPolyarcs -> Int -> Double -> Double -> Bool
 isOnArc c i px py = ClosedPolyarcs.chord c i $ \ux uy ->
   let ax = px - indexPrimArray (ClosedPolyarcs.xs c) i
@@ -574,7 +582,8 @@ isOnArc c i px py = ClosedPolyarcs.chord c i $ \ux uy ->
    in if abs b > 0.1 then aside * b < 0 else along > 0 && along < square && abs aside < square
 {-# INLINE isOnArc #-}
 
--- | The fraction along a segment's chord, from 0 to 1, of the foot of a point of the segment.
+-- | The position of the point (@px@, @py@) along the chord of segment @i@, as a fraction from 0 to
+-- 1. It is the position of the foot of the perpendicular from the point, which lies on the segment.
 parameter :: ClosedPolyarcs -> Int -> Double -> Double -> Double
 parameter c i px py = ClosedPolyarcs.chord c i $ \ux uy ->
   ( ux * (px - indexPrimArray (ClosedPolyarcs.xs c) i)
@@ -583,7 +592,7 @@ parameter c i px py = ClosedPolyarcs.chord c i $ \ux uy ->
     / (ux * ux + uy * uy)
 {-# INLINE parameter #-}
 
--- | The number with its sign changed if the arc is clockwise.
+-- | The number @a@, with its sign changed if segment @i@ is a clockwise arc.
 signed :: ClosedPolyarcs -> Int -> Double -> Double
 signed c i a = if indexPrimArray (ClosedPolyarcs.bulges c) i < 0 then -a else a
 {-# INLINE signed #-}

@@ -1,8 +1,8 @@
 {-# LANGUAGE BangPatterns #-}
 {-# OPTIONS_GHC -O2 -fno-full-laziness #-}
 
--- | Self-intersections of closed polyarcs in general position: segments cross between their ends,
--- and do not touch or coincide.
+-- | Self-intersections of closed polyarcs in general position: segments may cross between their
+-- ends, but they do not touch or coincide. Segments are given by their numbers in 'ClosedPolyarcs'.
 module Offset.SelfIntersection
   ( SelfIntersections (..),
     SearchResult (..),
@@ -25,16 +25,17 @@ import Geometry.Index.SegmentBoxTree qualified as SegmentBoxTree
 import Offset.SegmentIntersection (Visitor (..))
 import Offset.SegmentIntersection qualified as SegmentIntersection
 
--- | The intersections, numbered from 0. Intersection @h@ occurs twice: occurrence @2h@ on its first
--- segment, and @2h + 1@ on its second one.
+-- | The intersections, numbered from 0. An occurrence is an intersection seen on one of its two
+-- segments. Intersection @h@ has occurrence @2h@ on its first segment, and @2h + 1@ on its second
+-- one.
 data SelfIntersections = SelfIntersections
   { -- | number of intersections
     count :: Int,
-    -- | four numbers for each intersection: x and y in mm, and the fractions along the chords of
-    -- its first and second segment
+    -- | four numbers for each intersection: x and y in mm, then its positions along the chords of
+    -- its first and its second segment, as fractions from 0 to 1
     reals :: PrimArray Double,
-    -- | for each occurrence twice the segment's number, plus 1 where the winding number on the left
-    -- of the segment decreases
+    -- | for each occurrence twice the number of its segment, plus 1 where the winding number on the
+    -- left of this segment decreases
     segments :: PrimArray Int32
   }
 
@@ -42,11 +43,12 @@ data SelfIntersections = SelfIntersections
 data SearchResult
   = -- | all intersections
     SearchResult SelfIntersections
-  | -- | not in general position: to within rounding, a segment ends on another one or touches it
+  | -- | not in general position: a segment ends on another one or touches it, or rounding hides the
+    -- difference
     NotGeneral
 
--- | Finds all self-intersections. The tolerance (mm) covers rounding; the boxes of the bounding-box
--- tree are inflated by it.
+-- | Finds all self-intersections of the polyarcs @c@. @tolerance@ (mm) covers rounding; the boxes
+-- of the bounding-box tree @boxes@ are inflated by it.
 find :: Double -> ClosedPolyarcs -> SegmentBoxTree -> SearchResult
 find !tolerance !c !boxes = runST $ do
   state <- newPrimArray 2
@@ -89,8 +91,9 @@ find !tolerance !c !boxes = runST $ do
       g <- readMutVar ss >>= unsafeFreezePrimArray
       pure (SearchResult (SelfIntersections k r g))
 
--- | A pair of segments that cross, if there is one. A segment that only ends on another one or
--- touches it does not count.
+-- | The numbers of two segments that cross between their ends. Nothing when there is no such pair.
+-- A segment that only ends on another one or touches it does not count. @tolerance@ (mm) covers
+-- rounding.
 properCrossing :: Double -> ClosedPolyarcs -> SegmentBoxTree -> Maybe (Int, Int)
 properCrossing tolerance c boxes = runST $ do
   found <- newMutVar Nothing
@@ -106,9 +109,9 @@ properCrossing tolerance c boxes = runST $ do
     (SegmentIntersection.meet tolerance c visitor)
   readMutVar found
 
--- | Makes room for intersection @k@ in the arrays of reals and of segments. The first allocation
--- has room for @capacity@ intersections; later ones double it. A large first one costs little,
--- since untouched memory is not used; copying costs time.
+-- | Makes room for intersection @k@ in the arrays @rs@ of reals and @ss@ of segments. The first
+-- allocation has room for @capacity@ intersections; each later one doubles the room. A large first
+-- allocation costs little, since untouched memory is not used; copying costs time.
 grow ::
   Int ->
   MutVar s (MutablePrimArray s Double) ->
@@ -124,14 +127,14 @@ grow capacity rs ss k = do
     resizeMutablePrimArray r (4 * more) >>= writeMutVar rs
     resizeMutablePrimArray g (2 * more) >>= writeMutVar ss
 
--- | The numbers of the two segments of an intersection.
+-- | The numbers of the two segments of intersection @h@.
 segmentPair :: SelfIntersections -> Int -> (Int, Int)
 segmentPair c h = (half (2 * h), half (2 * h + 1))
   where
     half k = fromIntegral (indexPrimArray (segments c) k) `quot` 2
 
--- | True when the winding number on the left of a segment decreases by one at an occurrence, given
--- by its number. Otherwise it increases by one.
+-- | True when the winding number on the left of its segment decreases by one at occurrence @o@.
+-- Otherwise it increases by one.
 decreases :: SelfIntersections -> Int -> Bool
 decreases c o = odd (indexPrimArray (segments c) o)
 {-# INLINE decreases #-}

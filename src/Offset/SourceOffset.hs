@@ -5,6 +5,8 @@
 -- contour come from here. They depend on the contour alone, so rounding errors do not add up along
 -- the path. This module does not decide which parts of an offset the cutter can reach;
 -- "Offset.Kernel" does.
+--
+-- Elements are numbered from 0. A corner has the number of the element before it.
 module Offset.SourceOffset
   ( -- * The request
     CornerStyle (..),
@@ -59,17 +61,17 @@ data CornerStyle = CornerStyle
   { -- | True: two lines to the intersection of both offsets; False: an arc about the vertex.
     -- Corners that turn by more than 120° get an arc in any case
     sharp :: Bool,
-    -- | additional distance from an element, by its number from 0; not negative
+    -- | additional distance in mm from an element, by the element's number; not negative
     extra :: Int -> Mm
   }
 
--- | A contour, and the offset of it that is wanted.
+-- | A contour, and the request for an offset of it.
 data OffsetSource = OffsetSource
   { style :: CornerStyle,
     -- | the cutter's side of the contour
     side :: Side,
-    -- | the cutter's radius, not negative; the offset's distance from an element is the sum of it
-    -- and the element's extra distance
+    -- | the cutter's radius in mm, not negative. The offset's distance from an element is this
+    -- radius plus the element's extra distance
     radius :: Mm,
     -- | elements of the contour in order; at least one
     elements :: Vector Segment,
@@ -79,7 +81,8 @@ data OffsetSource = OffsetSource
     turnings :: PrimArray Double
   }
 
--- | The offset of a contour on a side of it, for a cutter's radius.
+-- | The request for an offset of a contour: the style of corners, the cutter's side, the cutter's
+-- radius in mm, and the contour.
 fromContour :: CornerStyle -> Side -> Mm -> Polyarc -> OffsetSource
 fromContour style side radius (Polyarc ends segments) =
   OffsetSource {style, side, radius, elements, ends, turnings = generatePrimArray count turning}
@@ -99,11 +102,11 @@ fromContour style side radius (Polyarc ends segments) =
 elementCount :: OffsetSource -> Int
 elementCount = Vector.length . elements
 
--- | The number of the element that follows the given one. The first one follows the last one.
+-- | The number of the element after element @i@. The first one follows the last one.
 next :: OffsetSource -> Int -> Int
 next source i = if i + 1 == elementCount source then 0 else i + 1
 
--- | The distance of the offset from an element.
+-- | The distance in mm of the offset from element @i@.
 distanceAt :: OffsetSource -> Int -> Mm
 distanceAt source i = plus (radius source) (extra (style source) i)
 
@@ -115,7 +118,7 @@ data OffsetSegment = OffsetSegment {origin :: Origin, segment :: Segment}
 data Origin = Along Int | Around Int
   deriving stock (Eq, Show)
 
--- | The order along the contour.
+-- | The order in which the elements and corners follow each other along the contour.
 instance Ord Origin where
   compare = comparing $ \case
     Along i -> (i, False)
@@ -127,7 +130,7 @@ numberOf origin = case origin of
   Along i -> i
   Around i -> i
 
--- | The offset of one element. An arc that is moved towards its centre by its radius or more
+-- | The offset of element @i@. An arc that is moved towards its centre by its radius or more
 -- becomes a point.
 movedElement :: OffsetSource -> Int -> Segment
 movedElement source i = case elements source Vector.! i of
@@ -140,8 +143,8 @@ movedElement source i = case elements source Vector.! i of
   where
     distance = distanceAt source i
 
--- | Cuts lengths in mm off the start and off the end of a segment. The sum of both lengths is
--- smaller than the segment's length.
+-- | The part of the segment @s@ that remains when the lengths @front@ and @back@ in mm are cut off
+-- its start and its end. Their sum is smaller than the segment's length.
 shortened :: Double -> Double -> Segment -> Segment
 shortened front back s
   | front + back <= 0 = s
@@ -153,12 +156,12 @@ shortened front back s
 data Corner
   = -- | none: an open contour ends here
     NoCorner
-  | -- | the direction changes by no more than 'Tolerance.smoothAngle'
+  | -- | a smooth joint: the direction changes by no more than 'Tolerance.smoothAngle'
     Smooth
   | -- | turns towards the cutter by a small angle θ: the gap between the vertex and the cutter's
-    -- edge is at most 'Tolerance.smallestRest'. The offsets of lines before and after it are
-    -- shortened by this length, @r·tan(θ/2)@ in mm. Curves through measured points have such
-    -- corners
+    -- edge is at most 'Tolerance.smallestRest'. The number is the length @r·tan(θ/2)@ in mm by
+    -- which the offsets of lines before and after the corner are shortened. Curves through measured
+    -- points have such corners
     Slight Double
   | -- | turns towards the cutter, and the cutter does not reach into the corner
     Blocked
@@ -166,7 +169,7 @@ data Corner
     Outer
   deriving stock (Eq)
 
--- | The kind of the corner after an element.
+-- | The kind of the corner after element @i@.
 cornerAt :: OffsetSource -> Int -> Corner
 cornerAt source i
   | ends source == Open && i + 1 == elementCount source = NoCorner
@@ -185,9 +188,9 @@ cornerAt source i
             then Just (r * tan (abs turned / 2))
             else Nothing
 
--- | True when the contour turns back after an element: its direction changes by half a turn. The
--- vertex is either the tip of a thin piece of material, which the cutter goes round, or the end of
--- a crevice that the cutter cannot enter. Only the kernel's loop shows which it is.
+-- | True when the contour turns back after element @i@: its direction changes by half a turn. The
+-- vertex is either the tip of a thin part of the material, which the cutter goes round, or the end
+-- of a crevice that the cutter cannot enter. Only the kernel's loop shows which of the two it is.
 isCusp :: OffsetSource -> Int -> Bool
 isCusp source i = pi - abs (indexPrimArray (turnings source) i) <= smooth
   where
@@ -200,8 +203,8 @@ data Cuts = Cuts {back :: Double, front :: Double}
 noCuts :: Cuts
 noCuts = Cuts 0 0
 
--- | The lengths cut off at the corner after an element, given the offsets of the elements before
--- and after it. Only a slight corner has any.
+-- | The lengths cut off at the corner after element @i@, given the offsets of the elements before
+-- and after the corner. They are 0 at every corner that is not slight.
 cutsAt :: OffsetSource -> Int -> Segment -> Segment -> Cuts
 cutsAt source i before after = case cornerAt source i of
   Slight t -> meeting t before after
@@ -210,10 +213,10 @@ cutsAt source i before after = case cornerAt source i of
   Blocked -> noCuts
   NoCorner -> noCuts
 
--- | The lengths in mm to cut off the end of one segment and the start of the next one, so that both
--- meet at their intersection. For two lines both lengths are @t@. With an arc they are near @t@:
--- three steps of Newton's method, which replace the segments by their tangents, leave the rounding
--- error only. When a step leaves the segments, both lengths are @t@.
+-- | The lengths to cut off the end of one segment and the start of the next one, so that both meet
+-- at their intersection. For two lines both lengths are @t@ mm. With an arc they are near @t@.
+-- Three steps of Newton's method, which replaces the segments by their tangents, leave only the
+-- rounding error. When a step leaves the segments, both lengths are @t@.
 meeting :: Double -> Segment -> Segment -> Cuts
 meeting t before after = case (before, after) of
   (Straight _ _, Straight _ _) -> Cuts t t
@@ -232,7 +235,7 @@ meeting t before after = case (before, after) of
         a' = a - Vec.cross gap v / Vec.cross u v
         b' = b - Vec.cross u gap / Vec.cross u v
 
--- | The arc on which the cutter's centre rounds the corner after an element. Its radius is the
+-- | The arc on which the cutter's centre rounds the corner after element @i@. Its radius is the
 -- larger one of both elements' distances.
 cornerArc :: OffsetSource -> Int -> Segment
 cornerArc source i =
@@ -245,13 +248,13 @@ cornerArc source i =
     before = elements source Vector.! i
     wide = max (distanceAt source i) (distanceAt source (next source i))
 
--- | The point at a distance from the corner after an element, on the cutter's side and square to a
--- direction of length 1.
+-- | The point at @distance@ from the corner after element @i@, on the cutter's side and square to
+-- @direction@, a vector of length 1.
 beside :: OffsetSource -> Int -> Mm -> Vec.Vec -> Point
 beside source i distance direction =
   Carrier.beside (side source) distance direction (Segment.end (elements source Vector.! i))
 
--- | The points at which the offset's lines at the corner after an element can start or end. They
+-- | The points at which the offset's lines at the corner after element @i@ can start or end. They
 -- lie square to both elements at both elements' distances; a sharp corner has its tip as well.
 cornerPoints :: OffsetSource -> Int -> [Point]
 cornerPoints source i =
@@ -263,8 +266,8 @@ cornerPoints source i =
     r1 = distanceAt source i
     r2 = distanceAt source (next source i)
 
--- | The line from the distance of an element to the distance of the next one, beside the corner
--- between them. There is none when both distances are equal or the cutter does not pass the corner.
+-- | The line beside the corner after element @i@, from that element's distance to the distance of
+-- the next one. Nothing when both distances are equal or the cutter does not pass the corner.
 cornerStep :: OffsetSource -> Int -> Maybe Segment
 cornerStep source i = case cornerAt source i of
   Smooth -> step
@@ -284,7 +287,8 @@ cornerStep source i = case cornerAt source i of
     r1 = distanceAt source i
     r2 = distanceAt source (next source i)
 
--- | The two lines of the offset at the corner after an element, if it is a sharp corner.
+-- | The two lines of the offset at the corner after element @i@. Nothing when the offset is not
+-- sharp there.
 sharpCorner :: OffsetSource -> Int -> Maybe (Segment, Segment)
 sharpCorner source i
   | cornerAt source i == Outer && isSharp source i =
@@ -297,15 +301,15 @@ sharpCorner source i
     at = beside source i (distanceAt source i)
     top = tip source i
 
--- | True when the offset of the corner after an element is sharp: this is asked for, both elements
--- have one distance, and the corner turns by at most 120°.
+-- | True when the offset of the corner after element @i@ is sharp: the request asks for sharp
+-- corners, both elements have the same distance, and the corner turns by at most 120°.
 isSharp :: OffsetSource -> Int -> Bool
 isSharp source i =
   sharp (style source)
     && distanceAt source i == distanceAt source (next source i)
     && abs (indexPrimArray (turnings source) i) <= 2 * pi / 3
 
--- | The intersection of the tangents of both offsets at the corner after an element.
+-- | The intersection of the tangents of both offsets at the corner after element @i@.
 tip :: OffsetSource -> Int -> Point
 tip source i =
   Vec.shift (Vec.scale (r * tan (abs turned / 2)) before) (beside source i (Mm r) before)

@@ -11,32 +11,34 @@ where
 
 import Base.Quantity (Mm (..))
 
--- | The amount by which rounding may bring the cutter's centre closer to the part than the cutter's
--- radius. It is larger than the gap between two offsets of 50 mm, a large cutter's radius, whose
--- elements join at an angle of 'Geometry.Tolerance.smoothAngle'.
+-- | The amount in mm by which rounding may bring the cutter's centre closer to the part than the
+-- cutter's radius. Two elements that join at an angle of 'Geometry.Tolerance.smoothAngle' have
+-- offsets with a gap between them. The amount is larger than this gap for a cutter with a radius of
+-- 50 mm, a large one.
 clearance :: Mm
 clearance = Mm 1e-5
 
--- | Slots as wide as the cutter are ignored when the cutter's path in and out of them, twice their
--- length, is no longer than this.
+-- | The largest length in mm of cutter path in slots exactly as wide as the cutter that is ignored.
+-- The path goes into a slot and out again, so its length is twice that of the slot.
 ignoredSlot :: Mm
 ignoredSlot = Mm 0.01
 
--- | A corner that turns towards the cutter is no obstacle when the gap between its vertex and the
--- cutter's edge is no larger than this.
+-- | The largest gap in mm between the vertex of a corner and the cutter's edge at which the corner
+-- is no obstacle. Only a corner that turns towards the cutter has such a gap.
 smallestRest :: Mm
 smallestRest = Mm 1e-5
 
--- | The interval at which a bisection for the largest cutter or the largest excess ends.
+-- | The length in mm of the interval at which a bisection ends. The bisections look for the largest
+-- cutter radius that fits, or for the largest excess material.
 resolution :: Mm
 resolution = Mm 1e-6
 
--- | The rounding error of a point that the offset kernel computes, as a share of the largest
+-- | The rounding error of a point that the offset kernel computes, as a fraction of the largest
 -- coordinate: about fifty units in the last place.
 rounding :: Double
 rounding = 1e-14
 
 -- | The sine of the largest angle between two directions that the offset kernel treats as equal.
--- Offset points move by no more than this share of the distance.
+-- This moves offset points by at most the product of the sine and the offset's distance.
 tangential :: Double
 tangential = 1e-9

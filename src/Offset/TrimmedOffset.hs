@@ -1,8 +1,11 @@
 -- | The paths that the centre of a cutter can take beside a contour, cut from the kernel's loops.
 --
 -- "Offset.Kernel" finds the parts of an offset that can be reached, and "Offset.LoopPath" makes
--- segments of its loops. This module makes paths of the segments, and decides whether a path
--- leaves out a part of the contour.
+-- segments of its loops. This module makes paths of the segments, and decides whether a path leaves
+-- out a part of the contour.
+--
+-- As in "Offset.LoopPath", @structure@ is the offset that the kernel computed, and @source@ the one
+-- whose coordinates are wanted. The radius of @source@ may be a little larger.
 module Offset.TrimmedOffset
   ( TrimmedOffset (..),
     along,
@@ -47,17 +50,16 @@ data TrimmedOffset = TrimmedOffset
     -- | the segments of the path in order, each starting exactly where the one before ends
     pieces :: NonEmpty OffsetSegment,
     -- | the elements of the contour, by number from 0, that stop the cutter at the start and at the
-    -- end of an open path; nothing at an end of the contour, and for a closed path
+    -- end of an open path. Nothing at an end of the contour, and for a closed path
     stops :: (Maybe Int, Maybe Int)
   }
   deriving stock (Eq, Show)
 
--- | The paths beside a contour, in the contour's order. A contour that intersects itself has none.
+-- | The paths beside a contour, in the contour's order; empty for a contour that intersects itself.
 along :: OffsetSource -> [TrimmedOffset]
 along source = maybe [] (pathsIn source source) (LoopPath.region source)
 
--- | The paths in a region. The first offset is the one for which the kernel computed the region;
--- the second one gives the coordinates, and its radius may be a little larger.
+-- | The paths in a region, which the kernel computed for @structure@.
 pathsIn :: OffsetSource -> OffsetSource -> LoopPath.LoopRegion -> [TrimmedOffset]
 pathsIn structure source region =
   sortOn
@@ -73,13 +75,14 @@ pathsIn structure source region =
           | Just ps <- [NonEmpty.nonEmpty (LoopPath.path structure source (Just before) runs)]
         ]
 
--- | The segments with exact joints: each starts where the one before ends.
+-- | The segments with exact joints: each starts where the one before ends. The kernel's joints may
+-- differ by rounding.
 chained :: Ends -> NonEmpty OffsetSegment -> NonEmpty OffsetSegment
 chained = Polyarc.closeGaps segment (\s p -> p {segment = s})
 
--- | The stretches of a loop that lie on the cutter's side of an open contour, each with the run
--- before it and the run after it. The arguments are the loop's first run, which does not lie there,
--- and the other runs.
+-- | The stretches of a loop that lie on the cutter's side of an open contour. Each comes with the
+-- run before it and the run after it. @first@ is the loop's first run, which does not lie on that
+-- side; the second argument has all other runs.
 stretches :: Run -> [Run] -> [(Run, NonEmpty Run, Run)]
 stretches first = go first
   where
@@ -94,8 +97,9 @@ stretches first = go first
           (before, r :| more, after) : go after (drop 1 others)
         | otherwise -> go r rest
 
--- | The open path along a stretch, given both offsets of 'pathsIn', the number of segments of the
--- flat contour, and the stretch with the runs before and after it.
+-- | The open path along the stretch @runs@; Nothing when the path has no segments. @count@ is the
+-- number of segments of the flat contour; @before@ and @after@ are the runs before and after the
+-- stretch.
 openPath :: OffsetSource -> OffsetSource -> Int -> (Run, NonEmpty Run, Run) -> Maybe TrimmedOffset
 openPath structure source count (before, runs, after) =
   pathOf <$> NonEmpty.nonEmpty (LoopPath.path structure source Nothing (NonEmpty.toList runs))
@@ -109,20 +113,21 @@ openPath structure source count (before, runs, after) =
               stopAt (count - 1) after (flat (NonEmpty.last runs) == count - 1)
             )
         }
-    -- Where the contour itself ends, the run beyond is the arc about its end, which stops nothing.
+    -- Where the contour itself ends, the next run is the arc about the contour's end, which stops
+    -- nothing.
     stopAt end other endsThere = case LoopPath.origin other of
       Around _ | flat other == end, endsThere -> Nothing
       o -> Just (numberOf o)
 
--- | The segments of the offset, when the cutter reaches every element of the contour: there is one
--- path, it leaves out only arcs whose offset is a point, and nothing stops the cutter at the ends
--- of an open contour. Inner corners are not examined. The list is empty when the offset of every
--- element is a point. The first offset is the one that the kernel computes; the second one gives
--- the coordinates, and its radius may be a little larger.
+-- | The segments of the offset, when the cutter reaches every element of the contour; else Nothing.
+-- The cutter reaches every element when three conditions are true: there is one path, it leaves out
+-- only arcs whose offset is a point, and nothing stops the cutter at the ends of an open contour.
+-- Inner corners are not examined. The list is empty when the offset of every element is a point.
 whole :: OffsetSource -> OffsetSource -> Maybe [OffsetSegment]
 whole structure source = case LoopPath.region structure of
   Just region -> case pathsIn structure source region of
-    -- The checks of the next case would keep the whole path in memory.
+    -- This case comes first, because the checks of the next one would keep the whole path in
+    -- memory.
     path : _ | isUncut region -> Just (NonEmpty.toList (pieces path))
     [path]
       | SourceOffset.ends source == ends path,
@@ -136,15 +141,15 @@ whole structure source = case LoopPath.region structure of
     nothingLeft
       | all (hasShrunk structure) [0 .. elementCount structure - 1] = Just []
       | otherwise = Nothing
-    -- True when nothing stops the cutter at the path's ends but elements whose offset is a point.
+    -- True when only elements whose offset is a point stop the cutter at the ends of the path.
     isOpenAtEnds path =
       maybe True (< firstOf path) (fst (stops path))
         && maybe True (> finalOf path) (snd (stops path))
     firstOf = numberOf . origin . NonEmpty.head . pieces
     finalOf = numberOf . origin . NonEmpty.last . pieces
 
--- | True when nothing of the raw offset was cut away: its segments are those of the only loop, in
--- the same order.
+-- | True when trimming has removed no part of the raw offset: the segments of the raw offset are
+-- those of the only loop, in the same order.
 isUncut :: LoopPath.LoopRegion -> Bool
 isUncut region =
   Loop.count loops == 1
@@ -154,8 +159,8 @@ isUncut region =
     count = sizeofPrimArray (Loop.raws loops)
     loops = LoopPath.loops region
 
--- | True when the numbers of elements do not decrease, and the offset of every element that is not
--- among them is a point.
+-- | True when @numbers@, the elements along a path in order, do not decrease, and the offset of
+-- every element that is not among them is a point.
 isInOrder :: OffsetSource -> [Int] -> Bool
 isInOrder source numbers =
   and (zipWith (<=) numbers (drop 1 numbers))
@@ -172,7 +177,7 @@ hasShrunk source i = case elements source Vector.! i of
     let Mm d = minus (Segment.radius centre start) (distanceAt source i)
      in Mm (abs d) <= Tolerance.clearance
 
--- | The raw offset, nothing of it trimmed. The cutter passes all corners of the contour.
+-- | The whole raw offset, untrimmed. The cutter passes all corners of the contour.
 untrimmed :: OffsetSource -> [OffsetSegment]
 untrimmed source = LoopPath.path source source previous runs
   where

@@ -4,9 +4,12 @@
 -- | Trims a raw offset in general position, and returns the loops that bound the region with the
 -- wanted winding number.
 --
--- Each polyarc is traversed once from a point where the winding number is known. The number is
--- updated at each self-intersection. Slices, the parts between consecutive intersections, are kept
--- when the number on their left is the wanted one, and joined at the intersections.
+-- Each polyarc is traversed once from a point where the winding number is known. The winding number
+-- is updated at each self-intersection. Slices are the parts between consecutive intersections.
+-- They are kept when the winding number on their left is the wanted one, and joined at the
+-- intersections. An occurrence is an intersection seen on one of its two segments
+-- ("Offset.SelfIntersection"). The sorted occurrences are in the order in which the polyarcs pass
+-- them.
 module Offset.Trimming
   ( trim,
   )
@@ -26,14 +29,15 @@ import Offset.SelfIntersection qualified as SelfIntersection
 import Offset.WindingNumber (Extreme (..), Outward (..))
 import Offset.WindingNumber qualified as WindingNumber
 
--- | The loops that have the wanted winding number on their left. The arguments are the tolerance
--- (mm), the wanted number, the polyarcs with their bounding-box tree, and their self-intersections.
--- The result is Nothing when two intersections coincide within the tolerance, a polyarc runs back
--- along itself at its leftmost or rightmost point, or the winding numbers contradict each other.
+-- | The loops that have the winding number @wanted@ on their left. @boxes@ is the bounding-box tree
+-- of the polyarcs @c@; @xs@ are their self-intersections; @tolerance@ is in mm. The result is
+-- Nothing, so that the caller tries an arrangement, in three cases: two intersections coincide
+-- within the tolerance, a polyarc runs back along itself at its leftmost or rightmost point, or the
+-- winding numbers contradict each other.
 trim :: Double -> Int -> ClosedPolyarcs -> SegmentBoxTree -> SelfIntersections -> Maybe OffsetLoops
 trim !tolerance !wanted !c !boxes !xs = do
-  -- For each polyarc its leftmost point with the winding number on its left there. A single polyarc
-  -- has its rightmost point too.
+  -- For each polyarc its leftmost point with the winding number on the polyarc's left there. A
+  -- single polyarc also has its rightmost point, by which the traversal is checked.
   outermost <- traverse outside [0 .. ClosedPolyarcs.loopCount c - 1]
   if total == 0
     then uncut wanted c outermost
@@ -61,8 +65,9 @@ trim !tolerance !wanted !c !boxes !xs = do
       b <- leftExcess rightmost
       pure (leftmost, base + a, if single then Just (rightmost, b) else Nothing)
 
--- | The loops when there are no self-intersections: the polyarcs that have the wanted number on
--- their left. A single polyarc is not copied.
+-- | The loops when there are no self-intersections: the polyarcs that have the winding number
+-- @wanted@ on their left. @outermost@ has for each polyarc its leftmost point, the winding number
+-- on its left there, and perhaps the same for its rightmost point. A single polyarc is not copied.
 uncut :: Int -> ClosedPolyarcs -> [(Extreme, Int, Maybe (Extreme, Int))] -> Maybe OffsetLoops
 uncut wanted c outermost
   | any (\(_, left, rightmost) -> maybe False ((/= left) . snd) rightmost) outermost = Nothing
@@ -96,8 +101,9 @@ uncut wanted c outermost
         ]
 
 -- | Sorts the occurrences by segment (counting sort) and by position on the segment (insertion
--- sort). Fills @order@ with the sorted occurrences, and @begins@ with the index in @order@ of each
--- segment's first occurrence. @begins@ needs two entries more than there are segments.
+-- sort). Fills @order@ with the numbers of the sorted occurrences, and @begins@ with the index in
+-- @order@ of each segment's first occurrence. @begins@ needs two entries more than there are
+-- segments.
 sortOccurrences ::
   ClosedPolyarcs ->
   SelfIntersections ->
@@ -119,8 +125,8 @@ sortOccurrences c xs begins order = do
           writePrimArray begins i (a + v)
           accumulate (i + 1) (a + v)
   accumulate 2 0
-  -- While occurrences are placed, entry s + 1 of begins is the index for the next occurrence of
-  -- segment s. In the end it is the index of the first occurrence of segment s + 1.
+  -- While occurrences are placed, entry s + 1 of @begins@ is the index in @order@ for the next
+  -- occurrence of segment s. In the end it is the index of the first occurrence of segment s + 1.
   forM' total $ \o -> do
     let s = segmentOf o
         t = parameterOf xs o
@@ -145,28 +151,29 @@ sortOccurrences c xs begins order = do
     -- example where all segments meet in the centre of a circle.
     isMany = 2 * SelfIntersection.count xs > 32 * sizeofPrimArray (ClosedPolyarcs.xs c)
 
--- | The fraction along its segment's chord at which an occurrence lies, from 0 to 1.
+-- | The position of occurrence @o@ along its segment's chord, as a fraction from 0 to 1.
 parameterOf :: SelfIntersections -> Int -> Double
 parameterOf xs o = indexPrimArray (SelfIntersection.reals xs) (2 * o + 2 - (if odd o then 1 else 0))
 {-# INLINE parameterOf #-}
 
--- | The polyarcs, their self-intersections, and the occurrences of these sorted along the polyarcs.
--- The third field has the index of each segment's first occurrence in the fourth one.
+-- | The polyarcs, their self-intersections, and two arrays. The fourth field has the numbers of the
+-- sorted occurrences. The third field has the index in the fourth one of each segment's first
+-- occurrence.
 data Slices = Slices ClosedPolyarcs SelfIntersections (PrimArray Int32) (PrimArray Int32)
 
--- | The index of a polyarc's first occurrence among the sorted ones.
+-- | The index of the first occurrence of polyarc @w@ among the sorted ones.
 rangeBegin :: Slices -> Int -> Int
 rangeBegin (Slices c _ begins _) w =
   fromIntegral (indexPrimArray begins (ClosedPolyarcs.firstVertex c w))
 {-# INLINE rangeBegin #-}
 
--- | The index after a polyarc's last occurrence.
+-- | The index after the last occurrence of polyarc @w@ among the sorted ones.
 rangeEnd :: Slices -> Int -> Int
 rangeEnd (Slices c _ begins _) w =
   fromIntegral (indexPrimArray begins (ClosedPolyarcs.repeatedVertex c w))
 {-# INLINE rangeEnd #-}
 
--- | Runs an action for every index from 0 to n − 1. Unlike 'forM_' it allocates no list.
+-- | Runs the action @f@ for every index from 0 to @n − 1@. Unlike 'forM_' it allocates no list.
 forM' :: Int -> (Int -> ST s ()) -> ST s ()
 forM' n f = go 0
   where
@@ -183,7 +190,8 @@ areDistinct tolerance (Slices c xs begins order) = go 0 1
     n = sizeofPrimArray (ClosedPolyarcs.xs c)
     total = 2 * SelfIntersection.count xs
     at o k = indexPrimArray (SelfIntersection.reals xs) (4 * (fromIntegral o `quot` 2) + k)
-    -- Compares the occurrences at q − 1 and q. Segment i is not after the segment of the former.
+    -- Compares the sorted occurrences at @q − 1@ and @q@. Segment @i@ is not after the segment of
+    -- the first of them.
     go !i !q
       | q >= total = True
       | i < n && fromIntegral (indexPrimArray begins (i + 1)) <= q - 1 = go (i + 1) q
@@ -193,10 +201,11 @@ areDistinct tolerance (Slices c xs begins order) = go 0 1
             b = indexPrimArray order q
          in (abs (at a 0 - at b 0) > tolerance || abs (at a 1 - at b 1) > tolerance) && go i (q + 1)
 
--- | Fills @lefts@ with the winding number on the left of a polyarc after each of its occurrences,
--- in the order of @order@. The last argument is the polyarc's number, with its leftmost point, the
--- winding number there, and perhaps its rightmost point. The result is False when the computed
--- winding number at the rightmost point differs from the known one.
+-- | Fills @lefts@ with the winding number on the left of polyarc @w@ after each of its occurrences,
+-- in the order of the sorted occurrences. The last argument has the number @w@, the leftmost point
+-- of the polyarc, the winding number there, and perhaps its rightmost point with the expected
+-- winding number. The result is False when the number computed at the rightmost point differs from
+-- the expected one.
 propagate ::
   Slices ->
   MutablePrimArray s Int32 ->
@@ -231,9 +240,10 @@ propagate slices@(Slices _ xs begins order) lefts (w, (leftmost, left, rightmost
         writePrimArray lefts q (fromIntegral v')
         go (if q + 1 == z then a else q + 1) (k + 1 :: Int) v'
 
--- | Joins slices with the wanted number on their left into loops. A slice runs from one occurrence
--- to the next along its polyarc. Marks the slices in @lefts@ as visited. The result is Nothing when
--- a slice leads to one without the wanted number.
+-- | Joins slices with the winding number @wanted@ on their left into loops. A slice runs from one
+-- occurrence to the next along its polyarc. Marks the slices in @lefts@ as visited. @outermost@ is
+-- that of 'uncut'. The result is Nothing when a kept slice leads to a slice with another winding
+-- number.
 joinSlices ::
   Int ->
   Slices ->
@@ -250,8 +260,8 @@ joinSlices !wanted slices@(Slices !c !xs _ !order) lefts outermost = do
           copySegments out c from to l
           pure (l + to - from, made + 1)
         | otherwise = pure (l, made)
-      -- Follows the polyarc from occurrence q to the next one. Then it continues at the same
-      -- intersection on the other segment.
+      -- Follows the polyarc from the sorted occurrence at q to the next one. Then it continues at
+      -- the same intersection on the intersection's second segment.
       follow !q0 !q !l = do
         writePrimArray lefts q visited
         let w = if single then 0 else fromIntegral (indexPrimArray polyarcOf q)
@@ -281,10 +291,10 @@ joinSlices !wanted slices@(Slices !c !xs _ !order) lefts outermost = do
     !position = positions slices
     -- A single polyarc needs no lookup.
     !polyarcOf = if single then mempty else polyarcNumbers slices
-    -- The mark of a visited slice. It is no winding number.
+    -- The mark of a visited slice, which no winding number equals.
     visited = minBound :: Int32
 
--- | The position of each occurrence among the sorted ones.
+-- | For each occurrence its index among the sorted ones.
 positions :: Slices -> PrimArray Int32
 positions (Slices _ xs _ order) = runPrimArray $ do
   position <- newPrimArray (max 1 total)
@@ -294,7 +304,7 @@ positions (Slices _ xs _ order) = runPrimArray $ do
   where
     total = 2 * SelfIntersection.count xs
 
--- | The number of the polyarc of each sorted occurrence.
+-- | For each of the sorted occurrences the number of its polyarc.
 polyarcNumbers :: Slices -> PrimArray Int32
 polyarcNumbers slices@(Slices c xs _ _) = runPrimArray $ do
   numbers <- newPrimArray (max 1 (2 * SelfIntersection.count xs))
@@ -312,7 +322,7 @@ data Output s
       (MutablePrimArray s Double)
       (MutablePrimArray s Int32)
 
--- | Arrays with room for a number of vertices.
+-- | Arrays with room for @capacity@ vertices.
 newOutput :: Int -> ST s (Output s)
 newOutput capacity =
   Output
@@ -321,8 +331,8 @@ newOutput capacity =
       <*> newPrimArray capacity
       <*> newPrimArray capacity
 
--- | The loops, from the arrays, the index of each loop's first vertex, and the numbers of vertices
--- and of loops.
+-- | The loops in the filled arrays. @starts@ has the index of each loop's first vertex; @used@ is
+-- the number of vertices, and @made@ the number of loops.
 frozen :: Output s -> MutablePrimArray s Int -> Int -> Int -> ST s OffsetLoops
 frozen (Output xs ys bulges raws) starts used made = do
   writePrimArray starts made used
@@ -336,8 +346,8 @@ frozen (Output xs ys bulges raws) starts used made = do
       <*> unsafeFreezePrimArray bulges
       <*> unsafeFreezePrimArray raws
 
--- | Writes a segment of a loop: its index, x and y of its start, its bulge, and the number of the
--- segment from which it was cut.
+-- | Writes a segment of a loop at index @k@: x and y of its start in mm, its bulge @b@, and the
+-- number @s@ of the raw segment from which it was cut.
 emit :: Output s -> Int -> Double -> Double -> Double -> Int -> ST s ()
 emit (Output xs ys bulges raws) !k !x !y !b !s = do
   writePrimArray xs k x
@@ -346,7 +356,8 @@ emit (Output xs ys bulges raws) !k !x !y !b !s = do
   writePrimArray raws k (fromIntegral s)
 {-# INLINE emit #-}
 
--- | Copies the segments of the polyarcs from number @from@ to before @to@, to index @k@ on.
+-- | Copies the segments of the polyarcs from number @from@ to @to − 1@. The first one goes to the
+-- index that is the last argument.
 copySegments :: Output s -> ClosedPolyarcs -> Int -> Int -> Int -> ST s ()
 copySegments out c from to = copy from
   where
@@ -363,7 +374,7 @@ copySegments out c from to = copy from
         copy (i + 1) (k + 1)
 {-# INLINE copySegments #-}
 
--- | Writes the slice of polyarc @w@ from the sorted occurrence @q@ to the one at @next@, to index
+-- | Writes the slice of polyarc @w@ between the sorted occurrences at @q@ and at @next@, from index
 -- @l@ on. The result is the next free index.
 writeSlice :: Output s -> Slices -> Int -> Int -> Int -> Int -> ST s Int
 writeSlice out (Slices c xs _ order) !w !q !next !l

@@ -2,7 +2,11 @@
 {-# OPTIONS_GHC -O2 #-}
 
 -- | Winding numbers of closed polyarcs: around a point, and on the left of a polyarc at its
--- leftmost and rightmost points. Counter-clockwise polyarcs count as positive.
+-- leftmost or rightmost point. These points are called extremes. A polyarc that goes
+-- counter-clockwise around a point counts 1, one that goes clockwise −1.
+--
+-- Polyarcs, segments and vertices are given by their numbers in 'ClosedPolyarcs'. Coordinates are
+-- in mm.
 module Offset.WindingNumber
   ( at,
     contribution,
@@ -20,14 +24,15 @@ import Geometry.Index.SegmentBoxTree (SegmentBoxTree)
 import Geometry.Index.SegmentBoxTree qualified as SegmentBoxTree
 import Geometry.Tolerance qualified as Tolerance
 
--- | The winding number of the polyarcs around a point that does not lie on them, given the
--- polyarcs' bounding-box tree.
+-- | The winding number of all polyarcs around the point (@px@, @py@), which lies on none of them.
+-- @boxes@ is the bounding-box tree of the polyarcs.
 at :: ClosedPolyarcs -> SegmentBoxTree -> Double -> Double -> Int
 at c boxes px py =
   SegmentBoxTree.around boxes (-1e300) py px py 0 (\total i -> total + contribution c px py i)
 
--- | The contribution of one segment to the winding number around a point: ±1 when its chord crosses
--- the ray from the point to the left, plus ±1 when the point lies between an arc and its chord.
+-- | The contribution of segment @i@ to the winding number around the point (@px@, @py@). It is ±1
+-- when the segment's chord crosses the ray from the point to the left, else 0. A point between an
+-- arc and its chord adds ±1.
 contribution :: ClosedPolyarcs -> Double -> Double -> Int -> Int
 contribution c px py i = crossed + between
   where
@@ -45,8 +50,8 @@ contribution c px py i = crossed + between
       if b /= 0 && aside * b < 0 && ClosedPolyarcs.power c i px py < 0
         then (if b > 0 then 1 else -1)
         else 0
-    -- A point on the chord counts as slightly left of it, as in the comparisons above. A point on a
-    -- horizontal chord counts as slightly above it.
+    -- On the chord the area has no sign. A point there counts as slightly left of the
+    -- chord, as in the comparisons above; on a horizontal chord it counts as slightly above.
     aside
       | side /= 0 = side
       | y1 /= y0 = y1 - y0
@@ -55,28 +60,27 @@ contribution c px py i = crossed + between
 
 -- | The leftmost or the rightmost point of a polyarc.
 data Extreme = Extreme
-  { -- | the number of the segment on which it lies
+  { -- | the number of the segment on which the point lies
     segment :: Int,
-    -- | the fraction along the segment's chord, from 0 to 1
+    -- | the position of the point along the segment's chord, as a fraction from 0 to 1
     parameter :: Double,
-    -- | in mm
+    -- | x of the point in mm
     x :: Double,
-    -- | in mm
+    -- | y of the point in mm
     y :: Double,
-    -- | the winding number on the left of the polyarc less the number just outside the point, 1 or
-    -- 0; Nothing where the polyarc runs back along itself
+    -- | the winding number on the left of the polyarc at the point, less the winding number just
+    -- outside it: 1 or 0. Nothing where the polyarc runs back along itself, so that left and right
+    -- cannot be distinguished
     leftExcess :: Maybe Int
   }
 
--- | The direction in which the outermost point is looked for.
+-- | The direction in which an extreme is looked for.
 data Outward = Leftmost | Rightmost
   deriving stock (Eq)
 
--- | The leftmost or rightmost point of a polyarc, given by its number. Runs of segments whose
--- common bounding box lies further inside are skipped.
---
--- The polyarc may have cusps: the raw offset of an arc whose radius is smaller than the distance
--- runs backwards, and folds back at the arc's ends.
+-- | The leftmost or rightmost point of the polyarc with the number @w@. The bounding-box tree has a
+-- box for each run of consecutive segments. Runs whose box lies further inside than a known point
+-- are skipped.
 extreme :: Outward -> ClosedPolyarcs -> SegmentBoxTree -> Int -> Extreme
 extreme outward c boxes w = go start start 0 (1e300 :: Double)
   where
@@ -101,26 +105,28 @@ extreme outward c boxes w = go start start 0 (1e300 :: Double)
                 if isBetween && ex < least1 && t' > endMargin && t' < 1 - endMargin
                   then go (i + 1) i t' ex
                   else go (i + 1) best1 t1 least1
-    -- When the outermost point of an arc is nearer to an end than this fraction of its chord, the
-    -- vertex at this end is taken instead.
+    -- The fraction of an arc's chord within which its outermost point is replaced by the nearer end
+    -- of the arc.
     endMargin = Tolerance.negligibleShare
 
--- | The factor by which x is multiplied so that the outermost point has the least x.
+-- | The factor, 1 or −1, by which x is multiplied so that the outermost point has the least
+-- product.
 signOf :: Outward -> Double
 signOf outward = case outward of
   Leftmost -> 1
   Rightmost -> -1
 
--- | The x of a bounding box's outermost side, multiplied by 'signOf'.
+-- | The x of a bounding box's outermost side in mm, multiplied by 'signOf'. The arguments after the
+-- direction are the box: least x, least y, largest x, largest y.
 outermostSide :: Outward -> Double -> Double -> Double -> Double -> Double
 outermostSide outward lx _ hx _ = case outward of
   Leftmost -> lx
   Rightmost -> -hx
 {-# INLINE outermostSide #-}
 
--- | A bound on the x of a polyarc's outermost point, multiplied by 'signOf': the outermost vertex
--- of the run of segments whose bounding box reaches furthest out. Runs that do not reach it are
--- skipped.
+-- | An upper bound of x at the outermost point of polyarc @w@, in mm and multiplied by 'signOf'. It
+-- is the x of the outermost vertex of one run of segments, the run whose bounding box reaches
+-- furthest out. 'extreme' skips all runs that do not reach this bound.
 outermostBound :: Outward -> ClosedPolyarcs -> SegmentBoxTree -> Int -> Double
 outermostBound outward c boxes w =
   foldl'
@@ -140,14 +146,17 @@ outermostBound outward c boxes w =
       where
         boxSide = SegmentBoxTree.runBoxOf boxes i (outermostSide outward)
 
--- | The outermost point of an arc's circle, passed to a continuation: True when it lies between the
--- ends of the arc; the fraction along the chord; its x, multiplied by the given sign.
+-- | Passes the outermost point of the circle of arc @i@ to the continuation @k@. Its arguments are:
+-- True when the point lies between the ends of the arc; the position of the point along the arc's
+-- chord, as a fraction; x of the point in mm, multiplied by @sign@. This @sign@, as in the
+-- functions below, is that of 'signOf'.
 outermostOfArc :: Double -> ClosedPolyarcs -> Int -> (Bool -> Double -> Double -> r) -> r
 outermostOfArc sign c i k = ClosedPolyarcs.chord c i $ \dx dy ->
   let b = indexPrimArray (ClosedPolyarcs.bulges c) i
       co = 1 - b * b
       si = 2 * b
-      -- x components of the directions at both ends
+      -- x components of the directions at both ends, which change sign where an extreme is between
+      -- them
       out = sign * (dx * co + dy * si)
       into = sign * (dx * co - dy * si)
       l = sqrt (dx * dx + dy * dy)
@@ -163,9 +172,9 @@ outermostOfArc sign c i k = ClosedPolyarcs.chord c i $ \dx dy ->
    in k (out < 0 && into > 0) t ex
 {-# INLINE outermostOfArc #-}
 
--- | The extreme of a polyarc, given by its number: the start of segment @i@, or for a fraction
--- above 0 the outermost point of the segment's circle. The last argument is the point's x,
--- multiplied by the given sign.
+-- | The extreme of the polyarc with the number @w@. For @t@ = 0 it is the start of segment @i@. For
+-- a fraction @t@ > 0 of the chord it is the outermost point of the segment's circle. @least@ is x
+-- of the point in mm, multiplied by @sign@.
 extremeAt :: Double -> ClosedPolyarcs -> Int -> Int -> Double -> Double -> Extreme
 extremeAt sign c w i t least
   | t > 0 =
@@ -182,8 +191,8 @@ extremeAt sign c w i t least
     dyOf = ClosedPolyarcs.chord c i (\_ dy -> dy)
     heightOf = ClosedPolyarcs.chord c i (\dx _ -> (1 - b * b) / (4 * b) * dx)
 
--- | The excess at the vertex where segment @i@ of a polyarc starts, its outermost point: 1 when the
--- polyarc turns left there, else 0.
+-- | The value of 'leftExcess' at the vertex where segment @i@ of polyarc @w@ starts, which is the
+-- outermost point of the polyarc: 1 when the polyarc turns left there, else 0.
 excessAtVertex :: Double -> ClosedPolyarcs -> Int -> Int -> Maybe Int
 excessAtVertex sign c w i
   | abs cross > 1e-9 * size = Just (if cross > 0 then 1 else 0)
@@ -204,8 +213,8 @@ excessAtVertex sign c w i
     oy = ClosedPolyarcs.chord c i (\dx dy -> dy * (1 - b * b) - dx * 2 * b)
     cross = ix * oy - iy * ox
     bend = ClosedPolyarcs.curvature c
-    -- The difference of the curvatures of the outgoing segment and the reversed incoming one. At a
-    -- cusp it is positive when the outgoing segment lies to the left of the incoming one.
+    -- The curvature of the outgoing segment less that of the reversed incoming one. At a cusp this
+    -- is positive when the outgoing segment lies to the left of the incoming one.
     bent = bend previous + bend i
     -- Two segments whose curvatures differ by less than this fraction may be one segment traversed
     -- in both directions.

@@ -2,7 +2,8 @@
 -- The loops carry more than ten numbers; this option keeps them unboxed.
 {-# OPTIONS_GHC -O2 -fmax-worker-args=40 #-}
 
--- | Rounded arcs about given grid points, and the choice of the best grid point.
+-- | Rounded arcs about given grid points, and the choice of the best grid point. The grid point
+-- becomes the centre of the arc. The deviation of an attempt is its distance from the exact arc.
 module Frame.Arc.Attempt
   ( bestAbout,
     isNearlyStraight,
@@ -41,7 +42,8 @@ import Machine.Machine qualified as Machine
 -- | Steps of an arc about one grid point, with their largest deviation in mm.
 data Attempt = Attempt {steps :: [ArcStep], deviation :: Double}
 
--- | Attempt with the rank of its grid point among all that are tried, from 0.
+-- | Attempt about a grid point, with the rank of this point: its number from 0 among all grid
+-- points that are tried. Of two equally good attempts the one of lower rank wins.
 data Ranked = Ranked {rank :: Int, attempted :: Attempt}
 
 -- | Steps of an arc about the best of some grid points. Nothing when all of them exceed the
@@ -71,10 +73,11 @@ fewestSteps attempts = case attempts of
   where
     cost a = (length (steps a), deviation a)
 
--- | Grid point with the least estimated deviation, and its rank; none among no grid points.
+-- | The likeliest grid point: the one with the least estimated deviation, with its rank. 'None'
+-- when there are no grid points.
 data Likeliest = None | Likeliest Int Pulses2
 
--- | The grid point with the least estimated deviation.
+-- | The likeliest of the grid points in the list.
 likeliest :: ArcEnds -> [Pulses2] -> Likeliest
 likeliest ends = go 0 None (1 / 0)
   where
@@ -89,8 +92,9 @@ likeliest ends = go 0 None (1 / 0)
         | None <- best -> go (k + 1) (Likeliest k c) least more
         | otherwise -> go (k + 1) best least more
 
--- | Attempt with the least deviation about some grid points. The last argument is the attempt about
--- the likeliest one, if it is within the tolerance.
+-- | Attempt with the least deviation about some grid points; Nothing when all of them exceed the
+-- tolerance. The last argument is the attempt about the likeliest grid point; Nothing when this
+-- attempt exceeds the tolerance.
 leastDeviation ::
   ArcContext -> RoundedArc -> ArcEnds -> [Pulses2] -> Maybe Ranked -> Maybe Ranked
 leastDeviation context arc ends = go 0
@@ -104,12 +108,12 @@ leastDeviation context arc ends = go 0
         | isBetter context arc ends b k c, Just a <- ranked context arc k c -> Just a
         | otherwise -> best
 
--- | Attempt about a grid point with its rank.
+-- | Attempt about the grid point @c@ with the rank @k@; Nothing when it exceeds the tolerance.
 ranked :: ArcContext -> RoundedArc -> Int -> Pulses2 -> Maybe Ranked
 ranked context arc k c = Ranked k <$> attempt context arc c
 
--- | True if the whole arc about a grid point deviates less than the best attempt so far. The tests
--- come in the order of their cost.
+-- | True if the whole arc about the grid point @c@ with the rank @k@ deviates less than @best@, the
+-- best attempt so far. The cheapest tests come first.
 isBetter :: ArcContext -> RoundedArc -> ArcEnds -> Ranked -> Int -> Pulses2 -> Bool
 isBetter context arc ends best k c =
   not isSurelyWorse
@@ -127,16 +131,19 @@ isBetter context arc ends best k c =
         all (isLess . Deviation.linearErrorAt frameArc) samples
           && isLess (linear (Deviation.sampledDeviation frameArc))
 
--- | Fractions of a sweep. Those at which the deviation is likely to be large come first.
+-- | Fractions of a sweep at which the deviation is computed. Those at which it is likely to be
+-- large come first.
 samples :: [Double]
 samples = [4 / 8, 2 / 8, 6 / 8, 1 / 8, 7 / 8, 3 / 8, 5 / 8]
 
 -- One attempt -------------------------------------------------------------------------------------
 
--- | Step of an attempt: its ends, the arc between them, and True when a line replaces this arc.
+-- | Step of an attempt: its ends in pulses, the arc between them in mm, and True when a line
+-- replaces this arc.
 data Leg = Leg {from :: Pulses2, to :: Pulses2, arcAlong :: Segment, isStraight :: Bool}
 
--- | Attempt about a grid point, if the machine can run the arc within the tolerance.
+-- | Attempt about the grid point @c@. Nothing if the machine cannot run the arc about it within the
+-- tolerance.
 attempt :: ArcContext -> RoundedArc -> Pulses2 -> Maybe Attempt
 attempt context arc c
   | null ends || isClosed && length ends == 1 && not isFullCircle = Nothing
@@ -165,7 +172,7 @@ attempt context arc c
     -- Rounding moves each end and the centre by up to a pulse, which changes the sweep.
     sweepSlack = min (pi / 2) (4 * pulse (grid context) / r)
 
--- | True when one frame of the machine can be a full circle.
+-- | True when one frame of the machine can hold a full circle.
 allowsFullCircle :: ArcContext -> Bool
 allowsFullCircle context = case Machine.arcs (machine (grid context)) of
   NoArcs -> False
@@ -178,8 +185,8 @@ isWithinTolerance allowed d =
     && Mm (inward d) <= inwards allowed
     && Mm (outward d) <= outwards allowed
 
--- | Step between two grid points about the grid point @c@. When a cut at an axis has left a nearly
--- straight arc, the step is a line.
+-- | Step between the grid points @from@ and @to@ about the grid point @c@. When a cut at an axis
+-- has left a nearly straight arc, the step is a line.
 legBetween :: ArcContext -> RoundedArc -> Pulses2 -> Pulses2 -> Pulses2 -> Leg
 legBetween context arc c from to =
   Leg
@@ -202,7 +209,8 @@ legBetween context arc c from to =
     m = Context.gridPoint (grid context) c
     a = Context.gridPoint (grid context) from
 
--- | The step of a leg about the grid point @c@.
+-- | The leg about the grid point @c@ in the form of an 'ArcStep', with its centre relative to its
+-- start.
 stepOf :: RoundedArc -> Pulses2 -> Leg -> ArcStep
 stepOf arc c Leg {from, to = Pulses2 x y, isStraight} =
   ArcStep
@@ -212,8 +220,8 @@ stepOf arc c Leg {from, to = Pulses2 x y, isStraight} =
   where
     Pulses3 _ _ z = finish arc
 
--- | True for the ends of an arc about the grid point @c@ whose increments and centre fit their
--- fields, and whose radii differ by no more than two pulses.
+-- | True when an arc from @from@ to @to@ about the grid point @c@ can be a frame. Its increments
+-- and its centre have to fit their fields. The radii at both ends may differ by at most two pulses.
 isValid :: ArcContext -> Pulses2 -> (Pulses2, Pulses2) -> Bool
 isValid context c (from, to) =
   from /= c
@@ -232,7 +240,7 @@ isValid context c (from, to) =
     Mm a = Vec.distance (inMm c) (inMm from)
     Mm b = Vec.distance (inMm c) (inMm to)
 
--- | Sweep of an arc in radians; 0 for a line.
+-- | Sweep of an arc in radians, positive counter-clockwise; 0 for a line.
 swept :: Segment -> Double
 swept s = case s of
   Straight _ _ -> 0
@@ -240,19 +248,20 @@ swept s = case s of
 
 -- Lines in place of arcs --------------------------------------------------------------------------
 
--- | True for a segment with a sagitta of less than half a pulse.
+-- | True for a segment with a sagitta of less than half a pulse, which can become a line.
 isNearlyStraight :: ArcContext -> Segment -> Bool
 isNearlyStraight context s = Segment.sagitta s < Mm (0.5 * pulse (grid context))
 
--- | True when straight steps through some grid points stay within the tolerance of an arc. Even for
--- a nearly straight arc this has to be tested: its sagitta of up to half a pulse, together with the
--- rounding of the ends, can exceed a pulse.
+-- | True when straight steps through the grid points @stops@ stay within the tolerance of the arc
+-- @exact@. Even for a nearly straight arc this has to be tested: its sagitta of up to half a pulse,
+-- together with the rounding of the ends, can exceed a pulse.
 isStraightEnough :: ArcContext -> Segment -> [Pulses2] -> Bool
 isStraightEnough context exact stops = case exact of
   Straight _ _ -> True
   Segment.Arc {Segment.start = begin, Segment.centre = middle}
-    -- The arc is at most its sagitta away from its chord, and the chord is at most as far from the
-    -- line as their ends are. If the sum is small, the whole arc lies near the line.
+    -- The arc is at most its sagitta away from its chord. The chord is at most as far from the line
+    -- as the ends of both are from each other. If the sum is small, the whole arc lies near the
+    -- line.
     | [a, b] <- points,
       plus
         (Segment.sagitta exact)
@@ -261,7 +270,7 @@ isStraightEnough context exact stops = case exact of
       isWithin
         (Distance.toPoint middle (Straight a b))
         (max (Vec.distance middle a) (Vec.distance middle b))
-    -- Points of the arc are sampled, because lines that leave it out entirely would pass otherwise.
+    -- Lines that do not follow the arc would pass otherwise, so points of the arc are sampled.
     | otherwise ->
       isWithin
         (minimum (map (Distance.toPoint middle) lines'))

@@ -1,6 +1,7 @@
 {-# OPTIONS_GHC -O2 #-}
 
--- | Grid points that are tried as centres of a rounded arc.
+-- | Grid points that are tried as centres of a rounded arc. A grid point is a position in whole
+-- pulses.
 module Frame.Arc.Centre
   ( nearCentres,
     remoteCentres,
@@ -18,8 +19,8 @@ import Geometry.Vec qualified as Vec
 import Machine.Machine (Arcs (..))
 import Machine.Machine qualified as Machine
 
--- | Grid points near the exact centre, and near the point that is equally far from both rounded
--- ends.
+-- | Grid points near the exact centre of the arc, and near a second point. This second point is the
+-- one next to the exact centre that is equally far from both rounded ends.
 nearCentres :: ArcContext -> RoundedArc -> [Pulses2]
 nearCentres context arc
   | begin arc == finish arc = around (nearest (centre arc))
@@ -38,28 +39,29 @@ nearCentres context arc
           c = centre arc
        in Vec.shift (Vec.scale (Vec.dot u (Vec.to c (Vec.interpolate 0.5 a b))) u) c
 
--- | Distance in pulses, in x and in y, up to which centres are tried about a point.
+-- | Distance in pulses, in x and in y, up to which grid points are tried about a point.
 nearReach :: Pulses
 nearReach = 2
 
 neighbours :: [Pulses2]
 neighbours = square nearReach
 
--- | Grid points up to a distance from zero, in x and in y.
+-- | Grid points up to @most@ pulses from zero, in x and in y.
 square :: Pulses -> [Pulses2]
 square most = [Pulses2 di dj | di <- [-most .. most], dj <- [-most .. most]]
 
--- | True for two grid points up to a distance apart, in x and in y.
+-- | True for two grid points that are at most @most@ pulses apart, in x and in y.
 isWithin :: Pulses -> Pulses2 -> Pulses2 -> Bool
 isWithin most (Pulses2 i j) (Pulses2 k l) = abs (i - k) <= most && abs (j - l) <= most
 
--- | Grid points further from the exact centre, about which the whole arc is one frame and its
--- middle is within the tolerance. They are tried when all of 'nearCentres' exceed the tolerance.
+-- | Grid points further from the exact centre than 'nearCentres'. Only those are given about which
+-- the whole arc is one frame and the middle of the arc is within the tolerance. They are tried when
+-- all of 'nearCentres' exceed the tolerance.
 --
 -- Consider an arc of the sweep 2h about a centre that is displaced by n towards the arc's middle
--- and by t across. Besides the rounding of the start, this displaces the middle by
--- @(1 − cos h)·n + sin h·t@ and the end by @2·sin h·t@. Both are at most the sum of the tolerance
--- and the rounding of the start. Therefore @(1 − cos h)·n@ is at most 3/2 of this sum.
+-- and by t across. This displaces the middle of the arc by @(1 − cos h)·n + sin h·t@ and its end by
+-- @2·sin h·t@; the rounding of the start comes in addition. Both are at most the sum of the
+-- tolerance and the rounding of the start. Therefore @(1 − cos h)·n@ is at most 3/2 of this sum.
 remoteCentres :: ArcContext -> RoundedArc -> [Pulses2]
 remoteCentres context arc
   | begin arc == finish arc = []
@@ -84,11 +86,12 @@ remoteCentres context arc
     errorInMiddle = Estimate.errorInMiddle (grid context) arc
 
 -- | Largest distance in pulses of 'remoteCentres' from the exact centre, in x and in y. For an arc
--- of small sweep even centres further away are suitable, but enough are within this distance.
+-- of small sweep even more distant grid points are suitable, but there are enough within this
+-- distance.
 remoteReach :: Pulses
 remoteReach = 8
 
--- | True when one frame can hold the whole arc about a grid point.
+-- | True when one frame can hold the whole arc about the grid point @c@.
 isOneFrame :: ArcContext -> RoundedArc -> Pulses2 -> Bool
 isOneFrame context arc c = case Machine.arcs (machine (grid context)) of
   NoArcs -> False

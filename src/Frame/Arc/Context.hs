@@ -1,5 +1,5 @@
 -- | Data for the rounding of arcs: the grid of a machine, the tolerances, and the arc between its
--- rounded ends.
+-- rounded ends. A grid point is a position in whole pulses.
 module Frame.Arc.Context
   ( Grid (..),
     gridOf,
@@ -25,12 +25,12 @@ import Machine.Machine qualified as Machine
 -- | Grid of whole pulses in the plane of a machine.
 data Grid = Grid
   { machine :: Machine,
-    -- | resolution of the axes in mm
+    -- | size of a pulse in mm along x and along y
     pulseX :: Double,
     pulseY :: Double,
-    -- | the coarser one of the two
+    -- | size in mm of the larger one of both pulses
     pulse :: Double,
-    -- | largest number of pulses in the field of a centre
+    -- | largest number of pulses that the field of a centre holds
     largestCentre :: Pulses
   }
 
@@ -43,39 +43,42 @@ gridOf machine =
     Mm pulseY = Machine.resolutionOf machine Y
     Mm pulse = Machine.planeResolution machine
 
--- | Grid point in mm.
+-- | Position in mm of a grid point.
 gridPoint :: Grid -> Pulses2 -> Point
 gridPoint grid (Pulses2 (Pulses x) (Pulses y)) =
   Vec.point (fromIntegral x * pulseX grid) (fromIntegral y * pulseY grid)
 
--- | Largest distances of the steps of an arc from the exact arc, rounding included.
+-- | Largest allowed distances in mm of the steps of an arc from the exact arc, rounding included.
+-- The radii at the beginning and at the end of a step may differ. It depends on the control which
+-- of them it uses at a point between.
 data ArcTolerance = ArcTolerance
-  { -- | for steps that are arcs: radially, if the control keeps the radius of the beginning or
+  { -- | for steps that are arcs, radially: if the control keeps the radius of the beginning, or
     -- changes it linearly to that of the end
     linearError :: Mm,
-    -- | for all steps, towards the centre, whether the control uses the radius of the beginning or
-    -- of the end at a point
+    -- | for all steps, towards the centre: even if the control jumps from the radius of the
+    -- beginning to that of the end at any point
     inwards :: Mm,
-    -- | like 'inwards', but away from the centre
+    -- | away from the centre, under the same condition as 'inwards'
     outwards :: Mm
   }
   deriving stock (Eq, Show)
 
--- | Conditions under which an arc is rounded.
+-- | Data that stay the same while an arc is rounded.
 data ArcContext = ArcContext
   { grid :: Grid,
     tolerance :: ArcTolerance,
-    -- | ends of the chords of a segment, from the rounded position where it begins
+    -- | ends in pulses of the chords of a segment, from the rounded position where the segment
+    -- begins
     chordsOf :: Pulses3 -> Segment -> [Pulses3],
-    -- | height of the arc
+    -- | height of the arc in mm
     height :: Mm
   }
 
--- | Nearest grid point, at the height of the arc.
+-- | Nearest grid point to a point in mm, at the height of the arc.
 roundedPoint :: ArcContext -> Point -> Pulses3
 roundedPoint context p = Rounding.rounded (machine (grid context)) (p, height context)
 
--- | Exact arc with its rounded ends.
+-- | Exact arc in mm with its ends rounded to grid points.
 data RoundedArc = RoundedArc
   { -- | rounded start
     begin :: Pulses3,
@@ -93,7 +96,7 @@ data RoundedArc = RoundedArc
     sense :: Sense
   }
 
--- | A straight or circular step: the position at its end; for an arc also its sense, and its centre
--- in pulses from the beginning of the step.
+-- | A straight or circular step: the position at its end in pulses. For an arc also the sense, and
+-- the centre in pulses from the beginning of the step; Nothing for a straight step.
 data ArcStep = ArcStep {target :: Pulses3, turnsAbout :: Maybe (Sense, Pulses2)}
   deriving stock (Eq, Show)

@@ -30,13 +30,13 @@ data FrameArc = FrameArc
   { -- | centre of the frame's arc
     centreX :: Double,
     centreY :: Double,
-    -- | vector from that centre to the beginning
+    -- | vector from the centre of the frame's arc to its beginning
     startX :: Double,
     startY :: Double,
-    -- | radii at both ends
+    -- | radii of the frame's arc at its beginning and at its end
     startRadius :: Double,
     endRadius :: Double,
-    -- | signed sweep
+    -- | sweep of the frame's arc in radians, positive counter-clockwise
     turned :: Double,
     -- | centre and radius of the exact circle
     exactX :: Double,
@@ -44,8 +44,7 @@ data FrameArc = FrameArc
     exactRadius :: Double
   }
 
--- | The exact arc (first argument) and a frame's arc (second argument) in one record; none if
--- either of them is a line.
+-- | The exact arc and a frame's arc in one record. Nothing if either of them is a line.
 frameArcOf :: Segment -> Segment -> Maybe FrameArc
 frameArcOf exact ofFrame = case (exact, ofFrame) of
   (Arc {start = p, centre = c}, Arc {start = a, end = b, centre = m, sweep = Rad turned}) ->
@@ -69,15 +68,17 @@ frameArcOf exact ofFrame = case (exact, ofFrame) of
 
 -- | Largest radial deviations of a frame's arc from the exact circle, in mm.
 data ArcDeviation = ArcDeviation
-  { -- | if the control keeps the radius of the beginning, or changes it linearly to that of the end
+  { -- | distance on either side, if the control keeps the radius of the beginning, or changes it
+    -- linearly to that of the end
     linear :: Double,
-    -- | towards the centre, whether the control uses the first or the second radius at a point
+    -- | distance towards the centre, even if the control jumps from the radius of the beginning to
+    -- that of the end at any point
     inward :: Double,
-    -- | like 'inward', but away from the centre
+    -- | distance away from the centre, under the same condition as 'inward'
     outward :: Double
   }
 
--- | Deviation of a frame's arc (third argument) from the exact arc; 0 if either of them is a line.
+-- | Deviation of a frame's arc from the exact arc; 0 if either of them is a line.
 deviationOf :: ArcTolerance -> Segment -> Segment -> ArcDeviation
 deviationOf tolerance exact ofFrame =
   maybe
@@ -85,10 +86,11 @@ deviationOf tolerance exact ofFrame =
     (\arc -> fromMaybe (sampledDeviation arc) (deviationAtEnds tolerance arc))
     (frameArcOf exact ofFrame)
 
--- | Deviation at the ends of an arc, if it is provably the largest one, and the arc stays within
--- the smaller one of the tolerances 'inwards' and 'outwards'. For a centre that is off by v and a
--- sweep φ, the deviation between the ends differs from linear interpolation by up to @φ²·v/8@. The
--- bound used here is twice as large, to cover the terms of second order in v.
+-- | Deviation at the ends of an arc. Nothing unless it is provably the largest deviation of the
+-- arc, and the arc stays within the smaller one of the tolerances 'inwards' and 'outwards'; then
+-- the caller takes samples. For a centre that is off by v and a sweep φ, the deviation between the
+-- ends differs from linear interpolation by up to @φ²·v/8@. The bound used here is twice as large,
+-- to cover the terms of second order in v.
 deviationAtEnds :: ArcTolerance -> FrameArc -> Maybe ArcDeviation
 deviationAtEnds tolerance arc
   | abs (turned arc) < 1
@@ -107,8 +109,8 @@ deviationAtEnds tolerance arc
     off = abs asideX + abs asideY
     interpolationError = turned arc * turned arc * off / 4 + roundingError
     Mm smaller = min (inwards tolerance) (outwards tolerance)
-    -- The deviation is extreme where the radius is parallel to the offset of the centre. There this
-    -- product changes its sign.
+    -- The radial deviation is extreme where the radius is parallel to the vector between both
+    -- centres. There this product changes its sign.
     perpendicular t =
       let (c, s) = (cos (t * turned arc), sin (t * turned arc))
        in (c * startX arc - s * startY arc) * asideY - (c * startY arc + s * startX arc) * asideX
@@ -117,8 +119,8 @@ deviationAtEnds tolerance arc
 roundingError :: Double
 roundingError = 1e-9
 
--- | Deviation from samples at every eighth of the sweep, and at the points that are nearest to and
--- furthest from the exact centre.
+-- | Largest deviation at every eighth of the sweep, and at the points of the arc that are nearest
+-- to and furthest from the exact centre.
 sampledDeviation :: FrameArc -> ArcDeviation
 sampledDeviation arc =
   foldl'
@@ -144,7 +146,7 @@ larger (ArcDeviation a b d) (ArcDeviation a' b' d') = ArcDeviation (max a a') (m
 eighths :: [Double]
 eighths = [k / 8 | k <- [1 .. 8]]
 
--- | Deviation at a fraction of the sweep.
+-- | Deviation at the fraction @t@ of the sweep, from 0 to 1.
 deviationAt :: FrameArc -> Double -> ArcDeviation
 deviationAt arc t =
   ArcDeviation
@@ -157,7 +159,8 @@ deviationAt arc t =
     between = beyondCircle arc t (startRadius arc + t * (endRadius arc - startRadius arc))
     final = beyondCircle arc t (endRadius arc)
 
--- | The field 'linear' of 'deviationAt' alone.
+-- | The field 'linear' of 'deviationAt' alone, in mm. It is computed without the record in the
+-- innermost loop.
 linearErrorAt :: FrameArc -> Double -> Double
 linearErrorAt arc t =
   max
@@ -165,8 +168,8 @@ linearErrorAt arc t =
     (abs (beyondCircle arc t (startRadius arc + t * (endRadius arc - startRadius arc))))
 {-# INLINE linearErrorAt #-}
 
--- | Signed distance in mm from the exact circle to the point at a fraction of the sweep with the
--- given radius; positive outside of the circle.
+-- | Signed distance in mm from the exact circle to the point at the fraction @t@ of the sweep whose
+-- distance from the frame's centre is @radius@ mm. It is positive outside of the circle.
 beyondCircle :: FrameArc -> Double -> Double -> Double
 beyondCircle
   FrameArc {centreX, centreY, startX, startY, startRadius, turned, exactX, exactY, exactRadius}

@@ -2,7 +2,9 @@
 {-# OPTIONS_GHC -O2 -fmax-worker-args=40 #-}
 
 -- | Quick estimates of the deviation of an arc about a grid point, so that most grid points are
--- rejected without the exact computation in "Frame.Arc.Deviation".
+-- rejected without the exact computation in "Frame.Arc.Deviation". The deviation is the distance of
+-- the rounded arc from the exact circle. The control has a radius at the rounded beginning and
+-- another one at the rounded end.
 module Frame.Arc.Estimate
   ( ArcEnds,
     endsOf,
@@ -24,9 +26,10 @@ import Geometry.Carrier (Sense)
 import Geometry.Carrier qualified as Carrier
 import Geometry.Vec qualified as Vec
 
--- | Rounded ends of an arc and its exact circle, and numbers for the estimates. All are in mm.
+-- | Rounded ends of an arc and its exact circle, and vectors for the estimates. All lengths are in
+-- mm.
 data ArcEnds = ArcEnds
-  { -- | resolution of the axes
+  { -- | size of a pulse along x and along y
     stepX :: Double,
     stepY :: Double,
     -- | the rounded ends
@@ -41,15 +44,17 @@ data ArcEnds = ArcEnds
     -- | distances of the rounded ends from the exact circle, positive outside
     beginError :: Double,
     finishError :: Double,
-    -- | unit direction from the exact centre to the arc's middle less that to its start
+    -- | unit vector from the exact centre to the arc's middle less the unit vector to the arc's
+    -- start
     halfX :: Double,
     halfY :: Double,
-    -- | unit direction from the exact centre to the arc's end less that to its start
+    -- | unit vector from the exact centre to the arc's end less the unit vector to the arc's start
     wholeX :: Double,
     wholeY :: Double
   }
 
--- | Ends of an arc; none if both are the same grid point.
+-- | Ends of an arc for the estimates; Nothing if both are the same grid point, because the
+-- estimates do not hold for a full circle.
 endsOf :: Grid -> RoundedArc -> Maybe ArcEnds
 endsOf grid arc
   | begin arc == finish arc = Nothing
@@ -82,9 +87,9 @@ endsOf grid arc
     Mm toA = Vec.distance (centre arc) a
     Mm toB = Vec.distance (centre arc) b
 
--- | Estimated deviation in mm of an arc about a grid point. It is the largest of three: at the
--- middle and at the end when the control keeps the first radius, and at the middle when it changes
--- the radius linearly.
+-- | Estimated deviation in mm of an arc about the grid point (@i@, @j@). It is the largest of
+-- three: at the middle and at the end when the control keeps the first radius, and at the middle
+-- when it changes the radius linearly.
 --
 -- About a centre that is off by a vector v, the deviation is @e + v·(u − u₀)@ where the exact
 -- radius has the direction u. Here e is the deviation at the beginning and u₀ the direction there.
@@ -104,7 +109,8 @@ estimate
       larger a b = if a > b then a else b
 {-# INLINE estimate #-}
 
--- | Largest amount in mm by which the true deviation can be less than 'estimate'.
+-- | Largest amount in mm by which the true deviation about the grid point (@i@, @j@) can be less
+-- than 'estimate'.
 estimateError :: ArcEnds -> Pulses2 -> Double
 estimateError ArcEnds {stepX, stepY, exactX, exactY, exactRadius} (Pulses2 (Pulses i) (Pulses j)) =
   (if 8 * off < exactRadius then 4 else 16) * off * off / exactRadius + Deviation.roundingError
@@ -116,8 +122,8 @@ estimateError ArcEnds {stepX, stepY, exactX, exactY, exactRadius} (Pulses2 (Puls
         + stepY
 {-# INLINE estimateError #-}
 
--- | Exact deviation at the beginning of an arc about a grid point, as
--- 'Frame.Arc.Deviation.linearErrorAt' computes it.
+-- | Exact deviation in mm at the beginning of an arc about the grid point (@i@, @j@). It equals the
+-- result of 'Frame.Arc.Deviation.linearErrorAt' to the last digit.
 errorAtBegin :: ArcEnds -> Pulses2 -> Double
 errorAtBegin
   ArcEnds {stepX, stepY, beginX, beginY, exactX, exactY, exactRadius}
@@ -130,7 +136,7 @@ errorAtBegin
       y = my + (beginY - my) - exactY
 {-# INLINE errorAtBegin #-}
 
--- | The whole arc about a grid point as the arc of one frame.
+-- | The whole arc about the grid point (@i@, @j@) as the arc of one frame.
 frameArcAbout :: ArcEnds -> Sense -> Pulses2 -> FrameArc
 frameArcAbout
   ArcEnds {stepX, stepY, beginX, beginY, finishX, finishY, exactX, exactY, exactRadius}
@@ -159,9 +165,9 @@ frameArcAbout
       Rad turned = Carrier.sweepInSense sense (Rad short)
 {-# INLINE frameArcAbout #-}
 
--- | Exact deviation in mm in the middle of an arc about a grid point, without trigonometry: the
--- direction to the middle is square to the difference of the unit directions to the ends. Apply
--- the first two arguments once, and the result to many grid points.
+-- | Exact deviation in mm in the middle of an arc about a grid point. No trigonometry is needed,
+-- because the direction to the middle is square to the difference of the unit directions to the
+-- ends. Apply the first two arguments once, and the result to many grid points.
 errorInMiddle :: Grid -> RoundedArc -> Pulses2 -> Double
 errorInMiddle grid arc =
   let a = Context.gridPoint grid (xy (begin arc))

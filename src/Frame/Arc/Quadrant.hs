@@ -26,8 +26,8 @@ import Machine.Machine qualified as Machine
 -- grid point in pulses: positive to the right and upwards, negative to the left and downwards.
 data Crossings = Crossings {right :: Pulses, left :: Pulses, up :: Pulses, down :: Pulses}
 
--- | Crossings of a circle, given by its radius and exact centre, with the axes through a grid
--- point.
+-- | Crossings of a circle with the axes through the grid point @c@. The circle has the radius @r@
+-- in mm and the given exact centre.
 crossings :: Grid -> Mm -> Point -> Pulses2 -> Crossings
 crossings grid (Mm r) exactCentre c =
   Crossings
@@ -44,9 +44,10 @@ crossings grid (Mm r) exactCentre c =
       let Mm p = Machine.resolutionOf (machine grid) axis
        in Pulses (max 1 (round ((sqrt (max 0 (r * r - across * across)) - sign * along) / p)))
 
--- | Ends of the frames of an arc about the grid point @c@, from @begin@ to @finish@. They are the
--- arc's end and, when the control's arcs have to stay within a quadrant, every crossing before it.
--- Empty when one turn about @c@ does not lead to the end.
+-- | Ends of the frames of an arc about the grid point @c@, from the grid point @begin@ to @finish@.
+-- When the control's arcs have to stay within a quadrant, they are every crossing before the arc's
+-- end, and this end. Otherwise they are the arc's end alone. Empty when an arc of at most one turn
+-- about @c@ does not lead to @finish@.
 frameEnds :: Machine -> Crossings -> Sense -> Pulses2 -> Pulses2 -> Pulses2 -> [Pulses2]
 frameEnds machine at sense c begin finish = case Machine.arcs machine of
   NoArcs -> []
@@ -60,12 +61,13 @@ frameEnds machine at sense c begin finish = case Machine.arcs machine of
       | most <= 0 || from == 0 || goal == 0 = []
       | otherwise = let next = nextCrossing sense at from in next : toCrossings (most - 1) next
 
--- | True for an arc about zero that stays within one quadrant between the two points.
+-- | True for an arc about zero that stays within one quadrant between the two points, which are in
+-- pulses.
 isInQuadrant :: Sense -> Pulses2 -> Pulses2 -> Bool
 isInQuadrant sense (Pulses2 a b) (Pulses2 c d) =
   a * c >= 0 && b * d >= 0 && Carrier.senseSign sense * fromIntegral (a * d - b * c) > 0
 
--- | First crossing after a point on an arc about zero.
+-- | First crossing after the point (@x@, @y@) on an arc about zero, in pulses.
 nextCrossing :: Sense -> Crossings -> Pulses2 -> Pulses2
 nextCrossing sense at (Pulses2 x y) = case sense of
   CounterClockwise
