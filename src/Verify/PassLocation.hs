@@ -63,7 +63,7 @@ data SearchState = SearchState
 
 -- | Cut of the toolpath along a contour. A pass around rest material has several.
 data Cut = Cut
-  { -- | number of its pass among all passes of the toolpath
+  { -- | number of its pass among all passes of the toolpath, from 0
     passIndex :: Int,
     -- | true if the pass has several cuts
     isPartial :: Bool,
@@ -191,9 +191,8 @@ arePartial blocks =
       _ -> Nothing
 
 -- | Position of the centre at the end of a contour if the control does the cutter compensation:
--- beside the end of the last element, on its normal there. Nothing without compensation. The
--- toolpath does not know this position: at the joint of a closed contour, the control may or may
--- not add a corner.
+-- beside the end of the last element, on its normal there. Nothing without compensation. On a
+-- closed contour, the control may or may not treat the joint with the first element as a corner.
 exitByControl :: Milling -> Maybe Side -> Mm -> Maybe Point
 exitByControl milling side reach = case (Part.controlCompensation milling, side) of
   (Just _, Just s) ->
