@@ -91,10 +91,10 @@ data Proof = Proof
 -- | Fault of a tape. An 'Int' is the number of a frame, from 1, unless the comment says otherwise.
 data Finding
   = -- | Gouge: the deviation in the first frame that cuts too deep, the deepest one, the allowed
-  -- depth.
+    -- depth.
     Gouge Witness Witness Mm
   | -- | Excess: the deviation in the first frame that leaves too much, the largest one, the allowed
-  -- excess.
+    -- excess.
     Excess Witness Witness Mm
   | -- | The cutter runs along an element on its wrong side: the frame, the element.
     WrongSide Int Region
@@ -122,7 +122,7 @@ data Finding
   | -- | The control refuses a frame.
     Refused Refusal
   | -- | The cutter is too fast at the end of a frame to slow down for the frames after it: the
-  -- frame, the speed there, the largest speed that is possible there.
+    -- frame, the speed there, the largest speed that is possible there.
     TooFast Int Feed Feed
   | -- | The tape does not end where it has to: its last position minus the required one, in pulses.
     NotClosed Pulses3
@@ -180,7 +180,7 @@ data Refusal
   | -- | The radii of an arc differ: the number of the frame, the end radius minus the start radius.
     UnequalRadii Int Mm
   | -- | An arc has no sweep; the number of its frame. Its end lies at its centre, or, as seen from
-  -- the centre, in the direction of its start but at another distance.
+    -- the centre, in the direction of its start but at another distance.
     NoSweep Int
   | -- | Cutter compensation fails.
     NotCompensated CompensationError
