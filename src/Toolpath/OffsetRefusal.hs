@@ -20,8 +20,8 @@ import Part.Part qualified as Part
 import Toolpath.Error (Error (ConcaveRadius), RestPosition (..), Tool (leaves))
 import Toolpath.Error qualified as Error
 
--- | The error for an obstacle. The region is the statement's first word; the index of an element in
--- the vector is its number in the obstacle.
+-- | The error for an obstacle. @region@ is the region of the statement's first word. The index of
+-- an element in @elements@ is the number by which the obstacle names it.
 refusal :: Region -> Tool -> Vector Element -> Obstacle -> Error
 refusal region tool elements (Obstacle cause largest) = case cause of
   Concave i old -> ConcaveRadius region tool (elements ! i) old (fitting tool largest)
@@ -31,7 +31,7 @@ refusal region tool elements (Obstacle cause largest) = case cause of
     Error.Collision region tool (elements ! i) (elements ! j) p (fitting tool largest)
 
 -- | The rest material, one entry for each unreached part of the contour. The index of an element in
--- the vector is its number in the unreached parts.
+-- @elements@ is the number by which the unreached parts name it.
 restPositions ::
   Functor f =>
   Tool ->
@@ -75,8 +75,9 @@ restPositions tool elements = fmap restPosition
               )
               > smooth
 
--- | The radius of the largest cutter that fits: the largest distance of the centre from the contour
--- that is possible, less the allowance. Nothing when that is not positive.
+-- | The radius of the largest cutter that fits. It is @largest@, the largest possible distance of
+-- the centre from the contour, minus the allowance. Nothing when @largest@ is unknown or the radius
+-- is not positive.
 fitting :: Tool -> Maybe Mm -> Maybe Mm
 fitting tool largest = do
   l <- largest
