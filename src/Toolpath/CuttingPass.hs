@@ -79,7 +79,7 @@ block p path = do
 -- | The ends of the path of a pass. The fields are strict. Once they are computed, the moves along
 -- the path exist, and the path itself is not needed any more.
 data PathEnds = PathEnds
-  { -- | true when a control does the compensation and the path ends with the arc round a corner
+  { -- | true when the control does the compensation and the path ends with the arc round a corner
     endsAtCorner :: Bool,
     firstSegment :: Segment,
     lastSegment :: Segment
