@@ -79,8 +79,8 @@ data Error
     -- cannot express
     NotForControl Region Unsupported
   | -- | an approach or retract too short for a control: the move, the region that asks for cutter
-    -- compensation, True for an approach, its length, the cutter's radius. The length is 0 if there
-    -- is no straight and level move
+    -- compensation, True for an approach and False for a retract, the length of the move, the
+    -- cutter's radius. The length is 0 if there is no straight and level move
     ShortForControl Region Region Bool Mm Mm
   | -- | an approach from a direction that a control does not accept: the move, the region that asks
     -- for cutter compensation, the end of the approach

@@ -217,9 +217,9 @@ hits machined Intruder {tool, own, leaving} m =
       Just (leaver, left) | statement wall == leaver -> plus tool left
       _ -> tool
 
--- | The intrusion of the move @m@ into the element, or Nothing if it keeps its distance. @tool@ is
--- the radius of the tool, @kept@ the distance that the tool's centre has to keep from the element,
--- and @milling@ the statement of the element.
+-- | The intrusion of the move @m@ into the element, or Nothing if the move keeps its distance.
+-- @tool@ is the radius of the tool. @kept@ is the distance that the tool's centre has to keep from
+-- the element, and @milling@ is the statement of the element.
 hit :: Mm -> Mm -> Milling -> Move -> Part.Element -> Maybe Error
 hit tool kept milling m element
   | plus d allowed < kept || d <= Tolerance.coincident && goesThrough allowed path wall =

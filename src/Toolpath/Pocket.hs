@@ -124,8 +124,8 @@ nearest' room = plus (radius room) (leaves room)
 
 -- Linking moves
 
--- | The linking move between two points. It is empty if the points coincide, a straight move if the
--- cutter keeps its distance from all walls on that move, else a move over the wall.
+-- | The linking move between two points; empty if the points coincide. It is straight if the cutter
+-- then keeps its distance from all walls. Otherwise it leads over the wall.
 linked :: PocketRoom -> Point -> Point -> [PocketMove]
 linked room = link
   where

@@ -35,8 +35,9 @@ warnings path = throughPart path <> stoppedSpindles path
 -- outside.
 data Body = Body {named :: Part.Contour, outline :: Polyarc.Polyarc, isMaterial :: Bool}
 
--- | Warnings about rapid moves below the top of the part, inside a contour that contains material;
--- at most one for each stop. The innermost contour around the move decides. When the whole toolpath
+-- | Warnings about rapid moves that are not vertical, below the top of the part, inside a contour
+-- that contains material; at most one for each stop. The innermost contour around the move decides.
+-- When the whole toolpath
 -- has one height, that height counts as below the top. A move that crosses a contour is an error
 -- ("Toolpath.Intrusion"), so the midpoint of a move shows which contours the move lies inside.
 throughPart :: Toolpath -> [Warning]

@@ -93,8 +93,9 @@ leastExcess allowanceOf limit near p = foldl' lesser limit near
       | otherwise = least
 
 -- | Signed distance in mm of the point @p@ from a contour: positive on the left of the direction of
--- travel. @foot@ is the point of the contour that is nearest to @p@. If it is a corner, the result
--- is the sum of the signed distances from the tangents of both elements. So only the sign counts.
+-- travel. @foot@ is the point of the contour that is nearest to @p@. If @foot@ is a corner, the
+-- result is the sum of the signed distances from the tangents of both elements; then only its sign
+-- has a meaning.
 leftwardness :: BoxTree Edge -> Point -> Point -> Double
 leftwardness edges foot p = sum (map crossProduct touching)
   where

@@ -154,8 +154,8 @@ speedAlong machine m = case Machine.feedMeasure (Machine.feeds machine) of
 
 -- | Findings for frames at whose end the cutter is too fast to slow down to a later, lower speed
 -- @v@. At a distance @s@ before that speed, the speed may be @√(v² + 2·a·s)@ at most; @a@ is the
--- deceleration of the machine (Kolsanova; the law is reconstructed). None if the control brakes by
--- itself. @start@ is the position before the first frame. The model of the speeds:
+-- deceleration of the machine (Kolsanova; the law is reconstructed). Empty if the machine does not
+-- use braking frames. @start@ is the position before the first frame. The model of the speeds:
 --
 -- * a frame without braking has its speed from its start to its end;
 -- * a braking frame slows down to its speed, which it has at its end; of successive braking frames

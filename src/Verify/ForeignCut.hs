@@ -22,9 +22,9 @@ import Verify.Motion (CutterMotion (number, segment))
 import Verify.Motion qualified as Motion
 import Verify.Proof (Finding (CutsElsewhere))
 
--- | Findings for @motions@ of a tape that cut elsewhere or deeper than the @planned@ motions. A
--- motion is found if one of its sample points is below the top of the part, and no planned motion
--- comes near that point at the same depth or deeper. Near means within two pulses plus twice the
+-- | Findings for @motions@ of a tape that cut elsewhere or deeper than the @planned@ motions. The
+-- sample points of a motion that lie below the top of the part are compared. Each needs a planned
+-- motion near it, at the same depth or deeper. Near means within two pulses plus twice the
 -- tolerance, because two tapes with different chords may deviate to opposite sides.
 foreignCuts :: Machine -> Toolpath -> [CutterMotion] -> [CutterMotion] -> [Finding]
 foreignCuts machine path planned motions =

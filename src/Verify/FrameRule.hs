@@ -66,7 +66,7 @@ impossibleArc machine n at f =
 
 -- Commands ----------------------------------------------------------------------------------------
 
--- | Commands of a frame: their names and numbers.
+-- | Commands of a frame: the name of each and the number that is given with it.
 type Commands = [(CommandName, Int)]
 
 -- | Findings for frames whose commands differ from those of the planned frames. A tape with as many

@@ -21,8 +21,8 @@ import Verify.Motion (CutterMotion (segment))
 import Verify.Motion qualified as Motion
 import Verify.Proof (Finding (HoleMissing))
 
--- | Findings for holes that no vertical motion drills. A motion drills a hole if it is within a
--- pulse of the hole's centre, and reaches down to at most 0.6 pulses above the hole's bottom.
+-- | Findings for holes that no vertical motion drills. The motion has to be within a pulse of the
+-- hole's centre. Its lowest point may be at most 0.6 pulses above the hole's bottom.
 missingHoles :: Machine -> Toolpath -> [CutterMotion] -> [Finding]
 missingHoles machine path motions =
   [ HoleMissing at p

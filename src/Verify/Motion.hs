@@ -43,7 +43,7 @@ data CutterMotion = CutterMotion
     part :: Int,
     -- | path in the plane, in mm; an arc has the radius of its start
     segment :: Segment,
-    -- | heights at the start and at the end, in mm; the top of the part is 0
+    -- | heights at the start and at the end of the motion; the top of the part is 0
     fromHeight :: Mm,
     toHeight :: Mm
   }

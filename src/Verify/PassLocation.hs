@@ -53,8 +53,8 @@ data Guide = Guide
     cutFramesOf :: Int -> Maybe FrameRange
   }
 
--- | State of the search: the position and height of the centre at which it goes on, the motions
--- from there on, and the last pass that was searched, if there is one.
+-- | State of the search: the position and height of the centre where the search continues, the
+-- motions after that position, and the pass that was searched last, if there is one.
 data SearchState = SearchState
   { at :: (Point, Mm),
     remaining :: [CutterMotion],

@@ -49,8 +49,8 @@ parts side distance others element = case Segment.offset side distance element o
     ]
 
 -- | Parts of the intervals @free@ in which the centre of the cutter is not too near to the segments
--- @others@, from which it keeps the distance @kept@. @centres@ is the path of the centre along the
--- element, at @distance@ on @side@.
+-- @others@. @kept@ is the distance that the centre keeps from them. @centres@ is the path of the
+-- centre along the element, at @distance@ on @side@.
 freeOf :: Side -> Mm -> Segment -> Segment -> [Interval] -> KeptDistance -> [Interval]
 freeOf side distance element centres free (KeptDistance kept others) =
   case compare kept distance of
