@@ -6,7 +6,7 @@
 -- the stepover away. A stepover of at most the radius therefore leaves nothing, not even in the
 -- middle, where the last loop shrinks to nothing. A wider stepover leaves residue, which detours
 -- clear ("Toolpath.StepoverResidue"). A point nearer to a wall than the outermost loop is within
--- one radius of a position of the centre on that loop, if the cutter can reach it at all.
+-- one radius of a position of the centre on that loop.
 --
 -- The loops are cut from the inside outwards, because the cutter then plunges where it has room. On
 -- every later loop the remaining material lies on one side, and the walls are cut last.

@@ -37,9 +37,9 @@ data Body = Body {named :: Part.Contour, outline :: Polyarc.Polyarc, isMaterial 
 
 -- | Warnings about rapid moves that are not vertical, below the top of the part, inside a contour
 -- that contains material; at most one for each stop. The innermost contour around the move decides.
--- When the whole toolpath
--- has one height, that height counts as below the top. A move that crosses a contour is an error
--- ("Toolpath.Intrusion"), so the midpoint of a move shows which contours the move lies inside.
+-- When the whole toolpath has one height, that height counts as below the top. A move that crosses
+-- a contour is an error ("Toolpath.Intrusion"). So the midpoint of a move shows which contours the
+-- move lies inside.
 throughPart :: Toolpath -> [Warning]
 throughPart path =
   [ RapidThroughPart region (Toolpath.segment m) (Part.contourName (named body))

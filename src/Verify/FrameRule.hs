@@ -109,8 +109,8 @@ positioned fs =
 -- | Differences between the planned frames with commands and the frames with commands on the tape,
 -- compared in pairs. Both lists have the form of 'positioned', the result that of 'frameByFrame'.
 -- If the positions of a pair differ, the planned frame counts as one without commands. Planned
--- commands that are missing at the end of the tape get the number of their planned frame, but at
--- least @frameCount@, the number of the last frame on the tape.
+-- commands that are missing at the end of the tape get the number of their planned frame. If that
+-- number is less than @frameCount@, the count of frames on the tape, they get @frameCount@.
 inOrder ::
   Int ->
   [(Int, Pulses3, Commands)] ->
