@@ -2,10 +2,11 @@
 -- on a line or on an arc. Speed, acceleration and the times of pulses are not modelled.
 --
 -- The end points of an arc and its centre are whole pulses, so its start radius and its end radius
--- may differ. Controllers resolve this difference in different manners, but all of them move about
--- the programmed centre, in the programmed sense, between the two radii. The model therefore gives
--- two bounding paths for such a motion, one arc on each radius, and the lines that connect their
--- ends. A statement about the motion is true if it is true of all of these.
+-- may differ. Controllers resolve this difference in different manners, but all controllers move
+-- about the programmed centre, in the programmed sense, between the two radii. The model therefore
+-- gives two /bounding paths/ for an arc with two radii: one arc on each radius. It also gives the
+-- lines that connect the ends of the two. A statement about the motion is true if it is true of
+-- both bounding paths and of these lines.
 module Control.Motion
   ( Motion (..),
     run,

@@ -149,8 +149,8 @@ checkLength keyword requested e =
     l = Segment.length (Part.segment e)
 
 -- | Refuses a corner so slight that a control ignores it, if the control would then cut too deep.
--- Refuses also a corner at which the contour almost reverses. The arguments of the triple are the
--- number of the element before the corner, and the segments of both elements at the corner.
+-- Refuses also a corner at which the contour almost reverses. The triple has the number, from 0, of
+-- the element before the corner, and the segments of the elements before and after it.
 checkCorner :: Region -> Milling -> (Int, Segment, Segment) -> Either Error ()
 checkCorner requested milling (i, a, b) =
   when

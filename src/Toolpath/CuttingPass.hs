@@ -122,8 +122,8 @@ blockOf p swivels cut ends@PathEnds {} = do
     word = wordOf p
     passMoves = allMoves p swivels cut ends
 
--- | All moves of a pass. The arguments are the pass, the heights of a blade's axis as for
--- 'cutMoves', the moves along the contour, and the ends of the path.
+-- | All moves of a pass. @swivels@ has the heights of a blade's axis as for 'cutMoves', @cut@ the
+-- moves along the contour, and @ends@ the ends of the path.
 allMoves :: CuttingPass -> Maybe (NonEmpty (Mm, Mm)) -> NonEmpty Move -> PathEnds -> PassMoves
 allMoves p swivels cut ends =
   PassMoves

@@ -49,8 +49,8 @@ restPositions tool elements = fmap restPosition
         Just (a, b) | isCorner rest a b -> InCorner a b (Segment.start (Part.segment b))
         _ -> Between (elements ! i) (elements ! j) (Equidistant.cutterCentre rest) (largest' rest)
     largest' rest = fitting tool (largest (Equidistant.stop rest))
-    -- The numbers of the elements that do not continue a curve; then, for each element, the count
-    -- of such elements before it, and at last the count of all of them.
+    -- @corners@: the numbers of the elements that do not continue a curve. @cornersBefore@: for
+    -- each element, the count of @corners@ before it; at the end, the count of all @corners@.
     corners = Vector.findIndices (not . Part.continues) elements
     cornersBefore = Vector.scanl' (\n e -> if Part.continues e then n else n + 1) 0 elements
     -- The two elements that meet at the corner between elements i and j, if there is exactly one

@@ -135,7 +135,7 @@ allowedOf set job
 
 -- | Allowed chord errors of a tape, into the part and away from it. @isCurved@ is true of a contour
 -- with curves. The arcs that replace a curve may deviate from it by 'Tolerance.curve', so the
--- allowed errors of such a contour are smaller by that length.
+-- allowed errors of a contour with curves are smaller by 'Tolerance.curve'.
 allowedDeviation :: Bool -> Milling -> (Mm, Mm)
 allowedDeviation isCurved milling
   | isCurved = (less inside, less outside)

@@ -61,9 +61,9 @@ gougeOf KeepOut {searchRadius, required} edges m = Proof.deepest gouges
 
 -- | Allowance that a motion has to keep from the element @e@ at the point @p@ of the motion.
 -- Usually it is the allowance of @e@. But other elements may join @e@ within @pulse@ of the point
--- of @e@ nearest to @p@. Then the smallest allowance of @e@ and these counts, because the toolpath
--- steps from one allowance to the other on whole pulses. If one of these others is nearer to @p@
--- than @e@ is, the result is 0.
+-- of @e@ nearest to @p@. Then the smallest allowance of @e@ and these elements counts, because
+-- the toolpath steps between allowances on whole pulses. If a joining element is nearer to @p@ than
+-- @e@ is, the result is 0.
 allowanceAt :: Mm -> BoxTree Edge -> Element -> Point -> Mm
 allowanceAt pulse edges e p
   | own <= Mm 0 = own

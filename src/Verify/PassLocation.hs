@@ -202,8 +202,8 @@ exitByControl milling side reach = case (Part.controlCompensation milling, side)
     final = Part.segment (NonEmpty.last (Part.elements (Part.contour milling)))
 
 -- | Uncertainty in mm of the position of 'exitByControl'; 0 without compensation. Rounding to
--- pulses changes the direction of the last element. The change is largest for the shortest element
--- that such a contour may have, 'Tolerance.controlLength'.
+-- pulses changes the direction of the last element, most of all if the element is short. The
+-- shortest element under compensation has the length 'Tolerance.controlLength'.
 exitUncertainty :: Machine -> Milling -> Mm -> Mm
 exitUncertainty machine milling reach = case Part.controlCompensation milling of
   Just _ -> times (2 * pulse / shortest) reach

@@ -114,8 +114,8 @@ allowedIn set pocket =
 
 -- | Motions that clear the floor in a pass: the motions at the height of the pass, with a cutter at
 -- least as large as that of the pocket. If one of them starts in the bounding box of the pocket,
--- the motions further from the box than its diagonal are left out: for any point in the box, the
--- motion that starts there is nearer.
+-- the motions further from the box than its diagonal are left out: that one is nearer to any point
+-- in the box.
 clearingMotions :: MotionSet -> Pocket -> ClearingPass -> [CutterMotion]
 clearingMotions set pocket pass
   | any (startsInBounds . segment) around = around
