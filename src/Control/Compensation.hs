@@ -42,13 +42,13 @@ import Machine.Machine (CommandValue (..), CommandWord (..), CompensationCommand
 import Machine.Machine qualified as Machine
 import Toolpath.Tolerance qualified as Tolerance
 
--- | Programmed motion, and the path of the cutter's centre during it in the plane. The path is the
--- offset of the motion; an arc round the corner before it may come first. A vertical motion has a
--- path without length.
+-- | Programmed motion, and the path of the cutter's centre during that motion, in the plane. The
+-- path is the offset of the motion. It may begin with an arc round the corner before the motion.
+-- The path of a vertical motion has length 0.
 data Moved = Moved {programmed :: Motion, centrePath :: NonEmpty Segment}
   deriving stock (Eq, Show)
 
--- | Reason why a control stops, with the number of the frame.
+-- | Reason why a control stops. The first field is the number of the frame, from 1.
 data CompensationError
   = -- | The first motion after compensation is switched on is no longer than the cutter's radius:
     -- its length, the radius.
@@ -59,7 +59,8 @@ data CompensationError
     ArcExit Int
   | -- | The cutter does not fit inside an arc: the radius of the arc, that of the cutter.
     TightArc Int Mm Mm
-  | -- | The cutter cannot reach a corner without a gouge of this motion or the one before.
+  | -- | The cutter cannot reach the corner at the end of this frame without cutting into the part,
+    -- or the offset of this frame would run backwards.
     CornerNotReached Int
   | -- | Compensation is switched on while it is on.
     SwitchedOnTwice Int
@@ -84,9 +85,9 @@ data Mode
   | -- | released; the next motion is the exit
     Leaving
 
--- | Compensation of one motion.
+-- | Role of one motion in compensation.
 data Role
-  = -- | none
+  = -- | compensation is off
     Uncompensated
   | -- | the first motion after compensation is switched on
     Entry Offset
@@ -97,13 +98,14 @@ data Role
 
 -- Frames in order ---------------------------------------------------------------------------------
 
--- | Run frames from a start position. The function gives the cutter's radius in the frame with a
--- number, counted from 1. It is used for a frame that switches compensation on without a diameter.
+-- | Motions of frames from a start position, and the errors at which a control would stop. The
+-- function gives the cutter's radius in the frame with a number, counted from 1. It is used for a
+-- frame that switches compensation on without a diameter.
 run :: Machine -> (Int -> Mm) -> Pulses3 -> [Frame] -> ([Moved], [CompensationError])
 run = runWith (:)
 
--- | Fold the motions of 'run' from the right. Without compensation, the list of motions is never in
--- memory as a whole.
+-- | Fold the motions of 'run' from the right, with the function @onto@; @toolAt@ is the function of
+-- 'run'. Without compensation, the list of motions is never in memory as a whole.
 runWith ::
   (Moved -> [a] -> [a]) ->
   Machine ->
@@ -128,7 +130,8 @@ runWith onto machine toolAt begin frames =
         (\o -> isJust (lookup (commandName o) (Frame.commands f)))
         [compensateLeft c, compensateRight c]
 
--- | Role of each motion and errors of each frame, and the mode at the end of the tape.
+-- | Mode at the end of the tape; and for each frame its motion with the motion's role, if it moves,
+-- and its errors.
 withRoles ::
   Machine ->
   CompensationCommands ->
@@ -160,7 +163,8 @@ isOn mode = case mode of
   Entering _ -> True
   Active -> True
 
--- | Mode after the commands of frame @n@ and before its motion, and the errors of these commands.
+-- | Mode after the commands of the frame @f@ with the number @n@ and before the motion of @f@; and
+-- the errors of these commands. @mode@ is the mode before the frame.
 switched ::
   Machine ->
   CompensationCommands ->
@@ -183,7 +187,7 @@ switched machine commands toolAt mode n f =
       ]
     isReleased = isGiven (cancelCompensation commands)
     (mode', isTwice) = case (mode, on) of
-      -- Both sides in one frame.
+      -- The frame switches compensation on for both sides.
       (_, _ : _ : _) -> (mode, True)
       (Off, k : _) -> (Entering (facing k), isReleased)
       (_, _ : _) -> (mode, True)
@@ -206,7 +210,7 @@ switched machine commands toolAt mode n f =
 uncompensated :: Machine -> Motion -> Moved
 uncompensated machine m = Moved m (Motion.segment machine m :| [])
 
--- | Paths of the centre in motions, from its present position.
+-- | Paths of the centre in motions, from the present position @at@ of the centre.
 pathsFrom :: Machine -> Point -> [(Role, Motion)] -> [(Moved, [CompensationError])]
 pathsFrom machine at motions = case motions of
   [] -> []
@@ -230,7 +234,8 @@ pathsFrom machine at motions = case motions of
       Entry _ -> False
       Exit -> False
 
--- | Paths of the entry motion and of all motions up to the release, from the present position.
+-- | Paths of the centre in the entry motion and in all motions up to the release, from the present
+-- position @at@ of the centre.
 compensatedSection ::
   Machine ->
   Offset ->
@@ -258,8 +263,9 @@ isArc s = case s of
   Straight _ _ -> False
   Arc {} -> True
 
--- | Offset paths of programmed motions with their segments, from the present position of the
--- centre. @corner@ is the arc round the corner before the first of them, if there is one.
+-- | Offset paths of programmed motions, from the present position @at@ of the centre. Each motion
+-- is given with its segment. @corner@ is the arc of the centre round the corner before the first
+-- motion; Nothing if there is no such arc.
 offsetPaths ::
   Offset ->
   Point ->
@@ -280,8 +286,9 @@ offsetPaths k at corner motions = case motions of
        in (Moved m (maybe (path :| []) (:| [path]) corner), offsetErrors k m edge path joint) :
           offsetPaths k finish corner' rest
 
--- | Errors of one offset: an arc in which the cutter does not fit; a path that goes backwards,
--- whose sweep grows too much, or that does not meet the next one.
+-- | Errors of the offset @path@ of the programmed segment @edge@: an arc in which the cutter does
+-- not fit; a path that goes backwards, whose sweep grows too much, or that does not meet the next
+-- path. @joint@ is the transition to the next path; Nothing for the last path.
 offsetErrors :: Offset -> Motion -> Segment -> Segment -> Maybe Joint -> [CompensationError]
 offsetErrors k m edge path joint =
   tight <> [CornerNotReached (number m) | isBackwards || winds path edge || isApart]
@@ -325,8 +332,8 @@ goesBack path edge = case edge of
   where
     Mm slack = Tolerance.coincident
 
--- | Test that an arc has a larger sweep than its programmed segment. The sweep of an arc that would
--- have to be shorter than nothing is almost a full circle.
+-- | Test that the arc @path@ has a larger sweep than its programmed segment @edge@. This happens if
+-- the trimmed path would need a negative sweep: the arc then becomes almost a full circle.
 winds :: Segment -> Segment -> Bool
 winds path edge = case (path, edge) of
   (Arc {sweep = Rad a}, Arc {sweep = Rad b}) -> Rad (abs a - abs b) > Tolerance.controlTurn
@@ -336,7 +343,7 @@ winds path edge = case (path, edge) of
 
 -- | Transition from the offset of one segment to that of the next.
 data Joint
-  = -- | the corner is so slight that it counts as none
+  = -- | the change of direction is so small that the control ignores the corner
     Smooth
   | -- | the centre goes round the corner on an arc
     Around Segment
@@ -345,11 +352,11 @@ data Joint
   | -- | the offsets do not meet
     NoMeeting
 
--- | Transition between the offsets of two programmed segments that follow each other.
+-- | Transition between the offsets of two successive programmed segments @a@ and @b@.
 jointOf :: Offset -> Segment -> Segment -> Joint
 jointOf k a b
   | abs turned < least = Smooth
-  -- A sharp tip counts as a corner towards the cutter on both sides.
+  -- A contour that almost reverses counts as a corner towards the cutter, on either side.
   | abs turned > pi - least = NoMeeting
   | turned * Carrier.sideSign (side k) < 0 =
     Around
@@ -362,7 +369,8 @@ jointOf k a b
     Rad least = Tolerance.controlBend
     corner = Segment.end a
 
--- | End and start of a programmed segment, shifted sideways by the cutter's radius.
+-- | End and start of the offset of a programmed segment, before trimming: the end or start of the
+-- segment, shifted sideways by the cutter's radius.
 offsetEnd, offsetStart :: Offset -> Segment -> Point
 offsetEnd k s = Carrier.beside (side k) (radius k) (Segment.endDirection s) (Segment.end s)
 offsetStart k s = Carrier.beside (side k) (radius k) (Segment.startDirection s) (Segment.start s)
@@ -374,7 +382,8 @@ meetings k a b =
     (carrierThrough (offsetEnd k a) (Segment.endDirection a) a)
     (carrierThrough (offsetStart k b) (Segment.startDirection b) b)
 
--- | Carrier of a segment's offset, by a point of the offset and its direction there.
+-- | Carrier of the offset of the segment @s@; @p@ is a point of the offset, and @direction@ the
+-- direction of the offset there.
 carrierThrough :: Point -> Vec -> Segment -> Carrier
 carrierThrough p direction s = case s of
   Straight _ _ -> LineCarrier (Line p (Vec.shift direction p))

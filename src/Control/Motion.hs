@@ -2,10 +2,11 @@
 -- on a line or on an arc. Speed, acceleration and the times of pulses are not modelled.
 --
 -- The end points of an arc and its centre are whole pulses, so its start radius and its end radius
--- may differ. Controllers resolve this difference in different manners, but all of them move about
--- the programmed centre, in the programmed sense, between the two radii. The model therefore gives
--- two bounding paths for such a motion, one arc on each radius, and the lines that connect their
--- ends. A statement about the motion is true if it is true of all of these.
+-- may differ. Controllers resolve this difference in different manners, but all controllers move
+-- about the programmed centre, in the programmed sense, between the two radii. The model therefore
+-- gives two /bounding paths/ for an arc with two radii: one arc on each radius. It also gives the
+-- lines that connect the ends of the two. A statement about the motion is true if it is true of
+-- both bounding paths and of these lines.
 module Control.Motion
   ( Motion (..),
     run,
@@ -43,7 +44,8 @@ data Motion = Motion {number :: Int, from :: Pulses3, to :: Pulses3, frame :: Fr
 run :: Pulses3 -> [Frame] -> [Motion]
 run = runWith (:)
 
--- | Fold the motions of frames from the right. The list of motions is never in memory as a whole.
+-- | Fold the motions of frames from the right, with the function @onto@. The list of motions is
+-- never in memory as a whole.
 runWith :: (Motion -> [a] -> [a]) -> Pulses3 -> [Frame] -> [a]
 runWith onto = go 1
   where
@@ -56,8 +58,8 @@ runWith onto = go 1
            in m `seq` onto m (go (n + 1) next more)
         | otherwise -> go (n + 1) at more
 
--- | Test that a frame is an arc about a centre. An arc whose centre is its start or its end is
--- none.
+-- | Test that a frame is an arc about a centre. False for an arc whose centre is its start or its
+-- end, because it then has no radius there.
 isRound :: Frame -> Bool
 isRound f = case motion f of
   Circular _ -> Frame.centre f /= 0 && Frame.centre f /= Pulses2 x y
@@ -86,8 +88,9 @@ segment machine m = case (Frame.segment machine (from m) (frame m), motion (fram
     | endsInStartDirection (frame m) -> a {sweep = Rad (Carrier.senseSign sense * 2 * pi)}
   (other, _) -> other
 
--- | Bounding paths of a motion. A line, or an arc whose radii agree to 'Tolerance.coincident', has
--- one. Another arc has two: one on its start radius, one on its end radius.
+-- | Bounding paths of a motion, given by the motion's segment. A line has one bounding path, and so
+-- has an arc whose radii agree within 'Tolerance.coincident'. Any other arc has two: one on its
+-- start radius, one on its end radius.
 boundingPaths :: Segment -> NonEmpty Segment
 boundingPaths s = case s of
   Straight a b -> Straight a b :| []
@@ -102,8 +105,8 @@ boundingPaths s = case s of
       Mm same = Tolerance.coincident
       onRadius r p = Vec.shift (Vec.scale r (Vec.unit (Vec.to c p))) c
 
--- | Lines from the first bounding path to each other one, between their starts and between their
--- ends.
+-- | Lines that connect the first bounding path with each of the others: start with start, and end
+-- with end.
 connectors :: NonEmpty Segment -> [Segment]
 connectors (one :| others) =
   concat
@@ -125,7 +128,7 @@ radii machine m = if isRound (frame m) then ends else Nothing
 height :: Machine -> Motion -> (Mm, Mm)
 height machine m = (Frame.height machine (from m), Frame.height machine (to m))
 
--- | Length of the path in space, in mm. Of a helix it is the length along its slope.
+-- | Length of a motion's path in space. For a helix it is the length along the slope.
 travel :: Machine -> Motion -> Mm
 travel machine m = Mm (Vec.norm (Vec.vec l (b - a)))
   where

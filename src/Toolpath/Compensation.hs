@@ -44,7 +44,7 @@ import Toolpath.Tolerance qualified as Tolerance
 import Toolpath.Toolpath (Manner (..), Move (..), Sent (Sent), withoutBraking)
 import Toolpath.Toolpath qualified as Toolpath
 
--- | The moves of the cutter's centre in one pass, part by part.
+-- | The moves of the cutter's centre in one pass, in the parts in which they are executed.
 data PassMoves = PassMoves
   { -- | the approach
     before :: [Move],
@@ -57,8 +57,9 @@ data PassMoves = PassMoves
   }
 
 -- | The input for a control that does the cutter compensation, or the reason why a control cannot
--- make the pass. Nothing when the program does not ask for compensation by the control. The region
--- is the statement's first word.
+-- make the pass. Nothing when the program does not ask for compensation by the control. @keyword@
+-- is the region of the statement's first word. @side@ is the cutter's side of the contour; Nothing
+-- when its centre moves on the contour.
 compensationInput :: Region -> Milling -> Maybe Side -> PassMoves -> Either Error (Maybe Sent)
 compensationInput keyword milling side passMoves = case Part.controlCompensation milling of
   Nothing -> Right Nothing
@@ -82,7 +83,7 @@ compensationInput keyword milling side passMoves = case Part.controlCompensation
       )
 
 -- | Refuses requests that the edge of the part cannot express: a blade, sharp corners, allowances.
--- The region is the program's request for compensation by the control.
+-- @requested@ is the region of the program's request for compensation by the control.
 checkRequest :: Region -> Milling -> Either Error ()
 checkRequest requested milling
   | Just _ <- Part.gear milling = refused Swivelling
@@ -94,8 +95,8 @@ checkRequest requested milling
   where
     refused = Left . NotForControl requested
 
--- | Refuses elements and leads that a control cannot follow. The regions are the statement's first
--- word, and the program's request for compensation by the control.
+-- | Refuses elements and leads that a control cannot follow. @keyword@ is the region of the
+-- statement's first word, @requested@ that of the request for compensation by the control.
 checkElements :: Region -> Region -> Milling -> Side -> PassMoves -> Either Error ()
 checkElements keyword requested milling side passMoves =
   mapM_ (checkLength keyword requested) elements
@@ -137,7 +138,8 @@ checkElements keyword requested milling side passMoves =
     Rad smooth = Tolerance.smoothAngle
     element = elementAt milling
 
--- | Refuses an element shorter than 'Tolerance.controlLength'.
+-- | Refuses an element shorter than 'Tolerance.controlLength'. The regions are those of
+-- 'checkElements'.
 checkLength :: Region -> Region -> Element -> Either Error ()
 checkLength keyword requested e =
   when
@@ -147,8 +149,8 @@ checkLength keyword requested e =
     l = Segment.length (Part.segment e)
 
 -- | Refuses a corner so slight that a control ignores it, if the control would then cut too deep.
--- Refuses also a corner at which the contour almost reverses. The arguments of the triple are the
--- number of the element before the corner, and the segments of both elements at the corner.
+-- Refuses also a corner at which the contour almost reverses. The triple has the number, from 0, of
+-- the element before the corner, and the segments of the elements before and after it.
 checkCorner :: Region -> Milling -> (Int, Segment, Segment) -> Either Error ()
 checkCorner requested milling (i, a, b) =
   when
@@ -176,10 +178,10 @@ elementAt milling i = elements NonEmpty.!! (i `mod` length elements)
   where
     elements = Part.elements (Part.contour milling)
 
--- | The least 'referenceLength' of the segment before a segment that begins with a change of
--- direction @away@ from the cutter. Before an arc this length keeps the additional sweep of the
--- centre's arc within 'Tolerance.controlTurn'. It is 0 before a line, and infinite when no length
--- suffices.
+-- | The least 'referenceLength' of the segment before the segment @s@. At the joint the direction
+-- changes by the angle @away@ from the cutter; @r@ is the cutter's radius in mm. If @s@ is an arc,
+-- this length keeps the additional sweep of the centre's arc within 'Tolerance.controlTurn'. The
+-- result is 0 if @s@ is a line, and infinite when no length suffices.
 neededBefore :: Mm -> Side -> Rad -> Segment -> Mm
 neededBefore (Mm r) side (Rad away) s = case s of
   Straight _ _ -> Mm 0
@@ -237,9 +239,8 @@ programmed milling side PassMoves {leadIn, cut, leadOut} = case map lead leadIn 
         }
     followedBy (e :| es) more = e :| es <> more
 
--- | The line or arc that a cutter of this radius touches while its centre moves along a segment.
--- The cutter is on the given side of that line or arc. A segment without a length is its own
--- result.
+-- | The line or arc that a cutter of this radius touches while its centre moves along the segment
+-- @s@. The cutter is on @side@ of that line or arc. If @s@ has no length, the result is @s@.
 touchedCurve :: Mm -> Side -> Segment -> Segment
 touchedCurve radius side s =
   fromMaybe s (Segment.offset (Carrier.oppositeSide side) radius s)
@@ -253,9 +254,10 @@ endsAtOuterCorner milling offsetSegments = case Part.controlCompensation milling
     Equidistant.Around _ -> True
     Equidistant.Along _ -> False
 
--- | A move of at most 1 mm along the first segment of a closed path, to be made once more after the
--- path's end. A control makes the arc round the last corner only when another move follows. Empty
--- when the segment has no length. The region is the statement's first word.
+-- | A move of at most 1 mm along @first@, the first segment of a closed path. The cutter makes it a
+-- second time after the path's end, because a control makes the arc round the last corner only when
+-- another move follows. Empty when @first@ has no length. @keyword@ is the region of the
+-- statement's first word. The heights of the move are 0; the caller sets them.
 overrun :: Region -> Milling -> Segment -> [Move]
 overrun keyword milling first =
   [ Move
@@ -272,9 +274,9 @@ overrun keyword milling first =
 -- Approach and retract
 
 -- | The moves before compensation begins, the straight move on which it begins, and the edge from
--- the end of that move. The last move of the approach must be straight and level. If it is longer
--- than three radii, it is divided at two radii from its end. Compensation begins on the second
--- part, whose direction certainly differs from that of the edge.
+-- the end of that move. @passMoves@ are the moves of the approach; the last of them must be
+-- straight and level. If it is longer than three radii, it is divided at two radii from its end.
+-- Compensation begins on the second part, whose direction certainly differs from that of the edge.
 entering ::
   Region ->
   Region ->
@@ -326,9 +328,9 @@ entryPoint requested milling side approach first = do
     l = Vec.distance on begin
     tooShort distance = Left (ShortForControl (origin approach) requested True distance radius)
 
--- | The least change of direction, in radians, from the approach onto the first element. Before an
--- arc the edge gets an additional line, which must not be too short for a control. It is 0 for a
--- first element that is straight.
+-- | The least change of direction, in radians, from the approach onto the first element. It is 0
+-- for a first element that is straight. Before an arc the edge gets an additional line, which is
+-- too short for a control if the change of direction is smaller.
 leastOntoArc :: Mm -> Side -> Segment -> Double
 leastOntoArc radius@(Mm r) side first = case first of
   Straight _ _ -> 0
@@ -336,8 +338,8 @@ leastOntoArc radius@(Mm r) side first = case first of
     where
       Mm l = max Tolerance.controlLength (neededBefore radius side (Rad 0) first)
 
--- | The edge with a new beginning. A straight first element begins there; before an arc there is an
--- additional line.
+-- | The edge with the new beginning @begin@. A straight first element then begins at that point. If
+-- the first element is an arc, a line from that point to the arc is added before it.
 beginningAt :: Point -> NonEmpty Move -> NonEmpty Move
 beginningAt begin (first :| others) = case segment first of
   Straight _ b -> first {segment = Straight begin b} :| others
@@ -349,9 +351,10 @@ beginningAt begin (first :| others) = case segment first of
 furthestTurn :: Double
 furthestTurn = 35 / 36 * pi
 
--- | The straight move on which compensation ends, and the moves after it. The regions are the
--- statement's first word and the request for compensation. @final@ is the last move of the edge.
--- The first move of the retract @passMoves@ must be straight and level.
+-- | The straight move on which compensation ends, and the moves after it. @keyword@ is the region
+-- of the statement's first word, @requested@ that of the request for compensation. @final@ is the
+-- last move of the edge. @passMoves@ are the moves of the retract; the first must be straight and
+-- level.
 leaving :: Region -> Region -> Milling -> Move -> [Move] -> Either Error (Move, [Move])
 leaving keyword requested milling final passMoves = case passMoves of
   m@Move {segment = Straight _ to', manner = Manner {between = (z, z')}} : later | z == z' -> do

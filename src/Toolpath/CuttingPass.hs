@@ -1,5 +1,5 @@
--- | One pass along a contour: the moves on the equidistant, the leads, and the moves to and from
--- them.
+-- | One pass along a contour: the moves on the offset of the contour, the lead-in and the lead-out,
+-- and the approach and the retract. The /path/ of a pass is that offset, or a part of it.
 module Toolpath.CuttingPass
   ( CuttingPass (..),
     block,
@@ -40,8 +40,8 @@ import Toolpath.Toolpath (Block (..), Manner (Manner), Move (Move), Pass (..))
 import Toolpath.Toolpath qualified as Toolpath
 
 -- | A pass along a contour, or along one of several paths beside a contour that the cutter does not
--- reach everywhere. The path itself is no field, so that the collector frees its segments while
--- moves are made from them.
+-- reach everywhere. The path itself is no field, so that the garbage collector frees its segments
+-- while moves are made from them.
 data CuttingPass = CuttingPass
   { -- | number of the milling statement in the order of execution, from 0
     statement :: Int,
@@ -49,7 +49,7 @@ data CuttingPass = CuttingPass
     -- | side of the contour, in the direction of travel, on which the cutter moves; Nothing when
     -- its centre moves on the contour
     cutterSide :: Maybe Carrier.Side,
-    -- | the elements of the contour by their numbers
+    -- | the elements of the contour; the index of an element is its number, from 0
     numbered :: Vector Part.Element,
     -- | true for the first path of the statement's first pass
     isFirst :: Bool,
@@ -65,8 +65,8 @@ data CuttingPass = CuttingPass
     restMaterial :: [Equidistant.UnreachedPart]
   }
 
--- | The block of a pass along a path, which is the offset of the contour or a part of it. Fails
--- when a blade or a control with cutter compensation cannot make the pass.
+-- | The block of a pass along a path. Fails when a blade or a control with cutter compensation
+-- cannot make the pass.
 block :: CuttingPass -> NonEmpty OffsetSegment -> Either Error Block
 block p path = do
   swivels <- Swivel.axis word milling (cutterSide p) path
@@ -79,7 +79,7 @@ block p path = do
 -- | The ends of the path of a pass. The fields are strict. Once they are computed, the moves along
 -- the path exist, and the path itself is not needed any more.
 data PathEnds = PathEnds
-  { -- | true when a control does the compensation and the path ends with the arc round a corner
+  { -- | true when the control does the compensation and the path ends with the arc round a corner
     endsAtCorner :: Bool,
     firstSegment :: Segment,
     lastSegment :: Segment
@@ -94,9 +94,9 @@ pathEnds milling path cut =
       lastSegment = Toolpath.segment (NonEmpty.last cut)
     }
 
--- | The block of a pass, given the heights of a blade's axis as for 'cutMoves', the moves along the
--- contour and the ends of the path. The ends are computed before the block, which has no reference
--- to the path.
+-- | The block of a pass. @swivels@ has the heights of a blade's axis as for 'cutMoves', @cut@ the
+-- moves along the contour. The strict @ends@ of the path are computed before the block, so the
+-- block keeps no reference to the path.
 blockOf ::
   CuttingPass -> Maybe (NonEmpty (Mm, Mm)) -> NonEmpty Move -> PathEnds -> Either Error Block
 blockOf p swivels cut ends@PathEnds {} = do
@@ -122,8 +122,8 @@ blockOf p swivels cut ends@PathEnds {} = do
     word = wordOf p
     passMoves = allMoves p swivels cut ends
 
--- | All moves of a pass. The arguments are the pass, the heights of a blade's axis as for
--- 'cutMoves', the moves along the contour, and the ends of the path.
+-- | All moves of a pass. @swivels@ has the heights of a blade's axis as for 'cutMoves', @cut@ the
+-- moves along the contour, and @ends@ the ends of the path.
 allMoves :: CuttingPass -> Maybe (NonEmpty (Mm, Mm)) -> NonEmpty Move -> PathEnds -> PassMoves
 allMoves p swivels cut ends =
   PassMoves
@@ -151,7 +151,7 @@ allMoves p swivels cut ends =
 wordOf :: CuttingPass -> Region
 wordOf = keyword . region . milled
 
--- | The heights at the start and the end of each move of a pass without a blade: both are the
+-- | The heights at the start and at the end of each move of a pass without a blade. Both are the
 -- height of the pass.
 levels :: CuttingPass -> (Mm, Mm)
 levels p = (plus (level p) (Mm 0), plus (level p) (Mm 0))
@@ -167,8 +167,9 @@ visit p =
       LinkingMove.from = from p
     }
 
--- | The moves along the contour, one for each segment of the path. The second argument gives, for
--- each segment, the heights of a blade's axis above its middle position; Nothing without a blade.
+-- | The moves along the contour, one for each segment of the path. @swivels@ gives, for the start
+-- and the end of each segment, the height of a blade's axis above its middle position; Nothing
+-- without a blade.
 cutMoves ::
   CuttingPass ->
   Maybe (NonEmpty (Mm, Mm)) ->
@@ -180,7 +181,7 @@ cutMoves p swivels path =
   where
     milling = value (milled p)
     pace = Part.At (feed milling)
-    -- Most moves have this manner, and share its record.
+    -- Most moves have these heights and this feed, and share one record of them.
     shared = Manner (levels p) pace False
     heights = case swivels of
       Nothing -> NonEmpty.repeat (levels p)
@@ -206,8 +207,8 @@ cutMoves p swivels path =
         )
         (Part.origin (numbered p Vector.! i))
         continues
-    -- The offset of a concave arc may vanish, so that segments of elements that are no neighbours
-    -- meet at a corner.
+    -- The offset of a concave arc may vanish. Then segments of elements that are no neighbours
+    -- meet at a corner, so the numbers of the elements are compared.
     isContinued previous current = case (Equidistant.origin previous, Equidistant.origin current) of
       (Equidistant.Along i, Equidistant.Along j) ->
         j == i + 1 && Part.continues (numbered p Vector.! j)
@@ -231,14 +232,14 @@ leads p PathEnds {endsAtCorner, firstSegment, lastSegment} = (leadIn, leadOut)
       (Segment.end lastSegment) of
       [] | endsAtCorner -> Compensation.overrun (wordOf p) milling firstSegment
       moves -> moves
-    -- In a concave arc of its own radius the centre does not move, and the segment has no length.
-    -- Then the contour gives the direction.
+    -- In a concave arc of the cutter's radius the centre does not move, and the segment has no
+    -- length. Then the contour gives the direction.
     directionOf :: (Segment -> Vec.Vec) -> Segment -> Part.Element -> Vec.Vec
     directionOf direction s e =
       direction (if Segment.length s > Tolerance.coincident then s else Part.segment e)
 
--- | The distance of the cutter's centre from the contour without an allowance: 0 on the contour,
--- else the radius.
+-- | The distance of the cutter's centre from the contour in a pass without an allowance: 0 when the
+-- centre moves on the contour, else the radius.
 touchedRadius :: Milling -> Mm
 touchedRadius milling = case value (Part.side milling) of
   On -> Mm 0

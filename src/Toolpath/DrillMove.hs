@@ -1,5 +1,5 @@
--- | The moves of drilling. At each hole a rapid move ends above it; the drill goes down at the feed
--- and up again in rapid.
+-- | The moves of drilling. At each hole the drill moves above the hole in rapid, goes down at the
+-- feed, and goes up again in rapid.
 module Toolpath.DrillMove
   ( moves,
   )
@@ -15,8 +15,8 @@ import Part.Part qualified as Part
 import Toolpath.LinkingMove qualified as LinkingMove
 import Toolpath.Toolpath (Manner (Manner), Move (Move))
 
--- | The moves of a drilling statement, from the tool's position before it. A tool below the
--- clearance height rises to that height first.
+-- | The moves of a drilling statement; @at@ is the tool's position before the statement. A tool
+-- below the clearance height rises to that height first.
 moves :: SpacePoint -> Located Drilling -> [Move]
 moves at (Located region d) =
   LinkingMove.rise at clear (LinkingMove.keyword 4 region)
@@ -41,9 +41,9 @@ moves at (Located region d) =
             <> [((from, z), Part.At (Part.drillFeed d)), ((z, clear), Part.Rapid)]
     depths = depthsOf d
 
--- | The heights at which the pecks of a hole end, in order. All pecks have the same depth, at most
--- the one that the program gives; but there are at most 10000 pecks. Without pecking the only
--- height is that of the bottom.
+-- | The heights at which the pecks of a hole end, in order. All pecks have equal depths, at most
+-- the depth that the program gives, unless this would need more than 10000 pecks. Without pecking
+-- the only height is that of the hole's bottom.
 depthsOf :: Drilling -> [Mm]
 depthsOf d = case Part.peckDepth d of
   Nothing -> [Part.bottom d]

@@ -29,8 +29,9 @@ import Report.Report (Label (..), Report (..))
 import Toolpath.Tolerance qualified as Tolerance
 import Toolpath.WarningReport
 
--- | Reasons why there is no toolpath. The first region is that of the report, which is mostly the
--- statement's first word.
+-- | Reasons why there is no toolpath. The first region is the one that the report shows; mostly it
+-- is the statement's first word. A position is one of the cutter's centre. A largest radius that
+-- fits is that of a cutter that would not have this problem; it is Nothing if no cutter would do.
 data Error
   = -- | @outside@ or @inside@ at an open contour: the side as written, the contour's name, the
     -- contour
@@ -41,8 +42,8 @@ data Error
   | -- | an inner corner: the statement, the cutter, both elements, the corner, the largest radius
     -- that fits
     InnerCorner Region Tool Element Element Point (Maybe Mm)
-  | -- | in its pass along the first element the cutter would cut the second one: the position of
-    -- the centre, the largest radius that fits
+  | -- | in its pass along the first element the cutter would cut the second one: the statement, the
+    -- cutter, both elements, the position of the centre, the largest radius that fits
     Collision Region Tool Element Element Point (Maybe Mm)
   | -- | a move that cuts into an element: the statement, the move, the element, the depth of the
     -- cut, its kind, the position of the centre
@@ -53,7 +54,8 @@ data Error
   | -- | milling one contour cuts into another: the statement, the element being milled, the
     -- element cut, the depth of the cut, the position of the centre
     MillsAnother Region Region Element Mm Point
-  | -- | milling without a depth at this height above the part, where the cutter cuts nothing
+  | -- | milling without a depth at a height above the part, where the cutter cuts nothing: the
+    -- statement, the height
     CutsAir Region Mm
   | -- | a closed contour to be turned: the statement, the contour's name, the contour
     TurnsClosed Region Name Region
@@ -70,13 +72,15 @@ data Error
     NoBevel Region
   | -- | a blade that has no side of the contour, because @on@ is asked for
     BladeOnContour Region
-  | -- | two elements that meet smoothly but with different bevels, in radians
+  | -- | two elements that meet without a corner but with different bevels: the statement, both
+    -- elements, their bevels at the joint in radians
     BevelJumps Region Element Element Double Double
-  | -- | cutter compensation by the control, with a request that its input cannot express
+  | -- | cutter compensation by the control, together with a request that the input of a control
+    -- cannot express
     NotForControl Region Unsupported
   | -- | an approach or retract too short for a control: the move, the region that asks for cutter
-    -- compensation, True for an approach, its length, the cutter's radius. The length is 0 if there
-    -- is no straight and level move
+    -- compensation, True for an approach and False for a retract, the length of the move, the
+    -- cutter's radius. The length is 0 if there is no straight and level move
     ShortForControl Region Region Bool Mm Mm
   | -- | an approach from a direction that a control does not accept: the move, the region that asks
     -- for cutter compensation, the end of the approach
@@ -500,7 +504,8 @@ unsentHint what = case what of
     \controller."
   Unreached -> "Leave out compensation controller, or take a smaller cutter."
 
--- | No room in a pocket, or beside a contour, for a pass with this allowance.
+-- | The report that there is no room in a pocket, or beside a contour, for a pass with the
+-- allowance @left@.
 noRoom :: Region -> Text -> Text -> Text -> Contour -> Mm -> Report
 noRoom region title called side contour left =
   (at region "E0420" title)
@@ -517,7 +522,7 @@ noRoom region title called side contour left =
   where
     Located there (Name name) = contourName contour
 
--- | The label of the second element, unless both come from the same region.
+-- | The label of the second element; empty if both elements come from the same region.
 secondLabel :: Element -> Element -> [Label]
 secondLabel first second = [Label (origin second) (shape second) | origin second /= origin first]
 

@@ -49,9 +49,9 @@ import Toolpath.Toolpath (Block (..), Toolpath (Toolpath))
 import Toolpath.Toolpath qualified as Toolpath
 import Toolpath.Warning qualified as Warning
 
--- | Computes the toolpath of a part. There is no toolpath when an operation fails. Nor is there one
--- when the part has operations but no start, which an earlier compiler pass reports. A part
--- without operations has a toolpath without moves.
+-- | Computes the toolpath of a part. There is no toolpath when an operation fails, or when the part
+-- has operations but no start; an earlier compiler pass reports the missing start. A part without
+-- operations has a toolpath without moves.
 toToolpath :: Part -> Result Warning Error Toolpath
 toToolpath part = case (Part.start part, Part.operations part) of
   (Nothing, []) ->
@@ -118,8 +118,8 @@ firstState part begin =
       at = begin
     }
 
--- | The state after an operation, given its blocks. An operation that fails has no blocks, and does
--- not move the tool.
+-- | The state after an operation; @bs@ are the blocks of the operation. An operation that fails has
+-- no blocks, and does not move the tool.
 stateAfter :: Operation -> [Block] -> State -> State
 stateAfter operation bs State {number, toolRadius, at} =
   State
@@ -141,7 +141,7 @@ collect state operations = case operations of
     Left e -> first (e :) (collect (stateAfter o [] state) rest)
     Right bs -> (bs <>) <$> collect (stateAfter o bs state) rest
 
--- | The blocks of one operation.
+-- | The blocks of one operation, or the error by which it fails.
 blocksOf :: State -> Operation -> Either Error [Block]
 blocksOf State {number, toolRadius, at} operation = case operation of
   Travel stops ->
@@ -171,9 +171,10 @@ blocksOf State {number, toolRadius, at} operation = case operation of
           z <- if null (Part.levels milling) then [heightOf milling] else Part.levels milling
       ]
 
--- | The blocks of all passes of a milling statement, whose number is the first argument. The
--- position is that of the cutter before the statement. Each pass is given by its allowance and its
--- height.
+-- | The blocks of all passes of the milling statement with the number @number@, in the order of
+-- execution from 0. @at@ is the position of the cutter before the statement. @side@ is the cutter's
+-- side of the contour; Nothing when its centre moves on the contour. Each pass is given by its
+-- allowance and its height.
 passBlocks ::
   Int ->
   SpacePoint ->
@@ -184,8 +185,8 @@ passBlocks ::
 passBlocks number at job side passes =
   reverse . snd <$> foldM pass (at, []) (zip [1 :: Int ..] passes)
   where
-    -- All passes share one array. A contour may have many elements, which as a list are scattered
-    -- over memory.
+    -- All passes share one array, because the many elements of a contour, as a list, would be
+    -- scattered over memory.
     numbered =
       let es = elements (contour (value job))
        in Vector.fromListN (NonEmpty.length es) (NonEmpty.toList es)

@@ -1,5 +1,5 @@
--- | The loops around the region of a pocket that the cutter's centre can reach. The offset kernel
--- computes them.
+-- | The loops around the region of a pocket that the cutter's centre can reach. A loop is a closed
+-- chain of segments with the free space on its left. "Offset.Kernel" computes the loops.
 module Toolpath.Inset
   ( oriented,
     inset,
@@ -34,7 +34,8 @@ oriented outer islands = orient (> 0) outer :| map (orient (< 0)) islands
 
 -- | The loops at a distance to the left of an outer contour and islands. The contours must be
 -- oriented as by 'oriented', and free of self-intersections. There are no loops when the contours
--- intersect each other. Applied to the contours only, it converts them once for all distances.
+-- intersect each other. The partial application to the contours converts them once for all
+-- distances.
 inset :: NonEmpty Polyarc -> Mm -> [Loop]
 inset contours@(outer :| _) = loopsAt
   where
@@ -50,9 +51,10 @@ inset contours@(outer :| _) = loopsAt
         Left (Kernel.SelfIntersecting _ _) -> []
         Left Kernel.WrongNesting -> []
 
--- | The loops at a distance, including loops along slots whose width is exactly twice the distance.
--- In such a slot the centre can move on a line only, and a function such as 'inset' gives no loop
--- there. Then the loops at a distance that is smaller by 'Tolerance.clearance' are returned.
+-- | The loops at @distance@, including loops along narrow passages, called slots, that are exactly
+-- twice as wide as @distance@. In a slot the centre can only move on a line, and @loopsAt@, such as
+-- 'inset' of the contours, gives no loop there. If there is a slot, the result is the loops at a
+-- distance that is smaller by 'Tolerance.clearance'.
 insetWithSlots :: (Mm -> [Loop]) -> Mm -> [Loop]
 insetWithSlots loopsAt distance
   | minus (totalLength smaller) (totalLength own) > Tolerance.ignoredSlot = smaller
@@ -62,9 +64,9 @@ insetWithSlots loopsAt distance
     smaller = loopsAt (minus distance Tolerance.clearance)
     totalLength loops = total [Segment.length s | loop <- loops, s <- NonEmpty.toList loop]
 
--- | The loops at a distance to the left of loops that 'inset' gave. This is less work for the
--- kernel than to compute them from the walls. Nothing when the kernel cannot decide, for instance
--- because loops touch.
+-- | The loops at @distance@ to the left of other loops, which 'inset' gave. To compute them from
+-- the walls is more work. Nothing when the kernel cannot decide, for instance because loops touch;
+-- then the caller computes them from the walls.
 insetOfLoops :: [Loop] -> Mm -> Maybe [Loop]
 insetOfLoops loops distance@(Mm d)
   | 2 * d >= min (r - l) (t - b) = Just []

@@ -1,8 +1,8 @@
 -- | Moves that cut into a machined contour where the program does not allow it.
 --
 -- Approaches, retracts and linking moves are checked against all contours. Cuts are checked against
--- the contours of other statements only; that they do not gouge their own contour is the task of
--- "Offset.Equidistant". A move wholly above the top of the part cuts nothing.
+-- the contours of other statements only: "Offset.Equidistant" already ensures that a cut does not
+-- gouge its own contour. A move wholly above the top of the part cuts nothing.
 module Toolpath.Intrusion
   ( intrusions,
   )
@@ -67,7 +67,7 @@ depth e = case e of
 -- | All machined contours of a program.
 data Machined = Machined
   { index :: BoxTree Wall,
-    -- | the largest height at which a tool still cuts
+    -- | the largest height at which a tool may cut; the top of the part is 0
     top :: Mm,
     -- | the numbers of all milling and pocket statements that have a contour to machine
     statements :: [Int]
@@ -79,7 +79,7 @@ data Wall = Wall
     statement :: Int,
     milling :: Milling,
     -- | one bounding box for each 'groupSize' consecutive elements. The list at a box begins with
-    -- these elements, and contains the rest of the contour too. A box for each element would take
+    -- these elements, but extends to the end of the contour. A box for each element would take
     -- more memory than the element, and few boxes are ever examined
     groups :: BoxTree (NonEmpty Part.Element)
   }
@@ -115,8 +115,9 @@ machinedOf blocks =
         (BoundingBox.ofSegment (Part.segment e))
         (take (groupSize - 1) es)
 
--- | For a pass: the number of its statement, the statement, and the contours that it machines.
--- Nothing for other blocks, and when the centre of the cutter moves on the contour.
+-- | For the block of a pass: the number of the pass's statement, the statement, and the contours
+-- that the pass machines. Nothing for other blocks, and when the centre of the cutter moves on the
+-- contour.
 contoursOf :: Block -> Maybe (Int, Milling, [Contour])
 contoursOf b = case b of
   Cutting {job = Located _ milling, pass}
@@ -132,9 +133,11 @@ contoursOf b = case b of
 data Intruder = Intruder
   { -- | radius of the tool
     tool :: Mm,
-    -- | number of the statement whose contour is not checked, because the moves are cuts along it
+    -- | number of the statement whose contour is not checked, because the moves are cuts along that
+    -- contour; Nothing if all contours are checked
     own :: Maybe Int,
-    -- | number of a statement, and its smallest allowance, which the moves must not cut either
+    -- | number of the statement to which linking moves belong, and its smallest allowance, into
+    -- which they must not cut; Nothing if the allowances are not checked
     leaving :: Maybe (Int, Mm)
   }
 
@@ -167,7 +170,7 @@ intrusionsOfBlock machined b = case b of
             )
   where
     found = intrusionsOfMove machined
-    -- If no other statement has a contour, cuts along this one need no check.
+    -- If no other statement has a contour, the cuts of statement @n@ need no check.
     isAlone n = all (== n) (statements machined)
     -- For a cut, the report names the element along which the cutter moves, instead of the move.
     asMilling word e = case e of
@@ -177,8 +180,9 @@ intrusionsOfBlock machined b = case b of
       CutsPart at move element deep _ _ -> HoleCuts at (Segment.end move) element deep
       _ -> e
 
--- | The deepest intrusion of a move into the contours of each statement. Intrusions of several
--- statements at the same point are listed once, because they mill the same contour.
+-- | The deepest intrusion of a move into the contours of each statement. If there are intrusions
+-- into the contours of several statements at one point, the first is listed: the statements mill
+-- the same contour.
 intrusionsOfMove :: Machined -> Intruder -> Move -> [Error]
 intrusionsOfMove machined intruder m
   | fst (Toolpath.heights m) > top machined && snd (Toolpath.heights m) > top machined = []
@@ -192,7 +196,8 @@ intrusionsOfMove machined intruder m
       _ -> False
     deepest errors = minimumBy (comparing depth) (map snd errors)
 
--- | The intrusions of a move into all elements near it, with the numbers of their statements.
+-- | The intrusions of the move @m@ into the elements near it, each with the number of the element's
+-- statement.
 hits :: Machined -> Intruder -> Move -> [(Int, Error)]
 hits machined Intruder {tool, own, leaving} m =
   [ (statement wall, e)
@@ -212,8 +217,9 @@ hits machined Intruder {tool, own, leaving} m =
       Just (leaver, left) | statement wall == leaver -> plus tool left
       _ -> tool
 
--- | The intrusion of a move into an element. The arguments are the tool's radius, the distance that
--- its centre has to keep from the element, the statement of the element, the move and the element.
+-- | The intrusion of the move @m@ into the element, or Nothing if the move keeps its distance.
+-- @tool@ is the radius of the tool. @kept@ is the distance that the tool's centre has to keep from
+-- the element, and @milling@ is the statement of the element.
 hit :: Mm -> Mm -> Milling -> Move -> Part.Element -> Maybe Error
 hit tool kept milling m element
   | plus d allowed < kept || d <= Tolerance.coincident && goesThrough allowed path wall =

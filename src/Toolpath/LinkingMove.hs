@@ -1,5 +1,5 @@
 -- | Linking moves: those from the current position to the beginning of a pass, and those that leave
--- its end.
+-- the end of the pass.
 module Toolpath.LinkingMove
   ( Visit (..),
     withDepth,
@@ -23,7 +23,7 @@ import Part.Part qualified as Part
 import Toolpath.Toolpath (Manner (Manner), Move (Move))
 import Toolpath.Toolpath qualified as Toolpath
 
--- | One pass of a statement, as its linking moves need it.
+-- | The facts about one pass of a statement that determine the linking moves of the pass.
 data Visit = Visit
   { -- | region of the statement's first word
     word :: Region,
@@ -37,8 +37,8 @@ data Visit = Visit
   }
 
 -- | The linking moves before and after a pass of a statement without a depth. The cutter stays at
--- its current height @z@. The pair gives the heights at the beginning and at the end of the pass,
--- which differ from @z@ for a blade only; the points are the beginning and the end of the pass.
+-- its current height @z@. The pass goes from the point @begin@ at the height @inZ@ to the point
+-- @finish@ at the height @outZ@. These heights differ from @z@ for a blade only.
 withoutDepth :: Visit -> Mm -> (Mm, Mm) -> Point -> Point -> ([Move], [Move])
 withoutDepth Visit {word, milling, isFirst, isLast, from} z (inZ, outZ) begin finish =
   ( before
@@ -65,9 +65,10 @@ withoutDepth Visit {word, milling, isFirst, isLast, from} z (inZ, outZ) begin fi
       _ -> stops
 
 -- | The linking moves before and after a pass of a statement with a depth. At the clearance height
--- @clear@ the cutter moves to the last approach point, or to the beginning of the pass if there is
--- none, and plunges there. It rises again at the first retract point, unless that point has a
--- height of its own. The pair and the points are those of 'withoutDepth'.
+-- @clear@ the cutter moves to the last approach point, and plunges there. Without approach points
+-- it plunges at the beginning of the pass. After the pass it moves to the first retract point and
+-- rises there; if that point has a height of its own, the cutter rises at the end of the pass. The
+-- heights and the points are those of 'withoutDepth'.
 withDepth :: Visit -> Mm -> (Mm, Mm) -> Point -> Point -> ([Move], [Move])
 withDepth Visit {word, milling, isFirst, isLast, from} clear (inZ, outZ) begin finish =
   ( up
@@ -106,21 +107,22 @@ withDepth Visit {word, milling, isFirst, isLast, from} clear (inZ, outZ) begin f
         else []
     lastOf xs = take 1 (reverse xs)
 
--- | A vertical move to a height at the plunge feed; none if the cutter is at that height.
+-- | A vertical move to the height @target@ at the plunge feed; empty if the cutter is at that
+-- height.
 plunge :: Region -> Milling -> SpacePoint -> Mm -> [Move]
 plunge word milling (SpacePoint p z) target =
   [Move (Straight p p) (Manner (z, target) (Part.At feedDown) False) word False | z /= target]
   where
     feedDown = fromMaybe (feed milling) (Part.plunge milling)
 
--- | A rapid move straight up to a height; none if the cutter is not below it. The region is the
--- origin of the move.
+-- | A rapid move straight up to the height @clear@; empty if the cutter is not below that height.
+-- @word@ is the region of the program that the move comes from.
 rise :: SpacePoint -> Mm -> Region -> [Move]
 rise (SpacePoint p z) clear word =
   [Move (Straight p p) (Manner (z, clear) Part.Rapid False) word False | z < clear]
 
--- | Straight moves from a position to each stop in turn. A stop without a height keeps the current
--- one. A stop at the current position needs no move.
+-- | Straight moves from the position @at@ to each stop in turn. At a stop without a height the tool
+-- keeps its current height. A stop at the current position needs no move.
 straightMoves :: SpacePoint -> [Stop] -> [Move]
 straightMoves at stops = case stops of
   [] -> []
@@ -132,7 +134,7 @@ straightMoves at stops = case stops of
     where
       z = fromMaybe (height at) level
 
--- | The end of the last move; the given position if there are no moves.
+-- | The position at the end of the last move; @from@ if there are no moves.
 endPosition :: SpacePoint -> [Move] -> SpacePoint
 endPosition from ms = case ms of
   [] -> from

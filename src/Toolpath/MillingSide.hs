@@ -59,7 +59,7 @@ leadingSide milling = case (value (side milling), Part.ends (contour milling)) o
     name = Part.contourName (contour milling)
 
 -- | Refuses a turned profile that goes below the spindle's axis, and an allowance when the centre
--- of the cutter moves on the contour. The region is the statement.
+-- of the cutter moves on the contour. @region@ is the region of the statement.
 possible :: Region -> Milling -> Either Error ()
 possible region milling
   | e : _ <-
@@ -86,9 +86,10 @@ possible region milling
       _ -> min (Vec.y (Segment.start s)) (Vec.y (Segment.end s))
 
 -- | Reverses the contour if the program asks for climb or conventional milling and the contour has
--- the wrong sense for it. With a spindle that turns clockwise, climb milling has the material on
+-- the wrong sense for that. With a spindle that turns clockwise, climb milling has the material on
 -- the right of the direction of travel. Refuses the request when the cutter's centre moves on the
--- contour, and when it contradicts the side @left@ or @right@.
+-- contour, and when the request contradicts the side @left@ or @right@ of the program. @region@ is
+-- the region of the statement.
 oriented :: Region -> Milling -> Either Error Milling
 oriented region milling = case Part.sense milling of
   Nothing -> Right milling

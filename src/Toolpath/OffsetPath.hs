@@ -1,8 +1,8 @@
 -- | The paths of the cutter's centre beside a contour: its offset, or the parts of the offset that
 -- the cutter can follow where rest material is allowed.
 --
--- This is a module of its own so that the passes of a statement do not share the polyarc of their
--- contour, which would stay in memory from the first pass to the last one.
+-- This is a module of its own, so that each pass of a statement computes the polyarc of the contour
+-- anew. A shared polyarc would stay in memory from the first pass to the last one.
 module Toolpath.OffsetPath
   ( paths,
   )
@@ -23,9 +23,10 @@ import Toolpath.MillingSide (keyword)
 import Toolpath.OffsetRefusal qualified as OffsetRefusal
 import Toolpath.RestMaterial qualified as RestMaterial
 
--- | The paths of the cutter's centre beside a contour, or on it when there is no side, with an
--- allowance. There are several paths only where rest material is allowed and occurs; the second
--- result is that rest material.
+-- | The paths of the cutter's centre on @side@ of a contour, at the cutter's radius plus the
+-- allowance; without a side the path is the contour itself. There are several paths only if rest
+-- material is allowed and occurs. The second result is that rest material. @numbered@ are the
+-- elements of the contour, by their numbers from 0.
 paths ::
   Located Milling ->
   Maybe Carrier.Side ->
@@ -60,7 +61,7 @@ paths (Located region milling) side numbered allowance = case side of
         { Equidistant.sharp = Part.corners milling == Part.Sharp,
           Equidistant.extra
         }
-    -- Mostly no element has an allowance of its own, and then the allowances are not looked up.
+    -- Mostly no element has an allowance of its own; then no allowance is looked up.
     extra
       | hasNoAllowances = const (Mm 0)
       | otherwise = allowanceOf . (numbered Vector.!)

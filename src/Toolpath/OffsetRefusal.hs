@@ -20,8 +20,8 @@ import Part.Part qualified as Part
 import Toolpath.Error (Error (ConcaveRadius), RestPosition (..), Tool (leaves))
 import Toolpath.Error qualified as Error
 
--- | The error for an obstacle. The region is the statement's first word; the index of an element in
--- the vector is its number in the obstacle.
+-- | The error for an obstacle. @region@ is the region of the statement's first word. The index of
+-- an element in @elements@ is the number by which the obstacle names it.
 refusal :: Region -> Tool -> Vector Element -> Obstacle -> Error
 refusal region tool elements (Obstacle cause largest) = case cause of
   Concave i old -> ConcaveRadius region tool (elements ! i) old (fitting tool largest)
@@ -31,7 +31,7 @@ refusal region tool elements (Obstacle cause largest) = case cause of
     Error.Collision region tool (elements ! i) (elements ! j) p (fitting tool largest)
 
 -- | The rest material, one entry for each unreached part of the contour. The index of an element in
--- the vector is its number in the unreached parts.
+-- @elements@ is the number by which the unreached parts name it.
 restPositions ::
   Functor f =>
   Tool ->
@@ -49,8 +49,8 @@ restPositions tool elements = fmap restPosition
         Just (a, b) | isCorner rest a b -> InCorner a b (Segment.start (Part.segment b))
         _ -> Between (elements ! i) (elements ! j) (Equidistant.cutterCentre rest) (largest' rest)
     largest' rest = fitting tool (largest (Equidistant.stop rest))
-    -- The numbers of the elements that do not continue a curve; then, for each element, the count
-    -- of such elements before it, and at last the count of all of them.
+    -- @corners@: the numbers of the elements that do not continue a curve. @cornersBefore@: for
+    -- each element, the count of @corners@ before it; at the end, the count of all @corners@.
     corners = Vector.findIndices (not . Part.continues) elements
     cornersBefore = Vector.scanl' (\n e -> if Part.continues e then n else n + 1) 0 elements
     -- The two elements that meet at the corner between elements i and j, if there is exactly one
@@ -75,8 +75,9 @@ restPositions tool elements = fmap restPosition
               )
               > smooth
 
--- | The radius of the largest cutter that fits: the largest distance of the centre from the contour
--- that is possible, less the allowance. Nothing when that is not positive.
+-- | The radius of the largest cutter that fits. It is @largest@, the largest possible distance of
+-- the centre from the contour, minus the allowance. Nothing when @largest@ is unknown or the radius
+-- is not positive.
 fitting :: Tool -> Maybe Mm -> Maybe Mm
 fitting tool largest = do
   l <- largest

@@ -2,14 +2,17 @@
 -- innermost outwards, and the linking moves between them.
 --
 -- The cutter sweeps every point of the floor that it can reach. Take a point between two loops, and
--- the shortest line from it to its nearest wall. On that line, the outer loop is at most the
--- stepover away. A stepover of at most the radius therefore leaves nothing, not even in the middle,
--- where the last loop shrinks to nothing. A wider stepover leaves residue, which detours clear
--- ("Toolpath.StepoverResidue"). A point nearer to a wall than the outermost loop is within one
--- radius of a position of the centre on that loop.
+-- the shortest line from that point to the nearest wall. On that line, the outer loop is at most
+-- the stepover away. A stepover of at most the radius therefore leaves nothing, not even in the
+-- middle, where the last loop shrinks to nothing. A wider stepover leaves residue, which detours
+-- clear ("Toolpath.StepoverResidue"). A point nearer to a wall than the outermost loop is within
+-- one radius of a position of the centre on that loop.
 --
 -- The loops are cut from the inside outwards, because the cutter then plunges where it has room. On
 -- every later loop the remaining material lies on one side, and the walls are cut last.
+--
+-- A /section/ is a part of this toolpath: a loop, a detour or a linking move. A /region/ is a
+-- connected area that the centre can reach at one distance from the walls ("Toolpath.PocketTree").
 module Toolpath.Pocket
   ( PocketRoom (..),
     Loop,
@@ -46,11 +49,11 @@ import Toolpath.PocketTree qualified as PocketTree
 data PocketRoom = PocketRoom
   { -- | the outer contour and the islands
     walls :: NonEmpty Segment,
-    -- | the loops that bound the region inside the outer contour and outside the islands, at the
-    -- given distance from both; the free space is on their left
+    -- | the loops that bound the region inside the outer contour and outside the islands, at a
+    -- given distance from all of them; the free space is on the left of each loop
     offsetBy :: Mm -> [Loop],
-    -- | the loops at a distance to the left of such loops; Nothing when they have to be computed
-    -- from the walls
+    -- | the loops at a given distance to the left of loops that 'offsetBy' gave; Nothing when they
+    -- have to be computed from the walls
     insetOfLoops :: [Loop] -> Mm -> Maybe [Loop],
     -- | the cutter's radius
     radius :: Mm,
@@ -60,7 +63,7 @@ data PocketRoom = PocketRoom
     isReversed :: Bool
   }
 
--- | A section of the toolpath. Each begins where the one before it ends.
+-- | A section of the toolpath. Each section begins where the previous one ends.
 data PocketMove
   = -- | along a loop or a part of one; the distance is that of the loop from the walls
     AlongLoop Mm (NonEmpty Segment)
@@ -73,8 +76,8 @@ data PocketMove
   deriving stock (Eq, Show)
 
 -- | The sections that clear a pocket with the stepover @step@, which is above 0 and at most the
--- cutter's diameter. The point is the cutter's plunge position, if it is known. The result is empty
--- when the cutter fits nowhere.
+-- cutter's diameter. @from@ is the cutter's plunge position; Nothing if the first loop decides it.
+-- The result is empty when the cutter fits nowhere.
 clear :: PocketRoom -> Mm -> Maybe Point -> [PocketMove]
 clear room step from =
   along
@@ -96,8 +99,8 @@ clear room step from =
     halfOf (BoundingBox l b r t) = Mm (min (r - l) (t - b) / 2)
 
 -- | The sections that finish the walls of a pocket after it was cleared with the larger allowance
--- @before@. The distance between loops is at most the stepover @step@ and at most the radius. The
--- point is the cutter's plunge position, if it is known.
+-- @before@. The distance between loops is at most the stepover @step@ and at most the radius.
+-- @from@ is the cutter's plunge position; Nothing if the first loop decides it.
 finishWalls :: PocketRoom -> Mm -> Mm -> Maybe Point -> [PocketMove]
 finishWalls room step before from =
   along
@@ -121,8 +124,8 @@ nearest' room = plus (radius room) (leaves room)
 
 -- Linking moves
 
--- | The linking move between two points: none if they coincide, a straight move if the cutter keeps
--- its distance from all walls, else a move over the wall.
+-- | The linking move between two points; empty if the points coincide. It is straight if the cutter
+-- then keeps its distance from all walls. Otherwise it leads over the wall.
 linked :: PocketRoom -> Point -> Point -> [PocketMove]
 linked room = link
   where
@@ -154,8 +157,8 @@ along room from trees = reverse (sections (visitAll Progress {current = from, se
     link = linked room
     visitAll progress regions = inTurn visit (entrance . innermost) progress regions
     visit progress tree = case (current inside, rings tree) of
-      -- The first loop after a region is the nearest of those that bound the region around it: no
-      -- wall lies between.
+      -- After an inner region, the nearest of the loops around it comes first: no wall lies
+      -- between.
       (Just p, rs) ->
         let (r, others) =
               takeOut (distanceFrom p) rs
@@ -185,7 +188,8 @@ inTurn visit position progress things = case (things, current progress) of
   where
     many = 100
 
--- | The first item with the least measure, and the other items in their order.
+-- | The item with the least @measure@, and the other items in their order. Of several such items it
+-- is the first one.
 takeOut :: (a -> Mm) -> NonEmpty a -> (a, [a])
 takeOut measure things = (chosen, [a | (i, a) <- numbered, i /= number])
   where
@@ -207,11 +211,11 @@ innermost tree = case inner tree of
 entrance :: Ring -> Point
 entrance r = Segment.start (segment (NonEmpty.head (ringSegments r)))
 
--- | The distance of a loop from a point.
+-- | The distance of a loop from the point @p@.
 distanceFrom :: Point -> Ring -> Mm
 distanceFrom p r = minimum (fmap (Distance.toPoint p . segment) (ringSegments r))
 
--- | Rotates a loop so that it begins at its point nearest to a given one.
+-- | Rotates a loop so that it begins at the point of the loop that is nearest to @p@.
 enteredNear :: Ring -> Point -> Ring
 enteredNear r p = case NonEmpty.nonEmpty begun of
   Just ss -> r {ringSegments = ss}
@@ -234,7 +238,8 @@ enteredNear r p = case NonEmpty.nonEmpty begun of
           foot = snd (Distance.nearest p (segment s))
       (_, []) -> list
 
--- | The sections along a loop with its detours, in the opposite direction if the flag is true.
+-- | The sections along a loop with its detours. If @isBackwards@ is true, the loop is traversed in
+-- the opposite direction.
 roundOf :: Bool -> Ring -> [PocketMove]
 roundOf isBackwards r
   | isBackwards = map reverseSection (reverse parts)

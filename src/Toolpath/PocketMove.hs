@@ -46,10 +46,10 @@ import Toolpath.Toolpath (Block (..), Manner (Manner), Move (Move), Pass (..))
 import Toolpath.Toolpath qualified as Toolpath
 
 -- | The passes of a pocket statement: all depths for the first allowance, then all depths for the
--- next one. The first argument is the statement's number in the order of execution, from 0; the
--- position is that of the cutter before the pocket. Refuses pockets into which the cutter does
--- not fit, and pockets without a depth in which it would have to rise. Refuses also elements that
--- have a larger allowance than the last pass.
+-- next one. @number@ is the statement's number in the order of execution, from 0; @at@ is the
+-- position of the cutter before the pocket. Refuses pockets into which the cutter does not fit, and
+-- pockets without a depth in which the cutter would have to rise. Refuses also elements that have a
+-- larger allowance than the last pass.
 blocks :: Int -> SpacePoint -> Located Pocketing -> Either Error [Block]
 blocks number at (Located region given) = do
   for_
@@ -86,12 +86,12 @@ data PocketPass = PocketPass
     allowance :: Mm,
     -- | height of the pass
     level :: Mm,
-    -- | the sections of the pass, given the plunge position if it is known
+    -- | the sections of the pass, from the plunge position; Nothing if the first loop decides it
     sectionsFrom :: Maybe Point -> [PocketMove]
   }
 
 -- | All passes of a pocket: all depths for the first allowance, then all depths for the next one.
--- The height is that of the passes of a pocket without a depth.
+-- @currentHeight@ is the height of the passes if the pocket has no depth.
 passesOf :: Pocketing -> Mm -> [PocketPass]
 passesOf pocket currentHeight = concat (NonEmpty.zipWith withAllowance allowances sections)
   where
@@ -107,15 +107,15 @@ passesOf pocket currentHeight = concat (NonEmpty.zipWith withAllowance allowance
               | level <- NonEmpty.toList levels
             ]
 
--- | The clearance height and the heights of the passes. Nothing for a pocket without a depth, in
--- which the cutter cannot be lifted.
+-- | The clearance height and the heights of the passes. Nothing for a pocket without a depth; the
+-- cutter cannot be lifted in such a pocket.
 clearanceAndLevels :: Milling -> Maybe (Mm, NonEmpty Mm)
 clearanceAndLevels milling = case (Part.levels milling, Part.clearance milling) of
   (first : more, Just clearanceHeight) -> Just (clearanceHeight, first :| more)
   _ -> Nothing
 
--- | The block of a pass, given the number of the statement and the parts of the walls that remain
--- unreached after the last pass.
+-- | The block of a pass. @number@ is the number of the statement; @rests@ are the parts of the
+-- walls that remain unreached after the last pass.
 blockOf ::
   Int ->
   Located Pocketing ->
@@ -149,8 +149,8 @@ lastApproach :: Milling -> Maybe Point
 lastApproach milling = value . Part.place <$> listToMaybe (reverse (Part.approach milling))
 
 -- | The moves before, in and after a pass. @travelHeight@ is the clearance height; Nothing if the
--- pocket has no depth, so that the cutter cannot be lifted. The pair is the allowance at the walls
--- and the height of the pass. @sectionsFrom@ gives the sections for a plunge position.
+-- pocket has no depth, so that the cutter cannot be lifted. @left@ is the allowance at the walls,
+-- @z@ the height of the pass. @sectionsFrom@ gives the sections for a plunge position.
 passOf ::
   Visit ->
   Maybe Mm ->
@@ -199,8 +199,9 @@ passOf visit travelHeight (left, z) sectionsFrom = do
       (Nothing, Just p) | LinkingMove.isFirst visit -> Just p
       (Nothing, _) -> Just currentPoint
 
--- | The moves of a section of a pass at the height @z@. A lifted link rises to the clearance height
--- @travelHeight@, passes over the wall and plunges again.
+-- | The moves of a section of a pass at the height @z@; @word@ is the region of the statement's
+-- first word. A linking move over a wall rises to the clearance height @travelHeight@ and plunges
+-- again.
 moves :: Region -> Milling -> Mm -> Maybe Mm -> PocketMove -> [Move]
 moves word milling z travelHeight section = case section of
   LiftedLink p q
@@ -231,7 +232,7 @@ sectionsFor pocket =
     contours =
       Inset.oriented (Part.polyarcOf (contour (wall pocket))) (map Part.polyarcOf (islands pocket))
     inset = Inset.inset contours
-    -- The passes along the walls also go down slots of exactly the cutter's width.
+    -- The passes along the walls also enter passages of exactly the cutter's width.
     insetFrom nearest d = if d == nearest then Inset.insetWithSlots inset d else inset d
     room leaves =
       PocketRoom
@@ -272,9 +273,9 @@ elementsOf pocket =
 
 -- Rest material
 
--- | The parts of the walls that the cutter does not reach in the last pass. Their element numbers
--- are indices of 'elementsOf'. If the program does not allow rest material, such a part is an
--- error.
+-- | The parts of the walls that the cutter does not reach in the last pass. The element numbers in
+-- these parts are indices of 'elementsOf'. If the program does not allow rest material, such a part
+-- is an error. @word@ is the region of the statement's first word.
 restAtWalls :: Region -> Pocketing -> Either Error [Equidistant.UnreachedPart]
 restAtWalls word pocket = case (Part.rest milling, found) of
   (Part.Refused, o : _) -> Left (OffsetRefusal.refusal word tool (elementsOf pocket) o)
@@ -313,8 +314,8 @@ restAtWalls word pocket = case (Part.rest milling, found) of
         ]
     gaps = gapsBetween r (map Part.polyarcOf contours)
 
--- | One obstacle for each pair of contours between which a circle of this radius does not pass: the
--- narrowest point between the two. Element numbers count the elements of all contours in order.
+-- | One obstacle for each pair of contours between which a circle of the radius @r@ does not pass:
+-- the narrowest point between the two. Elements are numbered from 0 over all contours in order.
 gapsBetween :: Mm -> [Polyarc.Polyarc] -> [Equidistant.Obstacle]
 gapsBetween r contours =
   [ Equidistant.Obstacle

@@ -1,6 +1,7 @@
 -- | The passes of a pocket as a tree. A node is a connected region that the cutter's centre can
--- reach at one distance from the walls; its children are the regions inside it at the next
--- distance.
+-- reach at one distance from the walls. The children of a node are the regions inside that region
+-- at the next distance. A /detour/ is a path from a loop and back to it, which clears residue
+-- between two loops ("Toolpath.StepoverResidue").
 module Toolpath.PocketTree
   ( Loop,
     PocketTree (..),
@@ -39,21 +40,21 @@ type Loop = NonEmpty Segment
 data PocketTree = PocketTree
   { -- | loops that bound the region: the outer one, and those round islands
     rings :: NonEmpty Ring,
-    -- | regions inside this one, at the next distance
+    -- | regions inside this region, at the next distance from the walls
     inner :: [PocketTree]
   }
 
--- | A loop with its detours, and its distance from the walls.
+-- | A loop with its detours. @wallDistance@ is the distance of the loop from the walls.
 data Ring = Ring {wallDistance :: Mm, ringSegments :: NonEmpty RingSegment}
 
 -- | A segment of a loop, and the detours that begin and end at the end of the segment.
 data RingSegment = RingSegment {segment :: Segment, detours :: [NonEmpty Segment]}
 
--- | The passes at increasing distances from the walls, up to the first distance without loops.
--- @offsetBy@ gives the loops at a distance from the walls. @further@ gives the loops at a distance
--- inside other loops, or Nothing when they have to be computed from the walls. Where two distances
--- differ by more than the cutter's radius, detours clear the residue between the passes. Inside the
--- pass at the last distance of the list, nothing is cleared.
+-- | The passes at the increasing @distances@ from the walls, up to the first distance without
+-- loops. @offsetBy@ gives the loops at a distance from the walls. @further@ gives the loops at a
+-- distance inside other loops, or Nothing when they have to be computed from the walls. Where two
+-- distances differ by more than the cutter's @radius@, detours clear the residue between the
+-- passes. Inside the pass at the last distance of the list, nothing is cleared.
 passTrees :: (Mm -> [Loop]) -> ([Loop] -> Mm -> Maybe [Loop]) -> Mm -> [Mm] -> [PocketTree]
 passTrees offsetBy further radius distances = case distances of
   [] -> []
@@ -79,8 +80,8 @@ passTrees offsetBy further radius distances = case distances of
         StepoverResidue.between radius (minus (minus next c) radius) (inwards c loops radius) loops'
     leaf c loop = PocketTree {rings = ring c Map.empty (0, loop) :| [], inner = []}
 
--- | The ring of the loop with number @n@. The key of a detour is the number of the loop and of the
--- segment at whose end the detour begins.
+-- | The ring of the loop with the number @n@, from 0. The keys of @trips@ are the number of a loop
+-- and the number of the segment, from 0, at whose end the detours begin.
 ring :: Mm -> Map (Int, Int) [NonEmpty Segment] -> (Int, Loop) -> Ring
 ring wallDistance trips (n, loop) =
   Ring
@@ -92,8 +93,9 @@ ring wallDistance trips (n, loop) =
           loop
     }
 
--- | Groups the loops of one distance by the regions that they bound, and puts each inner region
--- into the region that contains it.
+-- | The regions at one distance @c@ from the walls. The @loops@ at that distance are grouped by the
+-- regions that they bound. The regions @inside@, at the next distance, become children of the
+-- regions that contain them. @trips@ has the detours as for 'ring'.
 grouped :: Mm -> [Loop] -> Map (Int, Int) [NonEmpty Segment] -> [PocketTree] -> [PocketTree]
 grouped c loops trips inside = mapMaybe part (Map.toList members)
   where
@@ -103,10 +105,10 @@ grouped c loops trips inside = mapMaybe part (Map.toList members)
         (BoundingBox.ofSegment . snd)
         [(n, s) | (n, loop) <- numbered, s <- NonEmpty.toList loop]
     (outers, holes) = partition (isOuter . snd) numbered
-    -- For each loop, the outer loop of the region that it bounds. From the rightmost point of a
-    -- loop round an island, a horizontal ray to the right crosses that region, and then meets
-    -- another loop that bounds it. That loop extends further to the right. So it is processed
-    -- earlier, because loops are processed from right to left.
+    -- For each loop, the outer loop of the region that it bounds. Take a horizontal ray to the
+    -- right from the rightmost point of a loop round an island. The ray crosses the region, and
+    -- then meets another loop that bounds the region. The other loop extends further to the right,
+    -- so it was processed earlier: loops are processed from right to left.
     outer =
       foldl
         around
@@ -147,8 +149,8 @@ rightmost loop =
             furthest = Vec.shift (Vec.vec r 0) centre
          in a : [furthest | Segment.hasFootOf s furthest]
 
--- | The number of the first loop that a horizontal ray from a point to the right meets. The loop
--- @own@ is ignored.
+-- | The number of the first loop that a horizontal ray from the point @p@ to the right meets;
+-- Nothing if it meets none. The loop with the number @own@ is ignored.
 firstHit :: BoxTree (Int, Segment) -> Maybe Int -> Point -> Maybe Int
 firstHit index own p = snd <$> foldl nearer Nothing hits
   where
@@ -160,8 +162,8 @@ firstHit index own p = snd <$> foldl nearer Nothing hits
       right box >= Vec.x p && bottom box <= Vec.y p + slack && top box >= Vec.y p - slack
     Mm slack = Tolerance.coincident
 
--- | The x coordinates where a horizontal ray from a point to the right meets a segment, its ends
--- included.
+-- | The x coordinates, in mm, where a horizontal ray from the point @p@ to the right meets the
+-- segment @s@, the ends of @s@ included.
 crossings :: Point -> Segment -> [Double]
 crossings p s = filter (>= Vec.x p) $ case s of
   Straight a b

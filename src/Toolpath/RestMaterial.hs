@@ -38,7 +38,8 @@ data Remaining = Remaining
 ofPath :: Toolpath -> [Remaining]
 ofPath path = Map.elems (Map.fromList (mapMaybe ofBlock (Toolpath.blocks path)))
 
--- | The rest material of a block, with the number of its statement.
+-- | The number of a block's statement, and the rest material of the block; Nothing if it leaves
+-- none.
 ofBlock :: Block -> Maybe (Int, Remaining)
 ofBlock block = case block of
   Cutting {job = Located region m, pass, rests} ->
@@ -50,7 +51,8 @@ ofBlock block = case block of
   Holing _ _ -> Nothing
   Commanding _ -> Nothing
 
--- | The rest material of a pass along a contour, or in a pocket with islands.
+-- | The rest material of a pass, with the number of the pass's statement. @islands@ is empty for a
+-- pass along a contour. @word@ is the region of the statement's first word.
 remaining :: Region -> Milling -> [Contour] -> Pass -> NonEmpty UnreachedPart -> (Int, Remaining)
 remaining word milling islands pass rests =
   ( number pass,

@@ -2,11 +2,11 @@
 -- it.
 --
 -- Let @r@ be the cutter's radius. Let passes run at the distances @c@ and @c + s@ from the walls,
--- with @r < s ≤ 2·r@. Between them, at @c + r@, lies the edge of the area that the outer pass
--- sweeps. A point between the edge and the inner pass has a distance of at most @s − r ≤ r@ from
--- the edge. Where the inner pass is parallel to the edge at the distance @s − r@, it sweeps all
--- points between the two. Elsewhere the edge has a corner or a nook that the inner pass does not
--- enter. There the cutter follows the edge itself.
+-- with @r < s ≤ 2·r@. Between them, at @c + r@, lies the /edge/: the border of the area that the
+-- outer pass sweeps. A point between the edge and the inner pass has a distance of at most
+-- @s − r ≤ r@ from the edge. Where the inner pass is parallel to the edge at the distance @s − r@,
+-- the cutter sweeps all points between the two. Elsewhere the edge has a corner or a narrow part
+-- that the inner pass does not enter. There the cutter makes a /detour/ along the edge itself.
 module Toolpath.StepoverResidue
   ( Residue (..),
     none,
@@ -45,9 +45,9 @@ data Residue = Residue
 none :: Residue
 none = Residue Map.empty []
 
--- | The residue between the inner pass @passes@ and the edge @edges@ of the area that the outer
--- pass sweeps. The inner pass is at the distance @apart@ from the edge, at most the cutter's
--- radius. All loops have the free space on their left.
+-- | The residue between the edge, whose loops are @edges@, and the inner pass, whose loops are
+-- @passes@. The inner pass is at the distance @apart@ from the edge, at most the cutter's radius.
+-- All loops have the free space on their left.
 between :: Mm -> Mm -> [NonEmpty Segment] -> [NonEmpty Segment] -> Residue
 between radius apart edges passes = foldr (gather . gapsOf) none edges
   where
@@ -75,19 +75,20 @@ between radius apart edges passes = foldr (gather . gapsOf) none edges
         ]
     gapsOf edge = gapsIn edge (concatMap (divided index) (NonEmpty.toList edge))
 
--- | The count of a loop's segments, and the end of each segment by its number.
+-- | The count of a loop's segments, and the end point of each segment by its number, from 0.
 data Ends = Ends Int (Map Int Point)
 
--- | A part of the edge: one that runs beside a segment of an inner pass, given by the numbers of
--- loop and segment, or a free one.
+-- | A part of the edge. It runs beside a segment of an inner pass, which is given by the numbers of
+-- the loop and of the segment, or it is free: no inner pass runs beside it.
 data EdgePart = Beside (Int, Int) | Free Segment
 
--- | Consecutive free parts of the edge. The pairs are the segments of an inner pass beside which
--- the edge runs before and after them.
+-- | Consecutive free parts of the edge. The first pair names the segment of an inner pass beside
+-- which the edge runs before these parts, by the numbers of loop and segment. The second pair names
+-- the segment after them.
 data Gap = Gap (Int, Int) (NonEmpty Segment) (Int, Int)
 
--- | The gaps in a loop of the edge, given the loop and its parts in order. Nothing when there are
--- none; the whole loop when no inner pass runs beside it.
+-- | The gaps in the loop @edge@ of the edge; @marks@ are the parts of that loop in order. Nothing
+-- when there are no gaps. 'Left' with the whole loop when no inner pass runs beside it.
 gapsIn :: NonEmpty Segment -> [EdgePart] -> Maybe (Either (NonEmpty Segment) [Gap])
 gapsIn edge marks = case break isBeside marks of
   (_, []) -> Just (Left edge)
@@ -108,9 +109,10 @@ gapsIn edge marks = case break isBeside marks of
       | otherwise = NonEmpty.nonEmpty (filter ((> Tolerance.coincident) . Segment.length) ss)
 
 -- | The detour along a gap: from the end of the inner pass's segment before the gap, along the gap,
--- and back to that end. If the segment after the gap is the next one, both meet at a corner of the
--- inner pass. Then no detour is needed when the whole gap lies within the cutter's radius of that
--- corner.
+-- and back to that end. It comes with the numbers of that segment and of its loop. If the segments
+-- before and after the gap are neighbours, they meet at a corner of the inner pass. Then the result
+-- is Nothing when the whole gap lies within the cutter's radius of that corner: the inner pass
+-- clears it.
 detourAlong :: Mm -> Map Int Ends -> Gap -> Maybe ((Int, Int), NonEmpty Segment)
 detourAlong radius ends (Gap owner@(loop, i) free next) = do
   Ends count corners <- Map.lookup loop ends
@@ -126,7 +128,7 @@ detourAlong radius ends (Gap owner@(loop, i) free next) = do
       (owner,)
         <$> NonEmpty.nonEmpty (filter ((> Tolerance.coincident) . Segment.length) (out <> back))
 
--- | The largest distance of a point from a segment.
+-- | The distance from the point @p@ to that point of the segment @s@ which is furthest from @p@.
 furthest :: Point -> Segment -> Mm
 furthest p s = case s of
   Straight a b -> max (Vec.distance p a) (Vec.distance p b)
@@ -140,8 +142,9 @@ furthest p s = case s of
     where
       opposite = Vec.shift (Vec.to p centre) centre
 
--- | Divides a segment of the edge into the parts beside segments of inner passes and the free parts
--- between them. The index contains the segments of the inner passes, each moved onto the edge.
+-- | Divides the segment @s@ of the edge into the parts beside segments of inner passes and the free
+-- parts between them. @index@ contains the segments of the inner passes, each offset so far that it
+-- lies on the edge where the pass is parallel to it; the pairs number loops and segments.
 divided :: BoxTree ((Int, Int), Segment) -> Segment -> [EdgePart]
 divided index s =
   partsFrom
@@ -167,8 +170,8 @@ divided index s =
               fst (Segment.cutAt b s)
          in if a <= 0 then front else snd (Segment.cutAt (a / b) front)
 
--- | The parts of the first segment that coincide with the second one and have its direction, each
--- as two fractions of the first segment's length.
+-- | The parts of the segment @s@ that coincide with the segment @other@ and have the same
+-- direction. Each is given by its beginning and end as fractions of the length of @s@, from 0 to 1.
 covered :: Segment -> Segment -> [(Double, Double)]
 covered s other = filter coincides (filter (uncurry (<)) (map clip ranges))
   where

@@ -3,8 +3,8 @@
 -- The axis turns the blade to the bevel @μ@ of the surface through a wheel of the diameter @D2@.
 -- Its height is @z = ∓π·μ°·D2/360@: minus if the blade is on the right in the direction of travel,
 -- plus if it is on the left (Kolsanova, section 3). The tool itself does not move in height. On an
--- element without a bevel, the bevel changes linearly with the arc length. It leads from the bevel
--- of the element before to that of the element after.
+-- element without a bevel, the bevel changes linearly with the arc length, from the bevel of the
+-- element before to the bevel of the element after.
 module Toolpath.Swivel
   ( axis,
     highest,
@@ -28,10 +28,10 @@ import Part.Part (Contour, Element, Ends (..), Milling)
 import Part.Part qualified as Part
 import Toolpath.Error (Error (..))
 
--- | The heights of the axis above its middle position, in mm, at the beginning and at the end of
--- every segment of an offset. Nothing for a tool that does not swivel. Refuses a contour on which
--- no element has a bevel, a blade without a side, and a jump of the bevel. The region is the
--- statement's keyword.
+-- | The heights of the axis above its middle position, at the beginning and at the end of every
+-- segment of an offset. Nothing for a tool that does not swivel. Refuses a contour on which no
+-- element has a bevel, a blade without a side, and a jump of the bevel. @region@ is the region of
+-- the statement's first word. @side@ is the blade's side of the contour; Nothing on the contour.
 axis ::
   Region ->
   Milling ->
@@ -66,8 +66,8 @@ highest milling =
         )
     )
 
--- | The bevels of all elements at their beginnings and ends, in radians. Nothing when no element
--- has one.
+-- | The bevels of all elements, in radians, each at the beginning and at the end of the element.
+-- Nothing when no element has a bevel.
 bevels :: Contour -> Maybe (Vector (Double, Double))
 bevels contour = case span (isNothing . Part.bevel) list of
   (_, []) -> Nothing
@@ -96,15 +96,16 @@ bevels contour = case span (isNothing . Part.bevel) list of
       (Nothing, Nothing) -> map (const (0, 0)) open
     lengthOf s = let Mm l = Segment.length s in l
 
--- | The positions, from 0 to 1, at which consecutive parts of these lengths begin and end in the
--- whole that they make up.
+-- | The beginning and the end of each of several consecutive parts, as fractions from 0 to 1 of the
+-- total length. The argument has the lengths of the parts in mm.
 shares :: [Double] -> [(Double, Double)]
 shares ls = zip marks (drop 1 marks)
   where
     marks = scanl (\s l -> s + l / sum ls) 0 ls
 
--- | The bevels at the beginning and the end of each segment of an offset, in radians. On the arc
--- round a corner the bevel changes linearly from that of one element to that of the next.
+-- | The bevels at the beginning and the end of each segment of an offset, in radians.
+-- @elementBevels@ are those of 'bevels'. On the arc round a corner the bevel changes linearly from
+-- the bevel of the element before the corner to that of the element after it.
 angles :: Vector (Double, Double) -> NonEmpty OffsetSegment -> NonEmpty (Double, Double)
 angles elementBevels offsetSegments =
   NonEmpty.fromList
@@ -126,7 +127,8 @@ angles elementBevels offsetSegments =
                   shares [l | q <- NonEmpty.toList ps, let Mm l = Segment.length (segment q)]
             ]
 
--- | Refuses a smooth joint of two elements whose bevels differ.
+-- | Refuses a joint without a corner of two elements whose bevels differ: the blade would have to
+-- swivel at one point. @region@ is the region of the statement's first word.
 checkJoints ::
   Region ->
   Vector Element ->

@@ -1,9 +1,10 @@
 -- | The tolerances of toolpaths: the smallest cutter that is suggested, and what a modern control
 -- needs for cutter compensation.
 --
--- A control rounds the program to its pulses, and then computes the offset. With these tolerances
--- the rounded program contains nothing that a control refuses, or offsets in another way than the
--- exact one. The model of a control is LinuxCNC's interpreter.
+-- The program for a control is rounded to pulses, and the control computes the offset of the
+-- rounded contour. With these tolerances the control refuses nothing in the rounded program, and
+-- its offset has the same segments and corners as the exact one. The model of a control is
+-- LinuxCNC's interpreter.
 module Toolpath.Tolerance
   ( smallestCutter,
 
@@ -25,13 +26,13 @@ smallestCutter :: Mm
 smallestCutter = Mm 0.05
 
 -- | The margin by which the first and the last straight move under compensation must exceed the
--- cutter's radius. With it they exceed the radius after rounding to pulses too.
+-- cutter's radius. With this margin they also exceed the radius after rounding to pulses.
 controlMargin :: Mm
 controlMargin = Mm 0.01
 
--- | The smallest radius of the arc that the centre makes inside a concave arc. On a smaller one,
--- rounding to pulses may add more than 'controlTurn' to the sweep. In a test with 1500 arcs of each
--- radius, LinuxCNC refused none at 0.06 mm and one at 0.05 mm.
+-- | The smallest radius of the arc that the centre makes inside a concave arc. If the radius is
+-- smaller, rounding to pulses may add more than 'controlTurn' to the sweep. In a test with 1500
+-- arcs of each radius, LinuxCNC refused no arc of 0.06 mm and one arc of 0.05 mm.
 controlArc :: Mm
 controlArc = Mm 0.08
 
@@ -45,8 +46,8 @@ controlTurn = Rad 0.0254
 controlRounding :: Mm
 controlRounding = Mm 1.5e-3
 
--- | The smallest length of an element. Rounding to pulses may turn a shorter one towards the
--- cutter.
+-- | The smallest length of an element of a contour for which the control does the compensation.
+-- Rounding to pulses may rotate a shorter element so much that a corner towards the cutter arises.
 controlLength :: Mm
 controlLength = Mm 0.05
 

@@ -60,7 +60,7 @@ data Block
         -- only the first one lists them
         rests :: [Equidistant.UnreachedPart],
         -- | input for a control that does the cutter compensation; Nothing if the program does not
-        -- ask for that
+        -- ask for such compensation
         sent :: Maybe Sent
       }
   | -- | one pass of a pocket; the contours of @pocket@ are oriented in the direction of travel
@@ -85,7 +85,8 @@ data Block
 data Pass = Pass
   { -- | number of the milling or pocket statement in the order of execution, from 0
     number :: Int,
-    -- | distance of the cutter's centre from the contour; in a pocket, of the outermost loop
+    -- | distance of the cutter's centre from the contour; in a pocket, distance of the outermost
+    -- loop from the walls
     reach :: Mm,
     -- | allowance that the pass leaves on the contour
     left :: Mm,
@@ -185,8 +186,8 @@ passNumbers = go 0
       Holing _ _ -> False
       Commanding _ -> False
 
--- | Groups consecutive moves that follow one curve. Every move of a group except the first
--- continues the previous move.
+-- | Groups consecutive moves along one curve of the contour. In each group, all moves except the
+-- first continue the previous move. A move along a single line or arc is a group of its own.
 curveRuns :: [Move] -> [NonEmpty Move]
 curveRuns ms = case ms of
   [] -> []
@@ -201,7 +202,7 @@ isCurve run = case run of
   m :| [] -> continues m
   _ -> True
 
--- | True when all moves are at the height of the start.
+-- | True when all moves of the toolpath are at the height of its start.
 isFlat :: Toolpath -> Bool
 isFlat path = all (\m -> heights m == (z, z)) (concatMap moves (blocks path))
   where

@@ -35,10 +35,11 @@ warnings path = throughPart path <> stoppedSpindles path
 -- outside.
 data Body = Body {named :: Part.Contour, outline :: Polyarc.Polyarc, isMaterial :: Bool}
 
--- | Rapid moves in the plane, below the top of the part, inside a contour that contains material;
--- at most one for each stop. The innermost contour around the move decides. When the whole toolpath
--- has one height, that height counts as below the top. A move that crosses a contour is an error
--- ("Toolpath.Intrusion"). So a move lies inside the contours that contain its midpoint.
+-- | Warnings about rapid moves that are not vertical, below the top of the part, inside a contour
+-- that contains material; at most one for each stop. The innermost contour around the move decides.
+-- When the whole toolpath has one height, that height counts as below the top. A move that crosses
+-- a contour is an error ("Toolpath.Intrusion"). So the midpoint of a move shows which contours the
+-- move lies inside.
 throughPart :: Toolpath -> [Warning]
 throughPart path =
   [ RapidThroughPart region (Toolpath.segment m) (Part.contourName (named body))
@@ -81,7 +82,8 @@ throughPart path =
       Clearing {pass} -> [Toolpath.number pass]
       _ -> []
 
--- | The closed contours of a pass whose side of the material is known; Nothing if there are none.
+-- | The closed contours of a pass, if it is known on which side of them the material lies; Nothing
+-- if there is no such contour.
 bodiesOf :: Block -> Maybe (NonEmpty.NonEmpty Body)
 bodiesOf b = case b of
   Cutting {job = Located _ milling} -> NonEmpty.nonEmpty (bodyOf milling)

@@ -44,9 +44,9 @@ data Warning
     SpindleAtRest Region
   deriving stock (Eq, Show)
 
--- | Rest material at a position that the cutter does not reach. The last field of two constructors
--- is the radius of the largest cutter that would reach it; Nothing if none would. That field is
--- lazy, because only reports need it.
+-- | Rest material at a position that the cutter does not reach. The last field of 'InConcaveArc'
+-- and 'Between' is the radius of the largest cutter that would reach the position; Nothing if none
+-- would. That field is lazy, because only reports need it.
 data RestPosition
   = -- | in a corner between two elements
     InCorner Element Element Point

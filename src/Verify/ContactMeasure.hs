@@ -1,10 +1,14 @@
--- | Arc length along a contour as a measure of the cutter's progress, and the uncertainty of that
--- measure.
+-- | Progress of a cutter along a contour, and the uncertainty of that progress. The progress is the
+-- arc length from the start of the contour to the contact point. The contact point is the point of
+-- the contour that is nearest to the cutter's centre.
 --
--- Rounding moves the cutter's centre by up to the allowance, and with it the contact point: on the
--- inside of an arc that is hardly larger than the cutter, by a multiple. So a cutter that goes
--- forward may seem to go back. If the uncertainty is as large as an arc itself, the contact points
--- say nothing about the progress.
+-- Rounding and chords move the centre by up to the allowed deviation of the job. They also move the
+-- contact point, and by much more if an arc's radius is hardly larger than the cutter's. Then a
+-- cutter that goes forward may seem to go back. The /uncertainty/ is the largest such error of the
+-- progress, in mm. If it is as large as an arc, the contact points do not show the progress at all.
+--
+-- A /run/ is a sequence of elements that replace one curve of the part; a line or an arc of the
+-- drawing is a run of its own.
 module Verify.ContactMeasure
   ( Measure (..),
     measureOf,
@@ -29,14 +33,15 @@ import Verify.Edge qualified as Edge
 import Verify.MillingJob (MillingJob (..))
 import Verify.MillingJob qualified as MillingJob
 
--- | Measure of a contour, in mm.
+-- | Lengths by which the progress along one contour is judged.
 data Measure = Measure
-  { contourLength :: Double,
-    -- | how far back a step of the cutter may seem to go because of rounding: the largest
-    -- uncertainty
+  { -- | in mm
+    contourLength :: Double,
+    -- | largest uncertainty on the contour, in mm: a step back that is smaller may be due to
+    -- rounding
     slack :: Double,
     isClosed :: Bool,
-    -- | true if the uncertainty is smaller than each arc, or each curve of arcs
+    -- | true if each run with an arc is longer than its own uncertainty
     isResolved :: Bool
   }
 
@@ -52,16 +57,16 @@ measureOf job =
   where
     Uncertainty largest isResolved = uncertaintyOf job
 
--- | Test that contact points show the progress of the cutter. They do not in a hollow that the
--- cutter touches all over while its centre hardly moves.
+-- | Test that the contact points show the progress of the cutter. False if the contour has a hollow
+-- that the cutter touches all over while its centre hardly moves.
 isMeasurable :: MillingJob -> Bool
 isMeasurable job = let Uncertainty _ isResolved = uncertaintyOf job in isResolved
 
--- | Largest uncertainty on a contour, in mm, and true if each run with an arc is longer than its
--- own uncertainty.
+-- | Largest uncertainty on a contour, in mm. The 'Bool' is true if each run with an arc is longer
+-- than its own uncertainty.
 data Uncertainty = Uncertainty Double Bool
 
--- | Uncertainty on the contour of a job.
+-- | Largest uncertainty on the contour of a job.
 uncertaintyOf :: MillingJob -> Uncertainty
 uncertaintyOf job
   | Edge.isCurved (edges job) = foldl' withRun (Uncertainty 0 True) (runsOf job)
@@ -71,7 +76,7 @@ uncertaintyOf job
       let own@(Mm u) = uncertaintyOfRun job run
           isShort = any isArc run && own >= total (map Segment.length (NonEmpty.toList run))
        in Uncertainty (max most u) (resolved && not isShort)
-    -- Without curves each element is a run of its own.
+    -- On a contour without curves each element is a run of its own.
     withElement (Uncertainty most resolved) e
       | FastDistance.isLine (shape e) = Uncertainty (max most onLine) resolved
       | otherwise =
@@ -82,8 +87,8 @@ uncertaintyOf job
       Arc {} -> True
       Straight _ _ -> False
 
--- | Runs of elements: each element of a run continues the curve of the one before. On a closed
--- contour a run may extend across the start.
+-- | Runs of the contour's elements. On a closed contour a run may extend across the start: then it
+-- begins with the last elements.
 runsOf :: MillingJob -> [NonEmpty Segment]
 runsOf job = case (elements, runs elements) of
   (e : _, first : more)
@@ -96,21 +101,21 @@ runsOf job = case (elements, runs elements) of
     elements = MillingJob.elementsOf job
     runs es = case es of
       [] -> []
-      -- Most lines are alone.
+      -- Most elements are runs of one element.
       e : rest@(next : _) | not (Part.continues next) -> (Part.segment e :| []) : runs rest
       e : rest ->
         let (along, others) = span Part.continues rest
          in (Part.segment e :| map Part.segment along) : runs others
 
--- | Uncertainty on a run of segments: the longest part of it that the cutter touches while its
--- centre moves by twice the allowance.
+-- | Uncertainty on a run of segments: the longest part of the run along which the contact point
+-- moves while the centre moves by twice the allowed deviation.
 uncertaintyOfRun :: MillingJob -> NonEmpty Segment -> Mm
 uncertaintyOfRun job run = case run of
   s :| [] -> Mm (uncertaintyOn job s)
   _ -> Mm (max (longest id) (longest Vector.reverse))
   where
     lengths = Vector.fromList [l | s <- NonEmpty.toList run, let Mm l = Segment.length s]
-    -- Movement of the centre on each segment.
+    -- Length of the centre's path along each segment, in mm.
     moved =
       Vector.zipWith
         (\l u -> l * 2 * a / u)
@@ -123,8 +128,8 @@ uncertaintyOfRun job run = case run of
         (Vector.scanl' (+) 0 (change moved))
         (Vector.scanl' (+) 0 (change lengths))
 
--- | Largest growth of the second sequence while the first one, which rises, grows by the width of a
--- window that starts at one of its samples. Both are linear between samples.
+-- | Largest growth of @seconds@ over any stretch on which @firsts@ grows by @window@, and which
+-- starts at a sample. Both are rising sequences of lengths in mm, linear between their samples.
 largestGrowth :: Double -> Vector Double -> Vector Double -> Double
 largestGrowth window firsts seconds = go 0 0 0
   where
@@ -141,9 +146,9 @@ largestGrowth window firsts seconds = go 0 0 0
           + (seconds ! (step + 1) - seconds ! step)
             * (firsts ! from + window - firsts ! step) / (firsts ! (step + 1) - firsts ! step)
 
--- | Uncertainty of the contact point on one segment, in mm. On the inside of an arc of radius @R@,
--- the contact point moves by @R / |R − r|@ times as much as the centre; @r@ is the distance of the
--- centre from the contour.
+-- | Uncertainty on one segment, in mm. On the inside of an arc of radius @R@, the contact point
+-- moves by @R / |R − r|@ times as much as the centre; @r@ is the distance of the centre from the
+-- contour.
 uncertaintyOn :: MillingJob -> Segment -> Double
 uncertaintyOn job s = case s of
   Arc {start, centre, sweep = Rad angle}

@@ -1,7 +1,12 @@
--- | Scan of the motions beside a contour, in the order of the tape. The elements within reach of a
--- motion are looked up once for all comparisons of the motion: its gouge, its distance from the
--- contour, its side. The scan also collects for each element a fast upper bound of its distance
--- from the motions along the contour.
+-- | Scan of the motions beside a contour, in the order of the tape. For each motion it looks up,
+-- only once, which elements the cutter may touch during the motion. Three comparisons use these
+-- elements: the gouge, the distance from the contour, and the side.
+--
+-- The scan also gives for each element an upper bound of its distance from the motions along the
+-- contour. An element with a small bound needs no exact comparison for excess.
+--
+-- The /bounding paths/ of a motion enclose its real path: one path, or two for an arc whose radii
+-- at start and end differ (see "Control.Motion").
 module Verify.ContourScan
   ( Scan (..),
     scan,
@@ -35,24 +40,27 @@ import Verify.WrongSide qualified as WrongSide
 data Scan = Scan
   { -- | deepest gouge, if there is one
     gouge :: Maybe Witness,
-    -- | motions that are too far from the contour, the last one first
+    -- | motions that are too far from the contour, in the reverse order of the tape
     strays :: [Witness],
     -- | finding for the first motion on the wrong side
     wrongSide :: Maybe Finding,
-    -- | bounding paths of the last motion along the contour; none after a vertical one
+    -- | bounding paths of the last motion along the contour; empty before the first motion and
+    -- after a vertical one
     latest :: [Segment]
   }
 
--- | Motion with what all its comparisons need: the elements that the cutter may touch during it,
--- and its bounding paths.
+-- | Motion with the elements that the cutter may touch during the motion (@close@), and with its
+-- bounding paths.
 data View = View {motion :: CutterMotion, close :: [Edge], bounding :: [Segment]}
 
--- | Scan the motions that have to keep out of the part, and the motions that have to follow the
--- contour. Both lists are in the order of the tape; a motion may be in both.
+-- | Scan two lists of motions, each in the order of the tape: @keepingOut@ are the motions that are
+-- examined for gouges, @along@ those that have to follow the contour. A motion may be in both.
+-- @keepOutOf@ gives the distances that a motion has to keep from the elements. @allowedExcess@ says
+-- by how much a motion along the contour may exceed the distance of the pass.
 --
--- The array has an upper bound in mm for each element, by its number: no point of the element is
--- further from the motions along the contour on its right side. Each bound comes from one motion or
--- from two that follow one another; it is ∞ if none was found.
+-- The array has an upper bound in mm for each element, by the element's number from 0. Each point
+-- of the element has a motion of @along@ within that distance, on the required side. A bound comes
+-- from one motion or from two successive ones; it is ∞ if none was found.
 scan ::
   MillingJob ->
   (CutterMotion -> KeepOut) ->
@@ -77,7 +85,7 @@ scan job keepOutOf allowedExcess keepingOut along = runST $ do
   frozen <- PrimArray.unsafeFreezePrimArray bounds
   pure (result, frozen)
   where
-    -- The excess of a motion is measured from the largest distance that the cutter may keep.
+    -- A motion is too far from the contour only beyond the largest distance that the cutter keeps.
     strayJob = job {reach = maxReach job, allowance = allowedExcess}
     views ms = zipWith view (MillingJob.edgesNearEach job ms) ms
     view es m = View {motion = m, close = es, bounding = Motion.pathList m}
@@ -86,7 +94,7 @@ scan job keepOutOf allowedExcess keepingOut along = runST $ do
     keptOut result v =
       result {gouge = deeperGouge job (keepOutOf (motion v)) v (gouge result)}
 
--- | Gouge of a motion if it is deeper than the deepest one so far, otherwise that one.
+-- | Deepest gouge, out of the motion's gouges and @best@, the deepest gouge so far.
 deeperGouge :: MillingJob -> KeepOut -> View -> Maybe Witness -> Maybe Witness
 deeperGouge job keepOut View {motion, close, bounding} best
   | FastGouge.mayGougeDeeper keepOut best motion bounding near =
@@ -100,8 +108,8 @@ deeperGouge job keepOut View {motion, close, bounding} best
           (BoundingBox.inflate (searchRadius keepOut) (Motion.box motion))
           (edges job)
 
--- | Result after one more motion along the contour. @strayJob@ has the distances by which a motion
--- too far from the contour is found.
+-- | Result after a motion along the contour, from the @result@ before that motion. @strayJob@ is
+-- @job@ with other distances: those beyond which a motion is too far from the contour.
 followed :: MillingJob -> MillingJob -> View -> Scan -> Scan
 followed job strayJob View {motion, close, bounding} result
   | Motion.isVertical motion = result {latest = []}
@@ -115,11 +123,12 @@ followed job strayJob View {motion, close, bounding} result
     stray = Excess.strayOf strayJob motion close bounding
 
 -- | Lower the bound of an element to its distance from a motion, if the motion is surely on the
--- right side of it. @before@ are the bounding paths of the motion before.
+-- required side of the element. @bounds@ has the bound of each element in mm. @before@ are the
+-- bounding paths of the motion before.
 improveBound :: MillingJob -> MutablePrimArray s Double -> [Segment] -> View -> Edge -> ST s ()
 improveBound job bounds before View {motion, bounding} e = do
   known <- PrimArray.readPrimArray bounds (rank e)
-  -- A bound below the reach need not be lowered.
+  -- A bound below the cutter's distance already shows that the element has no excess.
   when (known > enough) $ do
     let far = boundFrom job known before motion bounding e
     when
@@ -128,9 +137,12 @@ improveBound job bounds before View {motion, bounding} e = do
   where
     enough = let Mm r = reach job in r - 2 * FastDistance.unsure
 
--- | Upper bound of the distance of an element from a motion. If the motion alone gives none and
--- none is known, the element is divided at the point beside the start of the motion: its first part
--- is compared with the motion before.
+-- | Upper bound in mm of the distance of an element's points from a motion or the motion before it;
+-- ∞ if there is none. @known@ is the bound so far; @before@ and @bounding@ are the bounding paths
+-- of the motion before and of the motion itself.
+--
+-- If the motion alone gives no bound and @known@ is too large, the element is divided at the point
+-- beside the start of the motion. Its first part is compared with the motion before.
 boundFrom :: MillingJob -> Double -> [Segment] -> CutterMotion -> [Segment] -> Edge -> Double
 boundFrom job known before motion bounding e
   | alone < 1 / 0

@@ -1,11 +1,11 @@
--- | Directed Hausdorff distance from one segment to a set of others: from an element to the
--- motions, or from a motion to the elements. It is the distance of that point of the segment which
--- is furthest from all members of the set. It is exact over the whole segment, to
--- 'Tolerance.resolution', and fast if the set has many short members.
+-- | Directed Hausdorff distance from one segment to a set of /members/. The segment is an element
+-- and the members are motions, or the other way round. The distance is that of the segment's point
+-- which is furthest from all members. It is exact over the whole segment, to
+-- 'Tolerance.resolution', and its computation is fast if the set has many short members.
 --
 -- A segment is covered at a distance if each of its points has a member within that distance. The
--- Hausdorff distance is the smallest distance at which it is covered; bisection finds it. The /gap/
--- of a segment is its Hausdorff distance minus the distance that is allowed, the reach.
+-- Hausdorff distance is the smallest distance at which the segment is covered; bisection finds it.
+-- The /gap/ of a segment is its Hausdorff distance minus the allowed distance, called the reach.
 module Verify.Coverage
   ( Cover (..),
     DistanceBounds (..),
@@ -33,24 +33,25 @@ import Offset.Tolerance qualified as Tolerance
 -- | Set of members that may cover a segment.
 data Cover a = Cover
   { index :: BoxTree a,
-    -- | paths of a member: a point is covered if all of them are within the distance
+    -- | paths of a member: the member covers a point if all its paths are within the distance
     pathsOf :: a -> NonEmpty Segment,
-    -- | members that count
+    -- | true of the members that may cover the segment
     isEligible :: a -> Bool,
-    -- | distance at which a point is covered
+    -- | distance at which points are covered without a gap
     reach :: Mm,
-    -- | allowed excess over the reach, with which the search for the largest gap begins
+    -- | first gap that is tried when the largest one is searched; usually no gap is larger
     allowance :: Mm
   }
 
--- | Bounds of the directed Hausdorff distance that are known without an exact comparison.
+-- | Lower and upper bound of the directed Hausdorff distance, known without an exact comparison.
 data DistanceBounds = DistanceBounds {atLeast :: Mm, atMost :: Mm}
 
--- | Size of a gap in mm, a point of the segment that has it, and the members near the segment.
+-- | Size of a gap in mm, the point of the segment with this gap, and the members near the segment.
 data Gap a = Gap {size :: Mm, location :: Point, members :: [a]}
 
--- | Largest gap of a segment, if it is larger than @least@. A gap that is larger than 'unlimited'
--- gets that size.
+-- | Largest gap of a segment. Nothing if it is not larger than @least@, or if there are no members
+-- near the segment. A gap that is larger than 'unlimited' gets the size 'unlimited'. @known@ are
+-- bounds of the distance that save exact comparisons.
 largestGap :: Cover a -> Maybe DistanceBounds -> Mm -> Segment -> Maybe (Gap a)
 largestGap cover known least segment
   | isClosedBy least = Nothing
@@ -68,8 +69,8 @@ largestGap cover known least segment
       _ -> isCovered cover (plus (reach cover) m) segment
     sizes = takeWhile (< unlimited) (iterate (times 2) (max (times 2 least) (allowance cover)))
 
--- | Gap of a known size, with a point of the segment that has it. Nothing without members near the
--- segment.
+-- | Gap of a known size, with the point of the segment at which it is. Nothing if no member is near
+-- the segment.
 gapOf :: Cover a -> Segment -> Mm -> Maybe (Gap a)
 gapOf cover segment size = case membersNear cover (plus (reach cover) size) segment of
   [] -> Nothing
@@ -80,15 +81,15 @@ gapOf cover segment size = case membersNear cover (plus (reach cover) size) segm
       (a, b) : _ -> Segment.at ((a + b) / 2) segment
       [] -> Segment.start segment
 
--- | Size of a gap that counts as infinite: nothing is cut there at all.
+-- | Largest size of a gap; it means that no motion comes near the segment at all.
 unlimited :: Mm
 unlimited = Mm 1e7
 
--- | Two circles that miss one another by no more than this may count as touching.
+-- | Uncertainty of a distance: two circles that miss one another by no more may count as touching.
 touching :: Mm
 touching = times 3 Tolerance.coincident
 
--- | Eligible members that have a point of a segment within a distance.
+-- | Eligible members within a distance of a segment, and perhaps some that are further away.
 membersNear :: Cover a -> Mm -> Segment -> [a]
 membersNear cover distance segment =
   filter (isEligible cover) (filter mayReach (BoxTree.within around (index cover)))
@@ -99,9 +100,9 @@ membersNear cover distance segment =
       distanceTo (Segment.at 0.5 segment) (pathsOf cover a)
         <= plus distance (times 0.5 (Segment.length segment))
 
--- | Test that each point of a segment has a member within a distance. Many members are taken one
--- after the other: the member that is nearest to the end of the covered stretch covers the next
--- one.
+-- | Test that each point of a segment has a member within a distance. Up to 'fewAtMost' members are
+-- taken together. More members are taken one by one: the next is the member nearest to the end of
+-- the stretch that is already covered.
 isCovered :: Cover a -> Mm -> Segment -> Bool
 isCovered cover distance segment
   | null (drop fewAtMost near) = together
@@ -127,12 +128,12 @@ isCovered cover distance segment
       let d = distanceTo p (pathsOf cover other)
        in if d > distance || isEligible cover other then d else Mm (1 / 0)
 
--- | Distance from a point to the furthest of some paths.
+-- | Distance from a point to that one of the paths which is furthest from the point.
 distanceTo :: Point -> NonEmpty Segment -> Mm
 distanceTo p = maximum . fmap (Distance.toPoint p)
 
--- | Stretches of a segment, as fractions of its length, at which no member has all of its paths
--- within a distance.
+-- | Stretches of a segment that no member covers at a distance. Each is given by its beginning and
+-- end, as fractions of the segment's length from 0 to 1.
 uncovered :: Mm -> [NonEmpty Segment] -> Segment -> [(Double, Double)]
 uncovered distance members segment =
   foldl
@@ -159,6 +160,6 @@ union intervals = case intervals of
   s : rest -> s : union rest
   [] -> []
 
--- | Number of members up to which 'isCovered' takes all of them together.
+-- | Largest number of members that 'isCovered' takes together.
 fewAtMost :: Int
 fewAtMost = 30

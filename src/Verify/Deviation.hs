@@ -1,5 +1,6 @@
--- | Comparison of a tape with one pass along a contour: gouge, excess and side, and the order of
--- travel. The toolpath only says which pass is meant.
+-- | Comparison of a tape with one pass along a contour. It finds gouges, excess, a wrong side, and
+-- a contour that is not followed from start to end. The requirements come from the part; the
+-- toolpath only says which passes there are.
 module Verify.Deviation
   ( MillingPass (..),
     examine,
@@ -44,21 +45,23 @@ import Verify.Proof qualified as Proof
 import Verify.Reachability (KeptDistance (KeptDistance))
 import Verify.Reachability qualified as Reachability
 
--- | Cut along a contour, and its motions on the tape.
+-- | Cut along a contour, and its motions on the tape. A cut is one trip along the contour; a pass
+-- around rest material has several cuts.
 data MillingPass = MillingPass
   { job :: MillingJob,
-    -- | number of the milling statement as it is carried out, from 0
+    -- | number of the statement's execution, from 0: the passes of one execution share it
     passNumber :: Int,
     -- | height of the cut
     level :: Mm,
     found :: FoundPass
   }
 
--- | Allowed deviations into the material and out of it, with one pulse.
+-- | Allowed deviations into the part and away from it. Each is a chord error plus one pulse.
 data Allowed = Allowed {allowedGouge :: Mm, allowedExcess :: Mm}
 
--- | Compare the tape with a contour. @isFirst@ is true of the first pass along the contour: then
--- all motions near it are examined for gouges, otherwise only those of the pass.
+-- | Compare the motions of a tape with a pass along a contour. If @isFirst@ is true, the pass is
+-- the first one along its contour. Then all motions near the contour are examined for gouges;
+-- otherwise only those of the pass.
 examine :: MotionSet -> Bool -> MillingPass -> (ContourProof, [Finding])
 examine set isFirst pass = (contourProof, if null findings then orderFindings pass else findings)
   where
@@ -96,8 +99,8 @@ examine set isFirst pass = (contourProof, if null findings then orderFindings pa
         <> excessFindings allowedExcess tooMuch largest
         <> maybeToList (wrongSide scan)
 
--- | Finding for gouges deeper than allowed, if there are any. It has the first of them in the list,
--- and the deepest one.
+-- | Finding for the gouges that are deeper than @allowed@; empty if there are none. The finding
+-- names the first of them in the list, and the deepest one.
 gougeFindings :: Mm -> [Witness] -> Maybe Witness -> [Finding]
 gougeFindings allowed gouges deepest =
   [ Gouge first worst allowed
@@ -106,21 +109,21 @@ gougeFindings allowed gouges deepest =
       first : _ <- [filter ((> allowed) . Proof.amount) gouges]
   ]
 
--- | Finding for an excess larger than allowed, if there is one. The list has all that are too
--- large; the finding has the first of them, and the largest one.
+-- | Finding for an excess that is larger than @allowed@; empty if there is none. @tooMuch@ lists
+-- each such excess. The finding names the first of the list, and the largest one.
 excessFindings :: Mm -> [Witness] -> Maybe Witness -> [Finding]
 excessFindings allowed tooMuch largest =
   [Excess first (fromMaybe first largest) allowed | first : _ <- [tooMuch]]
 
--- | Motions along the contour, without the arrival at its start.
+-- | Motions along the contour, without the motion that ends at its start.
 motionsAlong :: FoundPass -> [CutterMotion]
 motionsAlong found = case found of
   Complete _ along -> along
   Incomplete _ along -> along
   Missing -> []
 
--- | Allowed deviations of a job. Without a side, for a cutter that runs on the contour, the larger
--- of the two allowed chord errors counts in both directions.
+-- | Allowed deviations of a job. If the cutter runs on the contour and has no side, the larger of
+-- the two chord errors is allowed in both directions.
 allowedOf :: MotionSet -> MillingJob -> Allowed
 allowedOf set job
   | isNothing (side job) = Allowed (plus larger pulse) (plus larger pulse)
@@ -130,9 +133,9 @@ allowedOf set job
     larger = max inside outside
     pulse = Machine.planeResolution (MotionSet.machine set)
 
--- | Allowed chord errors of a tape in mm, into the material and out of it. The arcs that replace a
--- curve may deviate from it by 'Tolerance.curve'; on a curve, the allowed errors are smaller by
--- that.
+-- | Allowed chord errors of a tape, into the part and away from it. @isCurved@ is true of a contour
+-- with curves. The arcs that replace a curve may deviate from it by 'Tolerance.curve', so the
+-- allowed errors of a contour with curves are smaller by 'Tolerance.curve'.
 allowedDeviation :: Bool -> Milling -> (Mm, Mm)
 allowedDeviation isCurved milling
   | isCurved = (less inside, less outside)
@@ -145,7 +148,7 @@ allowedDeviation isCurved milling
 orderFindings :: MillingPass -> [Finding]
 orderFindings MillingPass {job, found} = case found of
   Complete {} -> []
-  -- A cut around rest material does not go along the whole contour.
+  -- Where rest material is allowed, a cut need not go along the whole contour.
   Incomplete {} ->
     [ NotFollowed (statement job)
       | ContactMeasure.isMeasurable job,
@@ -168,16 +171,16 @@ motionsKeepingOut set isFirst job along
   where
     box = BoundingBox.inflate (maxReach job) (boxOf (milling job))
 
--- | Bounding box of the contour of a milling.
+-- | Bounding box of the contour that is milled.
 boxOf :: Milling -> BoundingBox
 boxOf milling =
   foldr1
     BoundingBox.union
     (fmap (BoundingBox.ofSegment . Part.segment) (Part.elements (Part.contour milling)))
 
--- | Distance that a motion keeps from the elements. A motion along the contour keeps the distance
--- of the pass, with the allowances of the elements. Any other motion keeps the radius of its
--- cutter.
+-- | Distance that a motion has to keep from the elements. The motions @along@ the contour keep the
+-- distance of the pass plus the allowances of the elements. Any other motion keeps the radius of
+-- its cutter.
 keepOutOf :: MotionSet -> MillingJob -> [CutterMotion] -> CutterMotion -> KeepOut
 keepOutOf set job along = \m ->
   let tool = MotionSet.toolOf set m
@@ -195,15 +198,15 @@ keepOutOf set job along = \m ->
     ownFrames = IntSet.fromDistinctAscList (ascending (map number along))
     largestAllowance = max (Mm 0) (Edge.largestAllowance (edges job))
 
--- | Sorted list of numbers without its repetitions.
+-- | Numbers of a sorted list, each once.
 ascending :: [Int] -> [Int]
 ascending ns = case ns of
   a : b : more | a == b -> ascending (b : more)
   a : more -> a : ascending more
   [] -> []
 
--- | Gouges of a tool without radius, by an examination of their own: the distance of such a tool
--- from the contour shows none. Empty for a tool with a radius.
+-- | Gouges of a tool with radius 0 that are deeper than @allowed@; empty for any other tool. Such a
+-- tool gouges only by crossing the contour, which 'PointedTool.gougeOf' finds.
 piercedBy :: MillingJob -> Mm -> [CutterMotion] -> [Witness]
 piercedBy job allowed motions =
   [ w
@@ -216,9 +219,10 @@ piercedBy job allowed motions =
 
 -- Excess ------------------------------------------------------------------------------------------
 
--- | Excess on the elements of a contour. If rest material is allowed, all motions at the height of
--- the pass count. They are the same for all cuts of the pass, so only the first cut is examined.
--- The array has the upper bounds of the scan.
+-- | Excess on the elements of a contour; @allowed@ is the largest allowed one. If rest material is
+-- allowed, the elements are compared with all motions at the height of the pass. These are the same
+-- for all cuts of the pass, so only the first cut is examined. @bounds@ is the array that
+-- 'ContourScan.scan' returns.
 missedOn :: MotionSet -> Bool -> MillingPass -> Mm -> PrimArray Double -> [Witness]
 missedOn set isFirst MillingPass {job, level, found} allowed bounds
   | allowsRest job && not isFirst = []
@@ -234,7 +238,7 @@ missedOn set isFirst MillingPass {job, level, found} allowed bounds
       ]
   where
     groups = byAllowance (BoxTree.toList (edges job))
-    -- Distances that the cutter's centre keeps from the elements.
+    -- Elements of each group, with the distance that the centre keeps from them.
     kept =
       [ KeptDistance
           (plus (reach job) own)
@@ -246,7 +250,8 @@ missedOn set isFirst MillingPass {job, level, found} allowed bounds
       Complete {} | not (allowsRest job) -> PassSearch.motionsOf found
       _ -> MotionSet.atHeight set level
 
--- | Parts of an element that the cutter can touch at a distance, if rest material is allowed.
+-- | Parts of an element that the cutter can touch while its centre is at @distance@ from them; the
+-- whole element if rest material is not allowed. @kept@ has the distances from the other elements.
 touchableParts :: MillingJob -> [KeptDistance] -> Mm -> Edge -> [Edge]
 touchableParts job kept distance e = case (Part.rest (milling job), side job) of
   (Part.Allowed, Just demanded) ->
@@ -255,7 +260,7 @@ touchableParts job kept distance e = case (Part.rest (milling job), side job) of
     ]
   _ -> [e]
 
--- | Elements in groups of equal allowance.
+-- | Elements in groups of equal allowance, each with that allowance.
 byAllowance :: [Edge] -> [(Mm, [Edge])]
 byAllowance es = case es of
   e : others | all ((== ownAllowance e) . ownAllowance) others -> [(ownAllowance e, es)]

@@ -1,4 +1,4 @@
--- | Elements of the contours that a tape is compared with, in a bounding-box tree, together with
+-- | Elements of a contour that a tape is compared with, in a bounding-box tree. Each is stored with
 -- the numbers that every comparison needs.
 module Verify.Edge
   ( Edge (..),
@@ -26,7 +26,7 @@ import Geometry.Vec qualified as Vec
 import Part.Part (Contour, Element)
 import Part.Part qualified as Part
 
--- | Element of a contour. Its numbers are stored and not computed again for each motion.
+-- | Element of a contour, with its numbers, so that they are not computed again for each motion.
 data Edge = Edge
   { element :: Element,
     -- | number of the element in the contour, from 0
@@ -37,7 +37,7 @@ data Edge = Edge
     long :: Double,
     -- | allowance of the element itself, in addition to that of the pass
     ownAllowance :: Mm,
-    -- | true if the element continues the curve of the element before it
+    -- | true if this element and the one before it replace the same curve of the part
     continues :: Bool,
     -- | segment of the element
     shape :: Segment
@@ -52,7 +52,7 @@ edgesOf contour =
     (go 0 0 (NonEmpty.toList elements))
   where
     elements = Part.elements contour
-    -- Strict in the sum of lengths, so that no thunk holds the elements before.
+    -- Strict in the sum of lengths, so that no thunk keeps the earlier elements in memory.
     go :: Int -> Double -> [Element] -> [Edge]
     go rank startsAt rest = case rest of
       [] -> []
@@ -71,7 +71,7 @@ edgesOf contour =
                 }
          in edge `seq` endsAt `seq` (edge : go (rank + 1) endsAt more)
 
--- | Test that a contour has curves: that an element continues the curve of another one.
+-- | Test that a contour has curves: that an element continues the curve of the element before it.
 isCurved :: BoxTree Edge -> Bool
 isCurved = BoxTree.foldl' (\is e -> is || continues e) False
 
@@ -79,8 +79,9 @@ isCurved = BoxTree.foldl' (\is e -> is || continues e) False
 largestAllowance :: BoxTree Edge -> Mm
 largestAllowance = BoxTree.foldl' (\most e -> max most (ownAllowance e)) (Mm (-1 / 0))
 
--- | Least value of distance minus allowance for a point and some elements, or the limit if none has
--- less; all in mm.
+-- | Least value of an element's distance from the point @p@ minus the element's allowance, in mm,
+-- over the elements @near@; the @limit@ if no element has less. By this value the elements that a
+-- cutter with its centre at @p@ touches are chosen.
 leastExcess :: (Edge -> Mm) -> Double -> [Edge] -> Point -> Double
 leastExcess allowanceOf limit near p = foldl' lesser limit near
   where
@@ -91,9 +92,10 @@ leastExcess allowanceOf limit near p = foldl' lesser limit near
         min least (FastDistance.distance (shape e) (Vec.x p) (Vec.y p) - a)
       | otherwise = least
 
--- | Signed distance of a point from a contour in mm: positive on the left of the direction of
--- travel. @foot@ is the point of the contour nearest to it. At a corner, the signed distances from
--- the tangents of both elements are added.
+-- | Signed distance in mm of the point @p@ from a contour: positive on the left of the direction of
+-- travel. @foot@ is the point of the contour that is nearest to @p@. If @foot@ is a corner, the
+-- result is the sum of the signed distances from the tangents of both elements; then only its sign
+-- has a meaning.
 leftwardness :: BoxTree Edge -> Point -> Point -> Double
 leftwardness edges foot p = sum (map crossProduct touching)
   where
@@ -106,7 +108,7 @@ leftwardness edges foot p = sum (map crossProduct touching)
             edges
         )
 
--- | Direction of a segment at one of its points.
+-- | Direction of travel on a segment at its point @p@.
 directionAt :: Point -> Segment -> Vec
 directionAt p s
   | Vec.isNear p (Segment.start s) = Segment.startDirection s

@@ -1,5 +1,7 @@
--- | Excess material: elements without a motion within reach on the right side, and motions along
--- the contour that are further from it than they may be.
+-- | Excess material. There are two kinds: points of an element that are too far from all motions on
+-- the cutter's side, and motions along the contour that are too far from it. The /reach/ of a job
+-- is the required distance of the cutter's centre from the contour; its /allowance/ is the allowed
+-- deviation. The cutter's side is the side of the contour on which the part requires it to be.
 module Verify.Excess
   ( excesses,
     strayOf,
@@ -33,9 +35,10 @@ import Verify.Motion (CutterMotion (number), pathList, paths)
 import Verify.Proof (Witness (Witness))
 import Verify.Proof qualified as Proof
 
--- | Excess on elements: by how much points of them are further from all motions than the reach. An
--- excess within the allowance is only listed if it is larger than all before it. The array has for
--- each element, by its number, an upper bound in mm of the distance of its points from the motions.
+-- | Excess on elements: by how much the element's points are further than the reach from every
+-- motion. An element whose excess is within the allowance is only listed if its excess is larger
+-- than that of all elements before it. @bounds@ has for each element, by its number from 0, an
+-- upper bound in mm of the distance of its points from the motions. @index@ contains the motions.
 excesses :: MillingJob -> PrimArray Double -> BoxTree CutterMotion -> [Edge] -> [Witness]
 excesses job bounds index = go (Mm 0)
   where
@@ -72,8 +75,8 @@ excesses job bounds index = go (Mm 0)
           Coverage.allowance = allowance job
         }
 
--- | True only if each point of an element has a motion within the reach plus @least@; decided by
--- fast bounds.
+-- | True only if each point of an element has a motion within the reach plus @least@. Decided by
+-- fast bounds; False means that the exact comparison has to decide.
 isSurelyCovered :: MillingJob -> PrimArray Double -> BoxTree CutterMotion -> Mm -> Edge -> Bool
 isSurelyCovered job bounds index least e =
   PrimArray.indexPrimArray bounds (rank e) <= d - 2 * FastDistance.unsure
@@ -82,8 +85,8 @@ isSurelyCovered job bounds index least e =
     far@(Mm d) = plus (reach job) least
     near = BoxTree.within (BoundingBox.inflate far (FastDistance.box (shape e))) index
 
--- | Bounds of the directed Hausdorff distance from an element to the motions within reach and
--- allowance of it.
+-- | Bounds of the directed Hausdorff distance from an element to the motions on the cutter's side.
+-- They are computed from the motions within reach plus allowance of the element.
 distanceBounds :: MillingJob -> BoxTree CutterMotion -> Edge -> Coverage.DistanceBounds
 distanceBounds job index e =
   Coverage.DistanceBounds {Coverage.atLeast = Mm (min d low), Coverage.atMost = Mm high}
@@ -103,7 +106,8 @@ isEligible job e (m, bounding) =
   all (isSurelyOnSide job (shape e)) bounding
     || all (isOnSide job (Part.segment (element e))) (paths m)
 
--- | True only if a path lies wholly on the cutter's side of an element; decided by fast bounds.
+-- | True only if a path lies wholly on the cutter's side of an element. Decided by fast bounds;
+-- False means that 'isOnSide' has to decide.
 isSurelyOnSide :: MillingJob -> Segment -> Segment -> Bool
 isSurelyOnSide job e path = case side job of
   Nothing -> True
@@ -124,9 +128,9 @@ isOnSide job element path = case side job of
       Arc {start, centre, sweep = Rad s} ->
         (Vec.distance centre p < Segment.radius centre start) == (s > 0)
 
--- | Excess of a stray motion: by how much it is further from the contour than the reach. Nothing if
--- that is within the allowance. @near@ are the elements that the cutter may touch during the
--- motion, @bounding@ its bounding paths.
+-- | Excess of a motion along the contour: by how much the motion is further from the contour than
+-- the reach. Nothing if the excess is within the allowance. @near@ are the elements that the cutter
+-- may touch during the motion; @bounding@ are the motion's bounding paths.
 strayOf :: MillingJob -> CutterMotion -> [Edge] -> [Segment] -> Maybe Witness
 strayOf job m near bounding
   | all isSurelyNear bounding = Nothing

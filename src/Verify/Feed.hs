@@ -1,5 +1,7 @@
--- | Feeds of a tape. Frame by frame they equal the planned ones; on a tape with another number of
--- frames they equal those that the statements demand. They are never too high to slow down in time.
+-- | Comparison of the feeds of a tape. The planned frames are those that the compiler made for the
+-- program. A tape with as many frames is compared with them frame by frame. Any other tape is
+-- compared with the feeds that the statements demand. The third comparison is for every tape: the
+-- cutter has to be able to slow down in time.
 module Verify.Feed
   ( asPlanned,
     alongContour,
@@ -25,7 +27,7 @@ import Part.Part qualified as Part
 import Verify.MillingJob (MillingJob (..), elementsOf)
 import Verify.Proof (Finding (..), Speed (..))
 
--- | Speed that a frame asks for.
+-- | Speed that a frame asks for: rapid or a feed code, and with braking or without.
 speedOf :: Frame -> Speed
 speedOf f =
   Speed {rapidly = Frame.motion f == Rapid, code = Frame.feedCode f, braking = Frame.braking f}
@@ -45,14 +47,14 @@ asPlanned program frames =
         || Frame.braking a /= Frame.braking b
         || (Frame.motion a == Rapid) /= (Frame.motion b == Rapid)
 
--- | Findings for motions along a contour with another feed than its statement or its elements
--- demand.
+-- | Findings for motions along a contour with a feed that neither the milling statement nor an
+-- element of the contour demands.
 alongContour :: Machine -> MillingJob -> [Motion] -> [Finding]
 alongContour machine job =
   atFeed machine (Part.feed (milling job)) (map Part.finish (elementsOf job))
 
--- | Findings for motions with a feed that is neither the demanded one nor that of an element. A
--- braking frame may be slower than these.
+-- | Findings for motions with a wrong feed. Allowed are @demanded@, the feed of the statement, and
+-- the feeds of single elements, which are in @finishes@. A braking frame may also be slower.
 atFeed :: Machine -> Located Feed -> [Part.Finish] -> [Motion] -> [Finding]
 atFeed machine demanded finishes = mapMaybe wrongFeed
   where
@@ -76,8 +78,8 @@ atFeed machine demanded finishes = mapMaybe wrongFeed
           (Machine.valueOf machine (code found))
     feedOf = fromMaybe 0 . Machine.valueOf machine
 
--- | Findings for vertical motions into solid material at a speed that no planned motion into solid
--- material has.
+-- | Findings for vertical motions into solid material, if no planned motion into solid material has
+-- their speed. None if the planned frames contain no such motion.
 downwards :: FrameProgram -> [Frame] -> [Finding]
 downwards program frames = case plunges (map Frame.frame (Frame.plannedFrames program)) of
   [] -> []
@@ -95,8 +97,9 @@ downwards program frames = case plunges (map Frame.frame (Frame.plannedFrames pr
   where
     plunges = intoSolid Map.empty . Control.run (Frame.start program)
 
--- | Vertical motions that go below the top of the part, and deeper than all motions before them at
--- their position. The map has the lowest height so far at each position.
+-- | Vertical motions into solid material: below the top of the part, and deeper than all earlier
+-- motions at the same position in the plane. @lowest@ has the lowest height so far at each position
+-- (x and y). Heights are in pulses; the top of the part is 0.
 intoSolid :: Map.Map (Pulses, Pulses) Pulses -> [Motion] -> [Motion]
 intoSolid lowest motions = case motions of
   [] -> []
@@ -112,9 +115,9 @@ intoSolid lowest motions = case motions of
 
 -- Codes and speeds --------------------------------------------------------------------------------
 
--- | Code for a feed of @v@ mm/min along the path of a motion; nothing if the machine has no such
--- feed. On machines whose codes mean the pulse frequency of the leading axis, it is the code for
--- @v/60·n/L@ pulses per second, for @n@ pulses of this axis on a path of length @L@.
+-- | Code for a feed of @v@ mm/min along the path of a motion. Nothing if the machine has no such
+-- feed. On some machines a code means the pulse frequency of the leading axis. There, the frequency
+-- is @v/60·n/L@ pulses per second, if a path of @L@ mm takes @n@ pulses of the leading axis.
 codeFor :: Machine -> Motion -> Feed -> Maybe FeedCode
 codeFor machine m (Feed v) = case Machine.choose machine inMeasure of
   Machine.Given c _ -> Just c
@@ -149,13 +152,14 @@ speedAlong machine m = case Machine.feedMeasure (Machine.feeds machine) of
 
 -- Braking -----------------------------------------------------------------------------------------
 
--- | Findings for frames at whose end the cutter is too fast. The speed may nowhere exceed
--- @√(v² + 2·a·s)@, with @a@ the deceleration of the machine and @s@ the distance to any later,
--- lower speed @v@ (Kolsanova; the law is reconstructed). The model of the speeds:
+-- | Findings for frames at whose end the cutter is too fast to slow down to a later, lower speed
+-- @v@. At a distance @s@ before that speed, the speed may be @√(v² + 2·a·s)@ at most; @a@ is the
+-- deceleration of the machine (Kolsanova; the law is reconstructed). Empty if the machine does not
+-- use braking frames. @start@ is the position before the first frame. The model of the speeds:
 --
 -- * a frame without braking has its speed from its start to its end;
--- * a braking frame slows down to its speed; successive braking frames with one speed have it at
---   the end of the last of them;
+-- * a braking frame slows down to its speed, which it has at its end; of successive braking frames
+--   with the same speed, only the last one has reached it;
 -- * at the end of the tape the cutter has the final braking feed.
 tooFast :: Machine -> Pulses3 -> [Frame] -> [Finding]
 tooFast machine start frames = case Machine.brakingForm (Machine.braking machine) of
@@ -172,13 +176,14 @@ tooFast machine start frames = case Machine.brakingForm (Machine.braking machine
     motions = Control.run start frames
     a = Machine.deceleration (Machine.braking machine)
     lengths = map (travelOf machine) motions
-    -- Path lengths from the start of the tape to the start of each motion, and to the end.
+    -- Path lengths in mm from the start of the tape to the start of each motion, and to its end.
     starts = scanl (+) 0 lengths
 
--- | Step of 'tooFast', which runs from the end of the tape to its start. Its input is the path
--- lengths at the start and at the end of a motion, the motion, and the motion after it. It updates
--- the least value of @v² + 2·a·s@ over all later speeds, with @s@ measured from the start of the
--- tape.
+-- | Step of 'tooFast' for the motion @m@; the steps are done from the end of the tape to its start.
+-- @begin@ and @end@ are the path lengths in mm from the start of the tape to both ends of @m@;
+-- @next@ is the motion after it, if there is one. @least@ is the least value of @v² + 2·a·s@ over
+-- all later speeds @v@ in mm/s; @s@ is the path length from the start of the tape to that speed.
+-- The result has @least@ with the speed of @m@, and the findings with that for @m@.
 tooFastIn ::
   Machine ->
   ((Double, Double), Motion, Maybe Motion) ->
@@ -200,7 +205,7 @@ tooFastIn machine ((begin, end), m, next) (least, found)
     rounding = 1e-9 * max 1 (v * v)
     Mm pulse = Machine.planeResolution machine
 
--- | Number of pulses by which rounding may change the distance between two positions: one pulse for
--- each.
+-- | Largest change of the distance between two positions by rounding, in pulses: one pulse for each
+-- position.
 pulsesRounded :: Double
 pulsesRounded = 2

@@ -1,4 +1,5 @@
--- | Cuts below the top of the part where the planned frames do not cut, or deeper than these do.
+-- | Cuts below the top of the part where the planned frames do not cut, or deeper than the planned
+-- frames cut. Planned frames are those that the compiler made for the program.
 module Verify.ForeignCut
   ( foreignCuts,
   )
@@ -21,10 +22,10 @@ import Verify.Motion (CutterMotion (number, segment))
 import Verify.Motion qualified as Motion
 import Verify.Proof (Finding (CutsElsewhere))
 
--- | Findings for motions of a tape that cut elsewhere or deeper than the planned motions. A motion
--- is found if one of its samples is below the top of the part, and no planned motion comes near the
--- sample at that depth or deeper. Near means within two pulses and twice the tolerance: two tapes
--- with different chords may deviate to opposite sides.
+-- | Findings for @motions@ of a tape that cut elsewhere or deeper than the @planned@ motions. The
+-- sample points of a motion that lie below the top of the part are compared. Each needs a planned
+-- motion near it, at the same depth or deeper. Near means within two pulses plus twice the
+-- tolerance, because two tapes with different chords may deviate to opposite sides.
 foreignCuts :: Machine -> Toolpath -> [CutterMotion] -> [CutterMotion] -> [Finding]
 foreignCuts machine path planned motions =
   [ CutsElsewhere (number m) p
@@ -46,11 +47,11 @@ foreignCuts machine path planned motions =
           | o <- BoxTree.within (BoundingBox.inflate slack (BoundingBox.ofPoints p [])) index
         ]
 
--- | Smaller of the two heights of a motion.
+-- | Smaller of the heights of a motion at its start and at its end.
 lowest :: CutterMotion -> Mm
 lowest = uncurry min . Motion.heights
 
--- | Start and samples of a motion with their heights.
+-- | Start and sample points of a motion with their heights.
 samplesOf :: CutterMotion -> [(Point, Mm)]
 samplesOf m =
   [ (Segment.at k (segment m), plus from (times k (minus to from)))
@@ -59,7 +60,8 @@ samplesOf m =
   where
     (from, to) = Motion.heights m
 
--- | Largest chord error that a statement of the toolpath allows.
+-- | Largest chord error that any milling or pocket statement of the toolpath allows; 0 if there is
+-- no such statement.
 largestTolerance :: Toolpath -> Mm
 largestTolerance path =
   maximum
@@ -69,7 +71,7 @@ largestTolerance path =
         ]
     )
 
--- | Milling of a block along a contour or in a pocket.
+-- | Milling of a block along a contour or in a pocket; empty for any other block.
 millingOf :: Block -> [Milling]
 millingOf block = case block of
   Toolpath.Cutting {Toolpath.job = Located _ m} -> [m]

@@ -1,5 +1,5 @@
--- | Rules for the frames of a tape that do not depend on the shape of the part: the control accepts
--- every frame, and the commands are those of the program.
+-- | Two rules for the frames of a tape that do not depend on the shape of the part. The control has
+-- to accept every frame, and the commands have to be those of the program.
 module Verify.FrameRule
   ( refused,
     wrongCommands,
@@ -20,8 +20,8 @@ import Verify.Proof (Finding (..), Refusal (..))
 
 -- Frames that a control refuses -------------------------------------------------------------------
 
--- | Findings for frames that the control refuses, on a tape that begins at a start position: frames
--- that break a rule of the machine, and impossible arcs.
+-- | Findings for frames that the control refuses: frames that break a rule of the machine, and
+-- impossible arcs. @begin@ is the position before the first frame, in pulses.
 refused :: Machine -> Pulses3 -> [Frame] -> [Finding]
 refused machine begin = go (Start 1 begin)
   where
@@ -35,11 +35,11 @@ refused machine begin = go (Start 1 begin)
 -- | Number of a frame, counted from 1, and the position at which it starts.
 data Start = Start Int Pulses3
 
--- | Number and start position of the frame after another one.
+-- | Number and start position of the frame after @f@, from those of @f@.
 startAfter :: Frame -> Start -> Start
 startAfter f (Start n at) = Start (n + 1) (at + Frame.increment f)
 
--- | Reasons to refuse one frame, by its number and its start position.
+-- | Reasons to refuse the frame @f@ with the number @n@, from 1, which starts at the position @at@.
 refusals :: Machine -> Int -> Pulses3 -> Frame -> [Refusal]
 refusals machine n at f =
   map ByRule (Frame.frameViolations machine n f) <> case Frame.motion f of
@@ -48,7 +48,8 @@ refusals machine n at f =
     Rapid -> []
     Linear -> []
 
--- | Reasons to refuse an arc: its two radii differ by more than two pulses, or it has no sweep.
+-- | Reasons to refuse the arc of frame @n@, which starts at the position @at@. Its radii at start
+-- and end may differ by two pulses at most, and it needs a sweep.
 impossibleArc :: Machine -> Int -> Pulses3 -> Frame -> [Refusal]
 impossibleArc machine n at f =
   [ UnequalRadii n (minus b a)
@@ -65,12 +66,13 @@ impossibleArc machine n at f =
 
 -- Commands ----------------------------------------------------------------------------------------
 
--- | Commands of a frame: their names and numbers.
+-- | Commands of a frame: the name of each and the number that is given with it.
 type Commands = [(CommandName, Int)]
 
 -- | Findings for frames whose commands differ from those of the planned frames. A tape with as many
--- frames as planned is compared frame by frame. On any other tape, the frames with commands are
--- compared in order; two of them correspond if they begin at the same position, to two pulses.
+-- frames as planned is compared frame by frame. On any other tape, the first frame with commands is
+-- compared with the first such planned frame, the second with the second, and so on. The two frames
+-- of a pair also have to begin at the same position, to two pulses.
 wrongCommands :: FrameProgram -> [Frame] -> [Finding]
 wrongCommands program frames =
   [ WrongCommand n name (lookup name found) (lookup name wanted)
@@ -85,8 +87,9 @@ wrongCommands program frames =
       | length frames == length commanded = frameByFrame 1 commanded (map Frame.commands frames)
       | otherwise = inOrder (length frames) (positioned planned) (positioned frames)
 
--- | Frames with different commands, numbered from @n@: the number, the planned commands, those of
--- the tape. A frame that is missing on one side counts as one without commands.
+-- | Frames with different commands, numbered from @n@. @own@ are the commands of the planned
+-- frames, @found@ those of the tape. Each entry of the result has the number, the planned commands
+-- and those of the tape. If one of the lists is longer, the other one counts as empty there.
 frameByFrame :: Int -> [Commands] -> [Commands] -> [(Int, Commands, Commands)]
 frameByFrame n own found = case (own, found) of
   (a : as, b : bs) | a == b -> frameByFrame (n + 1) as bs
@@ -94,8 +97,8 @@ frameByFrame n own found = case (own, found) of
   (_, []) -> zipWith (\k a -> (k, a, [])) [n ..] own
   ([], _) -> zipWith (\k b -> (k, [], b)) [n ..] found
 
--- | Frames with commands: the number, the position where the frame begins, the commands. Positions
--- are measured from the start of the tape.
+-- | Frames with commands. Each entry has the number of the frame from 1, the position where the
+-- frame begins, and its commands. Positions are in pulses from the start of the tape.
 positioned :: [Frame] -> [(Int, Pulses3, Commands)]
 positioned fs =
   [ (n, at, Frame.commands f)
@@ -103,10 +106,11 @@ positioned fs =
       not (null (Frame.commands f))
   ]
 
--- | Differences between the planned frames with commands and those on the tape, taken in pairs. If
--- two positions differ, the planned commands of the pair count as none. Planned commands that are
--- missing at the end of the tape get their planned number, but at least the number of the last
--- frame on the tape.
+-- | Differences between the planned frames with commands and the frames with commands on the tape,
+-- compared in pairs. Both lists have the form of 'positioned', the result that of 'frameByFrame'.
+-- If the positions of a pair differ, the planned frame counts as one without commands. Planned
+-- commands that are missing at the end of the tape get the number of their planned frame. If that
+-- number is less than @frameCount@, the count of frames on the tape, they get @frameCount@.
 inOrder ::
   Int ->
   [(Int, Pulses3, Commands)] ->

@@ -6,8 +6,8 @@
 --
 -- * gouge: no motion comes nearer to a milled element than the cutter's radius;
 -- * excess: each point of a milled element has a motion within the cutter's radius;
--- * band: between the start and the end of a contour, no motion is further from it than the
---   cutter's radius, and none is on its wrong side.
+-- * band: between the start and the end of a contour, no motion is further from the contour than
+--   the cutter's radius, and none is on the wrong side.
 --
 -- Each allows the tolerance and one pulse. Pockets, holes, the order of cuts, feeds, commands and
 -- the last position are compared as well.
@@ -72,7 +72,8 @@ import Verify.Swivel qualified as Swivel
 import Verify.TapeSummary (TapeSummary)
 import Verify.TapeSummary qualified as TapeSummary
 
--- | Tape, the program that it is compared with, and what is computed once for all comparisons.
+-- | Tape, the program that it is compared with, and values that are computed once for all
+-- comparisons.
 data Subject = Subject
   { machine :: Machine,
     path :: Toolpath,
@@ -80,7 +81,7 @@ data Subject = Subject
     -- | frames of the tape
     frames :: [Frame],
     summary :: ~TapeSummary,
-    -- | cutters in the planned frames
+    -- | radius of the cutter in each planned frame
     tools :: ~Tools,
     -- | motions of the cutter's centre on the tape
     motions :: ~[CutterMotion],
@@ -90,12 +91,12 @@ data Subject = Subject
     motionIndex :: ~(BoxTree CutterMotion),
     compensationErrors :: ~[Compensation.CompensationError],
     pockets :: ~[Pocket],
-    -- | planned frames of each pass, by its number
+    -- | numbers of the planned frames of each pass, by the number of the pass, from 0
     passFrames :: ~(IntMap FrameRange)
   }
 
--- | Compare the frames of a tape with the part of a toolpath. The frame program has the start
--- position and the planned frames.
+-- | Compare the frames of a tape with the part. The toolpath @path@ contains the part; @program@
+-- has the start position and the planned frames.
 prove :: Machine -> Toolpath -> FrameProgram -> [Frame] -> Proof
 prove machine path program frames =
   Proof
@@ -124,8 +125,9 @@ prove machine path program frames =
     deviations = concat contourFindings <> concat pocketFindings
     closure = closureOf subject
 
--- | Subject of a proof. The frames are executed lazily: the list of the controller model's motions
--- is never in memory as a whole. That of the cutter's motions is, but these are much smaller.
+-- | Subject of a proof. The frames are executed lazily, so the list of the controller model's
+-- motions is never in memory as a whole. The list of the cutter's motions is; they are much
+-- smaller.
 subjectOf :: Machine -> Toolpath -> FrameProgram -> [Frame] -> Subject
 subjectOf machine path program frames =
   Subject
@@ -154,23 +156,24 @@ subjectOf machine path program frames =
         (SpindleTool.toolInFrame tools)
         (Frame.start program)
 
--- | Test that the tape has as many frames as planned. Then frames are compared by their numbers.
+-- | Test that the tape has as many frames as planned. Then each frame is compared with the planned
+-- frame of its number.
 hasSameCount :: Subject -> Bool
 hasSameCount subject =
   SpindleTool.toolCount (tools subject) == TapeSummary.count (summary subject)
 
--- | Test that a frame of the tape differs from the planned one.
+-- | Test that the frames of the tape differ from the planned ones.
 isDifferent :: Subject -> Bool
 isDifferent subject = isJust (TapeSummary.firstDifference (summary subject))
 
--- | Test that the cutter stays at its first height on the toolpath.
+-- | Test that the whole toolpath is at the height of its start.
 isFlat :: Subject -> Bool
 isFlat subject = Toolpath.isFlat (path subject)
 
 -- Passes on the tape ------------------------------------------------------------------------------
 
--- | Passes along contours on the tape. On a tape with the planned frames, these limit the search
--- for each pass.
+-- | Passes along contours on the tape. If the tape has exactly the planned frames, each pass is
+-- searched among its own planned frames only.
 locatedPasses :: Subject -> [MillingPass]
 locatedPasses subject@Subject {machine, path, program} =
   PassLocation.locate
@@ -190,11 +193,11 @@ locatedPasses subject@Subject {machine, path, program} =
     begin = Frame.start program
     lastFrame n = (\(FrameRange _ b) -> b) <$> IntMap.lookup n (passFrames subject)
     cutFrames = PassFrames.framesOfCuts program
-    -- A single cut cannot be taken for another one.
+    -- A single cut cannot be mistaken for another cut, so its planned frames are not needed.
     isSingle = null (drop 1 [() | Toolpath.Cutting {} <- Toolpath.blocks path])
 
--- | Test that a motion is in the frames of a pass of a pocket. False on a tape with another number
--- of frames, on which these are unknown.
+-- | Test that a motion is in the frames of a pass of a pocket. False if the tape does not have as
+-- many frames as planned: then the frames of the pass are unknown.
 isInPass :: Subject -> ClearingPass -> CutterMotion -> Bool
 isInPass subject pass m =
   hasSameCount subject
@@ -204,7 +207,7 @@ isInPass subject pass m =
       (IntMap.lookup (Pocket.passIndex pass) (passFrames subject))
 
 -- | Motions of the tape for the comparisons. If only one contour or pocket is compared,
--- 'MotionSet.nearby' gives all motions, because a bounding-box tree would cost more than it saves.
+-- 'MotionSet.nearby' returns all motions: a bounding-box tree would cost more time than it saves.
 motionSetOf :: Subject -> [MillingPass] -> MotionSet
 motionSetOf subject passes =
   MotionSet
@@ -220,12 +223,13 @@ motionSetOf subject passes =
       | isAskedOnce = motions subject
       | otherwise = BoxTree.within (BoundingBox.inflate largestTool box) (motionIndex subject)
     isAskedOnce = null (drop 1 queries)
-    -- The first pass along each contour asks for motions, and each pocket.
+    -- 'MotionSet.nearby' is asked by the first pass along each contour, and by each pocket.
     queries = [() | True <- PassLocation.areFirst passes] <> map (const ()) (pockets subject)
     largestTool = foldl' (\most m -> max most (toolOf m)) (Mm 0) (motions subject)
 
--- | Radius of the cutter in a motion: that of the planned frame if the tape has as many frames as
--- planned, otherwise that of 'SpindleTool.supposedTool'.
+-- | Radius of the cutter in a motion. If the tape has as many frames as planned, it is the radius
+-- in the planned frame of the same number. Otherwise 'SpindleTool.supposedTool' infers it from the
+-- passes.
 toolIn :: Subject -> [MillingPass] -> CutterMotion -> Mm
 toolIn subject passes
   | hasSameCount subject = SpindleTool.toolInFrame (tools subject) . number
@@ -237,14 +241,15 @@ toolIn subject passes
     radiusOf = Part.radius . milling . job
     smallest = if null passes then Mm 0 else minimum (map radiusOf passes)
 
--- | Use of a cutter with a radius in the motions of a pass; none without motions.
+-- | Use of the cutter of a pass: its radius, and the frames of the motions @pass@. Empty if there
+-- are no motions.
 useOf :: Mm -> [CutterMotion] -> [Use]
 useOf radius pass = case pass of
   [] -> []
   first : later -> [Use (number first) (number (foldl' (\_ m -> m) first later)) radius]
 
--- | Motions in each pass of each pocket, found by their positions. For a tape on which the frames
--- of the passes are unknown.
+-- | Motions in each pass of each pocket, found by their positions. This serves for a tape on which
+-- the frames of the passes are unknown.
 pocketVisits :: Subject -> [(Pocket, ClearingPass, [CutterMotion])]
 pocketVisits subject =
   [ ( pocket,
@@ -261,8 +266,8 @@ pocketVisits subject =
 
 -- Findings ----------------------------------------------------------------------------------------
 
--- | Findings of all comparisons except those with contours, with pockets, and with the end of the
--- toolpath.
+-- | Findings of all comparisons, without those of "Verify.Deviation", "Verify.PocketDeviation" and
+-- 'notClosed'.
 otherFindings :: Subject -> [MillingPass] -> [Finding]
 otherFindings subject@Subject {machine, path, program, frames} passes =
   pocketOrder subject
@@ -294,17 +299,17 @@ pocketOrder subject =
       | otherwise = motions subject
     byPocket = motionsByPocket subject
 
--- | Motions in the planned frames of each pocket, by the number of the pocket from 0.
+-- | Motions of the tape in the planned frames of each pocket, by the number of the pocket from 0.
 motionsByPocket :: Subject -> IntMap [CutterMotion]
 motionsByPocket subject = foldr insert IntMap.empty (motions subject)
   where
     insert m known =
       maybe known (\k -> IntMap.insertWith (<>) k [m] known) (pocketAt (number m))
-    -- Pocket in whose frames a frame is.
+    -- Number of the pocket that contains the frame @n@.
     pocketAt n = case IntMap.lookupLE n pocketFrames of
       Just (_, (b, k)) | n <= b -> Just k
       _ -> Nothing
-    -- Last frame of each pass of a pocket and the number of the pocket, by the first frame.
+    -- For each pass, by its first frame: its last frame and the number of its pocket.
     pocketFrames =
       IntMap.fromList
         [ (a, (b, k))
@@ -314,9 +319,8 @@ motionsByPocket subject = foldr insert IntMap.empty (motions subject)
               [IntMap.lookup (Pocket.passIndex pass) (passFrames subject)]
         ]
 
--- | Findings for feeds. A tape with as many frames as planned is compared frame by frame, unless
--- its frames are the planned ones. Any other tape is compared with the feeds that the statements
--- demand.
+-- | Findings for feeds. A tape with as many frames as planned is compared with the planned frames,
+-- unless it is equal to them. Any other tape is compared with the feeds that the statements demand.
 feedFindings :: Subject -> [MillingPass] -> [Finding]
 feedFindings subject@Subject {program, frames} passes
   | hasSameCount subject =
@@ -326,7 +330,8 @@ feedFindings subject@Subject {program, frames} passes
       <> concatMap (pocketFeeds subject) (pocketVisits subject)
       <> Feed.downwards program frames
 
--- | Findings for feeds along a contour. Vertical motions at its start and its end are left out.
+-- | Findings for feeds along a contour. Vertical motions are left out, because they only occur at
+-- the start and the end of the pass.
 contourFeeds :: Subject -> MillingPass -> [Finding]
 contourFeeds subject pass =
   Feed.alongContour
@@ -347,15 +352,15 @@ pocketFeeds subject (pocket, pass, ms) =
       not (Motion.isVertical m)
         && not (any (isAlong (machine subject) (segment m)) (Pocket.linkingMoves pass))
 
--- | Test that the ends of a segment are within two pulses of a move.
+-- | Test that both ends of the segment @s@ are within two pulses of the move.
 isAlong :: Machine -> Segment -> Segment -> Bool
 isAlong machine s move =
   all
     (\p -> Distance.toPoint p move <= times 2 (Machine.planeResolution machine))
     [Segment.start s, Segment.end s]
 
--- | Motions of the controller model in the frames of some motions of the cutter. The frames are
--- executed once more, because few tapes need it.
+-- | Motions of the controller model in the same frames as some motions of the cutter. The frames
+-- are executed again instead of being stored, because few tapes need this.
 programmed :: Subject -> [CutterMotion] -> [Control.Motion]
 programmed subject ms =
   filter
@@ -372,8 +377,9 @@ closureOf subject =
   where
     end = Toolpath.end (path subject)
 
--- | Finding for a wrong last position. None if there are findings that the cutter left a contour or
--- a pocket: the wrong position is their consequence.
+-- | Finding for a wrong last position; @closure@ is the difference from the right one. Empty if
+-- @deviations@ contains a finding that the cutter leaves a contour or a pocket, because the wrong
+-- position is then a consequence.
 notClosed :: Pulses3 -> [Finding] -> [Finding]
 notClosed closure deviations =
   [NotClosed closure | closure /= 0, not (any Proof.isOffContour deviations)]

@@ -1,4 +1,5 @@
--- | Gouges: motions in which the cutter's centre comes nearer to an element than it may.
+-- | Gouges: motions in which the cutter's centre comes nearer to an element than the required
+-- distance.
 module Verify.Gouge
   ( KeepOut (..),
     constantKeepOut,
@@ -32,12 +33,13 @@ data KeepOut = KeepOut
     required :: Element -> Point -> Mm
   }
 
--- | Same distance from all elements.
+-- | The distance @d@ from all elements, at all points of the motion.
 constantKeepOut :: Mm -> KeepOut
 constantKeepOut d = KeepOut {searchRadius = d, largest = d, required = \_ _ -> d}
 
--- | Deepest gouge of a motion, if there is one. Its amount is the required distance minus the
--- actual one. The bounding paths of an arc are examined, and the lines that connect them.
+-- | Deepest gouge of a motion; Nothing if the motion keeps its distance. The amount of a gouge is
+-- the required distance minus the actual one. The examined curves are the bounding paths of the
+-- motion, and the lines that connect their ends (see "Control.Motion").
 gougeOf :: KeepOut -> BoxTree Edge -> CutterMotion -> Maybe Witness
 gougeOf KeepOut {searchRadius, required} edges m = Proof.deepest gouges
   where
@@ -57,10 +59,11 @@ gougeOf KeepOut {searchRadius, required} edges m = Proof.deepest gouges
       BoundingBox.meets (BoundingBox.inflate searchRadius (BoundingBox.ofSegment path)) b
         && BoundingBox.lowerBound (`Distance.toPoint` path) b <= searchRadius
 
--- | Allowance of an element that counts at a point @p@ of a motion. Usually it is the element's
--- own. If other elements lie within @pulse@ of the foot of @p@ on the element, the smallest
--- allowance of all these counts, because a step between two allowances is cut on whole pulses. If
--- one of these others is nearer to @p@ than the element, the result is 0.
+-- | Allowance that a motion has to keep from the element @e@ at the point @p@ of the motion.
+-- Usually it is the allowance of @e@. But other elements may join @e@ within @pulse@ of the point
+-- of @e@ nearest to @p@. Then the smallest allowance of @e@ and these elements counts, because
+-- the toolpath steps between allowances on whole pulses. If a joining element is nearer to @p@ than
+-- @e@ is, the result is 0.
 allowanceAt :: Mm -> BoxTree Edge -> Element -> Point -> Mm
 allowanceAt pulse edges e p
   | own <= Mm 0 = own

@@ -21,8 +21,8 @@ import Verify.Motion (CutterMotion (segment))
 import Verify.Motion qualified as Motion
 import Verify.Proof (Finding (HoleMissing))
 
--- | Findings for holes that no vertical motion drills. It has to be within a pulse of the hole's
--- centre, and to end at most 0.6 pulses above its bottom.
+-- | Findings for holes that no vertical motion drills. The motion has to be within a pulse of the
+-- hole's centre. Its lowest point may be at most 0.6 pulses above the hole's bottom.
 missingHoles :: Machine -> Toolpath -> [CutterMotion] -> [Finding]
 missingHoles machine path motions =
   [ HoleMissing at p
@@ -40,7 +40,8 @@ missingHoles machine path motions =
         index
     index = BoxTree.index Motion.box (filter Motion.isVertical motions)
 
--- | Test that a vertical motion drills a hole with the centre @p@ to its bottom or deeper.
+-- | Test that the vertical motion @m@ drills the hole with the centre @p@ down to the height
+-- @bottom@ or deeper.
 isDrilled :: Machine -> Mm -> Point -> CutterMotion -> Bool
 isDrilled machine bottom p m =
   Vec.distance (Segment.start (segment m)) p <= Machine.planeResolution machine

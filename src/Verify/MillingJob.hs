@@ -1,9 +1,9 @@
 -- | Cut along a contour as the part demands it, and the contact between the cutter and the elements
--- of the contour.
+-- of the contour. The proof looks for this cut on the tape.
 --
--- The contact point of a cutter is the point of the contour that is nearest to its centre. A
--- corner, an allowance or rounding makes several elements equally near; then each of them has a
--- contact point.
+-- The contact point of a cutter is the point of the contour that is nearest to the cutter's centre.
+-- At a corner, at a step between allowances, or because of rounding, several elements may be
+-- equally near. Then each of them has a contact point.
 module Verify.MillingJob
   ( MillingJob (..),
     elementsOf,
@@ -44,12 +44,13 @@ data MillingJob = MillingJob
     -- | positions of the cutter's centre at the start and at the end of the cut
     entry :: Point,
     exit :: Point,
-    -- | distance from the contour to the cutter's centre
+    -- | distance that the cutter's centre has to keep from the contour in this pass
     reach :: Mm,
-    -- | largest distance from the contour to the cutter's centre; it is more than 'reach' at sharp
-    -- corners and along elements with an allowance
+    -- | largest distance that the cutter's centre may have from the contour; it is more than
+    -- 'reach' at sharp corners and along elements with an allowance
     maxReach :: Mm,
-    -- | allowed deviation: the larger of the chord errors on both sides, plus one pulse
+    -- | allowed deviation (not material that is left): the larger of the allowed chord errors into
+    -- the part and away from it, plus one pulse
     allowance :: Mm,
     -- | largest distance of the centre from 'exit' at the end of the cut
     exitTolerance :: Mm,
@@ -72,12 +73,13 @@ isClosed job = Part.ends (Part.contour (milling job)) == Part.Closed
 contactLimit :: MillingJob -> Mm
 contactLimit job = plus (maxReach job) (allowance job)
 
--- | Elements that a cutter with its centre at a point may touch, and perhaps others nearby.
+-- | Elements that a cutter with its centre at @p@ may touch, and perhaps some that it does not
+-- touch.
 edgesAround :: MillingJob -> Point -> [Edge]
 edgesAround job p =
   BoxTree.within (BoundingBox.inflate (contactLimit job) (BoundingBox.ofPoints p [])) (edges job)
 
--- | Elements that a cutter may touch during a motion.
+-- | Elements that a cutter may touch during a motion, by the fast test 'mayTouch'.
 edgesNear :: MillingJob -> CutterMotion -> [Edge]
 edgesNear job m = filter (mayTouch job m) (edgesInBox job m)
 
@@ -86,20 +88,23 @@ edgesNearEach :: MillingJob -> [CutterMotion] -> [[Edge]]
 edgesNearEach job =
   BoxTree.each (BoundingBox.inflate (contactLimit job) . Motion.box) (mayTouch job) (edges job)
 
--- | False only if a cutter does not touch an element during a motion.
+-- | False only if the cutter cannot touch an element during a motion. True also for some elements
+-- that it does not touch.
 mayTouch :: MillingJob -> CutterMotion -> Edge -> Bool
 mayTouch job m = \e -> FastDistance.mayComeWithin far (long e) (shape e) (segment m)
   where
     far = let Mm r = contactLimit job in r + FastDistance.uneven (segment m)
 
--- | Elements that a cutter may touch during a motion, and others whose bounding boxes are as near.
+-- | Elements whose bounding boxes come within 'contactLimit' of the motion's bounding box. They
+-- include all elements that the cutter may touch during the motion.
 edgesInBox :: MillingJob -> CutterMotion -> [Edge]
 edgesInBox job m =
   BoxTree.within (BoundingBox.inflate (contactLimit job) (Motion.box m)) (edges job)
 
--- | Contact points of a cutter with its centre at @p@: for each the number of its element, and the
--- arc length in mm from the start of the contour. @near@ has to contain all elements within
--- 'contactLimit' of @p@. If @p@ has no foot on an arc, the contact is at the nearer end of the arc.
+-- | Contact points of a cutter with its centre at @p@. Each is given by the number of its element,
+-- from 0, and by its arc length in mm from the start of the contour. @near@ has to contain all
+-- elements within 'contactLimit' of @p@. If no normal of an arc goes through @p@, the contact point
+-- is the end of the arc that is nearer to @p@.
 contacts :: MillingJob -> [Edge] -> Point -> [(Int, Double)]
 contacts job near p =
   [ (rank e, startsAt e + contactOn e * long e)
@@ -114,13 +119,13 @@ contacts job near p =
 data Touch = Touch
   { -- | 'contactLimit' of the job
     limit :: Double,
-    -- | least value of distance minus allowance over all elements
+    -- | least value, over all elements, of the element's distance minus its allowance
     leastExcess :: Double,
-    -- | by how much the distances of two elements may differ if the cutter touches both
+    -- | largest difference of the distances of two elements that the cutter touches both
     spread :: Double
   }
 
--- | Touch of a cutter with its centre at a point.
+-- | 'Touch' of a cutter with its centre at @p@. @near@ are the elements near @p@.
 touchAt :: MillingJob -> [Edge] -> Point -> Touch
 touchAt job near p =
   Touch {limit, leastExcess = Edge.leastExcess ownAllowance limit near p, spread = 2 * deviation}
@@ -128,8 +133,8 @@ touchAt job near p =
     Mm limit = contactLimit job
     Mm deviation = allowance job
 
--- | Largest distance in mm from an element to the centre of a cutter that touches it. It is larger
--- for an element with an allowance.
+-- | Largest distance in mm from the element @e@ to the centre of a cutter that touches it. The
+-- allowance of the element is included.
 farthestContact :: Touch -> Edge -> Double
 farthestContact touch e = min (limit touch) (leastExcess touch + own + spread touch)
   where

@@ -1,5 +1,8 @@
--- | Motion of the cutter's centre in one frame of a tape, as a few numbers. A long tape has very
--- many motions, so everything else is computed from these numbers when it is needed.
+-- | Motion of the cutter's centre in one frame of a tape, stored as a few numbers, because a long
+-- tape has very many motions. Everything else about a motion is computed when it is needed.
+--
+-- The /bounding paths/ of a motion enclose its real path: one path, or two for an arc whose radii
+-- at start and end differ (see "Control.Motion").
 module Verify.Motion
   ( CutterMotion (..),
     motionsOf,
@@ -30,23 +33,23 @@ import Geometry.Segment qualified as Segment
 import Geometry.Vec (Point)
 import Machine.Machine (Machine)
 
--- | Motion of the cutter's centre in one frame, or a part of it. A motion has two parts if cutter
--- compensation puts an arc round a corner before it. The segment of a vertical motion has no
--- length.
+-- | Motion of the cutter's centre in one frame, or a part of that motion. A frame has two parts if
+-- cutter compensation inserts an arc round a corner before the programmed motion. The segment of a
+-- vertical motion has length 0.
 data CutterMotion = CutterMotion
   { -- | number of the frame, from 1
     number :: Int,
-    -- | number of the part in the motion, from 0
+    -- | number of the part among the parts of its frame, from 0
     part :: Int,
     -- | path in the plane, in mm; an arc has the radius of its start
     segment :: Segment,
-    -- | heights at the start and at the end, in mm; the top of the part is 0
+    -- | heights at the start and at the end of the motion; the top of the part is 0
     fromHeight :: Mm,
     toHeight :: Mm
   }
 
--- | Prepend the parts of one motion to the list of later motions. The whole change of height is in
--- the last part.
+-- | Prepend the parts of the motion @moved@ to the list @later@ of later motions. Only the last
+-- part changes the height.
 motionsOf :: Machine -> Moved -> [CutterMotion] -> [CutterMotion]
 motionsOf machine moved later = go 0 (Compensation.centrePath moved)
   where
@@ -72,7 +75,7 @@ heights m = (fromHeight m, toHeight m)
 endPosition :: CutterMotion -> (Point, Mm)
 endPosition m = (Segment.end (segment m), toHeight m)
 
--- | Bounding paths of the motion: one, or two for an arc whose radii differ; see "Control.Motion".
+-- | Bounding paths of the motion.
 paths :: CutterMotion -> NonEmpty Segment
 paths = Control.boundingPaths . segment
 
@@ -82,7 +85,7 @@ pathList m
   | FastDistance.isLine (segment m) = [segment m]
   | otherwise = NonEmpty.toList (paths m)
 
--- | Lines that connect the ends of the bounding paths.
+-- | Lines that connect the starts, and the ends, of two bounding paths; empty for one path.
 connectors :: CutterMotion -> [Segment]
 connectors m
   | FastDistance.isLine (segment m) = []
@@ -92,14 +95,14 @@ connectors m
 box :: CutterMotion -> BoundingBox
 box m = case FastDistance.uneven (segment m) of
   0 -> FastDistance.box (segment m)
-  -- The ends and the sagitta of the two arcs differ by no more than their radii.
+  -- The ends and sagittas of the two bounding arcs differ by no more than twice this difference.
   difference -> BoundingBox.inflate (Mm (2 * difference)) (FastDistance.box (segment m))
 
 -- | Test that two motions are the same part of the same frame.
 isSame :: CutterMotion -> CutterMotion -> Bool
 isSame a b = number a == number b && part a == part b
 
--- | Test that a motion has no length in the plane. A full circle has one.
+-- | Test that a motion has no length in the plane. A full circle has a length.
 isVertical :: CutterMotion -> Bool
 isVertical m = case segment m of
   Straight a b -> a == b
@@ -111,7 +114,7 @@ samples :: CutterMotion -> [Double]
 samples m = let n = sampleCount m in [fromIntegral k / fromIntegral n | k <- [1 .. n]]
 
 -- | Number of sample points: two on a line, at least four on an arc. The direction of an arc
--- changes by no more than π\/8 from one to the next.
+-- changes by no more than π\/8 between neighbouring sample points.
 sampleCount :: CutterMotion -> Int
 sampleCount m = case segment m of
   Straight _ _ -> 2

@@ -1,4 +1,5 @@
--- | All motions of a tape, with the queries of the comparisons.
+-- | All motions of a tape, and the selections of motions that the comparisons ask for: those at a
+-- height, and those near a box.
 module Verify.MotionSet
   ( MotionSet (..),
     atHeight,
@@ -18,30 +19,33 @@ import Verify.Motion qualified as Motion
 -- | Motions of a tape on a machine.
 data MotionSet = MotionSet
   { machine :: Machine,
-    -- | the cutter stays at its first height, so heights are not compared
+    -- | true if the cutter stays at its first height, so that heights are not compared
     isFlat :: Bool,
     -- | radius of the cutter in a motion, in mm
     toolOf :: CutterMotion -> Mm,
     -- | in the order of the tape
     motions :: [CutterMotion],
-    -- | motions in which the cutter may touch a box, and perhaps more, in the order of the tape
+    -- | all motions in which the cutter may touch a box, and perhaps others; in the order of the
+    -- tape
     nearby :: BoundingBox -> [CutterMotion]
   }
 
--- | Motions at a height, in the order of the tape.
+-- | Motions at the height @level@, in the order of the tape; all motions if heights are not
+-- compared.
 atHeight :: MotionSet -> Mm -> [CutterMotion]
 atHeight set level
   | isFlat set = motions set
   | otherwise = filter (isAtHeight (machine set) level) (motions set)
 
--- | Test that a motion runs at a height, or goes vertically down to it or up from it.
+-- | Test that a motion runs at the height @level@, or goes vertically down to that height or up
+-- from it.
 isAtHeight :: Machine -> Mm -> CutterMotion -> Bool
 isAtHeight m level motion =
   isSameHeight m level (fromHeight motion) && isSameHeight m level (toHeight motion)
     || Motion.isVertical motion
       && isSameHeight m level (min (fromHeight motion) (toHeight motion))
 
--- | Test that two heights differ by no more than a pulse.
+-- | Test that two heights in mm differ by no more than a pulse of the axis z.
 isSameHeight :: Machine -> Mm -> Mm -> Bool
 isSameHeight m (Mm z) (Mm h) = let Mm pulse = Machine.resolutionOf m Z in abs (z - h) <= pulse
 

@@ -1,4 +1,5 @@
--- | Numbers of the planned frames of each pass.
+-- | Numbers of the planned frames of each pass. Planned frames are those that the compiler made for
+-- the program.
 module Verify.PassFrames
   ( FrameRange (..),
     includes,
@@ -15,7 +16,7 @@ import Frame.Frame qualified as Frame
 -- | Range of frames: the numbers of the first and of the last one, counted from 1.
 data FrameRange = FrameRange Int Int
 
--- | Test that a frame is in a range.
+-- | Test that the frame with the number @n@ is in a range.
 includes :: FrameRange -> Int -> Bool
 includes (FrameRange a b) n = a <= n && n <= b
 
@@ -31,7 +32,8 @@ framesOfCuts = rangesBy cutOf
       Frame.Cutting n -> Just n
       _ -> Nothing
 
--- | Range of the planned frames that have the same key.
+-- | For each number that @key@ gives for the role of a planned frame: the range from the first to
+-- the last frame with that number. Frames for which @key@ gives Nothing are in no range.
 rangesBy :: (Frame.Role -> Maybe Int) -> FrameProgram -> IntMap FrameRange
 rangesBy key program =
   IntMap.fromListWith

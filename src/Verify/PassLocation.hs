@@ -1,5 +1,5 @@
--- | Location of all passes along contours on a tape, one after the other. Each pass is searched for
--- after the end of the one before.
+-- | Location of all passes along contours on a tape, one after the other. Each cut of a pass is
+-- searched for after the end of the cut before it.
 --
 -- The toolpath says which passes there are, at which height, with which allowance, and where their
 -- cuts start and end. The side of the cutter and its distance from the contour come from the part.
@@ -43,18 +43,18 @@ import Verify.Requirement qualified as Requirement
 -- | Facts that guide the search.
 data Guide = Guide
   { machine :: Machine,
-    -- | the cutter stays at its first height, so heights are not compared
+    -- | true if the cutter stays at its first height, so that heights are not compared
     isFlat :: Bool,
-    -- | last planned frame of a pass by its number; nothing if the tape has another number of
-    -- frames
+    -- | number of the last planned frame of a pass, by the number of the pass from 0; Nothing if
+    -- the tape does not have as many frames as planned
     lastFrameOf :: Int -> Maybe Int,
-    -- | planned frames of a cut by the number of its pass; nothing if the tape has other frames.
-    -- They decide between passes that lie within the tolerance of one another
+    -- | planned frames of a pass's cut, by the number of the pass from 0; Nothing if they are not
+    -- known or not needed. They decide between passes that lie within the tolerance of one another
     cutFramesOf :: Int -> Maybe FrameRange
   }
 
--- | State of the search: the position and height of the centre, the motions after it, the last
--- pass.
+-- | State of the search: the position and height of the centre where the search continues, the
+-- motions after that position, and the pass that was searched last, if there is one.
 data SearchState = SearchState
   { at :: (Point, Mm),
     remaining :: [CutterMotion],
@@ -63,16 +63,18 @@ data SearchState = SearchState
 
 -- | Cut of the toolpath along a contour. A pass around rest material has several.
 data Cut = Cut
-  { -- | number of its pass among all passes of the toolpath
+  { -- | number of its pass among all passes of the toolpath, from 0
     passIndex :: Int,
-    -- | true of one of several cuts of a pass
+    -- | true if the pass has several cuts
     isPartial :: Bool,
     statementAt :: Located Milling,
     plannedPass :: Toolpath.Pass,
     cutMoves :: NonEmpty Move
   }
 
--- | Locate the passes along contours on a tape, from a start position and height.
+-- | Locate the passes along contours among the motions of a tape. @begin@ is the position and
+-- height of the cutter's centre before the first motion. The result has one entry for each cut of
+-- the toolpath's blocks.
 locate :: Guide -> (Point, Mm) -> [CutterMotion] -> [Block] -> [MillingPass]
 locate guide begin motions blocks =
   go
@@ -99,7 +101,7 @@ locate guide begin motions blocks =
           | Just final <- lastFrameOf guide passIndex -> go (afterFrame final state) more
         _ -> go state more
 
--- | State after a located pass.
+-- | State after the located pass: after its last motion, or unchanged if it has no motions.
 afterPass :: MillingPass -> SearchState -> SearchState
 afterPass pass state = case lastOf (PassSearch.motionsOf (found pass)) of
   Nothing -> state {lastPass = Just pass}
@@ -110,14 +112,14 @@ afterPass pass state = case lastOf (PassSearch.motionsOf (found pass)) of
         lastPass = Just pass
       }
 
--- | State after the frame with a number.
+-- | State after the frame with the number @final@.
 afterFrame :: Int -> SearchState -> SearchState
 afterFrame final state =
   state {at = maybe (at state) Motion.endPosition (lastOf done), remaining = later}
   where
     (done, later) = span ((<= final) . number) (remaining state)
 
--- | Locate one cut after the motions that were searched before.
+-- | Locate one cut among the motions that remain after the cuts before it.
 locateCut :: Guide -> SearchState -> Cut -> MillingPass
 locateCut guide state cut =
   MillingPass {job, passNumber, level, found = PassSearch.find job startsAt searched}
@@ -125,7 +127,7 @@ locateCut guide state cut =
     Located statement milling = statementAt cut
     Toolpath.Pass {Toolpath.number = passNumber, Toolpath.atHeight = level} = plannedPass cut
     job = jobOf (machine guide) statement milling cut edges
-    -- All cuts of a statement have its elements in common.
+    -- All cuts of a statement share one tree of elements, so that it is not built again.
     edges = case lastPass state of
       Just MillingPass {job = MillingJob {edges = same}, passNumber = m} | m == passNumber -> same
       _ -> Edge.edgesOf (Part.contour milling)
@@ -168,8 +170,8 @@ jobOf machine statement milling cut edges =
         (uncurry max (Deviation.allowedDeviation (Edge.isCurved edges) milling))
         (Machine.planeResolution machine)
 
--- | List with an entry for each block: true of one of several cuts of a pass. A pass is only
--- divided into cuts where rest material is allowed.
+-- | List with an entry for each block: true if the block is one of several cuts of a pass. Only
+-- where rest material is allowed has a pass several cuts.
 arePartial :: [Block] -> [Bool]
 arePartial blocks =
   zipWith3
@@ -188,9 +190,9 @@ arePartial blocks =
             Just (number, left, atHeight)
       _ -> Nothing
 
--- | Position of the centre at the end of a contour under cutter compensation: beside the end of the
--- last element, square to it. Nothing without compensation. On a closed contour, the control may or
--- may not treat the joint with the first element as a corner.
+-- | Position of the centre at the end of a contour if the control does the cutter compensation:
+-- beside the end of the last element, on its normal there. Nothing without compensation. On a
+-- closed contour, the control may or may not treat the joint with the first element as a corner.
 exitByControl :: Milling -> Maybe Side -> Mm -> Maybe Point
 exitByControl milling side reach = case (Part.controlCompensation milling, side) of
   (Just _, Just s) ->
@@ -200,8 +202,8 @@ exitByControl milling side reach = case (Part.controlCompensation milling, side)
     final = Part.segment (NonEmpty.last (Part.elements (Part.contour milling)))
 
 -- | Uncertainty in mm of the position of 'exitByControl'; 0 without compensation. Rounding to
--- pulses changes the direction of the last element, by the most if it is as short as
--- 'Tolerance.controlLength'.
+-- pulses changes the direction of the last element, most of all if the element is short. The
+-- shortest element under compensation has the length 'Tolerance.controlLength'.
 exitUncertainty :: Machine -> Milling -> Mm -> Mm
 exitUncertainty machine milling reach = case Part.controlCompensation milling of
   Just _ -> times (2 * pulse / shortest) reach
@@ -210,14 +212,15 @@ exitUncertainty machine milling reach = case Part.controlCompensation milling of
     Mm pulse = Machine.planeResolution machine
     Mm shortest = Tolerance.controlLength
 
--- | Largest distance of the centre from a contour. @allowance@ is the largest allowance of its
--- elements. At a sharp corner the toolpath goes up to twice as far.
+-- | Largest distance of the centre from a contour. @allowance@ is the largest allowance of the
+-- contour's elements, @reach@ the distance of the pass. At a sharp corner the toolpath goes up to
+-- twice as far from the contour.
 largestReach :: Milling -> Mm -> Mm -> Mm
 largestReach milling allowance reach
   | Part.corners milling == Part.Sharp = times 2 (plus reach allowance)
   | otherwise = plus reach allowance
 
--- | List with an entry for each pass: true of the first pass of its statement.
+-- | List with an entry for each pass: true if it is the first pass of its statement.
 areFirst :: [MillingPass] -> [Bool]
 areFirst passes =
   zipWith (/=) (map (Just . passNumber) passes) (Nothing : map (Just . passNumber) passes)

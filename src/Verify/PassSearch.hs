@@ -1,9 +1,11 @@
 -- | Search for one cut along a contour on the tape: the motions that go along the contour from its
 -- start to its end, in the direction of travel.
 --
--- The search looks for arrivals at the start of the cut. From each of them it follows the contact
--- point of the cutter along the contour. The first arrival from which the contact point comes to
--- the end is the cut.
+-- An /arrival/ is a motion that ends at the start of the cut. From each arrival the search follows
+-- the contact point along the contour; this is the point nearest to the cutter's centre. The cut
+-- begins at the first arrival from which the contact point comes to the end of the contour. The
+-- progress of the contact point and its uncertainty, the slack, are defined in
+-- "Verify.ContactMeasure".
 module Verify.PassSearch
   ( FoundPass (..),
     motionsOf,
@@ -40,19 +42,20 @@ data FoundPass
   | -- | The start is not reached.
     Missing
 
--- | All motions of a cut: the arrival and those along the contour.
+-- | All motions of a cut: the arrival and the motions along the contour.
 motionsOf :: FoundPass -> [CutterMotion]
 motionsOf found = case found of
   Complete arrival along -> arrival <> along
   Incomplete arrival along -> arrival <> along
   Missing -> []
 
--- | Motion that arrives at the start of the cut, if there is one, and all motions after it.
+-- | Motion that arrives at the start of the cut, in a list that is empty if it is unknown; and all
+-- later motions.
 type Arrival = ([CutterMotion], [CutterMotion])
 
--- | Find a cut among motions at its height. @at@ is the position of the cutter's centre before the
--- first motion, if it is already at this height. The contact points of a partial cut are not
--- followed, because partial cuts that almost touch seem to be one.
+-- | Find a cut among the motions at its height. @at@ is the position of the cutter's centre before
+-- the first motion; Nothing if the cutter is not yet at that height. The contact points of a
+-- partial cut are not followed, because partial cuts that almost touch look like a single one.
 find :: MillingJob -> Maybe Point -> [CutterMotion] -> FoundPass
 find job at motions = case (complete, filter (staysBeside job . snd) arrivals <> arrivals) of
   (found : _, _) -> found
@@ -69,8 +72,8 @@ find job at motions = case (complete, filter (staysBeside job . snd) arrivals <>
       ]
 
 -- | Arrivals at the start of a cut, in the order of the tape. The arriving motion is unknown if the
--- cutter was at the start already, or came from another height. A line that ends nearer to the
--- start than it begins is the last part of an approach that was divided for braking.
+-- cutter was at the start already, or came from another height. A line may begin near the start and
+-- end still nearer: that is the last part of an approach, divided for braking, and not the cut.
 arrivalsIn :: MillingJob -> Maybe Point -> [CutterMotion] -> [Arrival]
 arrivalsIn job at = go Nothing
   where
@@ -88,8 +91,8 @@ arrivalsIn job at = go Nothing
       Straight a b -> Vec.distance b (entry job) < Vec.distance a (entry job)
       Arc {} -> False
 
--- | Test that the cutter touches the contour in all motions up to the end of the cut. This excludes
--- a point where another contour ends, and from which the cutter leaves.
+-- | Test that the cutter touches the contour in all motions up to the end of the cut. False if an
+-- arrival was the end of another contour, from which the cutter moves away.
 staysBeside :: MillingJob -> [CutterMotion] -> Bool
 staysBeside job rest =
   not (null along) && and (zipWith touches along (MillingJob.edgesNearEach job along))
@@ -101,7 +104,7 @@ staysBeside job rest =
       Straight _ _ -> [1]
       Arc {} -> Motion.samples m
 
--- | Test that the cutter with its centre at a point touches one of the elements.
+-- | Test that the cutter with its centre at @p@ touches one of the elements @near@.
 isTouched :: MillingJob -> [Edge] -> Point -> Bool
 isTouched job near p =
   any
@@ -113,15 +116,15 @@ isTouched job near p =
   where
     Mm limit = MillingJob.contactLimit job
 
--- | Test that two positions are equal to the allowance.
+-- | Test that the distance of two positions is within the allowed deviation.
 isNear :: MillingJob -> Point -> Point -> Bool
 isNear job p q = Vec.distance p q <= allowance job
 
--- | Test that a motion ends at a position, to the allowance.
+-- | Test that a motion ends at a position, within the allowed deviation.
 endsNear :: MillingJob -> Point -> CutterMotion -> Bool
 endsNear job p = isNear job p . Segment.end . segment
 
--- | Test that a point is the end of the cut, to its tolerance.
+-- | Test that a point is the end of the cut, within 'exitTolerance'.
 isAtExit :: MillingJob -> Point -> Bool
 isAtExit job p = Vec.distance (exit job) p <= exitTolerance job
 
@@ -135,15 +138,16 @@ isFullCircle m = case segment m of
   Straight _ _ -> False
   Arc {start, end} -> start == end
 
--- | First motions whose frames follow one another on the tape without a gap. A gap in the list is a
--- motion at another height.
+-- | First motions of a list, up to the first gap in the numbers of their frames. At a gap there is
+-- a motion at another height on the tape.
 unbroken :: [CutterMotion] -> [CutterMotion]
 unbroken motions = case motions of
   m : rest@(next : _) | number next <= number m + 1 -> m : unbroken rest
   m : _ -> [m]
   [] -> []
 
--- | Motions up to the next arrival at the end of the cut, and those that stay there.
+-- | Motions up to the first one that ends at the end of the cut, and the motions after it that stay
+-- there.
 untilExit :: MillingJob -> [CutterMotion] -> [CutterMotion]
 untilExit job motions = leaving <> along <> takeWhile (endsAtExit job) (unbroken back)
   where
@@ -156,8 +160,9 @@ untilExit job motions = leaving <> along <> takeWhile (endsAtExit job) (unbroken
 
 -- Following the contact point ---------------------------------------------------------------------
 
--- | Progress of the cutter along a contour: the number of motions, the arc length of the contact
--- point in mm, the position of the centre, the last motion if there is one.
+-- | Progress of the cutter along a contour: the count of motions so far, the arc length of the
+-- contact point in mm, and the position of the centre. @latest@ is the last motion, or empty before
+-- the first one.
 data Progress = Progress
   { count :: Int,
     travelled :: Double,
@@ -165,19 +170,20 @@ data Progress = Progress
     latest :: [CutterMotion]
   }
 
--- | Number of the motions that follow the contour to its end. Nothing if they leave the contour,
--- reverse on it, or stop before its end.
+-- | Count of the first motions, those that follow the contour to its end. Nothing if the motions
+-- leave the contour, reverse on it, or stop before its end.
 countFollowing :: MillingJob -> Measure -> [CutterMotion] -> Maybe Int
 countFollowing job measure motions =
   follow job measure (Progress 0 0 (entry job) []) motions (MillingJob.edgesNearEach job motions)
 
--- | Follow the contact point through more motions. @near@ has the elements within reach of each
--- motion. The result is the number of motions up to the end of the cut, with those before.
+-- | Follow the contact point through the motions that remain. @near@ has, for each of them, the
+-- elements that the cutter may touch. The result is the count of all motions up to the end of the
+-- cut; Nothing as for 'countFollowing'.
 follow :: MillingJob -> Measure -> Progress -> [CutterMotion] -> [[Edge]] -> Maybe Int
 follow job measure progress motions near
   | hasArrived =
-    -- If the cutter does not touch the elements between two contacts, the contour only comes close
-    -- to its own end there. Then it is followed on, if that is possible.
+    -- If contacts lie on elements that are not neighbours, the contour may only pass close to its
+    -- own end here. Then the search goes on, and ends here only if that fails.
     if areNeighbours job ahead then ended else onwards <|> ended
   | otherwise = onwards
   where
@@ -205,8 +211,8 @@ follow job measure progress motions near
             others
       _ -> Nothing
 
--- | Arc length of the contact point after a motion; nothing if the cutter leaves the contour or
--- goes back on it.
+-- | Arc length in mm of the contact point after the motion @m@, from the arc length before it.
+-- Nothing if the cutter leaves the contour or goes back on it.
 afterMotion :: MillingJob -> Measure -> [Edge] -> CutterMotion -> Double -> Maybe Double
 afterMotion job measure near m = go . Sample 1
   where
@@ -223,7 +229,8 @@ afterMotion job measure near m = go . Sample 1
 -- | Sample of a motion, counted from 1, and the arc length of the contact point before it, in mm.
 data Sample = Sample Int Double
 
--- | Smallest step along the contour to one of the contact points; ∞ if there is none.
+-- | Smallest signed step in mm along the contour, from @arcLength@ to a contact point of a cutter
+-- with its centre at @p@; ∞ if no contact point is ahead or within the slack behind.
 smallestStep :: MillingJob -> Measure -> [Edge] -> Double -> Point -> Double
 smallestStep job measure near arcLength p = FastContact.foldContacts job near p smaller (1 / 0)
   where
@@ -231,9 +238,9 @@ smallestStep job measure near arcLength p = FastContact.foldContacts job near p 
       let d = stepTo measure arcLength s
        in if d >= negate (slack measure) && abs d < abs least then d else least
 
--- | Contact points at the present position that are no further back than the slack allows, nearest
--- first. Each has its step along the contour, from the arc length so far, and the number of its
--- element.
+-- | Contact points at the present position that are ahead, or back by no more than the slack. Each
+-- is given by its signed step in mm from the arc length so far, and by the number of its element,
+-- from 0. The list is sorted by the step.
 contactsAhead :: MillingJob -> Measure -> Progress -> [(Double, Int)]
 contactsAhead job measure progress =
   sortOn
@@ -246,7 +253,8 @@ contactsAhead job measure progress =
   where
     p = position progress
 
--- | Test that each two successive contacts are on the same element or on neighbours.
+-- | Test that each two successive contacts are on the same element or on neighbouring elements. The
+-- contacts are those of 'contactsAhead'.
 areNeighbours :: MillingJob -> [(Double, Int)] -> Bool
 areNeighbours job found =
   and
@@ -256,8 +264,8 @@ areNeighbours job found =
         (drop 1 found)
     )
 
--- | Signed step from one arc length to another, in mm. On a closed contour, the shorter of the two
--- ways round counts.
+-- | Signed step between two arc lengths, in mm. On a closed contour it is measured in that
+-- direction in which it is shorter.
 stepTo :: Measure -> Double -> Double -> Double
 stepTo measure from to
   | isClosed measure =

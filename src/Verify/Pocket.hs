@@ -1,4 +1,6 @@
--- | Pockets of a toolpath as the part demands them, with the passes that clear them.
+-- | Pockets of a toolpath as the part demands them, with the passes that clear them. The /walls/ of
+-- a pocket are the elements of its outline and of its islands. The /rim/ is the border of the
+-- region that the cutter's centre may enter in the final pass.
 module Verify.Pocket
   ( Pocket (..),
     ClearingPass (..),
@@ -50,12 +52,11 @@ data Pocket = Pocket
     milling :: Milling,
     -- | side of the walls on which material is removed, in the direction of travel along them
     side :: Side,
-    -- | elements of the outline and of the islands
+    -- | elements of the outline and of the islands, with numbers from 0
     walls :: BoxTree Edge,
     -- | bounding box of the outline
     bounds :: BoundingBox,
-    -- | border of the region that the cutter's centre may enter in the final pass, in segments;
-    -- each comes with the element of the walls to which it runs parallel
+    -- | segments of the rim, each with the wall to which it runs parallel
     rim :: [(Element, Segment)],
     -- | distance of the rim from the walls
     rimDistance :: Mm,
@@ -64,23 +65,23 @@ data Pocket = Pocket
 
 -- | Pass of a pocket at one depth.
 data ClearingPass = ClearingPass
-  { -- | number among all passes of the toolpath
+  { -- | number among all passes of the toolpath, from 0
     passIndex :: Int,
     -- | height of the cutter; the top of the part is 0
     level :: Mm,
     -- | distance of the cutter's centre from the walls
     reach :: Mm,
-    -- | true of a pass that leaves the last of the statement's allowances
+    -- | true if the pass leaves the last one in the statement's list of allowances
     isFinal :: Bool,
-    -- | linking moves before and after it
+    -- | linking moves before and after the pass
     linkingMoves :: [Segment]
   }
 
--- | Clearing block of a toolpath: its number among all passes, the statement, the pass, the linking
--- moves.
+-- | Clearing block of a toolpath: its number among all passes from 0, the statement, the pass, and
+-- the linking moves.
 data Clearing = Clearing Int (Located Pocketing) Toolpath.Pass [Segment]
 
--- | Pockets of the blocks of a toolpath. A statement that is carried out twice has two.
+-- | Pockets of the blocks of a toolpath. A statement that is executed twice makes two pockets.
 pocketsOf :: [Block] -> [Pocket]
 pocketsOf blocks = map pocketOf (NonEmpty.groupBy ((==) `on` statementNumber) clearings)
   where
@@ -98,7 +99,7 @@ pocketsOf blocks = map pocketOf (NonEmpty.groupBy ((==) `on` statementNumber) cl
             zip (Toolpath.passNumbers blocks) blocks
       ]
 
--- | Pocket that one statement clears in these passes.
+-- | Pocket that one statement clears, from the blocks of its passes.
 pocketOf :: NonEmpty Clearing -> Pocket
 pocketOf clearings@(Clearing _ (Located statement pocketing) _ _ :| _) =
   Pocket {statement, milling, side, walls, bounds, rim, rimDistance, passes}
@@ -145,8 +146,9 @@ wallsOf elements =
       | (rank, e) <- zip [0 ..] elements
     ]
 
--- | Rim of a pocket at a distance from its walls. Where two walls almost touch, a point beside one
--- of them may lie beyond the other; such parts are left out.
+-- | Rim of a pocket at a distance from its walls. Each segment comes with the wall to which it runs
+-- parallel. Where two walls almost touch, a segment beside one of them may lie outside of the
+-- pocket, beyond the other; it is left out.
 rimOf :: Side -> Mm -> BoxTree Edge -> [[Element]] -> [(Element, Segment)]
 rimOf side distance walls contours =
   [ (elements Vector.! i, s)
@@ -157,8 +159,9 @@ rimOf side distance walls contours =
     elements = Vector.fromList (concat contours)
     segments = BoxTree.index BoundingBox.ofSegment (map Part.segment (concat contours))
 
--- | Room that a passage must have besides the cutter's width before the proof demands that it be
--- cut. Where the cutter just fits, rounding may have closed the passage.
+-- | Extra distance of the rim from the walls. The proof demands a cut between two walls only if
+-- their distance exceeds the cutter's width by twice this length. In a narrower passage the cutter
+-- just fits, and rounding may prevent the toolpath from entering.
 spareRoom :: Mm
 spareRoom = times 3 Tolerance.clearance
 
@@ -170,7 +173,7 @@ contains pocket = isInside (side pocket) (walls pocket)
 isInside :: Side -> BoxTree Edge -> Point -> Bool
 isInside side walls p = maybe False (isOnFreeSide side walls p . snd) (nearestWall walls p)
 
--- | Wall nearest to a point, with its distance.
+-- | Wall nearest to a point, with its distance; Nothing without walls.
 nearestWall :: BoxTree Edge -> Point -> Maybe (Mm, Edge)
 nearestWall walls p =
   BoxTree.closest
@@ -178,16 +181,17 @@ nearestWall walls p =
     p
     walls
 
--- | Test that a point lies on the side of a wall on which the pocket is. @e@ has to be the element
--- nearest to the point. At a corner both of its elements count.
+-- | Test that the point @p@ lies on the side of the wall @e@ on which the pocket is. @e@ has to be
+-- the wall nearest to @p@. If the nearest point of @e@ is a corner, both walls of the corner
+-- decide.
 isOnFreeSide :: Side -> BoxTree Edge -> Point -> Edge -> Bool
 isOnFreeSide side walls p e = (Edge.leftwardness walls foot p > 0) == (side == LeftOf)
   where
     foot = snd (Distance.nearest p (Edge.shape e))
 
--- | Test that motions cut the depths of a pocket in the order of its passes. A depth counts as cut
--- at a horizontal motion in the pocket. Where the cutter has less than a pulse of room, a depth has
--- no such motion; then a vertical motion down to it counts.
+-- | Test that motions cut the depths of a pocket in the order of its passes. A depth is cut when
+-- the first horizontal motion in the pocket occurs at that depth. If the cutter has less than a
+-- pulse of room, there is no such motion. Then a vertical motion down to the depth counts.
 isInOrder :: Machine -> Pocket -> [CutterMotion] -> Bool
 isInOrder machine pocket motions =
   go (map NonEmpty.head (NonEmpty.group (map level (NonEmpty.toList (passes pocket))))) motions

@@ -45,9 +45,9 @@ import Verify.PocketFloor qualified as PocketFloor
 import Verify.Proof (ContourProof (ContourProof), Finding (NotCleared), Witness (Witness))
 import Verify.Proof qualified as Proof
 
--- | Compare the tape with one pass of a pocket. The predicate is true of the motions of this pass.
--- The flag is true of the first pass of the pocket: then all motions near the pocket are examined
--- for gouges, otherwise only those of the pass.
+-- | Compare the tape with one pass of a pocket. @isInPass@ is true of the motions of this pass. If
+-- @isFirst@ is true, it is the first pass of the pocket, and all motions near the pocket are
+-- examined for gouges. Otherwise only the motions of the pass are.
 examine ::
   MotionSet ->
   (CutterMotion -> Bool) ->
@@ -87,8 +87,8 @@ examine set isInPass pocket isFirst pass = (contourProof, findings)
         <> Deviation.excessFindings allowedExcess tooMuch largest
         <> (if null tooMuch then floorFindings pocket pass allowedExcess clearing else [])
 
--- | Finding for a position on the floor that the final pass leaves uncleared. None for an earlier
--- pass.
+-- | Finding for a position on the floor that the final pass leaves uncleared; empty if there is
+-- none or if the pass is not final. @clearing@ are the motions that clear the floor.
 floorFindings :: Pocket -> ClearingPass -> Mm -> [CutterMotion] -> [Finding]
 floorFindings pocket pass allowedExcess clearing =
   [ NotCleared (statement pocket) (level pass) p
@@ -102,8 +102,8 @@ floorFindings pocket pass allowedExcess clearing =
           )
   ]
 
--- | Allowed gouge and allowed excess of a pocket: the tolerance plus one pulse. The excess also
--- includes 'Pocket.spareRoom', by which the rim is further from the walls.
+-- | Allowed gouge and allowed excess of a pocket: the tolerance plus one pulse. The allowed excess
+-- also includes 'Pocket.spareRoom', the extra distance of the rim from the walls.
 allowedIn :: MotionSet -> Pocket -> (Mm, Mm)
 allowedIn set pocket =
   (plus inside pulse, plus (plus (max inside outside) pulse) Pocket.spareRoom)
@@ -112,9 +112,10 @@ allowedIn set pocket =
     (inside, outside) = Deviation.allowedDeviation isCurved (milling pocket)
     isCurved = any Part.continues (Part.elements (Part.contour (milling pocket)))
 
--- | Motions that clear the floor in a pass: those at its height, with a cutter at least as large as
--- that of the pocket. If one of them starts in the bounding box of the pocket, motions further from
--- the box than its diagonal are left out, because they are not the nearest ones of any point in it.
+-- | Motions that clear the floor in a pass: the motions at the height of the pass, with a cutter at
+-- least as large as that of the pocket. If one of them starts in the bounding box of the pocket,
+-- the motions further from the box than its diagonal are left out: that one is nearer to any point
+-- in the box.
 clearingMotions :: MotionSet -> Pocket -> ClearingPass -> [CutterMotion]
 clearingMotions set pocket pass
   | any (startsInBounds . segment) around = around
@@ -132,7 +133,8 @@ clearingMotions set pocket pass
     diagonal (BoundingBox left bottom right top) =
       Mm (Vec.norm (Vec.vec (right - left) (top - bottom)))
 
--- | Deepest gouge of some motions into the walls of a pocket, if there is one.
+-- | Deepest gouge of some motions into the walls of a pocket; Nothing if there is none. @keepOut@
+-- gives the distance that a motion has to keep from the walls.
 deepestGouge :: (CutterMotion -> KeepOut) -> Pocket -> [CutterMotion] -> Maybe Witness
 deepestGouge keepOut pocket = foldl' orDeeper Nothing
   where
@@ -145,8 +147,9 @@ deepestGouge keepOut pocket = foldl' orDeeper Nothing
         (BoundingBox.inflate (searchRadius (keepOut m)) (Motion.box m))
         (walls pocket)
 
--- | Excess on the parts of a rim: the largest distance of each part from the motions. An excess
--- within the allowance is only listed if it is larger than all before it.
+-- | Excess on the segments of a rim: the largest distance of each segment's points from the
+-- motions. @allowance@ is the allowed excess. An excess within it is only listed if it is larger
+-- than those of all segments before.
 unreached :: Mm -> BoxTree CutterMotion -> [(Element, Segment)] -> [Witness]
 unreached allowance motions = go (Mm 0)
   where

@@ -1,9 +1,9 @@
 -- | Search for material that a tape leaves on the floor of a pocket: a position that the cutter's
--- centre may take, but that no motion comes near enough to.
+-- centre may take, but that is further than the cutter's radius from every motion.
 --
--- The search starts with a square around the pocket. A square is settled if one motion clears all
--- of it, if two motions clear it together, or if the centre may take no position in it. Any other
--- square is divided into four, down to 'floorResolution' (a quadtree).
+-- The search starts with a square around the pocket. A square needs no division if one motion
+-- clears all of it, if two motions clear it together, or if the centre may take no position in it.
+-- Any other square is divided into four, down to 'floorResolution' (a quadtree).
 module Verify.PocketFloor
   ( unclearedPoint,
   )
@@ -32,8 +32,8 @@ data Square = Square {centreX :: Double, centreY :: Double, half :: Double}
 -- height.
 data Floor = Floor {pocket :: Pocket, radius :: Double, motions :: BoxTree CutterMotion}
 
--- | Position that the cutter's centre may take, but that is further than a distance from all
--- motions; nothing if there is none. A position that is too far by less than 'floorResolution' may
+-- | Position that the cutter's centre may take, but that is further than @radius@ from every
+-- motion; Nothing if there is none. A position that is further by less than 'floorResolution' may
 -- be missed.
 unclearedPoint :: Pocket -> Mm -> BoxTree CutterMotion -> Maybe Point
 unclearedPoint pocket (Mm radius) motions =
@@ -51,8 +51,9 @@ unclearedPoint pocket (Mm radius) motions =
   where
     BoundingBox left bottom right top = Pocket.bounds pocket
 
--- | Uncleared positions in a square. The hint consists of the paths of a motion that may clear the
--- square. The flag is true of a square that is known to lie inside the pocket.
+-- | Uncleared positions in a square. @hint@ has the paths of the motion that is nearest to the
+-- centre of the larger square around it, because this motion often clears it. @isKnownInside@ is
+-- true if the square is known to lie inside the pocket.
 unclearedIn :: Floor -> Maybe [Segment] -> Bool -> Square -> [Point]
 unclearedIn floor' hint isKnownInside square@Square {centreX = x, centreY = y, half}
   | corner < radius floor', Just paths <- hint, covers paths = []
@@ -82,10 +83,10 @@ unclearedIn floor' hint isKnownInside square@Square {centreX = x, centreY = y, h
     covers paths = rangeOf x y paths + corner <= tolerantRadius floor'
     isSharedBy = isCoveredByTwo floor' square
 
--- | Test that two lines clear a square together: the motion with these paths, and the motion
--- nearest to the corner that is furthest from them. The distance from a line is a convex function
--- of the point, and so is the mean of two such distances. On a square, the mean is therefore
--- largest at a corner. Where the mean is within the radius, so is the smaller of the two distances.
+-- | Test that two lines clear a square together: the motion with the paths @paths@, and the motion
+-- nearest to the corner of the square that is furthest from @paths@. The distance from a line is a
+-- convex function of the point, and so is the mean of two such distances. On a square, the mean is
+-- therefore largest at a corner. Where the mean is within the radius, so is the smaller distance.
 isCoveredByTwo :: Floor -> Square -> [Segment] -> Bool
 isCoveredByTwo floor' Square {centreX, centreY, half} paths =
   all FastDistance.isLine paths && case nearestMotion floor' farX farY of
@@ -106,15 +107,16 @@ quarters Square {centreX, centreY, half} =
   where
     h = half / 2
 
--- | Directions from the centre of a square to its corners.
+-- | Vectors from the centre of a square to its corners, in units of half its side.
 diagonals :: [(Double, Double)]
 diagonals = [(-1, -1), (1, -1), (1, 1), (-1, 1)]
 
--- | Radius plus 'floorResolution': a smallest square counts as cleared if its centre is cleared.
+-- | Radius plus 'floorResolution', in mm. With this tolerance, one cleared centre is enough for a
+-- square that is too small to be divided.
 tolerantRadius :: Floor -> Double
 tolerantRadius floor' = let Mm finest = floorResolution in radius floor' + finest
 
--- | Bounding paths of the motion nearest to a point, if there are motions.
+-- | Bounding paths of the motion nearest to the point @(x, y)@; Nothing without motions.
 nearestMotion :: Floor -> Double -> Double -> Maybe [Segment]
 nearestMotion floor' x y =
   Motion.pathList . snd
@@ -123,11 +125,12 @@ nearestMotion floor' x y =
       (Vec.point x y)
       (motions floor')
 
--- | Distance in mm from a point to the furthest of some paths.
+-- | Distance in mm from the point @(x, y)@ to that one of the paths which is furthest from the
+-- point.
 rangeOf :: Double -> Double -> [Segment] -> Double
 rangeOf x y = foldl' (\d path -> max d (FastDistance.distance path x y)) 0
 
--- | Distance from the centre to the corners of the smallest squares. A position may be further from
--- the motions than the radius by this much and still count as cleared.
+-- | Distance from the centre to the corners of the smallest squares. A position that is further
+-- from the motions than the radius by this distance still counts as cleared.
 floorResolution :: Mm
 floorResolution = Mm 0.02

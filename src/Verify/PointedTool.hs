@@ -1,10 +1,10 @@
--- | Gouges of a turning tool without nose radius.
+-- | Gouges of a pointed turning tool, that is, of one with nose radius 0.
 --
--- The tip of such a tool lies on the contour itself, so its distance does not show on which side of
--- the contour it is. A motion is therefore divided where it crosses the contour; each part lies on
--- one side, that of the tool or that of the material. On the side of the material, the largest
--- distance of the part from the contour is the depth of the gouge. Beyond the ends of an open
--- contour there is no side: the motion is also divided at the normals there.
+-- The tip of such a tool lies on the contour itself, so its distance from the contour does not show
+-- a gouge. A motion is therefore divided where it crosses the contour. Each part lies on one side:
+-- that of the tool or that of the material. On the side of the material, the largest distance of
+-- the part from the contour is the depth of the gouge. Beyond the ends of an open contour there is
+-- no side, so the motion is also divided at the normals at these ends.
 module Verify.PointedTool
   ( gougeOf,
   )
@@ -37,8 +37,9 @@ import Verify.Motion qualified as Motion
 import Verify.Proof (Witness (Witness))
 import Verify.Proof qualified as Proof
 
--- | Deepest gouge of a motion into the material beside a contour, if there is one. The tool has to
--- stay on @side@ of the contour. The search for the depth begins at @allowance@.
+-- | Deepest gouge of the motion @m@ into the material beside a contour; Nothing if there is none.
+-- The tool has to stay on @side@ of the contour. @allowance@ is the first depth that the search
+-- tries.
 gougeOf :: Side -> Contour -> BoxTree Edge -> Mm -> CutterMotion -> Maybe Witness
 gougeOf side contour edges allowance m =
   Proof.deepest (concatMap onPath (NonEmpty.toList (Motion.paths m)))
@@ -76,7 +77,7 @@ gougeOf side contour edges allowance m =
           Proof.location
         }
 
--- | Parts into which some of its points divide a segment. Parts of negligible length are left out.
+-- | Parts into which some points on a segment divide it. Parts of negligible length are left out.
 divided :: [Point] -> Segment -> [Segment]
 divided points s =
   [part a b | (a, b) <- zip marks (drop 1 marks), b - a > Tolerance.negligibleShare]
@@ -86,8 +87,8 @@ divided points s =
       let upTo = if b < 1 then fst (Segment.cutAt b s) else s
        in if a > 0 then snd (Segment.cutAt (a / b) upTo) else upTo
 
--- | Lines square to an open contour at both of its ends; they extend by 'Tolerance.reach' to either
--- side. None for a closed contour.
+-- | Normals of an open contour at both ends, as lines that extend by 'Tolerance.reach' to either
+-- side. Empty for a closed contour.
 normals :: Contour -> [Segment]
 normals contour = case Part.ends contour of
   Part.Closed -> []
@@ -103,8 +104,9 @@ normals contour = case Part.ends contour of
           n = Vec.scale far (Vec.left d)
        in Straight (Vec.shift (Vec.negate n) p) (Vec.shift n p)
 
--- | Part of a motion that does not cross the contour, with its side. If the middle of the part has
--- no side, the part is divided into eight, and those of them that have a side are listed.
+-- | Side of the segment @s@, a part of a motion that does not cross the contour. It is the side of
+-- the middle of @s@. If the middle has no side, @s@ is divided into eight, and those eighths that
+-- have a side are listed.
 sided :: Contour -> BoxTree Edge -> Segment -> [(Side, Segment)]
 sided contour edges s = case sideOf contour edges (Segment.at 0.5 s) of
   Just side -> [(side, s)]

@@ -47,13 +47,14 @@ data Witness = Witness
   }
   deriving stock (Eq, Show)
 
--- | Larger one of two deviations; the first one if they are equal.
+-- | Larger of two deviations; the first one if they are equal. If the first one is Nothing, it is
+-- the second one.
 deeper :: Maybe Witness -> Witness -> Witness
 deeper best w = case best of
   Just b | amount b >= amount w -> b
   _ -> w
 
--- | Largest deviation; the first one of those that are equal.
+-- | Largest deviation, and of several equal ones the first; Nothing for an empty list.
 deepest :: [Witness] -> Maybe Witness
 deepest = foldl' (\best w -> Just (deeper best w)) Nothing
 
@@ -64,7 +65,7 @@ data ContourProof = ContourProof
     gouge :: Maybe Witness,
     -- | largest excess; nothing if no material remains
     excess :: Maybe Witness,
-    -- | allowed deviations into the material and out of it: the tolerance and one pulse
+    -- | allowed deviations into the part and away from it: the tolerance plus one pulse each
     allowedGouge :: Mm,
     allowedExcess :: Mm
   }
@@ -79,18 +80,21 @@ data Proof = Proof
     closure :: Pulses3,
     -- | largest increment in one frame, along each axis, without its sign
     largestIncrement :: Pulses3,
-    -- | number of the first frame that differs from the planned one
+    -- | number, from 1, of the first frame that differs from the planned one; Nothing if no frame
+    -- does
     firstDifference :: Maybe Int,
-    -- | in the order of the tape; none if the tape is proven
+    -- | in the order of the tape; empty if the tape is proven
     findings :: [Finding]
   }
   deriving stock (Eq, Show)
 
--- | Fault of a tape.
+-- | Fault of a tape. An 'Int' is the number of a frame, from 1, unless the comment says otherwise.
 data Finding
-  = -- | Gouge: the first frame that cuts too deep, the worst one, the allowed depth.
+  = -- | Gouge: the deviation in the first frame that cuts too deep, the deepest one, the allowed
+    -- depth.
     Gouge Witness Witness Mm
-  | -- | Excess: the first frame that leaves too much, the worst one, the allowed excess.
+  | -- | Excess: the deviation in the first frame that leaves too much, the largest one, the allowed
+    -- excess.
     Excess Witness Witness Mm
   | -- | The cutter runs along an element on its wrong side: the frame, the element.
     WrongSide Int Region
@@ -117,15 +121,15 @@ data Finding
     WrongCommand Int CommandName (Maybe Int) (Maybe Int)
   | -- | The control refuses a frame.
     Refused Refusal
-  | -- | The cutter is too fast at the end of a frame to slow down for the frames after it: its
-    -- speed, the largest possible one.
+  | -- | The cutter is too fast at the end of a frame to slow down for the frames after it: the
+    -- frame, the speed there, the largest speed that is possible there.
     TooFast Int Feed Feed
-  | -- | The tape does not end where it has to: the difference.
+  | -- | The tape does not end where it has to: its last position minus the required one, in pulses.
     NotClosed Pulses3
   deriving stock (Eq, Show)
 
--- | Sort key of findings: the frame, and an order of importance within a frame. Findings without a
--- frame come first, a wrong end last.
+-- | Sort key of findings: the number of the frame, and a rank by importance within the frame.
+-- Findings without a frame come first, a wrong last position comes last.
 tapeOrder :: Finding -> (Int, Int)
 tapeOrder finding = case finding of
   Gouge w _ _ -> (frame w, 0)
@@ -144,8 +148,8 @@ tapeOrder finding = case finding of
   Refused refusal -> (refusedFrame refusal, 8)
   NotClosed _ -> (maxBound, 9)
 
--- | Test that a finding means that the cutter leaves the band around a contour or a pocket. A wrong
--- last position is then a consequence, and no finding of its own.
+-- | Test that a finding means that the cutter leaves a contour or a pocket. A wrong last position
+-- is then a consequence, and is not reported.
 isOffContour :: Finding -> Bool
 isOffContour finding = case finding of
   Gouge {} -> True
@@ -164,7 +168,8 @@ isOffContour finding = case finding of
   Refused _ -> False
   NotClosed {} -> False
 
--- | Speed of a frame: a rapid motion or a feed code; with braking, the speed at its end.
+-- | Speed of a frame: the feed code, or rapid if @rapidly@ is true. If @braking@ is true, it is the
+-- speed at the end of the frame.
 data Speed = Speed {rapidly :: Bool, code :: FeedCode, braking :: Bool}
   deriving stock (Eq, Show)
 
@@ -172,10 +177,10 @@ data Speed = Speed {rapidly :: Bool, code :: FeedCode, braking :: Bool}
 data Refusal
   = -- | A rule of the frames is broken.
     ByRule Violation
-  | -- | The radii of an arc differ: the frame, the end radius less the start radius.
+  | -- | The radii of an arc differ: the number of the frame, the end radius minus the start radius.
     UnequalRadii Int Mm
-  | -- | The end of an arc lies at its centre, or in the direction of its start from the centre but
-    -- at another distance.
+  | -- | An arc has no sweep; the number of its frame. Its end lies at its centre, or, as seen from
+    -- the centre, in the direction of its start but at another distance.
     NoSweep Int
   | -- | Cutter compensation fails.
     NotCompensated CompensationError
@@ -185,7 +190,8 @@ data Refusal
 isProven :: Proof -> Bool
 isProven = null . findings
 
--- | Reports of all findings. Each names the first frame that differs from the planned one.
+-- | Reports of all findings. Each report names the first frame that differs from the planned one,
+-- if there is one.
 toReports :: Machine -> Proof -> [Report]
 toReports machine proof = map (withDifference . toReport machine) (findings proof)
   where
@@ -380,7 +386,7 @@ refusalWords refusal = case refusal of
       Machine.Y -> "y"
       Machine.Z -> "z"
 
--- | Words of 'refusalWords' for cutter compensation.
+-- | Result of 'refusalWords' for a failure of cutter compensation.
 compensationWords :: CompensationError -> (Int, Text, [Text])
 compensationWords err = case err of
   ShortEntry n l r ->

@@ -1,8 +1,10 @@
--- | Parts of a contour that a cutter can touch at all, for a program that allows rest material.
+-- | Parts of a contour that a cutter can touch at all. The proof needs them for a program that
+-- allows rest material.
 --
--- A cutter touches a point of an element if its centre is at its radius from the element, on the
--- normal there, and no other element is nearer to the centre. The test looks at one element and its
--- surroundings at a time, by distances. It uses nothing of the trimming that made the toolpath.
+-- A cutter can touch a point of an element if no other element is nearer to the centre than the
+-- cutter's radius; the centre is then on the normal of that point, at the radius from it. The test
+-- looks at one element and its surroundings at a time, by distances. It is independent of the
+-- trimming that made the toolpath.
 module Verify.Reachability
   ( KeptDistance (..),
     parts,
@@ -24,19 +26,19 @@ import Geometry.Tolerance qualified as Tolerance
 import Geometry.Vec qualified as Vec
 import Offset.Tolerance qualified as Tolerance
 
--- | Segments of a contour, with the distance that the cutter's centre keeps from all of them: its
--- radius plus their allowance.
+-- | Segments of a contour with equal allowance. The centre keeps the same distance from all of
+-- them: the cutter's radius plus this allowance.
 data KeptDistance = KeptDistance {distanceKept :: Mm, segments :: BoxTree Segment}
 
--- | Interval of a segment, as fractions of its length.
+-- | Interval of a segment: its beginning and end as fractions of the segment's length, from 0 to 1.
 type Interval = (Double, Double)
 
 -- Elements ----------------------------------------------------------------------------------------
 
--- | Parts of an element that a cutter can touch with its centre at a distance from the element, on
--- a side of it. @others@ are all segments of the contour, by the distance kept from them. A segment
--- with a larger distance only counts for centres on its normals: beside its ends the toolpath steps
--- back to the smaller distance.
+-- | Parts of an element that a cutter can touch with its centre on @side@ of the element, at
+-- @distance@ from it. @others@ are all segments of the contour, grouped by the distance kept from
+-- them. A segment with a larger distance only limits centres that lie on its normals, because
+-- beside its ends the toolpath steps back to the smaller distance.
 parts :: Side -> Mm -> [KeptDistance] -> Segment -> [Segment]
 parts side distance others element = case Segment.offset side distance element of
   Nothing -> []
@@ -46,8 +48,9 @@ parts side distance others element = case Segment.offset side distance element o
         b - a > Tolerance.negligibleShare
     ]
 
--- | Parts of the intervals @free@ in which no segment with this kept distance is too near to the
--- centre of the cutter. @centres@ is the path of the centre along the element.
+-- | Parts of the intervals @free@ in which the centre of the cutter is not too near to the segments
+-- @others@. @kept@ is the distance that the centre keeps from them. @centres@ is the path of the
+-- centre along the element, at @distance@ on @side@.
 freeOf :: Side -> Mm -> Segment -> Segment -> [Interval] -> KeptDistance -> [Interval]
 freeOf side distance element centres free (KeptDistance kept others) =
   case compare kept distance of
@@ -61,13 +64,14 @@ freeOf side distance element centres free (KeptDistance kept others) =
       BoundingBox.union (BoundingBox.ofSegment element) (BoundingBox.ofSegment centres)
     common xs ys = [(max a c, min b d) | (a, b) <- xs, (c, d) <- ys, max a c < min b d]
 
--- | Distance below which a centre counts as too near: less by half of 'Tolerance.clearance'. The
--- toolpath uses this clearance where the cutter just fits.
+-- | Distance below which a centre is too near, where the distance @d@ has to be kept. It is smaller
+-- than @d@ by half of 'Tolerance.clearance', so that rounding decides nothing where the cutter just
+-- fits.
 roomy :: Mm -> Mm
 roomy d = minus d (times 0.5 Tolerance.clearance)
 
--- | Parts of an interval in which no other segment lies between the element and the centre. Only a
--- segment with a smaller distance can lie there.
+-- | Parts of an interval in which none of the segments @near@ lies between the element and the path
+-- @centres@. Only segments with a smaller kept distance can lie there.
 onThisSide :: Segment -> Segment -> [Segment] -> Interval -> [Interval]
 onThisSide element centres near (a, b) =
   [ (from, to)
@@ -105,7 +109,7 @@ withoutNormals side kept near centres (a, b) =
           border <- bordersOf s,
           p <- Distance.intersections centres border
       ]
-    -- Border of the region of too near centres: the offset, and the normals at both ends.
+    -- Border of the region in which centres are too near to @s@: its offset and its end normals.
     bordersOf s = case Segment.offset side kept s of
       Nothing -> []
       Just offset ->
@@ -115,7 +119,8 @@ withoutNormals side kept near centres (a, b) =
         ]
     isAbove p s = Segment.hasFootOf s p && Distance.toPoint p s < roomy kept
 
--- | Interval, divided at the marks inside it.
+-- | Intervals into which the marks inside an interval divide it. A mark is a fraction like the
+-- interval's ends.
 dividedAt :: [Double] -> Interval -> [Interval]
 dividedAt marks (a, b) = zip (a : inside) (inside <> [b])
   where
@@ -123,10 +128,11 @@ dividedAt marks (a, b) = zip (a : inside) (inside <> [b])
 
 -- Pockets -----------------------------------------------------------------------------------------
 
--- | Border of the region of all centres on a side of closed contours and at a distance or more from
--- them. It consists of offsets of the segments and of arcs round outer corners, without those parts
--- that are too near to a segment. Each comes with the number of its segment, counted from 0 over
--- all contours. @segments@ are the same segments in a tree.
+-- | Border of the region of all centres on @side@ of closed contours that have at least @distance@
+-- from them. It consists of offsets of the segments and of arcs round outer corners, without the
+-- parts that are too near to a segment. Each curve of the border comes with the number of the
+-- segment to which it belongs, counted from 0 over all contours. @segments@ is a tree of all
+-- segments of the contours.
 rim :: Side -> Mm -> BoxTree Segment -> [[Segment]] -> [(Int, Segment)]
 rim side distance segments contours =
   concatMap free (concat (zipWith around firstNumbers contours))
@@ -151,7 +157,7 @@ rim side distance segments contours =
 
 -- Offsets -----------------------------------------------------------------------------------------
 
--- | Part of a segment between two fractions of its length.
+-- | Part of the segment @s@ between the fractions @a@ and @b@ of its length.
 part :: Segment -> Double -> Double -> Segment
 part s a b
   | a <= 0 && b >= 1 = s
@@ -163,8 +169,8 @@ part s a b
 smallestTurn :: Double
 smallestTurn = 1e-9
 
--- | Path of the centre round the corner between two segments: an arc about the corner, if the
--- contour turns away from the cutter there.
+-- | Path of the centre round the corner between @s@ and @next@: an arc about the corner. Nothing if
+-- the contour does not turn away from the cutter there.
 outerCorner :: Side -> Mm -> Segment -> Segment -> Maybe Segment
 outerCorner side distance s next
   | Carrier.sideSign side * t < negate smallestTurn =

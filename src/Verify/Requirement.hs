@@ -1,9 +1,9 @@
 -- | Facts about a milling that the proof works out from the part alone: the side of the cutter, the
--- distance of its centre from the contour, the bevels along a swivelling blade.
+-- distance of its centre from the contour, and the bevels along the path of a swivelling blade.
 --
--- The toolpath stage has functions of its own for the same facts. Nothing is imported from it here:
--- a fault of the toolpath on one of these points makes the tape differ from the part as the proof
--- sees it, and the tape is refused.
+-- The folder "Toolpath" has functions of its own for the same facts. Nothing is imported from them
+-- here, so that the proof notices their mistakes: a tape with a wrong side, distance or bevel then
+-- differs from the part.
 module Verify.Requirement
   ( cutterSide,
     centreDistance,
@@ -30,9 +30,9 @@ import Part.Part qualified as Part
 -- Side and distance -------------------------------------------------------------------------------
 
 -- | Side of the contour on which the cutter has to be, in the direction of travel. Nothing if the
--- cutter runs on the contour, or if an inside is asked of an open contour that has none. A turned
--- profile has the axis of the spindle, @y = 0@, on its inside: a tool that turns outside is on the
--- left if the profile leads to larger x.
+-- cutter runs on the contour, or if the program says inside or outside of an open contour. Only a
+-- turned profile has these sides though it is open: the axis of the spindle, @y = 0@, is inside. So
+-- a tool outside of the profile is on the left if the profile leads to larger x.
 cutterSide :: Milling -> Maybe Carrier.Side
 cutterSide milling = case value (Part.side milling) of
   Part.On -> Nothing
@@ -60,14 +60,14 @@ isCounterClockwise contour = Polyarc.areaOf Part.segment (Part.elements contour)
 isOnContour :: Milling -> Bool
 isOnContour milling = value (Part.side milling) == Part.On
 
--- | Distance of the cutter's centre from the contour, in mm, in a pass that leaves an allowance.
+-- | Distance of the cutter's centre from the contour in a pass that leaves the allowance.
 centreDistance :: Milling -> Mm -> Mm
 centreDistance milling allowance
   | isOnContour milling = allowance
   | otherwise = plus (Part.radius milling) allowance
 
--- | Outline and islands of a pocket, directed so that the pocket lies on the same side of all of
--- them. An island therefore has the sense opposite to that of the outline.
+-- | Outline and islands of a pocket, directed so that the pocket lies on the left of all of them or
+-- on the right of all. An island therefore has the sense opposite to that of the outline.
 facingTheRoom :: Contour -> [Contour] -> [Contour]
 facingTheRoom outline islands = outline : map facing islands
   where
@@ -77,13 +77,13 @@ facingTheRoom outline islands = outline : map facing islands
 
 -- Bevels ------------------------------------------------------------------------------------------
 
--- | Bevel in radians that is known at a position along the contour, in mm.
+-- | Arc length along the contour in mm, and the bevel in radians that is known there.
 data Known = Known Double Double
 
--- | Bevels at the start and at the end of each element, in radians; nothing if no element has one.
--- Between two elements with a bevel, it changes linearly with arc length, on a closed contour also
--- across the start. On an open contour it is constant before the first of them and after the last
--- one.
+-- | Bevels at the start and at the end of each element, in radians; Nothing if no element has a
+-- bevel. Between two elements with a bevel, the bevel changes linearly with arc length; on a closed
+-- contour also across the start. On an open contour, it is constant before the first element with a
+-- bevel and after the last one.
 bevels :: Contour -> Maybe (Vector (Double, Double))
 bevels contour
   | Vector.all (isNothing . Part.bevel) elements = Nothing
@@ -98,8 +98,8 @@ bevels contour
     lengthOf e = let Mm l = Segment.length (Part.segment e) in l
     starts = Vector.imap (\i e -> Known (marks Vector.! i) . fst <$> Part.bevel e) elements
     ends = Vector.imap (\i e -> Known (marks Vector.! (i + 1)) . snd <$> Part.bevel e) elements
-    -- Last known bevel at or before each element, first known one at or after it. On a closed
-    -- contour, those before the first element and after the last one come from across the start.
+    -- Last known bevel at or before each element, and first known bevel at or after it. On a closed
+    -- contour the search for them continues across the start.
     earlier = Vector.postscanl' (flip (<|>)) (overStart (-1) lastOf ends) ends
     later = Vector.postscanr' (<|>) (overStart 1 firstOf starts) starts
     overStart sense pick known = case Part.ends contour of
@@ -108,8 +108,8 @@ bevels contour
     lastOf = Vector.foldl' (flip (<|>)) Nothing
     firstOf = Vector.foldr (<|>) Nothing
 
--- | Bevel at a position between two known ones, linearly interpolated. It is constant where only
--- one is known, and 0 where none is.
+-- | Bevel in radians at the arc length @x@ in mm, interpolated linearly between the known bevels
+-- before and after it. If only one of them is known, it is that one; if none is known, it is 0.
 interpolated :: Maybe Known -> Maybe Known -> Double -> Double
 interpolated before after x = case (before, after) of
   (Just (Known p a), Just (Known q b))

@@ -1,4 +1,5 @@
--- | Radius of the cutter that is in the spindle while a frame is executed.
+-- | Radius of the cutter that is in the spindle while a frame is executed. Planned frames are those
+-- that the compiler made for the program.
 module Verify.SpindleTool
   ( Tools,
     plannedTools,
@@ -35,9 +36,10 @@ toolInFrame tools n = maybe (Mm 0) Mm (tools Vector.!? (n - 1))
 -- | Use of a cutter in a pass on the tape: the numbers of the first and the last frame, the radius.
 data Use = Use Int Int Mm
 
--- | Radius of the cutter in frame @n@ of a tape whose frames are not the planned ones. A frame in a
--- pass has the cutter of the pass. Between two passes the smaller one of both cutters counts. If no
--- pass was found on the tape, the result is @otherwiseRadius@.
+-- | Radius of the cutter in frame @n@ of a tape whose frames are not the planned ones. @uses@ are
+-- the passes that were found, in the order of the tape. A frame in a pass has the cutter of the
+-- pass. A frame between two passes has the smaller cutter of the two. If no pass was found, the
+-- result is @otherwiseRadius@.
 supposedTool :: [Use] -> Mm -> Int -> Mm
 supposedTool uses otherwiseRadius n =
   case ( [r | Use _ end r <- reverse uses, end < n],

@@ -34,7 +34,8 @@ import Verify.Motion (CutterMotion (..))
 import Verify.Motion qualified as Motion
 import Verify.Requirement qualified as Requirement
 
--- | Bring the motions along the contours of blades to the heights of their passes.
+-- | Bring the motions along contours that are cut with a blade to the heights of their passes.
+-- Other motions stay as they are.
 levelled :: Machine -> Toolpath -> [CutterMotion] -> [CutterMotion]
 levelled machine path = foldr (\pass next -> map (levelledIn machine pass) . next) id passes
   where
@@ -51,11 +52,12 @@ data BladePass = BladePass
     level :: Mm,
     -- | largest distance of the tool's centre from the contour
     maxReach :: Mm,
-    -- | larger of the allowed chord errors on both sides
+    -- | larger of the allowed chord errors into the part and away from it
     tolerance :: Mm,
     -- | elements of the contour with their numbers from 0
     elements :: BoxTree (Int, Segment),
-    -- | heights of the axis at the start and at the end of each element; empty without bevels
+    -- | heights of the axis at the start and at the end of each element, by its number; empty
+    -- without bevels
     axisHeights :: Vector (Mm, Mm)
   }
 
@@ -85,7 +87,8 @@ bladePass milling Toolpath.Pass {Toolpath.left, Toolpath.atHeight} =
     height bevel = plus atHeight (times (sign * bevel / 2) (fromMaybe (Mm 0) (Part.gear milling)))
     sign = maybe 1 Carrier.sideSign (Requirement.cutterSide milling)
 
--- | Bring a motion to the height of a pass, if the axis has the right height at all its samples.
+-- | Bring the motion @m@ to the height of a pass, if the axis has the right height at all sample
+-- points of @m@.
 levelledIn :: Machine -> BladePass -> CutterMotion -> CutterMotion
 levelledIn machine pass m
   | all hasRightHeight (0 : sampled) = m {fromHeight = level pass, toHeight = level pass}
@@ -101,8 +104,8 @@ levelledIn machine pass m
       -- The axis keeps its height on an arc, whatever the contour demands between its ends.
       Arc {} -> Motion.samples m
 
--- | Test that the axis has the height that the elements nearest to a position of the centre demand.
--- Between several elements, any height between theirs is right.
+-- | Test that @z@ is the height of the axis that the nearest element demands, while the centre is
+-- at @p@. If several elements are equally near, any height between their demands is right.
 isRightHeight :: Machine -> BladePass -> Point -> Mm -> Bool
 isRightHeight machine pass p z = case demanded of
   [] -> False
@@ -131,9 +134,9 @@ isRightHeight machine pass p z = case demanded of
     slack =
       times 1.5 (max (Machine.planeResolution machine) (Machine.resolutionOf machine Machine.Z))
 
--- | Uncertainty of the right axis height at a position beside an element, because the position is
--- rounded to pulses. Inside an arc the contact point moves further than the centre, in proportion
--- to the radii.
+-- | Uncertainty of the right axis height while the centre is at @p@, beside the element @s@ with
+-- the number @i@. The reason is that @p@ is rounded to pulses. Inside an arc the contact point
+-- moves further than the centre, in proportion to their distances from the arc's centre.
 heightUncertainty :: Machine -> BladePass -> Int -> Segment -> Point -> Mm
 heightUncertainty machine pass i s p = case axisHeights pass Vector.!? i of
   Just (from, to)
@@ -151,8 +154,9 @@ heightUncertainty machine pass i s p = case axisHeights pass Vector.!? i of
           max 1 (r / own)
       _ -> 1
 
--- | Right height of the axis at a position beside an element. It is linear in arc length, and
--- constant beyond the ends of the element.
+-- | Right height of the axis while the centre is at @p@, beside the element @s@ with the number
+-- @i@. It is linear in arc length, and constant beyond the ends of the element. Nothing if the
+-- contour has no bevels.
 axisAt :: BladePass -> Int -> Segment -> Point -> Maybe Mm
 axisAt pass i s p =
   (\(from, to) -> plus from (times (Distance.nearestFraction p s) (minus to from)))

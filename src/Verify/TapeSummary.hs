@@ -21,15 +21,16 @@ data TapeSummary = TapeSummary
     endPosition :: Pulses3,
     -- | largest increment in one frame, along each axis, without its sign
     largestIncrement :: Pulses3,
-    -- | number of the first frame that ends at another height than that of the start position
+    -- | number of the first frame that ends at another height than the start position; Nothing if
+    -- the tape stays at that height
     firstRisen :: Maybe Int,
-    -- | number of the first frame that differs from the planned frame with this number, or exists
-    -- on one side only
+    -- | number of the first frame that differs from the planned frame with its number, or that only
+    -- the tape or only the plan has; Nothing if there is no difference
     firstDifference :: Maybe Int
   }
 
--- | Summarize the frames of a tape that begins at a start position. The planned frames are those
--- that the compiler made for the program.
+-- | Summarize the frames of a tape that begins at the position @begin@. The planned frames are
+-- those that the compiler made for the program.
 summarize :: Pulses3 -> [PlannedFrame] -> [Frame] -> TapeSummary
 summarize begin@(Pulses3 _ _ startHeight) planned frames = case missing of
   [] -> summary
@@ -41,7 +42,8 @@ summarize begin@(Pulses3 _ _ startHeight) planned frames = case missing of
 -- | Summary of the first frames of a tape, and the planned frames after these.
 data Comparison = Comparison TapeSummary [PlannedFrame]
 
--- | Comparison with one more frame of the tape. @startHeight@ is the height of the start position.
+-- | Comparison after the next frame @f@ of the tape. @startHeight@ is the height of the start
+-- position, in pulses.
 withFrame :: Pulses -> Comparison -> Frame -> Comparison
 withFrame startHeight (Comparison summary planned) f =
   Comparison

@@ -25,10 +25,10 @@ import Verify.Motion (CutterMotion (number, segment))
 import Verify.Motion qualified as Motion
 import Verify.Proof (Finding (WrongSide))
 
--- | Finding for a motion that runs beside an element on its wrong side. A line is sampled at its
--- middle, an arc in the middle between each two points of 'Motion.samples'. @close@ are the
--- elements that the cutter may touch during the motion. Nothing for a cutter that runs on the
--- contour.
+-- | Finding for a motion that runs beside an element on the wrong side of the element. Nothing if
+-- there is none, or if the cutter runs on the contour. A line is sampled at its middle, an arc in
+-- the middle between each two points of 'Motion.samples'. @close@ are the elements that the cutter
+-- may touch during the motion.
 wrongSide :: MillingJob -> CutterMotion -> [Edge] -> Maybe Finding
 wrongSide job m close = do
   demanded <- side job
@@ -41,9 +41,9 @@ wrongSide job m close = do
       | FastDistance.isLine (segment m) = [0.5]
       | otherwise = let ks = Motion.samples m in zipWith (\a b -> (a + b) / 2) (0 : ks) ks
 
--- | False only if no element nearest to a point has the point on its wrong side; decided by fast
--- bounds. The elements that the cutter may touch are tried first, then all elements around the
--- motion.
+-- | False only if the point @p@ is surely not on the wrong side of the element nearest to it.
+-- Decided by fast bounds; True means that 'wrongAt' has to decide. The elements @close@ to the
+-- motion are tried first, then the elements @around@ it.
 mayBeWrong :: MillingJob -> Side -> [Edge] -> [Edge] -> Point -> Bool
 mayBeWrong job demanded close around p =
   least > a - FastDistance.unsure && any isWrong near
@@ -65,8 +65,9 @@ mayBeWrong job demanded close around p =
       Carrier.LeftOf -> FastDistance.isLeftOf (FastDistance.spot x y) (shape e)
       Carrier.RightOf -> FastDistance.isRightOf (FastDistance.spot x y) (shape e)
 
--- | Finding at one point of a motion, by an exact comparison with the nearest element. A point
--- within the allowance of the element is on neither side.
+-- | Finding if the point @p@ of a motion is on the wrong side of the nearest element, by an exact
+-- comparison. Nothing if the distance of @p@ from the element is within the allowed deviation, or
+-- if no normal of the element goes through @p@.
 wrongAt :: MillingJob -> Side -> CutterMotion -> [Edge] -> Point -> Maybe Finding
 wrongAt job demanded m around p = case [(Distance.toPoint p (segmentOf e), e) | e <- around] of
   [] -> Nothing

@@ -1,7 +1,7 @@
 {-# LANGUAGE BangPatterns #-}
 
--- | A test for gouges by fast bounds, for every motion of a tape. "Verify.Gouge" decides about the
--- motions that it cannot exclude.
+-- | A fast test that excludes a gouge for most motions of a tape. "Verify.Gouge" decides about the
+-- other motions exactly.
 module Verify.Gouge.Fast
   ( mayGougeDeeper,
   )
@@ -16,9 +16,10 @@ import Verify.Motion (CutterMotion (segment), connectors)
 import Verify.Proof (Witness)
 import Verify.Proof qualified as Proof
 
--- | False only if no element is gouged deeper than by the deepest gouge so far. @bounding@ are the
--- bounding paths of the motion. Those of an arc are no further from its segment than its two radii
--- differ.
+-- | False only if the motion gouges no element of a list deeper than @best@, the deepest gouge so
+-- far. True means that the exact test has to decide. @bounding@ are the bounding paths of the
+-- motion. Their distance from the motion's segment is no more than the difference of the radii at
+-- the start and at the end of an arc.
 mayGougeDeeper :: KeepOut -> Maybe Witness -> CutterMotion -> [Segment] -> [Edge] -> Bool
 mayGougeDeeper keepOut best m bounding = go
   where

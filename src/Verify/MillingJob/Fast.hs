@@ -1,7 +1,7 @@
 {-# LANGUAGE BangPatterns #-}
 
--- | Loops over the elements near a point, in plain numbers. They run for every motion of a tape, and
--- do what "Verify.MillingJob" and "Verify.Edge" do, without lists and intermediate records.
+-- | Loops over the elements near a point, for every motion of a tape. They compute the same as
+-- "Verify.MillingJob" and "Verify.Edge", but without lists and intermediate records.
 module Verify.MillingJob.Fast
   ( foldContacts,
     leastDistance,
@@ -16,8 +16,8 @@ import Verify.Edge (Edge (..))
 import Verify.MillingJob (MillingJob (..))
 import Verify.MillingJob qualified as MillingJob
 
--- | Strict left fold over 'Verify.MillingJob.contacts'. The function gets the result so far, the
--- number of the element and the arc length in mm.
+-- | Strict left fold over the list 'Verify.MillingJob.contacts'. The function @with@ gets the
+-- result so far, the number of the element from 0, and the arc length of the contact point in mm.
 foldContacts :: MillingJob -> [Edge] -> Point -> (b -> Int -> Double -> b) -> b -> b
 foldContacts job near p with = go near
   where
@@ -37,8 +37,8 @@ foldContacts job near p with = go near
     farthest e = let Mm own = ownAllowance e in min limit (least + own + 2 * deviation)
 {-# INLINE foldContacts #-}
 
--- | Distance in mm from the point @(x, y)@ to the nearest of some elements, or the limit if none is
--- nearer.
+-- | Distance in mm from a point to the nearest of some elements, or the limit in mm if no element
+-- is nearer. The arguments are the limit, the elements, and the coordinates x and y of the point.
 leastDistance :: Double -> [Edge] -> Double -> Double -> Double
 leastDistance = leastExcess (const (Mm 0))
 
