@@ -54,7 +54,7 @@ data TapeCode = TapeCode
     evenTrack :: Maybe Int,
     -- | number of the track that contains signs and marks beside the digits
     serviceTrack :: Maybe Int,
-    -- | rows that a reader skips, such as erased rows, which have all holes
+    -- | rows that a tape reader skips, such as erased rows, which have a hole in every track
     skips :: [Word8]
   }
   deriving stock (Eq, Show)
