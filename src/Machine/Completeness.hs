@@ -15,8 +15,8 @@ import Machine.Axis (axisName)
 import Machine.Error (Error (..), FrameFault (..), ServiceFault (..))
 import Machine.Machine
 
--- | Lists the mistakes in the words of a frame. The arguments are the machine, its axes, the regions
--- of the sections on arcs and on feeds, and the items of the frame.
+-- | Lists the mistakes in the words of a frame. The arguments are the machine, its axes, the
+-- regions of the sections on arcs and on feeds, and the items of the frame.
 check :: Machine -> [Located AxisForm] -> Region -> Region -> [(Region, LayoutItem)] -> [Error]
 check machine locatedAxes arcsRegion feedsRegion locatedItems =
   concat

@@ -29,9 +29,9 @@ import Machine.Machine
 import Machine.Section
 import Machine.Syntax
 
--- | Reads the lines of a table, such as @1 = 15@ and @0..40 = 10 * 10^(n/20)@, which gives each code
--- a feed or a spindle speed. Each line gives the values of a code or of a range of codes, as a
--- formula in the code @n@. A value must be above 0 and below 10^9.
+-- | Reads the lines of a table that gives each code a value, a feed or a spindle speed. Examples of
+-- lines are @1 = 15@ and @0..40 = 10 * 10^(n/20)@. Each line gives the values of a code or of a
+-- range of codes, as a formula in the code @n@. A value must be above 0 and below 10^9.
 table :: DescriptionSection -> Result w Error (Map Int Double)
 table section = do
   given <- concat . catMaybes <$> traverse (attempt . tableLine) (entries section)
@@ -40,7 +40,7 @@ table section = do
     (repetitions given <> [BadTable (sectionRegion section) EmptyTable | null (entries section)])
     values
 
--- | Reads one line of a table: each code with the region of the line's key and with its value.
+-- | Reads one line of a table: each code with the region of the line's key and the code's value.
 tableLine :: Statement -> Result w Error [(Int, Region, Double)]
 tableLine e = case (codesOf e, formula e) of
   _ | broken e -> alreadyReported

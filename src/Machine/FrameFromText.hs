@@ -40,8 +40,8 @@ data LocatedLayout = LocatedLayout
     separatorRegion :: Region
   }
 
--- | Reads the section @frame@. @hasService@ is true if the code has a service track; it is 'Nothing'
--- if the code cannot be read, and then every hole beside a digit is accepted.
+-- | Reads the section @frame@. @hasService@ is true if the code has a service track. It is
+-- 'Nothing' if the code cannot be read, and then every hole beside a digit is accepted.
 frame :: Maybe Bool -> Statement -> Result w Error LocatedLayout
 frame hasService s = do
   ((), section) <- withBlock ["frame { … }"] "the frame" noArguments s

@@ -216,11 +216,11 @@ tapeFrom s = do
         then pure t
         else malformed ["suffix \"tape\""] e
 
--- | Largest number of consecutive blank rows.
+-- | Largest count of blank rows that a description may demand for a leader, a gap or a shift.
 mostRows :: Int
 mostRows = 10000
 
--- | Reads a line with one whole number from @low@ to @high@.
+-- | Reads a line with the key @word@ and one whole number from @low@ to @high@.
 countFrom :: Text -> Int -> Int -> Statement -> Result w Error Int
 countFrom word low high = withArguments [word <> " " <> Text.pack (show example)] one
   where
@@ -229,7 +229,7 @@ countFrom word low high = withArguments [word <> " " <> Text.pack (show example)
       [a] -> wholeIn ("‘" <> word <> "’") low high a
       _ -> Nothing
 
--- | Reads the axes: at least one, and each once.
+-- | Reads all axes. Reports a missing axis if there is none, and every repetition of an axis.
 axesFrom :: DescriptionSection -> Result w Error (NonEmpty (Located AxisForm))
 axesFrom whole = do
   found <- allWith "axis" axisFrom whole

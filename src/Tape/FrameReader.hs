@@ -118,7 +118,7 @@ wordByWord layout state rows begin = do
 readSteps :: PreparedLayout -> ShortByteString -> Int -> Either RowFault (Reading, Int)
 readSteps layout rows = go False (Layout.steps layout) [] (Reading [] [] False 0 Nothing)
   where
-    -- @done@ has the words so far, the last one first. They are kept apart from @now@, so that @now@
+    -- @done@ has the words so far, the last one first. They are kept apart from @now@, so that it
     -- is copied only when one of its other fields changes.
     go followsWord todo done !now !k = case skipAbsent layout rows followsWord todo k of
       [] -> Right (now {readWords = reverse done}, k)

@@ -159,7 +159,7 @@ readSign layout c f rows k = case sign f of
 
 -- | State while the digits of a number are read.
 data Digits = Digits
-  { -- | index of the next row
+  { -- | index of the next row to read
     at :: Int,
     -- | value of the digits so far, without sign and decimal point
     amount :: Int,

@@ -169,9 +169,9 @@ read machine start (Tape raw) = case firstFrameRow source of
   where
     source = sourceOf (Layout.fromMachine machine) raw
 
--- | Frames of a tape on which the frames @expected@ are expected. If the tape has exactly these, the
--- result is @expected@ itself, so that memory does not hold the frames twice. Otherwise it is the
--- result of 'read'.
+-- | Frames of a tape on which the frames @expected@ are expected. If the tape has exactly these
+-- frames, the result is @expected@ itself, so that memory does not hold the frames twice.
+-- Otherwise it is the result of 'read'.
 readExpected :: Machine -> Pulses3 -> [Frame] -> Tape -> Either Damage [Frame]
 readExpected machine start expected tape
   | holds machine start expected tape = Right expected

@@ -92,7 +92,7 @@ readFrame layout state rows begin
 -- machine's axes. For an axis without a word in the frame, the number is the one that means no
 -- travel: 0, or the present position.
 data Numbers = Numbers
-  { -- | bit n is 1 if the frame contains word n of 'Layout.simpleWords'
+  { -- | bit n is 1 if the frame contains word n of 'Layout.simpleWords', counted from 0
     present :: Int,
     numberX :: Int,
     numberY :: Int,
