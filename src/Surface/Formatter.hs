@@ -3,7 +3,8 @@
 -- The syntax tree is printed anew and the comments are placed among the printed lines. A comment on
 -- a line of its own stays above the text that it precedes. A trailing comment, which follows other
 -- text on its line, stays after that text. A comment inside a text that is now printed on one line
--- goes to the end of that line, or above it if the line ends with a comment already.
+-- goes to the end of that line, or above it if the line ends with a comment already. An offset is
+-- the index of a character in the source, from 0.
 module Surface.Formatter
   ( format,
     layout,
@@ -62,7 +63,7 @@ normalised text =
     "\n"
     (Text.replace "\r\n" "\n" (Maybe.fromMaybe text (Text.stripPrefix "\xFEFF" text)))
 
--- | The canonical layout of a text and its program.
+-- | The canonical layout of a text, given the text and its syntax tree.
 laidOut :: Text -> Program -> Text
 laidOut text program =
   Text.unlines (renderEntries (withoutLeadingGaps (entries source remarks rows)))
@@ -87,7 +88,7 @@ laidOut text program =
 offsetsAtCommas :: [Token] -> [Int] -> [Int]
 offsetsAtCommas = go False
   where
-    -- The flag tells if the last token was a comma.
+    -- @isAfterComma@ tells if the last token was a comma.
     go isAfterComma tokens offsets = case (tokens, offsets) of
       (_, []) -> []
       ([], _) -> if isAfterComma then offsets else []
@@ -124,7 +125,7 @@ remark source (Located region text) =
     before = Text.take (column - 1) (Region.lineText source (start region))
     isTrailing = not (Text.null (Text.strip before))
 
--- | Tells if the line above that of an offset is blank.
+-- | Tells if the line above the line of the offset @at@ is blank.
 isBlankAbove :: Source -> Int -> Bool
 isBlankAbove source at =
   line > 1 && Text.null (Text.strip (Region.lineText source (Region.offset source (line - 1) 1)))
@@ -164,7 +165,7 @@ splitEmptyBlock positions sourceLine = case (shapesBackwards, sourcesBackwards) 
 
 -- Lines
 
--- | A line of the output. The flag asks for a blank line above it.
+-- | A line of the output. @hasGap@ is true if a blank line is printed above it.
 data Entry = Entry {hasGap :: Bool, line :: Content}
   deriving stock (Eq, Show)
 
@@ -203,8 +204,9 @@ data Shares = Shares
     later :: [Remark]
   }
 
--- | Divides comments by their positions relative to a printed line. In the source, the line has the
--- given first and last offset, and the next printed line begins at offset @next@.
+-- | Divides comments by their positions relative to a printed line. In the source, the line reaches
+-- from offset @from@ to offset @finish@. The next printed line begins there at offset @next@,
+-- 'Nothing' after the last line.
 shareOut :: (Int, Int) -> Maybe Int -> [Remark] -> Shares
 shareOut (from, finish) next remarks = case (inside, trailingRemark) of
   ([r], Nothing) | isTrailing r -> Shares {early, displaced = [], trailing = Just r, below, later}
@@ -218,7 +220,8 @@ shareOut (from, finish) next remarks = case (inside, trailingRemark) of
       _ -> (Nothing, after)
 
 -- | The lines of the output for one printed line: the comments above it, then the line itself. In
--- the source it begins at offset @from@.
+-- the source the printed line begins at offset @from@. @above@ has the comments between this line
+-- and the line before it.
 rowEntries :: Source -> SourceLine -> Int -> [Remark] -> Shares -> [Entry]
 rowEntries source sourceLine from above shares =
   [own {hasGap = hasGap own && isStart} | own <- map (ownLine deep) (above <> early shares)]
@@ -242,7 +245,7 @@ rowEntries source sourceLine from above shares =
       Just t : _ -> Token.newLine t
       _ -> False
 
--- | A comment on a line of its own.
+-- | A comment on a line of its own, indented by @deep@ characters.
 ownLine :: Int -> Remark -> Entry
 ownLine deep r = Entry {hasGap = isApart r, line = Own deep (text r)}
 
@@ -306,6 +309,7 @@ withComments list = case list of
      in [Text.justifyLeft column ' ' line <> Maybe.fromMaybe "" comment | (line, comment) <- run]
           <> withComments others
 
--- | The column of trailing comments, counted from 0. After longer lines they begin further right.
+-- | The column of trailing comments, in characters from 0. After a longer line the comment begins
+-- further right.
 commentColumn :: Int
 commentColumn = 39

@@ -1,6 +1,7 @@
 -- | The printer of programs: the canonical layout of a syntax tree without comments.
 --
--- Broken nodes have no text.
+-- Statements and items with a mistake, the broken nodes of the syntax tree, are not printed. The
+-- parameter @indent@ is always an indentation in characters.
 module Surface.PrintProgram
   ( program,
     rows,
@@ -31,13 +32,14 @@ import Surface.Token (unitName)
 program :: Program -> Text
 program = Text.unlines . Alignment.render . rows PrintExpression.noComments . statements
 
--- | The lines of statements. Lists that contain comments in the source are broken at them.
+-- | The lines of statements. A list that has comments in the source is broken where the comments
+-- are.
 rows :: CommentPositions -> [Statement] -> [AlignedLine]
 rows comments = concatMap (statement comments 0)
 
 -- Rows
 
--- | The lines of one document. All lines but the first are continuations.
+-- | The lines of one document, each with one cell. All lines but the first are continuations.
 whole :: Int -> Doc -> [AlignedLine]
 whole indent doc = case PrettyPrinter.render indent doc of
   [] -> []
@@ -49,8 +51,8 @@ whole indent doc = case PrettyPrinter.render indent doc of
       } :
     map continued more
 
--- | One line of two cells if both documents fit on it. Otherwise the lines of both documents,
--- joined without alignment.
+-- | One line with the two cells @first@ and @second@, if both documents fit on it. Otherwise the
+-- lines of both documents, joined without alignment.
 cells' :: AlignmentColumn -> Int -> Doc -> Doc -> [AlignedLine]
 cells' column indent first second =
   case (PrettyPrinter.render indent first, PrettyPrinter.render indent second, alone) of
@@ -174,7 +176,8 @@ table comments indent ls =
           isContinuation = False
         }
 
--- | Pads the cells of rows so that columns are aligned, and decimal points within them.
+-- | Pads the cells of rows with spaces, so that columns are aligned, and in each column the decimal
+-- points.
 alignColumns :: [[Text]] -> [[Text]]
 alignColumns rows' = map (zipWith3 pad fronts widths) rows'
   where
@@ -189,7 +192,8 @@ alignColumns rows' = map (zipWith3 pad fronts widths) rows'
       zipWith (\front -> maximum . map (Text.length . pointed front)) fronts (transpose rows')
         <> repeat 0
 
--- | The cells of a line of a table. Other values than literals are put in parentheses.
+-- | The cells of a line of a table; a run of lines from a file gives several. Values other than
+-- literals are put in parentheses.
 tableCells :: CommentPositions -> TableLine_ -> [[Text]]
 tableCells comments l = case l of
   Header columns ->
@@ -239,7 +243,8 @@ piece comments e ciphers side joggles =
           ]
       ]
 
--- | A choice between two blocks: the condition and the blocks.
+-- | An @if@ with blocks of statements or items: the condition, the block for true, the block for
+-- false.
 data Choice a = Choice Expr [a] [a]
 
 -- | The printers for the parts of a choice.
