@@ -66,7 +66,7 @@ single f args = case args of
 -- out, because it is often the service track or the parity track.
 data Width = Width {least :: Int, most :: Int}
 
--- | Reads the symbols, each with its region.
+-- | Reads the symbols: the holes of each, with the region of the symbol.
 symbolsFrom :: Width -> Statement -> Result w Error (Map Char (Located Word8))
 symbolsFrom width s = do
   ((), section) <- withBlock ["symbols { 0 = 0000 … }"] "the symbols" noArguments s
@@ -87,7 +87,7 @@ symbolsFrom width s = do
             (\p -> [(c, Located (region (key e)) p)]) <$> holesOf width (Located r digits)
         _ -> malformed ["X = 0101", "\"\\n\" = 0101", "ascii"] e
 
--- | The key as a symbol; 'Nothing' if it is not a single character.
+-- | The key of a line as a symbol; 'Nothing' if the key is not a single character.
 charOf :: Statement -> Maybe Char
 charOf s = case value (key s) of
   Word w -> one w
@@ -136,7 +136,7 @@ skipsFrom width = withArguments ["skip 00000 11111"] rows
           )
       _ -> Nothing
 
--- | Reads the weights, each with its region.
+-- | Reads the weights of symbols in a check sum, each with the region of its symbol.
 weightsFrom :: Statement -> Result w Error (Map Char (Located Int))
 weightsFrom s = do
   ((), section) <- withBlock ["weights { digits … }"] "the weights" noArguments s

@@ -106,7 +106,7 @@ commandWords events = case map (map value) (simple events) of
   where
     unlocated c = CompensationCommands (value (left c)) (value (right c)) (value (off c))
 
--- | Each word with the key of its event.
+-- | The words of all events, each with the key of its event.
 withEvents :: Events -> [(Text, Located CommandWord)]
 withEvents events =
   concat

@@ -57,6 +57,6 @@ data CompensationCommands = CompensationCommands
   }
   deriving stock (Eq, Show)
 
--- | No word for any command.
+-- | The numbers of a machine whose tape cannot give any command.
 noCommandWords :: CommandWords
 noCommandWords = CommandWords [] [] [] [] [] [] [] Nothing []

@@ -200,7 +200,7 @@ decimalsFrom most = withArguments ["decimals 3"] one
 mostDigits :: Int
 mostDigits = 15
 
--- | Reads the notation of the sign.
+-- | Reads how the sign of a number is written; 'Nothing' if the arguments do not say this.
 signFrom :: [Argument] -> Maybe (Result w Error Sign)
 signFrom args = case args of
   [Located _ (Word "none")] -> Just (pure Unsigned)
@@ -216,7 +216,8 @@ signFrom args = case args of
       [a, b, c, d] -> pure (Priority a b c d)
       _ -> alreadyReported
 
--- | Reads the meanings of the service track, one for each digit.
+-- | Reads the meanings of the holes in the service track, one meaning for each digit of a word.
+-- 'Nothing' if the arguments are no such meanings.
 holesFrom :: [Argument] -> Maybe (Result w Error [Service])
 holesFrom args = if null args then Nothing else pure <$> traverse (hole . value) args
   where
@@ -254,7 +255,7 @@ kindOf c = case c of
   Motion _ -> OtherNumber
   FeedWord -> OtherNumber
 
--- | Lists the properties of a word that are impossible for its content.
+-- | Reports the properties of a word that are impossible for its content; @r@ is its region.
 unsuited :: Region -> Word' -> [Error]
 unsuited r w =
   map

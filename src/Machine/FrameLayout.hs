@@ -155,6 +155,7 @@ contentName c = case c of
   FeedWord -> "feed"
   Command (CommandName n) -> "command " <> n
 
--- | Largest number that fits the digits; at most 10^17 − 1.
+-- | Largest number that a word with the form @f@ can hold, decimal point disregarded; at most
+-- 10^17 − 1.
 capacityOf :: NumberForm -> Int
 capacityOf f = 10 ^ min 17 (digits f) - 1

@@ -330,7 +330,7 @@ feedRange machine = case codes (feeds machine) of
     [] -> (0, 0)
     vs -> (minimum vs, maximum vs)
 
--- | Feed code of rapid moves, for a machine without a motion code for them.
+-- | Feed code of rapid moves, for a machine that has no motion code for rapid moves.
 rapidCode :: Machine -> FeedCode
 rapidCode machine = case rapidFeed (feeds machine) of
   ByCode c -> c

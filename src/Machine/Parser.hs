@@ -26,7 +26,7 @@ data Parsed = Parsed
     closed :: Bool
   }
 
--- | Parses a text.
+-- | Parses the text of a description.
 parse :: Text -> Parsed
 parse text = Parsed {statements = ss, mistakes = es, closed = not (any isBraceError es)}
   where
@@ -226,6 +226,6 @@ blockOf depth ts = case ts of
 deepest :: Int
 deepest = 16
 
--- | Splits off the rest of a line, up to its end or a brace.
+-- | Splits the tokens before the next line end or brace from those after it.
 toLineEnd :: [Token] -> ([Token], [Token])
 toLineEnd = break ((`elem` [LineEnd, Sign "{", Sign "}"]) . value)

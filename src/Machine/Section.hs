@@ -126,7 +126,7 @@ withBlock forms title f s = case block s of
       (,DescriptionSection {sectionName = title, sectionRegion = extent s, entries = ss}) <$> r
   _ -> malformed forms s
 
--- | Accepts a line without arguments.
+-- | Reads the arguments of a line that must have none; 'Nothing' if there is one.
 noArguments :: [Argument] -> Maybe (Result w Error ())
 noArguments args = if null args then Just (pure ()) else Nothing
 
@@ -134,7 +134,7 @@ noArguments args = if null args then Just (pure ()) else Nothing
 malformed :: [Text] -> Statement -> Result w Error a
 malformed forms s = Result.failed (Malformed (extent s) (keyText s) forms)
 
--- | The key as a report shows it.
+-- | The key of a line as a report shows it.
 keyText :: Statement -> Text
 keyText s = case value (key s) of
   Word w -> w

@@ -71,7 +71,7 @@ data Formula
 data Operator = Add | Subtract | Multiply | Divide | Power
   deriving stock (Eq, Show)
 
--- | The key of a line if it is a word.
+-- | The key of a line; 'Nothing' if the key is not a word.
 keyWord :: Statement -> Maybe Text
 keyWord s = case value (key s) of
   Word w -> Just w

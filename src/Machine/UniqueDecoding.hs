@@ -256,7 +256,7 @@ blankStart medium tapeCode items' = case spare medium of
         | take 1 (service (form w)) == [Marker] -> ""
         | otherwise -> ['0' .. '9']
 
--- | True if a frame with these items may begin with the text.
+-- | True if a frame with the items @items'@ may begin with the symbols @text@.
 canBeginWith :: Text -> [LayoutItem] -> Bool
 canBeginWith text items' = case items' of
   _ | Text.null text -> True

@@ -272,12 +272,12 @@ located p = do
 
 -- Brackets
 
--- | Parses something in parentheses.
+-- | Runs a parser between an opening and a closing parenthesis.
 parens :: Grammar p => p a -> p a
 parens = enclosed "(" ")"
 {-# INLINEABLE parens #-}
 
--- | Parses something in square brackets.
+-- | Runs a parser between square brackets.
 brackets :: Grammar p => p a -> p a
 brackets = enclosed "[" "]"
 {-# INLINEABLE brackets #-}
@@ -368,7 +368,7 @@ closing opened what close = do
   void (symbol close)
 {-# INLINEABLE closing #-}
 
--- | Tells if no token remains, or the next one begins a line and is not a closing bracket.
+-- | Tells if no token remains, or the next token begins a line and is not a closing bracket.
 isLineEnd :: Grammar p => p Bool
 isLineEnd = isEnd <$> remaining
   where
@@ -377,7 +377,8 @@ isLineEnd = isEnd <$> remaining
       t : _ -> newLine t && shape t `notElem` map Symbol [")", "]", "}"]
 {-# INLINEABLE isLineEnd #-}
 
--- | Tells if no token remains, or the next one begins a statement.
+-- | Tells if no token remains, or the next token begins a statement. A block that is open here
+-- lacks its closing brace.
 atEnd :: Grammar p => p Bool
 atEnd = maybe True beginsStatement . listToMaybe <$> remaining
 {-# INLINEABLE atEnd #-}

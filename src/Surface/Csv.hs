@@ -93,9 +93,9 @@ plainRows separator width texts = runST $ do
 -- | Growing arrays of plain rows: the offsets of the start and the end of each row, and its cells.
 data Rows s = Rows (MutablePrimArray s Int) (MutablePrimArray s Double)
 
--- | Adds plain rows of @width@ numbers to arrays, up to the first row that is not plain. The arrays
--- hold @count@ rows and have room for @room@ rows; full arrays are doubled. Gives the numbers of
--- the plain rows, and the rows after them.
+-- | Adds plain rows of @width@ numbers to arrays, up to the first row that is not plain. The third
+-- argument is the count of rows in the arrays, the fourth the count of rows for which they have
+-- room; full arrays are doubled. Gives the numbers of the plain rows, and the rows after them.
 fillRows ::
   Char -> Int -> Int -> Int -> Rows s -> [Located Text] -> ST s (NumberTable, [Located Text])
 fillRows separator width = go
@@ -122,8 +122,9 @@ fillRows separator width = go
       found <- unsafeFreezePrimArray cells
       pure (NumberTable {NumberTable.width, NumberTable.places, NumberTable.numbers = found}, texts)
 
--- | Reads a row of @wanted@ numbers and writes them into the array @cells@ from index @i@ on. Gives
--- 'False' if the row is not plain or has another number of cells.
+-- | Reads a plain row and writes its numbers into the array @cells@. The third argument is the
+-- index of the first number in the array, the fourth the count of numbers in the row. Gives 'False'
+-- if the row is not plain or has another count of cells.
 plainRow :: Char -> MutablePrimArray s Double -> Int -> Int -> Text -> ST s Bool
 plainRow separator cells = row
   where
@@ -190,7 +191,7 @@ trimmed from part
 
 -- Headings
 
--- | Reads the line that names the columns.
+-- | Reads the line that names the columns; @separator@ separates the names.
 headings :: Char -> Located Text -> ([Error], TableLine)
 headings separator line =
   case partitionEithers (map heading (NonEmpty.toList (cellsOf separator line))) of
@@ -245,7 +246,7 @@ withoutLastEmpty cells = case reverse cells of
   Located _ "" : rest@(_ : _ : _) -> reverse rest
   _ -> cells
 
--- | Reads a cell: a number with an optional sign.
+-- | Reads a cell: a number with an optional sign; @separator@ is the character between cells.
 number :: Char -> Located Text -> Either Error Expr
 number separator (Located at text) = maybe (Left (BadCell at text)) (Right . Located at) $
   case Text.uncons text of

@@ -292,7 +292,8 @@ toReport err = case err of
   TooDeep region limit ->
     at region "E0110" ("brackets are nested more than " <> Decimal.whole limit <> " deep")
 
--- | The report of a file that cannot be imported.
+-- | The report of a file that cannot be imported: the region of the import, the name of the file as
+-- written, and the reason.
 notImported :: Region -> Text -> Text -> Report
 notImported region name why =
   (at region "E0112" (quote name <> " cannot be imported: " <> why))
@@ -390,7 +391,7 @@ isWord expected = case expected of
   [one] -> Text.any isLetter one && Text.isPrefixOf "‘" one
   _ -> False
 
--- | Tells if a token is wrong anywhere in a program.
+-- | Tells if a token is wrong at every position of a program, such as a stray character.
 isBroken :: Token_ -> Bool
 isBroken token = case token of
   Stray _ -> True

@@ -45,17 +45,18 @@ format text = fmap checked (layout text)
         (\p -> (Unlocated.statements (statements p), map (Text.stripEnd . value) (comments p)))
         (parsed t)
 
--- | 'format' without the check that meaning and comments are kept.
+-- | The canonical layout of a text, 'Nothing' if the text has mistakes. Unlike 'format' it does not
+-- check that meaning and comments are kept; tests use it for this reason.
 layout :: Text -> Maybe Text
 layout text = fmap (laidOut (normalised text)) (parsed (normalised text))
 
--- | The program of a text without mistakes.
+-- | The syntax tree of a text; 'Nothing' if the text has mistakes.
 parsed :: Text -> Maybe Program
 parsed text = case Parser.parse 0 text :: Result () Error Program of
   Result {errors = [], output} -> output
   _ -> Nothing
 
--- | A text with LF as line end and without a byte order mark.
+-- | The text with LF as line end and without a byte order mark.
 normalised :: Text -> Text
 normalised text =
   Text.replace

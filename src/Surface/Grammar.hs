@@ -65,7 +65,7 @@ statement_ = do
     Word word -> Parsec.customFailure (NoStatement word)
     _ -> Parsec.empty <?> "a statement"
 
--- | The keywords of statements, each with the rule for the text after it.
+-- | The keywords of statements, each with the rule for the text after the keyword.
 statementForms :: Grammar p => [(Text, p Statement_)]
 statementForms =
   [ ("part", Part <$> name <*> Parsec.optional (onThisLine text')),
@@ -174,7 +174,7 @@ spin = (SpindleStop <$ keyword "off") <|> (Spinning <$> sense <*> Parsec.optiona
 sense :: Parser Sense
 sense = (Clockwise <$ keyword "cw") <|> (CounterClockwise <$ keyword "ccw")
 
--- | A value or a function after @let@.
+-- | The definition of a value or of a function, after the keyword @let@.
 definition :: Parser Statement_
 definition = do
   what <- name
@@ -265,11 +265,11 @@ piece = do
 item :: Parser Item_
 item = isWordNext >>= \ahead -> if ahead then repetition <|> choice <|> element else element
 
--- | A variable and its list after @for@: @x in list@.
+-- | The variable and the list after the keyword @for@: @x in list@.
 forEach :: Parser (Located Name, Expr)
 forEach = (,) <$> name <* (keyword "in" <?> "‘in’") <*> expr
 
--- | A repetition of items.
+-- | A repetition of items of a contour: @for x in list { … }@.
 repetition :: Parser Item_
 repetition = do
   (variable, from) <- keyword "for" *> forEach
@@ -309,7 +309,7 @@ modifier =
     <|> (keyword "allowance" *> (ElementAllowance <$> expr))
     <|> (keyword "bevel" *> (Bevel <$> expr))
 
--- | A link to the next element.
+-- | The link of an element to the next one: @meet@, @smooth@, @tangent@, @fillet r@ or @chamfer d@.
 link :: Parser Link_
 link =
   (keyword "meet" *> (Meet <$> Parsec.optional (keyword "near" *> expr)))
@@ -355,7 +355,7 @@ setting offered = do
             word `elem` offered
         ]
 
--- | The first words of settings, each with the rule for the text after it.
+-- | The first words of settings, each with the rule for the text after the word.
 settingForms :: Grammar p => [(Text, p Setting_)]
 settingForms =
   [ ("approach", Approach <$> stops),
@@ -391,7 +391,7 @@ stops = stop `sepBy1` ","
 
 -- Expressions, the operators of lowest precedence first
 
--- | An expression. Most are a single operand, which is tried first.
+-- | An expression. Most expressions are a single operand, so that an operand is tried first.
 expr :: Parser Expr
 expr = do
   begin <- remaining

@@ -114,7 +114,8 @@ data ImportedFile = ImportedFile
     importIdentity :: FilePath
   }
 
--- | Replaces the imports and the table files in the statements of a file.
+-- | Replaces each import in the statements of a file by definitions, and each name of a table file
+-- by the lines of the table.
 replaceImports :: Monad m => Reader m -> Chain -> [Statement] -> StateT Progress m [Statement]
 replaceImports reader chain = fmap concat . mapM replace
   where

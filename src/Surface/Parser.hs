@@ -53,7 +53,8 @@ parseExplained begin text = case drop maxTokens tokens of
 maxTokens :: Int
 maxTokens = 6000000
 
--- | Parses a text that is one expression. Its regions count from offset 0.
+-- | Parses a text that is one expression, such as a value from the command line. The first
+-- character of the text has the offset 0.
 parseExpr :: Text -> Result w Error Expr
 parseExpr text = Result {warnings = [], errors, output}
   where

@@ -140,7 +140,7 @@ roomAfterAll members room =
       | startsLine member = Nothing
       | otherwise = left >>= \r -> roomAfter (content member) (r - 1)
 
--- | The texts of a document on one line.
+-- | The texts of which a document consists when it is printed on one line.
 unbroken :: Doc -> [Text]
 unbroken doc = case doc of
   Text t -> [t]

@@ -142,7 +142,7 @@ sign operator = case operator of
   And -> "and"
   Or -> "or"
 
--- | An expression without parentheses around it.
+-- | The document of an expression, without parentheses around the whole.
 withoutParentheses :: CommentPositions -> Expr -> Doc
 withoutParentheses comments (Located region e) = case e of
   Literal number unit -> Text (digits number <> maybe "" ((" " <>) . unitName) unit)

@@ -28,7 +28,7 @@ import Surface.PrintExpression qualified as PrintExpression
 import Surface.Syntax
 import Surface.Token (unitName)
 
--- | The text of a program.
+-- | The text of a program in canonical layout, without its comments.
 program :: Program -> Text
 program = Text.unlines . Alignment.render . rows PrintExpression.noComments . statements
 
@@ -81,13 +81,13 @@ braces indent before inside
   | null inside = whole indent (spaced [before, Text "{ }"])
   | otherwise = opened indent before <> inside <> whole indent (Text "}")
 
--- | The text before a block and its opening brace.
+-- | The lines of the document @before@, with the opening brace of a block after it.
 opened :: Int -> Doc -> [AlignedLine]
 opened indent before = whole indent (spaced [before, Text "{"])
 
 -- Statements
 
--- | The lines of a statement at an indentation.
+-- | The lines of a statement that is indented by @indent@ characters.
 statement :: CommentPositions -> Int -> Statement -> [AlignedLine]
 statement comments indent (Located _ s) = case s of
   Part (Located _ (Name name)) title ->
@@ -214,7 +214,7 @@ tableCells comments l = case l of
       _ -> "(" <> text (PrintExpression.value comments e) <> ")"
     text doc = Text.unwords (map PrettyPrinter.text (PrettyPrinter.render 0 doc))
 
--- | The value of a piece: its curve, ciphers, side and joggles.
+-- | The document of what a @piece@ statement has after @=@: curve, ciphers, side and joggles.
 piece :: CommentPositions -> Expr -> [Cipher] -> Side -> [Joggle] -> Doc
 piece comments e ciphers side joggles =
   Series
@@ -309,7 +309,8 @@ accuracy comments a = case a of
         PrintExpression.value comments outside
       ]
 
--- | Points separated by commas; the pace stays on the line of its point.
+-- | The document of points separated by commas. The pace of the motion to a point stays on the line
+-- of the point.
 stops :: CommentPositions -> NonEmpty Stop -> Doc
 stops comments = Series . NonEmpty.toList . PrintExpression.list comments . fmap stop
   where

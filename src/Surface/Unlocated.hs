@@ -85,7 +85,7 @@ literal x
   | x < 0 = Located nowhere (Negate (literal (negate x)))
   | otherwise = Located nowhere (Literal (Numeral (Decimal.exact x) x) Nothing)
 
--- | The region that replaces all others.
+-- | The region that replaces all regions of a syntax tree.
 nowhere :: Region
 nowhere = Region 0 0
 

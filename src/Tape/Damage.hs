@@ -136,7 +136,7 @@ explanation why = case why of
     ]
   _ -> []
 
--- | Title of a report, without the row and the frame.
+-- | Title of the report for a reason, without the row and the frame.
 reasonText :: Reason -> Text
 reasonText why = case why of
   LeaderNotBlank _ -> "the leader is not blank"
@@ -188,7 +188,7 @@ reasonText why = case why of
   Misread -> "it is read as another than was punched"
   WrittenOtherwise wanted -> "the machine writes this otherwise: here belongs " <> wanted
 
--- | Title of a report about a broken rule, without the row and the frame.
+-- | Title of the report about a broken rule, without the row and the frame.
 ruleText :: Violation -> Text
 ruleText broken = case broken of
   OverCapacity {} -> "the move is longer than a frame can say"
