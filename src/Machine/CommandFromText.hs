@@ -50,7 +50,7 @@ noCommands = CommandContext Machine.noCommandWords []
 
 -- | Located words of the commands, before they are put into a 'CommandContext'.
 data Events = Events
-  { -- | words of the events of 'simpleEvents', in that order
+  { -- | one list of words for each key in 'simpleEvents', in the order of the keys
     simple :: [[Located CommandWord]],
     compensations :: Maybe CompensationEvents,
     endFrames :: [NonEmpty (Located CommandWord)]

@@ -270,7 +270,7 @@ toReport err = case err of
     listed cs =
       Text.intercalate ", " (map (quote . Text.pack . unquoted . show) (take 12 cs))
         <> (if length cs > 12 then " …" else "")
-    -- Control characters as escape sequences; all other characters as they are.
+    -- Writes control characters as escape sequences, and all other characters as they are.
     unquoted s = case s of
       "'\\n'" -> "\\n"
       ['\'', c, '\''] -> [c]

@@ -32,8 +32,8 @@ import Machine.Machine qualified as Machine
 import Machine.Section
 import Machine.Syntax
 
--- | A layout with the regions of its items and of its separator. Without a separator in the
--- description, the region is that of the section.
+-- | A layout with the regions of its items and of its separator. If the description gives no
+-- separator, 'separatorRegion' is the region of the section @frame@.
 data LocatedLayout = LocatedLayout
   { layout :: Layout,
     locatedItems :: NonEmpty (Region, LayoutItem),

@@ -56,7 +56,7 @@ machineFrom text ss = marked *> machine
     markOfMachine = case heading of
       s : _ -> mark s
       [] -> Nothing
-    -- If the line of the machine could not be read, it may have a mark for all values.
+    -- A machine line that could not be read may have a mark for all values: nothing is reported.
     marked =
       Result.failing (if any broken heading then [] else Provenance.unmarked markOfMachine body) ()
     machine =

@@ -35,10 +35,10 @@ data Medium = Medium
 
 -- | Treatment of blank rows between frames by a tape reader.
 data Spare
-  = -- | The reader counts the blank rows. Their number must be exactly that of 'Medium'.
+  = -- | The reader counts the blank rows. Their number must be exactly the one that 'Medium' gives.
     Counted
   | -- | The reader skips blank rows, and the rows in 'skips' wherever they are. The number of blank
-    -- rows must be at least that of 'Medium'.
+    -- rows must be at least the one that 'Medium' gives.
     Skipped
   deriving stock (Eq, Show)
 

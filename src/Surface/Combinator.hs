@@ -474,10 +474,10 @@ isStatementEnd hasBlock isInBlock open t others =
     || isMisspeltKeyword
     || isInBlock && open <= 0 && shape t == Symbol "}"
   where
-    -- The block of a broken @for@, @if@ or @with@ is skipped with it, if it is closed further down:
-    -- its statements and its closing brace make no sense alone.
+    -- If the block of a broken @for@, @if@ or @with@ has a closing brace, the whole block is
+    -- skipped, because its statements make no sense alone.
     isInOwnBlock = open > 0 && hasBlock && closesBlock (t : others)
-    -- Another @for@ or @if@, unless it is inside braces of the broken statement.
+    -- True if @t@ is the @for@ or @if@ of a new statement: one outside of the broken one's braces.
     isBlockStatement = case shape t of
       Word word -> newLine t && open <= 0 && word `elem` Keyword.blocks
       _ -> False

@@ -20,7 +20,7 @@ import Data.Text (Text)
 import Surface.Syntax (Selector (..))
 import Surface.Token (unitName)
 
--- | The keywords that begin a statement and occur nowhere else at the start of a line.
+-- | The keywords that are reserved and, at the start of a line, begin a statement.
 statements :: [Text]
 statements =
   ["part", "machine", "import", "tool", "feed", "tolerance", "clearance", "from"]

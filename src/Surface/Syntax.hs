@@ -122,7 +122,8 @@ data Statement_
     When Expr [Statement] [Statement]
   | -- | @with rotated(60 deg) { … }@
     With Expr [Statement]
-  | -- | a statement with a mistake: its keyword, and the name that it was to define
+  | -- | a statement with a mistake: its keyword, and the name that it was to define, if they are
+    -- known
     Broken (Maybe Text) (Maybe (Located Name))
   deriving stock (Eq, Show)
 
@@ -294,7 +295,7 @@ data Item_
     For (Located Name) Expr [Item]
   | -- | @if c { … } else { … }@
     Choose Expr [Item] [Item]
-  | -- | an item with a mistake, and the name that it was to define
+  | -- | an item with a mistake, and the name that it was to define, if it is known
     BrokenItem (Maybe (Located Name))
   deriving stock (Eq, Show)
 

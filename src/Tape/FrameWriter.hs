@@ -215,7 +215,7 @@ mostRows layout = sum (map most (steps layout))
     most step = case step of
       FixedStep cs -> length cs
       CheckStep _ -> 1
-      -- Two rows more for a sign and a decimal point.
+      -- Adds two rows: one for a sign, one for a decimal point.
       WordStep w _ address -> extent address + 2 + max Layout.mostDigits (digits (form w))
 
 -- | The last @count@ digits of a number @n@ ≥ 0, as a number.

@@ -153,7 +153,8 @@ fromMachine machine =
     steps = map (stepOf symbols separator) items
     frameWords = Machine.wordsOf machine
     hasCheckDigit = not (null [() | CheckStep _ <- steps])
-    -- True if the optional steps after the last obligatory one can all occur in a simple frame.
+    -- True if every optional word after the last step that all frames contain can occur in a simple
+    -- frame. Else the steps of simple frames would not notice such a word at the end of a frame.
     endsSurely = all isSimpleStep (takeWhile (not . isAlwaysWritten) (reverse steps))
 
 symbolsOf :: Symbols -> Text -> [Symbol]
@@ -235,7 +236,7 @@ data RowKind
     Constant Char
   | -- | symbol between two words
     Separator Char
-  | -- | check digit
+  | -- | check digit, 0 to 9
     CheckSymbol Int
   | -- | row of a word: the content of the word, the number of the word, and what the row is within
     -- the word

@@ -155,7 +155,7 @@ symbolsOf layout = map (Symbol.symbol (Layout.symbols layout)) . Text.unpack
 read :: Machine -> Pulses3 -> Tape -> Either Damage [Frame]
 read machine start (Tape raw) = case firstFrameRow source of
   Left fault -> Left (damage source Nothing fault)
-  -- Increments do not depend on the height, so the tape never has to give it.
+  -- Increments do not depend on the height, so the tape never has to give the height.
   Right begin | not (hasPositions source) -> readFrom source start begin False
   -- The first frame that moves gives the height if any frame changes the height. This is not known
   -- before all frames are read, so both cases are tried.
