@@ -37,8 +37,8 @@ machines = [m | (_, (_, m)) <- builtIn]
 text :: MachineName -> Maybe Text
 text name = fst <$> lookup name builtIn
 
--- | Names, descriptions and machines. The name of a file without its extension is that of the
--- machine.
+-- | Each machine with its name and the text that describes it. The name of the machine is the name
+-- of the file without the extension.
 builtIn :: [(MachineName, (Text, Machine))]
 builtIn =
   [ (name, machineIn name bytes)

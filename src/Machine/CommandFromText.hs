@@ -121,7 +121,8 @@ eventFrom word s = do
   ((), section) <- withBlock [word <> " { set M 8 }"] ("‘" <> word <> "’") noArguments s
   NonEmpty.toList <$> wordsFrom section
 
--- | Reads one or more numbers of commands. Two of them may not be for the same word.
+-- | Reads one or more numbers, each with the command word that holds it. Reports a second number
+-- for a command word.
 wordsFrom :: DescriptionSection -> Result w Error (NonEmpty (Located CommandWord))
 wordsFrom section = do
   found <-

@@ -1,5 +1,5 @@
--- | The feed codes of a machine, and how it slows down. The value of a code is the feed that the
--- code means.
+-- | The feed codes of a machine, and how the machine slows down. The value of a code is the feed
+-- that the code means.
 module Machine.Feeds
   ( Feeds (..),
     FeedMeasure (..),

@@ -177,7 +177,8 @@ wordFrom hasService e address' content' section = do
           ("changed", WhenChanged)
         ]
 
--- | Reads the count of digits. The flag is true if the number is always written with all of them.
+-- | Reads the count of digits of a number. The flag is true if the number is always written with
+-- this count, and false if the count is a maximum.
 digitsFrom :: Statement -> Result w Error (Bool, Int)
 digitsFrom = withArguments ["digits 4", "digits at-most 4"] digitCount
   where

@@ -212,8 +212,8 @@ successorFaults between Successors {item = (r, i), next}
 continuesNumber :: Text -> Bool
 continuesNumber t = Text.any (\c -> isDigit c || c == '.') (Text.take 1 t)
 
--- | Reports a number without fixed length at the end of a frame, if closing symbols or skipped
--- blank rows read as its next digit.
+-- | Reports a number without fixed length at the end of a frame, if the reader could take closing
+-- symbols or skipped blank rows for a further digit of the number.
 endFaults :: Medium -> TapeCode -> Successors -> [Error]
 endFaults medium tapeCode Successors {item = (r, i), next}
   | hasOpenEnd i && not (all isSameFrame next) =

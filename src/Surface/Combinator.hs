@@ -388,8 +388,8 @@ sepBy1 :: Grammar p => p a -> Text -> p (NonEmpty a)
 sepBy1 p separator = (:|) <$> p <*> zeroOrMore (symbol separator *> p)
 {-# INLINEABLE sepBy1 #-}
 
--- | Runs a parser for the inside of a bracket or for an operand: 'bracketDepth' is greater by one
--- there. Fails if it would exceed 'maxNesting', so that no program exhausts the stack.
+-- | Runs a parser for the inside of a bracket or for an operand, with a 'bracketDepth' that is
+-- greater by one. Fails if the depth would exceed 'maxNesting'.
 nested :: Grammar p => p a -> p a
 nested p = do
   open <- bracketDepth <$> parserState

@@ -143,7 +143,7 @@ plainRow separator cells = row
 -- Lines and cells
 
 -- | The lines of a text, with their regions. The text begins at the offset @begin@. A byte order
--- mark separates lines, so that the one at the start of a file belongs to no cell.
+-- mark separates lines, so that a mark at the start of a file belongs to no cell.
 linesOf :: Int -> Text -> [Located Text]
 linesOf begin text = go begin text
   where

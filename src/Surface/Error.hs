@@ -321,7 +321,7 @@ meant token expected = case token of
   where
     words' = map (Text.dropAround (`elem` ("‘’" :: String))) expected
 
--- | Suggests what a misplaced token was meant to be, judged by its neighbours.
+-- | Suggests what the author meant by a misplaced token, judged by the tokens on both sides of it.
 advice :: Token_ -> Neighbours -> [Text]
 advice token neighbours = case (token, neighbours) of
   (Symbol ",", (Just (Number _ Nothing), Just (Number _ _))) ->

@@ -237,7 +237,8 @@ isDefinition (Located _ s) = case s of
   Broken (Just "import") _ -> True
   _ -> False
 
--- | A path without @.@, and without @..@ after the name of a folder, so that a file has one path.
+-- | A path without @.@, and without @..@ after the name of a folder, so that different spellings of
+-- a path become equal.
 simplified :: FilePath -> FilePath
 simplified path = if null parts then "." else joinPath parts
   where

@@ -1,4 +1,4 @@
--- | Values for the parameters of a program that its user gives on the command line.
+-- | Values for the parameters of a program, which the user gives on the command line.
 module Surface.Parameter
   ( assign,
   )

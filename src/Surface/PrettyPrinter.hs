@@ -91,8 +91,9 @@ write indent trailing doc pen
       let inside = fill (indent + 2) 0 members (newLine (indent + 2) (put open pen))
        in put close (newLine indent inside)
 
--- | For each of some documents next to one another: the number of characters between its end and
--- the next possible line break. The last document has @trailing@ characters after it.
+-- | For each document of a sequence without breaks between the documents: the number of characters
+-- from the end of the document to the next possible line break. @trailing@ is the number of
+-- characters after the last document.
 widthsAfter :: Int -> [Doc] -> [Int]
 widthsAfter trailing = drop 1 . scanr step trailing
   where

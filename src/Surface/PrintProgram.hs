@@ -75,7 +75,8 @@ continued line =
       isContinuation = True
     }
 
--- | A block: the text before its brace, the lines inside, and the closing brace.
+-- | The lines of a block: the document @before@ with the opening brace, the lines @inside@, and the
+-- closing brace.
 braces :: Int -> Doc -> [AlignedLine] -> [AlignedLine]
 braces indent before inside
   | null inside = whole indent (spaced [before, Text "{ }"])

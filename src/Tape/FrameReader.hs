@@ -184,7 +184,8 @@ withSymbols layout cs now
     now {total = foldl' (\n c -> n + Symbol.weight c) (total now) cs}
   | otherwise = now
 
--- | Adds the weight of the check digit @d@ to the check sum, and notes its row @k@ and its modulus.
+-- | Adds the weight of the check digit @d@ to the check sum. Notes the digit's row @k@ and the
+-- number @modulus@, of which the sum has to be a multiple.
 withCheckDigit :: PreparedLayout -> Int -> Int -> Int -> Reading -> Reading
 withCheckDigit layout k modulus d now =
   now
@@ -281,8 +282,8 @@ frameOf layout state begin reading = do
               Increments -> n
               Positions -> n - ModalState.along a (position state)
 
--- | Commands of a frame in the order of the layout, each with the sum of its bits. A number 0 that
--- means no command is left out, see 'ModalState.isZeroCommand'.
+-- | Commands of a frame in the order of the layout, each with its number, which for a command in
+-- bits is their sum. A number 0 that means no command is left out, see 'ModalState.isZeroCommand'.
 commandsOf :: PreparedLayout -> Reading -> [(Machine.CommandName, Int)]
 commandsOf layout reading
   | null (commandNumbers reading) = []

@@ -77,8 +77,8 @@ checkSum layout state frame = runIdentity (foldWithSum count 0 layout state fram
         CheckSymbol _ -> total
         _ -> total + n
 
--- | Fold over the rows of a frame as in 'foldRows'. @total@ is the check sum of the frame without
--- its check digit, from which the check digit is chosen.
+-- | Fold over the rows of a frame as in 'foldRows'. @total@ is the sum of the weights of all
+-- symbols but the check digit, which is chosen by it.
 foldWithSum ::
   Monad m =>
   AddRow m r ->

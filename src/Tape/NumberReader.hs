@@ -309,6 +309,6 @@ rowFault layout w
   | Symbol.isOdd (Layout.symbols layout) w = Just BadParity
   | otherwise = Nothing
 
--- | Fault of a tape that ends within a word with the content @c@; it is at the last row.
+-- | Fault of a tape that ends within a word with the content @c@. The fault is at the last row.
 cutOff :: Content -> ShortByteString -> RowFault
 cutOff c rows = RowFault (Short.length rows - 1) (Just c) CutOff

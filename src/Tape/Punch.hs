@@ -329,9 +329,9 @@ afterBlanks :: Source -> Int -> Int
 afterBlanks source at =
   at + ByteString.length (ByteString.takeWhile (== 0) (ByteString.drop at (kept source)))
 
--- | Frames from a row on as a lazy list; the state is that before the first of them. The list ends
--- with the first fault and the number of its frame (if it is in one), or with 'Nothing' at the
--- proper end of the tape.
+-- | Frames from a row on as a lazy list. The arguments are the row and the state before its frame.
+-- The list ends with 'Nothing' at the proper end of the tape. Otherwise it ends with the first
+-- fault and the number of the faulty frame; a fault outside of all frames has no number.
 framesFrom :: Source -> Int -> State -> LazyList (Maybe (Maybe Int, RowFault)) Frame
 framesFrom source = go
   where

@@ -97,7 +97,8 @@ meaningOf layout purpose = case purpose of
     isLeading c d = or [d == a || d == b | Just NumberForm {sign = Priority a b _ _} <- [formOf c]]
 
 -- | Name of the decimal position of digit @k@ (0 is the last digit) in a number of the form @f@,
--- with a space before the name: @" tens"@. Empty for a number of one digit, and without a form.
+-- with a space before the name: @" tens"@. Empty for a number of one digit, and if the form is not
+-- known.
 positionText :: Maybe NumberForm -> Int -> Text
 positionText f k = case f of
   Just NumberForm {digits = 1} -> ""
@@ -122,14 +123,15 @@ positionText f k = case f of
       3 -> "thousandths"
       _ -> "10^-" <> Decimal.whole e
 
--- | Name of the motion with the code @n@, after a comma, if digit @k@ is the last one (0) of a
--- motion word. Empty for every other digit and for words with another content @c@.
+-- | Name of the motion with the code @n@, after a comma, for the last digit (@k@ = 0) of a motion
+-- word. Empty for all other digits, and for words whose content @c@ is not a motion.
 motionAfterDigit :: Content -> Int -> Int -> Text
 motionAfterDigit c n k = case c of
   Motion codes | k == 0 -> ", " <> motionText codes n
   _ -> ""
 
--- | Name of the motion that the code @n@ of a motion word means; \"unknown\" if it means none.
+-- | Name of the motion that the code @n@ of a motion word means, or @unknown@ if the machine does
+-- not use the code.
 motionText :: MotionCodes -> Int -> Text
 motionText codes n
   | n == straight codes = "straight"

@@ -62,8 +62,8 @@ run limit (FastParser p) ts =
     (\a _ -> Just a)
     (const Nothing)
 
--- | The argument of the failure continuation after which no alternative is tried. It is below every
--- room, so that it is equal to none.
+-- | The argument of the failure continuation after which no alternative is tried. No room has this
+-- value.
 final :: Int
 final = minBound
 
@@ -145,7 +145,8 @@ instance MonadParsec Problem TokenStream FastParser where
           f (stateOf s)
      in ok () s {left = ts, room = negate stateOffset}
 
--- | The state in megaparsec's form. The offset is the negated room, so it grows by 1 per token.
+-- | The state in megaparsec's form. The offset is the negated room, so that the offset grows by 1
+-- with each token.
 stateOf :: FastState -> Parsec.State TokenStream Problem
 stateOf s =
   Parsec.State

@@ -1,4 +1,4 @@
--- | The fast twin of the parser, for programs without a mistake.
+-- | The fast parser, for programs without a mistake. "Surface.Parser" tries it first.
 module Surface.Parser.Fast
   ( parse,
   )
