@@ -1,7 +1,7 @@
 -- | Splits the text of a description into tokens.
 --
 -- The lexer never fails. It turns characters that form no token into a token for a mistake, which
--- the parser reports.
+-- the parser reports. An offset is the index of a character in the text, from 0.
 module Machine.Lexer
   ( Token,
     Token_ (..),

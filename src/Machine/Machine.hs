@@ -156,7 +156,7 @@ newtype Limits = Limits
   }
   deriving stock (Eq, Show)
 
--- | A value of the description, as a sentence, with its provenance.
+-- | A sentence that says one value of the description, with the provenance of the value.
 data DescribedValue = DescribedValue Provenance Text
   deriving stock (Eq, Show)
 
@@ -193,7 +193,7 @@ resolutionOf machine a = case axes machine of
     | axis first == a -> resolution first
     | otherwise -> maybe (planeResolution machine) resolution (among a others)
 
--- | Axes that the machine is known to move; others may have a word in its frames nevertheless.
+-- | Axes that the machine is known to move. A frame may have words for other axes too.
 drivenAxes :: Machine -> [Axis]
 drivenAxes machine = [axis f | f <- NonEmpty.toList (axes machine), isDriven f]
 
@@ -227,11 +227,12 @@ firstWord wanted ws = case ws of
   AWord w : _ | content w == wanted -> Just w
   _ : others -> firstWord wanted others
 
--- | Largest number of pulses that the word of an axis can hold; 0 if the frame lacks the word.
+-- | Largest number of pulses that the word of the axis @a@ can hold; 0 if frames lack the word.
 capacity :: Machine -> Axis -> Pulses
 capacity machine a = maybe 0 (Pulses . capacityOf . form) (wordFor machine (Along a))
 
--- | Largest number of pulses that every centre word can hold; 0 if the frame has no centre word.
+-- | Largest number of pulses that each of the words for an arc's centre can hold; 0 if frames have
+-- no such words.
 centreCapacity :: Machine -> Pulses
 centreCapacity machine = if least == maxBound then 0 else Pulses least
   where

@@ -42,7 +42,7 @@ data Spare
     Skipped
   deriving stock (Eq, Show)
 
--- | Assignment of rows to symbols.
+-- | Tape code: the row of holes for each symbol.
 data TapeCode = TapeCode
   { codeName :: Text,
     -- | holes of each symbol, without those of the service track and the parity track; no two

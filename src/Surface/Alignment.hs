@@ -19,7 +19,7 @@ data AlignedLine = AlignedLine
   { -- | the count of spaces before the line
     indent :: Int,
     cells :: LineCells,
-    -- | true if the statement or item of the line above continues on this line
+    -- | true if the line continues the statement or item of the line above
     isContinuation :: Bool
   }
   deriving stock (Eq, Show)

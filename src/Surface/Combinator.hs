@@ -70,7 +70,7 @@ import Surface.TokenStream (TokenStream (..))
 import Text.Megaparsec (ErrorItem (..), MonadParsec, ParseError (..), ParsecT, (<?>))
 import Text.Megaparsec qualified as Parsec
 
--- | A failure of megaparsec.
+-- | A failure in the form of the library megaparsec; its offset is the index of a token, from 0.
 type Failure = ParseError TokenStream Problem
 
 -- | Failures that are more specific than an unexpected token.
@@ -105,7 +105,7 @@ data ParserState = ParserState
     lastEnd :: Int,
     -- | the number of brackets and operands around the next token; 'nested' counts each of them
     bracketDepth :: Int,
-    -- | the number of statement blocks around the present statement
+    -- | the number of statement blocks around the statement that is being parsed
     blockDepth :: Int,
     -- | true after the failure 'TooDeep': the parser skips all further tokens without a report
     hasGivenUp :: Bool
@@ -149,7 +149,7 @@ class MonadParsec Problem TokenStream p => Grammar p where
 -- | A rule of the grammar for both parsers.
 type Parser a = forall p. Grammar p => p a
 
--- | The parser that reports mistakes.
+-- | The explaining parser, which reports mistakes and recovers from them.
 type Explaining = ParsecT Problem TokenStream (State ParserState)
 
 instance Grammar (ParsecT Problem TokenStream (State ParserState)) where

@@ -90,7 +90,8 @@ plainRows separator width texts = runST $ do
   where
     initialRoom = 8
 
--- | Growing arrays of plain rows: the offsets of the start and the end of each row, and its cells.
+-- | Growing arrays of plain rows. The first has the offsets of the start and the end of each row,
+-- the second the numbers of all rows, one row after the other.
 data Rows s = Rows (MutablePrimArray s Int) (MutablePrimArray s Double)
 
 -- | Adds plain rows of @width@ numbers to arrays, up to the first row that is not plain. The third

@@ -103,7 +103,7 @@ offsetsAtCommas = go False
 
 -- | A comment of the source.
 data Remark = Remark
-  { -- | the offset of its start
+  { -- | the offset of the comment's start
     offset :: Int,
     text :: Text,
     -- | true if other text precedes the comment on its line
@@ -172,7 +172,7 @@ data Entry = Entry {hasGap :: Bool, line :: Content}
 
 -- | The content of a line.
 data Content
-  = -- | a comment on a line of its own, with its indentation
+  = -- | a comment on a line of its own: the indentation in characters, the text
     Own Int Text
   | -- | a printed line with its trailing comment
     Printed SourceLine (Maybe Text)

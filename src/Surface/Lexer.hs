@@ -56,7 +56,8 @@ commentsFrom found before rest = case chunk chunkSize [] found before rest of
 chunkSize :: Int
 chunkSize = 512
 
--- | Tokens and comments in reverse order, the text after them, and the state at its start.
+-- | Tokens @ts@ and comments @cs@ in reverse order, the text @left@ after them, and the state
+-- @stopped@ of the lexer at the start of that text.
 data Chunk = Chunk {ts :: [Token], cs :: [Located Text], stopped :: LexerState, left :: Text}
 
 -- | Reads at most @count@ tokens and the comments between them. Adds them to the tokens @ts@ and
@@ -173,7 +174,8 @@ numeral rest = case Decimal.leading rest of
       Just (c, _) -> isWordPart c && maybe True (\(UnitAfter _ gap _) -> gap > 0) unit
       Nothing -> False
 
--- | A unit after a number, the number of spaces before it, and its length in characters.
+-- | A unit after a number, the count of spaces before the unit, and the length of the unit in
+-- characters.
 data UnitAfter = UnitAfter Unit Int Int
 
 -- | Reads a unit at the start of a text, after any number of spaces; 'Nothing' if there is none.

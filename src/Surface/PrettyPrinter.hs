@@ -16,7 +16,7 @@ where
 import Data.Text (Text)
 import Data.Text qualified as Text
 
--- | A document.
+-- | A text with the positions at which it may be broken into lines.
 data Doc
   = -- | never broken
     Text Text

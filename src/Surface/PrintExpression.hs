@@ -39,8 +39,8 @@ data CommentPositions = CommentPositions
 noComments :: CommentPositions
 noComments = CommentPositions {isBetween = \_ _ -> False, isAtComma = \_ _ -> False}
 
--- | The precedence of an expression, lowest first. An operand is put in parentheses when its
--- precedence is lower than its operator demands.
+-- | The precedence of an expression, the lowest first. An operand is put in parentheses if its
+-- precedence is lower than the one that the operator demands.
 data Precedence
   = Loose
   | Disjunction

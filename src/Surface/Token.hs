@@ -48,7 +48,7 @@ data Token_
 data Numeral = Numeral {digits :: {-# UNPACK #-} Text, amount :: Double}
   deriving stock (Eq, Ord, Show)
 
--- | The units of a drawing.
+-- | The units that a number in a program may have.
 data Unit
   = Millimetre
   | Centimetre

@@ -34,7 +34,7 @@ import Surface.TokenStream (TokenStream (..))
 import Text.Megaparsec (MonadParsec (..))
 import Text.Megaparsec qualified as Parsec
 
--- | The state of the parser.
+-- | The state of the fast parser. An offset is the index of a character in the text, from 0.
 data FastState = FastState
   { -- | the remaining tokens
     left :: [Token],
@@ -44,7 +44,7 @@ data FastState = FastState
     ended :: Int,
     -- | the number of brackets and operands around the next token
     open :: Int,
-    -- | the number of statement blocks around the present statement
+    -- | the number of statement blocks around the statement that is being parsed
     blocks :: Int
   }
 
