@@ -243,7 +243,7 @@ holeFaults hasService r isGiven f
   where
     holes = service f
 
--- | Kinds of content of a word, by the forms that they allow for the number.
+-- | Kinds of content of a word. They differ in the number forms that they allow.
 data ContentKind = AxisOrCentre | CommandNumber | OtherNumber
   deriving stock (Eq)
 

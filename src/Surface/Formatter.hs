@@ -174,7 +174,7 @@ data Entry = Entry {hasGap :: Bool, line :: Content}
 data Content
   = -- | a comment on a line of its own: the indentation in characters, the text
     Own Int Text
-  | -- | a printed line with its trailing comment
+  | -- | a printed line, and the text of the comment at its end if there is one
     Printed SourceLine (Maybe Text)
   deriving stock (Eq, Show)
 

@@ -4,8 +4,8 @@
 -- | Writer of frames: makes the rows of a frame by the steps of a layout.
 --
 -- Each row comes with its weight in the check sum and its meaning. The same code makes the tape,
--- which needs the holes only, and the picture of the tape, which explains every row. In the
--- functions named @add…@ and @fold…@ the last argument is the accumulator so far.
+-- which needs the holes only, and the picture of the tape, which explains every row. In 'foldRows',
+-- 'foldSign', 'addDigit' and the like the last argument is the accumulator so far.
 module Tape.FrameWriter
   ( frameRows,
     AddRow,
