@@ -22,7 +22,7 @@ data AxisForm = AxisForm
     resolution :: Mm,
     -- | true if the positive direction of the machine is the negative one of the part
     reversed :: Bool,
-    -- | true if that direction is the opposite one when the machine is set up for turning
+    -- | true if the machine's axis changes its direction when the machine is set up for turning
     reversedOnLathe :: Bool,
     -- | true if the machine is known to move this axis. If it is not, frames may still have a word
     -- for the axis
@@ -38,7 +38,7 @@ data Arcs
     Arcs {quadrants :: Bool, fullCircle :: Bool}
   deriving stock (Eq, Show)
 
--- | Finds the properties of an axis in a list.
+-- | Finds the properties of the axis @a@ in a list; 'Nothing' if the list lacks the axis.
 among :: Axis -> [AxisForm] -> Maybe AxisForm
 among a forms = case forms of
   [] -> Nothing

@@ -24,7 +24,7 @@ import Machine.Machine (Machine, MachineName (..))
 names :: [MachineName]
 names = map fst builtIn
 
--- | Finds a machine by its name.
+-- | Finds a machine by its name; 'Nothing' if no built-in machine has the name.
 find :: MachineName -> Maybe Machine
 find name = snd <$> lookup name builtIn
 
@@ -32,12 +32,13 @@ find name = snd <$> lookup name builtIn
 machines :: [Machine]
 machines = [m | (_, (_, m)) <- builtIn]
 
--- | Finds the description of a machine by its name.
+-- | Finds the text that describes a machine by the machine's name; 'Nothing' if no built-in machine
+-- has the name.
 text :: MachineName -> Maybe Text
 text name = fst <$> lookup name builtIn
 
--- | Names, descriptions and machines. The name of a file without its extension is that of the
--- machine.
+-- | Each machine with its name and the text that describes it. The name of the machine is the name
+-- of the file without the extension.
 builtIn :: [(MachineName, (Text, Machine))]
 builtIn =
   [ (name, machineIn name bytes)
@@ -46,8 +47,8 @@ builtIn =
       let name = MachineName n
   ]
 
--- | Reads a file of this name and contents. A mistake in a built-in description is a bug of the
--- program, and ends it.
+-- | Text of a description and the machine that it describes, from the name of the machine and the
+-- bytes of the file. A mistake in a built-in description is a bug of this program, and ends it.
 machineIn :: MachineName -> ByteString -> (Text, Machine)
 machineIn (MachineName name) bytes = (content, machine)
   where

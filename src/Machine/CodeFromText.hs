@@ -22,8 +22,8 @@ import Machine.Machine (TapeCode (..))
 import Machine.Section
 import Machine.Syntax
 
--- | Reads the section. The first argument is the number of tracks; it is 'Nothing' if the tape
--- cannot be read, and then a pattern may have 1 to 8 digits.
+-- | Reads the section @code@. @trackCount@ is the number of tracks. It is 'Nothing' if the number
+-- cannot be read, and then a pattern of holes may have 1 to 8 digits.
 code :: Maybe Int -> Statement -> Result w Error TapeCode
 code trackCount s = do
   (name, section) <- withBlock ["code \"NAME\" { … }"] "the code" codeNameFrom s
@@ -56,17 +56,17 @@ code trackCount s = do
     track word = optional word Nothing (withArguments [word <> " 5"] (single trackNumber))
     trackNumber = fmap (fmap Just) . wholeIn "the track" 1 (most width)
 
--- | Accepts a line with one argument.
+-- | Reads the argument of a line by @f@; 'Nothing' for more or fewer arguments than one.
 single :: (Argument -> Maybe (Result w Error a)) -> [Argument] -> Maybe (Result w Error a)
 single f args = case args of
   [a] -> f a
   _ -> Nothing
 
--- | Least and largest number of digits in a pattern of holes. The highest track may be left out,
--- because it is often the service track or the parity track.
+-- | Least and largest count of digits, 0 or 1, in a pattern of holes. The highest track may be left
+-- out, because it is often the service track or the parity track.
 data Width = Width {least :: Int, most :: Int}
 
--- | Reads the symbols, each with its region.
+-- | Reads the symbols: the holes of each, with the region of the symbol.
 symbolsFrom :: Width -> Statement -> Result w Error (Map Char (Located Word8))
 symbolsFrom width s = do
   ((), section) <- withBlock ["symbols { 0 = 0000 … }"] "the symbols" noArguments s
@@ -87,7 +87,7 @@ symbolsFrom width s = do
             (\p -> [(c, Located (region (key e)) p)]) <$> holesOf width (Located r digits)
         _ -> malformed ["X = 0101", "\"\\n\" = 0101", "ascii"] e
 
--- | The key as a symbol; 'Nothing' if it is not a single character.
+-- | The key of a line as a symbol; 'Nothing' if the key is not a single character.
 charOf :: Statement -> Maybe Char
 charOf s = case value (key s) of
   Word w -> one w
@@ -101,7 +101,8 @@ charOf s = case value (key s) of
       [c] -> Just c
       _ -> Nothing
 
--- | Reports symbols that an earlier line contains. The report calls them by the title.
+-- | Reports symbols that an earlier line contains too. The report begins with @title@, which says
+-- what the lines give.
 repetitions :: Text -> [(Char, Region)] -> [Error]
 repetitions title given =
   [ Twice r (title <> "‘" <> Text.singleton c <> "’") first
@@ -121,7 +122,7 @@ holesOf width (Located r digits)
   where
     size = Text.length digits
 
--- | Reads the rows to skip. Their patterns name every track.
+-- | Reads the rows that a tape reader skips. Their patterns have a digit for every track.
 skipsFrom :: Width -> Statement -> Result w Error [Word8]
 skipsFrom width = withArguments ["skip 00000 11111"] rows
   where
@@ -135,7 +136,7 @@ skipsFrom width = withArguments ["skip 00000 11111"] rows
           )
       _ -> Nothing
 
--- | Reads the weights, each with its region.
+-- | Reads the weights of symbols in a check sum, each with the region of its symbol.
 weightsFrom :: Statement -> Result w Error (Map Char (Located Int))
 weightsFrom s = do
   ((), section) <- withBlock ["weights { digits … }"] "the weights" noArguments s
@@ -156,7 +157,7 @@ weightsFrom s = do
         _ -> malformed ["X = 7", "digits"] e
 
 -- | Checks that no two symbols have the same holes, that the parity track and the service track are
--- free, and that no symbol is a row to skip. The first argument is the number of tracks.
+-- free, and that no symbol is a row to skip.
 check :: Int -> DescriptionSection -> TapeCode -> Map Char (Located Word8) -> [Error]
 check tracks section made located =
   equalRows <> parityFaults <> serviceFaults <> sharedTrack <> skippedSymbols
@@ -195,9 +196,8 @@ check tracks section made located =
           (c, _) <- take 1 [e | e@(_, Located _ p) <- rows, row `elem` rowsOf tracks made p]
       ]
 
--- | Rows that a symbol can have on the tape: without and with a hole in the service track, each
--- with its parity hole. The arguments are the number of tracks, the code and the holes of the
--- symbol.
+-- | Rows that a symbol with the holes @p@ can have on the tape: without and with a hole in the
+-- service track, each with its parity hole.
 rowsOf :: Int -> TapeCode -> Word8 -> [Word8]
 rowsOf tracks made p = map even' (p : [p .|. bit' t | Just t <- [serviceTrack made], t <= tracks])
   where

@@ -1,5 +1,8 @@
 -- | Reads the section @commands@ of a description: the words of a frame for each command of a part
 -- program.
+--
+-- An event is what makes the compiler write a command: the spindle starts, the coolant goes off,
+-- the program ends. Each event has a key in the section, such as @coolant-on@.
 module Machine.CommandFromText
   ( CommandContext (..),
     noCommands,
@@ -34,20 +37,20 @@ import Machine.Machine qualified as Machine
 import Machine.Section
 import Machine.Syntax
 
--- | The numbers for all commands. 'eventWords' lists them once more, each with its region and the
--- key of its event, such as @coolant-on@.
+-- | The numbers for all commands. 'eventWords' lists the same numbers for the checks, each with its
+-- region and the key of its event.
 data CommandContext = CommandContext
   { allWords :: CommandWords,
     eventWords :: [(Text, Located CommandWord)]
   }
 
--- | The context of a description without commands.
+-- | The context of a description without the section @commands@.
 noCommands :: CommandContext
 noCommands = CommandContext Machine.noCommandWords []
 
 -- | Located words of the commands, before they are put into a 'CommandContext'.
 data Events = Events
-  { -- | words of the events of 'simpleEvents', in that order
+  { -- | one list of words for each key in 'simpleEvents', in the order of the keys
     simple :: [[Located CommandWord]],
     compensations :: Maybe CompensationEvents,
     endFrames :: [NonEmpty (Located CommandWord)]
@@ -60,7 +63,7 @@ data CompensationEvents = CompensationEvents
     off :: Located CommandWord
   }
 
--- | Keys of the events that are lists of words.
+-- | Keys of all events but @compensation@ and @finish@, whose blocks have blocks of their own.
 simpleEvents :: [Text]
 simpleEvents =
   [ "spindle-clockwise",
@@ -72,7 +75,7 @@ simpleEvents =
     "auxiliary"
   ]
 
--- | Reads the section.
+-- | Reads the section @commands@.
 commands :: Statement -> Result w Error CommandContext
 commands s = do
   ((), section) <- withBlock ["commands { … }"] "the commands" noArguments s
@@ -103,7 +106,7 @@ commandWords events = case map (map value) (simple events) of
   where
     unlocated c = CompensationCommands (value (left c)) (value (right c)) (value (off c))
 
--- | Each word with the key of its event.
+-- | The words of all events, each with the key of its event.
 withEvents :: Events -> [(Text, Located CommandWord)]
 withEvents events =
   concat
@@ -112,13 +115,14 @@ withEvents events =
       [("finish", w) | ws <- endFrames events, w <- NonEmpty.toList ws]
     ]
 
--- | Reads the lines of an event, such as @set M 8@.
+-- | Reads the lines, such as @set M 8@, in the block of the event with the key @word@.
 eventFrom :: Text -> Statement -> Result w Error [Located CommandWord]
 eventFrom word s = do
   ((), section) <- withBlock [word <> " { set M 8 }"] ("‘" <> word <> "’") noArguments s
   NonEmpty.toList <$> wordsFrom section
 
--- | Reads one or more numbers, each for another word.
+-- | Reads one or more numbers, each with the command word that holds it. Reports a second number
+-- for a command word.
 wordsFrom :: DescriptionSection -> Result w Error (NonEmpty (Located CommandWord))
 wordsFrom section = do
   found <-
@@ -136,7 +140,7 @@ wordsFrom section = do
           Located first _ <- take 1 [p | p <- take k ws, commandName (value p) == commandName w]
       ]
 
--- | Reads one number of a command.
+-- | Reads a line such as @set M 8@: the number of one command.
 wordFrom :: Statement -> Result w Error (Located CommandWord)
 wordFrom s = case (arguments s, block s) of
   ([name, Located _ (Word "steps")], Just ss)
@@ -162,7 +166,7 @@ wordFrom s = case (arguments s, block s) of
         fmap (located n . Fixed) <$> wholeIn "the number" 0 999999999 a
       _ -> Nothing
 
--- | Reads the three events of cutter compensation, each of one number.
+-- | Reads the three events of cutter compensation: left, right and off. Each has one number.
 compensationFrom :: Statement -> Result w Error CompensationEvents
 compensationFrom s = do
   ((), section) <- withBlock [example] "the compensation" noArguments s
@@ -180,7 +184,7 @@ compensationFrom s = do
         [w] -> pure w
         _ -> malformed [word <> " { set D diameter }, with one number"] e
 
--- | Reads the last frames of a program.
+-- | Reads the numbers in the last frames of every program, one list for each frame.
 finishFrom :: Statement -> Result w Error [NonEmpty (Located CommandWord)]
 finishFrom s = do
   ((), section) <- withBlock ["finish { frame { set M 2 } }"] "the end of a program" noArguments s
@@ -193,7 +197,7 @@ finishFrom s = do
 check :: Machine -> CommandContext -> [Error]
 check machine context = concatMap (wordFaults machine) (eventWords context)
 
--- | Lists the mistakes in one number of an event.
+-- | Lists the mistakes in one number of the event with the given key.
 wordFaults :: Machine -> (Text, Located CommandWord) -> [Error]
 wordFaults machine (event, Located r (CommandWord name v)) =
   case Machine.commandCapacity machine name of
@@ -223,8 +227,8 @@ givesZero v = case v of
   Argument -> False
   Diameter -> False
 
--- | Reports numbers that exceed @most@, the largest one of the command, and whole numbers in a word
--- with decimals.
+-- | Reports numbers above @most@, the largest number that the command's word or bits can hold. It
+-- also reports whole numbers in a word with decimals.
 sizeFaults :: Machine -> Region -> CommandName -> Int -> CommandValue -> [Error]
 sizeFaults machine r name most v = case v of
   Fixed k -> tooLarge [k] <> decimalsFault
@@ -240,7 +244,8 @@ sizeFaults machine r name most v = case v of
           decimals (form w) > 0
       ]
 
--- | Reports a kind of value that the event does not allow, such as a diameter for a tool change.
+-- | Reports a kind of value that the event with the key @event@ does not allow, such as a diameter
+-- for a tool change.
 eventFaults :: Region -> Text -> CommandValue -> [Error]
 eventFaults r event v = case v of
   Fixed _ -> []

@@ -12,8 +12,8 @@ import Data.List.NonEmpty (NonEmpty (..))
 import Data.Map.Strict (Map)
 import Machine.FrameLayout (CommandName)
 
--- | Numbers that a frame contains for each command; an empty list if the tape cannot give the
--- command.
+-- | Numbers that a frame contains for each command. If the tape cannot give the command, the list
+-- is empty, and @compensation@ is 'Nothing'.
 data CommandWords = CommandWords
   { spindleClockwise :: [CommandWord],
     spindleCounterClockwise :: [CommandWord],
@@ -29,19 +29,21 @@ data CommandWords = CommandWords
   }
   deriving stock (Eq, Show)
 
--- | One number: the name of the word or the service bits that contain it, and its source.
+-- | One number in a frame: the name of the word or of the service bits that contain the number, and
+-- where the number comes from.
 data CommandWord = CommandWord {commandName :: CommandName, value :: CommandValue}
   deriving stock (Eq, Show)
 
--- | Source of a command's number.
+-- | Where the number of a command comes from.
 data CommandValue
   = -- | this number
     Fixed Int
   | -- | The number that the program gives: of a tool, of an auxiliary command, or the spindle speed
     -- in revolutions per minute.
     Argument
-  | -- | The number of the step whose spindle speed, in revolutions per minute, is nearest to the
-    -- one that the program gives. If two steps are equally near, it is the lower number.
+  | -- | The number of a step of the spindle: the table gives the speed of each step in revolutions
+    -- per minute. The step nearest to the program's speed is taken; of two equally near, the lower
+    -- number.
     Step (Map Int Double)
   | -- | diameter of the cutter, in mm
     Diameter
@@ -55,6 +57,6 @@ data CompensationCommands = CompensationCommands
   }
   deriving stock (Eq, Show)
 
--- | No word for any command.
+-- | The numbers of a machine whose tape cannot give any command.
 noCommandWords :: CommandWords
 noCommandWords = CommandWords [] [] [] [] [] [] [] Nothing []

@@ -15,8 +15,8 @@ import Machine.Axis (axisName)
 import Machine.Error (Error (..), FrameFault (..), ServiceFault (..))
 import Machine.Machine
 
--- | Lists the mistakes. The arguments are the machine, its axes, the regions of the sections on
--- arcs and on feeds, and the items of its frame.
+-- | Lists the mistakes in the words of a frame. The arguments are the machine, its axes, the
+-- regions of the sections on arcs and on feeds, and the items of the frame.
 check :: Machine -> [Located AxisForm] -> Region -> Region -> [(Region, LayoutItem)] -> [Error]
 check machine locatedAxes arcsRegion feedsRegion locatedItems =
   concat
@@ -65,11 +65,12 @@ wordFaults machine (r, w) = case content w of
               n `elem` take k ns || n >= 10 ^ digits (form w)
           ]
 
--- | Largest relative difference between two pulses that count as equal.
+-- | Largest relative difference between an axis's resolution and the last decimal of its word at
+-- which the two count as equal.
 pulseTolerance :: Double
 pulseTolerance = 1e-9
 
--- | Reports words that have the content of an earlier word.
+-- | Reports each word that has the same content as an earlier word.
 duplicates :: [(Region, Word')] -> [Error]
 duplicates locatedWords =
   [ BadFrame r (TwoWords (contentName (content w)) first)
@@ -98,12 +99,13 @@ arcFaults machine r = case arcs machine of
       Motion MotionCodes {clockwise = Just _, counterClockwise = Just _} -> True
       _ -> False
 
--- | A bit of a command, and the word beside whose digits it is.
+-- | A bit of a command, which is a hole in the service track beside a digit of another word. Bits
+-- are numbered from 0, the lowest.
 data LocatedBit = LocatedBit
   { wordRegion :: Region,
     command :: CommandName,
     bit :: Int,
-    -- | true if not every frame contains the word
+    -- | true if some frames lack the word
     isOptional :: Bool
   }
 
@@ -147,7 +149,7 @@ bitFaults locatedWords =
     commandText (CommandName n) = n
     bitText b = commandText (command b) <> ":" <> Decimal.whole (bit b)
 
--- | True if the weights of the digits have every remainder modulo this number, so that there is a
+-- | True if the weights of the digits have every remainder modulo @modulus@, so that there is a
 -- check digit for each sum.
 hasAllRemainders :: TapeCode -> Int -> Bool
 hasAllRemainders c modulus =

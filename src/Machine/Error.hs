@@ -47,7 +47,7 @@ data Error
     Missing Region Text Text Text
   | -- | malformed statement: its key, and the forms that it may have
     Malformed Region Text [Text]
-  | -- | value without a mark of provenance, and the count of further ones in the section
+  | -- | value without a mark of provenance, and the count of further such values in the section
     Unmarked Region Int
   | -- | number out of range: its name, the lowest and the highest value
     OutOfRange Region Text Text Text
@@ -90,7 +90,7 @@ data HoleFault
 data DecodingFault
   = -- | optional word without an address
     NoAddress
-  | -- | address that an earlier word has too, and the region of that word
+  | -- | address that an earlier word has too: the address, and the region of the earlier word
     SameAddress Text Region
   | -- | address or separator that begins like a number
     LikeNumber Text
@@ -141,9 +141,9 @@ data FrameFault
     NoWord Text
   | -- | form that does not suit the content: the name of the content, and the reason
     Unsuited Text Text
-  | -- | number of decimals whose last place is not this pulse
+  | -- | the count of decimals, and the pulse of the axis, which is not one unit of the last decimal
     PulseNotDecimal Int Mm
-  | -- | code of a motion that does not fit the digits, or is used twice
+  | -- | code of a motion that has too many digits for its word, or is used twice
     BadMotion Int
   | -- | centre word along z
     CentreOfZ
@@ -160,13 +160,14 @@ data TableFault
   = EmptyTable
   | -- | value for this code that is not between 0 and 10^9
     NoValue Int
-  | -- | code that does not fit the feed word, and the largest one that does
+  | -- | code that does not fit the feed word, and the largest code that does
     CodeTooLarge Int Int
   | -- | code that the table lacks
     NoSuchCode Int
   | -- | range that is reversed or too long
     BadRange Int Int
-  | -- | feed at the end of braking that is outside the feeds: the lowest and the highest one
+  | -- | feed at the end of braking that is outside the machine's feeds: the lowest and the highest
+    -- of these, in mm/min
     NoSuchFeed Double Double
   deriving stock (Eq, Ord, Show)
 
@@ -174,7 +175,7 @@ data TableFault
 data CommandFault
   = -- | name for which the frame has neither a word nor bits, and the names that it has
     UnknownCommandName Text [Text]
-  | -- | number that does not fit, and the largest one that does
+  | -- | number that does not fit the word or the bits, and the largest number that does
     NumberTooLarge Int Int
   | -- | kind of value that the event does not allow: the name of the kind, the key of the event
     NoSuchValue Text Text
@@ -269,7 +270,7 @@ toReport err = case err of
     listed cs =
       Text.intercalate ", " (map (quote . Text.pack . unquoted . show) (take 12 cs))
         <> (if length cs > 12 then " …" else "")
-    -- Control characters as escape sequences; all other characters as they are.
+    -- Writes control characters as escape sequences, and all other characters as they are.
     unquoted s = case s of
       "'\\n'" -> "\\n"
       ['\'', c, '\''] -> [c]

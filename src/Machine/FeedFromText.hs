@@ -29,9 +29,9 @@ import Machine.Machine
 import Machine.Section
 import Machine.Syntax
 
--- | Reads the lines of a table, such as @1 = 15@ and @0..40 = 10 * 10^(n/20)@. Each line gives the
--- values of a code or of a range of codes, as a formula in the code @n@. A value must be above 0
--- and below 10^9.
+-- | Reads the lines of a table that gives each code a value, a feed or a spindle speed. Examples of
+-- lines are @1 = 15@ and @0..40 = 10 * 10^(n/20)@. Each line gives the values of a code or of a
+-- range of codes, as a formula in the code @n@. A value must be above 0 and below 10^9.
 table :: DescriptionSection -> Result w Error (Map Int Double)
 table section = do
   given <- concat . catMaybes <$> traverse (attempt . tableLine) (entries section)
@@ -40,7 +40,7 @@ table section = do
     (repetitions given <> [BadTable (sectionRegion section) EmptyTable | null (entries section)])
     values
 
--- | Reads one line of a table: each code with the region of the line's key and with its value.
+-- | Reads one line of a table: each code with the region of the line's key and the code's value.
 tableLine :: Statement -> Result w Error [(Int, Region, Double)]
 tableLine e = case (codesOf e, formula e) of
   _ | broken e -> alreadyReported
@@ -61,14 +61,14 @@ tableLine e = case (codesOf e, formula e) of
             then pure (n, keyRegion, v)
             else Result.failed (BadTable formulaRegion (NoValue n))
 
--- | First and last code of a line.
+-- | First and last code of a line of a table; 'Nothing' if the key is no code or range of codes.
 codesOf :: Statement -> Maybe (Int, Int)
 codesOf e = case value (key e) of
   Number t v | Text.all (/= '.') t && v < 1e9 -> Just (round v, round v)
   Range a b -> Just (a, b)
   _ -> Nothing
 
--- | Reports codes that an earlier line contains; one report for each line.
+-- | Reports codes that an earlier line contains too, with one report for each line.
 repetitions :: [(Int, Region, Double)] -> [Error]
 repetitions given =
   withoutRuns
@@ -79,7 +79,7 @@ repetitions given =
       e : rest -> e : withoutRuns (dropWhile (== e) rest)
       [] -> []
 
--- | Largest number of codes that one line may contain.
+-- | Largest count of codes that one line of a table may contain.
 longestRange :: Int
 longestRange = 10000
 
@@ -102,7 +102,7 @@ feeds s = do
       [Located _ (Word "code"), n] -> fmap (ByCode . FeedCode) <$> wholeIn "the code" 0 999999999 n
       _ -> Nothing
 
--- | Reads the codes: either a table, or a range of codes that are their own values.
+-- | Reads the feed codes: either a table, or a range of codes that are their own values.
 codesFrom :: DescriptionSection -> Result w Error FeedCodes
 codesFrom section =
   case ( [s | s <- entries section, keyWord s == Just "table"],
@@ -142,8 +142,8 @@ braking s = do
         fmap (BrakedFrames . Feed) <$> quantityIn "the feed" "mm/min" 1e9 a b
       _ -> Nothing
 
--- | Checks feeds and braking against each other. The last argument is the largest code that the
--- feed word can hold, if there is one.
+-- | Checks feeds and braking against each other. @wordCapacity@ is the largest code that the feed
+-- word can hold; 'Nothing' if frames have no feed word.
 checkFeeds :: Located Feeds -> Located Braking -> Maybe Int -> [Error]
 checkFeeds (Located feedsRegion f) (Located brakingRegion b) wordCapacity =
   rapidFaults <> capacityFaults <> brakingFaults

@@ -1,4 +1,5 @@
--- | The feed codes of a machine, and its braking.
+-- | The feed codes of a machine, and how the machine slows down. The value of a code is the feed
+-- that the code means.
 module Machine.Feeds
   ( Feeds (..),
     FeedMeasure (..),
@@ -17,7 +18,7 @@ where
 import Base.Quantity (Feed (..))
 import Data.Map.Strict (Map)
 
--- | Number in the feed word of a frame.
+-- | Number in the feed word of a frame, which means a feed.
 newtype FeedCode = FeedCode Int
   deriving newtype (Eq, Ord)
   deriving stock (Show)
@@ -31,7 +32,7 @@ data Feeds = Feeds
   }
   deriving stock (Eq, Show)
 
--- | Unit of the values of the codes.
+-- | Unit in which the values of the feed codes are given.
 data FeedMeasure
   = -- | mm/min along the path
     AlongPath
@@ -39,11 +40,11 @@ data FeedMeasure
     LeadingAxis
   deriving stock (Eq, Show)
 
--- | Codes and their values.
+-- | Feed codes and their values, in the unit of 'FeedMeasure'.
 data FeedCodes
   = -- | a value for each code
     Listed (Map FeedCode Double)
-  | -- | The code is the value. The arguments are the lowest and the highest code.
+  | -- | Each code is its own value. The arguments are the lowest and the highest code.
     Direct Int Int
   deriving stock (Eq, Show)
 
@@ -55,7 +56,7 @@ data Rule
     Nearest
   deriving stock (Eq, Show)
 
--- | Code of rapid moves.
+-- | Feed code of rapid moves, on a machine that has no motion code for them.
 data RapidCode
   = -- | the code of the highest value
     Highest
@@ -63,7 +64,7 @@ data RapidCode
     ByCode FeedCode
   deriving stock (Eq, Show)
 
--- | Result of the choice of a code.
+-- | Result of the choice of a code for a feed. The values are in the unit of 'FeedMeasure'.
 data FeedChoice
   = -- | the code, and its value
     Given FeedCode Double
@@ -82,13 +83,14 @@ data Braking = Braking
   }
   deriving stock (Eq, Show)
 
--- | The party that brakes, the control or the program on the tape.
+-- | Who slows the machine down: the control, or the program on the tape.
 data BrakingForm
   = -- | The control slows down by itself.
     ByControl
   | -- | The program slows down, in a frame at the lowest feed.
     SlowFrames
-  | -- | The control slows down in frames that the program marks with a 'BrakingHole'. The program
-    -- marks frames before every lower feed; before its end it brakes to this feed.
+  | -- | The control slows down in frames that the program marks with a
+    -- 'Machine.FrameLayout.BrakingHole'. The program marks the frames before every lower feed, and
+    -- the frames at its end, where it brakes to the given feed.
     BrakedFrames Feed
   deriving stock (Eq, Show)

@@ -32,16 +32,16 @@ import Machine.Machine qualified as Machine
 import Machine.Section
 import Machine.Syntax
 
--- | A layout with the regions of its items and of its separator. Without a separator in the
--- description, the region is that of the section.
+-- | A layout with the regions of its items and of its separator. If the description gives no
+-- separator, 'separatorRegion' is the region of the section @frame@.
 data LocatedLayout = LocatedLayout
   { layout :: Layout,
     locatedItems :: NonEmpty (Region, LayoutItem),
     separatorRegion :: Region
   }
 
--- | Reads the section. The first argument is true if the code has a service track; it is 'Nothing'
--- if the code cannot be read, and then every hole is accepted.
+-- | Reads the section @frame@. @hasService@ is true if the code has a service track. It is
+-- 'Nothing' if the code cannot be read, and then every hole beside a digit is accepted.
 frame :: Maybe Bool -> Statement -> Result w Error LocatedLayout
 frame hasService s = do
   ((), section) <- withBlock ["frame { … }"] "the frame" noArguments s
@@ -65,7 +65,7 @@ frame hasService s = do
     measureFrom = choice [("increments", Increments), ("positions", Positions)]
     separatorFrom e = (extent e,) <$> quotedText e
 
--- | Reads all items of a frame, in their order.
+-- | Reads all items of a frame, in their order. @hasService@ is that of 'frame'.
 itemsFrom :: Maybe Bool -> DescriptionSection -> Result w Error [(Region, LayoutItem)]
 itemsFrom hasService section = concat <$> traverse item (entries section)
   where
@@ -89,7 +89,8 @@ quotedText e = withArguments [keyText e <> " \"…\""] text e
       [Located _ (Quoted t)] -> Just (pure t)
       _ -> Nothing
 
--- | Reads a word of a frame: its address, its content and its form.
+-- | Reads a word of a frame: its address, its content and its form. @hasService@ is that of
+-- 'frame'.
 word :: Maybe Bool -> Statement -> Result w Error Word'
 word hasService e = do
   ((address', found), section) <- withBlock forms "this word" heading e
@@ -106,8 +107,8 @@ word hasService e = do
       Located _ (Quoted a) : rest -> (\c -> pure (a, c)) <$> contentFrom rest
       _ -> (\c -> pure ("", c)) <$> contentFrom args
 
--- | Reads the content of a word. The inner result is 'Nothing' for a kind of motion, because its
--- codes are in the block of the word.
+-- | Reads the content of a word from the arguments of its line; 'Nothing' if they are no content.
+-- The inner result is 'Nothing' for the kind of motion, whose codes are in the block of the word.
 contentFrom :: [Argument] -> Maybe (Maybe Content)
 contentFrom args = case map value args of
   [Word "frame-number"] -> Just (Just FrameNumber)
@@ -122,7 +123,7 @@ contentFrom args = case map value args of
 axisNamed :: Text -> Maybe Axis
 axisNamed a = lookup a [("x", X), ("y", Y), ("z", Z)]
 
--- | Reads the codes of the kinds of motion.
+-- | Reads the codes of the kinds of motion from the block of a word.
 motionCodes :: DescriptionSection -> Result w Error MotionCodes
 motionCodes section =
   MotionCodes
@@ -136,7 +137,8 @@ motionCodes section =
       [a] -> wholeIn "the number of a motion" 0 999999999 a
       _ -> Nothing
 
--- | Reads the block of a word with this address and content.
+-- | Reads the block of the word with the address @address'@ and the content @content'@.
+-- @hasService@ is that of 'frame'; @e@ is the line of the word.
 wordFrom :: Maybe Bool -> Statement -> Text -> Content -> DescriptionSection -> Result w Error Word'
 wordFrom hasService e address' content' section = do
   (exactly, n) <- required "digits" "digits 4" digitsFrom section
@@ -175,7 +177,8 @@ wordFrom hasService e address' content' section = do
           ("changed", WhenChanged)
         ]
 
--- | Reads the number of digits, and true if a number always has all of them.
+-- | Reads the count of digits of a number. The flag is true if the number is always written with
+-- this count, and false if the count is a maximum.
 digitsFrom :: Statement -> Result w Error (Bool, Int)
 digitsFrom = withArguments ["digits 4", "digits at-most 4"] digitCount
   where
@@ -185,7 +188,7 @@ digitsFrom = withArguments ["digits 4", "digits at-most 4"] digitCount
       [a] -> fmap (True,) <$> wholeIn "the number of digits" 0 mostDigits a
       _ -> Nothing
 
--- | Reads the number of decimals, at most the number of digits.
+-- | Reads the count of decimals, from 0 to @most@, the count of digits.
 decimalsFrom :: Int -> Statement -> Result w Error Int
 decimalsFrom most = withArguments ["decimals 3"] one
   where
@@ -193,11 +196,12 @@ decimalsFrom most = withArguments ["decimals 3"] one
       [a] -> wholeIn "the decimals" 0 most a
       _ -> Nothing
 
--- | Largest number of digits. Every number of pulses is shorter.
+-- | Largest count of digits that a description may give to a number. No count of pulses needs as
+-- many.
 mostDigits :: Int
 mostDigits = 15
 
--- | Reads the notation of the sign.
+-- | Reads how the sign of a number is written; 'Nothing' if the arguments do not say this.
 signFrom :: [Argument] -> Maybe (Result w Error Sign)
 signFrom args = case args of
   [Located _ (Word "none")] -> Just (pure Unsigned)
@@ -213,7 +217,8 @@ signFrom args = case args of
       [a, b, c, d] -> pure (Priority a b c d)
       _ -> alreadyReported
 
--- | Reads the meanings of the service track, one for each digit.
+-- | Reads the meanings of the holes in the service track, one meaning for each digit of a word.
+-- 'Nothing' if the arguments are no such meanings.
 holesFrom :: [Argument] -> Maybe (Result w Error [Service])
 holesFrom args = if null args then Nothing else pure <$> traverse (hole . value) args
   where
@@ -225,8 +230,8 @@ holesFrom args = if null args then Nothing else pure <$> traverse (hole . value)
       Dash -> Just NoHole
       _ -> Nothing
 
--- | Lists the mistakes in the holes beside the digits of a word. The first argument is that of
--- 'frame'; the flag is true if the description gives holes.
+-- | Lists the mistakes in the holes beside the digits of a word with the form @f@. @hasService@ is
+-- that of 'frame'; @isGiven@ is true if the description of the word gives holes.
 holeFaults :: Maybe Bool -> Region -> Bool -> NumberForm -> [Error]
 holeFaults hasService r isGiven f
   | not isGiven = []
@@ -238,7 +243,7 @@ holeFaults hasService r isGiven f
   where
     holes = service f
 
--- | Kinds of content. Each allows other forms of the number.
+-- | Kinds of content of a word. They differ in the number forms that they allow.
 data ContentKind = AxisOrCentre | CommandNumber | OtherNumber
   deriving stock (Eq)
 
@@ -251,7 +256,7 @@ kindOf c = case c of
   Motion _ -> OtherNumber
   FeedWord -> OtherNumber
 
--- | Lists the properties of a word that are impossible for its content.
+-- | Reports the properties of a word that are impossible for its content; @r@ is its region.
 unsuited :: Region -> Word' -> [Error]
 unsuited r w =
   map

@@ -1,7 +1,7 @@
 -- | The layout of a frame: its words, literal symbols and check digit, in order.
 --
--- The writer and the reader of tapes both follow the layout. The words of a machine with fixed
--- fields have no addresses.
+-- The writer and the reader of tapes both follow the layout. A fixed field is a word without an
+-- address, which the reader recognizes by its position in the frame.
 module Machine.FrameLayout
   ( Layout (..),
     AxisMeasure (..),
@@ -69,7 +69,7 @@ data Content
     Centre Axis
   | -- | code of the feed
     FeedWord
-  | -- | number of a command
+  | -- | number that the frame gives with a command
     Command CommandName
   deriving stock (Eq, Show)
 
@@ -136,7 +136,7 @@ data Presence
   | -- | Depends on the content. For an axis: in frames that move it, or before its position is
     -- known. For a centre: in arcs. For a command: in frames that give it.
     WhenNeeded
-  | -- | for a feed: in frames that move at another feed than the last one
+  | -- | for a feed: in frames that move at another feed than the last feed on the tape
     WhenChanged
   deriving stock (Eq, Show)
 
@@ -155,6 +155,7 @@ contentName c = case c of
   FeedWord -> "feed"
   Command (CommandName n) -> "command " <> n
 
--- | Largest number that fits the digits; at most 10^17 − 1.
+-- | Largest number that a word with the form @f@ can hold, decimal point disregarded; at most
+-- 10^17 − 1.
 capacityOf :: NumberForm -> Int
 capacityOf f = 10 ^ min 17 (digits f) - 1

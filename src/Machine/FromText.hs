@@ -37,7 +37,8 @@ import Machine.Syntax (Argument_ (..), Statement (..), keyWord)
 import Machine.UniqueDecoding qualified as UniqueDecoding
 import Prelude hiding (read)
 
--- | Reads the machine that a text describes. Regions of errors are offsets into the text.
+-- | Reads the machine that a text describes. The regions of errors count the characters of the text
+-- from 0.
 read :: Text -> Result w Error Machine
 read text
   | closed parsed = Result.failing (mistakes parsed) () *> machineFrom text (statements parsed)
@@ -56,7 +57,7 @@ machineFrom text ss = marked *> machine
     markOfMachine = case heading of
       s : _ -> mark s
       [] -> Nothing
-    -- If the line of the machine could not be read, it may have a mark for all values.
+    -- A machine line that could not be read may have a mark for all values: nothing is reported.
     marked =
       Result.failing (if any broken heading then [] else Provenance.unmarked markOfMachine body) ()
     machine =
@@ -216,11 +217,11 @@ tapeFrom s = do
         then pure t
         else malformed ["suffix \"tape\""] e
 
--- | Largest number of consecutive blank rows.
+-- | Largest count of blank rows that a description may demand for a leader, a gap or a shift.
 mostRows :: Int
 mostRows = 10000
 
--- | Reads a line with one whole number from @low@ to @high@.
+-- | Reads a line with the key @word@ and one whole number from @low@ to @high@.
 countFrom :: Text -> Int -> Int -> Statement -> Result w Error Int
 countFrom word low high = withArguments [word <> " " <> Text.pack (show example)] one
   where
@@ -229,7 +230,7 @@ countFrom word low high = withArguments [word <> " " <> Text.pack (show example)
       [a] -> wholeIn ("‘" <> word <> "’") low high a
       _ -> Nothing
 
--- | Reads the axes: at least one, and each once.
+-- | Reads all axes. Reports a missing axis if there is none, and every repetition of an axis.
 axesFrom :: DescriptionSection -> Result w Error (NonEmpty (Located AxisForm))
 axesFrom whole = do
   found <- allWith "axis" axisFrom whole

@@ -1,7 +1,7 @@
 -- | Splits the text of a description into tokens.
 --
 -- The lexer never fails. It turns characters that form no token into a token for a mistake, which
--- the parser reports.
+-- the parser reports. An offset is the index of a character in the text, from 0.
 module Machine.Lexer
   ( Token,
     Token_ (..),
@@ -61,8 +61,8 @@ describe t = case t of
 tokens :: Text -> [Token]
 tokens = tokensFrom False 0
 
--- | Lists the tokens of the rest of a text, which begins at an offset. The flag is true within a
--- formula.
+-- | Lists the tokens of @rest@, the rest of a text; @at@ is the offset of its first character in
+-- the text. @formula@ is true within a formula.
 tokensFrom :: Bool -> Int -> Text -> [Token]
 tokensFrom formula at rest = case Text.uncons rest of
   Nothing -> [Located (Region at at) LineEnd]
@@ -77,8 +77,8 @@ tokensFrom formula at rest = case Text.uncons rest of
        in Located (Region at (at + size)) t :
           tokensFrom (formula || t == Sign "=") (at + size) (Text.drop size rest)
 
--- | Reads the first token of a text, and its length. The flag is true within a formula; the
--- character is the first one of the text.
+-- | Reads the first token of @rest@, and gives its length in characters. @formula@ is true within a
+-- formula; @c@ is the first character of @rest@.
 token :: Bool -> Char -> Text -> (Token_, Int)
 token formula c rest
   | Just unit <- find (`Text.isPrefixOf` rest) ["mm/min", "mm/s2"] = (Name unit, Text.length unit)
@@ -89,8 +89,8 @@ token formula c rest
   | c `elem` ("{}=:+-*/^()" :: String) = (Sign (Text.singleton c), 1)
   | otherwise = (Stray c, 1)
 
--- | Reads letters and digits with single minus signs and points between them; in a formula, only
--- letters and digits.
+-- | Reads the word at the start of a text: letters and digits with single minus signs and points
+-- between them. In a formula a word has only letters and digits.
 word :: Bool -> Text -> Text
 word formula rest = case Text.uncons rest' of
   Just (c, more)
@@ -100,7 +100,8 @@ word formula rest = case Text.uncons rest' of
   where
     (letters, rest') = Text.span isPart rest
 
--- | Reads a number and its length. A number with a letter right after it is a mistake.
+-- | Reads the number at the start of a text, and gives its length in characters. A letter right
+-- after the number makes it a 'BadNumber'.
 numeral :: Text -> (Token_, Int)
 numeral rest
   | Text.any isPart (Text.take 1 remainder) = (BadNumber junk, Text.length junk)
@@ -110,8 +111,8 @@ numeral rest
     digits = Text.take consumed rest
     junk = digits <> Text.takeWhile (\c -> isPart c || c == '.') remainder
 
--- | Reads a text in quotation marks, and its length with both marks. The argument begins after the
--- opening mark.
+-- | Reads a text in quotation marks, and gives its length in characters with both marks. The
+-- argument begins after the opening mark.
 quoted :: Text -> (Token_, Int)
 quoted = charactersOf "" 1
   where
@@ -124,7 +125,8 @@ quoted = charactersOf "" 1
       _ -> (OpenText, size)
     lineRest = Text.length . Text.takeWhile (not . isLineEnd)
 
--- | Decodes the escape sequence after a backslash: the character, and the length of the sequence.
+-- | Decodes the escape sequence at the start of @rest@, which follows a backslash: the character
+-- that it means, and its length in characters. 'Nothing' for an unknown sequence.
 escape :: Text -> Maybe (Char, Int)
 escape rest = case Text.uncons rest of
   Just ('n', _) -> Just ('\n', 1)

@@ -156,7 +156,7 @@ newtype Limits = Limits
   }
   deriving stock (Eq, Show)
 
--- | A value of the description, as a sentence, with its provenance.
+-- | A sentence that says one value of the description, with the provenance of the value.
 data DescribedValue = DescribedValue Provenance Text
   deriving stock (Eq, Show)
 
@@ -172,12 +172,12 @@ data Provenance
 
 -- The axes ----------------------------------------------------------------------------------------
 
--- | Properties of an axis; 'Nothing' if the machine lacks the axis.
+-- | Properties of the axis @a@; 'Nothing' if the machine lacks the axis.
 axisForm :: Machine -> Axis -> Maybe AxisForm
 axisForm machine a = among a (NonEmpty.toList (axes machine))
 
--- | Resolution in the plane of x and y: the larger of the two pulses. For a machine with neither of
--- these axes it is the resolution of z.
+-- | Resolution in the plane of x and y: the larger of the two resolutions, in mm for one pulse. For
+-- a machine with neither of these axes it is the resolution of z.
 planeResolution :: Machine -> Mm
 planeResolution machine = if inPlane > Mm 0 then inPlane else largestStep (const True)
   where
@@ -185,18 +185,20 @@ planeResolution machine = if inPlane > Mm 0 then inPlane else largestStep (const
     largestStep chosen =
       foldl' max (Mm 0) [resolution f | f <- NonEmpty.toList (axes machine), chosen (axis f)]
 
--- | Resolution of an axis; 'planeResolution' for an axis that the machine lacks.
+-- | Resolution of the axis @a@, in mm for one pulse; 'planeResolution' for an axis that the machine
+-- lacks.
 resolutionOf :: Machine -> Axis -> Mm
 resolutionOf machine a = case axes machine of
   first :| others
     | axis first == a -> resolution first
     | otherwise -> maybe (planeResolution machine) resolution (among a others)
 
--- | Axes that the machine is known to move.
+-- | Axes that the machine is known to move. A frame may have words for other axes too.
 drivenAxes :: Machine -> [Axis]
 drivenAxes machine = [axis f | f <- NonEmpty.toList (axes machine), isDriven f]
 
--- | The machine set up for turning: its axes point as on a lathe.
+-- | The machine set up for turning: each axis whose 'reversedOnLathe' is true changes its
+-- direction.
 forTurning :: Machine -> Machine
 forTurning machine =
   machine {axes = fmap (\f -> f {reversed = reversed f /= reversedOnLathe f}) (axes machine)}
@@ -210,11 +212,11 @@ isMirrored machine = isReversed X /= isReversed Y
 
 -- The layout of a frame ---------------------------------------------------------------------------
 
--- | All words of a frame, in their order.
+-- | All words that a frame can contain, in their order on the tape.
 wordsOf :: Machine -> [Word']
 wordsOf machine = [w | AWord w <- NonEmpty.toList (items (layout machine))]
 
--- | First word of a frame with the wanted content; 'Nothing' if the frame has no such word.
+-- | First word of the layout with the content @wanted@; 'Nothing' if the layout has no such word.
 wordFor :: Machine -> Content -> Maybe Word'
 wordFor machine wanted = case items (layout machine) of
   first :| others -> firstWord wanted (first : others)
@@ -225,18 +227,20 @@ firstWord wanted ws = case ws of
   AWord w : _ | content w == wanted -> Just w
   _ : others -> firstWord wanted others
 
--- | Largest number of pulses that the word of an axis can hold; 0 if the frame lacks the word.
+-- | Largest number of pulses that the word of the axis @a@ can hold; 0 if frames lack the word.
 capacity :: Machine -> Axis -> Pulses
 capacity machine a = maybe 0 (Pulses . capacityOf . form) (wordFor machine (Along a))
 
--- | Largest number of pulses that every centre word can hold; 0 if the frame has no centre word.
+-- | Largest number of pulses that each of the words for an arc's centre can hold; 0 if frames have
+-- no such words.
 centreCapacity :: Machine -> Pulses
 centreCapacity machine = if least == maxBound then 0 else Pulses least
   where
     least = foldl' min maxBound capacities
     capacities = [capacityOf (form w) | w <- wordsOf machine, Centre _ <- [content w]]
 
--- | Largest number of a command; 'Nothing' if the frame has neither a word nor bits for it.
+-- | Largest number that a frame can give with a command; 'Nothing' if the layout has neither a word
+-- nor bits for the command.
 commandCapacity :: Machine -> CommandName -> Maybe Int
 commandCapacity machine command =
   case ([form w | w <- wordsOf machine, Command c <- [content w], c == command], bits) of
@@ -246,13 +250,14 @@ commandCapacity machine command =
   where
     bits = [k | w <- wordsOf machine, CommandBit c k <- service (form w), c == command]
 
--- | Number of digits after the decimal point in the word of a command.
+-- | Count of digits after the decimal point in the word of a command; 0 without such a word.
 commandDecimals :: Machine -> CommandName -> Int
 commandDecimals machine command =
   maximum (0 : [decimals (form w) | w <- wordsOf machine, content w == Command command])
 
--- | True if a frame can give a command with this number. The number 0 needs a word that not every
--- frame contains. In a word or in bits that every frame contains, 0 means that there is no command.
+-- | True if a frame can give a command with the number @v@. The number 0 needs a word that only the
+-- frames with the command contain. In a word or in bits of all frames, 0 means that there is no
+-- command.
 canEncode :: Machine -> CommandName -> Int -> Bool
 canEncode machine command v = case commandCapacity machine command of
   Nothing -> False
@@ -269,8 +274,8 @@ canEncode machine command v = case commandCapacity machine command of
       WhenNeeded -> True
       WhenChanged -> True
 
--- | True if a rapid move is a kind of motion with a code of its own, and not a motion at the
--- highest feed.
+-- | True if a rapid move is a kind of motion with a code of its own. False if it is a line at the
+-- feed of 'rapidCode'.
 hasRapidMotion :: Machine -> Bool
 hasRapidMotion machine = any hasRapidCode (items (layout machine))
   where
@@ -280,8 +285,9 @@ hasRapidMotion machine = any hasRapidCode (items (layout machine))
 
 -- Feeds -------------------------------------------------------------------------------------------
 
--- | Chooses the code for a feed in the unit of 'FeedMeasure', mm/min or pulses per second. The
--- result is 'NoSuchFeed' if the feed is outside 'feedRange' by more than 'feedTolerance'.
+-- | Chooses the code for the feed @wanted@, which is in the machine's 'FeedMeasure': mm/min or
+-- pulses per second. The result is 'NoSuchFeed' if the feed is outside 'feedRange' by more than
+-- 'feedTolerance'.
 choose :: Machine -> Double -> FeedChoice
 choose machine wanted
   | wanted < low - feedTolerance low || wanted > high + feedTolerance high = NoSuchFeed low high
@@ -304,18 +310,20 @@ choose machine wanted
       [] -> (FeedCode 0, 0)
       e : es -> foldl (\best x -> if key x < key best then x else best) e es
 
--- | Largest difference from a value at which another one counts as equal: 1e-9 of the value, and
--- 1e-9 for values below 1.
+-- | Largest difference from the feed @v@ at which another feed counts as equal: 1e-9 of @v@, but at
+-- least 1e-9. Both are in the unit of the machine's 'FeedMeasure'.
 feedTolerance :: Double -> Double
 feedTolerance v = 1e-9 * max 1 (abs v)
 
--- | Value of a code; 'Nothing' for a code that the machine lacks.
+-- | Feed that a code means, in the unit of the machine's 'FeedMeasure'; 'Nothing' for a code that
+-- the machine lacks.
 valueOf :: Machine -> FeedCode -> Maybe Double
 valueOf machine c@(FeedCode n) = case codes (feeds machine) of
   Listed table -> Map.lookup c table
   Direct a b -> if a <= n && n <= b then Just (fromIntegral n) else Nothing
 
--- | Lowest and highest value of the machine's codes; both 0 for an empty table.
+-- | Lowest and highest feed that the machine's codes can mean, in the unit of its 'FeedMeasure';
+-- both 0 for an empty table.
 feedRange :: Machine -> (Double, Double)
 feedRange machine = case codes (feeds machine) of
   Direct a b -> (fromIntegral a, fromIntegral b)
@@ -323,18 +331,18 @@ feedRange machine = case codes (feeds machine) of
     [] -> (0, 0)
     vs -> (minimum vs, maximum vs)
 
--- | Feed code of rapid moves, for a machine without a motion code for them.
+-- | Feed code of rapid moves, for a machine that has no motion code for rapid moves.
 rapidCode :: Machine -> FeedCode
 rapidCode machine = case rapidFeed (feeds machine) of
   ByCode c -> c
   Highest -> snd (extreme maximum machine)
 
--- | Code with the lowest value, and that value.
+-- | Code of the lowest feed, and this feed in the unit of the machine's 'FeedMeasure'.
 slowest :: Machine -> (FeedCode, Double)
 slowest machine = let (v, c) = extreme minimum machine in (c, v)
 
--- | The code with the lowest or the highest value, and that value. The first argument is 'minimum'
--- or 'maximum'. For an empty table, code and value are 0.
+-- | The lowest or the highest feed, in the unit of the machine's 'FeedMeasure', with its code.
+-- @select@ is 'minimum' or 'maximum'. For an empty table, feed and code are 0.
 extreme :: ([(Double, FeedCode)] -> (Double, FeedCode)) -> Machine -> (Double, FeedCode)
 extreme select machine = case codes (feeds machine) of
   Direct a b -> select [(fromIntegral n, FeedCode n) | n <- [a, b]]

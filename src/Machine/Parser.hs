@@ -26,7 +26,7 @@ data Parsed = Parsed
     closed :: Bool
   }
 
--- | Parses a text.
+-- | Parses the text of a description.
 parse :: Text -> Parsed
 parse text = Parsed {statements = ss, mistakes = es, closed = not (any isBraceError es)}
   where
@@ -45,8 +45,8 @@ topLevel ts = case statementsOf 0 ts of
      in (ss <> more, es <> [Unopened region] <> es')
   (ss, es, _) -> (ss, es)
 
--- | Parses statements up to the end or up to a closing brace, which it does not consume. The number
--- is the depth of the block.
+-- | Parses statements up to the end or up to a closing brace, which it does not consume. @depth@ is
+-- the number of blocks around the statements. The result has the remaining tokens.
 statementsOf :: Int -> [Token] -> ([Statement], [Error], [Token])
 statementsOf depth ts = case dropWhile ((== LineEnd) . value) ts of
   [] -> ([], [], [])
@@ -56,8 +56,8 @@ statementsOf depth ts = case dropWhile ((== LineEnd) . value) ts of
         (more, es', afterAll) = statementsOf depth afterOne
      in (s <> more, es <> es', afterAll)
 
--- | Parses one statement and its block. A line without a key gives no statement; its block is
--- parsed for the sake of its errors.
+-- | Parses one statement and its block. @depth@ is that of 'statementsOf'. A line without a key
+-- gives no statement, but the errors in its block are reported.
 statement :: Int -> [Token] -> ([Statement], [Error], [Token])
 statement depth ts = case argument ts of
   Left e ->
@@ -100,8 +100,8 @@ unexpectedIn :: [Token] -> [Error]
 unexpectedIn extra =
   [Unexpected (region t) (describe (value t)) "the end of the line" | t <- take 1 extra]
 
--- | Parses arguments up to the end of the line, a brace, a formula or a mark. If an argument is
--- expected and the next token begins none, that is an error.
+-- | Parses arguments up to the end of the line, a brace, a formula or a mark. Any other token that
+-- begins no argument is an error.
 argumentsOf :: [Token] -> ([Argument], [Error], [Token])
 argumentsOf ts = case ts of
   [] -> ([], [], [])
@@ -115,7 +115,7 @@ argumentsOf ts = case ts of
       Name w -> w `elem` map fst marks
       _ -> False
 
--- | Parses one argument.
+-- | Parses one argument, and gives the tokens after it.
 argument :: [Token] -> Either Error (Argument, [Token])
 argument ts = case ts of
   Located r (Numeral a _) : Located _ (Sign "..") : Located r' (Numeral b _) : rest
@@ -139,7 +139,8 @@ argument ts = case ts of
         then Just (Text.foldl' (\n d -> 10 * n + digitToInt d) 0 s)
         else Nothing
 
--- | Parses @=@ and the formula after it, if there is one. The region is that of both.
+-- | Parses @=@ and the formula after it; without @=@ there is no formula. The region of the formula
+-- includes the @=@.
 formulaOf :: [Token] -> (Maybe (Located Formula), [Error], [Token])
 formulaOf ts = case ts of
   Located r (Sign "=") : rest -> case sums rest of
@@ -183,7 +184,8 @@ factor ts = case ts of
   Located r t : _ -> Left (Unexpected r (describe t) "a number, ‘n’ or ‘(’")
   [] -> Left (Unexpected (Region 0 0) "the end" "a number, ‘n’ or ‘(’")
 
--- | Parses left-associative operators of one precedence. The formula is the first operand.
+-- | Parses left-associative operators of one precedence and the operands after them, each by
+-- @next@. @a@ is the first operand.
 chain ::
   Reader Formula ->
   [(Text, Operator)] ->
@@ -196,7 +198,8 @@ chain next operators a ts = case ts of
     chain next operators (Binary o a b) after
   _ -> Right (a, ts)
 
--- | Parses the mark at the end of a line, and the text that says where the source prints the value.
+-- | Parses the mark of provenance at the end of a line, with the text that says where the source
+-- prints the value. 'Nothing' if the next token is no mark.
 markOf :: [Token] -> (Maybe (Located Mark), [Token])
 markOf ts = case ts of
   Located r (Name w) : Located r' (Text s) : rest
@@ -208,8 +211,8 @@ markOf ts = case ts of
 marks :: [(Text, Provenance)]
 marks = [("sourced", Sourced), ("corrected", Corrected), ("reconstructed", Reconstructed)]
 
--- | Parses the block after a line, if there is one. The parser stops at a block that is nested too
--- deeply.
+-- | Parses the block after a line, if there is one. @depth@ is the number of blocks around the
+-- line. The parser stops at a block that is nested too deeply.
 blockOf :: Int -> [Token] -> (Maybe [Statement], [Error], [Token])
 blockOf depth ts = case ts of
   Located r (Sign "{") : rest
@@ -223,6 +226,6 @@ blockOf depth ts = case ts of
 deepest :: Int
 deepest = 16
 
--- | Splits off the rest of a line, up to its end or a brace.
+-- | Splits the tokens before the next line end or brace from those after it.
 toLineEnd :: [Token] -> ([Token], [Token])
 toLineEnd = break ((`elem` [LineEnd, Sign "{", Sign "}"]) . value)

@@ -1,5 +1,6 @@
--- | The provenance of each value of a description. A mark is written on the line of the value, on
--- the line before a block around it, or on the line of the machine; the innermost mark is valid.
+-- | The provenance of each value of a description. A mark says the provenance. It is written on the
+-- line of a value, on the line that opens a block around the value, or on the line of the machine.
+-- The innermost mark is valid.
 module Machine.Provenance
   ( describedValues,
     unmarked,
@@ -34,7 +35,8 @@ describedValues text ofMachine = concatMap (valuesIn [] (provenanceOf =<< ofMach
 provenanceOf :: Located Mark -> Maybe Provenance
 provenanceOf (Located _ (Mark p _)) = Just p
 
--- | Reports the first line without provenance in each section, with the count of further ones.
+-- | Reports the first line without provenance in each section, with the count of further such lines
+-- in the section. No report is made if @ofMachine@, the mark of the machine, is given.
 unmarked :: Maybe (Located Mark) -> [Statement] -> [Error]
 unmarked ofMachine sections = case ofMachine of
   Just _ -> []

@@ -50,8 +50,8 @@ data DescriptionSection = DescriptionSection
 
 -- Keys --------------------------------------------------------------------------------------------
 
--- | Reports every key that is in neither list, and every repetition of a key in the first list.
--- Keys of the second list may be repeated.
+-- | Reports every key of the section that is in neither @once@ nor @often@, and every repetition of
+-- a key in @once@. The keys in @often@ may be repeated.
 allowKeys :: [Text] -> [Text] -> DescriptionSection -> Result w Error ()
 allowKeys once often section = Result.failing (concat (zipWith fault [0 ..] (entries section))) ()
   where
@@ -65,8 +65,9 @@ allowKeys once often section = Result.failing (concat (zipWith fault [0 ..] (ent
       _ -> [UnknownKey (region (key s)) (keyText s) (sectionName section) (once <> often)]
     quoted w = "‘" <> w <> "’"
 
--- | Reads the first statement with a key. If the key is missing, the report shows the example. No
--- report is made if the section has a misspelt key that 'allowKeys' reports as unknown.
+-- | Reads the first statement with the key @word@ by @f@. If the key is missing, the report shows
+-- @example@. No report is made if the section has a misspelt key that 'allowKeys' reports as
+-- unknown.
 required ::
   Text ->
   Text ->
@@ -84,13 +85,14 @@ required word example f section = case statementsWith word (entries section) of
       Just w -> not (null (Name.nearest w [word] <> Name.lookAlike w [word]))
       Nothing -> False
 
--- | Reads the first statement with a key, or returns the default value.
+-- | Reads the first statement with the key @word@ by @f@. Without such a statement, the result is
+-- @absent@.
 optional :: Text -> a -> (Statement -> Result w Error a) -> DescriptionSection -> Result w Error a
 optional word absent f section = case statementsWith word (entries section) of
   s : _ -> f s
   [] -> pure absent
 
--- | Reads all statements with a key.
+-- | Reads all statements with the key @word@ by @f@.
 allWith :: Text -> (Statement -> Result w Error a) -> DescriptionSection -> Result w Error [a]
 allWith word f section = traverse f (statementsWith word (entries section))
 
@@ -99,7 +101,8 @@ statementsWith word ss = [s | s <- ss, keyWord s == Just word]
 
 -- Lines -------------------------------------------------------------------------------------------
 
--- | Reads a line without formula and block. The report of a malformed line lists the given forms.
+-- | Reads the arguments of a line by @f@. The line must have neither a formula nor a block. The
+-- report of a malformed line lists @forms@, the forms that are allowed.
 withArguments ::
   [Text] -> ([Argument] -> Maybe (Result w Error a)) -> Statement -> Result w Error a
 withArguments forms f s
@@ -107,8 +110,8 @@ withArguments forms f s
   | Just r <- f (arguments s), Nothing <- formula s, Nothing <- block s = r
   | otherwise = malformed forms s
 
--- | Reads a line with a block: the value of its arguments, and the block as a section with the
--- given name.
+-- | Reads a line with a block: the value that @f@ makes of its arguments, and the block as a
+-- section with the name @title@. The report of a malformed line lists @forms@.
 withBlock ::
   [Text] ->
   Text ->
@@ -123,15 +126,15 @@ withBlock forms title f s = case block s of
       (,DescriptionSection {sectionName = title, sectionRegion = extent s, entries = ss}) <$> r
   _ -> malformed forms s
 
--- | Accepts a line without arguments.
+-- | Reads the arguments of a line that must have none; 'Nothing' if there is one.
 noArguments :: [Argument] -> Maybe (Result w Error ())
 noArguments args = if null args then Just (pure ()) else Nothing
 
--- | Reports a line that has none of the given forms.
+-- | Reports a line that has none of the allowed forms, which the report lists.
 malformed :: [Text] -> Statement -> Result w Error a
 malformed forms s = Result.failed (Malformed (extent s) (keyText s) forms)
 
--- | The key as a report shows it.
+-- | The key of a line as a report shows it.
 keyText :: Statement -> Text
 keyText s = case value (key s) of
   Word w -> w
@@ -143,8 +146,8 @@ keyText s = case value (key s) of
 
 -- Failures ----------------------------------------------------------------------------------------
 
--- | Turns a failed result into a successful one without value. Its errors are kept, and the reader
--- continues.
+-- | Turns a failed result into a successful one with the value 'Nothing', so that the reader
+-- continues. The errors of the result are kept.
 attempt :: Result w e a -> Result w e (Maybe a)
 attempt r = r {output = Just (output r)}
 
@@ -154,8 +157,8 @@ alreadyReported = Result [] [] Nothing
 
 -- Numbers -----------------------------------------------------------------------------------------
 
--- | Reads a whole number from @low@ to @high@. The report of a number out of range calls it by the
--- name.
+-- | Reads a whole number from @low@ to @high@. In the report of a number out of range, @name@ says
+-- what the number is. 'Nothing' if the argument is no whole number.
 wholeIn :: Text -> Int -> Int -> Argument -> Maybe (Result w Error Int)
 wholeIn name low high a = case value a of
   Number t v
@@ -165,8 +168,9 @@ wholeIn name low high a = case value a of
     | otherwise -> Just (pure (round v))
   _ -> Nothing
 
--- | Reads a number and its unit, from 'leastQuantity' to @high@. The report of a number out of
--- range calls it by the name.
+-- | Reads a number, from 'leastQuantity' to @high@, and the unit after it, which has to be @unit@.
+-- In the report of a number out of range, @name@ says what the number is. 'Nothing' if the two
+-- arguments are no number with this unit.
 quantityIn :: Text -> Text -> Double -> Argument -> Argument -> Maybe (Result w Error Double)
 quantityIn name unit high a b = case (value a, value b) of
   (Number _ v, Word u)
@@ -178,7 +182,7 @@ quantityIn name unit high a b = case (value a, value b) of
   where
     lowText = Decimal.exact leastQuantity
 
--- | Lower limit of every length, feed and deceleration of a machine.
+-- | Lower limit of every length, feed and deceleration of a machine, in the unit of the quantity.
 leastQuantity :: Double
 leastQuantity = 0.000001
 

@@ -20,7 +20,8 @@ import Data.Text (Text)
 import Data.Text qualified as Text
 import Machine.Machine (Provenance)
 
--- | One line: its key, then arguments, a formula and a mark; and the block in braces after it.
+-- | One line of a description: its key, then arguments, a formula and a mark; and the block in
+-- braces after the line.
 data Statement = Statement
   { key :: Argument,
     arguments :: [Argument],
@@ -30,7 +31,7 @@ data Statement = Statement
     block :: Maybe [Statement],
     -- | region from the key to the end of the last argument or of the formula
     extent :: Region,
-    -- | true if a part of the line could not be read, which the parser has reported
+    -- | true if a part of the line could not be read; the parser has then reported the mistake
     broken :: Bool
   }
   deriving stock (Eq, Show)
@@ -45,11 +46,11 @@ data Argument_
     Quoted Text
   | -- | digits as written, and their value; never negative
     Number Text Double
-  | -- | @0..40@
+  | -- | first and last number of a range, @0..40@
     Range Int Int
-  | -- | bit of a command, @name:2@
+  | -- | name of a command and index of one of its bits, @name:2@
     Bit Text Int
-  | -- | @-@
+  | -- | the sign @-@, which says that there is no hole
     Dash
   deriving stock (Eq, Show)
 
@@ -57,8 +58,8 @@ data Argument_
 data Mark = Mark Provenance (Maybe Text)
   deriving stock (Eq, Show)
 
--- | Formula in the variable @n@. A constant has its digits as written besides its value, because
--- the digits may be a pattern of holes.
+-- | Formula in the variable @n@. A constant has its digits as written and its value, because the
+-- digits may be a pattern of holes.
 data Formula
   = Constant Text Double
   | Variable
@@ -70,7 +71,7 @@ data Formula
 data Operator = Add | Subtract | Multiply | Divide | Power
   deriving stock (Eq, Show)
 
--- | The key of a line if it is a word.
+-- | The key of a line; 'Nothing' if the key is not a word.
 keyWord :: Statement -> Maybe Text
 keyWord s = case value (key s) of
   Word w -> Just w

@@ -35,14 +35,14 @@ data Medium = Medium
 
 -- | Treatment of blank rows between frames by a tape reader.
 data Spare
-  = -- | The reader counts the blank rows. Their number must be exactly that of 'Medium'.
+  = -- | The reader counts the blank rows. Their number must be exactly the one that 'Medium' gives.
     Counted
   | -- | The reader skips blank rows, and the rows in 'skips' wherever they are. The number of blank
-    -- rows must be at least that of 'Medium'.
+    -- rows must be at least the one that 'Medium' gives.
     Skipped
   deriving stock (Eq, Show)
 
--- | Assignment of rows to symbols.
+-- | Tape code: the row of holes for each symbol.
 data TapeCode = TapeCode
   { codeName :: Text,
     -- | holes of each symbol, without those of the service track and the parity track; no two
@@ -54,7 +54,7 @@ data TapeCode = TapeCode
     evenTrack :: Maybe Int,
     -- | number of the track that contains signs and marks beside the digits
     serviceTrack :: Maybe Int,
-    -- | rows that a reader skips, such as erased rows, which have all holes
+    -- | rows that a tape reader skips, such as erased rows, which have a hole in every track
     skips :: [Word8]
   }
   deriving stock (Eq, Show)

@@ -1,7 +1,7 @@
 -- | Checks that the frames of a layout can be decoded uniquely, symbol by symbol.
 --
--- The reader tries the items of the layout in their order. For this reader four conditions are
--- sufficient:
+-- The reader tries the items of the layout in their order. Frames are then decoded uniquely under
+-- four conditions:
 --
 -- * No address begins like a number.
 -- * No address is a prefix of other symbols that may follow at the same position.
@@ -29,8 +29,8 @@ import Machine.Machine
 -- | Item of a frame with its region.
 type LocatedItem = (Region, LayoutItem)
 
--- | Lists the mistakes. The arguments are the medium and the region of its section, the code, the
--- items, and the separator with its region.
+-- | Lists the reasons why frames cannot be decoded uniquely. The arguments are the medium and the
+-- region of its section, the code, the items of the layout, and the separator with its region.
 check :: Medium -> Region -> TapeCode -> NonEmpty LocatedItem -> (Region, Text) -> [Error]
 check medium tapeRegion tapeCode located locatedSeparator =
   concat
@@ -56,14 +56,15 @@ check medium tapeRegion tapeCode located locatedSeparator =
   where
     items' = NonEmpty.toList located
 
--- | True if not every frame contains the item.
+-- | True if some frames lack the item.
 isOptional :: LayoutItem -> Bool
 isOptional i = case i of
   AWord w -> presence w /= Always
   Literal _ -> False
   CheckDigit _ -> False
 
--- | Reports characters that the code lacks.
+-- | Reports characters of the layout or the medium for which the code has no symbol. @between@ is
+-- the separator.
 symbolFaults :: Region -> Medium -> TapeCode -> [LocatedItem] -> (Region, Text) -> [Error]
 symbolFaults tapeRegion medium tapeCode items' (separatorRegion, between) =
   catMaybes
@@ -100,12 +101,13 @@ addressFaults (r, i) = case i of
   Literal _ -> []
   CheckDigit _ -> []
 
--- | True if the first symbol is a digit, a sign or a point.
+-- | True if the first symbol of a text is a digit, a sign or a point.
 beginsLikeNumber :: Text -> Bool
 beginsLikeNumber t = Text.any (\c -> isDigit c || c `elem` ("+-." :: String)) (Text.take 1 t)
 
--- | Reports an address that an earlier word has too, and an address that is a prefix of symbols at
--- the same position or the reverse. There is at most one report for each item.
+-- | Reports an address that an earlier word has too. It also reports an address and other symbols
+-- that may follow at the same position, if one is a prefix of the other. There is at most one
+-- report for each item.
 prefixFaults :: [LocatedItem] -> [Error]
 prefixFaults items' =
   concat
@@ -113,7 +115,8 @@ prefixFaults items' =
       | (k, second) <- zip [0 ..] items'
     ]
 
--- | Reports a conflict between two items, the first of which is earlier in the frame.
+-- | Reports addresses or symbols of two items that the reader could confuse. The first item is
+-- earlier in the frame.
 pairFaults :: LocatedItem -> LocatedItem -> [Error]
 pairFaults (r, a) (r', b) = case (a, b) of
   (AWord v, AWord w)
@@ -129,8 +132,8 @@ pairFaults (r, a) (r', b) = case (a, b) of
   (Literal t, AWord v) | isOptional b -> commonPrefix r r' (address v) t
   _ -> []
 
--- | Reports the address of an optional word and the symbols of a literal if one is a prefix of the
--- other. The first region is that of the literal.
+-- | Reports the address @ofWord@ of an optional word and the symbols @ofLiteral@ if one is a prefix
+-- of the other.
 commonPrefix :: Region -> Region -> Text -> Text -> [Error]
 commonPrefix literalRegion wordRegion ofWord ofLiteral
   | Text.null ofWord || Text.null ofLiteral = []
@@ -140,7 +143,7 @@ commonPrefix literalRegion wordRegion ofWord ofLiteral
     [NotDecodable wordRegion (Prefix ofLiteral ofWord literalRegion)]
   | otherwise = []
 
--- | True if the number of a word may begin with these symbols.
+-- | True if the number of a word may begin with the symbols @rest@.
 numberMayBegin :: Word' -> Text -> Bool
 numberMayBegin w rest = case content w of
   Motion m -> any (\t -> rest `Text.isPrefixOf` t || t `Text.isPrefixOf` rest) (numbersOf m)
@@ -152,14 +155,15 @@ numberMayBegin w rest = case content w of
       | padded (form w) = Text.justifyRight (digits (form w)) '0' (Decimal.whole n)
       | otherwise = Decimal.whole n
 
--- | An item, and the items that may come directly after it. The last of these is the first one that
+-- | An item, and the items that may come directly after it: optional ones, and at last one that
 -- every frame contains.
 data Successors = Successors
   { item :: LocatedItem,
     next :: [Successor]
   }
 
--- | Item that may come directly after another one.
+-- | Item that may come directly after another one. @isSameFrame@ is false if it begins the next
+-- frame.
 data Successor = Successor
   { isSameFrame :: Bool,
     successor :: LocatedItem
@@ -185,8 +189,8 @@ hasOpenEnd i = case i of
   Literal _ -> False
   CheckDigit _ -> False
 
--- | Reports a number without fixed length before an item that may begin with a digit. The text is
--- the separator.
+-- | Reports a number without fixed length before an item that may begin with a digit. @between@ is
+-- the separator, which ends such a number.
 successorFaults :: Text -> Successors -> [Error]
 successorFaults between Successors {item = (r, i), next}
   | hasOpenEnd i = take 1 (mapMaybe fault next)
@@ -204,12 +208,12 @@ successorFaults between Successors {item = (r, i), next}
       Literal _ -> Nothing
       CheckDigit _ -> Just (NotDecodable r (NumberRunsOn r'))
 
--- | True if the first symbol is a digit or a point.
+-- | True if the first symbol of a text is a digit or a point.
 continuesNumber :: Text -> Bool
 continuesNumber t = Text.any (\c -> isDigit c || c == '.') (Text.take 1 t)
 
--- | Reports a number without fixed length at the end of a frame, if closing symbols or skipped
--- blank rows read as its next digit.
+-- | Reports a number without fixed length at the end of a frame, if the reader could take closing
+-- symbols or skipped blank rows for a further digit of the number.
 endFaults :: Medium -> TapeCode -> Successors -> [Error]
 endFaults medium tapeCode Successors {item = (r, i), next}
   | hasOpenEnd i && not (all isSameFrame next) =
@@ -221,7 +225,7 @@ endFaults medium tapeCode Successors {item = (r, i), next}
          ]
   | otherwise = []
 
--- | True if the row of a symbol has no holes.
+-- | True if the code has a row without holes for the symbol @c@.
 isBlank :: Medium -> TapeCode -> Char -> Bool
 isBlank medium tapeCode c = case Map.lookup c (symbols tapeCode) of
   Nothing -> False
@@ -252,7 +256,7 @@ blankStart medium tapeCode items' = case spare medium of
         | take 1 (service (form w)) == [Marker] -> ""
         | otherwise -> ['0' .. '9']
 
--- | True if a frame with these items may begin with the text.
+-- | True if a frame with the items @items'@ may begin with the symbols @text@.
 canBeginWith :: Text -> [LayoutItem] -> Bool
 canBeginWith text items' = case items' of
   _ | Text.null text -> True

@@ -1,5 +1,5 @@
--- | Lines of a printed program that have one or two cells. Second cells of neighbouring lines are
--- aligned in a column.
+-- | Lines of a printed program. A line has one cell or two; a cell is a text such as the keyword of
+-- a statement or its values. Second cells of neighbouring lines are aligned in a column.
 module Surface.Alignment
   ( AlignedLine (..),
     LineCells (..),
@@ -19,12 +19,12 @@ data AlignedLine = AlignedLine
   { -- | the count of spaces before the line
     indent :: Int,
     cells :: LineCells,
-    -- | true if the statement or item of the line above continues on this line
+    -- | true if the line continues the statement or item of the line above
     isContinuation :: Bool
   }
   deriving stock (Eq, Show)
 
--- | The text of a line.
+-- | The text of a line, in one cell or two.
 data LineCells
   = -- | one cell
     WholeLine Text
@@ -70,7 +70,8 @@ render rows = case rows of
       let (run, others) = span (isAlignedWith row column) rest
        in align (row : run) <> render others
 
--- | Tells if the line @row@ belongs to the run that the line @begin@ with the given column begins.
+-- | Tells if the line @row@ belongs to the run of aligned lines that the line @begin@ begins.
+-- @column@ is the column of @begin@.
 isAlignedWith :: AlignedLine -> AlignmentColumn -> AlignedLine -> Bool
 isAlignedWith begin column row =
   indent row == indent begin && not (isContinuation row) && case cells row of

@@ -6,7 +6,11 @@
 -- | The combinators of the grammar: tokens, names, brackets, blocks, and recovery from mistakes.
 --
 -- One grammar has two parsers. The explaining parser of this module reports mistakes and recovers
--- from them. Its fast twin, "Surface.Combinator.Fast", stops at the first mistake.
+-- from them. The fast parser of "Surface.Combinator.Fast" stops at the first mistake.
+--
+-- An enclosure is a part of a program between two brackets. Recovery replaces a statement or an
+-- item with a mistake by a broken node of the syntax tree, and continues after it. The offset of a
+-- failure is the index of a token, all other offsets are indices of characters; both count from 0.
 module Surface.Combinator
   ( Parser,
     Explaining,
@@ -66,7 +70,7 @@ import Surface.TokenStream (TokenStream (..))
 import Text.Megaparsec (ErrorItem (..), MonadParsec, ParseError (..), ParsecT, (<?>))
 import Text.Megaparsec qualified as Parsec
 
--- | A failure of megaparsec.
+-- | A failure in the form of the library megaparsec; its offset is the index of a token, from 0.
 type Failure = ParseError TokenStream Problem
 
 -- | Failures that are more specific than an unexpected token.
@@ -99,22 +103,22 @@ data ParserState = ParserState
     failures :: [Failure],
     -- | the offset of the end of the last token consumed
     lastEnd :: Int,
-    -- | the number of brackets and operands around the next token, as 'nested' counts them
+    -- | the number of brackets and operands around the next token; 'nested' counts each of them
     bracketDepth :: Int,
-    -- | the number of statement blocks around the present statement
+    -- | the number of statement blocks around the statement that is being parsed
     blockDepth :: Int,
     -- | true after the failure 'TooDeep': the parser skips all further tokens without a report
     hasGivenUp :: Bool
   }
 
--- | A parsed value, the number of its tokens, and the tokens after them. The tokens are nested at
--- most two levels deep, as 'nested' counts levels.
+-- | A parsed value, the number of its tokens, and the tokens after them. The value has at most two
+-- brackets or operands inside one another, so that the limit 'maxNesting' is checked once.
 data Consumed a = Consumed a Int [Token]
 
 -- | The operations from which the grammar is built.
 class MonadParsec Problem TokenStream p => Grammar p where
-  -- | Consumes the next token if the function gives a value for it. The text describes the expected
-  -- token in reports.
+  -- | Consumes the next token if the function gives a value for this token, and fails otherwise.
+  -- The text describes the expected token in reports.
   token :: Text -> (Token -> Maybe a) -> p a
 
   -- | Repeats a parser until it fails without consuming a token.
@@ -127,8 +131,8 @@ class MonadParsec Problem TokenStream p => Grammar p where
   -- | The tokens that are not consumed yet.
   remaining :: p [Token]
 
-  -- | Applies a function to the remaining tokens, and runs the parser if the function gives
-  -- 'Nothing'. Otherwise the function gives the result that the parser would give. The explaining
+  -- | Applies a function to the remaining tokens, and runs the given rule if the function gives
+  -- 'Nothing'. Otherwise the function must give the value that the rule would give. The explaining
   -- parser ignores the function.
   fastPath :: ([Token] -> Maybe (Consumed Expr)) -> p Expr -> p Expr
 
@@ -145,7 +149,7 @@ class MonadParsec Problem TokenStream p => Grammar p where
 -- | A rule of the grammar for both parsers.
 type Parser a = forall p. Grammar p => p a
 
--- | The parser that reports mistakes.
+-- | The explaining parser, which reports mistakes and recovers from them.
 type Explaining = ParsecT Problem TokenStream (State ParserState)
 
 instance Grammar (ParsecT Problem TokenStream (State ParserState)) where
@@ -162,7 +166,7 @@ instance Grammar (ParsecT Problem TokenStream (State ParserState)) where
   modifyState f = lift (modify' f)
 
 -- | Runs a parser on the tokens of a text that ends at offset @finish@. Gives the errors in the
--- order of the text, and the output unless the parser failed without recovery.
+-- order of the text, and the output; 'Nothing' if the parser failed without recovery.
 run :: Explaining a -> Int -> [Token] -> ([Error], Maybe a)
 run parser finish tokens = (map (fromFailure (Vector.fromList tokens) finish) inOrder, output)
   where
@@ -190,17 +194,17 @@ run parser finish tokens = (map (fromFailure (Vector.fromList tokens) finish) in
 
 -- Tokens
 
--- | Parses a symbol and gives its region.
+-- | Parses the symbol @s@ and gives its region.
 symbol :: Grammar p => Text -> p Region
 symbol s = token (quote s) (\t -> if isSymbol s t then Just (Token.place t) else Nothing)
 {-# INLINE symbol #-}
 
--- | Parses a keyword.
+-- | Parses the keyword @word@.
 keyword :: Grammar p => Text -> p ()
 keyword word = token (quote word) (\t -> if isWord word t then Just () else Nothing)
 {-# INLINE keyword #-}
 
--- | Tells if a token is the given symbol.
+-- | Tells if the token @t@ is the symbol @s@.
 isSymbol :: Text -> Token -> Bool
 isSymbol s t = case shape t of
   Symbol s' -> s' == s
@@ -241,7 +245,8 @@ onThisLine p = do
     _ -> p
 {-# INLINEABLE onThisLine #-}
 
--- | Demands the end of the line or, in a block of statements, its closing brace.
+-- | Demands the end of the line or, in a block of statements, the closing brace of the block. The
+-- brace is not consumed.
 endOfLine :: Grammar p => p ()
 endOfLine = do
   next <- remaining
@@ -267,18 +272,18 @@ located p = do
 
 -- Brackets
 
--- | Parses something in parentheses.
+-- | Runs a parser between an opening and a closing parenthesis.
 parens :: Grammar p => p a -> p a
 parens = enclosed "(" ")"
 {-# INLINEABLE parens #-}
 
--- | Parses something in square brackets.
+-- | Runs a parser between square brackets.
 brackets :: Grammar p => p a -> p a
 brackets = enclosed "[" "]"
 {-# INLINEABLE brackets #-}
 
--- | Parses something between brackets. If the line ends inside, the opening bracket is reported as
--- unclosed.
+-- | Parses @inside@ between the brackets @open@ and @close@. If the line ends before the closing
+-- bracket, the opening bracket is reported as unclosed.
 enclosed :: Grammar p => Text -> Text -> p a -> p a
 enclosed open close inside = do
   opened <- symbol open
@@ -295,8 +300,9 @@ enclosed open close inside = do
         _ -> Parsec.parseError failure
 {-# INLINEABLE enclosed #-}
 
--- | Parses items in braces. Reports name the block by @what@. An item with a mistake is skipped.
--- The function @broken@ makes its replacement from the name that the item was to define, if any.
+-- | Parses items in braces, each by @one@. Reports name the block by @what@. An item with a mistake
+-- is skipped; @broken@ makes the node that replaces it. Its argument is the name that the item was
+-- to define, if there is one.
 block :: Grammar p => Enclosure -> (Maybe (Located Name) -> a) -> p a -> p [Located a]
 block what broken one = do
   opened <- symbol "{"
@@ -322,7 +328,7 @@ block what broken one = do
         _ -> pure ()
 {-# INLINEABLE block #-}
 
--- | Parses statements in braces.
+-- | Parses statements in braces, each by @one@. Reports name the block by @what@.
 statementBlock :: Grammar p => Enclosure -> p Statement -> p [Statement]
 statementBlock what one = do
   opened <- symbol "{"
@@ -353,8 +359,8 @@ closesBlock = go (0 :: Int)
         Symbol "}" -> open == 0 || go (open - 1) rest
         _ -> go open rest
 
--- | Parses the closing bracket of an enclosure. If the program or the statement ends before it, the
--- opening bracket is reported as unclosed.
+-- | Parses the closing bracket @close@ of the enclosure @what@. If the program or the statement
+-- ends before it, the opening bracket, at the region @opened@, is reported as unclosed.
 closing :: Grammar p => Region -> Enclosure -> Text -> p ()
 closing opened what close = do
   ended <- atEnd
@@ -362,7 +368,7 @@ closing opened what close = do
   void (symbol close)
 {-# INLINEABLE closing #-}
 
--- | Tells if no token remains, or the next one begins a line and is not a closing bracket.
+-- | Tells if no token remains, or the next token begins a line and is not a closing bracket.
 isLineEnd :: Grammar p => p Bool
 isLineEnd = isEnd <$> remaining
   where
@@ -371,17 +377,19 @@ isLineEnd = isEnd <$> remaining
       t : _ -> newLine t && shape t `notElem` map Symbol [")", "]", "}"]
 {-# INLINEABLE isLineEnd #-}
 
--- | Tells if no token remains, or the next one begins a statement.
+-- | Tells if no token remains, or the next token begins a statement. A block that is open here
+-- lacks its closing brace.
 atEnd :: Grammar p => p Bool
 atEnd = maybe True beginsStatement . listToMaybe <$> remaining
 {-# INLINEABLE atEnd #-}
 
--- | Parses one or more things with separators between them.
+-- | Parses one or more values by @p@, with the symbol @separator@ between them.
 sepBy1 :: Grammar p => p a -> Text -> p (NonEmpty a)
 sepBy1 p separator = (:|) <$> p <*> zeroOrMore (symbol separator *> p)
 {-# INLINEABLE sepBy1 #-}
 
--- | Runs a parser with a 'bracketDepth' that is greater by one; fails beyond 'maxNesting'.
+-- | Runs a parser for the inside of a bracket or for an operand, with a 'bracketDepth' that is
+-- greater by one. Fails if the depth would exceed 'maxNesting'.
 nested :: Grammar p => p a -> p a
 nested p = do
   open <- bracketDepth <$> parserState
@@ -398,9 +406,9 @@ maxNesting = 500
 
 -- Recovery
 
--- | Runs a parser. If it fails, records the failure and gives the tokens consumed, at least one, to
--- the function @repair@. The parser that this function makes skips further tokens and gives a
--- replacement for the result.
+-- | Runs the parser @p@. If it fails, records the failure, and gives the tokens that @p@ consumed,
+-- at least one, to @repair@. The parser that @repair@ makes skips further tokens and gives a
+-- replacement for the result of @p@.
 recovering :: Grammar p => ([Token] -> p a) -> p a -> p a
 recovering repair p = do
   begin <- Parsec.getOffset
@@ -431,9 +439,9 @@ isTooDeep failure = case failure of
   FancyError _ problems -> Parsec.ErrorCustom TooDeep `Set.member` problems
   TrivialError {} -> False
 
--- | Replaces a statement with a mistake, whose tokens up to the mistake are given. Skips to the
--- line on which the next statement begins. The replacement has the keyword of the broken statement,
--- or the keyword that its first word resembles, and the name that it was to define.
+-- | Replaces a statement with a mistake by a broken node; @taken@ has the statement's tokens up to
+-- the mistake. Skips to the line on which the next statement begins. The node has the name that the
+-- statement was to define, and its keyword, or the keyword that its first word resembles.
 brokenStatement :: Grammar p => [Token] -> p Statement
 brokenStatement taken = do
   isInBlock <- (> 0) . blockDepth <$> parserState
@@ -445,8 +453,9 @@ brokenStatement taken = do
     )
 
 -- | Skips the remaining tokens of a broken statement and gives them. @hasBlock@ tells if the
--- statement has a block of statements, @isInBlock@ if it is inside a block itself; the closing
--- brace of that block is not skipped. @open@ is the count of its braces that are still open.
+-- statement has a block of statements. @isInBlock@ tells if it is inside a block itself, whose
+-- closing brace is then not skipped. @open@ is the count of the statement's braces that are still
+-- open.
 skipStatement :: Grammar p => Bool -> Bool -> Int -> p [Token]
 skipStatement hasBlock isInBlock open = do
   rest <- remaining
@@ -465,15 +474,15 @@ isStatementEnd hasBlock isInBlock open t others =
     || isMisspeltKeyword
     || isInBlock && open <= 0 && shape t == Symbol "}"
   where
-    -- The block of a broken @for@, @if@ or @with@ is skipped with it, if it is closed further down:
-    -- its statements and its closing brace make no sense alone.
+    -- If the block of a broken @for@, @if@ or @with@ has a closing brace, the whole block is
+    -- skipped, because its statements make no sense alone.
     isInOwnBlock = open > 0 && hasBlock && closesBlock (t : others)
-    -- Another @for@ or @if@, unless it is inside braces of the broken statement.
+    -- True if @t@ is the @for@ or @if@ of a new statement: one outside of the broken one's braces.
     isBlockStatement = case shape t of
       Word word -> newLine t && open <= 0 && word `elem` Keyword.blocks
       _ -> False
-    -- Two words in a row at the start of a line are a misspelt statement rather than a
-    -- continuation, unless they are inside braces of the broken statement.
+    -- Two words at the start of a line are a misspelt statement, and do not continue the broken
+    -- one, unless they are inside braces of the broken statement.
     isMisspeltKeyword = case (shape t, others) of
       (Word word, next : _)
         | Word _ <- shape next ->
@@ -498,7 +507,8 @@ braceBalance = sum . map balance
       Symbol "}" -> -1
       _ -> 0
 
--- | The keyword of a broken statement, with its spelling corrected, and the name that it defines.
+-- | The keyword of a broken statement, with its spelling corrected, and the name that the statement
+-- defines, judged by its first two tokens. 'Nothing' for each that cannot be found.
 keywordAndName :: [Token] -> (Maybe Text, Maybe (Located Name))
 keywordAndName ts = case map shape (take 2 ts) of
   [Word word, Word what]
@@ -515,9 +525,10 @@ firstRegion ts = case ts of
   t : _ -> Token.place t
   [] -> Region 0 0
 
--- | Replaces an item with a mistake, whose tokens up to the mistake are given. Skips to the next
--- line outside of the braces of the item, or to the end of its block. A line that ends with a comma
--- or an operator continues. The replacement has the name that a misplaced @let@ was to define.
+-- | Replaces an item with a mistake by the node that @broken@ makes; @taken@ has the item's tokens
+-- up to the mistake. Skips to the next line outside of the braces of the item, or to the end of its
+-- block. A line after a comma or an operator belongs to the item. The argument of @broken@ is the
+-- name that a misplaced @let@ was to define.
 brokenItem :: Grammar p => (Maybe (Located Name) -> a) -> [Token] -> p a
 brokenItem broken taken = do
   next <- Parsec.optional (Parsec.lookAhead Parsec.anySingle)
@@ -527,9 +538,9 @@ brokenItem broken taken = do
       ([Word "let"], Just Token {shape = Word what, place}) -> Just (Located place (Name what))
       _ -> Nothing
 
--- | Skips the remaining tokens of a broken item with @open@ open braces. @isContinued@ tells if the
--- last token is a comma, an operator or an opening bracket, so that the next line belongs to the
--- item.
+-- | Skips the remaining tokens of a broken item, @open@ of whose braces are still open.
+-- @isContinued@ tells if the last token is a comma, an operator or an opening bracket, so that the
+-- next line belongs to the item.
 skipItem :: Grammar p => Int -> Bool -> p ()
 skipItem open isContinued = do
   next <- Parsec.optional (Parsec.lookAhead Parsec.anySingle)

@@ -6,7 +6,7 @@
 --
 -- A row is plain if its cells are numbers without spaces, exponents and plus signs. Runs of plain
 -- rows are read into unboxed arrays. The other rows are read one by one, with an error for each
--- wrong cell.
+-- wrong cell. An offset is the index of a character, from 0.
 module Surface.Csv
   ( table,
   )
@@ -40,8 +40,8 @@ import Surface.Keyword qualified as Keyword
 import Surface.Syntax (Expr, Expr_ (..), Heading (..), Numeral (..), TableLine, TableLine_ (..))
 import Surface.Token (columnUnits, unitName)
 
--- | Reads a text whose first character has the given offset. Gives the errors and the lines of the
--- table; lines with errors are broken.
+-- | Reads a text whose first character has the offset @begin@. Gives the errors and the lines of
+-- the table. Each line with errors is a 'BrokenLine'.
 table :: Int -> Text -> ([Error], [TableLine])
 table begin text = case filter (not . Text.all isSpace . value) (linesOf begin text) of
   [] -> ([EmptyTable (Region begin begin)], [])
@@ -56,8 +56,9 @@ table begin text = case filter (not . Text.all isSpace . value) (linesOf begin t
         (rowErrors, rows) = unzip (rowsFrom separator columns 1 rest)
      in (headingErrors <> concat rowErrors, first : rows)
 
--- | Reads the rows from row @k@ on, counted from 1. Gives the errors and the line for each run of
--- plain rows and for each other row. @columns@ is 'Nothing' if the headings have mistakes.
+-- | Reads the rows @texts@, of which the first is row @k@ of the table, counted from 1. Gives the
+-- errors and the line for each run of plain rows and for each other row. @columns@ is the number of
+-- columns, 'Nothing' if the headings have mistakes.
 rowsFrom :: Char -> Maybe Int -> Int -> [Located Text] -> [([Error], TableLine)]
 rowsFrom separator columns k texts =
   [ ( [],
@@ -79,8 +80,8 @@ rowsFrom separator columns k texts =
 
 -- Plain rows
 
--- | Reads the plain rows of @width@ numbers at the start of a list of rows. Gives their numbers and
--- the rows after them.
+-- | Reads the plain rows of @width@ numbers at the start of a list of rows. Gives the numbers of
+-- these rows, and the rows after them.
 plainRows :: Char -> Int -> [Located Text] -> (NumberTable, [Located Text])
 plainRows separator width texts = runST $ do
   ends <- newPrimArray (2 * initialRoom)
@@ -89,11 +90,13 @@ plainRows separator width texts = runST $ do
   where
     initialRoom = 8
 
--- | Growing arrays of plain rows: the offsets of the start and the end of each row, and its cells.
+-- | Growing arrays of plain rows. The first has the offsets of the start and the end of each row,
+-- the second the numbers of all rows, one row after the other.
 data Rows s = Rows (MutablePrimArray s Int) (MutablePrimArray s Double)
 
--- | Adds plain rows to arrays that hold @count@ rows and have room for @room@. Doubles the arrays
--- when they are full.
+-- | Adds plain rows of @width@ numbers to arrays, up to the first row that is not plain. The third
+-- argument is the count of rows in the arrays, the fourth the count of rows for which they have
+-- room; full arrays are doubled. Gives the numbers of the plain rows, and the rows after them.
 fillRows ::
   Char -> Int -> Int -> Int -> Rows s -> [Located Text] -> ST s (NumberTable, [Located Text])
 fillRows separator width = go
@@ -120,8 +123,9 @@ fillRows separator width = go
       found <- unsafeFreezePrimArray cells
       pure (NumberTable {NumberTable.width, NumberTable.places, NumberTable.numbers = found}, texts)
 
--- | Reads a row of @wanted@ numbers and writes them into an array from an index on. Gives 'False'
--- if the row is not plain or has another number of cells.
+-- | Reads a plain row and writes its numbers into the array @cells@. The third argument is the
+-- index of the first number in the array, the fourth the count of numbers in the row. Gives 'False'
+-- if the row is not plain or has another count of cells.
 plainRow :: Char -> MutablePrimArray s Double -> Int -> Int -> Text -> ST s Bool
 plainRow separator cells = row
   where
@@ -139,8 +143,8 @@ plainRow separator cells = row
 
 -- Lines and cells
 
--- | The lines of a text that begins at a given offset, with their regions. A byte order mark
--- separates lines.
+-- | The lines of a text, with their regions. The text begins at the offset @begin@. A byte order
+-- mark separates lines, so that a mark at the start of a file belongs to no cell.
 linesOf :: Int -> Text -> [Located Text]
 linesOf begin text = go begin text
   where
@@ -151,8 +155,8 @@ linesOf begin text = go begin text
          in Located (Region at (at + Text.length line)) line :
             go (at + Text.length line + 1) (Text.drop 1 after)
 
--- | The separator of cells by the first line: a semicolon if the line contains one, else a tab if
--- it contains one, else a comma.
+-- | The separator of cells, judged by the first line: a semicolon if the line contains one, else a
+-- tab if the line contains one, else a comma.
 separatorOf :: Text -> Char
 separatorOf header
   | Text.any (== ';') header = ';'
@@ -167,8 +171,9 @@ cellsOf separator (Located (Region at _) line) = NonEmpty.zipWith trimmed starts
     parts = NonEmpty.fromList (Text.split (== separator) line)
     starts = NonEmpty.scanl (\a p -> a + Text.length p + 1) at (NonEmpty.toList parts)
 
--- | The content of a cell, without the spaces and quotation marks around it, and its region. The
--- cell as written starts at offset @from@. An empty content has the region of the cell as written.
+-- | The content of the cell @part@, without the spaces and quotation marks around it, and the
+-- content's region. The cell as written starts at the offset @from@. An empty content has the
+-- region of the cell as written.
 trimmed :: Int -> Text -> Located Text
 trimmed from part
   | consumed == 0 = Located (Region from (from + Text.length part)) inside
@@ -187,7 +192,7 @@ trimmed from part
 
 -- Headings
 
--- | Reads the line that names the columns.
+-- | Reads the line that names the columns; @separator@ separates the names.
 headings :: Char -> Located Text -> ([Error], TableLine)
 headings separator line =
   case partitionEithers (map heading (NonEmpty.toList (cellsOf separator line))) of
@@ -236,13 +241,13 @@ fullRow separator columns k line = case partitionEithers (map (number separator)
         && length cells > n
         && all (Text.all isDigit . Text.dropWhile (`elem` ['-', '+']) . value) cells
 
--- | Drops an empty cell after the last separator.
+-- | The cells of a row without an empty last cell, which a separator at the end of a line makes.
 withoutLastEmpty :: [Located Text] -> [Located Text]
 withoutLastEmpty cells = case reverse cells of
   Located _ "" : rest@(_ : _ : _) -> reverse rest
   _ -> cells
 
--- | Reads a cell: a number with an optional sign.
+-- | Reads a cell: a number with an optional sign; @separator@ is the character between cells.
 number :: Char -> Located Text -> Either Error Expr
 number separator (Located at text) = maybe (Left (BadCell at text)) (Right . Located at) $
   case Text.uncons text of
@@ -251,7 +256,8 @@ number separator (Located at text) = maybe (Left (BadCell at text)) (Right . Loc
     Just ('+', rest) -> numeral separator rest
     _ -> numeral separator text
 
--- | Reads a number without a sign. Unless the separator is the comma, a decimal comma is allowed.
+-- | Reads a number without a sign; 'Nothing' if the text is none. A decimal comma is allowed if the
+-- cells are separated by another character.
 numeral :: Char -> Text -> Maybe Expr_
 numeral separator text = case Read.rational digits :: Either String (Double, Text) of
   Right (x, "")

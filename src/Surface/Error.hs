@@ -29,12 +29,12 @@ import Surface.Token (Token_ (..), columnUnits, describe, unitName)
 
 -- | A mistake with the region that a report points at, and the facts of the report.
 data Error
-  = -- | an unexpected token: the text found, the expected tokens, the neighbours of the token
+  = -- | an unexpected token: the text found, the expected tokens in words, the tokens on both sides
     Unexpected Region FoundText [Text] Neighbours
-  | -- | an enclosure without its closing bracket: the region where that was expected, the opening
-    -- bracket, the enclosure
+  | -- | an enclosure without its closing bracket: the region where the bracket was expected, the
+    -- region of the opening bracket, the enclosure
     Unclosed Region Region Enclosure
-  | -- | a word that begins no statement; the keywords that begin one
+  | -- | a word that begins no statement: the word, the keywords that begin a statement
     UnknownStatement Region Text [Text]
   | -- | a reserved word where a name is defined
     Reserved Region Text
@@ -49,9 +49,9 @@ data Error
     NoSide Region FoundText
   | -- | a statement in the braces of another: its keyword
     Misplaced Region Text
-  | -- | brackets nested deeper than the limit
+  | -- | brackets nested deeper than the given limit
     TooDeep Region Int
-  | -- | a program with more tokens than the limit
+  | -- | a program with more tokens than the given limit
     TooLong Region Int
   | -- | parentheses with more than three values
     ManyCoordinates Region
@@ -63,7 +63,8 @@ data Error
     ImportOfSheet Region Text
   | -- | a table file that cannot be read: its name as written, the reason
     LinesMissing Region Text Text
-  | -- | files that import one another: each imports the next, and the last is the first again
+  | -- | an import cycle: the paths of files, each of which imports the next one; the first path is
+    -- also the last
     ImportCycle Region [Text]
   | -- | an empty table file
     EmptyTable Region
@@ -72,20 +73,20 @@ data Error
   | -- | a text in a file that is not a number
     BadCell Region Text
   | -- | a row of the wrong length in a file: its number from 1, the number of columns, the number
-    -- of cells. The flag is true if its commas may be decimal commas
+    -- of cells. The flag is true if the commas of the row may be decimal commas
     CellCount Region Int Int Int Bool
-  | -- | a command-line value for an unknown parameter; the parameters
+  | -- | a command-line value for an unknown parameter: its name, the names of all parameters
     NoSuchParam Text [Text]
-  | -- | a command-line value that cannot be parsed: the parameter, its name, the text, the number
-    -- of errors in it
+  | -- | a command-line value that cannot be parsed: the region of the parameter, its name, the text
+    -- of the value, the number of errors in the text
     BadAssignment Region Text Text Int
   deriving stock (Eq, Ord, Show)
 
--- | The tokens on both sides of a mistake: the one before it, and the one after it if no space
--- separates them.
+-- | The tokens on both sides of a mistake: the token before it, and the token after it if no space
+-- lies between. 'Nothing' at the start or the end of the text.
 type Neighbours = (Maybe Token_, Maybe Token_)
 
--- | The text at a region.
+-- | The text found at a region: a token, or the end of the text.
 data FoundText = FoundToken Token_ | FoundEnd
   deriving stock (Eq, Ord, Show)
 
@@ -93,11 +94,11 @@ data FoundText = FoundToken Token_ | FoundEnd
 data Enclosure
   = -- | an opening parenthesis or square bracket
     BracketOf Text
-  | -- | the contour of a name
+  | -- | the block of the contour with the given name
     ContourBlock Text
   | TableBlock
   | RepetitionBlock
-  | -- | the block after a keyword
+  | -- | the block of a statement with the given keyword
     BlockOf Text
   deriving stock (Eq, Ord, Show)
 
@@ -291,14 +292,15 @@ toReport err = case err of
   TooDeep region limit ->
     at region "E0110" ("brackets are nested more than " <> Decimal.whole limit <> " deep")
 
--- | The report of a file that cannot be imported.
+-- | The report of a file that cannot be imported: the region of the import, the name of the file as
+-- written, and the reason.
 notImported :: Region -> Text -> Text -> Report
 notImported region name why =
   (at region "E0112" (quote name <> " cannot be imported: " <> why))
     { hints = ["The name is looked for from the folder of the file that imports it."]
     }
 
--- | The noun of an enclosure.
+-- | The words for an enclosure in a report.
 enclosureWords :: Enclosure -> Text
 enclosureWords enclosure = case enclosure of
   BracketOf bracket -> quote bracket
@@ -307,7 +309,8 @@ enclosureWords enclosure = case enclosure of
   RepetitionBlock -> "the repetition"
   BlockOf keyword -> "the block of " <> quote keyword
 
--- | Suggests an expected keyword that resembles the token.
+-- | Suggests an expected keyword that resembles the token @token@; @expected@ has the descriptions
+-- of the expected tokens.
 meant :: Token_ -> [Text] -> [Text]
 meant token expected = case token of
   Word word ->
@@ -318,7 +321,7 @@ meant token expected = case token of
   where
     words' = map (Text.dropAround (`elem` ("‘’" :: String))) expected
 
--- | Suggests what a misplaced token was meant to be, judged by its neighbours.
+-- | Suggests what the author meant by a misplaced token, judged by the tokens on both sides of it.
 advice :: Token_ -> Neighbours -> [Text]
 advice token neighbours = case (token, neighbours) of
   (Symbol ",", (Just (Number _ Nothing), Just (Number _ _))) ->
@@ -382,13 +385,13 @@ headingAdvice token = case token of
 counted :: Int -> Text -> Text
 counted n thing = Decimal.whole n <> " " <> thing <> (if n == 1 then "" else "s")
 
--- | Tells if exactly one word was expected, so that no suggestion is needed.
+-- | Tells if the expected tokens are exactly one word, so that no suggestion is needed.
 isWord :: [Text] -> Bool
 isWord expected = case expected of
   [one] -> Text.any isLetter one && Text.isPrefixOf "‘" one
   _ -> False
 
--- | Tells if a token is wrong anywhere in a program.
+-- | Tells if a token is wrong at every position of a program, such as a stray character.
 isBroken :: Token_ -> Bool
 isBroken token = case token of
   Stray _ -> True

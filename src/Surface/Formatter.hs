@@ -3,7 +3,8 @@
 -- The syntax tree is printed anew and the comments are placed among the printed lines. A comment on
 -- a line of its own stays above the text that it precedes. A trailing comment, which follows other
 -- text on its line, stays after that text. A comment inside a text that is now printed on one line
--- goes to the end of that line, or above it if the line ends with a comment already.
+-- goes to the end of that line, or above it if the line ends with a comment already. An offset is
+-- the index of a character in the source, from 0.
 module Surface.Formatter
   ( format,
     layout,
@@ -44,17 +45,18 @@ format text = fmap checked (layout text)
         (\p -> (Unlocated.statements (statements p), map (Text.stripEnd . value) (comments p)))
         (parsed t)
 
--- | 'format' without the check that meaning and comments are kept.
+-- | The canonical layout of a text, 'Nothing' if the text has mistakes. Unlike 'format' it does not
+-- check that meaning and comments are kept; tests use it for this reason.
 layout :: Text -> Maybe Text
 layout text = fmap (laidOut (normalised text)) (parsed (normalised text))
 
--- | The program of a text without mistakes.
+-- | The syntax tree of a text; 'Nothing' if the text has mistakes.
 parsed :: Text -> Maybe Program
 parsed text = case Parser.parse 0 text :: Result () Error Program of
   Result {errors = [], output} -> output
   _ -> Nothing
 
--- | A text with LF as line end and without a byte order mark.
+-- | The text with LF as line end and without a byte order mark.
 normalised :: Text -> Text
 normalised text =
   Text.replace
@@ -62,7 +64,7 @@ normalised text =
     "\n"
     (Text.replace "\r\n" "\n" (Maybe.fromMaybe text (Text.stripPrefix "\xFEFF" text)))
 
--- | The canonical layout of a text and its program.
+-- | The canonical layout of a text, given the text and its syntax tree.
 laidOut :: Text -> Program -> Text
 laidOut text program =
   Text.unlines (renderEntries (withoutLeadingGaps (entries source remarks rows)))
@@ -87,7 +89,7 @@ laidOut text program =
 offsetsAtCommas :: [Token] -> [Int] -> [Int]
 offsetsAtCommas = go False
   where
-    -- The flag tells if the last token was a comma.
+    -- @isAfterComma@ tells if the last token was a comma.
     go isAfterComma tokens offsets = case (tokens, offsets) of
       (_, []) -> []
       ([], _) -> if isAfterComma then offsets else []
@@ -101,7 +103,7 @@ offsetsAtCommas = go False
 
 -- | A comment of the source.
 data Remark = Remark
-  { -- | the offset of its start
+  { -- | the offset of the comment's start
     offset :: Int,
     text :: Text,
     -- | true if other text precedes the comment on its line
@@ -124,15 +126,15 @@ remark source (Located region text) =
     before = Text.take (column - 1) (Region.lineText source (start region))
     isTrailing = not (Text.null (Text.strip before))
 
--- | Tells if the line above that of an offset is blank.
+-- | Tells if the line above the line of the offset @at@ is blank.
 isBlankAbove :: Source -> Int -> Bool
 isBlankAbove source at =
   line > 1 && Text.null (Text.strip (Region.lineText source (Region.offset source (line - 1) 1)))
   where
     Region.Position {Region.line} = Region.position source at
 
--- | Splits a printed line that ends with an empty block before its closing brace, if the source has
--- a comment inside the block.
+-- | Splits a printed line that ends with @{ }@ before the closing brace, if the source has a
+-- comment between the braces. Otherwise the line is the only one in the result.
 splitEmptyBlock :: CommentPositions -> SourceLine -> [SourceLine]
 splitEmptyBlock positions sourceLine = case (shapesBackwards, sourcesBackwards) of
   (Symbol "}" : Symbol "{" : _, Just close : Just open : _)
@@ -164,15 +166,15 @@ splitEmptyBlock positions sourceLine = case (shapesBackwards, sourcesBackwards) 
 
 -- Lines
 
--- | A line of the output. The flag asks for a blank line above it.
+-- | A line of the output. @hasGap@ is true if a blank line is printed above it.
 data Entry = Entry {hasGap :: Bool, line :: Content}
   deriving stock (Eq, Show)
 
 -- | The content of a line.
 data Content
-  = -- | a comment on a line of its own, with its indentation
+  = -- | a comment on a line of its own: the indentation in characters, the text
     Own Int Text
-  | -- | a printed line with its trailing comment
+  | -- | a printed line, and the text of the comment at its end if there is one
     Printed SourceLine (Maybe Text)
   deriving stock (Eq, Show)
 
@@ -203,8 +205,9 @@ data Shares = Shares
     later :: [Remark]
   }
 
--- | Divides comments by their positions relative to a printed line. In the source, the line has the
--- given first and last offset, and the next printed line begins at offset @next@.
+-- | Divides comments by their positions relative to a printed line. In the source, the line reaches
+-- from offset @from@ to offset @finish@. The next printed line begins there at offset @next@,
+-- 'Nothing' after the last line.
 shareOut :: (Int, Int) -> Maybe Int -> [Remark] -> Shares
 shareOut (from, finish) next remarks = case (inside, trailingRemark) of
   ([r], Nothing) | isTrailing r -> Shares {early, displaced = [], trailing = Just r, below, later}
@@ -218,7 +221,8 @@ shareOut (from, finish) next remarks = case (inside, trailingRemark) of
       _ -> (Nothing, after)
 
 -- | The lines of the output for one printed line: the comments above it, then the line itself. In
--- the source it begins at offset @from@.
+-- the source the printed line begins at offset @from@. @above@ has the comments between this line
+-- and the line before it.
 rowEntries :: Source -> SourceLine -> Int -> [Remark] -> Shares -> [Entry]
 rowEntries source sourceLine from above shares =
   [own {hasGap = hasGap own && isStart} | own <- map (ownLine deep) (above <> early shares)]
@@ -242,7 +246,7 @@ rowEntries source sourceLine from above shares =
       Just t : _ -> Token.newLine t
       _ -> False
 
--- | A comment on a line of its own.
+-- | A comment on a line of its own, indented by @deep@ characters.
 ownLine :: Int -> Remark -> Entry
 ownLine deep r = Entry {hasGap = isApart r, line = Own deep (text r)}
 
@@ -306,6 +310,7 @@ withComments list = case list of
      in [Text.justifyLeft column ' ' line <> Maybe.fromMaybe "" comment | (line, comment) <- run]
           <> withComments others
 
--- | The column of trailing comments, counted from 0. After longer lines they begin further right.
+-- | The column of trailing comments, in characters from 0. After a longer line the comment begins
+-- further right.
 commentColumn :: Int
 commentColumn = 39

@@ -3,8 +3,10 @@
 -- | The grammar of programs, by recursive descent with one token of lookahead.
 --
 -- A mistake ends the statement or the item of a block that contains it. Parsing continues at the
--- next one, so that one run finds all mistakes. The rules are written once, for the explaining
--- parser and for its fast twin. Each rule parses the construct that its comment names.
+-- next one, so that one run finds all mistakes. The rules are written once for two parsers. The
+-- explaining parser of "Surface.Combinator" reports mistakes. The fast parser of
+-- "Surface.Combinator.Fast" only accepts programs without a mistake. Each rule parses the construct
+-- that its comment names.
 module Surface.Grammar
   ( explainedProgram,
     fastProgram,
@@ -35,15 +37,15 @@ import Text.Megaparsec ((<?>), (<|>))
 import Text.Megaparsec qualified as Parsec
 import Prelude hiding (span)
 
--- | A program by the explaining parser.
+-- | The rule for a program, for the explaining parser.
 explainedProgram :: Explaining [Statement]
 explainedProgram = program
 
--- | A program by the fast parser.
+-- | The rule for a program, for the fast parser.
 fastProgram :: FastParser [Statement]
 fastProgram = program
 
--- | An expression that is the whole text, by the explaining parser.
+-- | The rule for an expression that is the whole text, for the explaining parser.
 explainedExpression :: Explaining Expr
 explainedExpression = expr <* (Parsec.eof <?> "the end of the value")
 
@@ -63,7 +65,7 @@ statement_ = do
     Word word -> Parsec.customFailure (NoStatement word)
     _ -> Parsec.empty <?> "a statement"
 
--- | The keywords of statements, each with the rule for the text after it.
+-- | The keywords of statements, each with the rule for the text after the keyword.
 statementForms :: Grammar p => [(Text, p Statement_)]
 statementForms =
   [ ("part", Part <$> name <*> Parsec.optional (onThisLine text')),
@@ -165,14 +167,14 @@ accuracy :: Parser Accuracy
 accuracy =
   (keyword "inside" *> (Between <$> expr <* keyword "outside" <*> expr)) <|> (Within <$> expr)
 
--- | The command of a spindle.
+-- | The command to a spindle: a sense with an optional speed, or @off@.
 spin :: Parser Spin
 spin = (SpindleStop <$ keyword "off") <|> (Spinning <$> sense <*> Parsec.optional (onThisLine expr))
 
 sense :: Parser Sense
 sense = (Clockwise <$ keyword "cw") <|> (CounterClockwise <$ keyword "ccw")
 
--- | A value or a function after @let@.
+-- | The definition of a value or of a function, after the keyword @let@.
 definition :: Parser Statement_
 definition = do
   what <- name
@@ -181,7 +183,7 @@ definition = do
   body <- expr
   pure (maybe (LetValue what body) (\ps -> LetFunction what ps body) parameters)
 
--- | A contour after its keyword.
+-- | A contour statement after its keyword: the name, @open@ or @closed@, and the block of items.
 contour :: Parser Statement_
 contour = do
   what <- name
@@ -209,12 +211,14 @@ line =
         <|> Parsec.hidden (located (Negate <$> (symbol "-" *> (number <|> misfit NotInRow))))
         <|> parens expr
 
--- | Fails at the next token, which does not belong in a line of a table.
+-- | Fails at the next token, which begins no cell or heading of a table. @problem@ makes the
+-- failure from the token.
 misfit :: (Token_ -> Problem) -> Parser a
 misfit problem =
   Parsec.lookAhead Parsec.anySingle >>= \t -> Parsec.customFailure (problem (shape t))
 
--- | Demands the end of a table's line or the closing brace of the table.
+-- | Demands the end of a table's line or the closing brace of the table. @problem@ makes the
+-- failure from any other token.
 lineDone :: (Token_ -> Problem) -> Parser ()
 lineDone problem = do
   next <- remaining
@@ -261,11 +265,11 @@ piece = do
 item :: Parser Item_
 item = isWordNext >>= \ahead -> if ahead then repetition <|> choice <|> element else element
 
--- | A variable and its list after @for@: @x in list@.
+-- | The variable and the list after the keyword @for@: @x in list@.
 forEach :: Parser (Located Name, Expr)
 forEach = (,) <$> name <* (keyword "in" <?> "‘in’") <*> expr
 
--- | A repetition of items.
+-- | A repetition of items of a contour: @for x in list { … }@.
 repetition :: Parser Item_
 repetition = do
   (variable, from) <- keyword "for" *> forEach
@@ -297,7 +301,7 @@ element = do
     then Element direction what <$> zeroOrMore (located modifier) <*> Parsec.optional (located link)
     else pure (Element direction what [] Nothing)
 
--- | A modifier of an element.
+-- | A modifier of an element: @feed f@, @slow@, @allowance a@ or @bevel b@.
 modifier :: Parser Modifier_
 modifier =
   (keyword "feed" *> (ElementFeed <$> expr))
@@ -305,7 +309,7 @@ modifier =
     <|> (keyword "allowance" *> (ElementAllowance <$> expr))
     <|> (keyword "bevel" *> (Bevel <$> expr))
 
--- | A link to the next element.
+-- | The link of an element to the next one: @meet@, @smooth@, @tangent@, @fillet r@ or @chamfer d@.
 link :: Parser Link_
 link =
   (keyword "meet" *> (Meet <$> Parsec.optional (keyword "near" *> expr)))
@@ -314,7 +318,8 @@ link =
     <|> (keyword "fillet" *> Parsec.optional (symbol "+") *> (Fillet <$> expr))
     <|> (keyword "chamfer" *> (Chamfer <$> expr))
 
--- | A machining statement after its keyword: a contour, a side, and settings.
+-- | A machining statement after its keyword @word@: a contour, a side, and settings. @make@ makes
+-- the statement of these.
 machining :: Text -> (Expr -> Located Side -> [Setting] -> Statement_) -> Parser Statement_
 machining word make =
   make <$> expr <*> located (Parsec.choice [s <$ keyword k | (k, s) <- sides]) <*> settings word
@@ -327,7 +332,7 @@ machining word make =
         ("on", On)
       ]
 
--- | The block of settings of a statement, given its keyword.
+-- | The block of settings of a statement with the keyword @word@.
 settings :: Text -> Parser [Setting]
 settings word =
   block
@@ -335,8 +340,9 @@ settings word =
     (const BrokenSetting)
     (setting (concatMap (take 1 . Text.words) (Keyword.settingsOf word)))
 
--- | A setting. Reports of a mistake name the settings that the statement offers. Settings of other
--- statements are parsed as well, so that checking can refuse them by name.
+-- | A setting. Reports of a mistake name @offered@, the first words of the settings that the
+-- statement allows. Settings of other statements are parsed as well, so that checking can refuse
+-- them by name.
 setting :: [Text] -> Parser Setting_
 setting offered = do
   begin <- Parsec.lookAhead Parsec.anySingle
@@ -349,7 +355,7 @@ setting offered = do
             word `elem` offered
         ]
 
--- | The first words of settings, each with the rule for the text after it.
+-- | The first words of settings, each with the rule for the text after the word.
 settingForms :: Grammar p => [(Text, p Setting_)]
 settingForms =
   [ ("approach", Approach <$> stops),
@@ -385,7 +391,7 @@ stops = stop `sepBy1` ","
 
 -- Expressions, the operators of lowest precedence first
 
--- | An expression. Most are a single operand, which is tried first.
+-- | An expression. Most expressions are a single operand, so that an operand is tried first.
 expr :: Parser Expr
 expr = do
   begin <- remaining
@@ -393,7 +399,7 @@ expr = do
     t : _ | Just first <- operand t -> first >>= operated
     _ -> conditional <|> disjunction
 
--- | The rule for an operand by its first token.
+-- | The rule for an operand that begins with the token @t@; 'Nothing' if none begins with it.
 operand :: Grammar p => Token -> Maybe (p Expr)
 operand t = case shape t of
   Number _ _ -> Just number
@@ -403,7 +409,8 @@ operand t = case shape t of
   Symbol "-" -> Just negative
   _ -> Nothing
 
--- | The whole expression that begins with an operand: parses the operators and operands after it.
+-- | The whole expression that begins with the operand @first@: parses the operators and operands
+-- after it.
 operated :: Grammar p => Expr -> p Expr
 operated first = do
   next <- remaining
@@ -453,8 +460,8 @@ negation = Parsec.hidden (located (Not <$> (keyword "not" *> nested negation))) 
 comparison :: Parser Expr
 comparison = range >>= compared
 
--- | The comparison that begins with a left operand; the operand alone if no comparison follows.
--- Only one may follow: @a < b < c@ is not an expression.
+-- | The comparison that begins with the operand @left@; the operand alone if no comparison sign
+-- follows. Only one sign may follow: @a < b < c@ is not an expression.
 compared :: Grammar p => Expr -> p Expr
 compared left = (operators table >>= \op -> joined op left <$> range) <|> pure left
   where
@@ -464,7 +471,7 @@ compared left = (operators table >>= \op -> joined op left <$> range) <|> pure l
 range :: Parser Expr
 range = sum' >>= moreOfRange
 
--- | The range that begins with a lower end, after which @..b by s@ is parsed; the lower end alone
+-- | The range that begins with the lower end @low@, after which @..b by s@ is parsed; @low@ alone
 -- if no @..@ follows.
 moreOfRange :: Grammar p => Expr -> p Expr
 moreOfRange low =
@@ -497,8 +504,8 @@ operators table = Parsec.hidden (token "an operator" operatorOf)
       Symbol s -> lookup s table
       _ -> Nothing
 
--- | The expression of a first operand and the operators and operands after it, joined from left to
--- right.
+-- | The expression of a first operand, the last argument, and the operators and operands after it,
+-- joined from left to right.
 chain :: Grammar p => p Operator -> p Expr -> Expr -> p Expr
 chain operator next = more
   where
@@ -566,7 +573,8 @@ argument = do
       Word _ -> True
       _ -> False
 
--- | Demands a parenthesis without a space before it.
+-- | Demands that the next token is an opening parenthesis without a space before it. A name before
+-- such a parenthesis is the name of a function. The token is not consumed.
 touching :: Parser ()
 touching = Parsec.hidden (void (Parsec.lookAhead (Parsec.satisfy isTouchingParenthesis)))
 

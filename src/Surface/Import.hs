@@ -1,7 +1,7 @@
 -- | A program together with the files that it imports.
 --
 -- An import is replaced by the definitions of the imported file and of the files that it imports
--- itself. Settings and motions of an imported file are dropped. Each file is read once.
+-- itself. Settings and motions of an imported file are dropped. Each imported file is read once.
 module Surface.Import
   ( Reader (..),
     byName,
@@ -36,7 +36,7 @@ import System.FilePath
 data Reader m = Reader
   { -- | the text of a file, or the reason why it cannot be read
     contents :: FilePath -> m (Either Text Text),
-    -- | the same result for all paths that lead to the same file
+    -- | the identity of a file: the same result for all paths that lead to the same file
     identity :: FilePath -> m FilePath
   }
 
@@ -44,7 +44,7 @@ data Reader m = Reader
 byName :: Monad m => (FilePath -> m (Either Text Text)) -> Reader m
 byName contents = Reader {contents, identity = pure}
 
--- | A program with all its texts.
+-- | A program with its imports replaced, and the texts of all files.
 data ImportedProgram = ImportedProgram
   { -- | the texts of the program and of all files read
     source :: Source,
@@ -54,7 +54,7 @@ data ImportedProgram = ImportedProgram
     imports :: [(Region, Text)]
   }
 
--- | The results after some of the files are read.
+-- | The results so far, while files are being read.
 data Progress = Progress
   { -- | the texts of the files read
     texts :: Source,
@@ -97,11 +97,12 @@ load reader path text = do
             imports = reverse (named progress)
           }
 
--- | The present file, and the files through which the program imports it.
+-- | The file whose statements are being read, and the files through which the program imports it.
+-- A file that is imported again in this chain is an import cycle.
 data Chain = Chain
-  { -- | the identity and the path of each file, the present file first, the program last
+  { -- | the identity and the path of each file, the file being read first, the program last
     open :: [(FilePath, FilePath)],
-    -- | the path of the present file
+    -- | the path of the file being read
     file :: FilePath
   }
 
@@ -113,7 +114,8 @@ data ImportedFile = ImportedFile
     importIdentity :: FilePath
   }
 
--- | Replaces the imports and the table files in the statements of a file.
+-- | Replaces each import in the statements of a file by definitions, and each name of a table file
+-- by the lines of the table.
 replaceImports :: Monad m => Reader m -> Chain -> [Statement] -> StateT Progress m [Statement]
 replaceImports reader chain = fmap concat . mapM replace
   where
@@ -140,14 +142,15 @@ replaceImports reader chain = fmap concat . mapM replace
           ]
       _ -> pure [s]
 
--- | Records that the present file names another file at a region, and gives the path of that file.
+-- | Records that the file being read names another file at the region @at@. Gives the path of the
+-- other file, whose name is relative to the folder of the file being read.
 namedPath :: Monad m => Chain -> Region -> Text -> StateT Progress m FilePath
 namedPath chain at name = do
   let path = simplified (takeDirectory (file chain) </> Text.unpack name)
   modify' (\p -> p {named = (at, Text.pack path) : named p})
   pure path
 
--- | The definitions of an imported file. A file that is already read gives none.
+-- | The definitions of an imported file. If the file is already read, the list is empty.
 importFile :: Monad m => Reader m -> Chain -> ImportedFile -> StateT Progress m [Statement]
 importFile reader chain i
   | Just firstPath <- lookup (importIdentity i) (open chain) =
@@ -186,8 +189,9 @@ readProgram reader chain i = do
           Chain {open = (importIdentity i, importPath i) : open chain, file = importPath i}
           (maybe [] statements output)
 
--- | Reads the lines of a table from a file. A file that several tables name is read for each of
--- them, so that their lines have different regions.
+-- | Reads the lines of a table from the file that is named at the region @at@; 'Nothing' if the
+-- file has mistakes. A file that several tables name is read for each of them, so that the lines
+-- of each table have regions of their own.
 tableLines ::
   Monad m =>
   Reader m ->
@@ -215,7 +219,7 @@ failed :: Monad m => Region -> Error -> StateT Progress m [Statement]
 failed at e =
   [Located at (Broken (Just "import") Nothing)] <$ modify' (\p -> p {found = e : found p})
 
--- | The largest number of imports inside one another.
+-- | The largest depth of imports: a file that is imported by a file that is imported, and so on.
 maxDepth :: Int
 maxDepth = 100
 
@@ -233,7 +237,8 @@ isDefinition (Located _ s) = case s of
   Broken (Just "import") _ -> True
   _ -> False
 
--- | A path without @.@, and without @..@ after the name of a folder, so that a file has one path.
+-- | A path without @.@, and without @..@ after the name of a folder, so that different spellings of
+-- a path become equal.
 simplified :: FilePath -> FilePath
 simplified path = if null parts then "." else joinPath parts
   where

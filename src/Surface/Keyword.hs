@@ -20,7 +20,7 @@ import Data.Text (Text)
 import Surface.Syntax (Selector (..))
 import Surface.Token (unitName)
 
--- | The keywords that begin a statement and nothing else.
+-- | The keywords that are reserved and, at the start of a line, begin a statement.
 statements :: [Text]
 statements =
   ["part", "machine", "import", "tool", "feed", "tolerance", "clearance", "from"]
@@ -44,8 +44,8 @@ beginsItem word = word `elem` (["for", "if", "cw", "ccw"] <> settings)
       ["approach", "retract", "depth", "lead", "allowance", "corners", "climb", "conventional"]
         <> ["compensation", "start", "plunge", "peck", "islands", "rest"]
 
--- | The first words of the settings that are allowed in the block of a statement with the given
--- keyword.
+-- | The first words of the settings that are allowed in the block of a statement; @statement@ is
+-- the keyword of the statement.
 settingsOf :: Text -> [Text]
 settingsOf statement = case statement of
   "mill" ->
@@ -70,7 +70,7 @@ settingsOf statement = case statement of
     linkingMoves = ["approach", "retract", "lead in", "lead out"]
     passes = ["allowance", "corners"]
 
--- | The word before an argument.
+-- | The word for a selector, as it is written before an argument.
 selectorWord :: Selector -> Text
 selectorWord selector = case selector of
   Near -> "near"

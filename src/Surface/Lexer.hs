@@ -1,7 +1,8 @@
 -- | The lexer: tokens and comments from a text.
 --
 -- The lexer never fails. Text that is not a token becomes a 'BadNumber', an 'OpenText' or a 'Stray'
--- character, which the parser reports.
+-- character, which the parser reports. An offset is the index of a character, from 0; the files of
+-- a program are numbered one after the other.
 module Surface.Lexer
   ( tokens,
   )
@@ -24,13 +25,13 @@ data LexerState = LexerState
     at :: Int,
     -- | true before the first token of a line
     isLineStart :: Bool,
-    -- | true if the last token ends at this offset, without a space after it
+    -- | true if the last token ends at the offset @at@, without a space after it
     isTouching :: Bool,
     -- | true after the keyword of a @machine@ statement
     isMachineNext :: Bool
   }
 
--- | All tokens and all comments of a text in order. The first character has the given offset. The
+-- | All tokens and all comments of a text in order. The first character has the offset @begin@. The
 -- two lists are read independently, so that neither keeps the other in memory.
 tokens :: Int -> Text -> ([Token], [Located Text])
 tokens begin text =
@@ -45,8 +46,8 @@ tokensFrom before rest = case chunk chunkSize [] [] before rest of
   Chunk {ts, stopped, left} ->
     foldl (flip (:)) (if Text.null left then [] else tokensFrom stopped left) ts
 
--- | The comments of a text, after the comments @found@ before it, which are given in reverse order.
--- @before@ is the state at the start of the text.
+-- | The comments @found@, which are given in reverse order, followed by those of a text. @before@
+-- is the state at the start of the text.
 commentsFrom :: [Located Text] -> LexerState -> Text -> [Located Text]
 commentsFrom found before rest = case chunk chunkSize [] found before rest of
   Chunk {cs, stopped, left} -> if Text.null left then reverse cs else commentsFrom cs stopped left
@@ -55,11 +56,13 @@ commentsFrom found before rest = case chunk chunkSize [] found before rest of
 chunkSize :: Int
 chunkSize = 512
 
--- | Tokens and comments in reverse order, the text after them, and the state at its start.
+-- | Tokens @ts@ and comments @cs@ in reverse order, the text @left@ after them, and the state
+-- @stopped@ of the lexer at the start of that text.
 data Chunk = Chunk {ts :: [Token], cs :: [Located Text], stopped :: LexerState, left :: Text}
 
--- | Reads at most @count@ tokens and the comments between them. Adds them to the given tokens and
--- comments, which are in reverse order.
+-- | Reads at most @count@ tokens and the comments between them. Adds them to the tokens @ts@ and
+-- the comments @cs@, which are in reverse order. @before@ is the state at the start of the text
+-- @rest@.
 chunk :: Int -> [Token] -> [Located Text] -> LexerState -> Text -> Chunk
 chunk count ts cs before rest = case if count <= 0 then Nothing else Text.uncons rest of
   Just (c, after)
@@ -100,14 +103,14 @@ chunk count ts cs before rest = case if count <= 0 then Nothing else Text.uncons
            in found `seq` chunk (count - 1) (found : ts) cs next more
   Nothing -> Chunk {ts, cs, stopped = before, left = rest}
 
--- | Tells if a text begins with a character that satisfies the predicate.
+-- | Tells if a text begins with a character that satisfies @holds@.
 begins :: (Char -> Bool) -> Text -> Bool
 begins holds rest = maybe False (holds . fst) (Text.uncons rest)
 
 -- | The first token of a text, its length in characters, and the text after it.
 data First = First Token_ Int {-# UNPACK #-} Text
 
--- | Reads the first token of a text, given its first character.
+-- | Reads the first token of the text @rest@, whose first character is @c@.
 token :: Char -> Text -> First
 token c rest
   | isDigit c = numeral rest
@@ -141,7 +144,8 @@ machineName rest
     name =
       fst (Text.breakOn "--" (Text.takeWhile (\c -> isAlphaNum c || c == '.' || c == '-') rest))
 
--- | Reads a text in quotation marks, which must end on its line.
+-- | Reads a text in quotation marks. If the closing mark is not on the same line, the token is
+-- 'OpenText'.
 quoted :: Text -> First
 quoted rest = case Text.uncons after of
   Just ('"', more) -> First (Text inside) (Text.length inside + 2) more
@@ -170,10 +174,11 @@ numeral rest = case Decimal.leading rest of
       Just (c, _) -> isWordPart c && maybe True (\(UnitAfter _ gap _) -> gap > 0) unit
       Nothing -> False
 
--- | A unit after a number, the number of spaces before it, and its length in characters.
+-- | A unit after a number, the count of spaces before the unit, and the length of the unit in
+-- characters.
 data UnitAfter = UnitAfter Unit Int Int
 
--- | Reads a unit at the start of a text, after any number of spaces.
+-- | Reads a unit at the start of a text, after any number of spaces; 'Nothing' if there is none.
 unitAfter :: Text -> Maybe UnitAfter
 unitAfter = go 0
   where

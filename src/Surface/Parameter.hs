@@ -1,4 +1,4 @@
--- | Values for the parameters of a program that its user gives on the command line.
+-- | Values for the parameters of a program, which the user gives on the command line.
 module Surface.Parameter
   ( assign,
   )
@@ -15,9 +15,9 @@ import Surface.Parser qualified as Parser
 import Surface.Syntax
 import Surface.Unlocated qualified as Unlocated
 
--- | Replaces the values of @param@ statements. Each value is a name and the text of an expression.
--- The last of several values for one name counts. A new value has the region of the parameter's
--- name, since its own text is not part of the program.
+-- | Replaces the values of @param@ statements. @values@ has names of parameters and the texts of
+-- expressions. The last of several texts for one name counts. The new expression has the region of
+-- the parameter's name, since its text is not part of the program.
 assign :: [(Text, Text)] -> Program -> Result w Error Program
 assign values program = foldl' (\before v -> before >>= assignOne v) (pure program) values
 
@@ -33,7 +33,7 @@ assignOne (name, text) program =
   where
     parameters = [n | Located _ (Param n _) <- statements program]
 
--- | A statement with a new value if it is the parameter of the given name.
+-- | The statement @s@ with the value @e@ if it defines the parameter @name@; otherwise unchanged.
 withValue :: Text -> Expr -> Statement -> Statement
 withValue name e s = case s of
   Located at (Param n@(Located _ (Name n')) _) | n' == name -> Located at (Param n e)

@@ -1,7 +1,8 @@
 -- | The parser: the syntax tree of a program from its text.
 --
--- A text is parsed by the fast parser first. If that finds a mistake, the explaining parser parses
--- the text again and reports all mistakes.
+-- A text is parsed by the fast parser first. If the fast parser finds a mistake, the explaining
+-- parser parses the text again and reports all mistakes. An offset is the index of a character,
+-- from 0; the files of a program are numbered one after the other.
 module Surface.Parser
   ( parse,
     parseExplained,
@@ -22,8 +23,9 @@ import Surface.Parser.Fast qualified as FastParser
 import Surface.Syntax
 import Surface.Token qualified as Token
 
--- | Parses a program whose text begins at an offset. The output holds all statements without
--- mistakes; there is none if the text is too long.
+-- | Parses a program whose text begins at the offset @begin@. The output holds all statements,
+-- those with mistakes as broken nodes. There is no output if the text has more than 'maxTokens'
+-- tokens.
 parse :: Int -> Text -> Result w Error Program
 parse begin text =
   maybe
@@ -31,7 +33,8 @@ parse begin text =
     (Result [] [] . Just)
     (FastParser.parse maxTokens begin text)
 
--- | 'parse' by the explaining parser alone, which gives the same result. Tests compare the two.
+-- | Parses a program by the explaining parser alone. It gives the same result as 'parse'; tests
+-- compare the two.
 parseExplained :: Int -> Text -> Result w Error Program
 parseExplained begin text = case drop maxTokens tokens of
   t : _ ->
@@ -46,11 +49,12 @@ parseExplained begin text = case drop maxTokens tokens of
     (tokens, comments) = Lexer.tokens begin text
     (errors, parsed) = run Grammar.explainedProgram (begin + Text.length text) tokens
 
--- | The largest number of tokens in a program.
+-- | The largest number of tokens that a program may have.
 maxTokens :: Int
 maxTokens = 6000000
 
--- | Parses a text that is one expression. Its regions count from offset 0.
+-- | Parses a text that is one expression, such as a value from the command line. The first
+-- character of the text has the offset 0.
 parseExpr :: Text -> Result w Error Expr
 parseExpr text = Result {warnings = [], errors, output}
   where

@@ -1,7 +1,8 @@
 -- | A pretty-printer for documents with possible line breaks.
 --
--- A document is printed on one line if it fits. Otherwise its outermost brackets and series are
--- broken first. 'Beside' joins documents without a possible line break between them.
+-- A document is a text with possible line breaks. It is printed on one line if it fits. Otherwise
+-- its outermost brackets and series are broken first. Widths, indentations and columns are counted
+-- in characters.
 module Surface.PrettyPrinter
   ( Doc (..),
     Member (..),
@@ -15,7 +16,7 @@ where
 import Data.Text (Text)
 import Data.Text qualified as Text
 
--- | A text with possible line breaks.
+-- | A text with the positions at which it may be broken into lines.
 data Doc
   = -- | never broken
     Text Text
@@ -25,11 +26,11 @@ data Doc
     -- four characters
     Series [Member]
   | -- | an opening bracket, members and a closing bracket. If broken, the members are on lines of
-    -- their own, indented by two characters. The flag forces the break
+    -- their own, indented by two characters. The flag is true if they must be broken
     Brackets Bool Text [Member] Text
   deriving stock (Eq, Show)
 
--- | A document in a series. The flag tells if it must begin a line.
+-- | A document in a series or in brackets. @startsLine@ tells if it must begin a line.
 data Member = Member {startsLine :: Bool, content :: Doc}
   deriving stock (Eq, Show)
 
@@ -41,7 +42,7 @@ data PrintedLine = PrintedLine {indent :: Int, text :: Text}
 maxWidth :: Int
 maxWidth = 100
 
--- | The first non-empty text of a document.
+-- | The first text of a document that is not empty; empty if there is none.
 firstText :: Doc -> Text
 firstText doc = case doc of
   Text t -> t
@@ -51,7 +52,7 @@ firstText doc = case doc of
   Series members -> firstText (Beside (map content members))
   Brackets _ open _ _ -> open
 
--- | Renders a document whose first line has the given indentation; gives at least one line.
+-- | Renders a document whose first line is indented by @from@ characters; gives at least one line.
 render :: Int -> Doc -> [PrintedLine]
 render from doc = map line (reverse (now pen : done pen))
   where
@@ -60,10 +61,10 @@ render from doc = map line (reverse (now pen : done pen))
 
 -- | The output so far.
 data Pen = Pen
-  { -- | the complete lines, the last one first: the indentation of each, and its texts in reverse
-    -- order
+  { -- | the complete lines, the last one first; of each line the indentation and the texts in
+    -- reverse order
     done :: [(Int, [Text])],
-    -- | the line that is being written, in the form of a complete line
+    -- | the line that is being written: its indentation, and its texts in reverse order
     now :: (Int, [Text]),
     -- | the column of the next character, from 0
     column :: Int
@@ -76,8 +77,8 @@ put t pen =
 newLine :: Int -> Pen -> Pen
 newLine indent pen = Pen {done = now pen : done pen, now = (indent, []), column = indent}
 
--- | Writes a document. New lines are indented by @indent@. The last line keeps room for @trailing@
--- characters after the document.
+-- | Writes a document. New lines are indented by @indent@ characters. The last line keeps room for
+-- @trailing@ characters, which follow the document without a possible line break.
 write :: Int -> Int -> Doc -> Pen -> Pen
 write indent trailing doc pen
   | fits (maxWidth - column pen - trailing) doc = foldl (flip put) pen (unbroken doc)
@@ -90,8 +91,9 @@ write indent trailing doc pen
       let inside = fill (indent + 2) 0 members (newLine (indent + 2) (put open pen))
        in put close (newLine indent inside)
 
--- | The number of characters between the end of each document and the next possible line break. The
--- last document has @trailing@ characters after it.
+-- | For each document of a sequence without breaks between the documents: the number of characters
+-- from the end of the document to the next possible line break. @trailing@ is the number of
+-- characters after the last document.
 widthsAfter :: Int -> [Doc] -> [Int]
 widthsAfter trailing = drop 1 . scanr step trailing
   where
@@ -139,7 +141,7 @@ roomAfterAll members room =
       | startsLine member = Nothing
       | otherwise = left >>= \r -> roomAfter (content member) (r - 1)
 
--- | The texts of a document on one line.
+-- | The texts of which a document consists when it is printed on one line.
 unbroken :: Doc -> [Text]
 unbroken doc = case doc of
   Text t -> [t]

@@ -1,4 +1,6 @@
--- | The printer of expressions, with parentheses only where the syntax tree needs them.
+-- | The printer of expressions, with parentheses only where the syntax tree needs them. It makes
+-- documents, which "Surface.PrettyPrinter" breaks into lines. Where the source has a comment inside
+-- an expression, the printer breaks the line, so that the comment keeps its position.
 module Surface.PrintExpression
   ( CommentPositions (..),
     noComments,
@@ -25,8 +27,9 @@ import Surface.PrettyPrinter qualified as PrettyPrinter
 import Surface.Syntax hiding (Statement_ (..))
 import Surface.Token (unitName)
 
--- | The positions of comments in the source. 'isBetween' tells if a comment begins between two
--- offsets. 'isAtComma' tells if a comment next to a comma begins between two offsets.
+-- | The positions of comments in the source. An offset is the index of a character in the source.
+-- 'isBetween' tells if a comment begins between two offsets. 'isAtComma' tells the same of the
+-- comments that follow or precede a comma.
 data CommentPositions = CommentPositions
   { isBetween :: Int -> Int -> Bool,
     isAtComma :: Int -> Int -> Bool
@@ -36,8 +39,8 @@ data CommentPositions = CommentPositions
 noComments :: CommentPositions
 noComments = CommentPositions {isBetween = \_ _ -> False, isAtComma = \_ _ -> False}
 
--- | The precedence of an expression, lowest first. An operand is put in parentheses when its
--- precedence is lower than its operator demands.
+-- | The precedence of an expression, the lowest first. An operand is put in parentheses if its
+-- precedence is lower than the one that the operator demands.
 data Precedence
   = Loose
   | Disjunction
@@ -51,7 +54,7 @@ data Precedence
   | Primary
   deriving stock (Eq, Ord)
 
--- | The document of an expression that needs no parentheses whatever its precedence is.
+-- | The document of an expression that is no operand, so that it needs no parentheses.
 value :: CommentPositions -> Expr -> Doc
 value comments = operand comments Loose
 
@@ -88,7 +91,7 @@ spaced docs = Beside (drop 1 (concatMap (\d -> [Text " ", d]) docs))
 bracketed :: Doc -> Doc
 bracketed doc = Beside [Text "(", doc, Text ")"]
 
--- | The document of an operand, in parentheses if its precedence is lower than @asked@.
+-- | The document of the operand @e@, in parentheses if its precedence is lower than @asked@.
 operand :: CommentPositions -> Precedence -> Expr -> Doc
 operand comments asked e = if precedence (Region.value e) < asked then bracketed doc else doc
   where
@@ -139,7 +142,7 @@ sign operator = case operator of
   And -> "and"
   Or -> "or"
 
--- | An expression without parentheses around it.
+-- | The document of an expression, without parentheses around the whole.
 withoutParentheses :: CommentPositions -> Expr -> Doc
 withoutParentheses comments (Located region e) = case e of
   Literal number unit -> Text (digits number <> maybe "" ((" " <>) . unitName) unit)
@@ -177,8 +180,9 @@ withoutParentheses comments (Located region e) = case e of
     group = Brackets (isBetween comments (start region) (end region))
     coordinates es = NonEmpty.toList (list comments (fmap (\x -> (Region.region x, sub x)) es))
 
--- | Values separated by commas between an opening text and a parenthesis, with the region of the
--- whole.
+-- | The document of the values @es@ between the text @open@, such as @f(@, and a closing
+-- parenthesis. @region@ is that of the whole in the source; if a comment lies in it, the document
+-- is broken.
 callDocument :: CommentPositions -> Region -> Text -> NonEmpty Expr -> Doc
 callDocument comments region open es =
   Brackets
@@ -187,7 +191,8 @@ callDocument comments region open es =
     (NonEmpty.toList (list comments (fmap (\x -> (Region.region x, value comments x)) es)))
     ")"
 
--- | The members for an expression with operators of precedence @rank@: @a@, @+ b@, @- c@.
+-- | The members of a series for an expression with operators of precedence @rank@: the first
+-- operand, then each operator with its right operand, as in @a@, @+ b@, @- c@.
 chain :: CommentPositions -> Precedence -> Expr -> [Member]
 chain comments rank = reverse . go
   where
@@ -200,7 +205,7 @@ chain comments rank = reverse . go
 signed :: Operator -> Doc -> Member
 signed operator right = member (spaced [Text (sign operator), right])
 
--- | The precedence that an operator demands of its right operand.
+-- | The least precedence that an operator of precedence @rank@ demands of its right operand.
 rightDemand :: Precedence -> Precedence
 rightDemand rank = case rank of
   Loose -> Disjunction

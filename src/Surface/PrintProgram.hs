@@ -1,6 +1,7 @@
 -- | The printer of programs: the canonical layout of a syntax tree without comments.
 --
--- Broken nodes have no text.
+-- Statements and items with a mistake, the broken nodes of the syntax tree, are not printed. The
+-- parameter @indent@ is always an indentation in characters.
 module Surface.PrintProgram
   ( program,
     rows,
@@ -27,17 +28,18 @@ import Surface.PrintExpression qualified as PrintExpression
 import Surface.Syntax
 import Surface.Token (unitName)
 
--- | The text of a program.
+-- | The text of a program in canonical layout, without its comments.
 program :: Program -> Text
 program = Text.unlines . Alignment.render . rows PrintExpression.noComments . statements
 
--- | The lines of statements. Lists that contain comments in the source are broken at them.
+-- | The lines of statements. A list that has comments in the source is broken where the comments
+-- are.
 rows :: CommentPositions -> [Statement] -> [AlignedLine]
 rows comments = concatMap (statement comments 0)
 
 -- Rows
 
--- | The lines of one document. All lines but the first are continuations.
+-- | The lines of one document, each with one cell. All lines but the first are continuations.
 whole :: Int -> Doc -> [AlignedLine]
 whole indent doc = case PrettyPrinter.render indent doc of
   [] -> []
@@ -49,8 +51,8 @@ whole indent doc = case PrettyPrinter.render indent doc of
       } :
     map continued more
 
--- | One line of two cells if both documents fit on it. Otherwise the lines of both documents,
--- joined without alignment.
+-- | One line with the two cells @first@ and @second@, if both documents fit on it. Otherwise the
+-- lines of both documents, joined without alignment.
 cells' :: AlignmentColumn -> Int -> Doc -> Doc -> [AlignedLine]
 cells' column indent first second =
   case (PrettyPrinter.render indent first, PrettyPrinter.render indent second, alone) of
@@ -73,19 +75,20 @@ continued line =
       isContinuation = True
     }
 
--- | A block: the text before its brace, the lines inside, and the closing brace.
+-- | The lines of a block: the document @before@ with the opening brace, the lines @inside@, and the
+-- closing brace.
 braces :: Int -> Doc -> [AlignedLine] -> [AlignedLine]
 braces indent before inside
   | null inside = whole indent (spaced [before, Text "{ }"])
   | otherwise = opened indent before <> inside <> whole indent (Text "}")
 
--- | The text before a block and its opening brace.
+-- | The lines of the document @before@, with the opening brace of a block after it.
 opened :: Int -> Doc -> [AlignedLine]
 opened indent before = whole indent (spaced [before, Text "{"])
 
 -- Statements
 
--- | The lines of a statement at an indentation.
+-- | The lines of a statement that is indented by @indent@ characters.
 statement :: CommentPositions -> Int -> Statement -> [AlignedLine]
 statement comments indent (Located _ s) = case s of
   Part (Located _ (Name name)) title ->
@@ -174,7 +177,8 @@ table comments indent ls =
           isContinuation = False
         }
 
--- | Pads the cells of rows so that columns are aligned, and decimal points within them.
+-- | Pads the cells of rows with spaces, so that columns are aligned, and in each column the decimal
+-- points.
 alignColumns :: [[Text]] -> [[Text]]
 alignColumns rows' = map (zipWith3 pad fronts widths) rows'
   where
@@ -189,7 +193,8 @@ alignColumns rows' = map (zipWith3 pad fronts widths) rows'
       zipWith (\front -> maximum . map (Text.length . pointed front)) fronts (transpose rows')
         <> repeat 0
 
--- | The cells of a line of a table. Other values than literals are put in parentheses.
+-- | The cells of a line of a table; a run of lines from a file gives several. Values other than
+-- literals are put in parentheses.
 tableCells :: CommentPositions -> TableLine_ -> [[Text]]
 tableCells comments l = case l of
   Header columns ->
@@ -210,7 +215,7 @@ tableCells comments l = case l of
       _ -> "(" <> text (PrintExpression.value comments e) <> ")"
     text doc = Text.unwords (map PrettyPrinter.text (PrettyPrinter.render 0 doc))
 
--- | The value of a piece: its curve, ciphers, side and joggles.
+-- | The document of what a @piece@ statement has after @=@: curve, ciphers, side and joggles.
 piece :: CommentPositions -> Expr -> [Cipher] -> Side -> [Joggle] -> Doc
 piece comments e ciphers side joggles =
   Series
@@ -239,7 +244,8 @@ piece comments e ciphers side joggles =
           ]
       ]
 
--- | A choice between two blocks: the condition and the blocks.
+-- | An @if@ with blocks of statements or items: the condition, the block for true, the block for
+-- false.
 data Choice a = Choice Expr [a] [a]
 
 -- | The printers for the parts of a choice.
@@ -304,7 +310,8 @@ accuracy comments a = case a of
         PrintExpression.value comments outside
       ]
 
--- | Points separated by commas; the pace stays on the line of its point.
+-- | The document of points separated by commas. The pace of the motion to a point stays on the line
+-- of the point.
 stops :: CommentPositions -> NonEmpty Stop -> Doc
 stops comments = Series . NonEmpty.toList . PrintExpression.list comments . fmap stop
   where

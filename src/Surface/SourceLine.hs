@@ -17,17 +17,19 @@ import Surface.Alignment qualified as Alignment
 import Surface.Lexer qualified as Lexer
 import Surface.Token (Token (..), Token_ (..))
 
--- | A printed line, its tokens, and for each of them the token of the source, if there is one.
+-- | A printed line, its tokens, and for each of them the matching token of the source, 'Nothing' if
+-- there is none.
 data SourceLine = SourceLine {row :: AlignedLine, shapes :: [Token_], sources :: [Maybe Token]}
   deriving stock (Eq, Show)
 
--- | Matches printed lines with the tokens of their source.
+-- | Matches the printed lines @rows@ with the tokens of their source.
 withSources :: [Token] -> [AlignedLine] -> [SourceLine]
 withSources source rows = distribute rows (zip printed (match source (map shape printed)))
   where
     printed = fst (Lexer.tokens 0 (Text.unlines (map Alignment.unaligned rows)))
 
--- | Distributes matched tokens to the lines that they are printed on.
+-- | Distributes printed tokens to the lines that they are printed on. Each comes with its token of
+-- the source.
 distribute :: [AlignedLine] -> [(Token, Maybe Token)] -> [SourceLine]
 distribute rows tokens = case (rows, tokens) of
   (row : more, first : rest) ->
@@ -40,9 +42,9 @@ distribute rows tokens = case (rows, tokens) of
         distribute more others
   _ -> []
 
--- | Matches each printed token with a token of the source. The search for one of them ends at the
--- first token of the source that is not optional. So one missing token does not spoil the matches
--- after it.
+-- | Matches each printed token with a token of the source. For each printed token the search ends
+-- at the first source token that is not optional. So a token without a match does not spoil the
+-- matches of later ones.
 match :: [Token] -> [Token_] -> [Maybe Token]
 match source printed = case printed of
   [] -> []
@@ -56,7 +58,7 @@ match source printed = case printed of
           let (optional, required) = span (isOptional . shape) source
            in optional <> take 1 required
 
--- | Tells if the printer may add or drop a token.
+-- | Tells if a token is optional: the printer may add or drop it.
 isOptional :: Token_ -> Bool
 isOptional token = token `elem` Word "else" : map Symbol ["(", ")", "{", "}", "+"]
 

@@ -1,7 +1,8 @@
 -- | The syntax tree of a program as written: names unresolved, units as given, every node with its
 -- region.
 --
--- Statements, items, settings and lines of tables that contain a mistake are kept as broken nodes.
+-- Statements, items, settings and lines of tables that contain a mistake are kept as broken nodes,
+-- so that later compiler passes do not report the names that they would have defined.
 module Surface.Syntax
   ( Program (..),
     Statement,
@@ -121,7 +122,8 @@ data Statement_
     When Expr [Statement] [Statement]
   | -- | @with rotated(60 deg) { … }@
     With Expr [Statement]
-  | -- | a statement with a mistake: its keyword, and the name that it was to define
+  | -- | a statement with a mistake: its keyword, and the name that it was to define, if they are
+    -- known
     Broken (Maybe Text) (Maybe (Located Name))
   deriving stock (Eq, Show)
 
@@ -140,8 +142,8 @@ data Cutter_
     DrillCutter Expr
   | -- | @turn(nose r)@
     TurningCutter Expr
-  | -- | @cone(diameter d, bevel a, height h)@: a conical mill by the diameter of its tip, the bevel
-    -- of its flank, and the height of the contour above the tip
+  | -- | @cone(diameter d, bevel a, height h)@: a conical mill. The arguments are the diameter of
+    -- its tip, the bevel of its flank, and the height of the contour above the tip.
     ConeCutter Expr Expr Expr
   | -- | @blade(diameter d, gear e)@: a swivelling blade by its diameter and that of the gear wheel
     -- that swivels it
@@ -150,13 +152,14 @@ data Cutter_
 
 -- | The allowed distance between a curve and its chords.
 data Accuracy
-  = -- | the same on both sides of the curve
+  = -- | the same distance on both sides of the curve
     Within Expr
-  | -- | inside of the material, outside of the material
+  | -- | the distance inside the material, and the distance outside
     Between Expr Expr
   deriving stock (Eq, Show)
 
--- | The pace of a @rapid@ or a @move@ statement to those stops that do not name one.
+-- | The pace of the motions in a @rapid@ or a @move@ statement to stops without a pace of their
+-- own.
 data DefaultPace = RapidMotion | FeedMotion
   deriving stock (Eq, Show, Enum, Bounded)
 
@@ -292,7 +295,7 @@ data Item_
     For (Located Name) Expr [Item]
   | -- | @if c { … } else { … }@
     Choose Expr [Item] [Item]
-  | -- | an item with a mistake, and the name that it was to define
+  | -- | an item with a mistake, and the name that it was to define, if it is known
     BrokenItem (Maybe (Located Name))
   deriving stock (Eq, Show)
 
@@ -303,15 +306,15 @@ data Sense = Clockwise | CounterClockwise
 -- | A modifier with its region.
 type Modifier = Located Modifier_
 
--- | A property of one element.
+-- | A modifier: a property of one element of a contour.
 data Modifier_
-  = -- | the feed along it
+  = -- | the feed along the element
     ElementFeed Expr
-  | -- | a lower feed at its end
+  | -- | a lower feed at the end of the element
     Slow
   | -- | the material left on it
     ElementAllowance Expr
-  | -- | the angle of its surface to the axis of the tool
+  | -- | the angle of the element's surface to the axis of the tool
     Bevel Expr
   deriving stock (Eq, Show)
 
@@ -320,13 +323,13 @@ type Link = Located Link_
 
 -- | The link between an element and the next one.
 data Link_
-  = -- | the elements meet at their intersection: the one nearest to a point if that is given
+  = -- | The elements meet at an intersection, the one nearest to the point if a point is given.
     Meet (Maybe Expr)
   | Smooth
   | Tangent
-  | -- | an arc by its radius, positive for a clockwise arc, negative for a counter-clockwise one
+  | -- | an arc with this radius, positive for a clockwise arc, negative for a counter-clockwise one
     Fillet {-# UNPACK #-} Expr
-  | -- | a line by the distance of each of its ends from the intersection of the elements
+  | -- | a line, each end of which has this distance from the intersection of the elements
     Chamfer {-# UNPACK #-} Expr
   deriving stock (Eq, Show)
 
@@ -388,13 +391,13 @@ data CutSense = Climb | Conventional
 data Compensation = ByCompiler | ByController
   deriving stock (Eq, Show, Enum, Bounded)
 
--- | The end of a motion and its pace.
+-- | The end point of a motion, and the pace of the motion.
 data Stop = Stop {point :: Expr, pace :: Pace}
   deriving stock (Eq, Show)
 
 -- | The pace of a motion.
 data Pace
-  = -- | the default of the statement: rapid in a @rapid@ statement, else the present feed
+  = -- | the default of the statement: rapid in a @rapid@ statement, else the feed in force
     Cutting
   | Rapid
   | AtFeed Expr

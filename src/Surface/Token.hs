@@ -15,7 +15,7 @@ import Data.Text (Text)
 import Data.Text qualified as Text
 import Report.Report (quote)
 
--- | A token with its region and its separation from the token before it.
+-- | A token with its region, and with facts about the space before it.
 data Token = Token
   { place :: Region,
     shape :: Token_,
@@ -48,7 +48,7 @@ data Token_
 data Numeral = Numeral {digits :: {-# UNPACK #-} Text, amount :: Double}
   deriving stock (Eq, Ord, Show)
 
--- | The units of a drawing.
+-- | The units that a number in a program may have.
 data Unit
   = Millimetre
   | Centimetre
@@ -80,7 +80,8 @@ unitName unit = case unit of
 columnUnits :: [Unit]
 columnUnits = [Millimetre, Centimetre, Metre, Inch, Degree, Radian]
 
--- | Describes a token in the words of a report; long ones are shortened to 60 characters.
+-- | Describes a token in the words of a report; long words and numbers are shortened to 60
+-- characters.
 describe :: Token_ -> Text
 describe token = case token of
   Word text -> quote text

@@ -1,4 +1,5 @@
--- | Syntax trees whose regions are all replaced by one.
+-- | Syntax trees without the regions of their nodes: all are replaced by one region. Two texts that
+-- differ in layout only have the same tree without regions.
 module Surface.Unlocated
   ( statements,
     expressionAt,
@@ -11,19 +12,19 @@ import Base.Region (Located (Located), Region (..))
 import Data.List.NonEmpty qualified as NonEmpty
 import Surface.Syntax hiding (statements)
 
--- | Statements without regions, for the comparison of two texts: all regions are replaced by one.
--- Rows of numbers from files become rows of literals.
+-- | Statements without regions, for the comparison of two texts. Rows of numbers from files become
+-- rows of literals.
 statements :: [Statement] -> [Statement]
 statements = map (unlocated statement)
 
 expr :: Expr -> Expr
 expr = expressionAt nowhere
 
--- | Replaces the region of a node and applies a function to its content.
+-- | Replaces the region of a node by 'nowhere' and applies @inside@ to its content.
 unlocated :: (a -> a) -> Located a -> Located a
 unlocated inside (Located _ a) = Located nowhere (inside a)
 
--- | Replaces the region of a node without regions inside.
+-- | Replaces the region of a node by 'nowhere', for a node whose content has no regions.
 here :: Located a -> Located a
 here = unlocated id
 
@@ -84,7 +85,7 @@ literal x
   | x < 0 = Located nowhere (Negate (literal (negate x)))
   | otherwise = Located nowhere (Literal (Numeral (Decimal.exact x) x) Nothing)
 
--- | The region that replaces all others.
+-- | The region that replaces all regions of a syntax tree.
 nowhere :: Region
 nowhere = Region 0 0
 
@@ -102,7 +103,7 @@ cutter c = case c of
   ConeCutter d a h -> ConeCutter (expr d) (expr a) (expr h)
   BladeCutter d g -> BladeCutter (expr d) (expr g)
 
--- | An expression with all regions replaced by one.
+-- | An expression in which all regions are replaced by the region @at@.
 expressionAt :: Region -> Expr -> Expr
 expressionAt at (Located _ e) = Located at $ case e of
   Literal number unit -> Literal number unit

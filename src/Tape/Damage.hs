@@ -19,12 +19,13 @@ import Report.Report (Report (..), ReportPlace (..), report)
 import Report.Report qualified as Report
 import Tape.RowMeaning qualified as RowMeaning
 
--- | Damage of a tape: the first wrong row and its frame, both counted from 1, the content of its
--- word, and the reason. Rows outside of all frames have no frame, rows outside of words no content.
+-- | Damage of a tape: the first wrong row and the number of its frame, both from 1, the content of
+-- its word, and the reason. @frame@ is 'Nothing' for a row outside of all frames, and @field@ is
+-- 'Nothing' for a row outside of all words.
 data Damage = Damage {row :: Int, frame :: Maybe Int, field :: Maybe Content, reason :: Reason}
   deriving stock (Eq, Show)
 
--- | Fault of a row, of a frame or of the tape.
+-- | Fault of a row, of a frame or of the whole tape.
 data Reason
   = -- | The leader has a row with holes; the number is the length of the leader in rows.
     LeaderNotBlank Int
@@ -36,9 +37,9 @@ data Reason
     GapNotBlank
   | -- | The tape ends within a frame.
     CutOff
-  | -- | The given symbols, which follow the last frame, are missing.
+  | -- | The given closing symbols are missing after the last frame.
     MissingClosing Text
-  | -- | Wrong number of blank rows at the end: the number found, the number expected.
+  | -- | Wrong count of blank rows at the end of the tape: the count found, the count expected.
     TrailerLength Int Int
   | -- | Hole outside of the tracks of the tape.
     ForeignTrack
@@ -56,9 +57,9 @@ data Reason
     NotBlank
   | -- | Blank row where the given symbol is expected.
     Missing Char
-  | -- | First symbol of the address of a word that is not allowed at this row.
+  | -- | A word begins at a row at which it is not allowed; the first symbol of its address.
     UnexpectedWord Char
-  | -- | Digit that lacks the marker, a hole in the service track.
+  | -- | Digit without the hole in the service track that marks it on every tape.
     MarkerMissing
   | -- | Hole in the service track of a row that must not have one.
     ServiceHole
@@ -66,12 +67,12 @@ data Reason
     NoSign
   | -- | Number 0 with a minus.
     MinusZero
-  | -- | Digit that is none of the four for the direction and the leading axis, see
+  | -- | The given digit is none of the four for the direction and the leading axis, see
     -- 'Machine.Machine.Priority'.
     NoPriority Int
   | -- | Wrong digit for the direction and the leading axis: the digit found, the digit expected.
     WrongPriority Int Int
-  | -- | Wrong check sum: the sum, the modulus of which it has to be a multiple.
+  | -- | Wrong check sum of a frame: the sum, and the number of which it has to be a multiple.
     WrongSum Int Int
   | -- | Wrong frame number: the number found, the number expected.
     WrongNumber Int Int
@@ -83,19 +84,19 @@ data Reason
     IncrementWithoutMotion
   | -- | Feed code that the machine does not have.
     UnknownFeedCode Int
-  | -- | Feed code in a rapid frame, or in a frame that does not move.
+  | -- | The given feed code in a rapid frame, or in a frame that does not move.
     FeedWithoutMotion Int
   | -- | Line or arc without a feed code.
     MotionWithoutFeed
-  | -- | Feed code that is written although it is in force already.
+  | -- | The given feed code is written although it is in force already.
     FeedRepeated Int
   | -- | Frame with neither a motion nor a command.
     NoContent
   | -- | Frame that breaks a rule of the machine.
     BrokenRule Violation
-  | -- | Row that differs from the one that the machine would write, which the text describes.
+  | -- | The row differs from the row that the machine would write. The text describes the latter.
     WrittenOtherwise Text
-  | -- | The frames read differ from the frames that were punched.
+  | -- | The frames that are read from the tape differ from those that were punched on it.
     Misread
   deriving stock (Eq, Show)
 
@@ -116,7 +117,7 @@ toReport (Damage at n c why) =
       (Just k, Nothing) -> " (frame " <> Decimal.whole k <> ")"
       (Just k, Just w) -> " (frame " <> Decimal.whole k <> ", " <> Machine.contentName w <> ")"
 
--- | Sentences below the title of a report; none for a reason whose title says everything.
+-- | Sentences below the title of a report; the list is empty if the title says everything.
 explanation :: Reason -> [Text]
 explanation why = case why of
   NoFrames wanted -> ["A tape begins with " <> Decimal.whole wanted <> " blank rows." | wanted > 0]
@@ -135,7 +136,7 @@ explanation why = case why of
     ]
   _ -> []
 
--- | Title of a report, without the row and the frame.
+-- | Title of the report for a reason, without the row and the frame.
 reasonText :: Reason -> Text
 reasonText why = case why of
   LeaderNotBlank _ -> "the leader is not blank"
@@ -187,7 +188,7 @@ reasonText why = case why of
   Misread -> "it is read as another than was punched"
   WrittenOtherwise wanted -> "the machine writes this otherwise: here belongs " <> wanted
 
--- | Title of a report about a broken rule, without the row and the frame.
+-- | Title of the report about a broken rule, without the row and the frame.
 ruleText :: Violation -> Text
 ruleText broken = case broken of
   OverCapacity {} -> "the move is longer than a frame can say"

@@ -3,8 +3,9 @@
 
 -- | Reader of frames: makes a frame of its rows, by the same steps of a layout as the writer.
 --
--- It reads the words and makes a frame of them. Then it writes this frame again: a row that differs
--- is a fault. Simple frames are first tried with "Tape.FrameReader.Fast".
+-- The reader reads the words and makes a frame of them. Then it writes this frame again: a row that
+-- differs from the tape is a fault. "Tape.FrameReader.Fast" tries every frame first; it reads the
+-- frames that have neither an arc nor a command. Indices of rows count from 0.
 module Tape.FrameReader
   ( RowFault (..),
     readFrame,
@@ -59,19 +60,22 @@ import Tape.Symbol qualified as Symbol
 data Reading = Reading
   { -- | the words in the order of the layout; no two of them have the same content
     readWords :: [ReadWord],
-    -- | numbers of commands, from command words and from bits in the service track
+    -- | numbers of commands, from command words and from bits in the service track; a command with
+    -- several bits has one entry for each bit
     commandNumbers :: [(Machine.CommandName, Int)],
     isBraking :: Bool,
     -- | sum of the weights of the symbols so far; stays 0 in a layout without a check digit
     total :: Int,
-    -- | row of the check digit, and the modulus: the sum has to be a multiple of it
+    -- | index of the check digit's row, and the modulus: the sum has to be a multiple of it.
+    -- 'Nothing' until the check digit is read.
     check :: Maybe (Int, Int)
   }
 
--- | Word, the row where its number begins, the number, and its count of digits.
+-- | Word, the index of the row where its number begins, the number, and the count of the number's
+-- digits, decimals included.
 data ReadWord = ReadWord {word :: Word', at :: Int, number :: Int, places :: Int}
 
--- | First word whose content satisfies a predicate.
+-- | First word of a frame whose content satisfies @isContent@.
 wordWith :: (Content -> Bool) -> Reading -> Maybe ReadWord
 wordWith isContent reading = find (isContent . content . word) (readWords reading)
 
@@ -84,14 +88,14 @@ isAlong, isCentre :: Axis -> Content -> Bool
 isAlong a c = case c of Along b -> a == b; _ -> False
 isCentre a c = case c of Centre b -> a == b; _ -> False
 
--- | Reads the frame that begins at row @begin@, in the state before the frame. Gives the frame and
--- the index of the row after it, or the first fault.
+-- | Reads the frame that begins at row @begin@; @state@ is the state before the frame. Gives the
+-- frame and the index of the row after it, or the first fault.
 readFrame :: PreparedLayout -> State -> ShortByteString -> Int -> Either RowFault (Frame, Int)
 readFrame layout state rows begin = case FastFrameReader.readFrame layout state rows begin of
   FastFrameReader.Read f end -> Right (f, end)
   FastFrameReader.NotSimple -> wordByWord layout state rows begin
 
--- | Gives the result of 'readFrame' without the fast reader.
+-- | Gives the result of 'readFrame' without the fast reader of "Tape.FrameReader.Fast".
 wordByWord :: PreparedLayout -> State -> ShortByteString -> Int -> Either RowFault (Frame, Int)
 wordByWord layout state rows begin = do
   (reading, end) <- readSteps layout rows begin
@@ -109,13 +113,13 @@ wordByWord layout state rows begin = do
 
 -- Reading the words -------------------------------------------------------------------------------
 
--- | Reads the words of the frame that begins at a row. Gives them and the index of the row after
--- the frame.
+-- | Reads the words of the frame that begins at a row, the last argument. Gives the words and the
+-- index of the row after the frame.
 readSteps :: PreparedLayout -> ShortByteString -> Int -> Either RowFault (Reading, Int)
 readSteps layout rows = go False (Layout.steps layout) [] (Reading [] [] False 0 Nothing)
   where
-    -- The argument @done@ has the words so far, the last one first. They are not in @now@, because
-    -- its other fields change rarely.
+    -- @done@ has the words so far, the last one first. They are kept apart from @now@, so that it
+    -- is copied only when one of its other fields changes.
     go followsWord todo done !now !k = case skipAbsent layout rows followsWord todo k of
       [] -> Right (now {readWords = reverse done}, k)
       FixedStep cs : more
@@ -145,9 +149,9 @@ readWordOf w n =
       places = NumberReader.places n
     }
 
--- | True if the frame contains a word here. The argument @begin@ is the row after the word's
--- address, or −1 if the rows are not that address. An optional word without an address is present
--- if a number of its form can begin at this row.
+-- | True if the frame contains the word @w@ at the row to be read. @begin@ is the index of the row
+-- after the address @cs@ of the word, or −1 if the rows are not this address. An optional word
+-- without an address is present if a number of its form can begin at row @begin@.
 isPresent :: PreparedLayout -> ShortByteString -> Word' -> Address -> Int -> Bool
 isPresent layout rows w cs begin =
   begin >= 0
@@ -156,7 +160,8 @@ isPresent layout rows w cs begin =
            || NumberReader.canBegin layout (form w) rows begin
        )
 
--- | Drops the optional words at the head of the steps that are not present at row @k@.
+-- | Drops the optional words at the head of the steps @todo@ that are not present at row @k@.
+-- @followsWord@ is true if a word comes directly before row @k@.
 skipAbsent :: PreparedLayout -> ShortByteString -> Bool -> [LayoutStep] -> Int -> [LayoutStep]
 skipAbsent layout rows followsWord todo k = case todo of
   WordStep w cs joined : more
@@ -172,14 +177,15 @@ skipAbsent layout rows followsWord todo k = case todo of
       skipAbsent layout rows followsWord more k
   _ -> todo
 
--- | Adds the weights of symbols to the check sum.
+-- | Adds the weights of the symbols @cs@ to the check sum.
 withSymbols :: PreparedLayout -> [Symbol] -> Reading -> Reading
 withSymbols layout cs now
   | Layout.hasCheckDigit layout =
     now {total = foldl' (\n c -> n + Symbol.weight c) (total now) cs}
   | otherwise = now
 
--- | Adds the check digit @d@ at row @k@.
+-- | Adds the weight of the check digit @d@ to the check sum. Notes the digit's row @k@ and the
+-- number @modulus@, of which the sum has to be a multiple.
 withCheckDigit :: PreparedLayout -> Int -> Int -> Int -> Reading -> Reading
 withCheckDigit layout k modulus d now =
   now
@@ -187,7 +193,8 @@ withCheckDigit layout k modulus d now =
       check = Just (k, modulus)
     }
 
--- | Adds the weights of a number, the number of a command word, and the holes of the service track.
+-- | Adds what the number @n@ of the word @w@ says besides its value: its weights, the number of a
+-- command word, and the holes of the service track.
 withNumber :: PreparedLayout -> Word' -> TapeNumber -> Reading -> Reading
 withNumber layout w n now = case content w of
   Command o -> counted {commandNumbers = (o, NumberReader.value n) : commandNumbers counted}
@@ -205,14 +212,15 @@ withNumber layout w n now = case content w of
             total = total now + NumberReader.total n
           }
 
--- | Compares the rows from @k@ on with the given symbols. Gives the index of the row after them, or
--- the fault of the first row that differs.
+-- | Compares the rows from @k@ on with the symbols @cs@. Gives the index of the row after the
+-- symbols, or the fault of the first row that differs.
 expect :: PreparedLayout -> ShortByteString -> Int -> [Symbol] -> Either RowFault Int
 expect layout rows k cs =
   let next = Symbol.rowAfter rows k cs
    in if next >= 0 then Right next else Left (mismatch layout Nothing rows k cs)
 
--- | Fault of the first row that differs from the given symbols.
+-- | Fault of the first row from @k@ on that differs from the symbols @cs@, in a word with the
+-- content @c@ if there is one. If no row differs, row @k@ has to be blank.
 mismatch :: PreparedLayout -> Maybe Content -> ShortByteString -> Int -> [Symbol] -> RowFault
 mismatch layout c rows k cs = case cs of
   [] -> RowFault k c NotBlank
@@ -221,7 +229,7 @@ mismatch layout c rows k cs = case cs of
     | Short.index rows k == Symbol.holes s -> mismatch layout c rows (k + 1) more
     | otherwise -> RowFault k c (insteadOf layout (Short.index rows k) s)
 
--- | Reason why a row is not the given symbol.
+-- | Reason why a row with the holes @w@ is not the symbol @s@.
 insteadOf :: PreparedLayout -> Word8 -> Symbol -> Reason
 insteadOf layout w s = case NumberReader.rowFault layout w of
   Just why -> why
@@ -238,14 +246,15 @@ insteadOf layout w s = case NumberReader.rowFault layout w of
 
 -- The frame ---------------------------------------------------------------------------------------
 
--- | Fault of the first word whose content satisfies a predicate. Without such a word, fault of the
--- frame's first row @begin@.
+-- | Fault with the reason @why@ at the first word whose content satisfies @isContent@. If the frame
+-- has no such word, the fault is at the frame's first row @begin@.
 faultOf :: Int -> Reading -> (Content -> Bool) -> Reason -> RowFault
 faultOf begin reading isContent why = case wordWith isContent reading of
   Just s -> RowFault (at s) (Just (content (word s))) why
   Nothing -> RowFault begin Nothing why
 
--- | Makes the frame that the words describe, in the state before the frame.
+-- | Makes the frame that the words of a reading describe. @state@ is the state before the frame;
+-- @begin@ is the frame's first row, for faults.
 frameOf :: PreparedLayout -> State -> Int -> Reading -> Either RowFault Frame
 frameOf layout state begin reading = do
   mapM_ (checkFrameNumber state) (wordWith isFrameNumber reading)
@@ -273,8 +282,8 @@ frameOf layout state begin reading = do
               Increments -> n
               Positions -> n - ModalState.along a (position state)
 
--- | Commands of a frame in the order of the layout, each with the sum of its bits. A number 0 that
--- means no command is left out, see 'ModalState.isZeroCommand'.
+-- | Commands of a frame in the order of the layout, each with its number, which for a command in
+-- bits is their sum. A number 0 that means no command is left out, see 'ModalState.isZeroCommand'.
 commandsOf :: PreparedLayout -> Reading -> [(Machine.CommandName, Int)]
 commandsOf layout reading
   | null (commandNumbers reading) = []
@@ -287,7 +296,7 @@ commandsOf layout reading
         v /= 0 || isZeroCommand
     ]
 
--- | Compares the number in the word with the number of the frame in the state.
+-- | Compares the number in the word @s@ with the number that the state gives to the frame.
 checkFrameNumber :: State -> ReadWord -> Either RowFault ()
 checkFrameNumber state s
   | n /= number s = Left (RowFault (at s) (Just FrameNumber) (WrongNumber (number s) n))
@@ -337,7 +346,7 @@ feedCodeOf layout state begin reading m = case (wordWith isFeed reading, m) of
     wrong why = Left (faultOf begin reading isFeed why)
 
 -- | Checks that a frame moves or has a command, and that it keeps the rules of the machine, see
--- 'Frame.frameViolations'.
+-- 'Frame.frameViolations'. @begin@ is the frame's first row, for faults.
 checkRules :: PreparedLayout -> Int -> Reading -> Frame -> Either RowFault ()
 checkRules layout begin reading f
   | not (Frame.isMoving f) && null (commands f) = Left (faultOf begin reading isFeed NoContent)
@@ -355,8 +364,9 @@ checkRules layout begin reading f
 
 -- Comparison with the frame as it would be written ------------------------------------------------
 
--- | True if the machine would write exactly the words that were read, each with the same count of
--- digits. Then the rows are equal too, in a layout that is 'Layout.isPlain'; false in all others.
+-- | True if the machine would write the frame @f@ with exactly the words that were read, each with
+-- the same count of digits. In a layout that is 'Layout.isPlain' the rows are then equal too, and
+-- need no comparison. False in all other layouts.
 hasSameWords :: PreparedLayout -> State -> Reading -> Frame -> Bool
 hasSameWords layout state reading f =
   Layout.isPlain layout && go (Layout.wordsFor layout f) (readWords reading)
@@ -375,7 +385,7 @@ hasSameWords layout state reading f =
           [] -> False
 
 -- | True if the rows from @begin@ up to @end@, excluded, are those that the machine would write for
--- a frame.
+-- the frame @f@.
 hasSameRows :: PreparedLayout -> State -> ShortByteString -> Int -> Int -> Frame -> Bool
 hasSameRows layout state rows begin end f =
   runIdentity (FrameWriter.foldRows same layout state f begin) == end
@@ -383,8 +393,9 @@ hasSameRows layout state rows begin end f =
     -- The index becomes −1 at the first row that differs.
     same k h _ _ = pure (if k >= 0 && k < end && Short.index rows k == h then k + 1 else -1)
 
--- | Compares the rows with those that the machine would write, and reports the first difference.
--- Another wrong row makes the check digit wrong too, so the check digit is reported last.
+-- | Compares the rows from @begin@ up to @end@, excluded, with the rows that the machine would
+-- write, and gives the fault of the first difference. A wrong check digit is reported only if no
+-- other row is wrong, because every other wrong row makes the check digit wrong too.
 compareRows :: PreparedLayout -> ShortByteString -> Int -> Int -> [MarkedRow] -> Either RowFault ()
 compareRows layout rows begin end = go begin (Right ())
   where
@@ -413,7 +424,7 @@ wordOf m = case kind m of
   Separator _ -> Nothing
   CheckSymbol _ -> Nothing
 
--- | Reason why a row with the holes @w@ is not the expected row.
+-- | Reason why a row with the holes @w@ is not the expected row @m@.
 difference :: PreparedLayout -> Word8 -> MarkedRow -> Reason
 difference layout w m = fromMaybe specific (NumberReader.rowFault layout w)
   where

@@ -3,8 +3,9 @@
 
 -- | Writer of frames: makes the rows of a frame by the steps of a layout.
 --
--- Each row comes with its weight in the check sum and its meaning. The tape and its picture are
--- made by the same code.
+-- Each row comes with its weight in the check sum and its meaning. The same code makes the tape,
+-- which needs the holes only, and the picture of the tape, which explains every row. In 'foldRows',
+-- 'foldSign', 'addDigit' and the like the last argument is the accumulator so far.
 module Tape.FrameWriter
   ( frameRows,
     AddRow,
@@ -38,17 +39,18 @@ import Tape.ModalState (State)
 import Tape.ModalState qualified as ModalState
 import Tape.Symbol qualified as Symbol
 
--- | Rows of a frame without the blank rows after it, in the state before the frame.
+-- | Rows of a frame without the blank rows after it. @state@ is the state before the frame.
 frameRows :: PreparedLayout -> State -> Frame -> [MarkedRow]
 frameRows layout state frame =
   reverse
     (runIdentity (foldRows (\rows h n m -> pure (MarkedRow h n m : rows)) layout state frame []))
 
--- | Adds a row to an accumulator. The arguments: the accumulator, and of the row the holes, the
--- weight in the check sum, and the meaning.
+-- | Function that adds a row to an accumulator. Its arguments are the accumulator, the holes of the
+-- row, the weight of the row in the check sum, and the meaning of the row.
 type AddRow m r = r -> Word8 -> Int -> RowKind -> m r
 
--- | Monadic left fold over the rows of a frame, in the state before the frame.
+-- | Monadic left fold over the rows of a frame, from the first row to the last. @state@ is the
+-- state before the frame; the last argument is the first accumulator.
 foldRows ::
   Monad m =>
   AddRow m r ->
@@ -75,7 +77,8 @@ checkSum layout state frame = runIdentity (foldWithSum count 0 layout state fram
         CheckSymbol _ -> total
         _ -> total + n
 
--- | Does what 'foldRows' does, with the check sum of the frame as the second argument.
+-- | Fold over the rows of a frame as in 'foldRows'. @total@ is the sum of the weights of all
+-- symbols but the check digit, which is chosen by it.
 foldWithSum ::
   Monad m =>
   AddRow m r ->
@@ -109,14 +112,14 @@ foldWithSum add total layout state frame =
       Symbol.Symbol c h k : more -> add before h k (meaning c) >>= constants meaning more
 {-# INLINE foldWithSum #-}
 
--- | Adds the row of a digit without a hole in the service track.
+-- | Adds the row of the digit @d@ (0 to 9) without a hole in the service track.
 addDigit :: AddRow m r -> PreparedLayout -> RowKind -> Int -> r -> m r
 addDigit add layout meaning d before =
   add before (Symbol.digit (symbols layout) d) (Symbol.digitWeight (symbols layout) d) meaning
 {-# INLINE addDigit #-}
 
--- | Adds the sign of a number, or the digit for its direction and the leading axis; nothing in a
--- form without a sign before the digits.
+-- | Adds the sign of the number @n@ of the word @w@, or the digit that says its direction and
+-- whether its axis is the leading one. Adds nothing if the form has no sign before the digits.
 foldSign ::
   Monad m =>
   AddRow m r ->
@@ -145,7 +148,8 @@ foldSign add layout frame w n before = case sign (form w) of
       addDigit add layout (InWord (content w) n (PriorityDigit d)) (d `mod` 10) before
 {-# INLINE foldSign #-}
 
--- | Adds the digits of a number with their decimal point and the holes in the service track.
+-- | Adds the digits of the number @n@ of the word @w@, with their decimal point and the holes in
+-- the service track.
 foldDigits ::
   Monad m =>
   AddRow m r ->
@@ -161,11 +165,11 @@ foldDigits add layout frame w n start = case service f of
   where
     f = form w
     count = Layout.digitCount f (abs n)
-    -- The function gives the meaning of the service track at a digit, and its own argument for the
-    -- next digit. This loop is inlined twice, so that numbers without a service track are fast.
+    -- @meaningAt@ gives the meaning of the service track at a digit, and the value of @track@ for
+    -- the next digit. The loop is inlined twice, so that numbers without a service track are fast.
     digitsFrom meaningAt track = go (count - 1) track (lowestDigits count (abs n)) start
       where
-        -- The digits of @left@ from the power k of ten down to 0.
+        -- Adds the digits of @left@, from the digit of 10^k down to the last one.
         go k services !left !before
           | k < 0 = pure before
           | otherwise = case meaningAt services of
@@ -186,7 +190,8 @@ foldDigits add layout frame w n start = case service f of
       s : more -> (s, more)
 {-# INLINE foldDigits #-}
 
--- | Adds the decimal point if it comes directly before digit @k@. The last digit has k = 0.
+-- | Adds the decimal point of the number @n@ of the word @w@ if the point comes directly before
+-- digit @k@, counted from 0 at the last digit.
 addPoint ::
   Monad m =>
   AddRow m r ->
@@ -203,17 +208,17 @@ addPoint add layout w n k before
   | otherwise = pure before
 {-# INLINE addPoint #-}
 
--- | Upper bound for the number of rows of a frame.
+-- | Upper bound for the number of rows of a frame, by which the buffer of a tape is allocated.
 mostRows :: PreparedLayout -> Int
 mostRows layout = sum (map most (steps layout))
   where
     most step = case step of
       FixedStep cs -> length cs
       CheckStep _ -> 1
-      -- Two rows more for a sign and a decimal point.
+      -- Adds two rows: one for a sign, one for a decimal point.
       WordStep w _ address -> extent address + 2 + max Layout.mostDigits (digits (form w))
 
--- | Number that the last @count@ digits of a number @n@ ≥ 0 make.
+-- | The last @count@ digits of a number @n@ ≥ 0, as a number.
 lowestDigits :: Int -> Int -> Int
 lowestDigits count n = if n < Layout.power count then n else n `rem` Layout.power count
 
@@ -227,8 +232,9 @@ checkDigit layout modulus total =
   where
     weightOf = Symbol.digitWeight (symbols layout)
 
--- | True for the word of the leading axis, the axis with the most pulses in this frame. Of several
--- such axes the first in the layout leads. Words other than those of axes count as leading.
+-- | True if @c@ is the content of the leading axis's word. The leading axis has the most pulses in
+-- this frame; of several with equal pulses it is the first in the layout. True also for words that
+-- are not of an axis.
 isLeading :: PreparedLayout -> Frame -> Content -> Bool
 isLeading layout frame c = case c of
   Along a -> take 1 [b | b <- axisOrder layout, pulses b == most] == [a]
@@ -237,8 +243,8 @@ isLeading layout frame c = case c of
     pulses b = abs (ModalState.along b (increment frame))
     most = maximum (0 : map pulses (axisOrder layout))
 
--- | True if the service track has a hole beside a digit of the number @n@, by the meaning of the
--- track at this digit.
+-- | True if the service track gets a hole beside a digit of the number @n@; @s@ is the meaning of a
+-- hole beside this digit.
 isServicePunched :: Frame -> Int -> Service -> Bool
 isServicePunched frame n s = case s of
   MinusHole -> n < 0

@@ -2,8 +2,12 @@
 
 -- | Layout of a machine's frames, prepared for writing and reading.
 --
--- "Tape.FrameWriter" and "Tape.FrameReader" follow the same steps of this layout. The module also
--- owns the type of a row with its meaning, and the count of digits with which a number is written.
+-- "Tape.FrameWriter" and "Tape.FrameReader" follow the same steps of this layout. A simple frame
+-- has neither an arc nor a command. Most frames are simple, so the layout has a shorter list of
+-- steps and words for them.
+--
+-- The module also owns the type of a row with its meaning, and the count of digits with which a
+-- number is written. Indices of rows count from 0.
 module Tape.Layout
   ( -- * The layout
     PreparedLayout (..),
@@ -66,7 +70,8 @@ data PreparedLayout = PreparedLayout
     symbols :: Symbols,
     axes :: Axes,
     steps :: [LayoutStep],
-    -- | the steps without the words that no simple frame contains, see 'ModalState.isSimple'
+    -- | the steps of a simple frame: 'steps' without the words of arcs and commands, unless every
+    -- frame that moves contains these words
     simpleSteps :: [LayoutStep],
     -- | symbols between two words
     separator :: [Symbol],
@@ -76,20 +81,22 @@ data PreparedLayout = PreparedLayout
     point :: Symbol,
     -- | all words in their order on the tape
     frameWords :: [Word'],
-    -- | the words that some simple frame contains, see 'ModalState.occursInSimple'
+    -- | the words that can occur in a simple frame, see 'ModalState.occursInSimple'
     simpleWords :: [Word'],
     -- | axes in the order of their words
     axisOrder :: [Axis],
-    -- | commands in the order of their words and bits; true if the number 0 is a command
+    -- | commands in the order of their words and bits. The flag is true if the number 0 gives the
+    -- command, and false if 0 means that the frame lacks the command.
     commandWords :: [(CommandName, Bool)],
-    -- | word of the motion with its codes, if the machine has one
+    -- | word that says how the cutter moves, with its codes; 'Nothing' if frames have no such word
     motionWord :: Maybe (Word', MotionCodes),
     -- | true if the feed code is modal: it stays in force until another one is written
     isFeedModal :: Bool,
     -- | true if frames have a check digit
     hasCheckDigit :: Bool,
-    -- | True if comparing words is as strict as comparing rows: equal numbers with equal counts of
-    -- digits have equal rows. This also needs an end of the frame that simple frames have too.
+    -- | True if two frames with the same words (the same numbers with the same counts of digits)
+    -- have the same rows. Then the readers compare words, which is faster than comparing rows. The
+    -- layout must also end a simple frame as it ends every other frame.
     isPlain :: Bool
   }
 
@@ -97,18 +104,18 @@ data PreparedLayout = PreparedLayout
 data LayoutStep
   = -- | symbols that every frame contains
     FixedStep [Symbol]
-  | -- | a word, its address at the beginning of a frame, and its address after another word, with
-    -- the separator before it
+  | -- | A word with two forms of its address. The first is used where no word comes before; the
+    -- second is used after another word and begins with the separator.
     WordStep Word' Address Address
   | -- | a check digit, with the modulus: the check sum has to be a multiple of it
     CheckStep Int
 
--- | Symbols before a number, the count of these symbols, and the row of the last one. The reader
--- compares the last row first, because most addresses differ there.
+-- | Symbols before the number of a word, the count of these symbols, and the row of the last one (0
+-- if there is none). The reader compares the last row first, because most addresses differ there.
 data Address = Address {spelling :: [Symbol], extent :: Int, lastHoles :: Word8}
 
--- | Compares the rows from index @k@ on with an address. Gives the index of the row after it, or −1
--- if a row differs or the rows end.
+-- | Compares the rows from index @k@ on with an address. Gives the index of the row after the
+-- address, or −1 if a row differs or the rows end.
 rowAfterAddress :: ShortByteString -> Int -> Address -> Int
 rowAfterAddress rows k Address {spelling, extent, lastHoles}
   | extent == 0 = k
@@ -146,13 +153,14 @@ fromMachine machine =
     steps = map (stepOf symbols separator) items
     frameWords = Machine.wordsOf machine
     hasCheckDigit = not (null [() | CheckStep _ <- steps])
-    -- True if the optional steps after the last obligatory one can all occur in a simple frame.
+    -- True if every optional word after the last step that all frames contain can occur in a simple
+    -- frame. Else the steps of simple frames would not notice such a word at the end of a frame.
     endsSurely = all isSimpleStep (takeWhile (not . isAlwaysWritten) (reverse steps))
 
 symbolsOf :: Symbols -> Text -> [Symbol]
 symbolsOf symbols = map (Symbol.symbol symbols) . Text.unpack
 
--- | Step for an item of the layout. The list of symbols is the separator.
+-- | Step for an item of the layout. The symbols @separator@ come between two words.
 stepOf :: Symbols -> [Symbol] -> LayoutItem -> LayoutStep
 stepOf symbols separator item = case item of
   Literal t -> FixedStep (symbolsOf symbols t)
@@ -183,14 +191,15 @@ isAlwaysWritten step = case step of
   WordStep w _ _ -> presence w == Always
   CheckStep _ -> True
 
--- | Commands that a word contains; true if the number 0 is a command.
+-- | Commands that a word can give, by its number or by bits in its service track. The flag is that
+-- of 'commandWords'.
 commandsOf :: Word' -> [(CommandName, Bool)]
 commandsOf w =
   [(o, ModalState.isZeroCommand w) | Command o <- [content w]]
     <> [(o, False) | CommandBit o _ <- service (form w)]
 
--- | True for a form whose rows follow from the number alone: no service track, and no digit for the
--- leading axis.
+-- | True for a form in which the number and its count of digits determine the rows: no service
+-- track, and no digit for the leading axis.
 isPlainForm :: NumberForm -> Bool
 isPlainForm f = null (service f) && digits f < mostDigits && isPlainSign (sign f)
   where
@@ -201,13 +210,12 @@ isPlainForm f = null (service f) && digits f < mostDigits && isPlainSign (sign f
       EitherSign -> True
       Priority {} -> False
 
--- | Words that a frame like this one can contain: those of simple frames for a simple frame, else
--- all.
+-- | Words that a frame can contain: 'simpleWords' for a simple frame, 'frameWords' for any other.
 wordsFor :: PreparedLayout -> Frame -> [Word']
 wordsFor layout frame =
   if ModalState.isSimple frame then simpleWords layout else frameWords layout
 
--- | State after a frame, from the state before it.
+-- | Modal state after a frame, from the state before it.
 after :: PreparedLayout -> State -> Frame -> State
 after layout = ModalState.after (axes layout) (frameWords layout)
 
@@ -228,9 +236,10 @@ data RowKind
     Constant Char
   | -- | symbol between two words
     Separator Char
-  | -- | check digit
+  | -- | check digit, 0 to 9
     CheckSymbol Int
-  | -- | row of a word: the content and the number of the word, and the row's purpose in it
+  | -- | row of a word: the content of the word, the number of the word, and what the row is within
+    -- the word
     InWord Content Int WordRow
   deriving stock (Eq, Show)
 
@@ -246,17 +255,17 @@ data BlankRows
     Trailer
   deriving stock (Eq, Show)
 
--- | Purpose of a row within a word.
+-- | What a row is within a word.
 data WordRow
   = AddressSymbol Char
-  | -- | digit for the direction and the leading axis, see 'Machine.Machine.Priority'
+  | -- | digit, 0 to 9, for the direction and the leading axis, see 'Machine.Machine.Priority'
     PriorityDigit Int
   | -- | plus or minus
     SignSymbol Char
   | -- | decimal point
     Point
-  | -- | digit, its position, the meaning of a hole in the service track there, and true if there is
-    -- one; the position counts from 0 at the last digit, decimals included
+  | -- | The digit; its position, from 0 at the last digit, decimals included; the meaning of a hole
+    -- in the service track of the row; and true if the row has this hole.
     Digit Int Int Service Bool
   deriving stock (Eq, Show)
 
@@ -264,24 +273,24 @@ data WordRow
 blanks :: BlankRows -> Int -> [MarkedRow]
 blanks purpose n = replicate n (MarkedRow 0 0 (Blank purpose))
 
--- | Row of a symbol; the function gives its purpose.
+-- | Row of a symbol, whose purpose is that of @meaning@ for the name of the symbol.
 constant :: (Char -> RowKind) -> Symbol -> MarkedRow
 constant meaning (Symbol.Symbol c h n) = MarkedRow h n (meaning c)
 
 -- Digits ------------------------------------------------------------------------------------------
 
--- | Greatest count of digits: that of the largest 'Int'.
+-- | Count of digits of the largest 'Int'. No number on a tape has more digits.
 mostDigits :: Int
 mostDigits = 19
 
--- | 10^k for @k@ ≥ 0. From k = 19 on, where an 'Int' is too small, 'maxBound'.
+-- | 10^@k@ for @k@ ≥ 0; 'maxBound' from @k@ = 19 on, where an 'Int' is too small.
 power :: Int -> Int
 power k = if k < mostDigits then Primitive.indexPrimArray powers k else maxBound
 
 powers :: PrimArray Int
 powers = Primitive.primArrayFromList (take mostDigits (iterate (10 *) 1))
 
--- | Count of digits with which a number @n@ ≥ 0 is written in a form, decimals included.
+-- | Count of digits with which a number @n@ ≥ 0 is written in the form @f@, decimals included.
 digitCount :: NumberForm -> Int -> Int
 digitCount f n
   | padded f = digits f
@@ -290,7 +299,7 @@ digitCount f n
     go k = if k < mostDigits && power k <= n && n > 0 then go (k + 1) else k
 
 -- | True if a number @n@ ≥ 0 is written with @count@ digits, that is @digitCount f n == count@. The
--- number must be below 10^count.
+-- number must be below 10^count, so that this test is cheaper than the count.
 isDigitCount :: NumberForm -> Int -> Int -> Bool
 isDigitCount f count n
   | padded f = count == digits f

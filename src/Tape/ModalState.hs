@@ -1,5 +1,5 @@
--- | Modal state: the values that stay in force from frame to frame. With it this module computes
--- the number of each word of a frame, for the writer and for the readers.
+-- | Modal state: the values that stay in force from frame to frame. From the state and a frame,
+-- 'number' computes the number of each word of the frame, for the writer and for the readers.
 module Tape.ModalState
   ( State (..),
     initial,
@@ -43,15 +43,16 @@ data State = State
     ordinal :: Int,
     -- | position of the cutter in pulses, along the axes of the part
     position :: Pulses3,
-    -- | axes of which the tape has given no position so far; used on tapes with absolute positions
+    -- | axes of which the tape has given no position so far. Only tapes with absolute positions use
+    -- this field.
     unwritten :: [Axis],
-    -- | last feed code on the tape; none before the first one
+    -- | last feed code on the tape; 'Nothing' before the first one
     feed :: Maybe FeedCode
   }
   deriving stock (Eq, Show)
 
--- | State before the first frame. The arguments: true if some frame changes the height; the
--- position of the cutter.
+-- | State before the first frame. @changesZ@ is true if some frame of the tape changes the height;
+-- @start@ is the position of the cutter in pulses.
 --
 -- On a tape with absolute positions the first frame that moves gives x and y, changed or not. It
 -- also gives z if some frame changes the height. Otherwise the operator sets the height by hand.
@@ -59,7 +60,7 @@ initial :: Bool -> Pulses3 -> State
 initial changesZ start =
   State {ordinal = 1, position = start, unwritten = [X, Y] <> [Z | changesZ], feed = Nothing}
 
--- | True for frames that change the height.
+-- | True if one of the frames moves along z.
 changesHeight :: [Frame] -> Bool
 changesHeight = any (\f -> let Pulses3 _ _ z = increment f in z /= 0)
 
@@ -67,13 +68,14 @@ changesHeight = any (\f -> let Pulses3 _ _ z = increment f in z /= 0)
 data Axes = Axes
   { -- | meaning of the axis words: increments or absolute positions
     measure :: AxisMeasure,
-    -- | for each axis 1 if it has the part's direction, −1 if it has the opposite direction
+    -- | factor from the part's axes to the machine's: 1 for an axis that has the same direction on
+    -- both, −1 for an axis that is reversed
     signs :: Pulses3,
     -- | true if clockwise arcs of the part are counter-clockwise on the machine
     isMirrored :: Bool
   }
 
--- | Axes of a machine.
+-- | Axes of a machine relative to those of the part.
 axes :: Machine -> Axes
 axes machine =
   Axes
@@ -85,14 +87,15 @@ axes machine =
     sign a =
       if or [reversed f | f <- NonEmpty.toList (Machine.axes machine), axis f == a] then -1 else 1
 
--- | Component along an axis.
+-- | Component of a vector along an axis.
 along :: Axis -> Pulses3 -> Pulses
 along a (Pulses3 x y z) = case a of
   X -> x
   Y -> y
   Z -> z
 
--- | Number of a word in a frame, in the state before the frame. None if the frame is written
+-- | Number of a word in a frame: pulses on the machine's axes, a code, or the frame number, by the
+-- content of the word. @state@ is the state before the frame. 'Nothing' if the frame is written
 -- without this word.
 number :: Axes -> State -> Frame -> Word' -> Maybe Int
 number system state frame word = case content word of
@@ -131,12 +134,13 @@ number system state frame word = case content word of
     given :: CommandName -> Maybe Int
     given o = lookup o (commands frame)
 
--- | True for a simple frame, which has neither an arc nor a command. Most frames are simple.
+-- | True for a simple frame: one with neither an arc nor a command. Most frames are simple, and
+-- there is a faster reader for them.
 isSimple :: Frame -> Bool
 isSimple frame = null (commands frame) && not (isArc frame)
 
--- | True for a word that some simple frame contains. For all other words 'number' gives none in
--- every simple frame.
+-- | True for a word that can occur in a simple frame. For every other word 'number' gives 'Nothing'
+-- in every simple frame.
 occursInSimple :: Word' -> Bool
 occursInSimple word = case content word of
   Centre _ -> occursAnyway
@@ -152,8 +156,8 @@ occursInSimple word = case content word of
       WhenNeeded -> False
       WhenChanged -> False
 
--- | True for a command word in which the number 0 is a command. A word that frames without a
--- command contain as well is different: there 0 means that the frame has no command.
+-- | True for a command word in which the number 0 gives a command. It is false for a word that
+-- frames without a command contain too: there 0 means that the frame has no command.
 isZeroCommand :: Word' -> Bool
 isZeroCommand word = case presence word of
   Always -> False
@@ -161,8 +165,9 @@ isZeroCommand word = case presence word of
   WhenNeeded -> True
   WhenChanged -> True
 
--- | Code of a motion. The flag is 'isMirrored'. No motion has the code of a straight line, for
--- words that every frame contains.
+-- | Code of a motion; @mirror@ is true if the machine's axes mirror the part ('isMirrored'). A
+-- frame without motion gets the code of a straight line, because some machines have a motion word
+-- in every frame.
 motionNumber :: Bool -> MotionCodes -> FrameMotion -> Int
 motionNumber mirror codes m = case m of
   NoMotion -> straight codes
@@ -208,7 +213,7 @@ axisNumber system state frame a = n
       Increments -> along a (increment frame)
       Positions -> along a (position state) + along a (increment frame)
 
--- | State after a frame, from the words of the layout and the state before the frame.
+-- | State after a frame, from the words @ws@ of the layout and the state before the frame.
 after :: Axes -> [Word'] -> State -> Frame -> State
 after system ws state frame =
   State

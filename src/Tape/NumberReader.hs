@@ -2,6 +2,9 @@
 {-# OPTIONS_GHC -O2 #-}
 
 -- | Numbers read from the rows of a tape, in the form that the layout gives for their word.
+--
+-- Rows have indices from 0. In a layout with a check digit each symbol has a weight, and the sum of
+-- the weights is checked at the end of the frame.
 module Tape.NumberReader
   ( RowFault (..),
     TapeNumber (..),
@@ -30,7 +33,7 @@ import Tape.Symbol qualified as Symbol
 data RowFault = RowFault Int (Maybe Content) Reason
   deriving stock (Eq, Show)
 
--- | Number with what the service track beside its digits says.
+-- | Number on a tape, with the meaning of the holes in the service track beside its digits.
 data TapeNumber = TapeNumber
   { -- | index of the number's first row
     start :: Int,
@@ -39,17 +42,17 @@ data TapeNumber = TapeNumber
     value :: Int,
     -- | count of digits, decimals included
     places :: Int,
-    -- | commands in the service track, each with the value of one bit; several bits of a command
-    -- are several entries
+    -- | command bits in the service track: the command, and the value 2^k of bit k. A command with
+    -- several bits has several entries.
     bits :: [(CommandName, Int)],
-    -- | true if the service track has the hole for braking
+    -- | true if the service track has the hole that makes the control brake in this frame
     brakes :: Bool,
     -- | sum of the weights of the number's symbols; not used in a layout without a check digit
     total :: Int
   }
 
--- | Number that begins at row @begin@, in the form that the layout gives it. A fault if the rows
--- are no such number.
+-- | Number of the form @f@ that begins at row @begin@. If the rows are no number of this form, the
+-- result is a fault in a word with the content @c@.
 numeral ::
   PreparedLayout ->
   Content ->
@@ -89,8 +92,8 @@ numeral layout c f rows begin = do
             total = weights ds
           }
   where
-    -- With a digit for the direction, 0 may be negative here: the reader of frames compares this
-    -- digit with the one that the machine would write.
+    -- A digit for the direction may make 0 negative: the reader of frames compares this digit later
+    -- with the one that the machine would write.
     refusesMinusZero = case sign f of
       Priority {} -> False
       Unsigned -> True
@@ -98,8 +101,9 @@ numeral layout c f rows begin = do
       MinusSign -> True
       EitherSign -> True
 
--- | True if a number in the given form can begin at row @k@: the row is a digit, or a sign that the
--- form allows. Always true for a form without digits.
+-- | True if a number of the form @f@ can begin at row @k@: the row is a digit, or a sign that the
+-- form allows. Always true for a form without digits. The reader finds with it which optional words
+-- are present.
 canBegin :: PreparedLayout -> NumberForm -> ShortByteString -> Int -> Bool
 canBegin layout f rows k =
   digits f == 0
@@ -114,10 +118,12 @@ canBegin layout f rows k =
       MinusSign -> is '-'
       EitherSign -> is '-' || is '+'
 
--- | Sign of a number: the index of the row after it, true for a minus, and the weight of its row.
+-- | Sign of a number: the index of the row after the sign, true for a minus, and the weight of the
+-- sign in the check sum. Without a sign: the index of the first digit, false and 0.
 data SignPart = SignPart Int Bool Int
 
--- | Sign at row @k@, if the form has one before the digits.
+-- | Sign of a number at row @k@. If the form @f@ allows the number to have no sign before its
+-- digits, the sign may be absent; else its absence is a fault.
 readSign ::
   PreparedLayout ->
   Content ->
@@ -153,24 +159,24 @@ readSign layout c f rows k = case sign f of
 
 -- | State while the digits of a number are read.
 data Digits = Digits
-  { -- | index of the next row
+  { -- | index of the next row to read
     at :: Int,
     -- | value of the digits so far, without sign and decimal point
     amount :: Int,
     -- | true if a minus has been read
     negative :: Bool,
-    -- | commands in the service track so far, see 'bits'
+    -- | command bits in the service track so far, see 'bits'
     commandBits :: [(CommandName, Int)],
     -- | true if the hole for braking has been read
     braking :: Bool,
     -- | sum of the weights so far
     weights :: Int,
-    -- | meaning of the service track at the digits to come
+    -- | meaning of the service track at the digits that are not yet read
     services :: [Service]
   }
 
--- | Reads at least @least@ digits and at most @most@. It is a fault if there are fewer than
--- @least@, or if a digit ends the reading early because its hole in the service track is wrong.
+-- | Reads from @least@ to @most@ digits of a number, and adds them to @ds@. The result is a fault
+-- if there are fewer than @least@ digits, or if a digit has a wrong hole in the service track.
 figures ::
   PreparedLayout ->
   Content ->
@@ -189,8 +195,8 @@ figures layout c rows least most ds
         && isJust (Symbol.digitAt (Layout.symbols layout) (Short.index rows (at now)))
 {-# INLINE figures #-}
 
--- | Reads digits before row @end@. Stops at the first row that is no digit, or whose hole in the
--- service track is wrong.
+-- | Reads digits from row @at ds@ up to row @end@, excluded, and adds them to @ds@. It stops at the
+-- first row that is no digit, or that lacks a hole in the service track or has a wrong one.
 digitsUpTo :: PreparedLayout -> ShortByteString -> Int -> Digits -> Digits
 digitsUpTo layout rows end ds
   | null (services ds),
@@ -248,8 +254,8 @@ serviceDigits layout rows end ds =
 -- | Index of the row after the digits, and the value of all digits so far.
 data Figures = Figures Int Int
 
--- | Reads digits before row @end@ that have no hole in the service track. The last two arguments
--- are the first row, and the value of the digits before it.
+-- | Reads digits without a hole in the service track, up to row @end@, excluded. The last two
+-- arguments are the index of the first row to read, and the value of the digits before that row.
 plainFigures :: PreparedLayout -> ShortByteString -> Int -> Int -> Int -> Figures
 plainFigures layout rows end = go
   where
@@ -263,14 +269,14 @@ plainFigures layout rows end = go
         go (k + 1) (10 * n + d)
       | otherwise = Figures k n
 
--- | Fault of the row at which the digits end too early.
+-- | Fault of the row @at ds@, at which the digits of a number end too early.
 stopFault :: PreparedLayout -> Content -> ShortByteString -> Digits -> RowFault
 stopFault layout c rows ds = case (digit layout (Just c) rows (at ds), services ds) of
   (Left fault, _) -> fault
   (Right _, Marker : _) -> RowFault (at ds) (Just c) MarkerMissing
   (Right _, _) -> RowFault (at ds) (Just c) ServiceHole
 
--- | Reads the decimal point.
+-- | Reads the decimal point at row @at ds@, and gives the state after it.
 point :: PreparedLayout -> Content -> ShortByteString -> Digits -> Either RowFault Digits
 point layout c rows ds
   | at ds >= Short.length rows = Left (cutOff c rows)
@@ -280,8 +286,8 @@ point layout c rows ds
     w = Short.index rows (at ds)
     s = Layout.point layout
 
--- | Digit at row @k@, with or without a hole in the service track. A fault if the row is no digit;
--- the content is that of the row's word, for the fault.
+-- | Digit from 0 to 9 at row @k@, with or without a hole in the service track; a fault if the row
+-- is no digit. The fault names @c@, the content of the row's word, if the row is in a word.
 digit :: PreparedLayout -> Maybe Content -> ShortByteString -> Int -> Either RowFault Int
 digit layout c rows k
   | k >= Short.length rows = Left (RowFault (Short.length rows - 1) c CutOff)
@@ -295,14 +301,14 @@ digit layout c rows k
       (Nothing, Just s) -> NotADigit s
       (Nothing, Nothing) -> NoDigit (Machine.tracks (Machine.medium (Layout.machine layout))) w
 
--- | Fault of a row that no symbol of this tape can have: a hole outside of the tracks, or wrong
--- parity. None for all other rows.
+-- | Reason why the row @w@ can be no symbol of this tape: it has a hole outside of the tracks, or
+-- its parity is wrong. 'Nothing' for all other rows.
 rowFault :: PreparedLayout -> Word8 -> Maybe Reason
 rowFault layout w
   | Symbol.isOutsideTracks (Layout.symbols layout) w = Just ForeignTrack
   | Symbol.isOdd (Layout.symbols layout) w = Just BadParity
   | otherwise = Nothing
 
--- | Fault of a tape that ends within a word.
+-- | Fault of a tape that ends within a word with the content @c@. The fault is at the last row.
 cutOff :: Content -> ShortByteString -> RowFault
 cutOff c rows = RowFault (Short.length rows - 1) (Just c) CutOff

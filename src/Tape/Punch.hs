@@ -4,7 +4,9 @@
 -- | Writer and reader of whole tapes: leader, frames with the blank rows between them, trailer.
 --
 -- The reader refuses a tape that the machine would not have written, see "Tape.Damage". The rows of
--- a single frame belong to "Tape.FrameWriter" and "Tape.FrameReader".
+-- a single frame belong to "Tape.FrameWriter" and "Tape.FrameReader". Indices of rows count from 0,
+-- numbers of frames from 1. Blank rows before a frame with an even number are a shift, blank rows
+-- after a frame are a gap.
 module Tape.Punch
   ( write,
     rows,
@@ -48,8 +50,8 @@ import Prelude hiding (read)
 
 -- Writing -----------------------------------------------------------------------------------------
 
--- | Tape of some frames. The frames have to keep the rules of the machine, see
--- 'Frame.Frame.violations'. The cutter begins at the given position.
+-- | Tape of the given frames, which have to keep the rules of the machine, see
+-- 'Frame.Frame.violations'. The cutter begins at the position @start@.
 write :: Machine -> Pulses3 -> [Frame] -> Tape
 write machine start frames =
   Tape
@@ -64,7 +66,8 @@ write machine start frames =
     holesOf = ByteString.pack . map holes
 
 -- | Rows of the frames with the blank rows between them, in blocks. All blocks are filled in one
--- buffer, which is copied when it is full, so the memory in use stays small.
+-- buffer, which is copied when it is full, so the memory in use stays small. @state@ is the state
+-- before the first frame.
 frameRows :: PreparedLayout -> State -> [Frame] -> [ByteString]
 frameRows layout state frames =
   runST (Primitive.newPrimArray (blockSize + mostOfFrame) >>= go 0 state frames)
@@ -89,8 +92,8 @@ frameRows layout state frames =
       let !rows' = Short.fromShort (SBS filled)
       pure rows'
 
--- | Least count of rows in a block of 'frameRows', except the last block. A block ends with a
--- frame.
+-- | Least count of rows in a block of 'frameRows'; the last block may be shorter. Every block ends
+-- at the end of a frame.
 blockSize :: Int
 blockSize = 32768
 
@@ -101,8 +104,8 @@ rows machine start frames =
   where
     layout = Layout.fromMachine machine
 
--- | Rows of a tape in groups: one for each frame, with the number of the frame, and one for each
--- end of the tape.
+-- | Rows of a tape in groups: one group for each frame, with the number of the frame, and one group
+-- for each end of the tape, without a number.
 markedRows :: PreparedLayout -> Pulses3 -> [Frame] -> [(Maybe Int, [MarkedRow])]
 markedRows layout start frames =
   (Nothing, rowsBefore layout) :
@@ -135,7 +138,7 @@ rowsAfter layout =
   where
     medium = Machine.medium (Layout.machine layout)
 
--- | Number of blank rows before the frame with the number @n@, from 1.
+-- | Count of blank rows that the medium demands before the frame with the number @n@, from 1.
 shiftCount :: Medium -> Int -> Int
 shiftCount medium n = if even n then evenShift medium else 0
 
@@ -144,7 +147,7 @@ symbolsOf layout = map (Symbol.symbol (Layout.symbols layout)) . Text.unpack
 
 -- Reading -----------------------------------------------------------------------------------------
 
--- | Frames of a tape, or its first damage. The cutter begins at the given position.
+-- | Frames of a tape, or the first damage of the tape. The cutter begins at the position @start@.
 --
 -- If blank rows are 'Counted', every row matters, because a blank row may be the digit 0. If they
 -- are 'Skipped', the reader first removes the rows that the code skips, and ignores blank rows
@@ -152,9 +155,9 @@ symbolsOf layout = map (Symbol.symbol (Layout.symbols layout)) . Text.unpack
 read :: Machine -> Pulses3 -> Tape -> Either Damage [Frame]
 read machine start (Tape raw) = case firstFrameRow source of
   Left fault -> Left (damage source Nothing fault)
-  -- Increments do not depend on the height, so the tape never has to give it.
+  -- Increments do not depend on the height, so the tape never has to give the height.
   Right begin | not (hasPositions source) -> readFrom source start begin False
-  -- The first frame that moves gives the height if a later frame changes it. That is not known
+  -- The first frame that moves gives the height if any frame changes the height. This is not known
   -- before all frames are read, so both cases are tried.
   Right begin -> case (readFrom source start begin True, readFrom source start begin False) of
     (Right frames, _) | ModalState.changesHeight frames -> Right frames
@@ -166,15 +169,16 @@ read machine start (Tape raw) = case firstFrameRow source of
   where
     source = sourceOf (Layout.fromMachine machine) raw
 
--- | Frames of a tape on which the given frames are expected. If they are on it, the result is the
--- given list itself, so that memory does not hold the frames twice. Otherwise the result of 'read'.
+-- | Frames of a tape on which the frames @expected@ are expected. If the tape has exactly these
+-- frames, the result is @expected@ itself, so that memory does not hold the frames twice.
+-- Otherwise it is the result of 'read'.
 readExpected :: Machine -> Pulses3 -> [Frame] -> Tape -> Either Damage [Frame]
 readExpected machine start expected tape
   | holds machine start expected tape = Right expected
   | otherwise = read machine start tape
 
--- | Frames of a tape that was punched from the given frames. If the tape is read as other frames,
--- the result is the damage 'Misread': the description of the machine is ambiguous.
+-- | Frames of a tape that was punched from the frames @punched@. If the tape is read as other
+-- frames, the result is the damage 'Misread': the description of the machine is ambiguous.
 readPunched :: Machine -> Pulses3 -> [Frame] -> Tape -> Either Damage [Frame]
 readPunched machine start punched tape
   | holds machine start punched tape = Right punched
@@ -183,7 +187,7 @@ readPunched machine start punched tape
       Left
         (Damage 1 (Just (1 + length (takeWhile id (zipWith (==) punched frames)))) Nothing Misread)
 
--- | True if reading a tape gives exactly the given frames.
+-- | True if reading a tape gives exactly the frames @expected@, without a fault.
 holds :: Machine -> Pulses3 -> [Frame] -> Tape -> Bool
 holds machine start expected (Tape raw) = case firstFrameRow source of
   Left _ -> False
@@ -202,7 +206,7 @@ holds machine start expected (Tape raw) = case firstFrameRow source of
       ([], LazyList.End fault) -> null fault
       _ -> False
 
--- | Index of the first row after the leader and the opening symbols.
+-- | Index of the first row after the leader and the opening symbols, or a fault in these.
 firstFrameRow :: Source -> Either RowFault Int
 firstFrameRow source =
   afterLeader source >>= \at ->
@@ -212,12 +216,12 @@ firstFrameRow source =
       at
       (symbolsOf (layout source) (opening (medium source)))
 
--- | True for a tape with absolute positions.
+-- | True for a tape on which axis words give absolute positions, not increments.
 hasPositions :: Source -> Bool
 hasPositions source = ModalState.measure (Layout.axes (layout source)) /= Increments
 
--- | All frames from a row on, or the first damage. The arguments: the position of the cutter, the
--- row, and true if the first frame that moves gives the height.
+-- | All frames from row @begin@ on, or the first damage. @start@ is the position of the cutter.
+-- @givesHeight@ is true if the first frame that moves has to give the height.
 readFrom :: Source -> Pulses3 -> Int -> Bool -> Either Damage [Frame]
 readFrom source start begin givesHeight = case LazyList.end found of
   Just (n, fault) -> Left (damage source n fault)
@@ -225,7 +229,8 @@ readFrom source start begin givesHeight = case LazyList.end found of
   where
     found = framesFrom source begin (ModalState.initial givesHeight start)
 
--- | Damage for the fault of a row; the second argument is the number of the row's frame.
+-- | Damage that reports the fault of a row; @n@ is the number of the row's frame, 'Nothing' for a
+-- row outside of all frames.
 damage :: Source -> Maybe Int -> RowFault -> Damage
 damage source n (RowFault at c why) = Damage (1 + tapeIndex source at) n c why
 
@@ -268,7 +273,7 @@ sourceOf layout raw =
         then ByteString.filter (`ByteString.notElem` skipped) raw
         else raw
 
--- | Converts the index of a row in 'kept' to its index in 'raw'.
+-- | Converts the index of a row in 'kept' to the index of the row in 'raw', for reports.
 tapeIndex :: Source -> Int -> Int
 tapeIndex source at
   | ByteString.null (skipped source) = at
@@ -284,7 +289,7 @@ tapeIndex source at
 -- | Index of the row after the leader, or the fault of a leader that is too short or has holes.
 --
 -- If blank rows are 'Skipped', further blank rows before the opening symbols are ignored. On a
--- medium without opening symbols they are not, because they could be the trailer.
+-- medium without opening symbols they count, because they could be the trailer.
 afterLeader :: Source -> Either RowFault Int
 afterLeader source
   | ByteString.null (kept source)
@@ -318,13 +323,15 @@ leaderLength source = leader (Machine.medium (Layout.machine (layout source)))
 skipsBlanks :: Source -> Bool
 skipsBlanks source = ByteString.elem 0 (skipped source)
 
--- | Index in 'kept' of the first row, from the given one on, that is not blank.
+-- | Index in 'kept' of the first row with holes at or after row @at@; the count of rows if there is
+-- none.
 afterBlanks :: Source -> Int -> Int
 afterBlanks source at =
   at + ByteString.length (ByteString.takeWhile (== 0) (ByteString.drop at (kept source)))
 
--- | Frames from a row on as a lazy list. It ends with the first fault and the number of the fault's
--- frame, or with 'Nothing' at the proper end of the tape.
+-- | Frames from a row on as a lazy list. The arguments are the row and the state before its frame.
+-- The list ends with 'Nothing' at the proper end of the tape. Otherwise it ends with the first
+-- fault and the number of the faulty frame; a fault outside of all frames has no number.
 framesFrom :: Source -> Int -> State -> LazyList (Maybe (Maybe Int, RowFault)) Frame
 framesFrom source = go
   where
@@ -348,8 +355,8 @@ framesFrom source = go
       Counted -> begin
       Skipped -> afterBlanks source begin
 
--- | Index of the row after @n@ blank rows. A row with holes among them is a fault with the given
--- reason.
+-- | Index of the row after the @n@ blank rows that begin at row @at@. If one of these rows has
+-- holes, the result is a fault with the reason @why@.
 blankRows :: Source -> Reason -> Int -> Int -> Either RowFault Int
 blankRows source why n at
   | n <= 0 = Right at
@@ -390,15 +397,16 @@ endAt source at = case spare (medium source) of
     closer = closing (medium source)
     torn = maybe Continued Torn (tornAt source at)
 
--- | Count of blank rows at the end of the tape. The argument is their count in 'kept'.
+-- | Count of blank rows at the end of the tape. @found@ is the count of those in 'kept', which
+-- lacks blank rows that the code skips.
 trailerLength :: Source -> Int -> Int
 trailerLength source found
   | skipsBlanks source =
     ByteString.count 0 (ByteString.takeWhileEnd (`ByteString.elem` skipped source) (raw source))
   | otherwise = found
 
--- | Count of blank rows in 'kept' after the closing symbols, if only these symbols and blank rows
--- follow from a row on.
+-- | Count of blank rows in 'kept' after the closing symbols, if the closing symbols follow at row
+-- @at@ and only blank rows follow after them. 'Nothing' if anything else follows.
 trailerAt :: Source -> Int -> Maybe Int
 trailerAt source at = case FrameReader.expect (layout source) (line source) first cs of
   Right afterSymbols
@@ -411,8 +419,8 @@ trailerAt source at = case FrameReader.expect (layout source) (line source) firs
       Counted -> at
       Skipped -> if null cs then at else afterBlanks source at
 
--- | Fault of a tape whose frames end at a row, and whose end is wrong: a trailer of a wrong length,
--- or missing closing symbols. None if rows with other holes follow.
+-- | Fault of a tape whose frames end before row @at@: a trailer of a wrong length, or missing
+-- closing symbols. 'Nothing' if rows with other holes follow, so that the fault is in a frame.
 tornAt :: Source -> Int -> Maybe RowFault
 tornAt source at = case trailerAt source at of
   Just found ->

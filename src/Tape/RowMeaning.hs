@@ -1,7 +1,7 @@
 -- | Rows of a tape explained in English, for the picture of a tape and for reports.
 --
--- The meaning of a row comes from the writer of frames. This module only words it; it does not
--- interpret holes.
+-- "Tape.FrameWriter" gives the meaning of each row as a 'RowKind'. This module puts it into words;
+-- it does not interpret holes.
 module Tape.RowMeaning
   ( Row (..),
     row,
@@ -38,18 +38,20 @@ import Tape.Symbol qualified as Symbol
 -- | Row of a tape with its explanation.
 data Row = Row
   { holes :: Word8,
-    -- | number of the row's frame, from 1; none for rows before the first and after the last frame
+    -- | number of the row's frame, from 1; 'Nothing' for rows before the first frame and after the
+    -- last one
     frame :: Maybe Int,
-    -- | symbol that the code gives to these holes; none if it gives none
+    -- | symbol that the tape code gives to 'holes'; 'Nothing' if the code has no such symbol
     symbol :: Maybe Char,
     -- | purpose of the row
     kind :: RowKind,
-    -- | the purpose in English, on one line
+    -- | the purpose of the row in English, on one line
     meaning :: Text
   }
   deriving stock (Eq, Show)
 
--- | Explains a row; the second argument is the number of its frame, see 'frame'.
+-- | Explains a row. The number @n@ of its frame counts from 1; it is 'Nothing' for a row outside of
+-- all frames.
 row :: PreparedLayout -> Maybe Int -> MarkedRow -> Row
 row layout n (MarkedRow h _ purpose) =
   Row
@@ -94,8 +96,9 @@ meaningOf layout purpose = case purpose of
         <> (if n < 0 then "backwards" else "forwards")
     isLeading c d = or [d == a || d == b | Just NumberForm {sign = Priority a b _ _} <- [formOf c]]
 
--- | Name of the decimal position of digit @k@ (0 is the last digit), with a space before it:
--- @" tens"@. Empty for a number of one digit.
+-- | Name of the decimal position of digit @k@ (0 is the last digit) in a number of the form @f@,
+-- with a space before the name: @" tens"@. Empty for a number of one digit, and if the form is not
+-- known.
 positionText :: Maybe NumberForm -> Int -> Text
 positionText f k = case f of
   Just NumberForm {digits = 1} -> ""
@@ -120,14 +123,15 @@ positionText f k = case f of
       3 -> "thousandths"
       _ -> "10^-" <> Decimal.whole e
 
--- | Name of the motion with the code @n@, for the last digit of a motion word; empty for all other
--- digits.
+-- | Name of the motion with the code @n@, after a comma, for the last digit (@k@ = 0) of a motion
+-- word. Empty for all other digits, and for words whose content @c@ is not a motion.
 motionAfterDigit :: Content -> Int -> Int -> Text
 motionAfterDigit c n k = case c of
   Motion codes | k == 0 -> ", " <> motionText codes n
   _ -> ""
 
--- | Name of the motion with the code @n@.
+-- | Name of the motion that the code @n@ of a motion word means, or @unknown@ if the machine does
+-- not use the code.
 motionText :: MotionCodes -> Int -> Text
 motionText codes n
   | n == straight codes = "straight"
@@ -145,14 +149,16 @@ serviceText s = case s of
   BrakingHole -> ", braking"
   NoHole -> ""
 
--- | Symbol for use in a sentence: in quotation marks; a space and a line feed by their names.
+-- | Symbol as reports print it in a sentence: in quotation marks, but a space and a line feed by
+-- their names.
 shown :: Char -> Text
 shown c = case c of
   '\n' -> "LF"
   ' ' -> "space"
   _ -> "‘" <> Text.singleton c <> "’"
 
--- | Content of a word with its number @n@, for the picture of a tape that is a text.
+-- | English text for a word with the content @c@ and the number @n@, which is in units of the last
+-- decimal. The picture of a tape that is a text explains its words with it.
 wordMeaning :: Machine -> Content -> Int -> Text
 wordMeaning machine c n = case (c, [form w | w <- Machine.wordsOf machine, content w == c]) of
   (Motion codes, _) -> motionText codes n

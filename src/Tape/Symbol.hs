@@ -1,7 +1,8 @@
 -- | Symbols of a tape code and their rows, as tables for writing and reading.
 --
 -- A code may have a parity track and a service track. A hole in the parity track makes the number
--- of holes in a row even. A hole in the service track marks a digit and does not change its value.
+-- of holes in a row even. A hole in the service track gives a digit of a number an extra meaning,
+-- such as a minus or a command, and does not change the digit.
 module Tape.Symbol
   ( Symbols (..),
     fromMachine,
@@ -30,7 +31,7 @@ import Data.Word (Word8)
 import Machine.Machine (Machine, Medium, TapeCode)
 import Machine.Machine qualified as Machine
 
--- | Tables of a tape code.
+-- | Tables of a tape code. A row is a byte, in which bit k−1 is the hole in track k.
 data Symbols = Symbols
   { -- | row of each symbol, with its parity hole
     rowOf :: Map Char Word8,
@@ -44,12 +45,12 @@ data Symbols = Symbols
     serviceRows :: ShortByteString,
     -- | weights of the digits 0 to 9 in a check sum
     digitWeights :: ShortByteString,
-    -- | digit of each of the 256 rows, with or without a hole in the service track; 'noDigit' for a
-    -- row that is no digit
+    -- | digit of each of the 256 possible rows, with or without a hole in the service track;
+    -- 'noDigit' for a row that is no digit
     digitOf :: ShortByteString,
-    -- | bit of the service track; 0 if the code has no service track
+    -- | byte in which only the bit of the service track is 1; 0 if the code has no such track
     service :: Word8,
-    -- | bits that belong to no track of the tape
+    -- | byte in which the bits that belong to no track of the tape are 1
     outside :: Word8,
     -- | true if the number of holes in every row has to be even
     parity :: Bool
@@ -58,7 +59,7 @@ data Symbols = Symbols
 -- | Symbol with its row (parity hole included) and its weight in a check sum.
 data Symbol = Symbol {name :: Char, holes :: Word8, weight :: Int}
 
--- | Tables for a machine.
+-- | Tables for the tape code of a machine.
 fromMachine :: Machine -> Symbols
 fromMachine machine =
   Symbols
@@ -90,12 +91,12 @@ fromMachine machine =
             w <- [withoutServiceHole c, withServiceHole c]
         ]
 
--- | Bits of a row that belong to no track of the tape.
+-- | Byte in which the bits that belong to no track of the tape are 1.
 outsideMask :: Medium -> Word8
 outsideMask medium = complement (fromIntegral ((1 `shiftL` Machine.tracks medium) - 1 :: Int))
 
--- | Row with the hole in the parity track changed if the number of holes is odd; unchanged in a
--- code without parity.
+-- | Row @w@ with an even number of holes: if the number is odd, the parity track gets a hole or
+-- loses it. The row is unchanged in a code without a parity track.
 withParity :: TapeCode -> Word8 -> Word8
 withParity code w = case Machine.evenTrack code of
   Just k | odd (popCount w) -> w `xor` setBit 0 (k - 1)
@@ -105,8 +106,8 @@ withParity code w = case Machine.evenTrack code of
 noDigit :: Word8
 noDigit = 10
 
--- | Symbol of this name. A name without a row in the code gets a blank row; a checked machine
--- description has rows for all symbols of its layout.
+-- | Symbol with the name @c@. If the code has no row for @c@, the row is blank. This does not
+-- happen in a checked machine description, which has rows for all symbols of its layout.
 symbol :: Symbols -> Char -> Symbol
 symbol table c =
   Symbol
@@ -127,8 +128,8 @@ serviceDigit table = Short.index (serviceRows table)
 digitWeight :: Symbols -> Int -> Int
 digitWeight table = fromIntegral . Short.index (digitWeights table)
 
--- | Digit from 0 to 9 of a row, with or without a hole in the service track; none if the row is no
--- digit.
+-- | Digit from 0 to 9 of the row @w@, with or without a hole in the service track; 'Nothing' if the
+-- row is no digit.
 digitAt :: Symbols -> Word8 -> Maybe Int
 digitAt table w =
   let d = Short.index (digitOf table) (fromIntegral w)
@@ -147,14 +148,15 @@ isOutsideTracks table w = w .&. outside table /= 0
 isOdd :: Symbols -> Word8 -> Bool
 isOdd table w = parity table && odd (popCount w)
 
--- | Symbol of a row. A digit with a hole in the service track is that digit.
+-- | Symbol of the row @w@, for reports; 'Nothing' if the code has no symbol for it. A hole in the
+-- service track of a digit is ignored.
 symbolAt :: Symbols -> Word8 -> Maybe Char
 symbolAt table w = case Map.lookup w (nameOf table) of
   Just c -> Just c
   Nothing -> intToDigit <$> digitAt table w
 
--- | Compares the rows from index @k@ on with the given symbols. Gives the index of the row after
--- them, or −1 if a row differs or the rows end.
+-- | Compares the rows from index @k@ (from 0) on with the symbols @cs@. Gives the index of the row
+-- after the last symbol, or −1 if a row differs or the rows end.
 rowAfter :: ShortByteString -> Int -> [Symbol] -> Int
 rowAfter rows k cs = case cs of
   [] -> k

@@ -12,17 +12,18 @@ import Data.ByteString qualified as ByteString
 import Machine.Machine (Machine)
 import Machine.Machine qualified as Machine
 
--- | Rows of a tape in order, one byte each. For a text in place of a tape, its bytes.
+-- | Rows of a punched tape in order, one byte each. If the machine reads a text instead of a tape,
+-- the bytes of this text.
 newtype Tape = Tape ByteString
   deriving newtype (Eq)
   deriving stock (Show)
 
--- | Number of rows.
+-- | Number of rows of a tape, or of bytes of a text.
 rowCount :: Tape -> Int
 rowCount (Tape rows) = ByteString.length rows
 
--- | Length of a tape in metres: the number of rows times the row pitch of the machine's medium.
--- None for a text.
+-- | Length of a tape in metres: the number of rows times the distance between two rows. 'Nothing'
+-- if the machine reads a text, which has no such distance.
 metres :: Machine -> Tape -> Maybe Double
 metres machine tape = case Machine.pitch (Machine.medium machine) of
   Nothing -> Nothing

@@ -3,10 +3,11 @@
 {-# LANGUAGE RankNTypes #-}
 {-# LANGUAGE TypeFamilies #-}
 
--- | The fast twin of the explaining parser, for programs without a mistake.
+-- | The fast parser, for programs without a mistake.
 --
 -- The parser is written in continuation-passing style and stops at the first mistake without a
--- report. For correct programs it gives the same output as the parser of "Surface.Combinator".
+-- report. For correct programs it gives the same output as the explaining parser of
+-- "Surface.Combinator", which reports mistakes.
 module Surface.Combinator.Fast
   ( FastParser,
     run,
@@ -33,7 +34,7 @@ import Surface.TokenStream (TokenStream (..))
 import Text.Megaparsec (MonadParsec (..))
 import Text.Megaparsec qualified as Parsec
 
--- | The state of the parser.
+-- | The state of the fast parser. An offset is the index of a character in the text, from 0.
 data FastState = FastState
   { -- | the remaining tokens
     left :: [Token],
@@ -43,16 +44,17 @@ data FastState = FastState
     ended :: Int,
     -- | the number of brackets and operands around the next token
     open :: Int,
-    -- | the number of statement blocks around the present statement
+    -- | the number of statement blocks around the statement that is being parsed
     blocks :: Int
   }
 
 -- | A parser with continuations for success and failure. The failure continuation gets the 'room'
--- at the mistake. If that is the room before the parser, no token was consumed, and an alternative
--- is tried.
+-- at the mistake. If it is equal to the room before the parser, no token was consumed, and an
+-- alternative is tried.
 newtype FastParser a = FastParser (forall r. FastState -> (a -> FastState -> r) -> (Int -> r) -> r)
 
--- | Runs a parser on at most @limit@ tokens. 'Nothing' if there are more, or if it fails.
+-- | Runs a parser on at most @limit@ tokens. 'Nothing' if there are more tokens, or if the parser
+-- fails.
 run :: Int -> FastParser a -> [Token] -> Maybe a
 run limit (FastParser p) ts =
   p
@@ -60,7 +62,8 @@ run limit (FastParser p) ts =
     (\a _ -> Just a)
     (const Nothing)
 
--- | The value for the failure continuation that stops the parser: no alternative is tried.
+-- | The argument of the failure continuation after which no alternative is tried. No room has this
+-- value.
 final :: Int
 final = minBound
 
@@ -142,7 +145,8 @@ instance MonadParsec Problem TokenStream FastParser where
           f (stateOf s)
      in ok () s {left = ts, room = negate stateOffset}
 
--- | The state in megaparsec's form. The offset is the negated room, so it grows by 1 per token.
+-- | The state in megaparsec's form. The offset is the negated room, so that the offset grows by 1
+-- with each token.
 stateOf :: FastState -> Parsec.State TokenStream Problem
 stateOf s =
   Parsec.State
@@ -211,8 +215,8 @@ grammarStateOf s =
     }
 {-# INLINE grammarStateOf #-}
 
--- | The position that megaparsec requires. It is always the same: lines and columns are not
--- counted.
+-- | The position in the form that megaparsec requires. Lines and columns are not counted, so it is
+-- always the start of the text.
 nowhere :: [Token] -> Parsec.PosState TokenStream
 nowhere ts =
   Parsec.PosState
@@ -225,8 +229,8 @@ nowhere ts =
 
 -- Points
 
--- | Parses a pair of numbers in parentheses without the combinators; 'Nothing' for other tokens.
--- Most points have this form.
+-- | Parses a pair of numbers in parentheses; 'Nothing' for other tokens. Most points have this
+-- form, so it is parsed without the slower combinators.
 plainPair :: [Token] -> Maybe (Consumed Expr)
 plainPair ts = case ts of
   opening : inside
@@ -239,7 +243,7 @@ plainPair ts = case ts of
        in Just (Consumed (Located region (Pair x y)) (n + m + 3) rest)
   _ -> Nothing
 
--- | Parses a number with an optional minus.
+-- | Parses a number with an optional minus and an optional unit; 'Nothing' for other tokens.
 plainNumber :: [Token] -> Maybe (Consumed Expr)
 plainNumber ts = case ts of
   Token.Token {Token.shape = Token.Number x unit, Token.place} : rest ->

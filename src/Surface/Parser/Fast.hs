@@ -1,4 +1,4 @@
--- | The fast twin of the parser, for programs without a mistake.
+-- | The fast parser, for programs without a mistake. "Surface.Parser" tries it first.
 module Surface.Parser.Fast
   ( parse,
   )
@@ -10,8 +10,8 @@ import Surface.Grammar qualified as Grammar
 import Surface.Lexer qualified as Lexer
 import Surface.Syntax
 
--- | Parses a program of at most @limit@ tokens whose text begins at an offset. 'Nothing' if the
--- program has more tokens or a mistake.
+-- | Parses a program of at most @limit@ tokens whose text begins at the offset @begin@, the index
+-- of its first character. 'Nothing' if the program has more tokens or a mistake.
 --
 -- The tokens are produced on demand and not kept. Therefore the function is never inlined: together
 -- with the explaining parser, GHC would make the tokens once for both parsers and keep all of them.

@@ -4,9 +4,10 @@
 -- | Fast reader of simple frames, which have neither an arc nor a command. Most frames of a long
 -- tape are simple.
 --
--- If this reader gives a frame, 'Tape.FrameReader.wordByWord' gives the same frame. It gives none
--- if the frame is not simple, or if a row differs from the one that the machine would write. Then
--- 'Tape.FrameReader.wordByWord' reads the frame, or reports the fault.
+-- If this reader gives a frame, 'Tape.FrameReader.wordByWord' gives the same frame. The reader
+-- gives 'NotSimple' if the frame is not simple, or if a row differs from the one that the machine
+-- would write. Then 'Tape.FrameReader.wordByWord' reads the frame, or reports the fault. Rows have
+-- indices from 0.
 module Tape.FrameReader.Fast
   ( Read (..),
     readFrame,
@@ -49,7 +50,7 @@ data Read
   | -- | The frame is not simple, or a row differs from the one that the machine would write.
     NotSimple
 
--- | Reads the frame that begins at row @begin@, in the state before the frame.
+-- | Reads the frame that begins at row @begin@. @state@ is the state before the frame.
 readFrame :: PreparedLayout -> State -> ShortByteString -> Int -> Read
 readFrame layout state rows begin
   | Layout.isPlain layout =
@@ -87,21 +88,22 @@ readFrame layout state rows begin
       Along _ -> True
       FeedWord -> True
 
--- | Numbers of the words of a frame, as they are on the tape. An axis word that the frame lacks has
--- the number that means no travel.
+-- | Numbers of the words of a frame, as they are on the tape. The numbers of axes are pulses on the
+-- machine's axes. For an axis without a word in the frame, the number is the one that means no
+-- travel: 0, or the present position.
 data Numbers = Numbers
-  { -- | bit n is 1 if the frame contains word n of 'Layout.simpleWords'
+  { -- | bit n is 1 if the frame contains word n of 'Layout.simpleWords', counted from 0
     present :: Int,
     numberX :: Int,
     numberY :: Int,
     numberZ :: Int,
     motionNumber :: Int,
-    -- | −1 if there is no feed word
+    -- | feed code; −1 if the frame has no feed word
     feedNumber :: Int
   }
 
 -- | Numbers of a frame without any word: no travel along any axis, the code of a straight line, no
--- feed.
+-- feed. @state@ is the state before the frame.
 withoutWords :: PreparedLayout -> State -> Numbers
 withoutWords layout state =
   Numbers
@@ -117,8 +119,8 @@ withoutWords layout state =
       Increments -> 0
       Positions -> ModalState.signs (Layout.axes layout) * position state
 
--- | Sets the number of the word with this content. Words whose number is already checked are not
--- kept.
+-- | Sets the number of the word with the content @c@ to @n@. Frame numbers, centres and commands
+-- are not kept, because 'readFrame' has already compared them with the number that they must have.
 withNumber :: Content -> Int -> Numbers -> Numbers
 withNumber c n ns = case c of
   Along X -> ns {numberX = n}
@@ -131,8 +133,9 @@ withNumber c n ns = case c of
   Command _ -> ns
 {-# INLINE withNumber #-}
 
--- | Frame with these numbers, which ends before row @end@. 'NotSimple' unless the machine would
--- write exactly these words for it, and the frame keeps the rules of the machine.
+-- | Frame that the numbers @ns@ describe; @end@ is the index of the row after it. The result is
+-- 'NotSimple' unless the frame keeps the rules of the machine, and the machine would write it with
+-- exactly the words that were read.
 frameFrom :: PreparedLayout -> State -> Numbers -> Int -> Read
 frameFrom layout state ns end
   | increment /= 0,
@@ -172,8 +175,8 @@ frameFrom layout state ns end
         isJust (ModalState.number axes state f w) == testBit (present ns) ordinalOfWord
           && areThese (ordinalOfWord + 1) f more
 
--- | Motion of a code: a line or a rapid move; none for all other codes. On a machine without a
--- motion word every motion is a line.
+-- | Motion that a code means: a line or a rapid move; 'Nothing' for all other codes. On a machine
+-- without a motion word every motion is a line.
 motionOf :: PreparedLayout -> Int -> Maybe FrameMotion
 motionOf layout code = case Layout.motionWord layout of
   Nothing -> Just Linear
@@ -186,7 +189,7 @@ motionOf layout code = case Layout.motionWord layout of
 -- the machine would write for a number.
 data Number = Number Int Int
 
--- | Reads a number that begins at row @begin@, in a form that uses no service track.
+-- | Reads a number of the form @f@ that begins at row @begin@; @f@ uses no service track.
 plainNumber :: PreparedLayout -> NumberForm -> ShortByteString -> Int -> Number
 plainNumber layout f rows begin = case sign f of
   Unsigned -> unsigned False begin
