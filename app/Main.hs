@@ -23,7 +23,7 @@ import System.IO (hPutStrLn, hSetEncoding, stderr, stdin, stdout)
 main :: IO ()
 main = do
   setLocaleEncoding utf8
-  -- File names are bytes. The bytes of a name that is not UTF-8 pass unchanged.
+  -- File names may be any bytes: this encoding also keeps names that are not UTF-8.
   mkTextEncoding "UTF-8//ROUNDTRIP" >>= setFileSystemEncoding
   mapM_ (`hSetEncoding` utf8) [stdin, stdout, stderr]
   code <- work `catches` [Handler pure, Handler interrupted, Handler crashed, Handler unexpected]
@@ -37,7 +37,7 @@ work = do
       <$> getArgs
   name <- getProgName
   statusOf <$> case parsed of
-    -- The parser yields the help and the version as failures with the status of success.
+    -- The library treats --help and --version as parser failures with the status of success.
     Opt.Failure request
       | (text, ExitSuccess) <- Opt.renderFailure request name -> Subcommand.showHelp text
     _ -> Opt.handleParseResult parsed >>= Subcommand.run
@@ -49,7 +49,8 @@ statusOf end = case end of
   Failed -> ExitFailure 1
   Disproven -> ExitFailure 3
 
--- | The exit status 130 for Ctrl-C; other asynchronous exceptions are bugs.
+-- | The exit status after an asynchronous exception: 130 for Ctrl-C. Any other is reported as a
+-- bug.
 interrupted :: AsyncException -> IO ExitCode
 interrupted e = case e of
   UserInterrupt -> pure (ExitFailure 130)
@@ -61,7 +62,8 @@ crashed b = reportBug (show b)
 unexpected :: SomeException -> IO ExitCode
 unexpected e = reportBug (show e)
 
--- | Asks the user to report a bug of the compiler. The exit status is 70.
+-- | Asks the user to report a bug of the compiler; @what@ is the message of the exception. The exit
+-- status is 70.
 reportBug :: String -> IO ExitCode
 reportBug what = do
   hPutStrLn

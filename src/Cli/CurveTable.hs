@@ -1,5 +1,6 @@
--- | The tables of fitted curves (Ural paper, Tables 2–4): the sections of each curve with their
--- equations, and their deviations from the rows of the point table. Lengths are in mm.
+-- | The tables of fitted curves (Ural paper, Tables 2–4). A fitted curve consists of sections:
+-- lines, parabolas and arcs that approximate the points of a table in the program. The tables list
+-- the equations of the sections, and their deviations from the points. Lengths are in mm.
 module Cli.CurveTable
   ( fittings,
   )
@@ -27,7 +28,7 @@ import Part.Part qualified as Part
 fittings :: Part -> [Text]
 fittings = map (uncurry fitting . \(Located _ name, f) -> (name, f)) . Part.fittings
 
--- | The table of sections and the table of deviations of one curve.
+-- | The table of sections and the table of deviations of the curve with the given name.
 fitting :: Name -> Fitting -> Text
 fitting (Name name) Fitting {sections, deviations, fittedPoints} =
   "Curve "
@@ -68,7 +69,8 @@ fitting (Name name) Fitting {sections, deviations, fittedPoints} =
           ]
     fixed n (Mm x) = Decimal.fixed n x
 
--- | The equation of a section; its coefficients have as many decimals as in the Ural paper.
+-- | The equation of a section, with the decimals of the Ural paper: a polynomial y(x) for a line or
+-- a parabola, centre and radius in mm for an arc.
 equation :: Section.Section -> Text
 equation p = case Section.formula p of
   Section.Polynomial 0 b c -> "y = " <> Decimal.fixed 7 b <> " x " <> signed 6 c
@@ -78,6 +80,6 @@ equation p = case Section.formula p of
   where
     signed n x = (if x < 0 then "− " else "+ ") <> Decimal.fixed n (abs x)
 
--- | A count with its noun.
+-- | A count with its noun, which gets the plural ending unless the count is 1.
 counted :: Int -> Text -> Text
 counted n thing = Decimal.whole n <> " " <> thing <> (if n == 1 then "" else Text.singleton 's')

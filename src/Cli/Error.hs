@@ -1,7 +1,7 @@
 {-# OPTIONS_GHC -O0 #-}
 
 -- | Errors and warnings that concern files and the command line. Errors in programs and machine
--- descriptions belong to the stages that find them.
+-- descriptions are defined in the folders of the compiler passes that find them.
 module Cli.Error
   ( Error (..),
     Warning (..),
@@ -19,26 +19,30 @@ import Report.Report qualified as Report
 
 -- | Error of a file or of the command line.
 data Error
-  = -- | A file cannot be read, for the given reason.
+  = -- | The file named in the report's heading cannot be read, for the given reason.
     CannotRead Text
-  | -- | The given file cannot be written, for the given reason.
+  | -- | A file cannot be written. The arguments: its path, the reason.
     CannotWrite Text Text
   | -- | A file is not UTF-8 text.
     NotUtf8
-  | -- | The command line names no machine for a tape; the list has the built-in machines.
+  | -- | The command line names no machine for a tape. The list contains the names of the built-in
+    -- machines, for the hint.
     NoMachineForTape [Text]
-  | -- | The output would replace the given file, of which the program is made.
+  | -- | The output would replace this file, which is the program, one of its imports or one of its
+    -- machine descriptions.
     OverwritesProgram Text
-  | -- | Several tapes would be written to the given file.
+  | -- | Several tapes would be written to this path; @-@ is standard output.
     OneForSeveral Text
-  | -- | The tape has nothing in the range: the unit of the range (frame, row or line), and the
-    -- count of these units on the tape.
+  | -- | The range of the command line lies beyond the end of the tape. The arguments: the unit in
+    -- which the range counts (frame, row or line), and the count of these units on the tape.
     NothingInRange Text Int
-  | -- | The command line gives a value to this parameter, but an input sheet has no parameters.
+  | -- | The command line gives a value to the parameter of this name, but the program is an input
+    -- sheet, which has no parameters.
     SheetAssigned Text
   | -- | An input sheet cannot be formatted.
     SheetLaidOut
-  | -- | No report has the given code; the list has similar codes that exist.
+  | -- | No report has the code that the user asks about. The arguments: this code as the user wrote
+    -- it, and similar codes that exist, for the hint.
     UnknownCode Text [Text]
   deriving stock (Eq, Show)
 
@@ -108,7 +112,8 @@ toReport err = case err of
   where
     wrong = report Report.Error
 
--- | The reason why a file cannot be used, for the end of a sentence in another report.
+-- | The reason why a file cannot be read, without code and file name. It completes the sentence of
+-- another report, such as that on an @import@ statement.
 reason :: Error -> Text
 reason err = case err of
   CannotRead why -> why

@@ -20,8 +20,9 @@ import Surface.Formatter qualified as Formatter
 import Surface.Parser qualified as Parser
 import Surface.Syntax (Program)
 
--- | Formats one program in place, or from standard input to standard output. If the flag @--check@
--- is true, it writes no file: it prints the name of a program that is not in the canonical layout.
+-- | Formats one program in place, or from standard input to standard output if the file is @-@. If
+-- @checkOnly@ is true, it writes no file. It then prints the name of a program that is not in the
+-- canonical layout, and fails.
 fmt :: Reporter -> Bool -> FilePath -> IO Exit
 fmt reporter checkOnly file
   | LoadedProgram.isInputSheet file = failWith reporter (Text.pack file) SheetLaidOut
@@ -36,8 +37,9 @@ fmt reporter checkOnly file
   where
     name = if file == "-" then "<stdin>" else Text.pack file
 
--- | Writes or checks a formatted program. The arguments after the flag: the file, its name in
--- reports, its text as it is, and its text formatted.
+-- | Replaces a program by its formatted text; if @checkOnly@ is true, only compares the two. The
+-- @file@ may be @-@ for standard output. @name@ is the file's name in reports, @text@ the program
+-- as it was read.
 replaceText :: Reporter -> Bool -> FilePath -> Text -> Text -> Text -> IO Exit
 replaceText reporter checkOnly file name text formatted
   | checkOnly, formatted == text = pure Done
@@ -48,12 +50,13 @@ replaceText reporter checkOnly file name text formatted
     Output.writeFileWhole file (Encoding.encodeUtf8 formatted)
       >>= exitAfterWriting reporter "" name
 
--- | Reports the syntax errors of a program.
+-- | Reports the syntax errors of a program that cannot be formatted. The texts are the file's name
+-- in reports and the program. The result is true if there is an error.
 reportMistakes :: Reporter -> Text -> Text -> IO Bool
 reportMistakes reporter name text =
   Output.showReports reporter name source (map Surface.toReport (errors parsed))
   where
     source = Region.fromText name program
-    -- A byte order mark is not part of the program.
+    -- Columns in reports are counted without a byte order mark.
     program = Text.dropWhile (== '\xFEFF') (Text.take 1 text) <> Text.drop 1 text
     parsed = Parser.parse 0 program :: Result Report Surface.Error Program

@@ -1,4 +1,5 @@
--- | Frames as a table or as JSON lines.
+-- | Frames as a table or as JSON lines. Increments and arc centres are in pulses, positions in mm,
+-- feeds in mm\/min. The column @speed@ has the feed code, by which the tape names a feed.
 module Cli.FrameTable
   ( frames,
     framesJson,
@@ -35,8 +36,8 @@ data Column a = Column {align :: Align, title :: Text, cell :: a -> Text}
 -- | A frame with its number, from 1, and the position of the cutter at its end, in pulses.
 data Numbered = Numbered {number :: Int, planned :: PlannedFrame, to :: Pulses3}
 
--- | A table of frames, each with the line of the program from which it is made. Columns that would
--- be empty are left out.
+-- | The table of the frames of a program. Each row ends with the line of the program from which the
+-- frame is made, and its commands. A column that would be empty in all rows is left out.
 frames :: Machine -> Source -> FrameProgram -> Text
 frames machine source program = table columns rows
   where
@@ -70,8 +71,8 @@ frames machine source program = table columns rows
         )
     coordinate = Decimal.fixed 3
 
--- | Frames as JSON, one object on each line. Increments and centres are in pulses, positions in mm,
--- feeds in mm\/min.
+-- | The frames of a program as JSON, one object on each line. Every object has all fields, except
+-- that only arcs have @centre@; a feed that is not known is @null@.
 framesJson :: Machine -> Source -> FrameProgram -> Text
 framesJson machine source program = Text.concat (map row (numbered program))
   where
@@ -109,7 +110,8 @@ framesJson machine source program = Text.concat (map row (numbered program))
         (LazyByteString.toStrict (encodingToLazyByteString (Aeson.value (object pairs))))
         <> "\n"
 
--- | A table of frames that were read from a tape.
+-- | The table of frames that were read from a tape. It has no positions and no lines of a program,
+-- because the tape contains neither.
 decoded :: Machine -> [Frame] -> Text
 decoded machine fs = table columns (zip [1 :: Int ..] fs)
   where
@@ -130,14 +132,13 @@ table :: [Column a] -> [a] -> Text
 table columns rows =
   Table.columns (map align columns) (map title columns : map (\r -> map (`cell` r) columns) rows)
 
--- | Changes a column for rows of type @a@ to one for rows of type @b@, by the function that gets
--- the
--- @a@ out of a @b@.
+-- | Makes a column for rows of type @b@ from a column for rows of type @a@. @get@ takes the @a@ out
+-- of a row.
 via :: (b -> a) -> Column a -> Column b
 via get c = c {cell = cell c . get}
 
--- | Columns for the increments in pulses. If some frames are arcs or rapid moves, also one for the
--- kind of motion; if some are arcs, also those for their centres.
+-- | Columns for the increments in pulses. If some frames are arcs or rapid moves, there is also a
+-- column for the kind of motion. If some frames are arcs, there are also columns for their centres.
 motionColumns :: [Frame] -> [Column Frame]
 motionColumns fs =
   [ Column ToLeft "motion" (motionWord . motion)
@@ -157,11 +158,12 @@ motionColumns fs =
     pulses (Pulses n) = Decimal.whole n
     ofCentre get f = if isArc f then pulses (get (centre f)) else ""
 
--- | A column that marks braking frames; none if there are no such frames.
+-- | A column that marks the frames of braking sections; the empty list if no frame brakes.
 brakeColumn :: [Frame] -> [Column Frame]
 brakeColumn fs = [Column ToLeft "" (\f -> if braking f then "brakes" else "") | any braking fs]
 
--- | A column for the number of each command that occurs in the frames.
+-- | One column for each command that occurs in the frames. A cell has the number that the frame
+-- gives to the command, such as that of the tool in a tool change.
 commandColumns :: [Frame] -> [Column Frame]
 commandColumns fs =
   [ Column ToRight name (maybe "" Decimal.whole . lookup o . commands)
@@ -183,7 +185,8 @@ motionWord m = case m of
   Circular Clockwise -> "arc cw"
   Circular CounterClockwise -> "arc ccw"
 
--- | The frames with their numbers and end positions.
+-- | The frames with their numbers, from 1, and their end positions: sums of the increments from the
+-- start of the program.
 numbered :: FrameProgram -> [Numbered]
 numbered program =
   zipWith3
@@ -194,8 +197,8 @@ numbered program =
   where
     ps = Frame.plannedFrames program
 
--- | The line of the program from which a frame is made; if it is in an imported file, with its
--- name.
+-- | The number of the line from which a frame is made. If that line is in an imported file, the
+-- name of the file precedes the number.
 lineWord :: Source -> PlannedFrame -> Text
 lineWord source p =
   (if file == Region.mainFile source then "" else file <> ":") <> Decimal.whole (lineOf source p)

@@ -35,10 +35,11 @@ import Surface.Import qualified as Import
 import System.Directory (canonicalizePath)
 import System.FilePath (takeDirectory, (</>))
 
--- | A loaded program, its name in reports, and the values for its parameters.
+-- | A loaded program, its name in reports, and the names and values of the parameters that the
+-- command line sets.
 data Input = Input {name :: Text, loaded :: LoadedProgram, values :: [(Text, Text)]}
 
--- | The texts of a program.
+-- | The text of a program with the texts of its imports, to which the regions in reports refer.
 source :: Input -> Source
 source = LoadedProgram.source . loaded
 
@@ -47,8 +48,9 @@ source = LoadedProgram.source . loaded
 withoutSurface :: Input -> Input
 withoutSurface input = input {loaded = LoadedProgram.withoutSurface (loaded input)}
 
--- | Loads a program, its imports, and the machine descriptions that the program or the command line
--- (@targets@) names; then continues with it. If the program cannot be read, it reports that.
+-- | Loads a program, its imports and its machine descriptions, and continues with them. The
+-- descriptions are those that the program names and those in @targets@, which the command line
+-- names. If the program cannot be read, the command fails with a report.
 withInput :: Reporter -> FilePath -> [Text] -> (Input -> IO Exit) -> IO Exit
 withInput reporter file targets continue = do
   content <- readProgram file
@@ -70,8 +72,8 @@ withInput reporter file targets continue = do
   where
     values = Output.values (Output.settings reporter)
 
--- | The files of which a program is made: the program itself, its imports, its machine
--- descriptions.
+-- | The paths of the files from which a program is compiled: the program itself, its imports, its
+-- machine descriptions. No output may replace them.
 ownFiles :: FilePath -> Input -> [FilePath]
 ownFiles file input = file : imported <> concatMap asWritten described
   where
@@ -81,7 +83,8 @@ ownFiles file input = file : imported <> concatMap asWritten described
     -- the program's folder if the program does. It is not known here which of them did.
     asWritten description = [description, takeDirectory file </> description]
 
--- | Supplies imported files by the given function. Two paths to the same file count as one file.
+-- | A reader of imported files that gets their texts from @contents@. It compares files by their
+-- canonical paths, so a file with two paths is imported only once.
 readerFrom :: (FilePath -> IO (Either Text Text)) -> Import.Reader IO
 readerFrom contents = Import.Reader {Import.contents, Import.identity}
   where
@@ -92,7 +95,8 @@ readerFrom contents = Import.Reader {Import.contents, Import.identity}
 readContents :: FilePath -> IO (Either Text Text)
 readContents file = either (Left . Cli.reason) Right <$> readProgram file
 
--- | The text of a program file, without a byte order mark.
+-- | The text of a program file, or of standard input for @-@, without a byte order mark. The error
+-- is 'CannotRead' or 'NotUtf8'.
 readProgram :: FilePath -> IO (Either Error Text)
 readProgram file = do
   bytes <- readBytes file
@@ -105,8 +109,9 @@ readProgram file = do
 readBytes :: FilePath -> IO (Either Error ByteString)
 readBytes file = either (Left . CannotRead) Right <$> Output.readBytes file
 
--- | Loads the machine descriptions that the command line names, and puts them before the given
--- ones, which are those of the program. Names of built-in machines need no file.
+-- | Loads the machine descriptions that the command line names in @targets@, and puts them before
+-- @own@, the descriptions of the program. The names of built-in machines in @targets@ are skipped,
+-- because these machines have no file.
 descriptionsFor :: [Text] -> Descriptions -> IO Descriptions
 descriptionsFor targets own =
   (<> own)

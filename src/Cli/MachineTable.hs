@@ -20,7 +20,7 @@ import Data.Text (Text)
 import Data.Text qualified as Text
 import Machine.Machine
 
--- | The names and titles of machines, one line for each.
+-- | The list of machines: one line for each, with its name and its title.
 machineList :: [Machine] -> Text
 machineList ms = Table.columns [ToLeft, ToLeft] [[n, title m] | m <- ms, let MachineName n = name m]
 
@@ -84,8 +84,9 @@ tapeRows m =
     t = medium m
     blanks k = Decimal.whole k <> " blank row" <> (if k == 1 then "" else "s")
 
--- | The symbols that frames use, each with its row as binary digits (1 is a hole), the highest
--- track first.
+-- | The table of the symbols that frames use. A row has a symbol and its tracks as binary digits,
+-- the highest track first; 1 is a hole. If frames have a check digit, the row also has the weight
+-- with which the symbol counts in the check sum.
 codeRows :: Machine -> [[Text]]
 codeRows m =
   line "symbol" "weight" ("tracks " <> Text.concat (map Decimal.whole tracksDown)) :
@@ -127,7 +128,8 @@ codeRows m =
       AWord w -> Text.unpack (address w)
       CheckDigit _ -> []
 
--- | True of a machine whose frames have a check digit.
+-- | True if the frames of a machine have a check digit, which makes the sum of their weights a
+-- multiple of a given number.
 hasCheck :: Machine -> Bool
 hasCheck m = or [True | CheckDigit _ <- NonEmpty.toList (items (layout m))]
 
@@ -160,7 +162,8 @@ axisRows m =
 
 -- The frame ---------------------------------------------------------------------------------------
 
--- | True of a machine whose frames all have the same count of rows, each with a fixed meaning.
+-- | True if all frames of a machine have the same count of rows and each row has a fixed meaning.
+-- Other machines have frames of words with addresses.
 isGrid :: Machine -> Bool
 isGrid m = all fixed (NonEmpty.toList (items (layout m)))
   where
@@ -173,7 +176,9 @@ isGrid m = all fixed (NonEmpty.toList (items (layout m)))
           && padded (form w)
           && sign (form w) `elem` [Unsigned, ServiceSign]
 
--- | The table of a frame of fixed rows: the meaning of each row.
+-- | The table of a frame with fixed rows, see 'isGrid'. Each row has its number from 1, the value
+-- of which it is a digit, and the meaning of a hole in the service track. The service track of a
+-- tape contains signs and marks.
 gridRows :: Machine -> [[Text]]
 gridRows m =
   ["row", "digit of", "service track"] :
@@ -192,7 +197,8 @@ gridRows m =
                 <> replicate (digits (form w) - length (service (form w))) ""
         ]
 
--- | The table of a frame of words: the form of each word.
+-- | The table of a frame with words. Each row has the address of a word, the quantity that the word
+-- contains, its digits, its sign, and the frames in which it occurs.
 wordRows :: Machine -> [[Text]]
 wordRows m =
   ["address", "holds", "digits", "sign", "stands"] :
@@ -223,7 +229,7 @@ wordRows m =
     servicesText ss =
       if all (== NoHole) ss then "" else "holes: " <> Text.intercalate ", " (map serviceWord ss)
 
--- | The code of each kind of motion.
+-- | The table of motion codes: each number that frames use, with the kind of motion that it means.
 motionRows :: Machine -> [[Text]]
 motionRows m =
   concat
@@ -295,7 +301,8 @@ feedRows m = ["code", unit, ""] : listed
             | (FeedCode c, v) <- Map.toList t
           ]
 
--- | Replaces the middle rows of a table of more than 13 rows by one row of dots.
+-- | Shortens a table that has more than 13 rows: one row of dots replaces all but the first rows
+-- and the last two.
 abbreviated :: [[Text]] -> [[Text]]
 abbreviated rows
   | length rows <= longest + 1 = rows
@@ -371,6 +378,6 @@ markWord mark = case mark of
   Corrected -> "corrected"
   Reconstructed -> "reconstructed"
 
--- | Symbols between quotation marks; a line feed becomes @\\n@.
+-- | Tape symbols between quotation marks; a line feed is shown as @\\n@.
 quoted :: Text -> Text
 quoted t = "‘" <> Text.replace "\n" "\\n" t <> "’"

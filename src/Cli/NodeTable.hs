@@ -1,7 +1,9 @@
 -- | The tables of the subcommand @report@, after the Ural paper: the nodes of every equidistant,
 -- lengths, times, and the length of the tape.
 --
--- Coordinates and lengths are in mm, times in seconds.
+-- Coordinates and lengths are in mm, times in seconds. Nodes are numbered from 0. A section is the
+-- part of a pass from one node to the next: a line, an arc, or all arcs of one curve. The 'Milling'
+-- of a pass is the statement of the program that causes it.
 module Cli.NodeTable
   ( nodes,
   )
@@ -34,7 +36,8 @@ import Toolpath.Toolpath (Block (..), Move (..), Pass (..), Toolpath, heights, p
 import Toolpath.Toolpath qualified as Toolpath
 
 -- | The tables of a part: curves, contours, pockets, holes, rest material, sums. Times are computed
--- with the feeds of the machine; without a machine, with those of the program.
+-- with the feeds of the machine; without a machine, with those of the program. Without a machine
+-- there is also no tape whose length could be listed.
 nodes :: Maybe (Machine, Punched) -> Analysis -> Text
 nodes punched Analysis {part, path} =
   Text.intercalate
@@ -57,11 +60,11 @@ heading part =
     <> maybe "" (": " <>) (Part.title part)
     <> "\n"
 
--- | The passes along contours.
+-- | The passes along contours: the milling statement, the pass, its moves.
 cutsOf :: Toolpath -> [(Located Milling, Pass, [Move])]
 cutsOf path = [(job, pass, NonEmpty.toList cut) | Cutting {job, pass, cut} <- Toolpath.blocks path]
 
--- | The passes in pockets, each with the milling of the pocket's wall.
+-- | The passes that clear pockets: the milling of the pocket's wall, the pass, its moves.
 clearingsOf :: Toolpath -> [(Located Milling, Pass, [Move])]
 clearingsOf path =
   [ (Part.wall <$> pocket, pass, NonEmpty.toList cleared)
@@ -70,7 +73,8 @@ clearingsOf path =
 
 -- Passes ------------------------------------------------------------------------------------------
 
--- | The nodes of one pass along a contour, from the entry.
+-- | The table of one pass along a contour: its nodes, beginning where the cutter enters, with
+-- length and time.
 contourTable :: Maybe Machine -> Located Milling -> Pass -> [Move] -> Text
 contourTable machine job pass cut =
   "Contour "
@@ -110,7 +114,8 @@ pocketText machine wall pass cleared =
 nameOf :: Located Milling -> Text
 nameOf job = let Name n = value (Part.contourName (Part.contour (value job))) in n
 
--- | The height of a pass and the allowance that it leaves, each only if it is not 0.
+-- | The words for the height of a pass and for the allowance that it leaves. Each is left out if it
+-- is 0.
 passWord :: Pass -> Text
 passWord Pass {left, atHeight} =
   (if atHeight == Mm 0 then "" else " at z = " <> fixed3 atHeight)
@@ -132,8 +137,8 @@ lengthAndTime machine moves =
     <> seconds (total (map (moveTime machine) moves))
     <> " s\n"
 
--- | One row for each section, from one node to the next. An open contour also has a row for its
--- last node. All arcs of a curve are one section.
+-- | One row for each section, with the coordinates of its first node. An open contour also has a
+-- row for its last node; on a closed contour the last section ends at node 0.
 sectionRows :: Maybe Machine -> Part.Ends -> [NonEmpty Move] -> [[Text]]
 sectionRows machine ends sections =
   zipWith (sectionRow machine (length sections) ends) [0 ..] sections <> endRow ends sections
@@ -181,7 +186,7 @@ centreAndRadius section = case segment (NonEmpty.head section) of
 
 -- Holes and sums ----------------------------------------------------------------------------------
 
--- | The table of all holes; none if there are no holes.
+-- | The table of all holes; the empty list if there are no holes.
 holeTable :: [Drilling] -> [Text]
 holeTable drillings =
   [ "Holes\n\n"
@@ -231,8 +236,8 @@ tapeRows machine Punched {program, tape} =
 -- Moves -------------------------------------------------------------------------------------------
 
 -- | The time of a move at the feed of the machine; without a machine, at the feed of the program. A
--- rapid move counts as 0 s if its speed is unknown: if there is no machine, or if the control of
--- the machine chooses the speed itself.
+-- rapid move counts as 0 s if its speed is unknown. That is the case without a machine, and if the
+-- control of the machine chooses the speed itself.
 moveTime :: Maybe Machine -> Move -> Seconds
 moveTime machine move = maybe (Seconds 0) (travelTime (moveLength move)) (feedOf (pace move))
   where

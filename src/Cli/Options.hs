@@ -27,13 +27,15 @@ import Text.Read (readMaybe)
 data Invocation = Invocation {settings :: OutputSettings, command :: Subcommand}
   deriving stock (Eq, Show)
 
--- | A subcommand with its arguments. Without a machine, it is that of the program; without a file
--- to write, it is standard output.
+-- | A subcommand with its arguments. A @Maybe Text@ is the name or the file of a machine; nothing
+-- means the machine that the program names. A @Maybe FilePath@ is a file to write; nothing means
+-- standard output. Comments on constructors say where this differs.
 data Subcommand
   = Compile CompileOptions
   | -- | the programs
     Check (NonEmpty FilePath)
-  | -- | the program, the machine, the tape
+  | -- | the program, the machine, the file of the tape; without a file, the tape that the compiler
+    -- makes of the program is proven
     Verify FilePath (Maybe Text) (Maybe FilePath)
   | -- | the program, the machine, true for JSON lines instead of a table
     Frames FilePath (Maybe Text) Bool
@@ -43,15 +45,16 @@ data Subcommand
     Import FilePath (Maybe FilePath)
   | -- | the program, the input sheet to write
     ExportSheet FilePath (Maybe FilePath)
-  | -- | the machine, the tape
+  | -- | the machine, without which the command fails; the tape
     Decode (Maybe Text) FilePath
   | -- | the program, the drawing to write
     Plot FilePath (Maybe FilePath)
-  | -- | the machine, the rows to show, the tape
+  | -- | the machine, without which the command fails; the rows to show; the tape
     DrawTape (Maybe Text) RowRange FilePath
-  | -- | the machine, or the list of all; true for the text of the description instead of a table
+  | -- | the machine, or nothing for the list of all machines; true for the text of the machine's
+    -- description instead of a table
     Machines (Maybe Text) Bool
-  | -- | the report code, or the list of all
+  | -- | the report code, or nothing for the list of all codes
     Explain (Maybe Text)
   | LanguageServer
   | -- | true to check the layout and write nothing; the programs
@@ -61,9 +64,10 @@ data Subcommand
 -- | The arguments of @compile@.
 data CompileOptions = CompileOptions
   { file :: FilePath,
-    -- | names of machines; an empty list means the program's own machine
+    -- | names or files of machines; an empty list means the machine that the program names
     targets :: [Text],
-    -- | the file or folder to write to; nothing for a file beside the program
+    -- | the file or folder to write to, @-@ for standard output; nothing for a file in the folder
+    -- of the program
     place :: Maybe FilePath,
     -- | true to write tapes without verification
     unproven :: Bool
@@ -175,8 +179,8 @@ commands =
             (Opt.progDesc description <> Opt.footer ("Example: " <> example) <> Opt.failureCode 2)
         )
 
--- | The options that editors pass to every language server. They have no effect: this server always
--- uses standard input and output, and ends with its input.
+-- | The options that editors pass to every language server. They are accepted without effect. This
+-- server always uses standard input and output, and ends when its input ends.
 editorOptions :: Parser ()
 editorOptions =
   void (Opt.switch (Opt.long "stdio" <> Opt.internal))
@@ -263,7 +267,8 @@ rangeOption =
         )
     <|> pure TapeRows.Everything
 
--- | A range of numbers from 1 with both ends included: @3..8@, or @3@ for @3..3@.
+-- | Reads a range of numbers that count from 1, for example @3..8@; @3@ means @3..3@. The result is
+-- the first and the last number of the range.
 fromTo :: Opt.ReadM (Int, Int)
 fromTo =
   Opt.eitherReader $ \word ->
@@ -280,8 +285,8 @@ outputOption help =
   Opt.strOption
     (Opt.long "output" <> Opt.short 'o' <> Opt.metavar "PATH" <> Opt.help help <> Opt.action "file")
 
--- | The settings that the command line gives before or after the subcommand; nothing and false mean
--- that it does not give them.
+-- | The general settings, as they are written either before or after the subcommand. Nothing, false
+-- and the empty list mean that a setting is not written there.
 data Overrides = Overrides
   { format' :: Maybe Format,
     colour' :: Maybe ColourChoice,
@@ -328,7 +333,8 @@ overrides =
           )
       )
 
--- | The value of one of these words.
+-- | Reads one of the words of a table, and gives its value. Any other word is an error that lists
+-- the words.
 choice :: [(String, a)] -> Opt.ReadM a
 choice table = Opt.eitherReader $ \word ->
   maybe
@@ -336,7 +342,7 @@ choice table = Opt.eitherReader $ \word ->
     Right
     (lookup word table)
 
--- | A parameter's name and its value, as in @d=25 mm@.
+-- | Reads a parameter's name and its value, as in @d=25 mm@. The value is not parsed here.
 assignment :: Opt.ReadM (Text, Text)
 assignment = Opt.eitherReader $ \word -> case Text.breakOn "=" (Text.pack word) of
   (name, rest)
@@ -345,8 +351,8 @@ assignment = Opt.eitherReader $ \word -> case Text.breakOn "=" (Text.pack word) 
       Right (Text.strip name, Text.drop 1 rest)
   _ -> Left ("‘" <> word <> "’ is not NAME=VALUE")
 
--- | Joins the settings after the subcommand (the first argument) with those before it. If both give
--- a setting, the first argument wins.
+-- | Joins the settings written after the subcommand (@later@) with those written before it
+-- (@earlier@). If both have a format or a choice of colour, that of @later@ is taken.
 over :: Overrides -> Overrides -> Overrides
 over later earlier =
   Overrides

@@ -1,5 +1,5 @@
 -- | The last steps of subcommands: report an error, print a result, or continue with a result that
--- has no errors.
+-- has no errors. A 'Reporter' writes the reports of one run of partc.
 module Cli.Outcome
   ( failWith,
     failWithReport,
@@ -24,18 +24,18 @@ import Control.Monad (void)
 import Data.Text (Text)
 import Report.Report (Report)
 
--- | Fails with an error that concerns a whole file. The text is the file's name in the report; it
--- is empty for an error that concerns no file.
+-- | Reports an error that concerns a whole file; the exit status is 'Failed'. @name@ is the file's
+-- name in the report. It is empty for an error that concerns no file.
 failWith :: Reporter -> Text -> Error -> IO Exit
 failWith reporter name = failWithReport reporter name . Cli.toReport
 
--- | Fails with a report that concerns a whole file.
+-- | Writes a report that concerns the whole file @name@; the exit status is 'Failed'.
 failWithReport :: Reporter -> Text -> Report -> IO Exit
 failWithReport reporter name report =
   Failed <$ Output.showReports reporter name (Region.fromText name "") [report]
 
--- | Computes a result, writes its reports, and continues with its output if no report stops the
--- command, see 'Output.showReports'. The name and the source are those of the program.
+-- | Computes @result@ and writes its reports. It continues with the output if no report stops the
+-- command, see 'Output.showReports'. @name@ is the program's name in reports, @source@ its text.
 whenSound :: Reporter -> Text -> Source -> Result Report Report a -> (a -> IO Exit) -> IO Exit
 whenSound reporter name source result continue = do
   Progress.during ("working on " <> name) (evaluated result)
@@ -45,17 +45,19 @@ whenSound reporter name source result continue = do
     Nothing | not isStopped -> bug "a stage gave neither an output nor a report"
     _ -> pure Failed
 
--- | Evaluates a result until all its errors and warnings are known.
+-- | Evaluates a result until all its errors and warnings are known. The progress message thus
+-- covers the time of the computation.
 evaluated :: Result w e a -> IO ()
 evaluated result = void (evaluate (length (errors result) + length (warnings result)))
 
--- | Prints the result of a command on standard output.
+-- | Prints the result of a command on standard output. The exit status is 'Failed' if that fails.
 printResult :: Reporter -> Text -> IO Exit
 printResult reporter text =
   Output.result text >>= exitAfterWriting reporter "" "to standard output"
 
--- | The exit status after writing. The arguments: the name of the file in the report, the
--- destination as the report calls it, and the result of writing, with the reason of a failure.
+-- | The exit status after a result was written; a failure is also reported. @name@ is the name of
+-- the program in this report, empty for none. @destination@ is the file written, in the words of
+-- the report. A 'Left' in @written@ is the reason of the failure.
 exitAfterWriting :: Reporter -> Text -> Text -> Either Text () -> IO Exit
 exitAfterWriting reporter name destination written = case written of
   Left why -> failWith reporter name (CannotWrite destination why)

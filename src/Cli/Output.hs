@@ -65,11 +65,13 @@ import System.Posix.Files
     setFileMode,
   )
 
--- | The form of reports.
+-- | The form of reports: excerpts for a person, one line each, one JSON object each, or one SARIF
+-- log.
 data Format = HumanFormat | ShortFormat | JsonFormat | SarifFormat
   deriving stock (Eq, Show)
 
--- | When reports are coloured. 'Auto' colours them on a terminal, unless @NO_COLOR@ is set.
+-- | The user's choice of coloured reports. 'Auto' colours them if they go to a terminal and the
+-- environment variable @NO_COLOR@ is not set.
 data ColourChoice = Auto | Always | Never
   deriving stock (Eq, Show)
 
@@ -81,7 +83,7 @@ data OutputSettings = OutputSettings
     quiet :: Bool,
     -- | true if warnings count as errors
     werror :: Bool,
-    -- | values for the parameters of the program, by their names
+    -- | names of parameters of the program, with the values that replace those of the program
     values :: [(Text, Text)]
   }
   deriving stock (Eq, Show)
@@ -91,17 +93,17 @@ defaultSettings :: OutputSettings
 defaultSettings =
   OutputSettings {format = HumanFormat, colour = Auto, quiet = False, werror = False, values = []}
 
--- | The exit status of a command. A greater one is worse, so the maximum is the status of several
--- commands.
+-- | The exit status of a command. The constructors are in ascending order of severity. A command on
+-- several files ends with the maximum of the statuses of these files.
 data Exit
   = Done
   | -- | the program or the tape has errors, or a file cannot be read or written
     Failed
-  | -- | the tape differs from the part
+  | -- | the proof finds that the tape does not make the part
     Disproven
   deriving stock (Eq, Ord, Show)
 
--- | The reason why a file cannot be read or written.
+-- | The reason why a file cannot be read or written, for the end of a report's sentence.
 ioProblem :: IOException -> Text
 ioProblem e
   | isDoesNotExistError e = "there is no such file or folder"
@@ -115,11 +117,11 @@ ioProblem e
   where
     Errno closed = eBADF
 
--- | The means to write the reports of one run. SARIF has one log for the whole run, so its reports
--- are collected in @collected@, the latest first.
+-- | The means to write the reports of one run of partc. SARIF has one log for the whole run. So its
+-- reports are kept in @collected@, the latest first; for other formats the list stays empty.
 data Reporter = Reporter {settings :: OutputSettings, collected :: IORef [Filed]}
 
--- | Runs a command, and writes the collected reports at its end.
+-- | Runs a command, and writes the SARIF log of the collected reports at its end.
 reporting :: OutputSettings -> (Reporter -> IO a) -> IO a
 reporting settings work = do
   collected <- newIORef []
@@ -131,9 +133,9 @@ reporting settings work = do
     JsonFormat -> pure ()
   pure a
 
--- | Writes the reports about one file. The result is true if one of them stops the command: an
--- error, or a warning if 'werror' is true. The arguments: the name and the source of the file, the
--- reports.
+-- | Writes the reports about one file. The result is true if one of the reports stops the command:
+-- an error, or a warning if 'werror' is true. @path@ is the name of the file; @source@ is its text,
+-- to which the regions refer.
 showReports :: Reporter -> Text -> Source -> [Report] -> IO Bool
 showReports Reporter {settings, collected} path source reports = do
   case format settings of
@@ -154,17 +156,18 @@ showReports Reporter {settings, collected} path source reports = do
       Report.sorted
         (if quiet settings && not (werror settings) then filter Report.isError reports else reports)
 
--- | Greatest count of reports that are shown to a person.
+-- | The greatest count of reports that are shown to a person in 'HumanFormat'. A line then says how
+-- many are left out.
 mostReports :: Int
 mostReports = 50
 
--- | Writes to standard error. A failure, such as a closed pipe, does not stop the command.
+-- | Writes a text to standard error. A failure, such as a closed pipe, does not stop the command.
 writeError :: Text -> IO ()
 writeError text = do
   _ <- try (Text.hPutStr stderr text) :: IO (Either IOException ())
   pure ()
 
--- | Decides if reports to a stream are coloured.
+-- | Decides if reports that go to the stream @handle@ are coloured.
 useColour :: OutputSettings -> Handle -> IO Human.Colour
 useColour settings handle = case colour settings of
   Always -> pure Human.Coloured
@@ -179,8 +182,8 @@ useColour settings handle = case colour settings of
           else Human.Plain
       )
 
--- | Writes a result to standard output. The value is the reason of a failure. If the reader has
--- closed the pipe, that is not a failure.
+-- | Writes a command's result to standard output. 'Left' is the reason of a failure. A pipe that
+-- its reader has closed is not a failure, because the reader wants no more.
 result :: Text -> IO (Either Text ())
 result = resultBytes . Encoding.encodeUtf8
 
@@ -200,7 +203,7 @@ readBytes file =
     <$> try (if file == "-" then ByteString.getContents else ByteString.readFile file)
 
 -- | Writes a file under a temporary name and renames it, so the old file stays until the new one is
--- complete. A device or a pipe is written directly. The value is the reason of a failure.
+-- complete. A device or a pipe is written directly. 'Left' is the reason of a failure.
 writeFileWhole :: FilePath -> ByteString -> IO (Either Text ())
 writeFileWhole path bytes = either problem Right <$> try write
   where

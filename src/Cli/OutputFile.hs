@@ -1,4 +1,5 @@
--- | The files that subcommands write. No output replaces a file from which it is made.
+-- | The files that subcommands write. An output that would replace one of its own source files is
+-- refused. The sources are the program, its imports and its machine descriptions.
 module Cli.OutputFile
   ( writeTapes,
     writeText,
@@ -28,8 +29,9 @@ import System.FilePath
   )
 import Tape.Tape (Tape (..))
 
--- | Writes the tapes of a program. The arguments: the program's name in reports, its file, all
--- files of which it is made, the output path of the command line, and the tapes.
+-- | Writes the tapes of a program. @name@ is the program's name in reports, @file@ its path.
+-- @sources@ are the files that must not be replaced. @wanted@ is the output path of the command
+-- line, if there is one. Nothing is written if two tapes have the same destination.
 writeTapes ::
   Reporter ->
   Text ->
@@ -46,9 +48,10 @@ writeTapes reporter name file sources wanted tapes = do
     (Nothing, Just path) -> failWith reporter name (OneForSeveral (Text.pack path))
     (Nothing, Nothing) -> writeAll reporter (zip destinations [bytes | (_, Tape bytes) <- tapes])
 
--- | The path of a tape. Without an output path it is beside the program. If the output path is a
--- folder, or if there are several tapes (@count@), it is in that folder. Otherwise it is the output
--- path itself.
+-- | The path of the tape for a machine. @file@ is the program, @wanted@ the output path of the
+-- command line, @count@ the count of all tapes. Without an output path the tape is put into the
+-- program's folder. An output path that is a folder, or is given for several tapes, contains the
+-- tape. Otherwise the output path is the tape.
 destination :: FilePath -> Maybe FilePath -> Int -> Machine -> IO FilePath
 destination file wanted count machine = case wanted of
   Nothing -> pure (if file == "-" then standard else replaceDirectory standard folder)
@@ -67,13 +70,14 @@ destination file wanted count machine = case wanted of
       base <.> Text.unpack machineName <.> Text.unpack (Machine.suffix (Machine.medium machine))
     folder = take (length file - length (takeFileName file)) file
 
--- | The first element that occurs again later in the list.
+-- | The first element that occurs again later in the list; nothing if all elements differ.
 firstRepeated :: Eq a => [a] -> Maybe a
 firstRepeated items = case items of
   [] -> Nothing
   first : more -> if first `elem` more then Just first else firstRepeated more
 
 -- | The first destination that is the same file as one of the sources, even under another path.
+-- Nothing if no source would be replaced.
 overwritten :: [FilePath] -> [FilePath] -> IO (Maybe FilePath)
 overwritten sources destinations = do
   present <- filterM doesFileExist sources
@@ -81,7 +85,8 @@ overwritten sources destinations = do
   paths <- traverse canonicalizePath destinations
   pure (listToMaybe [given | (path, given) <- zip paths destinations, path `elem` sourcePaths])
 
--- | Writes files one after the other, up to the first that cannot be written.
+-- | Writes bytes to each path, in the order of the list; @-@ is standard output. It stops at the
+-- first path that cannot be written.
 writeAll :: Reporter -> [(FilePath, ByteString)] -> IO Exit
 writeAll reporter files = case files of
   [] -> pure Done
@@ -90,9 +95,8 @@ writeAll reporter files = case files of
     exit <- exitAfterWriting reporter "" (Text.pack path) written
     if exit == Done then writeAll reporter more else pure exit
 
--- | Writes a text to a file, or to standard output if there is no path or the path is @-@. The
--- arguments: the name of the program in reports, all files of which the text is made, the output
--- path, and the text.
+-- | Writes a text to the file @wanted@, or to standard output if this is nothing or @-@. @name@ is
+-- the program's name in reports. @sources@ are the files that must not be replaced.
 writeText :: Reporter -> Text -> [FilePath] -> Maybe FilePath -> Text -> IO Exit
 writeText reporter name sources wanted text = case wanted of
   Just path | path /= "-" -> do

@@ -12,8 +12,8 @@ import Data.Text (Text)
 import Data.Text.IO qualified as Text
 import System.IO (hFlush, hIsTerminalDevice, stderr)
 
--- | Runs an action. If it takes longer than a second, the terminal shows the text and the elapsed
--- seconds until the action ends.
+-- | Runs an action. If it takes longer than a second, the terminal shows @text@ and the elapsed
+-- seconds until the action ends. The message goes to standard error, if that is a terminal.
 during :: Text -> IO a -> IO a
 during text work = do
   isTerminal <- hIsTerminalDevice stderr

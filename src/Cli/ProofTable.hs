@@ -18,8 +18,9 @@ import Machine.Machine qualified as Machine
 import Verify.Proof (ContourProof (..), Proof, Witness (..))
 import Verify.Proof qualified as Proof
 
--- | The table: for each contour the largest gouge and the largest excess in mm, with the allowed
--- value and the frame; then facts about the whole tape, and the verdict.
+-- | The proof as text. A table has for each contour the largest gouge and the largest excess in mm,
+-- the allowed values, and the frames where they occur. Facts about the whole tape and the verdict
+-- follow.
 proof :: Machine -> Proof -> Text
 proof machine p =
   Table.columns

@@ -24,7 +24,8 @@ import Toolpath.RestMaterial qualified as RestMaterial
 import Toolpath.Toolpath (Toolpath)
 
 -- | One table for each statement that leaves rest material. A row has the position of a region in
--- mm, its area in mm² if its boundary is known, the largest cutter that reaches it, and the reason.
+-- mm, its area in mm², the largest cutter that would reach it, and the reason why the cutter of the
+-- program does not. The area is empty if the boundary of the region is not known.
 tables :: Toolpath -> [Text]
 tables path = map table (RestMaterial.ofPath path)
 
@@ -41,7 +42,8 @@ table Remaining {tool, walls, RestMaterial.positions = regions} =
       [ToRight, ToRight, ToRight, ToRight, ToLeft]
       (["x", "y", "area mm²", "largest", "place"] : map (row tool) (NonEmpty.toList regions))
 
--- | The row of one region.
+-- | The row of one region. @tool@ is the cutter that leaves the region. @stay@ is the reason, and
+-- @rest@ the region itself.
 row :: Tool -> (RestPosition, UnreachedPart) -> [Text]
 row tool (stay, rest) = case stay of
   InCorner _ _ p -> at p "" "inner corner"

@@ -1,4 +1,6 @@
--- | The subcommands of @partc@, one function each.
+-- | The subcommands of @partc@, one function each. Arguments of these functions: @target@ is the
+-- name or the file of a machine, nothing for the machine that the program names. @wanted@ is the
+-- output path, nothing for standard output. The comments say where this differs.
 module Cli.Subcommand
   ( run,
     showHelp,
@@ -73,7 +75,7 @@ import Tape.Tape (Tape (..))
 run :: Invocation -> IO Exit
 run (Invocation settings command) = Output.reporting settings (`perform` command)
 
--- | Prints the help or the version.
+-- | Prints the text of the help or of the version, which is given without its last line end.
 showHelp :: String -> IO Exit
 showHelp text = Output.reporting Output.defaultSettings (`printResult` (Text.pack text <> "\n"))
 
@@ -97,11 +99,11 @@ perform reporter command = case command of
 
 -- Programs ----------------------------------------------------------------------------------------
 
--- | Writes the tapes of a program for all its targets.
+-- | Writes the tapes of a program, one for each machine that the command line names. If it names
+-- none, the tape is for the machine that the program names.
 compile :: Reporter -> CompileOptions -> IO Exit
 compile reporter options = withInput reporter (file options) (targets options) $ \given -> do
-  -- Evaluated here, it keeps no reference to the syntax tree, which can be freed while the tapes
-  -- are made.
+  -- An unevaluated @kept@ would hold the syntax tree in memory while the tapes are made.
   kept <- evaluate (withoutSurface given)
   let job = (jobFor (targets options) kept) {verification = chosen}
   settled reporter kept (withWarning =<< Compile.compile job (loaded given)) $ \tapes ->
@@ -117,13 +119,14 @@ compile reporter options = withInput reporter (file options) (targets options) $
     withWarning tapes =
       tapes <$ Result.warned [Cli.warningReport Unproven | unproven options, _ <- tapes]
 
--- | Reports the mistakes of a program, including frames that its own machine cannot execute. Makes
--- no tape.
+-- | Reports the mistakes of a program, including frames that the machine named in the program
+-- cannot execute. It makes no tape.
 check :: Reporter -> FilePath -> IO Exit
 check reporter file = withInput reporter file [] $ \given ->
   settled reporter given (Snapshot.checkWith (values given) (loaded given)) (const (pure Done))
 
--- | Proves a tape against its program. Without a tape it proves the one that the program gives.
+-- | Proves the tape in @tapeFile@ against the program in @file@. Without @tapeFile@ it proves the
+-- tape that the compiler makes of the program.
 verify :: Reporter -> FilePath -> Maybe Text -> Maybe FilePath -> IO Exit
 verify reporter file target tapeFile =
   withInput reporter file (maybeToList target) $ \given ->
@@ -135,8 +138,8 @@ verify reporter file target tapeFile =
   where
     tapeName given = maybe (name given) displayName tapeFile
 
--- | Reads a tape back, compares it with the part and prints the proof. The name is that of the
--- tape.
+-- | Reads the frames from a tape, compares them with the part and prints the proof. @tapeName@ is
+-- the tape's name in reports; @compiled@ has the toolpath and the frames that the tape should have.
 verifyTape :: Reporter -> Input -> Text -> Compiled -> Tape -> IO Exit
 verifyTape reporter given tapeName compiled rows =
   case Tape.readExpected machine (Frame.start (program punched)) (framesOf punched) rows of
@@ -151,7 +154,7 @@ verifyTape reporter given tapeName compiled rows =
   where
     Compiled {Compile.machine, Compile.toolpath, Compile.punched} = compiled
 
--- | Prints the frames of a program, as a table or as JSON lines.
+-- | Prints the frames of a program: as JSON lines if @asJson@ is true, otherwise as a table.
 frames :: Reporter -> FilePath -> Maybe Text -> Bool -> IO Exit
 frames reporter file target asJson = withInput reporter file (maybeToList target) $ \given ->
   settled reporter given (onFirstMachine target given) $
@@ -160,7 +163,8 @@ frames reporter file target asJson = withInput reporter file (maybeToList target
   where
     table = if asJson then FrameTable.framesJson else FrameTable.frames
 
--- | Prints the tables of a program, with a tape if the program or the command line names a machine.
+-- | Prints the tables of nodes, lengths and times of a program. If the program or the command line
+-- names a machine, the tables use its feeds and have the length of its tape.
 report :: Reporter -> FilePath -> Maybe Text -> IO Exit
 report reporter file target = withInput reporter file (maybeToList target) $ \given ->
   settled reporter given (analysed given) $ \(analysis, punched) ->
@@ -190,16 +194,18 @@ plot reporter file wanted = withInput reporter file [] $ \given ->
       wanted
       (Plot.plot (Compile.part analysis) (Compile.path analysis))
 
--- | Does what 'whenSound' does, with the name and the source of a program.
+-- | 'whenSound' with the name and the source of the program @given@. It continues with the result
+-- if no report stops the command.
 settled :: Reporter -> Input -> Result Report Report a -> (a -> IO Exit) -> IO Exit
 settled reporter given = whenSound reporter (name given) (source given)
 
--- | The job of compiling a program for machines of these names; for its own machine without a name.
+-- | The job of compiling a program for the machines of these names or files. If @names@ is empty,
+-- the program is compiled for the machine that it names.
 jobFor :: [Text] -> Input -> Job
 jobFor names given = Job.forTargets names (values given) (loaded given)
 
--- | Compiles a program for the machine of the command line; without one, for the program's own
--- machine. The tape is not verified.
+-- | Compiles a program for the machine @target@; if this is nothing, for the machine that the
+-- program names. The tape is not verified.
 onFirstMachine :: Maybe Text -> Input -> Result Report Report Compiled
 onFirstMachine target given = do
   tapes <- Compile.compile job {verification = Unverified} (loaded given)
@@ -249,7 +255,8 @@ decode reporter target tapeFile =
   withTape reporter target tapeFile $ \machine read' ->
     printResult reporter (FrameTable.decoded machine read')
 
--- | Prints the picture of the rows of a tape in a range.
+-- | Prints a picture of the holes in those rows of a tape that are in @range@. A range outside of
+-- the tape is an error.
 drawTape :: Reporter -> Maybe Text -> TapeRows.RowRange -> FilePath -> IO Exit
 drawTape reporter target range tapeFile = withTape reporter target tapeFile $ \machine read' -> do
   let rows = Tape.rows machine 0 read'
@@ -258,8 +265,9 @@ drawTape reporter target range tapeFile = withTape reporter target tapeFile $ \m
     Nothing -> failWith reporter (displayName tapeFile) (NothingInRange counted count)
     Just picture -> printResult reporter picture
 
--- | Reads a tape for which there is no program. The starting position of the cutter is not known
--- and is assumed to be 0.
+-- | Reads a tape for which there is no program, and continues with its machine and its frames. The
+-- tape does not say where the cutter starts, so the position 0 is assumed. Without @target@ the
+-- command fails.
 withTape :: Reporter -> Maybe Text -> FilePath -> (Machine -> [Frame] -> IO Exit) -> IO Exit
 withTape reporter target tapeFile continue = case target of
   Nothing -> failWith reporter tapeName (NoMachineForTape Target.builtInNames)
@@ -276,8 +284,9 @@ withTape reporter target tapeFile continue = case target of
 
 -- Machines, explanations, editors -----------------------------------------------------------------
 
--- | Lists the built-in machines, or shows one machine: as a table, or the text of its description.
--- Errors in a description are reported with their positions in it.
+-- | Lists the built-in machines, or shows the machine @wanted@. If @asText@ is true, it shows the
+-- text of the machine's description, otherwise tables of its data. Errors in a description are
+-- reported with their positions.
 machines :: Reporter -> Maybe Text -> Bool -> IO Exit
 machines reporter wanted asText = case wanted of
   Nothing -> printResult reporter (MachineTable.machineList BuiltIn.machines)
@@ -293,7 +302,8 @@ machines reporter wanted asText = case wanted of
           maybe (pure Failed) (printResult reporter) (BuiltIn.text (Machine.name machine))
         | otherwise -> printResult reporter (MachineTable.machineDetails machine)
 
--- | Prints the explanation of a report code, or the list of all codes.
+-- | Prints the explanation of the report code @wanted@, or the list of all codes if this is
+-- nothing.
 explain :: Reporter -> Maybe Text -> IO Exit
 explain reporter wanted = case wanted of
   Nothing -> printResult reporter Explanation.list

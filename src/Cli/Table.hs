@@ -13,8 +13,8 @@ import Text.DocLayout (realLength)
 -- | The alignment of a column.
 data Align = ToLeft | ToRight
 
--- | Lays out rows in columns, two spaces apart. Widths count the columns that characters take on a
--- terminal.
+-- | Lays out rows of cells in columns with two spaces between them. A column is as wide as its
+-- widest cell on a terminal, where some characters take two columns and others none.
 columns :: [Align] -> [[Text]] -> Text
 columns aligns rows =
   Text.unlines (map (Text.stripEnd . Text.intercalate "  " . zipWith3 pad aligns widths) rows)

@@ -1,4 +1,4 @@
--- | The capabilities of the client, and those that the server announces.
+-- | The capabilities of the client (the editor), and those that the server announces.
 module Lsp.Capability
   ( Client (..),
     fromInitialize,
@@ -12,7 +12,7 @@ import Data.Aeson.KeyMap qualified as KeyMap
 import Data.Foldable (toList)
 import Data.Text (Text)
 
--- | The capabilities of the client on which answers depend.
+-- | Those capabilities of the client that change the form of answers.
 data Client = Client
   { -- | true if a symbol may have two ranges: that of the statement and that of the name
     hierarchical :: Bool,
@@ -23,7 +23,8 @@ data Client = Client
   }
   deriving stock (Eq, Show)
 
--- | Reads the parameters of @initialize@. A capability that is missing there is false.
+-- | Reads the capabilities from the parameters of the request @initialize@. A capability that is
+-- missing there is false.
 fromInitialize :: Value -> Client
 fromInitialize params =
   Client
@@ -36,14 +37,15 @@ fromInitialize params =
   where
     at keys = within (["capabilities", "textDocument"] <> keys) params
 
--- | The value at a path of keys in nested objects.
+-- | The value at a path of keys in nested objects, the outermost key first. Nothing if a key is
+-- missing.
 within :: [Key] -> Value -> Maybe Value
 within keys value = case (keys, value) of
   ([], _) -> Just value
   (key : rest, Object o) -> KeyMap.lookup key o >>= within rest
   (_ : _, _) -> Nothing
 
--- | The answer to @initialize@.
+-- | The result of the request @initialize@: the name and the capabilities of the server.
 initializeResult :: Value
 initializeResult =
   object

@@ -1,4 +1,4 @@
--- | Reports as diagnostics of the protocol.
+-- | Reports as diagnostics of the protocol, which an editor shows at ranges of the document.
 module Lsp.Diagnostic
   ( publish,
     bug,
@@ -23,15 +23,15 @@ import Query.Snapshot qualified as Snapshot
 import Report.Report (Label (..), Report (..), ReportCode (..), ReportPlace (..), Severity (..))
 
 -- | The notification that replaces all diagnostics of a document by the reports of a snapshot.
--- Without a snapshot it removes them.
+-- Without a snapshot, it removes all diagnostics of the document.
 publish :: Client -> Document -> Maybe Snapshot -> Outgoing
 publish client document snapshot =
   notification
     document
     (maybe [] (\s -> map (diagnostic client (uri document) s) (Snapshot.reports s)) snapshot)
 
--- | The notification for a document whose analysis raised an exception, with the exception's
--- message.
+-- | The notification that replaces all diagnostics of a document by one: its analysis raised an
+-- exception with the message @failure@. The diagnostic is at the beginning of the document.
 bug :: Document -> Text -> Outgoing
 bug document failure =
   notification
@@ -59,7 +59,7 @@ diagnostic client uri snapshot r =
     ReportCode reportCode = code r
     source = Snapshot.source snapshot
     (range, prefix) = shownAt snapshot (place r)
-    -- The label of the region is left out if it is one word or part of the title.
+    -- A label that is one word or part of the title adds nothing to the message.
     sentences =
       [label r | length (Text.words (label r)) > 1, not (label r `Text.isInfixOf` title r)]
         <> [relatedLine l | not (related client), l <- others r]
@@ -70,8 +70,8 @@ diagnostic client uri snapshot r =
       object ["location" .= Location.location uri source region, "message" .= text]
 
 -- | The range at which a report is shown, and a prefix for its message. A report on an imported
--- file is shown at the import statement, and the prefix is the position in that file. The prefix of
--- all other reports is empty.
+-- file is shown at the import statement, and the prefix is the position in the imported file. The
+-- prefix of all other reports is empty.
 shownAt :: Snapshot -> ReportPlace -> (LspRange, Text)
 shownAt snapshot place = case place of
   InSource region
@@ -85,7 +85,8 @@ shownAt snapshot place = case place of
   where
     source = Snapshot.source snapshot
 
--- | The position of a region in words: its line, or in an imported file the file, line and column.
+-- | The position of a region in words: for the main file its line, for an imported file the name of
+-- the file, line and column.
 lineOf :: Source -> Region -> Text
 lineOf source region
   | Region.file at == Region.mainFile source = "line " <> Decimal.whole (Region.line at)

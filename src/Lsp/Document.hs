@@ -18,7 +18,8 @@ import Lsp.Position qualified as Position
 import Lsp.Uri (Uri)
 import Lsp.Uri qualified as Uri
 
--- | A text with its address and the client's version number.
+-- | A text with its address and the version number that the client gives to this state of the text.
+-- Nothing if the client gives none.
 data Document = Document {uri :: Uri, version :: Maybe Int, text :: Text}
   deriving stock (Eq, Show)
 
@@ -32,12 +33,12 @@ instance FromJSON Edit where
     new <- o .: "text"
     pure (maybe Whole Replace range new)
 
--- | A newly opened document.
+-- | The document that a client opens, with its version number if there is one.
 open :: Uri -> Maybe Int -> Text -> Document
 open uri version text = Document {uri, version, text}
 
--- | Applies edits one after the other, and sets the version. The range of an edit refers to the
--- text that the edits before it have made.
+-- | Applies edits in the order of the list and sets the version. The range of an edit refers to the
+-- text as the previous edits have left it.
 edit :: Maybe Int -> [Edit] -> Document -> Document
 edit version edits document =
   document {version, text = foldl (applied (uri document)) (text document) edits}
@@ -49,8 +50,8 @@ applied uri old e = case e of
     let Region from to = Position.region (Region.fromText (Uri.toPath uri) old) range
      in Text.concat [Text.take from old, new, Text.drop to old]
 
--- | The text for the compiler. A byte order mark becomes a space. It is not part of the program,
--- but it counts in the client's positions.
+-- | The text for the compiler. A byte order mark at the beginning becomes a space. It cannot be
+-- dropped, because the client's positions count it as a character.
 program :: Document -> Text
 program Document {text} = Text.map unmarked (Text.take 1 text) <> Text.drop 1 text
   where

@@ -11,8 +11,9 @@ import Lsp.Position qualified as Position
 import Lsp.Uri (Uri)
 import Lsp.Uri qualified as Uri
 
--- | The location of a region. If it lies in the open document, the address is the given one, in the
--- client's spelling; otherwise it is made of the path of the file.
+-- | The location of a region of @source@. If the region lies in the open document, the address is
+-- @own@, in the client's spelling. Otherwise the region lies in an imported file, and the address
+-- is made from the path of that file.
 location :: Uri -> Source -> Region -> Value
 location own source region = object ["uri" .= uri, "range" .= Position.range source region]
   where

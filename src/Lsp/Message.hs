@@ -18,15 +18,15 @@ import Data.ByteString.Lazy qualified as LazyByteString
 import Data.Maybe qualified as Maybe
 import Data.Text (Text)
 
--- | A message from the client.
+-- | A message from the client: a request wants an answer, a notification wants none.
 data Incoming
-  = -- | the identifier that the answer repeats, the method, the parameters
+  = -- | the identifier that the answer repeats, the name of the method, the parameters
     Request Id Text Value
-  | -- | the method, the parameters
+  | -- | the name of the method, the parameters
     Notification Text Value
-  | -- | an answer to a request of the server, which sends none
+  | -- | an answer to a request of the server; it is ignored, because the server sends no requests
     Reply
-  | -- | bytes that are no message, and the failure that is to be answered
+  | -- | bytes that are no message; the server answers with this failure
     Malformed Failure
   deriving stock (Eq, Show)
 
@@ -35,15 +35,15 @@ type Id = Value
 
 -- | A message to the client.
 data Outgoing
-  = -- | the answer to a request
+  = -- | the answer to a request: the identifier of the request, the result
     Result Id Value
-  | -- | the answer to a request that failed
+  | -- | the answer to a request that failed: the identifier of the request, the reason
     Refusal Id Failure
-  | -- | a notification: the method, the parameters
+  | -- | a notification: the name of the method, the parameters
     Notify Text Value
   deriving stock (Eq, Show)
 
--- | The reason why a request has no result: a code of the protocol, a message.
+-- | The reason why a request has no result: a code of the protocol, and a message for people.
 data Failure = Failure ErrorCode Text
   deriving stock (Eq, Show)
 
@@ -57,7 +57,7 @@ data ErrorCode
   | NotInitialized
   deriving stock (Eq, Show, Enum, Bounded)
 
--- | Reads the body of a message.
+-- | Reads the JSON body of a message, without the header. Wrong bytes give 'Malformed'.
 decode :: ByteString -> Incoming
 decode body = case Aeson.decodeStrict' body of
   Nothing -> Malformed (Failure ParseError "this is not JSON")
@@ -71,7 +71,7 @@ decode body = case Aeson.decodeStrict' body of
     params o = Maybe.fromMaybe Null (KeyMap.lookup "params" o)
     invalid = Malformed (Failure InvalidRequest "this is no message of the protocol")
 
--- | Writes the body of a message.
+-- | Writes the JSON body of a message, without the header.
 encode :: Outgoing -> ByteString
 encode outgoing = LazyByteString.toStrict . Aeson.encode $ case outgoing of
   Result ident result -> object [version, "id" .= ident, "result" .= result]

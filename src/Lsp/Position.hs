@@ -1,5 +1,6 @@
--- | The positions of the protocol, which count lines and UTF-16 code units from 0. Only this module
--- converts between them and offsets, which count characters.
+-- | The positions of the protocol, which count lines and UTF-16 code units from 0. The compiler
+-- uses offsets: counts of characters from the beginning of a source. A source is a main file with
+-- its imported files. Only this module converts between positions and offsets.
 module Lsp.Position
   ( LspPosition (..),
     LspRange (..),
@@ -18,7 +19,7 @@ import Data.Char (ord)
 import Data.Text (Text)
 import Data.Text qualified as Text
 
--- | A line, and the count of UTF-16 code units before the position on that line.
+-- | A position: the line, from 0, and the count of UTF-16 code units before it on that line.
 data LspPosition = LspPosition {line :: Int, character :: Int}
   deriving stock (Eq, Ord, Show)
 
@@ -38,7 +39,8 @@ instance ToJSON LspRange where
 instance FromJSON LspRange where
   parseJSON = withObject "a range" (\o -> LspRange <$> o .: "start" <*> o .: "end")
 
--- | The position of an offset in the file in which it lies.
+-- | The position of the offset @at@. It counts lines in the file that contains the offset: the main
+-- file or an imported one.
 position :: Source -> Int -> LspPosition
 position source at =
   LspPosition
@@ -48,11 +50,11 @@ position source at =
   where
     inFile = Region.position source at
 
--- | The range of a region in the file in which it lies.
+-- | The range of a region. Its positions count lines in the file that contains the region.
 range :: Source -> Region -> LspRange
 range source (Region from to) = LspRange (position source from) (position source to)
 
--- | The file in which a region lies.
+-- | The path of the file in which a region lies.
 fileOf :: Source -> Region -> Text
 fileOf source (Region from _) = Region.file (Region.position source from)
 
@@ -66,15 +68,15 @@ offset source LspPosition {line, character} =
     ordinal = min line (maxBound - 1) + 1
     content = Region.lineText source (Region.offset source ordinal 1)
 
--- | The region of a range in the main file of a source. The ends of the range may be in either
--- order.
+-- | The region of a range in the main file of a source. Some clients send the end of a range before
+-- its beginning; the result is in order.
 region :: Source -> LspRange -> Region
 region source LspRange {from, to} = Region (min a b) (max a b)
   where
     a = offset source from
     b = offset source to
 
--- | The number of UTF-16 code units of a text.
+-- | The count of UTF-16 code units of a text.
 units :: Text -> Int
 units = Text.foldl' (\count c -> count + width c) 0
 
@@ -84,6 +86,7 @@ charactersIn limit content =
   length
     (takeWhile (<= limit) (drop 1 (scanl (\count c -> count + width c) 0 (Text.unpack content))))
 
--- | The number of UTF-16 code units of a character: two outside the basic multilingual plane.
+-- | The count of UTF-16 code units of a character: 2 outside of the basic multilingual plane,
+-- otherwise 1.
 width :: Char -> Int
 width c = if ord c > 0xFFFF then 2 else 1

@@ -24,13 +24,16 @@ import Query.Symbol (SymbolKind (..))
 import Query.Symbol qualified as Symbol
 import Surface.Formatter qualified as Formatter
 
--- | A document, the snapshot of its present text, and that of its last text without errors.
+-- | The document that a request is about. @now@ is the snapshot of its present text. @sound@ is the
+-- snapshot of its last text without errors; nothing if there was none.
 data Subject = Subject {document :: Document, now :: Snapshot, sound :: Maybe Snapshot}
 
--- | The answer to a request, from the client, the document, and the parameters of the request.
+-- | A function that answers one kind of request. The arguments: the capabilities of the client, the
+-- document, the parameters of the request. The parser fails if the parameters are wrong.
 type Method = Client -> Subject -> Value -> Parser Value
 
--- | The method with a name of the protocol; nothing for one that this server does not have.
+-- | The function for a method name of the protocol, such as @textDocument/hover@. Nothing if the
+-- server does not support this method.
 method :: Text -> Maybe Method
 method name = lookup name table
 
@@ -42,7 +45,8 @@ table =
     ("textDocument/formatting", formatting)
   ]
 
--- | The offset in the document of the position that the parameters contain.
+-- | The position in the parameters of a request, as an offset: a count of characters from the
+-- beginning of the document.
 offsetIn :: Subject -> Value -> Parser Int
 offsetIn subject =
   withObject "parameters" (\o -> Position.offset (source subject) <$> o .: "position")
@@ -62,7 +66,7 @@ hover client subject params =
       | otherwise = markup "plaintext" (line h <> "\n" <> Name.meaning h)
     line h = Name.name h <> maybe "" (" = " <>) (Name.value h)
 
--- | A text of a kind of the protocol: @markdown@ or @plaintext@.
+-- | The JSON value of a text whose @kind@ is @markdown@ or @plaintext@.
 markup :: Text -> Text -> Value
 markup kind text = object ["kind" .= kind, "value" .= text]
 

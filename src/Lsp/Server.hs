@@ -1,7 +1,8 @@
--- | The language server on a pair of streams: a loop around the steps of "Lsp.Session".
+-- | The language server on a pair of streams: a loop around the steps of "Lsp.Session". An event is
+-- a message from the client or the passing of a deadline.
 --
 -- One thread reads a message, handles it and writes the answers, so the answers have the order of
--- the requests. While no message arrives, it waits until the next deadline of the session.
+-- the requests. While no message arrives, the thread waits until the next deadline of the session.
 module Lsp.Server
   ( Host (..),
     serve,
@@ -44,11 +45,11 @@ data Host = Host
     -- editor, by its path; the path of the program; the text of the program. An open text takes
     -- precedence over its file on the disk.
     load :: (Text -> Maybe Text) -> Text -> Text -> IO LoadedProgram,
-    -- | finds the mistakes of a program
+    -- | finds the mistakes of a loaded program
     check :: Check
   }
 
--- | Serves a client until it leaves or its stream ends.
+-- | Serves a client until it sends @exit@ or a stream ends.
 serve :: Host -> IO Ending
 serve host = do
   hSetBinaryMode (input host) True
@@ -57,8 +58,8 @@ serve host = do
   -- A failure of the streams means that the client is gone.
   pure (Either.fromRight Abrupt ended)
 
--- | Handles messages and deadlines one after the other. The bytes are those that have been received
--- and not yet handled.
+-- | Handles messages and deadlines one after the other. @received@ are the bytes that have been
+-- received and not yet handled.
 loop :: Host -> ByteString -> Session -> IO Ending
 loop host received session = case Transport.next received of
   Transport.Complete body more ->
@@ -76,15 +77,15 @@ loop host received session = case Transport.next received of
       Just "" -> handle host Due session >>= continue host received
       Just bytes -> loop host (received <> bytes) session
 
--- | Continues the loop with the next session, unless the conversation has ended.
+-- | Continues the loop with the session of 'Right'; ends it if the outcome is the end of the
+-- conversation. @received@ are the bytes not yet handled.
 continue :: Host -> ByteString -> Either Ending Session -> IO Ending
 continue host received outcome = case outcome of
   Left ending -> pure ending
   Right session -> loop host received session
 
--- | The next bytes; nothing at the end of the input. The second argument is the least count of
--- bytes that are missing from a message. If it exceeds 64 KiB, that many bytes are read in one
--- call.
+-- | Receives bytes from the client; nothing at the end of the input. At least @missing@ bytes are
+-- needed to complete a message. If this count exceeds 64 KiB, @missing@ bytes are read in one call.
 receive :: Host -> Int -> IO (Maybe ByteString)
 receive host missing = do
   bytes <-
@@ -104,16 +105,16 @@ inputWithin host wait = do
     Left e | isEOFError e -> pure True
     Left e -> throwIO e
 
--- | The milliseconds from now until a time, at least 0.
+-- | The milliseconds from the second time to the first, or 0 if the first is earlier.
 after :: Milliseconds -> Milliseconds -> Int
 after (Milliseconds time) (Milliseconds now) = max 0 (time - now)
 
--- | The present time of a clock that never goes back.
+-- | The present time of a clock that never goes back, since an arbitrary origin.
 clock :: IO Milliseconds
 clock = Milliseconds . fromIntegral . (`div` 1000000) <$> getMonotonicTimeNSec
 
--- | Handles an event and sends the messages. If an exception is raised, only this event fails, see
--- 'Session.failed'.
+-- | Handles an event and sends the messages that answer it. The result is the next session, or the
+-- end of the conversation. An exception in the handling ends neither, see 'Session.failed'.
 handle :: Host -> Event -> Session -> IO (Either Ending Session)
 handle host event session = do
   now <- clock
@@ -132,7 +133,7 @@ handle host event session = do
     firstLine e = Text.takeWhile (/= '\n') (Text.pack (displayException e))
 
 -- | The session after an event, the end of the conversation if the event ends it, and the messages
--- to send. They are evaluated here, so that exceptions are raised here and not later.
+-- to send, encoded. All three are evaluated here, so that 'handle' catches their exceptions.
 handled :: Host -> Milliseconds -> Event -> Session -> IO (Session, Maybe Ending, [ByteString])
 handled host now event session = do
   supplied <-
@@ -143,7 +144,8 @@ handled host now event session = do
       loaded <- load host (Session.openText earlier) path text
       evaluate (Session.supply path (Snapshot.take (check host) loaded) earlier)
 
--- | Evaluates a session and encodes its messages.
+-- | Evaluates a session and encodes the messages among the effects of a step. The @Maybe@ is the
+-- end of the conversation, if it is among the effects.
 prepared :: (Session, [Effect]) -> IO (Session, Maybe Ending, [ByteString])
 prepared (session, effects) = do
   state <- evaluate session

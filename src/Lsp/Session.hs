@@ -1,9 +1,12 @@
--- | The conversation with one client: a state, and a step that takes an event to the next state and
--- the messages to send. It has no effects.
+-- | The conversation with one client as a state machine. A step takes a state and an event, and
+-- gives the next state and the messages to send. All functions are pure.
 --
 -- A step may need the snapshots of programs, and to make one the server has to read imported files.
--- So before each step the server asks for 'awaited', analyses these programs, and brings their
--- snapshots with 'supply'.
+-- So before each step the server calls 'awaited', analyses the programs that it names, and passes
+-- their snapshots to 'supply'.
+--
+-- The argument @now@ is the present time. Diagnostics of a document are /due/ when the time has
+-- come to publish them.
 module Lsp.Session
   ( Session,
     start,
@@ -44,15 +47,15 @@ import Lsp.Uri qualified as Uri
 import Query.Snapshot (Snapshot)
 import Query.Snapshot qualified as Snapshot
 
--- | The phase of the conversation, and the open documents by the paths of their files.
+-- | The state of the conversation: its phase, and the open documents by the paths of their files.
 data Session = Session {phase :: Phase, documents :: Map Text Open}
 
 -- | The phases of the protocol's life cycle.
 data Phase
-  = -- | only @initialize@ is answered
+  = -- | before @initialize@, the only request that is answered
     Waiting
   | Running Client
-  | -- | only @exit@ has an effect
+  | -- | after @shutdown@: only @exit@ has an effect
     Closing
 
 -- | An open document.
@@ -60,9 +63,10 @@ data Open = Open
   { document :: Document,
     -- | the snapshot of the present text; nothing if this text is not analysed yet
     present :: Maybe Snapshot,
-    -- | the snapshot of the last text without errors
+    -- | the snapshot of the last text without errors; nothing if there was no such text
     sound :: Maybe Snapshot,
-    -- | the time at which its diagnostics are to be published; nothing if they are up to date
+    -- | the time at which the document's diagnostics are to be published; nothing if the published
+    -- ones are up to date
     due :: Maybe Milliseconds
   }
 
@@ -89,12 +93,12 @@ data Effect = Send Outgoing | Stop Ending
 data Ending = Orderly | Abrupt
   deriving stock (Eq, Show)
 
--- | The time at which diagnostics are published after a change: 200 ms later. Each further change
--- delays it.
+-- | The time at which diagnostics become due after a change at the given time: 200 ms later. Each
+-- further change delays them again, so a program is not analysed while the user types.
 afterDelay :: Milliseconds -> Milliseconds
 afterDelay (Milliseconds now) = Milliseconds (now + 200)
 
--- | The time of the next 'Due' event; nothing if no diagnostics are due.
+-- | The earliest time at which diagnostics become due; nothing if all are up to date.
 deadline :: Session -> Maybe Milliseconds
 deadline session = case Maybe.mapMaybe due (Map.elems (documents session)) of
   [] -> Nothing
@@ -104,7 +108,7 @@ deadline session = case Maybe.mapMaybe due (Map.elems (documents session)) of
 data Awaited = Awaited {path :: Text, text :: Text}
   deriving stock (Eq, Show)
 
--- | The programs that an event needs and that have changed since their last snapshot.
+-- | The programs that a step for this event needs, and whose present text has no snapshot yet.
 awaited :: Milliseconds -> Event -> Session -> [Awaited]
 awaited now event session =
   [ Awaited {path, text = Document.program (document o)}
@@ -120,12 +124,12 @@ awaited now event session =
       Received _ -> []
       Due -> filter (isDue now . snd) (Map.toList (documents session))
 
--- | True if the diagnostics of a document are due.
+-- | True if the diagnostics of a document are due at the time @now@.
 isDue :: Milliseconds -> Open -> Bool
 isDue now o = maybe False (<= now) (due o)
 
--- | Brings the snapshot of a program with this path. It is evaluated until its errors are known;
--- otherwise an unevaluated test would keep older snapshots in memory.
+-- | Stores the snapshot of the document with this path. The snapshot is evaluated until its errors
+-- are known; otherwise an unevaluated test for errors would keep older snapshots in memory.
 supply :: Text -> Snapshot -> Session -> Session
 supply path snapshot session = session {documents = Map.adjust supplied path (documents session)}
   where
@@ -135,11 +139,11 @@ supply path snapshot session = session {documents = Map.adjust supplied path (do
           sound = if Snapshot.isGood snapshot then Just snapshot else sound o
         }
 
--- | The text of the document with this path, if it is open.
+-- | The present text of the document with this path; nothing if it is not open.
 openText :: Session -> Text -> Maybe Text
 openText session path = Document.program . document <$> Map.lookup path (documents session)
 
--- | Handles an event. The snapshots that 'awaited' names have been supplied.
+-- | Handles an event. The snapshots of the programs that 'awaited' names must have been supplied.
 step :: Milliseconds -> Event -> Session -> (Session, [Effect])
 step now event session = case event of
   Due -> published now session
@@ -160,8 +164,9 @@ leaving session = case phase session of
   Waiting -> Abrupt
   Running _ -> Abrupt
 
--- | The step in place of one that raised an exception with this message. It refuses a request, and
--- logs a notification. For diagnostics that were due it publishes the exception instead.
+-- | Handles an event for which 'step' raised an exception with the message @why@. A request is
+-- refused; for a notification the editor's log gets the message. In place of diagnostics that were
+-- due, the message is published.
 failed :: Milliseconds -> Text -> Event -> Session -> (Session, [Effect])
 failed now why event session = case event of
   Received (Request ident _ _) ->
@@ -177,7 +182,7 @@ failed now why event session = case event of
       [Send (Diagnostic.bug (document o) why) | o <- Map.elems (documents session), isDue now o]
     )
 
--- | A bug of the compiler as a log message.
+-- | The notification that writes a bug of the compiler to the editor's log.
 logged :: Text -> Outgoing
 logged why =
   Notify
@@ -186,7 +191,7 @@ logged why =
 
 -- Requests ----------------------------------------------------------------------------------------
 
--- | Answers a request.
+-- | Answers a request. The arguments: its identifier, the name of its method, its parameters.
 request :: Id -> Text -> Value -> Session -> (Session, [Effect])
 request ident method params session = case (phase session, method) of
   (Waiting, "initialize") ->
@@ -210,7 +215,8 @@ request ident method params session = case (phase session, method) of
           Left why -> Refusal ident (Failure InvalidParams (Text.pack why))
           Right result -> Result ident result
 
--- | The open document that the parameters name; nothing if it is not open or not analysed.
+-- | The open document that the parameters of a request name, with its snapshots. Nothing if the
+-- document is not open or its present text is not analysed.
 subject :: Value -> Session -> Parser (Maybe Subject)
 subject params session = do
   path <- named params
@@ -219,18 +225,19 @@ subject params session = do
     now <- present o
     pure Request.Subject {Request.document = document o, Request.now = now, Request.sound = sound o}
 
--- | The path of the document that parameters name.
+-- | The path of the document that the parameters of a message name.
 named :: Value -> Parser Text
 named params = Uri.toPath <$> documentField "uri" params
 
--- | A field of the document that parameters name.
+-- | The field @key@ of the object @textDocument@ in the parameters of a message.
 documentField :: FromJSON a => Aeson.Key -> Value -> Parser a
 documentField key =
   withObject "parameters" (\o -> o .: "textDocument" >>= withObject "a document" (.: key))
 
 -- Notifications -----------------------------------------------------------------------------------
 
--- | Handles a notification. Unknown notifications and wrong parameters have no effect.
+-- | Handles a notification; @method@ is its name. Unknown notifications and wrong parameters have
+-- no effect.
 notified :: Milliseconds -> Text -> Value -> Session -> (Session, [Effect])
 notified now method params session = Maybe.fromMaybe (session, []) $ case method of
   "textDocument/didOpen" -> opened now session <$> Aeson.parseMaybe documentOf params
@@ -264,7 +271,8 @@ opened now session document = (filesChanged now (put path fresh session), [])
     path = Uri.toPath (Document.uri document)
     fresh = Open {document, present = Nothing, sound = Nothing, due = Just now}
 
--- | Edits a document. Its diagnostics become due after the delay.
+-- | Edits a document. Its diagnostics become due after the delay of 'afterDelay'. The tuple: the
+-- address, the version after the edits, the edits.
 changed :: Milliseconds -> Session -> (Uri, Maybe Int, [Edit]) -> (Session, [Effect])
 changed now session (uri, version, edits) = case Map.lookup path (documents session) of
   Nothing -> (session, [])
@@ -289,7 +297,8 @@ changed now session (uri, version, edits) = case Map.lookup path (documents sess
 put :: Text -> Open -> Session -> Session
 put path o session = session {documents = Map.insert path o (documents session)}
 
--- | Closes a document and removes its diagnostics.
+-- | Closes the document with this path and removes its diagnostics from the editor. Nothing if the
+-- session is not running or the document not open.
 closed :: Milliseconds -> Session -> Text -> Maybe (Session, [Effect])
 closed now session path = case phase session of
   Running client -> leave client <$> Map.lookup path (documents session)
@@ -301,7 +310,7 @@ closed now session path = case phase session of
         [Send (Diagnostic.publish client (document o) {Document.version = Nothing} Nothing)]
       )
 
--- | Marks all programs that import files for a new analysis, because those files may have changed.
+-- | Marks all programs with imports for a new analysis, because an imported file may have changed.
 filesChanged :: Milliseconds -> Session -> Session
 filesChanged now session = session {documents = Map.map again (documents session)}
   where
@@ -311,7 +320,7 @@ filesChanged now session = session {documents = Map.map again (documents session
       | otherwise = o
     hasImports snapshot = not (null (Snapshot.imports snapshot))
 
--- | Publishes the diagnostics that are due.
+-- | Publishes the diagnostics that are due at the time @now@.
 published :: Milliseconds -> Session -> (Session, [Effect])
 published now session = case phase session of
   Running client ->

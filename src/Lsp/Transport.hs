@@ -14,17 +14,18 @@ import Data.Char (toLower)
 import Data.List (isSuffixOf)
 import Data.Maybe (listToMaybe)
 
--- | The beginning of the bytes received so far.
+-- | The first message in the bytes received so far.
 data Received
-  = -- | an incomplete message, of which at least this count of bytes is missing
+  = -- | an incomplete message, and the least count of bytes that are missing from it
     Incomplete Int
   | -- | the body of a complete message, and the bytes after it
     Complete ByteString ByteString
-  | -- | a header without a length, of which no body can be read; the bytes after it
+  | -- | a header without a valid length, whose body cannot be read; the argument is the bytes after
+    -- the header
     Headless ByteString
   deriving stock (Eq, Show)
 
--- | Separates the first message from the bytes after it.
+-- | Separates the first message in the bytes received so far from the bytes after it.
 next :: ByteString -> Received
 next received = case ByteString.breakSubstring "\r\n\r\n" received of
   (header, rest)
@@ -37,9 +38,9 @@ next received = case ByteString.breakSubstring "\r\n\r\n" received of
         where
           body = ByteString.drop 4 rest
 
--- | The number after @Content-Length:@, if it is from 0 to 'longest'. Before the header there may
--- be the body of a message whose header had no length, so the key need not be at the beginning of a
--- line.
+-- | The length of the body in bytes, from the key @Content-Length:@. Nothing if the length is
+-- missing or not from 0 to 'longest'. The key need not be at the beginning of a line: the body of
+-- the previous message, if that has no valid length, may come before it.
 contentLength :: ByteString -> Maybe Int
 contentLength header =
   listToMaybe
@@ -59,6 +60,6 @@ contentLength header =
 longest :: Int
 longest = 256 * 1024 * 1024
 
--- | The body of a message with its header.
+-- | The bytes of a message: the header with the length, the empty line, and the body.
 framed :: ByteString -> ByteString
 framed body = "Content-Length: " <> Char8.pack (show (ByteString.length body)) <> "\r\n\r\n" <> body

@@ -1,5 +1,5 @@
--- | File addresses of the protocol. Clients percent-encode them in different ways. So the server
--- compares decoded addresses, and sends an address back in the client's own spelling.
+-- | File addresses of the protocol. Clients percent-encode different sets of characters. So the
+-- server compares decoded addresses, and sends an address back as the client wrote it.
 module Lsp.Uri
   ( Uri (..),
     toPath,
@@ -23,7 +23,8 @@ newtype Uri = Uri Text
   deriving newtype (Eq, Ord, FromJSON, ToJSON)
   deriving stock (Show)
 
--- | The path of a @file:@ address. An address of another kind is only decoded.
+-- | The path of a @file:@ address. An address with another scheme, such as @untitled:@, is decoded
+-- and kept whole.
 toPath :: Uri -> Text
 toPath (Uri uri) = decoded (Maybe.fromMaybe uri local)
   where
@@ -31,12 +32,12 @@ toPath (Uri uri) = decoded (Maybe.fromMaybe uri local)
     -- There may be a host before the path: file://localhost/part
     afterHost rest = if "/" `Text.isPrefixOf` rest then rest else Text.dropWhile (/= '/') rest
 
--- | The address of a file.
+-- | The @file:@ address of an absolute path.
 fromPath :: Text -> Uri
 fromPath path =
   Uri ("file://" <> Text.concat (map escaped (ByteString.unpack (Encoding.encodeUtf8 path))))
 
--- | Percent-encodes a byte, except letters, digits and @/-._~@.
+-- | Percent-encodes a byte; ASCII letters, digits and @/-._~@ stay as they are.
 escaped :: Word8 -> Text
 escaped byte
   | isAscii c && (isAlphaNum c || c `elem` ("/-._~" :: String)) = Text.singleton c

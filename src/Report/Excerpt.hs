@@ -17,11 +17,11 @@ import Data.Text (Text)
 import Data.Text qualified as Text
 import Text.DocLayout (realLength)
 
--- | Line to print, with the columns of its mark.
+-- | A source line to print, and the mark under the region of a report.
 data Excerpt = Excerpt
   { -- | position of the region's first character
     place :: Position,
-    -- | text of the line, or a window of a long line
+    -- | text of the line; of a long line only a window, which is a range of its characters
     shown :: Text,
     -- | terminal column of the mark, from 0
     indent :: Int,
@@ -29,20 +29,20 @@ data Excerpt = Excerpt
     width :: Int,
     -- | count of characters left out at the front of the line
     skipped :: Int,
-    -- | true if the excerpt before it shows exactly this line or window, so that the line need not
+    -- | true if the previous excerpt shows exactly this line or window, so that the line need not
     -- be printed again
     isSame :: Bool
   }
   deriving stock (Eq, Show)
 
--- | Makes an excerpt for each region, in the order given. A region of several lines is marked to
--- the end of its first line.
+-- | Makes one excerpt for each region, in the order of the list. A region of several lines is
+-- marked only to the end of its first line.
 excerpts :: Source -> [Region] -> [Excerpt]
 excerpts source =
   snd . mapAccumL (\before region -> let e = excerpt source before region in (Just e, e)) Nothing
 
--- | Makes the excerpt of a region; the second argument is the excerpt before it. A line longer than
--- 'longest' is cut to a window around the region.
+-- | Makes the excerpt of a region. @before@ is the previous excerpt, nothing for the first. A line
+-- of more than 'longest' characters is cut to a window around the region.
 excerpt :: Source -> Maybe Excerpt -> Region -> Excerpt
 excerpt source before region =
   Excerpt
@@ -58,7 +58,7 @@ excerpt source before region =
     content = Region.lineText source (start region)
     printed = expand 0 (Text.unpack content)
     length' = max 0 (min (end region - start region) (Text.length content - column + 1))
-    -- If the window of the excerpt before contains the region, it is used again.
+    -- A window of the previous excerpt that contains the region is used again, to print it once.
     (skipped, isSame) = case before of
       Just Excerpt {place = Position {file, line}, skipped = front}
         | file == file',
@@ -74,11 +74,11 @@ excerpt source before region =
     indent = realLength (Text.concat (ellipsisBefore <> beforeMark))
     width = max 1 (realLength (Text.concat (take length' rest)))
 
--- | Greatest count of characters shown of one line.
+-- | The greatest count of characters that are shown of one line.
 longest :: Int
 longest = 120
 
--- | Replaces the control characters of a text by visible ones; line feeds stay.
+-- | Replaces the control characters of a text by visible ones, but keeps line feeds.
 visible :: Text -> Text
 visible = Text.map sign
   where
@@ -93,8 +93,8 @@ shownAs c
   | isControl c || generalCategory c == Format = '\xFFFD'
   | otherwise = c
 
--- | Printed form of each character of a string that begins at the terminal column @at@. A tab
--- becomes spaces up to the next column that is a multiple of four.
+-- | Printed form of each character of a string. The string begins at the terminal column @at@, from
+-- 0. A tab becomes spaces up to the next column that is a multiple of four.
 expand :: Int -> String -> [Text]
 expand at string = case string of
   [] -> []

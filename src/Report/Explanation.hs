@@ -32,9 +32,9 @@ data Explanation = Explanation
     title :: Text,
     -- | paragraphs in Markdown, whose lines fit a terminal of 80 columns
     prose :: Text,
-    -- | example that raises the code
+    -- | example for which partc reports the code
     wrong :: Example,
-    -- | the example corrected
+    -- | the corrected example
     right :: Example
   }
   deriving stock (Eq, Show)
@@ -59,9 +59,9 @@ everything = sortOn order (mapMaybe readOne Embedded.files)
     readOne (file, bytes) = either (const Nothing) Just (Encoding.decodeUtf8' bytes) >>= parse file
     order e = let ReportCode c = code e in (Text.take 2 (Text.drop 1 c), Text.take 1 c, c)
 
--- | Parses the file of an explanation; its name is the code with the extension @.md@. The file has
--- a heading with the code and the title, paragraphs, the wrong example, and the right example.
--- Nothing if the file has another form.
+-- | Parses the text of an explanation. The name @file@ is the code with the extension @.md@. The
+-- text has a heading with the code and the title, paragraphs, the wrong example, and the right
+-- example. Nothing if the text has another form.
 parse :: FilePath -> Text -> Maybe Explanation
 parse file text = do
   name <- Text.stripSuffix ".md" (Text.pack file)
@@ -74,8 +74,8 @@ parse file text = do
     then Just Explanation {code = ReportCode name, title, prose = Text.strip prose, wrong, right}
     else Nothing
 
--- | Parses the fenced block at the beginning of a text. The kind is @wrong@ or @right@. Gives the
--- example and the text after it.
+-- | Parses the fenced block of Markdown at the beginning of a text. @kind@ is @wrong@ or @right@.
+-- Gives the example and the text after the block; nothing if there is no block of this kind.
 example :: Text -> Text -> Maybe (Example, Text)
 example kind text = case Text.stripPrefix ("```part " <> kind <> "\n") trimmed of
   Just rest -> closed Part rest
@@ -86,8 +86,9 @@ example kind text = case Text.stripPrefix ("```part " <> kind <> "\n") trimmed o
       (_, "") -> Nothing
       (content, following) -> Just (Example language (content <> "\n"), Text.drop 5 following)
 
--- | Finds the explanations of a code as a user writes it: in lower case, without its letter,
--- without leading zeros, or with brackets: @e314@, @314@, @error[E0314]@.
+-- | Finds the explanations of a code as a user may write it: @E0314@, @e314@, @314@ or
+-- @error[E0314]@. A number without a letter finds the error and the warning of this number. The
+-- list is empty if no explanation has the code.
 find :: Text -> [Explanation]
 find word = filter isMeant everything
   where
@@ -96,8 +97,8 @@ find word = filter isMeant everything
       let ReportCode c = code e
        in number /= "" && Text.drop 1 c == number && (letters == "" || Text.take 1 c == letters)
 
--- | Splits a code as a user writes it into its letter in upper case and its four digits. The digits
--- are empty if the word is no code.
+-- | Splits a code as a user writes it into its letter in upper case and its four digits. The letter
+-- may be empty. The digits are empty if the word is no code.
 readCode :: Text -> (Text, Text)
 readCode word =
   (letters, if isNumber then Text.justifyRight 4 '0' (Text.dropWhile (== '0') digits) else "")
@@ -106,9 +107,10 @@ readCode word =
     (letters, digits) = Text.break isDigit (Text.toUpper within)
     isNumber = not (Text.null digits) && Text.all isDigit digits && Text.length letters <= 1
 
--- | Suggests codes for one that does not exist. If the number exists with the other letter, that
--- code. Otherwise at most three codes: first those with two neighbouring digits exchanged, then the
--- nearest numbers with the same first two digits.
+-- | Suggests codes in place of @word@, a code that does not exist. If its number exists with the
+-- other letter, it suggests that code. Otherwise it suggests at most three codes. First come those
+-- that differ from @word@ by an exchange of neighbouring digits, then the nearest numbers with the
+-- same first two digits.
 near :: Text -> [Text]
 near word
   | number == "" = []
@@ -128,7 +130,7 @@ near word
       ]
     value = Text.foldl' (\n d -> 10 * n + fromEnum d - fromEnum '0') 0
 
--- | All numbers that arise from exchanging two neighbouring digits.
+-- | All numbers that result if two neighbouring digits of @number@ are exchanged.
 exchanges :: Text -> [Text]
 exchanges number =
   [ before <> Text.reverse (Text.take 2 following) <> Text.drop 2 following
@@ -140,7 +142,7 @@ exchanges number =
 list :: Text
 list = Text.unlines [c <> "  " <> plain (title e) | e <- everything, let ReportCode c = code e]
 
--- | Renders an explanation for a terminal: programs are indented, without fences.
+-- | Renders an explanation for a terminal: the examples are indented instead of fenced.
 render :: Explanation -> Text
 render e = layOut (c <> ": " <> plain (title e)) (plain (prose e)) indented e
   where
@@ -155,8 +157,8 @@ markdown e = layOut ("# " <> c <> ": " <> title e) (prose e) fenced e
     ReportCode c = code e
     fenced content = "```\n" <> content <> "```"
 
--- | Joins a heading, a text and the two examples of an explanation. The function renders the text
--- of an example.
+-- | Joins a heading, a text and the two examples of an explanation. @shown@ renders the text of an
+-- example.
 layOut :: Text -> Text -> (Text -> Text) -> Explanation -> Text
 layOut heading body shown e =
   Text.unlines
@@ -164,6 +166,6 @@ layOut heading body shown e =
   where
     content (Example _ text) = shown text
 
--- | Replaces the backquotes of Markdown by quotation marks.
+-- | Replaces the backquotes of Markdown by the marks ‘ and ’ in turn.
 plain :: Text -> Text
 plain text = Text.concat (zipWith (<>) ("" : cycle ["‘", "’"]) (Text.splitOn "`" text))

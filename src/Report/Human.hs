@@ -1,7 +1,7 @@
 {-# OPTIONS_GHC -O0 #-}
 
 -- | Rendering of reports for a person at a terminal: heading, source lines with marks, sentences
--- and hints.
+-- and hints. Line numbers and a vertical bar to the left of the source lines form the /gutter/.
 module Report.Human
   ( Colour (..),
     render,
@@ -21,13 +21,13 @@ import Report.Report (Label (..), Report (..), ReportCode (..), ReportPlace (..)
 import Report.Report qualified as Report
 import System.Console.ANSI.Codes qualified as Ansi
 
--- | Use of colours.
+-- | The choice between coloured and plain text.
 data Colour = Coloured | Plain
   deriving stock (Eq, Show)
 
 -- | Kind of a text in the rendering, which decides its colour.
 data Role
-  = -- | severity and code, and the mark of the report's place
+  = -- | severity and code, and the mark of the main region, which is the report's place
     Severe Severity
   | -- | title of the report
     Title
@@ -44,16 +44,16 @@ data Layout = Layout
     painted :: Role -> Text -> Text,
     report :: Report,
     source :: Source,
-    -- | width of the line numbers: the count of digits of the largest one
+    -- | width of the line numbers in characters: the count of digits of the largest one
     gutter :: Int
   }
 
--- | Mark of a region: true for the report's place, false for other regions; the excerpt; the text
--- beside the mark.
+-- | Mark of a region. The components: true for the report's place and false for other regions; the
+-- excerpt; the text beside the mark, which may be empty.
 type Marked = (Bool, Excerpt, Text)
 
--- | Renders one report. The path is the name of the file for a report that has no region in the
--- program.
+-- | Renders one report as lines of text. @path@ is the name of the file in a report that has no
+-- region in the program; it is empty if the report concerns no file.
 render :: Colour -> Text -> Source -> Report -> Text
 render colour path source given =
   Text.unlines (heading layout : location layout path <> body <> remedies)
@@ -73,7 +73,7 @@ heading Layout {painted, report} =
   where
     ReportCode code = Report.code report
 
--- | Line with the position of the report; none for a report about no file.
+-- | Line with the position of the report; the empty list for a report that concerns no file.
 location :: Layout -> Text -> [Text]
 location Layout {painted, report, source, gutter} path =
   [Text.replicate gutter " " <> painted Frame "--> " <> address | address /= ""]
@@ -97,8 +97,9 @@ markedExcerpts source report =
       InTape _ -> map (False,) (others report)
       InFile -> map (False,) (others report)
 
--- | Lines for a mark; the second argument is the mark before it. If both are in the same window of
--- a line, that line is printed once. If they are in different files, the position is printed first.
+-- | Lines that show a mark below its source line. @before@ is the previous mark, nothing for the
+-- first. If both marks are under the same line, that line is printed only once. If they are in
+-- different files, the position of the new mark is printed first.
 excerptLines :: Layout -> Maybe Marked -> Marked -> [Text]
 excerptLines layout@Layout {painted, report, source, gutter} before (isMain, e, text) =
   [bar layout | not (isSame e)]
@@ -120,7 +121,8 @@ excerptLines layout@Layout {painted, report, source, gutter} before (isMain, e, 
     sign = Text.replicate (width e) (if isMain then "^" else "-")
     words' = if text == "" then "" else " " <> text
 
--- | Sentences and hints in lines of at most 80 columns. The flag is true if excerpts precede them.
+-- | Sentences and hints in lines of at most 80 columns. If @hasExcerpts@ is true, an empty line of
+-- the gutter separates them from the excerpts above.
 advice :: Layout -> Bool -> [Text]
 advice layout@Layout {painted, report, gutter} hasExcerpts =
   [bar layout | hasExcerpts && not (null (message report) && null (hints report))]
@@ -134,7 +136,7 @@ advice layout@Layout {painted, report, gutter} hasExcerpts =
         map ((lead <> "  " <> Text.replicate (Text.length kind) " ") <>) rest
     lead = Text.replicate (gutter + 1) " "
 
--- | Empty line of the gutter.
+-- | Line of the gutter that has a bar but no line number.
 bar :: Layout -> Text
 bar Layout {painted, gutter} = Text.replicate (gutter + 1) " " <> painted Frame "|"
 
@@ -142,13 +144,13 @@ bar Layout {painted, gutter} = Text.replicate (gutter + 1) " " <> painted Frame 
 lineNumber :: Excerpt -> Text
 lineNumber e = Decimal.whole (line (Excerpt.place e))
 
--- | Position as @file:line:column@.
+-- | Position as @file:line:column@, where lines and columns count from 1.
 positionText :: Position -> Text
 positionText Position {file, line, column} =
   file <> ":" <> Decimal.whole line <> ":" <> Decimal.whole column
 
--- | Replaces control characters in all texts of a report. In source lines, "Report.Excerpt" does
--- so.
+-- | Replaces control characters in all texts of a report, because they could control the terminal.
+-- Those in source lines are replaced by "Report.Excerpt".
 cleaned :: Report -> Report
 cleaned r =
   r
@@ -161,7 +163,8 @@ cleaned r =
   where
     clean = Excerpt.visible
 
--- | Counts errors and warnings in a last line; empty without reports.
+-- | The last line after all reports: the counts of errors and warnings. It is empty if there are no
+-- reports.
 summary :: Colour -> [Report] -> Text
 summary colour reports = case (count "error" errors, count "warning" warnings) of
   ("", "") -> ""

@@ -18,8 +18,9 @@ import Report.Excerpt qualified as Excerpt
 import Report.Report (Label (..), Report (..), ReportCode (..), ReportPlace (..))
 import Report.Report qualified as Report
 
--- | Renders a report as @file:line:column: error[E0123]: title@. In a report about a tape the row
--- of the tape is the line. The path is the name of the file for a report without a region.
+-- | Renders a report as @file:line:column: error[E0123]: title@ with a line end. A report about a
+-- tape has the row of the tape, from 1, in place of the line. @path@ is the name of the file in a
+-- report that has no region in the program.
 short :: Text -> Source -> Report -> Text
 short path source r =
   at
@@ -40,7 +41,7 @@ short path source r =
       InFile -> path <> ":1:1"
 
 -- | Renders a report as one JSON object with a line end. Lines count from 1, columns count
--- characters from 1; @end@ is the position after the last character. The path is used as in
+-- characters from 1; @end@ is the position after the last character. @path@ means the same as in
 -- 'short'.
 json :: Text -> Source -> Report -> Text
 json path source r =

@@ -23,16 +23,17 @@ import Data.String (IsString)
 import Data.Text (Text)
 import Data.Text qualified as Text
 
--- | Severity of a report. An error prevents the tape; a warning does not.
+-- | Severity of a report. After an error the compiler makes no tape; after a warning it does.
 data Severity = Error | Warning
   deriving stock (Eq, Ord, Show)
 
--- | Stable code of a report, a letter and four digits: @E0412@, @W0501@.
+-- | Code of a report, the same in all versions of partc. It is E for an error or W for a warning,
+-- and four digits, such as @E0412@.
 newtype ReportCode = ReportCode Text
   deriving newtype (Eq, Ord, IsString)
   deriving stock (Show)
 
--- | Place to which a report points.
+-- | The thing to which a report points: a region, a row or a file.
 data ReportPlace
   = -- | a region of the program
     InSource Region
@@ -46,7 +47,7 @@ data ReportPlace
 data Label = Label {region :: Region, words :: Text}
   deriving stock (Eq, Show)
 
--- | Error or warning, with its place, its reason and its remedy.
+-- | Error or warning, with the thing to which it points, the reason and the remedy.
 data Report = Report
   { severity :: Severity,
     code :: ReportCode,
@@ -59,8 +60,8 @@ data Report = Report
     others :: [Label],
     -- | the reason, as whole sentences
     message :: [Text],
-    -- | remedies; lazy, because some need a search for similar names, which only a rendered report
-    -- pays for
+    -- | remedies; lazy, because some need a slow comparison with similar names, which is left out
+    -- for a report that is not shown
     hints :: ~[Text]
   }
   deriving stock (Eq, Show)
@@ -81,13 +82,13 @@ severityWord severity = case severity of
   Error -> "error"
   Warning -> "warning"
 
--- | True of a report that prevents the tape.
+-- | True of an error, false of a warning.
 isError :: Report -> Bool
 isError r = case severity r of
   Error -> True
   Warning -> False
 
--- | Sorts reports by place, severity, code and title. Of several reports that are equal in all
--- four, only the first stays.
+-- | Sorts reports by place, severity, code and title. Of several reports that are equal in these
+-- four fields, only the first is kept.
 sorted :: [Report] -> [Report]
 sorted = map NonEmpty.head . NonEmpty.group . sortOn (\r -> (place r, severity r, code r, title r))

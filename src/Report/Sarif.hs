@@ -30,11 +30,12 @@ import Report.Report (Label (..), Report (..), ReportCode (..), ReportPlace (..)
 import Report.Report qualified as Report
 import Prelude hiding (log)
 
--- | Report with the path of its file, for a report without a region, and the source of its regions.
+-- | A report with what its rendering needs. @path@ is the name of the file if the report has no
+-- region in the program. @source@ is the text to which the regions refer.
 data Filed = Filed {path :: Text, source :: Source, report :: Report}
 
--- | Renders the log of one run of partc. Its rules are the codes that occur in it, each with its
--- explanation if there is one.
+-- | Renders the log of one run of partc. SARIF calls report codes rules. The log lists the codes
+-- that occur in it, each with its explanation if there is one.
 log :: [Explanation] -> [Filed] -> Text
 log explanations filed =
   Encoding.decodeUtf8 (LazyByteString.toStrict (encodingToLazyByteString whole)) <> "\n"
@@ -52,7 +53,7 @@ log explanations filed =
     codes = nub (sort (map (Report.code . report) filed))
     indices = Map.fromList (zip codes [0 ..])
 
--- | Encodes the rule of a code. Its help is the text of @partc explain@.
+-- | Encodes the rule of a report code. The help text of the rule is what @partc explain@ prints.
 rule :: [Explanation] -> ReportCode -> Encoding
 rule explanations code@(ReportCode name) = pairs ("id" .= name <> maybe mempty explained found)
   where
@@ -63,7 +64,7 @@ rule explanations code@(ReportCode name) = pairs ("id" .= name <> maybe mempty e
           "help"
           (pairs ("text" .= Explanation.render e <> "markdown" .= Explanation.markdown e))
 
--- | Encodes one report. The map gives the index of the rule of each code.
+-- | Encodes one report. @indices@ has for each code the index of its rule in the log, from 0.
 result :: Map ReportCode Int -> Filed -> Encoding
 result indices Filed {path, source, report = r} =
   pairs $
@@ -96,8 +97,8 @@ result indices Filed {path, source, report = r} =
             <> (if words' == "" then mempty else pair "message" (message' words'))
         )
 
--- | Location of a region. Columns count characters from 1; the end is the position after the last
--- character (3.30.8).
+-- | Location of a region: its file, and its lines and columns. Columns count characters from 1; the
+-- end is the position after the last character (3.30.8).
 inSource :: Source -> Region -> Series
 inSource source region = at file (pair "region" (pairs stretch))
   where
@@ -109,7 +110,8 @@ inSource source region = at file (pair "region" (pairs stretch))
         <> "endLine" .= endLine
         <> "endColumn" .= endColumn
 
--- | Physical location in the file with this path; the series adds a region or a message.
+-- | Physical location in the file @path@. @region@ is the field for a region in this file; it is
+-- 'mempty' for the file as a whole.
 at :: Text -> Series -> Series
 at path region =
   pair "physicalLocation" (pairs (pair "artifactLocation" (pairs ("uri" .= uri path)) <> region))
