@@ -44,8 +44,8 @@ pictureLines machine range rows = case Machine.pitch (Machine.medium machine) of
   where
     chosen' r = filter (\(n, line) -> any (\row -> inRange r n row) line)
 
--- | Word for what @range@ counts, and the count of these on the whole tape: frames, rows, or lines
--- of a text. Reports use both.
+-- | What @range@ counts, as reports name it (frames, rows, or lines of a text), and how many of them
+-- the whole tape has.
 extent :: Machine -> RowRange -> [Row] -> (Text, Int)
 extent machine range rows = case (range, Machine.pitch (Machine.medium machine)) of
   (Frames _ _, _) -> ("frame", foldl' max 0 (mapMaybe frame rows))

@@ -375,7 +375,7 @@ data Outlook = Outlook
     move :: MoveRest,
     -- | the run that begins with the move
     run :: [MoveRest],
-    -- | the directions of chords at which an arc touches the limits
+    -- | the directions in which a chord touches an arc that bounds the run
     tangents :: Tangents
   }
 

@@ -311,5 +311,6 @@ factor s =
           (Transformation.point s (Vec.point reach 0))
    in k / reach
   where
-    -- A long distance, so that the rounding of large coordinates has little effect on the factor.
+    -- The distance in mm of the two points that are transformed. It is long, so that the rounding of
+    -- large coordinates has little effect on the ratio.
     reach = 1024

@@ -166,8 +166,8 @@ data TableFault
     NoSuchCode Int
   | -- | range that is reversed or too long
     BadRange Int Int
-  | -- | feed at the end of braking that is outside the machine's feeds: the lowest and the highest
-    -- of these, in mm/min
+  | -- | feed at the end of braking that is outside the machine's feeds; the numbers are the lowest
+    -- and the highest feed of the machine, in mm/min
     NoSuchFeed Double Double
   deriving stock (Eq, Ord, Show)
 

@@ -297,8 +297,8 @@ isUnreachable problem c w = ClosedPolyarcs.loopCount c > 1 && isOuter && isSmall
       Left _ -> False
 
 -- | The winding number of the reachable positions. It is the winding number on the left of every
--- contour, and so on the left of every loop of the result: 1 when the outermost contours are
--- counter-clockwise, else 0. The result is a fault for contours that intersect or whose senses do
+-- contour, and so on the left of every loop of the offset: 1 when the outermost contours are
+-- counter-clockwise, else 0. The function fails for contours that intersect or whose senses do
 -- not fit their nesting. @tolerance@ (mm) covers rounding; @open@ is True when the contour is open;
 -- @boxes@ is the bounding-box tree of the contours @source@.
 wantedNumber ::

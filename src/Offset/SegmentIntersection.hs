@@ -542,10 +542,10 @@ secondOfArcs !tolerance !c visitor !vertex !i !j =
     vx0 = indexPrimArray (ClosedPolyarcs.xs c) vertex
     vy0 = indexPrimArray (ClosedPolyarcs.ys c) vertex
 
--- | True when the region between two segments that meet twice is no wider than the tolerance (mm).
--- Then the second intersection is not reported. The width is estimated from @hh@, the squared
--- distance of the two intersections in mm², and @bend@, half the difference of the curvatures in
--- 1/mm.
+-- | True when two segments meet twice within the tolerance (mm), or when the region between them is
+-- at most four tolerances wide. Then the second intersection is not reported. @hh@ is the squared
+-- distance of the two intersections in mm², and @bend@ half the difference of the curvatures in
+-- 1/mm; the width is about @hh·bend/4@.
 isThin :: Double -> Double -> Double -> Bool
 isThin tolerance hh bend = hh <= tolerance * tolerance || hh * bend <= 16 * tolerance
 

@@ -266,8 +266,9 @@ cornerPoints source i =
     r1 = distanceAt source i
     r2 = distanceAt source (next source i)
 
--- | The line beside the corner after element @i@, from that element's distance to the distance of
--- the next one. Nothing when both distances are equal or the cutter does not pass the corner.
+-- | The line at the corner after element @i@ that joins the end of this element's offset to the
+-- start of the next one's. Nothing when both elements have the same distance, and at corners where
+-- the two offsets meet elsewhere.
 cornerStep :: OffsetSource -> Int -> Maybe Segment
 cornerStep source i = case cornerAt source i of
   Smooth -> step

@@ -5,7 +5,7 @@
 -- * for each point, x and y; if there is a digit 4, also the bevel and the height of the flange;
 -- * for each digit 1, a second distance;
 -- * for each digit 6, a distance for each point;
--- * the flag of the feed.
+-- * the flag of the feed: 1 to slow down at the end of the piece, else 0.
 module Sheet.PieceFromWords
   ( cipherOf,
     pieceOf,
@@ -43,13 +43,13 @@ cipherOf e = case symbol e of
 
 -- | The counts of numbers that a cipher demands. The flag of the feed is not included.
 data Layout = Layout
-  { -- | before all points
+  { -- | count of the numbers before all points
     before :: Int,
-    -- | with each point: 2 or 4
+    -- | count of the numbers of each point: 2 or 4
     each :: Int,
-    -- | after all points, independent of their count
+    -- | count of the numbers after all points that are there once
     after :: Int,
-    -- | after all points, for each point
+    -- | count of the numbers after all points that are there once for each point
     again :: Int
   }
 

@@ -35,7 +35,7 @@ data CommentPositions = CommentPositions
     isAtComma :: Int -> Int -> Bool
   }
 
--- | The positions in a text without comments.
+-- | The comment positions of a text that contains no comment: every answer is False.
 noComments :: CommentPositions
 noComments = CommentPositions {isBetween = \_ _ -> False, isAtComma = \_ _ -> False}
 

@@ -198,8 +198,8 @@ commandsOf w =
   [(o, ModalState.isZeroCommand w) | Command o <- [content w]]
     <> [(o, False) | CommandBit o _ <- service (form w)]
 
--- | True for a form in which the number and its count of digits determine the rows: no service
--- track, and no digit for the leading axis.
+-- | True for a form in which the number and its count of digits determine the rows. Such a form has
+-- no holes in the service track, no sign in that track, and fewer digits than 'mostDigits'.
 isPlainForm :: NumberForm -> Bool
 isPlainForm f = null (service f) && digits f < mostDigits && isPlainSign (sign f)
   where

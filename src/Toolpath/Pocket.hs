@@ -124,8 +124,9 @@ nearest' room = plus (radius room) (leaves room)
 
 -- Linking moves
 
--- | The linking move between two points; empty if the points coincide. It is straight if the cutter
--- then keeps its distance from all walls. Otherwise it leads over the wall.
+-- | The linking move between two points; empty if the points coincide. It is straight at the depth
+-- of the pass if the cutter then keeps its distance from all walls. Otherwise the cutter is lifted
+-- and crosses above them.
 linked :: PocketRoom -> Point -> Point -> [PocketMove]
 linked room = link
   where

@@ -45,7 +45,8 @@ data Measure = Measure
     isResolved :: Bool
   }
 
--- | Measure of the contour of a job.
+-- | Numbers with which positions along the contour of a job are compared: its length, and the
+-- uncertainty of a contact point.
 measureOf :: MillingJob -> Measure
 measureOf job =
   Measure

@@ -75,7 +75,8 @@ heights m = (fromHeight m, toHeight m)
 endPosition :: CutterMotion -> (Point, Mm)
 endPosition m = (Segment.end (segment m), toHeight m)
 
--- | Bounding paths of the motion.
+-- | Bounding paths of the motion: the paths between which the cutter's centre stays. There is one, or
+-- two for an arc whose radii at its start and its end differ.
 paths :: CutterMotion -> NonEmpty Segment
 paths = Control.boundingPaths . segment
 
@@ -95,7 +96,8 @@ connectors m
 box :: CutterMotion -> BoundingBox
 box m = case FastDistance.uneven (segment m) of
   0 -> FastDistance.box (segment m)
-  -- The ends and sagittas of the two bounding arcs differ by no more than twice this difference.
+  -- The difference is that of the radii at the arc's two ends. The ends and the sagittas of the two
+  -- bounding arcs differ by at most twice as much.
   difference -> BoundingBox.inflate (Mm (2 * difference)) (FastDistance.box (segment m))
 
 -- | Test that two motions are the same part of the same frame.

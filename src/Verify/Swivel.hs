@@ -56,8 +56,8 @@ data BladePass = BladePass
     tolerance :: Mm,
     -- | elements of the contour with their numbers from 0
     elements :: BoxTree (Int, Segment),
-    -- | heights of the axis at the start and at the end of each element, by its number; empty
-    -- without bevels
+    -- | heights of the axis about which the blade swivels, at the start and at the end of each
+    -- element, by its number; empty without bevels
     axisHeights :: Vector (Mm, Mm)
   }
 

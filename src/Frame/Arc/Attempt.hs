@@ -50,8 +50,9 @@ data Ranked = Ranked {rank :: Int, attempted :: Attempt}
 -- tolerance.
 --
 -- Grid points about which the whole arc is one frame have priority. The one with the least
--- deviation is chosen, and the first of several equal ones. The grid point with the least estimate
--- is attempted first; another one is attempted only when its estimates are better. When no single
+-- deviation is chosen, and the first of several equal ones. The grid point with the least estimated
+-- deviation is attempted first. Another one is attempted only if its estimated deviation is below the
+-- least deviation found so far. When no single
 -- frame is within the tolerance, the attempt with the fewest steps is chosen, and among these the
 -- one with the least deviation.
 bestAbout :: ArcContext -> RoundedArc -> [Pulses2] -> Maybe [ArcStep]

@@ -79,7 +79,7 @@ isForwardsBy :: FastArc -> Double -> Double -> Bool
 isForwardsBy f along across = along > 0 && along * cosine f + across * sine f > 0
 {-# INLINE isForwardsBy #-}
 
--- | F, in mm, of an arc's circle at a position.
+-- | The function F of the module header, in mm, for an arc's circle at a position.
 level :: FastArc -> Pose -> Double
 level f = above (bend f) (origin f)
 {-# INLINE level #-}

@@ -34,9 +34,9 @@ zero f from to = go steps from to (0.5 * (from + to))
         next = if newton > low' && newton < high' && budget `mod` 4 /= 0 then newton else middle
     steps = 200
 
--- | The roots at which the function @f@ rises. A sample is a parameter and the function's value at
--- it. There is one root between two neighbouring samples if the first has a negative value and the
--- second a positive one.
+-- | The roots at which a function rises. @f@ gives its value and its derivative at a parameter. A
+-- sample is a parameter and the function's value at it. There is one root between two neighbouring
+-- samples if the first has a negative value and the second a positive one.
 rising :: (Double -> (Double, Double)) -> [(Double, Double)] -> [Double]
 rising f samples = [zero f a b | ((a, va), (b, vb)) <- zip samples (drop 1 samples), va < 0, vb > 0]
 
