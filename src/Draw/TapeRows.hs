@@ -44,8 +44,8 @@ pictureLines machine range rows = case Machine.pitch (Machine.medium machine) of
   where
     chosen' r = filter (\(n, line) -> any (\row -> inRange r n row) line)
 
--- | What @range@ counts, as reports name it (frames, rows, or lines of a text), and how many of them
--- the whole tape has.
+-- | What @range@ counts, as reports name it (frames, rows, or lines of a text), and how many of
+-- them the whole tape has.
 extent :: Machine -> RowRange -> [Row] -> (Text, Int)
 extent machine range rows = case (range, Machine.pitch (Machine.medium machine)) of
   (Frames _ _, _) -> ("frame", foldl' max 0 (mapMaybe frame rows))

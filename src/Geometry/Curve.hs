@@ -8,7 +8,8 @@
 -- A shift adds a layer: it moves every point of the curve below along its normal, by a distance
 -- that is a function of the parameter. Points, directions and curvatures are computed by power
 -- series through all layers, so rounding is the only error. A shift of a curve with a corner leaves
--- a gap or an overlap at the corner. This module does not close it; the caller inserts a link there.
+-- a gap or an overlap at the corner. This module does not close it; the caller inserts a link
+-- there.
 --
 -- This module is the interface of the folder "Geometry.Curve". It does not export the fields of
 -- 'BasisCurve', 'Knot', 'Column' and 'Cusp'; these are read through the modules of the types.
@@ -311,6 +312,6 @@ factor s =
           (Transformation.point s (Vec.point reach 0))
    in k / reach
   where
-    -- The distance in mm of the two points that are transformed. It is long, so that the rounding of
-    -- large coordinates has little effect on the ratio.
+    -- The distance in mm of the two points that are transformed. It is long, so that the rounding
+    -- of large coordinates has little effect on the ratio.
     reach = 1024

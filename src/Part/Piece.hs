@@ -251,8 +251,8 @@ bevelled env on e = case on of
     pure [(0, a)]
   Just c -> Curve.alongPolyarc c <$> (alongRows env c e >>= checkedBevels c e)
 
--- | The bevels @values@ unchanged, in radians, one for each row of the curve's table. Fails if one is
--- a right angle or more, of either sign. @e@ is their expression.
+-- | The bevels @values@ unchanged, in radians, one for each row of the curve's table. Fails if one
+-- is a right angle or more, of either sign. @e@ is their expression.
 checkedBevels :: PartCurve -> Expr -> Vector Double -> Eval (Vector Double)
 checkedBevels c e values = case find ((>= bevelLimit) . abs . snd) numbered of
   Just (k, a) -> mistake (SteepBevel (region e) (if byRow then Just k else Nothing) (Rad a))

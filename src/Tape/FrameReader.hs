@@ -193,8 +193,8 @@ withCheckDigit layout k modulus d now =
       check = Just (k, modulus)
     }
 
--- | Adds to a reading what the number @n@ of the word @w@ gives besides a position or a feed: the sum
--- of its weights, the command if @w@ is a command word, and the holes of the service track.
+-- | Adds to a reading what the number @n@ of the word @w@ gives besides a position or a feed: the
+-- sum of its weights, the command if @w@ is a command word, and the holes of the service track.
 withNumber :: PreparedLayout -> Word' -> TapeNumber -> Reading -> Reading
 withNumber layout w n now = case content w of
   Command o -> counted {commandNumbers = (o, NumberReader.value n) : commandNumbers counted}

@@ -156,8 +156,8 @@ occursInSimple word = case content word of
       WhenNeeded -> False
       WhenChanged -> False
 
--- | True for a command word in which the number 0 gives a command. It is false for a word that is also
--- in frames without a command: there 0 means that the frame has none.
+-- | True for a command word in which the number 0 gives a command. It is false for a word that is
+-- also in frames without a command: there 0 means that the frame has none.
 isZeroCommand :: Word' -> Bool
 isZeroCommand word = case presence word of
   Always -> False

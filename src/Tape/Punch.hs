@@ -157,9 +157,9 @@ read machine start (Tape raw) = case firstFrameRow source of
   Left fault -> Left (damage source Nothing fault)
   -- Increments do not depend on the height, so the tape never has to give the height.
   Right begin | not (hasPositions source) -> readFrom source start begin False
-  -- The first frame that moves has a word for z if any frame of the tape changes the height. Whether
-  -- one does is known only after all frames are read, so they are read with that word (True) and
-  -- without it.
+  -- The first frame that moves has a word for z if any frame of the tape changes the height.
+  -- Whether one does is known only after all frames are read, so they are read with that word
+  -- (True) and without it.
   Right begin -> case (readFrom source start begin True, readFrom source start begin False) of
     (Right frames, _) | ModalState.changesHeight frames -> Right frames
     (Left withHeight, Right frames) | ModalState.changesHeight frames -> Left withHeight
@@ -246,8 +246,8 @@ data Source = Source
     line :: ShortByteString,
     -- | the rows that the code skips, each once; empty if blank rows are 'Counted'
     skipped :: ByteString,
-    -- | the medium; if the code skips blank rows, there are none to count, and the medium's counts of
-    -- blank rows (leader, gap, shift) are set to 0
+    -- | the medium; if the code skips blank rows, there are none to count, and the medium's counts
+    -- of blank rows (leader, gap, shift) are set to 0
     medium :: Medium,
     -- | symbols after the last frame
     ending :: [Symbol]

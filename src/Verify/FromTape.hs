@@ -156,8 +156,8 @@ subjectOf machine path program frames =
         (SpindleTool.toolInFrame tools)
         (Frame.start program)
 
--- | Test that the tape has as many frames as planned. If it has, the callers compare each frame with
--- the planned frame of the same number.
+-- | Test that the tape has as many frames as planned. If it has, the callers compare each frame
+-- with the planned frame of the same number.
 hasSameCount :: Subject -> Bool
 hasSameCount subject =
   SpindleTool.toolCount (tools subject) == TapeSummary.count (summary subject)

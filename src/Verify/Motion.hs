@@ -75,8 +75,8 @@ heights m = (fromHeight m, toHeight m)
 endPosition :: CutterMotion -> (Point, Mm)
 endPosition m = (Segment.end (segment m), toHeight m)
 
--- | Bounding paths of the motion: the paths between which the cutter's centre stays. There is one, or
--- two for an arc whose radii at its start and its end differ.
+-- | Bounding paths of the motion: the paths between which the cutter's centre stays. There is one,
+-- or two for an arc whose radii at its start and its end differ.
 paths :: CutterMotion -> NonEmpty Segment
 paths = Control.boundingPaths . segment
 

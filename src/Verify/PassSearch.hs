@@ -73,8 +73,8 @@ find job at motions = case (complete, filter (staysBeside job . snd) arrivals <>
 
 -- | Arrivals at the start of a cut, in the order of the tape. The arriving motion is unknown if the
 -- cutter was at the start already, or came from another height. A line that begins near the start
--- and ends still nearer belongs to the approach, which was divided for braking. So the arrival is at
--- its end.
+-- and ends still nearer belongs to the approach, which was divided for braking. So the arrival is
+-- at its end.
 arrivalsIn :: MillingJob -> Maybe Point -> [CutterMotion] -> [Arrival]
 arrivalsIn job at = go Nothing
   where

@@ -51,10 +51,9 @@ data Ranked = Ranked {rank :: Int, attempted :: Attempt}
 --
 -- Grid points about which the whole arc is one frame have priority. The one with the least
 -- deviation is chosen, and the first of several equal ones. The grid point with the least estimated
--- deviation is attempted first. Another one is attempted only if its estimated deviation is below the
--- least deviation found so far. When no single
--- frame is within the tolerance, the attempt with the fewest steps is chosen, and among these the
--- one with the least deviation.
+-- deviation is attempted first. Another one is attempted only if its estimated deviation is below
+-- the least deviation found so far. When no single frame is within the tolerance, the attempt with
+-- the fewest steps is chosen, and among these the one with the least deviation.
 bestAbout :: ArcContext -> RoundedArc -> [Pulses2] -> Maybe [ArcStep]
 bestAbout context arc centres
   | Just ends <- Estimate.endsOf (grid context) arc,

@@ -17,9 +17,10 @@ import Verify.Proof (Witness)
 import Verify.Proof qualified as Proof
 
 -- | False only if the motion gouges no element of a list deeper than @best@, the deepest gouge so
--- far. True means that the exact test has to decide. @bounding@ are the paths between which
--- the cutter's centre stays ("Control.Motion"). After rounding, an arc may have different radii at its
--- start and its end; the bounding paths differ from the motion's segment by at most this difference.
+-- far. True means that the exact test has to decide. @bounding@ are the paths between which the
+-- cutter's centre stays ("Control.Motion"). After rounding, an arc may have different radii at its
+-- start and its end; the bounding paths differ from the motion's segment by at most this
+-- difference.
 mayGougeDeeper :: KeepOut -> Maybe Witness -> CutterMotion -> [Segment] -> [Edge] -> Bool
 mayGougeDeeper keepOut best m bounding = go
   where
