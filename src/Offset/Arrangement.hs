@@ -90,14 +90,8 @@ arrange tolerance c boxes
     (cuts, pairs) = intersections tolerance c boxes
     (coordinates, nodeOf, cutNodes) = nodesOf tolerance c cuts
     found = Vector.fromList (merged tolerance coordinates (slices c coordinates nodeOf cutNodes))
-    outgoing =
-      IntMap.fromListWith
-        (<>)
-        ( concat
-            [ [(from e, [2 * i]), (to e, [2 * i + 1])]
-              | (i, e) <- Vector.toList (Vector.indexed found)
-            ]
-        )
+    outgoing = IntMap.fromListWith (<>) (concatMap halfEdges (Vector.indexed found))
+    halfEdges (i, e) = [(from e, [2 * i]), (to e, [2 * i + 1])]
     ordered = fmap (Vector.fromList . ring coordinates found) outgoing
     arrangement =
       Arrangement
@@ -181,8 +175,7 @@ nodesOf tolerance c cuts =
     grab f v ps = case ps of
       q : rest
         | f q - v <= 4 * tolerance ->
-          let (same, others) =
-                grab f (f q) rest
+          let (same, others) = grab f (f q) rest
            in (q : same, others)
       _ -> ([], ps)
     fst3 (x, _, _) = x
@@ -248,8 +241,7 @@ slices c coordinates nodeOf cutNodes =
               p /= q
           ]
     bulgeOf i p q =
-      let ((x, y), (x', y')) =
-            (coordinates Vector.! p, coordinates Vector.! q)
+      let ((x, y), (x', y')) = (coordinates Vector.! p, coordinates Vector.! q)
        in ClosedPolyarcs.partialBulge c i x y x' y'
 
 -- | The position of a node along the chord of segment @i@, in mm from the chord's start, multiplied
@@ -282,12 +274,10 @@ merged tolerance coordinates cut =
         bySagitta ps = case ps of
           [] -> []
           p : rest ->
-            let (same, others) =
-                  span (\q -> rise q - rise p <= 4 * tolerance) rest
+            let (same, others) = span (\q -> rise q - rise p <= 4 * tolerance) rest
              in (p : same) : bySagitta others
     chordOf a b =
-      let ((x, y), (x', y')) =
-            (coordinates Vector.! a, coordinates Vector.! b)
+      let ((x, y), (x', y')) = (coordinates Vector.! a, coordinates Vector.! b)
        in sqrt ((x' - x) * (x' - x) + (y' - y) * (y' - y))
     edge a b m (forth, i, g) = if forth then Edge a b m g i else Edge b a m (-g) i
     bundle a b list = case compare net 0 of
