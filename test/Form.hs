@@ -105,7 +105,7 @@ problems excepted (Source path text) =
   [WideLine n w | (n, l) <- zip [1 ..] rows, let w = Text.length l, w > widestLine]
     <> [LongModule count | let count = length rows, count > longestModule]
     <> concatMap ofDefinition own
-    <> [Tuned pragma | isLibrary, pragma <- tuningPragmas rows, not (mayBeTuned name)]
+    <> [Tuned pragma | isLibrary, not (mayBeTuned name), pragma <- tuningPragmas rows]
     <> [NeedlessException d | isLibrary, d <- needless]
   where
     rows = Text.lines text
