@@ -4,6 +4,7 @@ module Generate.Arcs
   ( quantise,
     Deviation (..),
     deviation,
+    pathDeviation,
     change,
   )
 where
@@ -218,27 +219,31 @@ between p q = let Mm d = Vec.distance p q in d
 data Deviation = Deviation {deepestGouge :: Double, largestExcess :: Double}
   deriving stock (Show)
 
--- | The deviation of frames from a contour for a cutter of the given radius in mm, by sample points
--- on both. The frames start at the position @begin@. Each arc has the radius at its start.
+-- | Deviation of frames from a contour, in mm, for a cutter of this radius that begins at @begin@.
 deviation :: Machine -> Pulses3 -> [Frame] -> [Segment] -> Double -> Deviation
-deviation machine begin frames contour radius =
+deviation machine begin frames =
+  pathDeviation (zipWith (Frame.segment machine) (scanl (+) begin (map increment frames)) frames)
+
+-- | Deviation of a path of the cutter's centre from a contour, in mm, by dense samples of both.
+pathDeviation :: [Segment] -> [Segment] -> Double -> Deviation
+pathDeviation path contour radius =
   Deviation
     { deepestGouge = radius - minimum [nearest onContour p | p <- onPath],
       largestExcess = maximum [nearest onPath q | q <- onContour] - radius
     }
   where
     onContour = concatMap (dense 0.4) contour
-    onPath = concat (zipWith path (scanl (+) begin (map increment frames)) frames)
-    path at f = Frame.position machine at : dense 0.2 (Frame.segment machine at f)
+    onPath = concatMap (dense 0.2) path
     nearest ps q =
       sqrt (minimum [(Vec.x p - Vec.x q) ^ (2 :: Int) + (Vec.y p - Vec.y q) ^ (2 :: Int) | p <- ps])
 
--- | Points of a segment with its ends, at most @apart@ mm from one another.
+-- | Points of a segment with its ends, at most @apart@ mm from one another. A short arc may have a
+-- large sweep, so there are at least 17.
 dense :: Double -> Segment -> [Point]
 dense apart s = [Segment.at (fromIntegral k / fromIntegral n) s | k <- [0 .. n]]
   where
     Mm l = Segment.length s
-    n = max 1 (ceiling (l / apart)) :: Int
+    n = max 16 (ceiling (l / apart)) :: Int
 
 -- | Frames with one random mistake, and a description of the mistake.
 change :: [Frame] -> Gen (String, [Frame])

@@ -20,7 +20,6 @@ import Generate qualified
 import Generate.Arcs qualified as Arcs
 import Generate.ByControl qualified as ByControl
 import Geometry.Segment (Segment)
-import Geometry.Segment qualified as Segment
 import Geometry.Vec qualified as Vec
 import Machine.Machine (CommandName (..))
 import Machines (iso6983)
@@ -67,14 +66,14 @@ spec = do
                   concatMap
                     (NonEmpty.toList . Compensation.centrePath)
                     (fst (Compensation.run iso6983 (const (Mm 0)) (Frame.start program) fs))
-                (deepest, most) = deviation centre job
+                Arcs.Deviation {Arcs.deepestGouge, Arcs.largestExcess} = deviation centre job
                 found = findings path program fs
-                gouges = deepest > 0.022
-                leaves = most > 0.022 + 0.01 / (2 * let Mm r = Part.radius job in r)
+                gouges = deepestGouge > 0.022
+                leaves = largestExcess > 0.022 + 0.01 / (2 * let Mm r = Part.radius job in r)
              in tabulate "change" [takeWhile (/= '(') what] $
                   classify (not gouges && not leaves) "within" $
                     counterexample
-                      (show (what, deepest, most, found))
+                      (show (what, deepestGouge, largestExcess, found))
                       ( (not gouges || any isGouge found)
                           && (not leaves || any (\f -> isExcess f || isNeverBegun f) found)
                       )
@@ -136,25 +135,12 @@ own program = map Frame.frame (Frame.plannedFrames program)
 cutting :: [PlannedFrame] -> [Int]
 cutting ps = [n | (n, p) <- zip [0 ..] ps, Cutting _ <- [Frame.role p]]
 
--- | Depth of the deepest gouge and largest excess of a path of the cutter's centre, by dense
--- samples of the path and of the contour.
-deviation :: [Segment] -> Milling -> (Double, Double)
+-- | Deviation of a path of the cutter's centre from the contour of a milling.
+deviation :: [Segment] -> Milling -> Arcs.Deviation
 deviation centre job =
-  (r - minimum [nearest edge p | p <- path], maximum [nearest path q | q <- edge] - r)
+  Arcs.pathDeviation centre (map Part.segment (NonEmpty.toList (Part.elements contour))) radius
   where
-    Mm r = Part.radius job
-    edge = concatMap (dense 0.4 . Part.segment) (NonEmpty.toList (Part.elements (Part.contour job)))
-    path = concatMap (dense 0.2) centre
-    -- A short arc may have a large sweep.
-    dense step s =
-      let Mm l =
-            Segment.length s
-          n = max 16 (ceiling (l / step)) :: Int
-       in [Segment.at (fromIntegral k / fromIntegral n) s | k <- [0 .. n]]
-    nearest ps q =
-      sqrt
-        (minimum [(Vec.x p - Vec.x q) ^ (2 :: Int) + (Vec.y p - Vec.y q) ^ (2 :: Int) | p <- ps]) ::
-        Double
+    Part.Milling {Part.contour, Part.radius = Mm radius} = job
 
 -- | Command with the sides exchanged.
 exchanged :: (CommandName, Int) -> (CommandName, Int)
