@@ -3,7 +3,8 @@
 
     sample.py SEED [comments|definitions|passages|homes]
 
-Without a kind it prints 60 comments, 40 exported definitions and 20 passages of the documents. With
+Without a kind it prints 60 comments, 40 exported definitions and 20 passages of the documents, marked
+by ">", each below the head of its module or its headings ("|") and between the lines around it. With
 `homes` it prints 20 exported definitions without their modules: the reader says in which folder and
 module they would look for each. `sample.py SEED answers` prints these modules.
 """
@@ -30,15 +31,48 @@ def sources():
 
 
 def code_after(lines, number):
-    """The code after a comment as a reader sees it first: the signature and the first line of the definition."""
+    """The code after a comment: the signature and the first line of the definition, or the whole type."""
     code = []
-    for line in lines[number : number + 8]:
+    is_type = number < len(lines) and re.match(r"(data|newtype) ", lines[number])
+    for line in lines[number : number + (16 if is_type else 8)]:
         if not line.strip():
             break
         code.append(line)
+        if is_type:
+            continue
         if re.search(r"[=|]( |$)", line) and not line.startswith(" ") and "::" not in line:
             break
     return code
+
+
+def module_header(lines):
+    """The comment at the head of a module, and the line with its name: what a reader of the file has read."""
+    header = []
+    for line in lines:
+        if line.startswith("{-#"):
+            continue
+        if line.startswith("--"):
+            header.append(line)
+        elif line.startswith("module "):
+            return header + [line.replace(" where", "").rstrip(" (")]
+        elif line.strip():
+            header = []
+    return header
+
+
+def definition_around(lines, begin):
+    """The definition that an indented comment belongs to: its comment and first lines, then the lines just before."""
+    head = begin
+    while head > 0 and (not lines[head].strip() or lines[head][0] in " )"):
+        head -= 1
+    top = head
+    while top > 0 and lines[top - 1].strip() and not lines[top - 1].startswith((" ", "import")):
+        top -= 1
+    around = lines[top : min(head + 4, begin)]
+    just_before = max(head + 4, begin - 3)
+    if just_before < begin:
+        around += (["..."] if just_before > head + 4 else []) + lines[just_before:begin]
+    return around
 
 
 def comments():
@@ -46,6 +80,7 @@ def comments():
     found = []
     for path in sources():
         lines = read(path).split("\n")
+        header = module_header(lines)
         number = 0
         while number < len(lines):
             if not COMMENT.match(lines[number]) or lines[number].rstrip().endswith("-----"):
@@ -54,11 +89,9 @@ def comments():
             begin = number
             while number < len(lines) and re.match(r"^ *--( |$)", lines[number]):
                 number += 1
-            around = []
-            if lines[begin].startswith(" "):
-                heads = [line for line in lines[:begin] if re.match(r"[a-z(]|data |newtype |type ", line)]
-                around = heads[-1:]
-            found.append((path, begin + 1, around + lines[begin:number] + code_after(lines, number)))
+            around = definition_around(lines, begin) if lines[begin].startswith(" ") else []
+            marked = ["> " + line for line in lines[begin:number]]
+            found.append((path, begin + 1, header, around + marked + code_after(lines, number)))
     return found
 
 
@@ -76,29 +109,38 @@ def definitions():
             if match[2] in exported and (is_type or "::" in match[3]):
                 line = text.count("\n", 0, match.start()) + 1
                 rows = match[1].rstrip("\n").split("\n")
-                found.append((path, line, rows + code_after(text.split("\n"), line - 1 + len(rows))))
+                lines = text.split("\n")
+                marked = ["> " + row for row in rows]
+                found.append((path, line, module_header(lines), marked + code_after(lines, line - 1 + len(rows))))
     return found
 
 
 def passages():
-    """The paragraphs and list items of the documents, without tables and blocks of code."""
+    """The paragraphs and list items of the documents, each below its headings and what stands right before it."""
     found = []
     for path in [os.path.join(TOP, "README.md"), os.path.join(TOP, "CONTRIBUTING.md")] + sorted(
         glob.glob(os.path.join(TOP, "docs", "*.md"))
     ):
-        text = re.sub(r"^```.*?^```", lambda m: "\n" * m[0].count("\n"), read(path), flags=re.S | re.M)
+        whole = read(path)
+        text = re.sub(r"^```.*?^```", lambda m: "\n" * m[0].count("\n"), whole, flags=re.S | re.M)
         for match in re.finditer(r"(?:^(?!\n)[^\n]+\n?)+", text, re.M):
             body = match[0].strip()
             if len(body.split()) > 8 and not re.match(r"[|#<!]|    ", match[0]):
-                found.append((path, text.count("\n", 0, match.start()) + 1, body.split("\n")))
+                before = text[: match.start()]
+                headings = re.findall(r"^#+ .*", before, re.M)
+                line = before.count("\n")
+                rows = whole.split("\n")[max(0, line - 5) : line]
+                marked = ["> " + row for row in body.split("\n")]
+                found.append((path, line + 1, headings[:1] + headings[1:][-1:], rows + marked))
     return found
 
 
 def show(title, drawn):
     print("== " + title)
-    for count, (path, line, body) in enumerate(drawn, 1):
+    for count, (path, line, context, body) in enumerate(drawn, 1):
         print("\n%d. %s:%d" % (count, os.path.relpath(path, TOP), line))
-        print("\n".join("   " + row for row in body[:26]))
+        print("\n".join("   | " + row for row in context))
+        print("\n".join("   " + row for row in body[:40]))
     print()
 
 
@@ -113,7 +155,7 @@ def main():
     if kind in ("passages", "all"):
         show("passages", draw.sample(passages(), 20))
     if kind in ("homes", "answers"):
-        for count, (path, _, body) in enumerate(draw.sample(definitions(), 20), 1):
+        for count, (path, _, _, body) in enumerate(draw.sample(definitions(), 20), 1):
             if kind == "answers":
                 print("%d. %s" % (count, os.path.relpath(path, TOP)))
             else:
