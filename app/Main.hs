@@ -37,7 +37,7 @@ work = do
       <$> getArgs
   name <- getProgName
   statusOf <$> case parsed of
-    -- The library treats --help and --version as parser failures with the status of success.
+    -- Optparse-applicative treats --help and --version as failures with the status of success.
     Opt.Failure request
       | (text, ExitSuccess) <- Opt.renderFailure request name -> Subcommand.showHelp text
     _ -> Opt.handleParseResult parsed >>= Subcommand.run
@@ -49,8 +49,8 @@ statusOf end = case end of
   Failed -> ExitFailure 1
   Disproven -> ExitFailure 3
 
--- | The exit status after an asynchronous exception: 130 for Ctrl-C. Any other is reported as a
--- bug.
+-- | The exit status after an asynchronous exception: 130 for Ctrl-C. Any other exception is
+-- reported as a bug.
 interrupted :: AsyncException -> IO ExitCode
 interrupted e = case e of
   UserInterrupt -> pure (ExitFailure 130)

@@ -9,9 +9,9 @@
 -- 'compile' runs all of it; 'evaluate', 'analyse' and 'check' stop earlier. "Project.LoadedProgram"
 -- finds the texts and "Project.Target" the machines.
 --
--- Every stage is a pure function to a 'Result': warnings, errors, and the sound part of the output.
--- The stages up to the toolpath continue after errors, so that one run reports all independent
--- mistakes. A tape is made only from a program without errors.
+-- Every stage is a pure function to a 'Result': warnings, errors, and the part of the output that
+-- is right. The stages up to the toolpath continue after errors, so that one run reports all
+-- independent mistakes. A tape is made only from a program without errors.
 module Compile
   ( compile,
     Compiled (..),
@@ -72,7 +72,8 @@ evaluate values loaded = do
   checked <- mapErrors id Checked.toReport (Checked.check assigned)
   (checked,) <$> mapErrors id Part.toReport (Part.evaluate checked)
 
--- | The results that do not depend on a machine: the mentions of names, the part, and the toolpath.
+-- | The results that do not depend on a machine: the mentions of names in the program (for
+-- editors), the part, and the toolpath.
 data Analysis = Analysis {mentions :: [Checked.Mention], part :: Part, path :: Toolpath}
 
 -- | Surface → Checked → Part → Toolpath. @values@ are the names and the values of the program's
@@ -102,8 +103,8 @@ makeTapes verification path machines = case machines of
 -- | A tape for one machine. Its proof is present if the job asks for verification.
 data Compiled = Compiled
   { machine :: Machine,
-    -- | the toolpath, in which each cut is reduced to its first and last move; 'prove' needs no
-    -- more
+    -- | the toolpath, in which each cut is reduced to its first and last move, except the cuts of a
+    -- blade; 'prove' needs no more
     toolpath :: Toolpath,
     punched :: Punched,
     proof :: Maybe Proof
@@ -139,8 +140,9 @@ punch machine path = do
   pure Punched {program, tape = Tape.write machine (Frame.start program) frames}
 
 -- | Frame → Control → Verify: runs the frames of a tape on the virtual controller and compares the
--- motions with the part. The errors of the result are the findings. If there are none, the tape is
--- proven. The cuts of @toolpath@ may be reduced by 'withoutCuts'.
+-- motions with the part. The errors of the result are the findings: all that the proof has found
+-- wrong. If there are none, the tape is proven. The cuts of @toolpath@ may be reduced by
+-- 'withoutCuts'.
 prove :: Machine -> Toolpath -> Frame.FrameProgram -> [Frame.Frame] -> Result Report Report Proof
 prove machine toolpath program frames = failing (Proof.toReports machine proof) proof
   where

@@ -44,9 +44,10 @@ short decimals x
   where
     written = fixed decimals x
 
--- | The shortest text of the number @x@ that 'parse' reads without any error. A negative number has
+-- | The shortest text from which 'parse' makes exactly the number @x@ again. A negative number has
 -- a minus sign first, which 'parse' does not accept. A number that needs more than 'mostDigits'
--- digits is rounded to 24 decimals: a part has no length as small as the error of that rounding.
+-- digits is rounded to 24 decimals: no length of a part is as small as the error of that rounding.
+-- If such a number is 10¹⁵ or more, its text has an exponent, which 'parse' does not accept.
 exact :: Double -> Text
 exact x
   | x == 0 = "0"
@@ -99,11 +100,12 @@ leading text = case digits 0 text of
          in longer before (Text.drop 1 rest)
 
 -- | The result of 'digits': the number with the digits appended, the count of the appended digits,
--- and the text after them. With more than 'fewDigits' digits in all, the number has overflowed and
--- is not used.
+-- and the text after them. If the number has more than 'fewDigits' digits, it may have overflowed.
+-- It is then not used.
 data Digits = Digits Int Int {-# UNPACK #-} Text
 
--- | Appends the decimal digits at the start of a text to the digits of a number.
+-- | Appends the decimal digits at the start of a text to the digits of a number: 12 and the text
+-- @34 mm@ give 1234.
 digits :: Int -> Text -> Digits
 digits = go 0
   where

@@ -59,7 +59,8 @@ latin c = Maybe.fromMaybe c (lookup c (zip "асеорхуіјѕАВСЕНІЈК
 distance :: Int -> String -> String -> Maybe Int
 distance most a b = go [0 .. length b] a
   where
-    -- A row contains the distances of a prefix of @a@ from every prefix of @b@.
+    -- A row contains the distances of one prefix of @a@ from every prefix of @b@, the empty one
+    -- first.
     go row rest = case rest of
       _ | all (> most) row -> Nothing
       [] -> let d = last row in if d <= most then Just d else Nothing

@@ -19,7 +19,8 @@ import Data.Primitive.PrimArray (PrimArray)
 import Data.Primitive.PrimArray qualified as PrimArray
 
 -- | A table whose rows have @width@ numbers each. @numbers@ contains the rows one after the other.
--- @places@ contains two offsets for each row: the start and the end of its region of the text.
+-- @places@ contains two offsets for each row: the start and the end of its region of the text. An
+-- offset counts the characters of the text before a position.
 data NumberTable = NumberTable {width :: Int, places :: PrimArray Int, numbers :: PrimArray Double}
   deriving stock (Eq, Show)
 

@@ -1,4 +1,5 @@
--- | Vectors of whole pulses along the axes of the part: positions and increments of a cutter.
+-- | Vectors of whole pulses along the axes of the part: positions and increments of a cutter. A
+-- pulse is one step of an axis of the machine.
 --
 -- Sums, products and all other operations work on each component separately.
 module Base.PulseVector

@@ -93,7 +93,7 @@ data File = File
     content :: Text,
     -- | the count of the text's characters
     length :: Int,
-    -- | for every line, the offset of its first character in this text
+    -- | for every line, the count of this text's characters before the line
     starts :: ~(Vector.Vector Int),
     -- | the texts of the lines, without their line ends
     contents :: ~(Boxed.Vector Text)
@@ -137,8 +137,8 @@ indexed path base content =
       contents = Boxed.fromList (map snd (numbered content))
     }
 
--- | The lines of a text, without their line ends. Before each comes the offset of its first
--- character in the text.
+-- | The lines of a text, without their line ends. The number of each pair is the count of the
+-- text's characters before the line.
 numbered :: Text -> [(Int, Text)]
 numbered = go 0
   where

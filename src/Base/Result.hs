@@ -2,8 +2,9 @@
 --
 -- The errors of independent steps accumulate; such steps are combined by the applicative functor. A
 -- step that needs the output of another step is combined with it by the monad, and runs only if
--- there is an output. An output next to errors is incomplete but sound: later passes look for
--- mistakes in it, but no tape is made of it.
+-- there is an output. A result with errors may have an output too: the part of the data that is
+-- right. Later passes look for mistakes in it, but no tape is made of it. A result without errors
+-- is called sound.
 module Base.Result
   ( Result (..),
     failed,
@@ -41,7 +42,7 @@ failed e = Result [] [e] Nothing
 failing :: [e] -> a -> Result w e a
 failing es a = Result [] es (Just a)
 
--- | A result that consists of warnings: no error, and an output without content.
+-- | A result that consists of warnings: it has no error, and its output is @()@.
 warned :: [w] -> Result w e ()
 warned ws = Result ws [] (Just ())
 
@@ -57,8 +58,8 @@ mapErrors f g (Result ws es a) = Result (map f ws) (map g es) a
 ifSound :: Result w e a -> Maybe a
 ifSound (Result _ es a) = if null es then a else Nothing
 
--- | Runs the pass @f@ on the output of @r@ if @r@ has no error. Otherwise the result has the
--- warnings and errors of @r@ and no output.
+-- | Runs the pass @f@ on the output of @r@ if @r@ is sound. Otherwise the result has the warnings
+-- and errors of @r@ and no output.
 thenSound :: Result w e a -> (a -> Result w e b) -> Result w e b
 thenSound r f = case ifSound r of
   Just _ -> r >>= f

@@ -1,7 +1,8 @@
 -- | The built-in functions and constants of the language, with their types.
 --
 -- A function may have several forms. A form is one list of parameters with the type of the result.
--- A call chooses a form by the number, the labels and the types of its arguments.
+-- A call chooses a form by the number, the labels and the types of its arguments. An unknown is a
+-- type or a dimension that type inference has yet to find; it has a number.
 module Checked.Builtin
   ( Form (..),
     Parameter (..),
@@ -48,7 +49,8 @@ data Parameter = Parameter {label :: ArgumentLabel, title :: Text, type' :: Type
 data ArgumentLabel = NoLabel | Word Selector | Rank
   deriving stock (Eq, Ord, Show)
 
--- | The unknowns that occur in the types of a call: one dimension and one type.
+-- | The unknowns that occur in the types of a form: one dimension and one type. Each call gets new
+-- ones.
 data Fresh = Fresh {dimension :: Dimension, anything :: Type}
 
 -- | Finds a built-in function or constant by its name in programs.
@@ -133,8 +135,8 @@ name builtin = case builtin of
 isConstant :: Builtin -> Bool
 isConstant builtin = builtin `elem` [Pi, Truth, Falsehood]
 
--- | The forms of a function, with the given unknowns in their types. If several forms fit a call at
--- the end of its statement, the first of them is chosen.
+-- | The forms of a function, with the given unknowns in their types. If several forms still fit a
+-- call when its statement has been checked to the end, the first of them in this list is chosen.
 forms :: Fresh -> Builtin -> [Form]
 forms Fresh {dimension = d, anything} builtin = case builtin of
   Pi -> [Form [] Type.number]
@@ -278,7 +280,8 @@ forms Fresh {dimension = d, anything} builtin = case builtin of
     curve = given "curve" (Curve anything)
     table' = given "table" (Table anything)
     tolerance = Parameter (Word WithinTolerance) "tolerance" Type.len
-    -- A curve through the rows of a table, or through points, which have no further columns.
+    -- The forms of a curve through the rows of a table or through points. Points have no columns
+    -- besides x and y.
     curveThrough more =
       [ Form (table' : more) (Curve anything),
         Form (given "points" points : more) (Curve (Fields []))
@@ -291,12 +294,14 @@ forms Fresh {dimension = d, anything} builtin = case builtin of
       [Parameter (Word Near) "point" Type.aPoint]
         <> sided "line" Line
         <> [Parameter (Word side) "circle" Circle | side <- [ToInside, ToOutside]]
-    -- The figures that a circle of a given radius can touch or pass through.
+    -- The parameters that a circle of a given radius can touch or, if they are points, pass
+    -- through.
     touched =
       [point, line, circle]
         <> sided "line" Line
         <> [Parameter (Word side) "circle" Circle | side <- [ToInside, ToOutside]]
-    -- Without a value to transform, the result is the transformation itself.
+    -- The forms of a transformation. A call without a value to transform yields the transformation
+    -- itself.
     transforming extra =
       concat
         [ Form more Transformation :
@@ -332,8 +337,8 @@ labelled Fresh {dimension, anything} builtin labels =
         (Dimension.substitute anyUnknown dimension)
         (\n -> if n == anyUnknown then anything else Variable n)
 
--- | All forms of each function by their labels. 'anyUnknown' represents the unknowns in their
--- types.
+-- | All forms of each function by the labels of their parameters. 'anyUnknown' represents every
+-- unknown in their types.
 byLabels :: Lazy.Map Builtin (Map [ArgumentLabel] [Form])
 byLabels =
   Lazy.fromList

@@ -2,7 +2,7 @@
 -- modifier is a property of one element, such as a feed or an allowance.
 --
 -- The functions yield 'Deferred' terms, which are complete only when type inference has found all
--- dimensions of the program.
+-- dimensions of the program. They take the solution of inference as an argument, here @sol@.
 module Checked.Contour
   ( item,
   )
@@ -54,8 +54,9 @@ item env (Located at i) = case i of
             (mapStrict ($ sol) link')
     pure (Located at . element)
 
--- | Checks the modifiers of an element of type @t@. Bevels are left out if the element is already
--- reported as wrong, because it is unknown which columns they may name.
+-- | Checks the modifiers of an element of type @t@. A bevel may name the columns of the table
+-- through which the element's curve passes. If the element is already reported as wrong, its
+-- columns are unknown, so bevels are left out.
 elementModifiers ::
   TypingEnvironment -> Type -> [Surface.Modifier] -> Infer [Deferred Checked.Modifier]
 elementModifiers env t modifiers
@@ -73,8 +74,8 @@ isBevel (Located _ m) = case m of
   Surface.Slow -> False
   Surface.ElementAllowance _ -> False
 
--- | Checks a modifier of an element. A bevel may name the columns of the element's curve,
--- @columns@.
+-- | Checks a modifier of an element. @columns@ are the columns that a bevel may name, with the
+-- types of their values.
 modifier ::
   TypingEnvironment -> [(Text, Type)] -> Surface.Modifier -> Infer (Deferred Checked.Modifier)
 modifier env columns (Located at m) = fmap (Located at .) $ case m of

@@ -1,8 +1,8 @@
 -- | Checked terms that are complete only when type inference has found all dimensions of the
 -- program.
 --
--- Once these are known, every part of such a term is evaluated. A thunk in it would keep the state
--- of inference in memory.
+-- When these are known, every part of such a term is evaluated. An unevaluated part would keep the
+-- state of inference in memory.
 module Checked.Deferred
   ( Deferred,
     resolveAll,
@@ -12,7 +12,8 @@ where
 
 import Checked.Inference (Solution)
 
--- | A term that depends on the solution, the final values of the unknown dimensions.
+-- | A term as a function of the solution: the final values of the dimensions that were unknown
+-- during inference.
 type Deferred a = Solution -> a
 
 -- | Completes the terms with the solution, and evaluates each of them to its outermost constructor.

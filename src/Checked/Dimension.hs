@@ -29,8 +29,8 @@ import Data.Text qualified as Text
 import Prelude hiding (exponent)
 
 -- | A factor from which dimensions are made. 'PointWeight' distinguishes points from vectors, which
--- both are pairs of lengths. A point has the power 1 of it and a vector the power 0. The difference
--- of two points therefore is a vector.
+-- both are pairs of lengths. Its exponent is 1 for a point and 0 for a vector. A sum adds the
+-- exponents and a difference subtracts them, so the difference of two points is a vector.
 data Atom = Length | Angle | Time | PointWeight | Unknown Int
   deriving stock (Eq, Ord, Show)
 
@@ -92,7 +92,8 @@ solve fresh (Dimension m) = case pivot of
     | length (unknowns (Dimension m)) == 1 -> Impossible
     | otherwise -> Replace n (times (atom (Unknown fresh)) (rest n (\k -> negate (k `div` e))))
   where
-    -- The unknown with the smallest exponent; of several, the one with the largest number.
+    -- The number and the exponent of the unknown whose exponent has the smallest absolute value. Of
+    -- several such unknowns, the one with the largest number is taken.
     pivot = case [(abs e, negate n, e, n) | (Unknown n, e) <- Map.toList m] of
       [] -> Nothing
       candidates -> let (_, _, e, n) = minimum candidates in Just (n, e)
@@ -120,7 +121,8 @@ describe d@(Dimension m)
   where
     known = Map.filterWithKey (\a _ -> case a of Unknown _ -> False; _ -> True) m
 
--- | The unit of a dimension as reports write it: @mm@, @deg@, @mm^2@, @mm/min@.
+-- | The unit of a dimension as reports write it: @mm@, @deg@, @mm^2@, @mm/min@. Unknowns are left
+-- out. The text is empty for a plain number.
 unitWord :: Dimension -> Text
 unitWord (Dimension m) = case (factors (> 0), factors (< 0)) of
   ([], []) -> ""
@@ -140,8 +142,9 @@ unitWord (Dimension m) = case (factors (> 0), factors (< 0)) of
       PointWeight -> "point"
       Unknown _ -> ""
 
--- | The factor for a number that the program writes without a unit, and whose dimension is @d@. The
--- program means mm, minutes and degrees; the factor converts to mm, minutes and radians.
+-- | The factor for a number that the program writes without a unit, and whose dimension is @d@. In
+-- the program such a number is in mm, minutes and degrees; the factor converts it to mm, minutes
+-- and radians.
 defaultUnit :: Dimension -> Double
 defaultUnit d = case exponent Angle d of
   0 -> 1

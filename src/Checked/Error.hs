@@ -1,6 +1,9 @@
 {-# OPTIONS_GHC -O0 #-}
 
 -- | Mistakes in names, types and the order of statements, and their reports.
+--
+-- A piece is a curve that is shifted by ciphers, as in the Minsk-22 system. A cipher is a digit, 1,
+-- 2, 4 or 6, with values: the digit says by which rule the values give the distance of the shift.
 module Checked.Error
   ( Error (..),
     RequiredSetting (..),
@@ -55,8 +58,8 @@ data Error
   | -- | a call of a name that is no function: the name, and the region of its definition unless it
     -- is built in
     NotAFunction Region Name (Maybe Region)
-  | -- | the name of a built-in function without arguments: the name, and the forms of the function
-    -- as calls
+  | -- | the name of a function without the arguments that it needs: the name, and the forms of the
+    -- function as calls
     FunctionAsValue Region Name [Text]
   | -- | a circle as an element of a contour without the sense that it needs
     SenseMissing Region
@@ -85,7 +88,8 @@ data Error
   | -- | a setting that its statement does not have: the setting, the keyword of the statement, and
     -- the settings that this statement has
     ForeignSetting Region Text Text [Text]
-  | -- | a setting that occurs again in a block: the setting, and the region where it occurs before
+  | -- | a setting that occurs again in a block: the setting, and the region of an earlier
+    -- occurrence
     RepeatedSetting Region Text Region
   | -- | a tolerance of an assertion that is no equality
     WithinWithoutEquality Region
@@ -105,11 +109,11 @@ data Error
   | -- | a cipher with a wrong number of values: the digit of the cipher, and the number of its
     -- values
     CipherMisfit Region Text Int
-  | -- | a name in a value along a curve that means neither a column nor a value: the name, and the
-    -- columns
+  | -- | a name that is neither a column of the curve's table nor a name in scope, in an expression
+    -- whose value may vary along the curve: the name, and the columns
     NoColumn Region Name [Text]
-  | -- | a column in a value of a cipher that is the same along the whole piece: the digit, and the
-    -- column
+  | -- | the name of a column in an expression that must have one value for the whole piece: the
+    -- digit of the cipher, and the column
     ColumnForWholePiece Region Text Name
   deriving stock (Eq, Show)
 
@@ -405,8 +409,8 @@ toReport err = case err of
           ]
       }
 
--- | The hint that says in which direction an element is traversed that needs no sense. 'Nothing'
--- for other types.
+-- | The hint that says in which direction a contour traverses an element of the type @t@. 'Nothing'
+-- for types other than lines, curves and contours.
 traversalHint :: Type -> Maybe Text
 traversalHint t = case t of
   Line -> Just "A line is walked from its first point to its second."
@@ -416,7 +420,7 @@ traversalHint t = case t of
     Just "A contour is walked from its beginning to its end; the other way, write reversed(c)."
   _ -> Nothing
 
--- | Is a number such as @24@ the digits of several ciphers, written as one word?
+-- | Does a number such as @24@ consist of the digits of several ciphers, written as one word?
 isSeveralCiphers :: Text -> Bool
 isSeveralCiphers digit = Text.length digit > 1 && Text.all (`elem` ['1', '2', '4', '6']) digit
 
@@ -442,7 +446,7 @@ at region code = report Error code (InSource region)
 arguments :: Int -> Text
 arguments n = if n == 1 then "1 argument" else Decimal.whole n <> " arguments"
 
--- | The labels for other regions that decided types.
+-- | The labels for other regions of the program: the use of a term there decided the given type.
 decidedLabels :: [(Region, Type)] -> [Label]
 decidedLabels elsewhere =
   [Label r (Type.describe t <> ", since it is used as one here") | (r, t) <- elsewhere]

@@ -1,8 +1,10 @@
 -- | Checks expressions: resolves names, infers types, and converts units.
 --
 -- Every function yields a 'Deferred' term, most of them also its type. Such a term is complete only
--- when inference knows all dimensions of the program. An unknown is a type or a dimension that
--- inference has yet to find.
+-- when inference knows all dimensions of the program. It takes the solution of inference as an
+-- argument, here @sol@. An unknown is a type or a dimension that inference has yet to find. A
+-- deferred constraint is an operation or a call whose type inference finds later, when it knows
+-- more types.
 module Checked.Expression
   ( TypingEnvironment (..),
     expect,
@@ -53,7 +55,8 @@ data TypingEnvironment = TypingEnvironment
   { -- | all names that the program, or a block around the expression, defines above or below it,
     -- with the regions of their definitions
     definitions :: Map Name Region,
-    -- | true if "Checked.Inference.Fast" checks literals, false if full inference checks them
+    -- | true if "Checked.Inference.Fast" checks literals and calls on literals, false if full
+    -- inference checks them
     isFast :: Bool
   }
 
@@ -76,7 +79,8 @@ expect env wanted e = case (value e, wanted) of
 equal :: Region -> Type -> Type -> Infer ()
 equal at wanted t = void (isEqual at wanted t)
 
--- | Does what 'equal' does. The result is 'False' if the types differ, which is then reported.
+-- | Does what 'equal' does. The result is 'False' if the types differ; the difference is then
+-- reported.
 isEqual :: Region -> Type -> Type -> Infer Bool
 isEqual at wanted t = do
   found <- Inference.resolved t
@@ -136,7 +140,7 @@ contourElement env sense e = case (sense, value e) of
     pure (t, e')
 
 -- | Checks a call by "Checked.Inference.Fast". 'Nothing' if that module leaves the call to full
--- inference, or if the environment excludes it.
+-- inference, or if 'isFast' is false.
 fastCall :: TypingEnvironment -> Surface.Expr -> Infer (Maybe FastInference.FastCall)
 fastCall env e = if isFast env then FastInference.call (expect env) e else pure Nothing
 
@@ -195,7 +199,8 @@ literal at x unit = case unit of
     let (t, factor) = Type.ofUnit u in pure (t, const (Located at (Checked.Number (x * factor))))
   Nothing -> do
     d <- Inference.freshDimension
-    -- A literal has one unit in all uses of a function. Only 0 is the same in every unit.
+    -- A literal in the body of a function has the same unit in all calls of the function. The
+    -- literal 0 needs none, because 0 is the same in every unit.
     unless (x == 0) (Inference.monomorphic d)
     pure (Type.Quantity d, \sol -> Located at (Checked.Number (x * Dimension.defaultUnit (sol d))))
 
@@ -414,7 +419,8 @@ functionCall env c parameters scheme = do
     name = value (callee c)
 
 -- | Checks a call of a function of the language. A form is one list of parameters with the type of
--- the result. If only one form has the labels of the call, the arguments are checked against this
+-- the result. The arguments are checked against a form at once if two conditions are true. No other
+-- form has the labels of the call, and either the call has a label or the function has only this
 -- form. Otherwise the call becomes a deferred constraint.
 builtinCall :: TypingEnvironment -> Call -> Checked.Builtin -> Infer Typed
 builtinCall env c builtin = do
@@ -472,8 +478,8 @@ fastCallType at c
   | FastInference.isOverloaded c = Inference.freshDecided at (FastInference.resultType c)
   | otherwise = pure (FastInference.resultType c)
 
--- | Checks an argument whose parameter has the type @wanted@. The flag is false if the types
--- differ, which is then reported.
+-- | Checks an argument whose parameter has the type @wanted@. The flag is false if the argument has
+-- another type, which is then reported.
 argument :: TypingEnvironment -> Type -> Surface.Expr -> Infer (Bool, Deferred Checked.Expr)
 argument env wanted e = do
   (t, e') <- infer env e

@@ -198,7 +198,8 @@ repeated env counter list body = do
 
 -- Definitions
 
--- | Checks the definition of a value, and binds its name. @inside@ checks the expression.
+-- | Checks the definition of a value, and binds its name. @inside@ checks the expression of the
+-- value.
 valueDefinition ::
   Located Name ->
   Infer (Type, Deferred Checked.Expr) ->
@@ -260,7 +261,8 @@ contourDefinition env name closure items = do
   checked <- defining name (const (Value (region name) Type.Contour)) (mapM (item env) items)
   pure ((\items' sol -> Checked.Contour name closure (resolveAll sol items')) <$> checked)
 
--- | Checks the definition of a table, and binds its name. Lines from a file are already read.
+-- | Checks the definition of a table, and binds its name. If the program names a file with the
+-- lines, these have replaced the name of the file before this pass.
 tableDefinition ::
   TypingEnvironment -> Located Name -> Surface.Lines -> Infer (Maybe (Deferred Checked.Statement_))
 tableDefinition env name written = do
@@ -300,9 +302,9 @@ curve env e = do
   Inference.settle
   pure (t, e')
 
--- | Runs @inside@, which checks a definition, and binds the name to a binding made of its result.
--- If the name is bound already, the first binding remains. If the definition contains a mistake,
--- the name is poisoned.
+-- | Runs @inside@, which checks a definition, and binds the name to the binding that @bindingOf@
+-- makes of the result. If the name is bound already, the first binding remains. If the definition
+-- contains a mistake, the name is poisoned, and the result is 'Nothing'.
 defining :: Located Name -> (a -> Binding) -> Infer a -> Infer (Maybe a)
 defining name bindingOf inside = do
   checked <- Inference.separately (reportTaken name *> inside)
@@ -395,8 +397,8 @@ spindle env spin = case spin of
     speed' <- traverse (expect env Type.spindleSpeed) speed
     pure (\sol -> Checked.Spinning sense (($ sol) <$> speed'))
 
--- | Checks an assertion. It is an inequality, an equality with an optional tolerance @within@, or
--- another expression that is true or false.
+-- | Checks an assertion. It is an inequality, an equality with an optional tolerance, or another
+-- expression that is true or false. @within@ is the tolerance, which only an equality may have.
 assertion ::
   TypingEnvironment ->
   Surface.Expr ->
@@ -406,7 +408,8 @@ assertion env e within = case (value e, within) of
   (Surface.Binary Surface.Equal l r, _) -> do
     (t, l', r') <- compared Surface.Equal l r
     kind <- Inference.resolved t
-    -- If the operands do not fit, this is reported already, and no report on the tolerance follows.
+    -- If the operands do not fit, 'compared' has reported them. The type 'Wrong' then prevents a
+    -- report on the tolerance.
     let toleranceType = case kind of
           Type.Quantity _ -> t
           _ -> Type.Wrong

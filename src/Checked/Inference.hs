@@ -4,8 +4,9 @@
 -- Equations between types are solved at once ("Checked.Inference.State"). Operations and overloaded
 -- calls become constraints, which are solved when enough types are known. At the end of each
 -- statement the remaining constraints are solved by default rules. The type of a function is
--- generalised as in Hindley–Milner inference: unknowns of its body become variables, for which each
--- call has new unknowns.
+-- generalised to a scheme as in Hindley–Milner inference: unknowns of its body become variables,
+-- for which each call has new unknowns. A shared unknown does not become a variable: it has the
+-- same value in all calls. An unknown is decided when it gets a value.
 module Checked.Inference
   ( Infer,
     Solution,
@@ -83,8 +84,8 @@ separately infer = do
 
 -- | Runs the inference of a function's definition, and generalises the type. @infer@ yields the
 -- types of the parameters, the type of the result, and a value that is passed on. The unknowns of
--- the function become variables of the scheme, unless they are 'shared'. Constraints that the
--- arguments of a call may solve become part of the scheme.
+-- the function become variables of the scheme, unless they are 'shared'. The constraints that are
+-- still unsolved become part of the scheme, because the arguments of a call may solve them.
 generalise :: Infer ([Type], Type, a) -> Infer (Scheme, a)
 generalise infer = do
   outer <- gets firstOwn
@@ -109,16 +110,17 @@ constraintTypes constraint = case constraint of
   Operation a -> [snd (left a), snd (right a), outcome a]
   Overloaded c -> callType c : map snd (arguments c)
 
--- | The unknowns that are not decided in the present value of the unknown with the number @n@. It
--- may be an unknown type or an unknown dimension.
+-- | The numbers of the undecided unknowns in the present value of the unknown with the number @n@.
+-- This unknown may be a type or a dimension.
 unknownsIn :: InferenceState -> Int -> [Int]
 unknownsIn state n =
   Type.variables (resolve state (Variable n))
     <> Dimension.unknowns
       (resolveDimension (decisions state) (Dimension.atom (Dimension.Unknown n)))
 
--- | Solves the pending constraints as far as possible, merges equal ones among the others, and
--- yields these. If more than 'maxDeferred' remain, all of them are solved by default rules instead.
+-- | Solves the pending constraints as far as possible, and merges equal ones among the remaining
+-- constraints. The result is the list of constraints after merging. If it would be longer than
+-- 'maxDeferred', all of them are solved by default rules instead, and the result is empty.
 unsolved :: Infer [DeferredConstraint]
 unsolved = do
   waiting <- solvePending >>= mapM resolvedConstraint
@@ -148,8 +150,9 @@ resolvedConstraint constraint = case constraint of
     t <- resolved (callType c)
     pure (Overloaded c {arguments = types, callType = t})
 
--- | Merges operations that have the same operator and operands, and calls that have the same
--- function and arguments. Unifies the types of the results of merged constraints.
+-- | Merges operations that have the same operator and operand types. Also merges calls that have
+-- the same function, labels and argument types. Unifies the types of the results of merged
+-- constraints.
 mergeEqual :: [DeferredConstraint] -> Infer [DeferredConstraint]
 mergeEqual constraints = case constraints of
   [] -> pure []
@@ -192,8 +195,8 @@ instantiate use scheme = do
       mapM_ (require . atUse use inType) (deferred scheme)
     )
 
--- | A constraint of a scheme, for a call at the region @use@. @inType@ replaces the variables of
--- the scheme in a type.
+-- | A constraint of a scheme as it applies to a call at the region @use@. The function @inType@
+-- replaces the variables of the scheme by the new unknowns of the call.
 atUse :: Region -> (Type -> Type) -> DeferredConstraint -> DeferredConstraint
 atUse use inType constraint = case constraint of
   Operation a ->

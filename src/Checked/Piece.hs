@@ -4,6 +4,11 @@
 -- The cells of a table may be numbers without units. Their dimension follows from the heading of
 -- their column, or from the use of the column anywhere in the program. A heading is the name of a
 -- column, with an optional unit.
+--
+-- A piece is a curve that is shifted by ciphers and may have joggles. A cipher is a digit, 1, 2, 4
+-- or 6, with values: the digit says by which rule the values give the distance of the shift. A
+-- joggle is a local step of the curve. A value along a curve is an expression that may name columns
+-- of the curve's table; it may have another value at each point.
 module Checked.Piece
   ( table,
     columnsOf,
@@ -39,8 +44,8 @@ import Surface.Token (Numeral (..))
 
 -- Columns
 
--- | A column of a table. 'size' is the size of the heading's unit in mm, radians, minutes or turns.
--- It is 'Nothing' if the heading has no unit.
+-- | A column of a table. 'kind' is the type of its cells. 'size' is the size of the heading's unit
+-- in mm, radians, minutes or turns, or 'Nothing' if the heading has no unit.
 data Column = Column {heading :: Located Name, kind :: Type, size :: Maybe Double}
 
 -- | Checks the lines of a table and infers the type of the table. The first line must name the
@@ -124,9 +129,9 @@ columnsAndRows columns rows sol =
       [i | text <- ["x", "y"], (i, c) <- numbered, value (heading c) == Name text]
         <> [i | (i, c) <- numbered, isExtra c]
 
--- | The columns, besides x and y, that values along a curve of type @t@ may name. Empty if @t@ is
--- not the type of a curve. 'Nothing' if inference does not know the columns, or if the curve is
--- already reported as wrong.
+-- | The columns, besides x and y, that values along a curve of type @t@ may name, with the types of
+-- their cells. Empty if @t@ is not the type of a curve. 'Nothing' if inference does not know the
+-- columns, or if the curve is already reported as wrong.
 columnsOf :: Type -> Infer (Maybe [(Text, Type)])
 columnsOf t = do
   t' <- Inference.resolved t
@@ -207,7 +212,7 @@ cell env c e = case literalOf e of
       Surface.Negate inner -> negate <$> literalOf inner
       _ -> Nothing
 
--- | Reverses the rows, and joins neighbouring rows of numbers into one table of numbers.
+-- | Reverses the rows, and joins neighbouring 'Literals' into one table of numbers.
 joinRows :: [Row] -> [Row]
 joinRows = go []
   where
@@ -237,9 +242,9 @@ cellsOf order sizes rows sol = case rows of
 
 -- Ciphers
 
--- | Checks a cipher on a curve whose table has the columns @known@. 'Nothing' if the digit or the
--- number of values is wrong. Also 'Nothing' if the columns are unknown, because of a mistake that
--- is already reported.
+-- | Checks a cipher on a curve whose table has the columns @known@. These are 'Nothing' if a
+-- mistake that is already reported makes them unknown. The result is then 'Nothing', too. It is
+-- also 'Nothing' if the digit or the number of values is wrong, which is reported.
 cipher ::
   TypingEnvironment ->
   Maybe [(Text, Type)] ->
@@ -257,7 +262,7 @@ cipher env known (Located at (Surface.Cipher (Located digitRegion digit) given))
   where
     columns = fromMaybe [] known
 
--- | Checks the values of a cipher with the given digit. 'Nothing' if no recalculation has this
+-- | Checks the values of a cipher with the given digit. 'Nothing' if there is no cipher with this
 -- digit and this number of values.
 recalculation ::
   TypingEnvironment ->

@@ -45,8 +45,8 @@ flatten isInBlock s = case s of
   Located _ (Surface.With _ body) -> concatMap (flatten True) body
   _ -> [(isInBlock, s)]
 
--- | The settings that occurred so far, with the regions of their first statements. A setting is
--- also added without a region after its absence is reported, so that it is reported only once.
+-- | The settings that occurred so far, with the regions of their first statements. If a setting is
+-- missing, it is reported and added without a region, so that it is reported only once.
 type Seen = Map RequiredSetting (Maybe Region)
 
 -- | Checks one statement. @seen@ are the settings above it, and @isInBlock@ is the flag from
@@ -80,7 +80,7 @@ isChange s = case s of
 
 -- | The setting that a statement makes, and the settings that it needs above it.
 data Requirement = Requirement
-  { -- | the number of characters of the statement's keyword, at which reports point
+  { -- | the number of characters of the statement's keyword; reports point at the keyword
     keywordLength :: Int,
     -- | the setting that the statement makes; 'Nothing' if it makes none that others need
     given :: Maybe RequiredSetting,
@@ -128,7 +128,8 @@ requirement s = case s of
     milling = [ToolSetting, FeedSetting, ToleranceSetting, FromSetting]
     forDepth options = [ClearanceSetting | or [True | Located _ (Surface.Depth _ _) <- options]]
 
--- | The setting that each keyword of a statement makes.
+-- | The keywords of the statements that make settings, each with its setting. They serve statements
+-- of which the parser could read only the keyword.
 settingByKeyword :: [(Text, RequiredSetting)]
 settingByKeyword =
   [ ("part", PartSetting),

@@ -28,7 +28,8 @@ data Binding
   | -- | a name whose definition is already reported as wrong; uses of it are not reported again
     Poisoned Region
 
--- | The type of a function of the program. It is polymorphic: each call may use other types.
+-- | The type of a function of the program. It is polymorphic: calls may have arguments of different
+-- types.
 data Scheme = Scheme
   { -- | the numbers of its variables: the unknowns for which each call has new unknowns
     quantified :: IntSet,
@@ -63,12 +64,13 @@ data Arithmetic = Arithmetic
     outcome :: Type
   }
 
--- | A call of a built-in function that has several forms.
+-- | A call of a built-in function that has several forms: lists of parameters with the type of the
+-- result.
 data OverloadedCall = OverloadedCall
   { -- | the region of the whole call
     callRegion :: Region,
     builtin :: Builtin,
-    -- | the labels of all arguments, such as @near@ or @first@
+    -- | the labels of all arguments in order, such as @near@ or @first@, or none
     labels :: [ArgumentLabel],
     -- | the regions and the types of the arguments that have a value: all but @first@ and @last@
     arguments :: [(Region, Type)],

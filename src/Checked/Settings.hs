@@ -34,8 +34,8 @@ check env statement written = do
   changes <- mapM (setting env statement) written
   pure (\sol -> foldl (\settings change -> change sol settings) unset changes)
 
--- | Reports a setting that occurs before in its block. The list @upToHere@ begins with the setting
--- itself. The settings before it follow in reverse order.
+-- | Reports a setting that has occurred earlier in its block. The list @upToHere@ begins with the
+-- setting itself. The earlier settings follow in reverse order.
 reportRepeated :: ([Surface.Setting], Surface.Setting) -> Infer ()
 reportRepeated (upToHere, Located at s) =
   case [ r
@@ -130,8 +130,8 @@ unset =
       restAllowed = Nothing
     }
 
--- | The words with which a setting begins. Empty for a setting that the parser has reported as
--- wrong.
+-- | The words with which a setting begins. The text is empty for a setting that the parser has
+-- reported as wrong.
 keyword :: Surface.Setting_ -> Text
 keyword s = case s of
   Surface.Approach _ -> "approach"

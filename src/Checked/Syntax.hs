@@ -135,9 +135,10 @@ data Cells = Numbers {-# UNPACK #-} NumberTable | Written Region [Expr]
 -- | A cipher with its region.
 type Cipher = Located Cipher_
 
--- | A recalculation of a curve: a shift by a distance (Kolsanova, section 5). If there is a bevel,
--- the distance is measured square to the surface. Distances and bevels may name columns of the
--- table, and then vary along the curve.
+-- | A recalculation of a curve: a shift by a distance (Kolsanova, section 5). A bevel is the angle
+-- between the part's surface and the axis of the tool. If there is one, the distance is measured
+-- square to the surface. Bevels, flange heights and the distance of cipher 6 may name columns of
+-- the table; they then vary along the curve.
 data Cipher_
   = -- | cipher 1: the distance at the start and at the end, the bevel, and two points of the curve.
     -- The distance grows uniformly between these points; without points, along the whole curve
@@ -162,7 +163,8 @@ data Joggle_ = Joggle Expr Expr Expr Expr
 -- | A cutter with its region.
 type Cutter = Located Cutter_
 
--- | A tool: a cutter or a drill by its diameter, a turning tool by the radius of its nose.
+-- | A tool: a cutter or a drill by its diameter in mm, a turning tool by the radius of its nose in
+-- mm.
 data Cutter_
   = MillCutter Expr
   | DrillCutter Expr

@@ -30,8 +30,8 @@ import Surface.Token (Unit (..))
 data Type
   = -- | a number with a dimension
     Quantity Dimension
-  | -- | a point or a vector, both of which are pairs of lengths. The power of 'PointWeight' is 1
-    -- for a point and 0 for a vector
+  | -- | a point or a vector, both of which are pairs of lengths. In the dimension, the exponent of
+    -- 'PointWeight' is 1 for a point and 0 for a vector
     Spatial Dimension
   | Circle
   | Line
@@ -131,7 +131,8 @@ describe t = case t of
   Variable _ -> "a value"
   Wrong -> "a value"
 
--- | The words that name the columns of a table besides x and y. Empty if there are none.
+-- | The words that name the columns of a table besides x and y, such as "with mu". Empty if there
+-- are none.
 withColumns :: Type -> Text
 withColumns t = case t of
   Fields columns@(_ : _) -> " with " <> Text.intercalate ", " (map fst columns)
@@ -145,7 +146,7 @@ plural t = case Text.words (describe t) of
   article : rest | article `elem` ["a", "an"] -> Text.unwords rest <> "s"
   phrase -> Text.unwords phrase
 
--- | Is a type a quantity of which only one fact is known: that its dimension is a square?
+-- | Is a type a quantity whose dimension contains unknowns, but certainly is a square?
 isSquare :: Type -> Bool
 isSquare t = case t of
   Quantity d -> Dimension.isUnknownSquare d
@@ -190,8 +191,8 @@ components t = case t of
   Variable _ -> []
   Wrong -> []
 
--- | Applies @dimension@ to all dimensions in a type, and replaces its unknown types by @unknown@ of
--- their numbers.
+-- | Applies the function @dimension@ to all dimensions in a type. Replaces each unknown type by the
+-- result of the function @unknown@ for its number.
 substitute :: (Dimension -> Dimension) -> (Int -> Type) -> Type -> Type
 substitute dimension unknown t = case t of
   Quantity d -> Quantity (dimension d)

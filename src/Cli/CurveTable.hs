@@ -1,6 +1,7 @@
--- | The tables of fitted curves (Ural paper, Tables 2–4). A fitted curve consists of sections:
--- lines, parabolas and arcs that approximate the points of a table in the program. The tables list
--- the equations of the sections, and their deviations from the points. Lengths are in mm.
+-- | The tables of fitted curves (Tables 2–4 of the paper on the Ural-1 computer). A fitted curve
+-- consists of sections: lines, parabolas and arcs that approximate the points of a table in the
+-- program. The tables list the equations of the sections, and their deviations from the points.
+-- Lengths are in mm.
 module Cli.CurveTable
   ( fittings,
   )
@@ -69,8 +70,8 @@ fitting (Name name) Fitting {sections, deviations, fittedPoints} =
           ]
     fixed n (Mm x) = Decimal.fixed n x
 
--- | The equation of a section, with the decimals of the Ural paper: a polynomial y(x) for a line or
--- a parabola, centre and radius in mm for an arc.
+-- | The equation of a section: a polynomial y(x) for a line or a parabola, centre and radius in mm
+-- for an arc. The counts of decimals are those of the paper.
 equation :: Section.Section -> Text
 equation p = case Section.formula p of
   Section.Polynomial 0 b c -> "y = " <> Decimal.fixed 7 b <> " x " <> signed 6 c

@@ -197,8 +197,8 @@ numbered program =
   where
     ps = Frame.plannedFrames program
 
--- | The number of the line from which a frame is made. If that line is in an imported file, the
--- name of the file precedes the number.
+-- | The number, from 1, of the program's line from which a frame is made. If that line is in an
+-- imported file, the name of the file precedes the number.
 lineWord :: Source -> PlannedFrame -> Text
 lineWord source p =
   (if file == Region.mainFile source then "" else file <> ":") <> Decimal.whole (lineOf source p)

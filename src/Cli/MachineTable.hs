@@ -25,7 +25,7 @@ machineList :: [Machine] -> Text
 machineList ms = Table.columns [ToLeft, ToLeft] [[n, title m] | m <- ms, let MachineName n = name m]
 
 -- | The data of one machine: tape, code, axes, frames, feeds, braking, commands, and the provenance
--- of each value.
+-- of each value (sourced, corrected or reconstructed).
 machineDetails :: Machine -> Text
 machineDetails m =
   n
@@ -128,8 +128,8 @@ codeRows m =
       AWord w -> Text.unpack (address w)
       CheckDigit _ -> []
 
--- | True if the frames of a machine have a check digit, which makes the sum of their weights a
--- multiple of a given number.
+-- | True if the frames of a machine have a check digit. It makes the sum of the weights of a
+-- frame's symbols a multiple of a given number.
 hasCheck :: Machine -> Bool
 hasCheck m = or [True | CheckDigit _ <- NonEmpty.toList (items (layout m))]
 
@@ -301,8 +301,8 @@ feedRows m = ["code", unit, ""] : listed
             | (FeedCode c, v) <- Map.toList t
           ]
 
--- | Shortens a table that has more than 13 rows: one row of dots replaces all but the first rows
--- and the last two.
+-- | Shortens a table of three columns that has more than 13 rows. It keeps the first ten rows and
+-- the last two, with a row of dots between them.
 abbreviated :: [[Text]] -> [[Text]]
 abbreviated rows
   | length rows <= longest + 1 = rows

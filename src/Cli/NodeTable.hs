@@ -1,9 +1,10 @@
--- | The tables of the subcommand @report@, after the Ural paper: the nodes of every equidistant,
--- lengths, times, and the length of the tape.
+-- | The tables of the subcommand @report@, after the paper on the Ural-1 computer: the nodes of
+-- every equidistant, lengths, times, and the length of the tape.
 --
--- Coordinates and lengths are in mm, times in seconds. Nodes are numbered from 0. A section is the
--- part of a pass from one node to the next: a line, an arc, or all arcs of one curve. The 'Milling'
--- of a pass is the statement of the program that causes it.
+-- Coordinates and lengths are in mm, times in seconds. An equidistant is the offset of a contour
+-- that the cutter's centre follows. Nodes are the points at which its sections join, numbered from
+-- 0. A section is the part of a pass from one node to the next: a line, an arc, or all arcs of one
+-- curve. The 'Milling' of a pass is the statement of the program that causes it.
 module Cli.NodeTable
   ( nodes,
   )

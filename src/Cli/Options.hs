@@ -285,8 +285,8 @@ outputOption help =
   Opt.strOption
     (Opt.long "output" <> Opt.short 'o' <> Opt.metavar "PATH" <> Opt.help help <> Opt.action "file")
 
--- | The general settings, as they are written either before or after the subcommand. Nothing, false
--- and the empty list mean that a setting is not written there.
+-- | The general settings that are written before the subcommand, or those that are written after
+-- it. Nothing, false and the empty list mean that a setting is not among them.
 data Overrides = Overrides
   { format' :: Maybe Format,
     colour' :: Maybe ColourChoice,
@@ -333,8 +333,8 @@ overrides =
           )
       )
 
--- | Reads one of the words of a table, and gives its value. Any other word is an error that lists
--- the words.
+-- | Reads one of the words in @table@, and gives the value beside it. Any other word is an error;
+-- its message lists the words of the table.
 choice :: [(String, a)] -> Opt.ReadM a
 choice table = Opt.eitherReader $ \word ->
   maybe
@@ -352,7 +352,8 @@ assignment = Opt.eitherReader $ \word -> case Text.breakOn "=" (Text.pack word) 
   _ -> Left ("‘" <> word <> "’ is not NAME=VALUE")
 
 -- | Joins the settings written after the subcommand (@later@) with those written before it
--- (@earlier@). If both have a format or a choice of colour, that of @later@ is taken.
+-- (@earlier@). If both have a format or a choice of colour, that of @later@ is taken. All parameter
+-- values are kept, the earlier ones first.
 over :: Overrides -> Overrides -> Overrides
 over later earlier =
   Overrides

@@ -117,8 +117,9 @@ ioProblem e
   where
     Errno closed = eBADF
 
--- | The means to write the reports of one run of partc. SARIF has one log for the whole run. So its
--- reports are kept in @collected@, the latest first; for other formats the list stays empty.
+-- | The means to write the reports of one run of partc. In the SARIF format, one log contains the
+-- reports of the whole run. They are kept in @collected@ until the end, the latest first. For other
+-- formats the list stays empty.
 data Reporter = Reporter {settings :: OutputSettings, collected :: IORef [Filed]}
 
 -- | Runs a command, and writes the SARIF log of the collected reports at its end.
@@ -156,8 +157,8 @@ showReports Reporter {settings, collected} path source reports = do
       Report.sorted
         (if quiet settings && not (werror settings) then filter Report.isError reports else reports)
 
--- | The greatest count of reports that are shown to a person in 'HumanFormat'. A line then says how
--- many are left out.
+-- | The greatest count of reports that are shown in 'HumanFormat'. If there are more, a line says
+-- how many are left out.
 mostReports :: Int
 mostReports = 50
 
@@ -167,7 +168,8 @@ writeError text = do
   _ <- try (Text.hPutStr stderr text) :: IO (Either IOException ())
   pure ()
 
--- | Decides if reports that go to the stream @handle@ are coloured.
+-- | Decides if reports that go to the stream @handle@ are coloured. With 'Auto' they are not
+-- coloured on a terminal of the type @dumb@.
 useColour :: OutputSettings -> Handle -> IO Human.Colour
 useColour settings handle = case colour settings of
   Always -> pure Human.Coloured
@@ -203,7 +205,8 @@ readBytes file =
     <$> try (if file == "-" then ByteString.getContents else ByteString.readFile file)
 
 -- | Writes a file under a temporary name and renames it, so the old file stays until the new one is
--- complete. A device or a pipe is written directly. 'Left' is the reason of a failure.
+-- complete. The new file has the permissions of the old one. A device or a pipe is written
+-- directly. 'Left' is the reason of a failure.
 writeFileWhole :: FilePath -> ByteString -> IO (Either Text ())
 writeFileWhole path bytes = either problem Right <$> try write
   where

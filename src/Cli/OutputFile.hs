@@ -1,5 +1,6 @@
--- | The files that subcommands write. An output that would replace one of its own source files is
--- refused. The sources are the program, its imports and its machine descriptions.
+-- | The files that subcommands write. An output that would replace one of its sources is refused.
+-- The sources are the files of which it is made: the program, its imports and its machine
+-- descriptions.
 module Cli.OutputFile
   ( writeTapes,
     writeText,
@@ -48,10 +49,11 @@ writeTapes reporter name file sources wanted tapes = do
     (Nothing, Just path) -> failWith reporter name (OneForSeveral (Text.pack path))
     (Nothing, Nothing) -> writeAll reporter (zip destinations [bytes | (_, Tape bytes) <- tapes])
 
--- | The path of the tape for a machine. @file@ is the program, @wanted@ the output path of the
--- command line, @count@ the count of all tapes. Without an output path the tape is put into the
--- program's folder. An output path that is a folder, or is given for several tapes, contains the
--- tape. Otherwise the output path is the tape.
+-- | The path of the tape for a machine; @-@ is standard output. @file@ is the path of the program,
+-- @wanted@ the output path of the command line, and @count@ the count of all tapes. Without an
+-- output path the tape is put into the program's folder. If the output path is a folder, or if
+-- there are several tapes, the tape is put into the folder of this path. Otherwise the output path
+-- is the path of the tape.
 destination :: FilePath -> Maybe FilePath -> Int -> Machine -> IO FilePath
 destination file wanted count machine = case wanted of
   Nothing -> pure (if file == "-" then standard else replaceDirectory standard folder)
@@ -76,8 +78,8 @@ firstRepeated items = case items of
   [] -> Nothing
   first : more -> if first `elem` more then Just first else firstRepeated more
 
--- | The first destination that is the same file as one of the sources, even under another path.
--- Nothing if no source would be replaced.
+-- | The first destination that is the same file as one of the sources; the two paths of this file
+-- may differ. Nothing if no source would be replaced.
 overwritten :: [FilePath] -> [FilePath] -> IO (Maybe FilePath)
 overwritten sources destinations = do
   present <- filterM doesFileExist sources

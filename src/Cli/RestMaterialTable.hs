@@ -24,8 +24,9 @@ import Toolpath.RestMaterial qualified as RestMaterial
 import Toolpath.Toolpath (Toolpath)
 
 -- | One table for each statement that leaves rest material. A row has the position of a region in
--- mm, its area in mm², the largest cutter that would reach it, and the reason why the cutter of the
--- program does not. The area is empty if the boundary of the region is not known.
+-- mm, its area in mm², the size of the largest cutter that would reach it, and the reason why the
+-- cutter of the program does not. The area is empty if the boundary of the region is not known, or
+-- if the region is a part of that in another row. The size is empty for an inner corner.
 tables :: Toolpath -> [Text]
 tables path = map table (RestMaterial.ofPath path)
 
@@ -42,8 +43,8 @@ table Remaining {tool, walls, RestMaterial.positions = regions} =
       [ToRight, ToRight, ToRight, ToRight, ToLeft]
       (["x", "y", "area mm²", "largest", "place"] : map (row tool) (NonEmpty.toList regions))
 
--- | The row of one region. @tool@ is the cutter that leaves the region. @stay@ is the reason, and
--- @rest@ the region itself.
+-- | The row of one region. @tool@ is the cutter that leaves the region. @stay@ is the reason with
+-- its position, and @rest@ contains the boundary of the region.
 row :: Tool -> (RestPosition, UnreachedPart) -> [Text]
 row tool (stay, rest) = case stay of
   InCorner _ _ p -> at p "" "inner corner"

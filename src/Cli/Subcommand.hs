@@ -194,8 +194,8 @@ plot reporter file wanted = withInput reporter file [] $ \given ->
       wanted
       (Plot.plot (Compile.part analysis) (Compile.path analysis))
 
--- | 'whenSound' with the name and the source of the program @given@. It continues with the result
--- if no report stops the command.
+-- | Calls 'whenSound' with the name and the source of the program @given@: writes the reports of
+-- the result, and continues with its output if no report stops the command.
 settled :: Reporter -> Input -> Result Report Report a -> (a -> IO Exit) -> IO Exit
 settled reporter given = whenSound reporter (name given) (source given)
 
@@ -266,8 +266,8 @@ drawTape reporter target range tapeFile = withTape reporter target tapeFile $ \m
     Just picture -> printResult reporter picture
 
 -- | Reads a tape for which there is no program, and continues with its machine and its frames. The
--- tape does not say where the cutter starts, so the position 0 is assumed. Without @target@ the
--- command fails.
+-- tape does not contain the position from which the cutter starts, so this is assumed to be 0.
+-- Without @target@ the command fails.
 withTape :: Reporter -> Maybe Text -> FilePath -> (Machine -> [Frame] -> IO Exit) -> IO Exit
 withTape reporter target tapeFile continue = case target of
   Nothing -> failWith reporter tapeName (NoMachineForTape Target.builtInNames)

@@ -6,10 +6,10 @@
 --   programmed motion, shifted sideways by the cutter's radius.
 -- * Contour: each later motion is the offset of the programmed one; an arc keeps its centre. At a
 --   corner that turns away from the cutter, the centre goes round the corner on an arc. At a corner
---   that turns towards the cutter, both offsets end at their intersection. At a corner of less than
---   'Tolerance.controlBend', the next motion starts at the end of the one before.
--- * Exit: the first motion after the release goes straight from the present position to the
---   programmed end.
+--   that turns towards the cutter, both offsets end at their intersection. If the direction changes
+--   by less than 'Tolerance.controlBend', the next motion starts at the end of the one before.
+-- * Exit: the first motion after the release (the end of compensation) goes straight from the
+--   present position to the programmed end.
 --
 -- The model reports what a control refuses; it does not repair it.
 module Control.Compensation
@@ -42,15 +42,15 @@ import Machine.Machine (CommandValue (..), CommandWord (..), CompensationCommand
 import Machine.Machine qualified as Machine
 import Toolpath.Tolerance qualified as Tolerance
 
--- | Programmed motion, and the path of the cutter's centre during that motion, in the plane. The
--- path is the offset of the motion. It may begin with an arc round the corner before the motion.
--- The path of a vertical motion has length 0.
+-- | Programmed motion, and the path of the cutter's centre during that motion, in the plane. With
+-- compensation the path may begin with an arc round the corner before the motion. The path of a
+-- vertical motion is a straight segment of length 0.
 data Moved = Moved {programmed :: Motion, centrePath :: NonEmpty Segment}
   deriving stock (Eq, Show)
 
 -- | Reason why a control stops. The first field is the number of the frame, from 1.
 data CompensationError
-  = -- | The first motion after compensation is switched on is no longer than the cutter's radius:
+  = -- | The first motion after compensation is switched on is not longer than the cutter's radius:
     -- its length, the radius.
     ShortEntry Int Mm Mm
   | -- | The first motion after compensation is switched on is an arc.
@@ -62,7 +62,8 @@ data CompensationError
   | -- | The cutter cannot reach the corner at the end of this frame without cutting into the part,
     -- or the offset of this frame would run backwards.
     CornerNotReached Int
-  | -- | Compensation is switched on while it is on.
+  | -- | Compensation is switched on while it is on, or one frame switches it on for both sides, or
+    -- on and off.
     SwitchedOnTwice Int
   | -- | The tool is changed while compensation is on.
     ToolChanged Int
@@ -99,13 +100,14 @@ data Role
 -- Frames in order ---------------------------------------------------------------------------------
 
 -- | Motions of frames from a start position, and the errors at which a control would stop. The
--- function gives the cutter's radius in the frame with a number, counted from 1. It is used for a
--- frame that switches compensation on without a diameter.
+-- function yields the cutter's radius in a frame, given by the frame's number from 1. It is used
+-- for a frame that switches compensation on without a diameter.
 run :: Machine -> (Int -> Mm) -> Pulses3 -> [Frame] -> ([Moved], [CompensationError])
 run = runWith (:)
 
--- | Fold the motions of 'run' from the right, with the function @onto@; @toolAt@ is the function of
--- 'run'. Without compensation, the list of motions is never in memory as a whole.
+-- | Fold the motions of 'run' from the right, with the function @onto@, which puts a motion before
+-- the result for the later ones. @toolAt@ is the function of 'run' that yields the cutter's radius.
+-- Without compensation, the list of motions is never in memory as a whole.
 runWith ::
   (Moved -> [a] -> [a]) ->
   Machine ->
@@ -130,8 +132,8 @@ runWith onto machine toolAt begin frames =
         (\o -> isJust (lookup (commandName o) (Frame.commands f)))
         [compensateLeft c, compensateRight c]
 
--- | Mode at the end of the tape; and for each frame its motion with the motion's role, if it moves,
--- and its errors.
+-- | Mode at the end of the tape, and one pair for each frame: the frame's motion with its role, or
+-- nothing if the frame does not move; and the errors of the frame.
 withRoles ::
   Machine ->
   CompensationCommands ->
@@ -286,9 +288,9 @@ offsetPaths k at corner motions = case motions of
        in (Moved m (maybe (path :| []) (:| [path]) corner), offsetErrors k m edge path joint) :
           offsetPaths k finish corner' rest
 
--- | Errors of the offset @path@ of the programmed segment @edge@: an arc in which the cutter does
--- not fit; a path that goes backwards, whose sweep grows too much, or that does not meet the next
--- path. @joint@ is the transition to the next path; Nothing for the last path.
+-- | Errors of the offset @path@ of the programmed segment @edge@. The cutter may not fit inside an
+-- arc. The path may go backwards, have too large a sweep, or not meet the next path. @joint@ is the
+-- transition to the next path; Nothing for the last path.
 offsetErrors :: Offset -> Motion -> Segment -> Segment -> Maybe Joint -> [CompensationError]
 offsetErrors k m edge path joint =
   tight <> [CornerNotReached (number m) | isBackwards || winds path edge || isApart]
@@ -313,7 +315,8 @@ isVertical s = case s of
   Straight a b -> a == b
   Arc {} -> False
 
--- | Path from @a@ to @b@ with the shape of a programmed segment; an arc keeps its centre.
+-- | Path from @a@ to @b@ with the shape of a programmed segment. An arc keeps its centre, and a
+-- full circle also its sweep.
 along :: Point -> Point -> Segment -> Segment
 along a b edge = case edge of
   Straight _ _ -> Straight a b
@@ -332,8 +335,9 @@ goesBack path edge = case edge of
   where
     Mm slack = Tolerance.coincident
 
--- | Test that the arc @path@ has a larger sweep than its programmed segment @edge@. This happens if
--- the trimmed path would need a negative sweep: the arc then becomes almost a full circle.
+-- | Test that the sweep of the arc @path@ exceeds that of its programmed segment @edge@ by more
+-- than 'Tolerance.controlTurn'. This happens if the trimmed path would need a negative sweep: the
+-- arc then becomes almost a full circle.
 winds :: Segment -> Segment -> Bool
 winds path edge = case (path, edge) of
   (Arc {sweep = Rad a}, Arc {sweep = Rad b}) -> Rad (abs a - abs b) > Tolerance.controlTurn
@@ -356,7 +360,8 @@ data Joint
 jointOf :: Offset -> Segment -> Segment -> Joint
 jointOf k a b
   | abs turned < least = Smooth
-  -- A contour that almost reverses counts as a corner towards the cutter, on either side.
+  -- If the contour almost reverses its direction, the corner counts as one that turns towards the
+  -- cutter, whatever the side of the cutter.
   | abs turned > pi - least = NoMeeting
   | turned * Carrier.sideSign (side k) < 0 =
     Around
@@ -375,7 +380,8 @@ offsetEnd, offsetStart :: Offset -> Segment -> Point
 offsetEnd k s = Carrier.beside (side k) (radius k) (Segment.endDirection s) (Segment.end s)
 offsetStart k s = Carrier.beside (side k) (radius k) (Segment.startDirection s) (Segment.start s)
 
--- | Intersections of the carriers on which the offsets of two programmed segments lie.
+-- | Intersections of the carriers (infinite lines or full circles) on which the offsets of two
+-- programmed segments lie.
 meetings :: Offset -> Segment -> Segment -> [Point]
 meetings k a b =
   Intersection.common

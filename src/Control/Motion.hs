@@ -44,8 +44,8 @@ data Motion = Motion {number :: Int, from :: Pulses3, to :: Pulses3, frame :: Fr
 run :: Pulses3 -> [Frame] -> [Motion]
 run = runWith (:)
 
--- | Fold the motions of frames from the right, with the function @onto@. The list of motions is
--- never in memory as a whole.
+-- | Fold the motions of frames from the right, with the function @onto@, which puts a motion before
+-- the result for the later ones. The list of motions is never in memory as a whole.
 runWith :: (Motion -> [a] -> [a]) -> Pulses3 -> [Frame] -> [a]
 runWith onto = go 1
   where
@@ -79,8 +79,8 @@ endsInStartDirection f = a * d == b * c && a * c + b * d > 0
     (a, b, c, d) = (-i, -j, x - i, y - j)
 
 -- | Motion in the plane, in mm, with exact end points. The radius of an arc is that of its start.
--- If both ends lie in the same direction from the centre, the arc is a full circle: controls
--- compare angles.
+-- If both ends lie in the same direction from the centre, the arc is a full circle, because
+-- controls compare the directions of the ends and not the points.
 segment :: Machine -> Motion -> Segment
 segment machine m = case (Frame.segment machine (from m) (frame m), motion (frame m)) of
   (a@Arc {}, Circular sense)
@@ -105,8 +105,8 @@ boundingPaths s = case s of
       Mm same = Tolerance.coincident
       onRadius r p = Vec.shift (Vec.scale r (Vec.unit (Vec.to c p))) c
 
--- | Lines that connect the first bounding path with each of the others: start with start, and end
--- with end.
+-- | Lines that connect the first bounding path with each of the others: one between the starts of
+-- both paths, and one between their ends.
 connectors :: NonEmpty Segment -> [Segment]
 connectors (one :| others) =
   concat
@@ -116,7 +116,8 @@ connectors (one :| others) =
       | other <- others
     ]
 
--- | Distances of the start and of the end of an arc from its centre; nothing for a line.
+-- | Distances of the start and of the end of an arc from its centre. Nothing for a line, and for an
+-- arc whose centre is its start or its end.
 radii :: Machine -> Motion -> Maybe (Mm, Mm)
 radii machine m = if isRound (frame m) then ends else Nothing
   where

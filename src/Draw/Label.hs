@@ -1,6 +1,6 @@
 -- | Placement of labels beside points, so that the labels cover neither lines nor each other. The
 -- search is greedy: each label takes the first of its candidate positions that is free. A bounding
--- box is the rectangle of a label on the paper.
+-- box is the rectangle of a label on the paper, with the coordinates of its sides in mm.
 module Draw.Label
   ( PointLabel (..),
     size,
@@ -43,9 +43,9 @@ data PointLabel = PointLabel
 size :: Double
 size = 3
 
--- | Centre and text of each placed label, in mm of paper. Labels are placed in @area@, in the given
--- order, so that they do not cover the segments @drawn@. A label without a free position is left
--- out.
+-- | Centre, in mm of paper, and text of each placed label. Labels are placed in @area@, in the
+-- given order, so that they do not cover the segments @drawn@. A label without a free position is
+-- left out.
 place :: Area -> BoxTree Segment -> [PointLabel] -> [(Point, Text)]
 place area drawn = catMaybes . snd . List.mapAccumL next Map.empty
   where
@@ -79,12 +79,12 @@ squares BoundingBox {left, bottom, right, top} =
 candidates :: PointLabel -> [BoundingBox]
 candidates PointLabel {caption, anchor, outward, distances} = [at d a | d <- distances, a <- angles]
   where
-    -- The height of digits is 0.72 of their size.
+    -- Half of the label's height and half of its width. The height of digits is 0.72 of their size.
     high = 0.36 * size
     wide = max high (Draw.textWidth size caption / 2)
     at distance angle =
       let direction = Vec.rotate angle outward
-          -- Distance from the centre of the text to its edge, in the label's direction.
+          -- Distance from the centre of the label to its edge, along the direction to the point.
           inside =
             min
               (wide / max 1e-9 (abs (Vec.dot direction (Vec.vec 1 0))))
@@ -96,8 +96,9 @@ candidates PointLabel {caption, anchor, outward, distances} = [at d a | d <- dis
 angles :: [Rad]
 angles = map radians [0, 30, -30, 60, -60, 90, -90, 180, 150, -150]
 
--- | True if a label may have the bounding box @box@: it lies in the area, is more than 0.5 mm away
--- from every segment, and does not touch a placed label.
+-- | True if a label may have the bounding box @box@. The box must lie in the area. The text must be
+-- more than 0.5 mm away from every segment, and the box more than 0.6 mm away from the boxes in
+-- @taken@.
 free :: Area -> BoxTree Segment -> Taken -> BoundingBox -> Bool
 free area drawn taken box@BoundingBox {left, bottom, right, top} =
   all (holds area) [Vec.point left bottom, Vec.point right top]

@@ -43,8 +43,9 @@ grey = "#909090"
 blue = "#0b3d91"
 red = "#a01818"
 
--- | Pens of the drawing. Where the cutter's centre runs on the contour, the contour is two thin
--- lines: the white 'bedPen' is drawn over the wider 'edgePen'. The 'pathPen' is drawn between them.
+-- | Pens of the drawing. If the cutter's centre moves on the contour itself, the contour is drawn
+-- as two thin lines: the white 'bedPen' is drawn over the wider black 'edgePen'. The 'pathPen' is
+-- drawn between the two lines.
 contourPen, edgePen, bedPen, pathPen, feedPen, rapidPen, cutterPen, framePen, axisPen :: Pen
 contourPen = Pen black 0.6 []
 edgePen = Pen black 1.3 []
@@ -68,8 +69,8 @@ restColour = "#f0a090"
 small :: TextStyle
 small = TextStyle {size = 2.5, ink = black, bold = False}
 
--- | Arrowhead in a colour on a segment. Its tip is at @fraction@ of the segment, 0 at the start and
--- 1 at the end. The segment must have a positive length.
+-- | Arrowhead of the given colour on a segment. Its tip is at @fraction@ of the segment's length, 0
+-- at the start and 1 at the end. The segment must have a positive length.
 arrowAt :: Text -> Double -> Segment -> Svg
 arrowAt colour fraction s =
   Svg.arrow colour 2.4 (Segment.directionAt fraction s) (Segment.at fraction s)
@@ -106,7 +107,8 @@ cutter radius p = Svg.ring cutterPen radius p : map bar (cross radius p)
   where
     bar s = Svg.stroke cutterPen [s]
 
--- | Two lines of the cross at the centre @p@ of a cutter; @radius@ is the cutter's, in mm of paper.
+-- | Two lines of the cross at the centre @p@ of a cutter. @radius@ is the cutter's radius in mm of
+-- paper.
 cross :: Double -> Point -> [Segment]
 cross radius p = [bar (Vec.vec arm 0), bar (Vec.vec 0 arm)]
   where

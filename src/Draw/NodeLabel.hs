@@ -1,5 +1,6 @@
--- | Dots and numbers for the nodes of a cut. The nodes are the ends of the cut's sections. The node
--- at the entry, where the cut begins, has the number 0.
+-- | Dots and numbers for the nodes of a cut. A cut is the toolpath of one pass along a contour. Its
+-- sections are its single lines and arcs, and its whole curves. The nodes are the ends of the
+-- sections. The node at the entry, where the cut begins, has the number 0.
 module Draw.NodeLabel
   ( dots,
     labels,
@@ -26,7 +27,7 @@ import Geometry.Vec qualified as Vec
 -- is a unit vector that points away from the contour. The number is 0 at the entry.
 data Node = Node {place :: Point, outward :: Vec, number :: Int}
 
--- | Nodes of a cut: its two ends and the points between its sections.
+-- | Nodes of a cut, from the entry on: its two ends and the points between its sections.
 nodes :: Cut -> NonEmpty Node
 nodes Cut {sections, away} =
   entry
@@ -36,7 +37,9 @@ nodes Cut {sections, away} =
     first = NonEmpty.head (NonEmpty.head sections)
     final = NonEmpty.last (NonEmpty.last sections)
     closed = Vec.isNear (Segment.start first) (Segment.end final)
-    -- The segments before and after the ends: the cut itself if closed, else straight on.
+    -- The segments before the start and after the end of the cut. In a closed cut they are its last
+    -- and its first segment. An open cut has none; its own first and last segment are taken for
+    -- them.
     (before, after) = if closed then (final, first) else (first, final)
     entry =
       Node
@@ -51,14 +54,16 @@ nodes Cut {sections, away} =
       | otherwise =
         outwardAt away (heading Segment.endDirection s) (heading Segment.startDirection next)
 
--- | Direction of segment @s@, by a function such as 'Segment.startDirection'. It is the zero vector
--- if the segment has no length.
+-- | Direction of segment @s@ at one of its ends. The function @direction@ computes it, for example
+-- 'Segment.startDirection'. The result is the zero vector if the segment has no length.
 heading :: (Segment -> Vec) -> Segment -> Vec
 heading direction s = if Segment.length s > Mm 1e-9 then direction s else Vec.vec 0 0
 
 -- | Direction in which a label is best placed at a node: away from the contour, and square to the
--- mean of the directions @arriving@ and @leaving@. @away@ is that of the cut, +1 or -1. At a point
--- where the cut reverses, the result points to the upper edge of the paper.
+-- mean of the directions @arriving@ and @leaving@ of the cut before and after the node. @away@ is
+-- the field of the cut: +1 if the side away from the contour is on the right of the cut, -1 if it
+-- is on the left. At a point where the cut reverses, the result points to the upper edge of the
+-- paper.
 outwardAt :: Double -> Vec -> Vec -> Vec
 outwardAt away arriving leaving
   | Vec.norm along > 1e-3 = Vec.scale away (Vec.left (Vec.unit along))
@@ -66,8 +71,8 @@ outwardAt away arriving leaving
   where
     along = Vec.add arriving leaving
 
--- | Dots of the nodes. If the nodes are closer than 1.5 mm on average, only a node whose number is
--- shown has a dot.
+-- | Dots of the nodes. If the nodes are closer than 1.5 mm of paper on average, only a node whose
+-- number is shown has a dot.
 dots :: Cut -> [Svg]
 dots cut = [LineStyle.node (marked n) (place n) | n <- NonEmpty.toList numbered, marked n || roomy]
   where
@@ -93,8 +98,8 @@ labels cut
     near = [1.2, 2, 3, 4]
 
 -- | True if a node has a label; @final@ is the number of the last node. Both ends of the cut have
--- labels. If there are more nodes than 'most', only every 2nd, 5th, 10th and so on of the others
--- has one.
+-- labels. If @final@ exceeds 'most', another node has one only if its number is a multiple of
+-- @every@. This is the smallest of 2, 5, 10, 20 and so on that leaves at most 'most' multiples.
 isMarked :: Int -> Node -> Bool
 isMarked final n = number n `mod` every == 0 || number n == final
   where

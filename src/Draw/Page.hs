@@ -63,9 +63,9 @@ strip = Area 10 184 287 200
 padding :: Double
 padding = 6
 
--- | Page for a part with the given bounding box. The scale fits the box, which is centred in the
--- field. If the box extended to the origin of the part fits at this scale too, the extended box is
--- centred instead.
+-- | Page for a part with the given bounding box. The scale fits the box, and the centre of the box
+-- is at the centre of the field. If the box still fits at this scale when it is extended to the
+-- origin of the part, the centre of the extended box is taken instead.
 choose :: BoundingBox -> Page
 choose box = Page {scale = chosen, middle = Vec.point ((left + right) / 2) ((bottom + top) / 2)}
   where
@@ -73,8 +73,10 @@ choose box = Page {scale = chosen, middle = Vec.point ((left + right) / 2) ((bot
     wider = BoundingBox.union box (BoundingBox.ofPoints (Vec.point 0 0) [])
     BoundingBox {left, bottom, right, top} = if fits wider chosen then wider else box
 
--- | Chooses the scale for a bounding box: full size if it fits and fills at least 0.4 of the
--- field's width or height. Otherwise the largest standard scale (ISO 5455) at which it fits.
+-- | Chooses the scale for a bounding box. It is full size if the box then fits into the field and
+-- fills at least 0.4 of the field's width or height. Otherwise it is the largest standard scale
+-- (those of ISO 5455, and 1:2.5) at which the box fits. A box without width and height gets full
+-- size.
 scaleFor :: BoundingBox -> Scale
 scaleFor box
   | not (fits box (Scale 1 1)) = fromMaybe (Scale 1 1) (find (fits box) reductions)
@@ -145,7 +147,8 @@ segment page s = case s of
 onPaper :: Page -> Mm -> Double
 onPaper page (Mm l) = factor (scale page) * l
 
--- | Smallest bounding box of a segment, which also contains the part of an arc beyond its ends.
+-- | Smallest bounding box of a segment. It contains the whole arc, also where the arc bulges beyond
+-- the box of its two ends.
 extent :: Segment -> BoundingBox
 extent s = case s of
   Straight a b -> BoundingBox.ofPoints a [b]

@@ -65,9 +65,9 @@ plot part path =
 
 -- The part
 
--- | Areas of material in grey, with windows in white. A body is a contour with the material inside,
--- a window one with the material outside. A shape is drawn after the shape in which it lies. If
--- there is no body around the windows, each window gets a grey band around it.
+-- | Areas of material in grey, with windows in white. A body is a contour with material inside, and
+-- a window is a contour with material outside. A shape is drawn after the shape in which it lies.
+-- If every body lies in a window, or there is no body, each window gets a grey band around it.
 material :: [Shape] -> [Svg]
 material shapes = bands <> map snd (sortOn fst (map painted bodies <> map painted windows))
   where
@@ -83,7 +83,8 @@ material shapes = bands <> map snd (sortOn fst (map painted bodies <> map painte
         Svg.area (colour s) (outline s)
       )
     colour s = if materialSide s == Inside then LineStyle.materialColour else "white"
-    -- Drawing order: a body before the windows in it, a window before the bodies in it.
+    -- Number for the drawing order: a body is drawn before the windows in it, and a window before
+    -- the bodies in it.
     level s = 2 * inWindows s + (if materialSide s == Inside then 0 else 1)
     inWindows s =
       let p =
@@ -161,7 +162,8 @@ axisHeads px py right top =
     Svg.text LineStyle.small Centred (Vec.point (px + 2.4) (top + 1)) "y"
   ]
 
--- | Unit of the round coordinates: a length in mm of the part, which is 3.2 to 8 mm on paper.
+-- | Step of the round coordinates in 'axes': a length in mm of the part, which is 3.2 to 8 mm on
+-- paper.
 gridOf :: Page -> Double
 gridOf page = Page.round125 (8 / Page.onPaper page (Mm 1))
 
@@ -190,9 +192,9 @@ once known segments = case segments of
     where
       key = min s (Segment.reverse s)
 
--- | Toolpath of a cut with its arrows. A cut of at most 12 mm of paper has none, any other has
--- five. In a pocket there is an arrow for every 40 mm, but at least five. Where the cutter's centre
--- is on the contour, the toolpath is drawn between two thin lines.
+-- | Toolpath of a cut with its arrows. A cut of at most 12 mm of paper has no arrows, any other cut
+-- has five. In a pocket there is an arrow for every 40 mm, but at least five. If the cutter's
+-- centre is on the contour, the toolpath is drawn between two thin lines.
 cutLine :: Cut -> [Svg]
 cutLine cut@Cut {isOnContour, numbered} =
   [Svg.stroke pen segments | isOnContour, pen <- [LineStyle.edgePen, LineStyle.bedPen]]
@@ -213,9 +215,10 @@ cutLine cut@Cut {isOnContour, numbered} =
         else []
     count = if numbered then 5 else max 5 (floor (over whole (Mm 40))) :: Int
 
--- | Arrow at a distance (mm of paper) from the start of consecutive segments. If possible it is 4
--- mm away from both ends of the segment that it lies on. Nothing if the distance exceeds the length
--- of the segments.
+-- | Arrow at @distance@ mm of paper from the start of a chain of segments. It is moved along the
+-- segment on which it lies until it is at least 4 mm away from both ends of this segment. On a
+-- segment shorter than 8 mm it is in the middle. Nothing if the distance is not less than the
+-- length of the chain.
 arrowFrom :: [Segment] -> Mm -> Maybe Svg
 arrowFrom segments distance = case segments of
   [] -> Nothing

@@ -1,5 +1,6 @@
--- | Objects of a drawing in mm of paper: contours, cuts, linking moves and rest material. An
--- outline is a chain of segments that bounds an area.
+-- | Objects of a drawing in mm of paper: contours, cuts, linking moves and rest material. A cut is
+-- a part of the toolpath that removes material; linking moves are all other moves. Rest material is
+-- material that the cutter cannot reach. An outline is a chain of segments that bounds an area.
 module Draw.Scene
   ( Scene (..),
     Shape (..),
@@ -75,7 +76,8 @@ data Scene = Scene
     rapids :: [Segment],
     -- | starting position of the cutter
     start :: Point,
-    -- | kind of work, and radius in mm of the part: of the cutter, or of the nose of a turning tool
+    -- | each tool by its kind of work, milling or turning, and by the radius, in mm of the part, of
+    -- the cutter or of the turning tool's nose
     tools :: [(Part.Work, Mm)]
   }
 
@@ -95,7 +97,8 @@ data MaterialSide
 -- | Toolpath of one cut: one pass along a contour, or the moves in a pocket from one plunge to the
 -- next lift.
 data Cut = Cut
-  { -- | the parts from node to node, each one line or arc, or all arcs of one curve
+  { -- | parts of the cut in order, each of them one line, one arc, or all arcs of one curve. The
+    -- ends of the parts are the nodes
     sections :: NonEmpty (NonEmpty Segment),
     -- | radius of the cutter in mm of paper
     cutterRadius :: Double,
@@ -154,8 +157,8 @@ distinct = catMaybes . snd . List.mapAccumL next Map.empty
 beginning :: Part.Contour -> Point
 beginning = Segment.start . Part.segment . NonEmpty.head . Part.elements
 
--- | Contours that an operation mills, each with its side. For a pocket they are its wall and its
--- islands.
+-- | Contours that an operation mills, each with its side and its cutter. For a pocket they are its
+-- wall and its islands.
 millingOf :: Operation -> [Milling]
 millingOf operation = case operation of
   Mill job -> [value job]
@@ -168,8 +171,9 @@ millingOf operation = case operation of
   Travel _ -> []
   Command _ -> []
 
--- | Outlines of rest material, in mm of the part. If the outline at a point is not known, a circle
--- about the cutter's centre marks the point. Its radius is a quarter of the offset distance.
+-- | Outlines of rest material, in mm of the part. If the outline is not known for a position of the
+-- cutter's centre, a circle about this position takes its place. The radius of the circle is a
+-- quarter of the distance of the cutter's centre from the contour.
 restMaterialOf :: Toolpath -> [[Segment]]
 restMaterialOf path = nubOrd (concatMap drawn (RestMaterial.ofPath path))
   where
@@ -206,8 +210,8 @@ movesBetween block = case block of
   Holing _ moves -> moves
   Commanding _ -> []
 
--- | Bounding boxes, on the part, of everything that has to be on the page: contours, moves and
--- cutters.
+-- | Bounding boxes, on the part, of everything that has to be on the page: contours, moves, cutters
+-- and drilled holes.
 boxesOf :: [Part.Contour] -> Toolpath -> [BoundingBox]
 boxesOf contours path =
   [Page.extent s | c <- contours, s <- NonEmpty.toList (Polyarc.segments (Part.polyarcOf c))]
@@ -261,7 +265,8 @@ holeOf page circle@(Circle c r) =
   where
     whole = Segment.fullCircle CounterClockwise circle (Vec.shift (Vec.polar r (Rad 0)) c)
 
--- | Side of the contour on which the cutter runs; Nothing if its centre runs on the contour.
+-- | Side of the contour on which the cutter runs; Nothing if the cutter's centre runs on the
+-- contour.
 sideOf :: Milling -> Maybe Carrier.Side
 sideOf milling = case Toolpath.leadingSide milling of
   Left _ -> Nothing

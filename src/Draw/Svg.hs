@@ -40,8 +40,8 @@ import Text.Blaze.Svg11 qualified as Svg
 import Text.Blaze.Svg11.Attributes qualified as Attribute
 import Text.DocLayout qualified as DocLayout
 
--- | SVG text of a drawing, by the area of its page, its title, and its layers, the lowest one
--- first.
+-- | SVG text of a drawing. The arguments are the area of its page, its title, and its layers, the
+-- lowest one first.
 document :: Area -> Text -> [Svg] -> Text
 document page title layers =
   Lazy.toStrict (Blaze.renderSvg (Svg.docTypeSvg ! size ! viewBox ! font $ rows (heading : layers)))
@@ -54,7 +54,7 @@ document page title layers =
     font = Attribute.fontFamily "Arial, Helvetica, sans-serif"
     heading = Svg.title (toSvg (printable title))
 
--- | Group of elements with a name, by which graphics programs show the layer.
+-- | Layer: a group of elements with a name, under which graphics programs list it.
 layer :: Text -> [Svg] -> Svg
 layer name things = Svg.g ! Attribute.id_ (toValue name) $ rows things
 
@@ -114,16 +114,16 @@ circle radius p =
     ! Attribute.cy (number (Vec.y p))
     ! Attribute.r (number radius)
 
--- | Filled arrowhead of a colour, whose length is @size@ in mm. It points in @direction@, a unit
--- vector.
+-- | Filled arrowhead of a colour with its point at @tip@. Its length is @size@ in mm, and it points
+-- in @direction@, a unit vector.
 arrow :: Text -> Double -> Vec -> Point -> Svg
 arrow colour size direction tip = area colour [Straight tip (back 1), Straight (back 1) (back (-1))]
   where
     along = Vec.scale (-size) direction
     back side = Vec.shift (Vec.add along (Vec.scale (side * size / 4) (Vec.left direction))) tip
 
--- | Part of a text that lies at the text's position: start, middle or end of the base line, or the
--- centre of the digits.
+-- | Part of a text that lies at the text's position: the start, the middle or the end of the base
+-- line. For 'Centred' it is the point at the middle of the width and at half the height of a digit.
 data Anchor = Start | Middle | End | Centred
   deriving stock (Eq, Show)
 
@@ -161,7 +161,7 @@ textWidth size words' =
   where
     wide c = c `elem` ("MWmwЖМФШЩЫЮжмфшщыю" :: String)
 
--- | Replaces every character that XML does not allow by a space.
+-- | Replaces control characters, and the other characters that XML does not allow, by spaces.
 printable :: Text -> Text
 printable = Text.map (\c -> if Char.isControl c || c >= '\xFFFE' && c <= '\xFFFF' then ' ' else c)
 
@@ -191,7 +191,8 @@ pathCommands s = case s of
   Arc {start, centre, sweep = Rad a} ->
     let Mm r = Segment.radius centre start
         -- SVG gives an arc by its ends. With rounded ends the centre of a long arc is inexact, and
-        -- the ends of a full circle do not determine it. So parts of at most a third of a circle.
+        -- the ends of a full circle do not determine it. So the arc is divided into parts of at
+        -- most a third of a circle.
         pieces = max 1 (ceiling (abs a * 3 / (2 * pi) - 1e-9)) :: Int
         sense = if a > 0 then "1 " else "0 "
         to i = Segment.at (fromIntegral i / fromIntegral pieces) s

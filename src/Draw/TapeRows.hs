@@ -27,7 +27,7 @@ import Tape.RowMeaning qualified as RowMeaning
 data RowRange = Everything | Frames Int Int | Rows Int Int
   deriving stock (Eq, Show)
 
--- | Picture of the given rows of a tape that are in @range@; Nothing if none is.
+-- | Picture of the rows in @range@; Nothing if there are none. @rows@ are all rows of the tape.
 picture :: Machine -> RowRange -> [Row] -> Maybe Text
 picture machine range rows = case (Machine.pitch (Machine.medium machine), found) of
   (_, []) -> Nothing
@@ -44,8 +44,8 @@ pictureLines machine range rows = case Machine.pitch (Machine.medium machine) of
   where
     chosen' r = filter (\(n, line) -> any (\row -> inRange r n row) line)
 
--- | What @range@ counts, as reports name it (frames, rows, or lines of a text), and how many of
--- them the whole tape has.
+-- | Unit in which @range@ counts, as reports name it: frame, row, or line of a text. The number is
+-- the count of these units on the whole tape.
 extent :: Machine -> RowRange -> [Row] -> (Text, Int)
 extent machine range rows = case (range, Machine.pitch (Machine.medium machine)) of
   (Frames _ _, _) -> ("frame", foldl' max 0 (mapMaybe frame rows))
@@ -85,14 +85,14 @@ acrossTracks tracks each =
   Text.unwords
     (concat [[each k] <> ["∘" | k == sprocket tracks + 1] | k <- [tracks, tracks - 1 .. 1]])
 
--- | Number of the track below the sprocket holes, from 1 for the lowest, by the count of tracks.
--- The sprocket holes lie between tracks 2 and 3 of a five-track tape, and between tracks 3 and 4 of
--- a wider one.
+-- | Number of the track next to the sprocket holes on the side of the lower numbers, by the count
+-- of tracks. The lowest track has the number 1. The sprocket holes lie between tracks 2 and 3 of a
+-- five-track tape, and between tracks 3 and 4 of a wider one.
 sprocket :: Int -> Int
 sprocket tracks = if tracks <= 5 then 2 else 3
 
--- | Groups neighbouring blank rows that are of one kind and belong to one frame. Every row with
--- holes is a group alone.
+-- | Groups neighbouring blank rows that have the same purpose and belong to the same frame. Every
+-- other row is a group by itself.
 folded :: [Numbered] -> [NonEmpty Numbered]
 folded = NonEmpty.groupBy together
   where
@@ -143,8 +143,8 @@ holed machine group@((n, row) :| _)
 
 -- Text --------------------------------------------------------------------------------------------
 
--- | Divides the rows of a text medium into the lines of the text. Each line keeps the row with its
--- line end.
+-- | Divides the rows of a text medium into the lines of the text. A row is one character. Each line
+-- includes the row of its line end.
 textLines :: [Row] -> [[Row]]
 textLines rows = case break ((== Just '\n') . symbol) rows of
   ([], []) -> []

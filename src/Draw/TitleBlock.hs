@@ -66,7 +66,7 @@ legend scene =
        in sample p <> [Svg.text LineStyle.small Start (Vec.shift (Vec.vec 10 0.9) p) words']
 
 -- | Possible entries of the legend. Each has True if the drawing uses the symbol, a function that
--- draws the symbol from a point to the right, and the symbol's meaning.
+-- draws the symbol to the right of a given point, and the symbol's meaning.
 legendEntries :: Scene -> [(Bool, Point -> [Svg], Text)]
 legendEntries Scene {page, shapes, cuts, restMaterial, feeds, rapids} =
   [ (any (\s -> materialSide s == Unknown) shapes, line LineStyle.contourPen, "contour"),

@@ -1,10 +1,11 @@
 -- | Arcs in whole pulses: the frames of an exact arc on a machine with circular interpolation.
 --
--- A grid point is a position in whole pulses. The ends of an arc are rounded to the nearest grid
--- points. Its centre becomes the grid point about which the rounded arc deviates least from the
--- exact one. Candidates are the grid points near the exact centre, and near the point that is
--- equally far from both rounded ends. When all of them exceed the tolerance, the arc is halved.
--- When halving does not help, or the centre does not fit its field, it is divided into chords.
+-- A grid point is a position in whole pulses. A step is a line or an arc that becomes one frame.
+-- The ends of an arc are rounded to the nearest grid points. Its centre becomes the grid point
+-- about which the rounded arc deviates least from the exact one. Candidates are the grid points
+-- near the exact centre, and near the point that is equally far from both rounded ends. When all of
+-- them exceed the tolerance, the arc is halved. When halving does not help, or the centre does not
+-- fit its field, the arc is divided into chords.
 --
 -- Read "Frame.Arc.Context" first. "Frame.Arc.Centre" lists the grid points, "Frame.Arc.Attempt"
 -- chooses among them, "Frame.Arc.Deviation" measures, "Frame.Arc.Quadrant" cuts an arc at the axes.
@@ -38,9 +39,9 @@ import Geometry.Segment qualified as Segment
 import Geometry.Vec (Point)
 
 -- | Steps along a segment at the constant height @height@ in mm. They begin at the segment's
--- rounded start, the given position in pulses, and end at its rounded end. Parts that cannot be
--- arcs are divided by @chordsOf@: it takes the rounded start of a part, and returns the ends of its
--- chords in pulses.
+-- rounded start, the given position in pulses, and end at its rounded end. The function @chordsOf@
+-- divides parts that cannot be arcs into chords. It takes the rounded start of a part, and returns
+-- the ends of the chords in pulses.
 steps ::
   Grid ->
   ArcTolerance ->
@@ -95,9 +96,9 @@ asArcs context arc =
         [Centre.nearCentres context arc, Centre.remoteCentres context arc]
     )
 
--- | True for an arc whose centre fits its field, no matter from which point of the arc the centre
--- is counted. Otherwise only some parts of the arc could be frames. @centre@ and @r@ are the exact
--- centre and radius in mm; the third argument is the rounded start.
+-- | True for an arc whose centre fits its field in a frame, no matter from which point of the arc
+-- the field counts. Otherwise only some parts of the arc could be frames. @centre@ and @r@ are the
+-- exact centre and radius in mm; the third argument is the rounded start of the arc.
 isCentreFitting :: ArcContext -> Pulses3 -> Point -> Mm -> Bool
 isCentreFitting context (Pulses3 x y _) centre (Mm r) =
   abs (i - x) < largest

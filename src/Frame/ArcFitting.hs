@@ -1,6 +1,7 @@
--- | Curves on machines with circular interpolation. A run, the moves along one curve, consists of
--- arcs and lines that approximate the curve to 'Tolerance.curve'. Within the tolerance of a job far
--- fewer arcs are enough; this module fits them.
+-- | Curves on machines with circular interpolation. A run is the sequence of moves along one curve.
+-- Its moves are arcs and lines that approximate the curve much more exactly than a job needs, to
+-- 'Geometry.Tolerance.curve'. Within the tolerance of a job far fewer arcs are enough; this module
+-- fits them. A level run stays at one height.
 module Frame.ArcFitting
   ( RunPart (..),
     divisions,
@@ -22,9 +23,10 @@ import Machine.Machine (Axis (..), Machine)
 import Machine.Machine qualified as Machine
 import Toolpath.Toolpath (Move (segment))
 
--- | Largest distance in mm of the fitted arcs from the curve. It is the smaller one of the bounds
--- on both sides, but at least 'leastShare' of a pulse. The smaller bound is nearly 0 for a
--- tolerance on one side of the contour only. Then the result exceeds this bound, and
+-- | Largest distance in mm of the fitted arcs from the curve. @bounds@ are the distances in mm that
+-- the tolerance of the job allows to the left and to the right of an arc or chord. The result is
+-- the smaller one of both, but at least 'leastShare' of a pulse. The smaller bound is nearly 0 for
+-- a tolerance on one side of the contour only. Then the result exceeds this bound, and
 -- 'roundingAllowance' is smaller by the excess.
 fitTolerance :: Machine -> Bounds -> Mm
 fitTolerance machine bounds =
@@ -51,9 +53,10 @@ data RunPart
   deriving stock (Eq, Show)
 
 -- | Alternative divisions of a level run into parts; the caller chooses the one with the fewest
--- frames. The first division consists of fitted arcs only. There are more divisions if the centres
--- of some arcs of the run do not fit their fields. The second division then has chords for the
--- moves with these centres, and fitted arcs for the others. The third has chords for the whole run.
+-- frames. The first division consists of fitted arcs only. If the centres of some arcs of the run
+-- do not fit their fields, there may be two more. One has chords for the moves with these centres,
+-- and fitted arcs for the others. The other has chords for the whole run; it is left out if it
+-- certainly needs no fewer frames than the first division.
 divisions :: Machine -> Bounds -> NonEmpty Move -> NonEmpty [RunPart]
 divisions machine bounds run
   | or kinds && (any isRemoteBend fitted || length fitted <= mostTried) =
@@ -74,15 +77,16 @@ divisions machine bounds run
     isRemote s = case s of
       Straight _ _ -> Nothing
       Arc {start, centre} -> Just (Segment.radius centre start >= largestRadius)
-    -- True for a fitted arc whose centre does not fit its field, unless its sagitta is so small
-    -- that it becomes a line.
+    -- True for a remote bend: a fitted arc whose centre does not fit its field, and whose sagitta
+    -- is too large for a line in its place.
     isRemoteBend s =
       isRemote s == Just True && Segment.sagitta s >= times 0.5 (Machine.planeResolution machine)
     -- True when chords for the whole run may need fewer frames than the first division. Compares a
-    -- lower bound of the number of these chords with the number of frames of the first division. A
-    -- chord deviates from a fitted arc by at most the sum of both bounds and twice the error of the
-    -- fit. A chord across the joint of two arcs counts for both. In the first division a remote
-    -- bend becomes chords, which deviate by a fraction of a pulse.
+    -- lower bound of the number of these chords with an estimate of the number of frames of the
+    -- first division. A chord deviates from a fitted arc by at most the sum of both bounds and
+    -- twice the error of the fit. A chord across the joint of two arcs is counted for both, so one
+    -- for each arc is subtracted. In the first division a remote bend becomes chords, which deviate
+    -- by a fraction of a pulse.
     mayNeedFewerChords =
       sum (fmap (leastChords band) fitted) - length fitted
         < sum
@@ -93,8 +97,9 @@ divisions machine bounds run
       let Pulses n = Machine.centreCapacity machine
        in times (fromIntegral n) (minimum [Machine.resolutionOf machine axis | axis <- [X, Y]])
 
--- | Largest number of fitted arcs for which other divisions are tried even if the centres of all
--- fitted arcs fit. With more arcs the attempts would take longer than the rest of the compilation.
+-- | Largest number of fitted arcs for which other divisions are tried even if none of the fitted
+-- arcs is a remote bend. With more arcs the attempts would take longer than the rest of the
+-- compilation.
 mostTried :: Int
 mostTried = 1000
 
@@ -107,8 +112,8 @@ leastChords sagitta s = case s of
     let Mm r = Segment.radius centre start
      in max 1 (ceiling (abs a / (2 * acos (max (-1) (1 - sagitta / r)))))
 
--- | Arcs and lines whose distance from the run is at most @tolerance@ mm, with the ends of the run.
--- They are at most as many as the moves of the run.
+-- | Arcs and lines from the start of the run to its end, whose distance from the run is at most
+-- @tolerance@ mm. They are at most as many as the moves of the run.
 arcs :: Mm -> NonEmpty Move -> NonEmpty Segment
 arcs tolerance run =
   case NonEmpty.nonEmpty (filter ((> Mm 0) . Segment.length) (map segment (NonEmpty.toList run))) of

@@ -28,8 +28,8 @@ import Part.Part (Pace (..))
 import Toolpath.Toolpath (Move, pace)
 import Toolpath.Toolpath qualified as Toolpath
 
--- | Instructions with their runs cut where a braking section begins, in the form that the machine
--- needs.
+-- | Instructions with braking in the form that the machine needs. Runs are cut where a braking
+-- section begins.
 applied :: Machine -> [Instruction] -> [Instruction]
 applied machine instructions = case brakingForm (Machine.braking machine) of
   ByControl -> instructions
@@ -143,9 +143,9 @@ withBrakedFrames machine least instructions = concatMap cut marked
 brakedAtEnd :: NonEmpty Move -> [Move]
 brakedAtEnd ms = map Toolpath.withoutBraking (NonEmpty.init ms) <> [NonEmpty.last ms]
 
--- | The braking of the move @m@, from the feed limit @after@ at its end: the limit at its start,
--- and the part of a braking section at its end. @slow@ is the feed in mm/s to which the cutter
--- brakes at the end of an element with braking.
+-- | The feed limit at the start of the move @m@, and the move with the part of a braking section at
+-- its end. @after@ is the feed limit at the end of the move. @slow@ is the feed in mm/s to which
+-- the cutter brakes at the end of an element with braking.
 mark :: Machine -> Double -> FeedLimit -> Move -> (FeedLimit, (Move, BrakingEnd))
 mark machine slow after m
   | l <= 0 = (limit, (m, BrakingEnd 0 (target limit) (section limit)))

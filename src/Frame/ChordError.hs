@@ -1,8 +1,9 @@
 -- | Allowed chord errors, and the chords of single segments.
 --
 -- The module derives from the tolerance of a job how far a chord may lie from the toolpath. It
--- divides an arc into equal chords within that error, and counts chords and frames in advance.
--- Curves of several moves are divided by "Frame.Chording".
+-- divides an arc into equal chords within that error, and counts chords and frames in advance. A
+-- run is a sequence of moves along one line, arc or curve. Curves of several moves are divided by
+-- "Frame.Chording".
 module Frame.ChordError
   ( ChordTolerance (..),
     chordTolerance,
@@ -44,7 +45,7 @@ data ChordTolerance
     Sagitta Mm
   | -- | band about an arc, in mm: the distance towards its centre, and the distance away from it
     ArcBand Mm Mm
-  | -- | bounds on both sides of a curve of several moves
+  | -- | largest distances of a curve of several moves from its chords, on both sides
     OnCurve Chording.Bounds
   deriving stock (Eq, Show)
 
@@ -69,11 +70,12 @@ remainder machine tolerance =
     (1 - Tolerance.equal)
     (max (Mm 0) (minus tolerance (times (sqrt 0.5) (Machine.planeResolution machine))))
 
--- | Bounds for the chords of a curve; the side is that of the cutter, Nothing when it is unknown.
--- Where a chord lies inside of the material, the curve is on the cutter's side of the chord. The
--- arcs of a curve are approximations themselves, so 'Tolerance.curve' is subtracted from the
--- tolerance. Heights have the smaller one of the bounds to the left and to the right, but at least
--- a pulse.
+-- | Bounds for the chords of a curve. @side@ is the side of the curve on which the cutter moves;
+-- Nothing when it is unknown. A chord that lies inside of the material has the curve on the side of
+-- the cutter. Therefore the tolerance into the material is the bound on this side. The moves of a
+-- curve are approximations themselves, so 'Tolerance.curve' is subtracted from the tolerance. The
+-- bound for heights is the smaller one of the bounds to the left and to the right, but at least a
+-- pulse.
 curveBounds :: Machine -> Maybe Carrier.Side -> Milling -> Chording.Bounds
 curveBounds machine side job =
   Chording.Bounds
@@ -113,7 +115,7 @@ sideless a b = if a > Mm 0 && b > Mm 0 then min a b else max a b
 
 -- | The chord error @tolerance@, raised to a least value if it is smaller, because rounding makes
 -- smaller ones pointless. This least value is the result of 'remainder' for a tolerance of one
--- pulse. A band stays unchanged when one of its sides is that wide.
+-- pulse. A band stays unchanged if its wider side is at least that wide.
 raisedToRounding :: Machine -> ChordTolerance -> ChordTolerance
 raisedToRounding machine tolerance = case tolerance of
   Sagitta y -> Sagitta (max least y)
@@ -153,9 +155,9 @@ chords machine sagitta segment =
     n = chordCount machine sagitta segment
 
 -- | Ends of the chords of the segment @s@ within a band. The band has the width @toward@ (δ₁, in
--- mm) towards the centre of the arc, and @away@ (δ₂) away from it. The first and the last end lie
--- on the arc. The corners between them lie on the outer edge of the band, @ρ = R + δ₂@, and the
--- chords touch its inner edge: @cos(Δφ/2) = (R − δ₁)/ρ@.
+-- mm) towards the centre of the arc, and @away@ (δ₂) away from it. The chain of chords begins at
+-- the start of the arc and ends at its end. The corners between them lie on the outer edge of the
+-- band, @ρ = R + δ₂@, and the chords touch its inner edge: @cos(Δφ/2) = (R − δ₁)/ρ@.
 bandChords :: Machine -> Mm -> Mm -> Segment -> [Point]
 bandChords machine toward away s = case s of
   Straight _ b -> [b]

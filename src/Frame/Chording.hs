@@ -329,8 +329,8 @@ unrestricted =
       excess = -1
     }
 
--- | End of the longest chord from the point @p@. It is the point at the shortest length if no chord
--- within the limits reaches that far.
+-- | End of the longest chord from the point @p@ within the limits. If this chord is shorter than
+-- the limit 'least', it is the point at that length.
 furthest :: Limits -> RunPoint -> RunPoint
 furthest limits p = case rest p of
   [] -> p
@@ -484,12 +484,12 @@ turnLimit limits before move = case segment move of
       | signum s * (heading before + s * (1 - from move) - end) <= Tolerance.equal = 1
       | otherwise = max (from move) (from move + (end - heading before) / s)
 
--- | Directions of lines from the viewpoint that an arc leaves by exactly the allowed distance, on
--- the left or on the right of the line. At its furthest point the arc is parallel to the line.
--- Directions are measured as in 'Sector'.
+-- | Directions of lines from the viewpoint for which the largest distance of an arc from the line
+-- is exactly the allowed one: on the left of the line, and on its right. At its furthest point the
+-- arc is parallel to the line. Directions are measured as in 'Sector'.
 data Tangents = Tangents {onLeft :: [Double], onRight :: [Double]}
 
--- | The directions of the lines from the viewpoint that are 'Tangents' to a move; none for a line.
+-- | 'Tangents' of a move, as seen from the viewpoint; none for a straight move.
 tangentsTo :: Limits -> Viewpoint -> MoveRest -> Tangents
 tangentsTo limits view move =
   Tangents {onLeft = touching (-1) (leftOf limits), onRight = touching 1 (rightOf limits)}
@@ -568,7 +568,7 @@ leftmostDirection Outlook {limits, before, tangents} after direction distance =
     )
 
 -- | Direction of the run at the fraction @t@ of a move, in radians from that at the viewpoint.
--- @before@ is the direction at the start of the part of the move.
+-- @before@ is the direction at the start of the rest of the move.
 headingAt :: MoveRest -> Double -> Double -> Double
 headingAt move before t = case segment move of
   Straight _ _ -> before

@@ -83,7 +83,7 @@ wordsFor table c = case c of
   Part.Auxiliary _ -> auxiliary table
   Part.ChangeTool _ _ -> toolChange table
 
--- | The 'CommandKind' that reports about a command name.
+-- | The kind of a command, by which reports name it.
 kindOf :: Command -> CommandKind
 kindOf c = case c of
   Part.Auxiliary _ -> AuxiliaryCommand
@@ -189,9 +189,10 @@ compensationOff machine =
 data Pending = Pending {asked :: Region, given :: [(CommandName, Int)]}
   deriving stock (Eq, Show)
 
--- | Adds the words of a command to the pending ones. No word may occur twice in a frame. Therefore
--- a command that repeats a word is divided into several groups. The result has the groups of words
--- that need frames of their own now, and the group that remains pending.
+-- | Adds the words of a command to the pending ones; @region@ asks for the command. No word may
+-- occur twice in a frame. Therefore a command that repeats a word is divided into several groups.
+-- The result has the groups of words that need frames of their own now, and the group that remains
+-- pending.
 add ::
   Machine ->
   Region ->

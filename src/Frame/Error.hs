@@ -33,7 +33,7 @@ data Error
     -- the feed asked for, and this frequency in pulses per second; the lowest and the highest
     -- frequency of the machine, each with its feed along an axis
     FrequencyOutOfRange Region Feed Double (Double, Feed) (Double, Feed)
-  | -- | a point further from the zero of the part than the given limit in mm
+  | -- | a point with a coordinate that exceeds the given limit in mm
     OutOfReach Region Point Mm
   | -- | a milling statement in which the sum of the tolerance and one pulse is not below the radius
     -- of the cutter: the tolerance and the radius in mm
@@ -323,7 +323,7 @@ warningReport machine warning = case warning of
         (Machine.LeadingAxis, _) -> "the machine's feeds are steps along the axis that leads"
     turns n = Decimal.short 1 n <> " turns a minute"
 
--- | Words for a report on the number of a command: what is numbered.
+-- | Noun, in a report, for the thing that the number of a command counts.
 numbered :: CommandKind -> Text
 numbered kind = case kind of
   SpindleCommand -> "spindle speed"

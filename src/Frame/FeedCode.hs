@@ -23,8 +23,8 @@ import Geometry.Segment qualified as Segment
 import Machine.Machine (FeedChoice (..), FeedCode, FeedMeasure (..), Machine)
 import Machine.Machine qualified as Machine
 
--- | Code of the machine for the feed @v@ in the frame @f@, whose length is @l@. The code that the
--- frame already holds is ignored.
+-- | Code of the machine for the feed @v@ in the frame @f@, whose length is @l@; 'NoSuchFeed' if the
+-- feed is outside of the machine's range. The code that the frame already holds is ignored.
 codeFor :: Machine -> Feed -> Frame -> Mm -> FeedChoice
 codeFor machine v f l = Machine.choose machine (codeValue machine v f l)
 
@@ -86,9 +86,10 @@ rapidFeed :: Machine -> Feed
 rapidFeed machine =
   maybe (Feed 0) (feedAlongAxis machine) (Machine.valueOf machine (Machine.rapidCode machine))
 
--- | Feed that the machine gives for the feed asked for. The result is exact where codes are feeds
--- along the path. Where codes are frequencies, the direction of the frame is needed but not known
--- here, so the result is the feed asked for.
+-- | Feed that the machine gives for the feed asked for. The result is exact if codes are feeds
+-- along the path. If codes are frequencies, the direction of the frame is needed but not known
+-- here, so the result is the feed asked for. It is also the feed asked for if the machine has no
+-- such feed.
 expectedFeed :: Machine -> Feed -> Feed
 expectedFeed machine asked@(Feed v) =
   case (Machine.feedMeasure (Machine.feeds machine), Machine.choose machine v) of

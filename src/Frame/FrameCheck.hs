@@ -105,8 +105,9 @@ warnings findings =
       max (v - low) (high - v) > (feedSlack + Tolerance.equal) * v
   ]
 
--- | Adds the findings in the next frame @p@. @asked@ is its feed in the program, 'Rapid' where the
--- compiler sets the feed itself. @at@ is the position at its end in pulses.
+-- | Adds the findings in the next frame @p@. @asked@ is its feed in the program; it is 'Rapid' for
+-- a rapid move, and where the compiler sets the feed itself. @at@ is the position at its end in
+-- pulses.
 check :: FrameContext -> Pace -> Pulses3 -> PlannedFrame -> FrameFindings -> FrameFindings
 check context asked at p = checkPosition context at p . checkFeed context asked (frame p)
 
@@ -115,8 +116,8 @@ checkFeed :: FrameContext -> Pace -> Frame -> FrameFindings -> FrameFindings
 checkFeed context asked f before = case asked of
   Rapid -> before
   At (Located region v)
-    -- Where codes are feeds along the path, the same code gives the same feed, so nothing new can
-    -- be found.
+    -- When codes are feeds along the path, the same code gives the same feed, so nothing new can be
+    -- found.
     | isAlongPath context && lastCode before == feedCode f && lastPace before == asked -> before
     | otherwise ->
       checkNewFeed context (region, v) f before {lastPace = asked, lastCode = feedCode f}

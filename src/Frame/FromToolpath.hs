@@ -1,9 +1,10 @@
 -- | From the toolpath to the frames of a machine.
 --
--- A run of moves becomes arcs where the machine has circular interpolation, and chords within the
--- tolerance elsewhere. Positions are rounded to whole pulses, moves are split to fit their fields,
--- and every frame gets its feed code, its braking mark and its commands. Requests that the machine
--- cannot carry out are refused or reported as warnings, see "Frame.Error".
+-- A run is a sequence of moves along one line, arc or curve. It becomes arcs on machines with
+-- circular interpolation, and chords within the tolerance on others. Positions are rounded to whole
+-- pulses, moves are split to fit their fields, and every frame gets its feed code, its braking mark
+-- and its commands. Requests that the machine cannot carry out are refused or reported as warnings,
+-- see "Frame.Error".
 --
 -- A step is a motion of one frame, before the frame has its feed and its commands. A level run
 -- stays at one height.
@@ -66,8 +67,9 @@ import Toolpath.FromPart qualified as Toolpath
 import Toolpath.Toolpath (Move (..), Toolpath (Toolpath), heights)
 import Toolpath.Toolpath qualified as Toolpath
 
--- | Frames of a toolpath. Two kinds of errors are found before the frames are made: those that keep
--- the frames from being made, and those about too many frames.
+-- | Frames of a toolpath, or the errors because of which there are none. If a point is out of reach
+-- or the frames would be too many, no frames are made. Then only the warnings about the start and
+-- the commands are given.
 quantise :: Machine -> Toolpath -> Result Warning Error FrameProgram
 quantise
   machine
@@ -133,7 +135,7 @@ commandWarnings :: Making -> [Warning]
 commandWarnings made = concatMap Command.warnings (reverse (translations made))
 
 -- | Warning about the start point @asked@ in mm if it lies between two pulses. @begin@ is its
--- rounded position; the region names the point.
+-- rounded position; the region is that of the point in the program.
 startWarning :: Machine -> Region -> Point -> Pulses3 -> [Warning]
 startWarning machine region asked begin =
   [StartRounded region asked given | not (Vec.isNear given asked)]
@@ -394,8 +396,7 @@ curveSteps context begin bounds run =
     )
 
 -- | Position in pulses at the end of a part of a run, and the steps of the part. @begin@ is the
--- position at the beginning of the part. @m@ is any move of the run; it gives the height, the feed
--- and the origin.
+-- position at the beginning of the part. @m@ is any move of the run; it gives the height.
 partSteps ::
   Context -> Bounds -> Move -> Pulses3 -> RunPart -> (Pulses3, [ArcStep])
 partSteps context@Context {machine} bounds m begin part = case part of

@@ -116,10 +116,10 @@ roleInPocket n m
   | uncurry (/=) (heights m) = Approaching n
   | otherwise = Cutting n
 
--- | Instructions for pass @n@ with cutter compensation, for which the region @asked@ asks. The
--- control gets the edge of the part, and the words that switch compensation on and off. Every move
--- of the edge is a run of its own, even along a curve. If the machine has no such words, the
--- instructions contain only the errors about them.
+-- | Instructions for pass @n@ with cutter compensation, for which the region @asked@ of the program
+-- asks. The control gets the edge of the part in place of the toolpath, and the words that switch
+-- compensation on and off. Every move of the edge is a run of its own, even along a curve. If the
+-- machine has no such words, the instructions contain only the errors about them.
 compensated :: Machine -> Int -> Region -> Milling -> Sent -> [Instruction]
 compensated machine n asked job edge
   | null (Command.errors on) =

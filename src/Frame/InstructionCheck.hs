@@ -187,8 +187,8 @@ isSurelyInReach s = case s of
   Straight a b -> isInReach 0 a && isInReach 0 b
   Arc {start = from, centre} -> let Mm r = Segment.radius centre from in isInReach r centre
 
--- | True for a point whose coordinates are at most 'Tolerance.reach' less @margin@, in mm and
--- without sign.
+-- | True for a point whose coordinates have absolute values of at most 'Tolerance.reach' less
+-- @margin@, in mm.
 isInReach :: Double -> Point -> Bool
 isInReach margin p = max (abs (Vec.x p)) (abs (Vec.y p)) <= limit - margin
   where
@@ -200,8 +200,7 @@ reachError region p =
   if isInReach 0 p then Nothing else Just (OutOfReach region p Tolerance.reach)
 
 -- | Adds the number of frames of the run @moves@, without making them. On a machine with arcs a
--- level run counts as one frame, so there the number is a lower bound. A level run stays at one
--- height.
+-- level run, which stays at one height, counts as one frame. So there the number is a lower bound.
 counted ::
   InstructionContext ->
   ChordTolerance ->

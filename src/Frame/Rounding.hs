@@ -96,7 +96,7 @@ split machine begin ((a, za), (b, zb)) = case Machine.measure (Machine.layout ma
       [] -> [finish]
 
 -- | Number of larger part counts that 'split' tries after the smallest one. Rounding makes a part
--- at most one pulse longer, so this is always enough for an axis with two digits or more.
+-- at most one pulse longer, so this is always enough for a field of two digits or more.
 spareParts :: Int
 spareParts = 1000
 

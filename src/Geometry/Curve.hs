@@ -1,5 +1,5 @@
--- | Planar curves given by point tables, span shapes or segments, and their shifts (the ciphers of
--- the Ural paper), without sampling.
+-- | Planar curves given by point tables, span shapes or segments, and their shifts, without
+-- sampling.
 --
 -- A span is a part of a curve on which one formula gives the points: an arc, or a cubic in x and
 -- one in y. A curve maps a parameter, from 0 to the count of its spans, to a point. The rows of a
@@ -132,7 +132,7 @@ spline :: EndCondition -> Vector Point -> Either CurveFault Curve
 spline ends points = Unshifted <$> BasisCurve.spline ends points
 
 -- | Chain of parabolas @y(x)@: the first through points 1 to 3, the next through points 3 to 5, and
--- so on. The count of points is odd.
+-- so on. The count of points is odd. Over all points, x must rise throughout or fall throughout.
 parabola :: Vector Point -> Either CurveFault Curve
 parabola points = Unshifted <$> BasisCurve.parabola points
 
@@ -165,8 +165,9 @@ fromSegmentsAt segments points = Unshifted <$> BasisCurve.fromSegmentsAt segment
       ([], _ : _) -> Just (u, (u, [], []))
       (_, []) -> Nothing
 
--- | Column with one value for each row of the curve. Between the rows, the values are interpolated
--- by the same method as the points.
+-- | Column: a function of the curve's parameter that has the given values at the rows, one for each
+-- row. Between the rows it is interpolated by the same method as the points; see
+-- "Geometry.Curve.Column". Another count of values than 'rowCount' is a bug of the caller.
 column :: Curve -> Vector Double -> Column
 column curve = Column.column (base curve)
 
@@ -174,7 +175,7 @@ column curve = Column.column (base curve)
 rowCount :: Curve -> Int
 rowCount = Vector.length . BasisCurve.rows . base
 
--- | Value of the column @c@ at the parameter @u@ of the curve, in the unit of the column's values.
+-- | Value of the column @c@ of the curve at the parameter @u@, in the unit of the column's values.
 columnAt :: Curve -> Column -> Double -> Double
 columnAt curve c u =
   PowerSeries.value (Column.series 0 (base curve) c (ShiftedCurve.spanPoint After u curve))
@@ -184,9 +185,9 @@ columnAt curve c u =
 inReverseOrder :: Curve -> Vector Double -> Vector Double
 inReverseOrder curve = BasisCurve.inReverseOrder (base curve)
 
--- | Shift distance of a joggle on a curve. The joggle does not fit if its radius is not above half
--- of its depth. Nor does it fit if its two ramps are longer than the curve between its two
--- parameters.
+-- | Shift distance of a joggle on a curve. A joggle is a local step of the curve, with a ramp at
+-- each end of it. It does not fit if its radius is not above half of its depth. Nor does it fit if
+-- its two ramps are longer than the curve between the parameters at which it begins and ends.
 fitJoggle :: Joggle -> Curve -> Either CurveFault Distance
 fitJoggle joggle@Joggle {begins, ends, depth = Mm depth, radius = Mm r} curve
   | r <= 0 || abs depth >= 2 * r = Left DeepJoggle
@@ -205,7 +206,7 @@ toSegments curve = case curve of
   Shifted {} -> Nothing
 
 -- | Cubic spans in x and in y within a tolerance of the curve, preceded by a bound of their error.
--- Nothing where such spans are not found; see 'CubicSpans.along'.
+-- Nothing if such spans are not found; see 'CubicSpans.along'.
 cubics :: Mm -> Curve -> Maybe (Mm, Cubics, Cubics)
 cubics = CubicSpans.along
 
@@ -240,8 +241,8 @@ normal curve u = Vec.left (tangent curve u)
 curvature :: Curve -> Double -> Double
 curvature curve u = TaylorExpansion.curvature (expansion After 2 curve u)
 
--- | Taylor expansion of the curve's point about the parameter @u@, up to the order @n@. At a corner
--- it is that of the part before or after the corner.
+-- | Taylor expansion of the curve's point about the parameter @u@, up to the order @n@. At a joint
+-- of two spans it is that of the span before or after the joint, as @approach@ says.
 expansion :: Approach -> Int -> Curve -> Double -> TaylorExpansion
 expansion approach n curve u =
   ShiftedCurve.expansionAt n curve (ShiftedCurve.spanPoint approach u curve)

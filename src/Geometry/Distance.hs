@@ -43,7 +43,8 @@ nearest p segment
   where
     toStart = Vec.distance p (Segment.start segment)
     toEnd = Vec.distance p (Segment.end segment)
-    -- The foot is undefined on a line without a length, and for the centre of an arc.
+    -- No foot exists on a line between equal points. Nor does the centre of an arc have a foot on
+    -- this arc.
     (hasFoot, foot) = case segment of
       Straight a b -> (a /= b, Vec.interpolate (Segment.fraction segment p) a b)
       Arc {start, centre} ->
@@ -64,9 +65,8 @@ data ClosestPoint = ClosestPoint {distance :: Mm, nearestPoint :: Point}
   deriving stock (Eq, Show)
 
 -- | The least distance between the segments @a@ and @b@, with the point of @a@ at which it occurs.
--- This point is an end of @a@, the point nearest to an end of @b@, or an intersection. Otherwise
--- the least distance lies on a common normal of both, which passes through the centre of one of
--- them.
+-- This point is an end of @a@, the point nearest to an end of @b@, an intersection, or the foot of
+-- a common normal of both. A common normal passes through the centre of an arc.
 segments :: Segment -> Segment -> ClosestPoint
 segments a b = minimumBy (comparing distance) (map fromA onA <> map fromB onB)
   where
@@ -123,8 +123,8 @@ uncovered reach others segment = gaps 0 (sort (concatMap covered others))
         marks = sort (0 : 1 : filter isInside (map (Segment.fraction segment) boundary))
         isInside t = t > 0 && t < 1
         boundary = ends <> concatMap (common segment) (neighbourhood reach other)
-        -- With a reach of 0, the circles about the ends of @other@ are points. Points have no
-        -- intersections with the segment, so these ends are added.
+        -- With a reach of 0, the circles about the ends of @other@ are points, for which 'common'
+        -- finds no intersections. So these ends are added.
         ends = [p | reach <= Mm 0, p <- [Segment.start other, Segment.end other]]
 
 -- | Segments that contain the boundary of the region within @reach@ of @segment@. They are circles

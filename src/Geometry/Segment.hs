@@ -78,8 +78,9 @@ arcOrCircle sense centre start end
   | otherwise = arc sense centre start end
 
 -- | The segment from @start@ to @end@ with the bulge @b = tan(sweep/4)@: a line for 0, else an arc.
--- The arc's centre lies on the left normal of the chord at its midpoint. Its distance from there is
--- @(1 − b²)/(4·b)@ times the chord's length; when negative, the centre lies to the right.
+-- The arc's centre lies on the left normal of the chord at its midpoint. Its distance from this
+-- midpoint is @(1 − b²)/(4·b)@ times the chord's length; when negative, the centre lies to the
+-- right.
 fromBulge :: Point -> Point -> Double -> Segment
 fromBulge start end b
   | b == 0 = Straight start end
@@ -192,7 +193,7 @@ fraction segment p = case segment of
         along = signum s * t
      in (if along < 0 then along + 2 * pi else along) / abs s
 
--- | The same segment in the opposite direction, from its end to its start.
+-- | The segment in the opposite direction, from its end to its start.
 reverse :: Segment -> Segment
 reverse segment = case segment of
   Straight a b -> Straight b a

@@ -35,7 +35,8 @@ import Geometry.Vec qualified as Vec
 
 -- | The first self-intersection of a polyarc; nothing if it has none. The result has the indices,
 -- from 0, of two segments that cross or touch elsewhere than at a common joint. The point at which
--- they do comes third. The first index is the least possible one.
+-- they do comes third. Of all such pairs, the result has the least first index, and with it the
+-- least second index.
 firstSelfIntersection :: Polyarc -> Maybe (Int, Int, Point)
 firstSelfIntersection (Polyarc ends ss) = firstSelfIntersectionBy id ends ss
 

@@ -3,7 +3,8 @@
 -- Tolerances for the purposes of a single stage are in the folder of that stage:
 -- "Offset.Tolerance", "Part.Tolerance" and "Toolpath.Tolerance".
 --
--- A span is one of the consecutive parts of a curve, on which one formula gives its points.
+-- A span is one of the consecutive parts of a curve, on which one formula gives its points. A biarc
+-- consists of two arcs that join with a common tangent.
 module Geometry.Tolerance
   ( -- * Points and numbers
     coincident,
@@ -101,7 +102,8 @@ arcLengthShare = 1e-12
 parameter :: Double
 parameter = 1e-12
 
--- | The largest velocity, in mm per unit of the curve's parameter, that counts as 0.
+-- | The largest velocity of a point of a curve, in mm per unit of the curve's parameter, that
+-- counts as 0.
 stationary :: Mm
 stationary = Mm 1e-9
 

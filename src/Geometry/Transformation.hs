@@ -104,7 +104,7 @@ apply t v = (matrix t !* v) ^+^ displacement t
 fromPoint :: Point -> V2 Double
 fromPoint p = V2 (Vec.x p) (Vec.y p)
 
--- | The same vector as a type of the library @linear@.
+-- | A vector of "Geometry.Vec" as one of the library @linear@.
 fromVec :: Vec -> V2 Double
 fromVec (Vec x y) = V2 x y
 

@@ -13,9 +13,9 @@ import Geometry.Segment qualified as Segment
 import Geometry.Vec (Point)
 import Geometry.Vec qualified as Vec
 
--- | The winding number, about the point @p@, of closed chains of segments: how many times they go
--- counter-clockwise around it. The order of the segments does not matter. For a point on a segment
--- the number is arbitrary.
+-- | The winding number, about the point @p@, of closed chains of segments: the count of turns that
+-- they make counter-clockwise around it, less the count of clockwise turns. The order of the
+-- segments does not matter. For a point on a segment the number is arbitrary.
 --
 -- The sum of the angles that the chords subtend at the point gives the winding number of the
 -- polygon of chords. An arc that has the point between itself and its chord adds 1 to this number,

@@ -1,4 +1,5 @@
--- | The capabilities of the client (the editor), and those that the server announces.
+-- | The capabilities of the client (the editor) in the Language Server Protocol, and those that the
+-- server announces.
 module Lsp.Capability
   ( Client (..),
     fromInitialize,
@@ -65,5 +66,5 @@ initializeResult =
           ]
     ]
   where
-    -- TextDocumentSyncKind.Incremental
+    -- The protocol's number for Incremental: the client sends changed ranges, not whole texts.
     incremental = 2 :: Int

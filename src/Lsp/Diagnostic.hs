@@ -1,4 +1,6 @@
--- | Reports as diagnostics of the protocol, which an editor shows at ranges of the document.
+-- | Reports as diagnostics of the Language Server Protocol, which an editor shows at ranges of the
+-- document. A snapshot is one state of a document's text with its imported files, as analysed by
+-- the compiler; the reports are read from it.
 module Lsp.Diagnostic
   ( publish,
     bug,

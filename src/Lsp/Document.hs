@@ -18,8 +18,8 @@ import Lsp.Position qualified as Position
 import Lsp.Uri (Uri)
 import Lsp.Uri qualified as Uri
 
--- | A text with its address and the version number that the client gives to this state of the text.
--- Nothing if the client gives none.
+-- | A text with the address of its file and the version number that the client gives to this state
+-- of the text. The version is Nothing if the client gives none.
 data Document = Document {uri :: Uri, version :: Maybe Int, text :: Text}
   deriving stock (Eq, Show)
 

@@ -1,4 +1,4 @@
--- | Locations of the protocol: an address and a range.
+-- | Locations of the Language Server Protocol: an address of a file and a range in it.
 module Lsp.Location
   ( location,
   )

@@ -1,4 +1,5 @@
--- | The messages of JSON-RPC 2.0. Their parameters and results stay JSON values.
+-- | The messages of JSON-RPC 2.0, in which editor and server talk by the Language Server Protocol.
+-- Their parameters and results stay JSON values.
 module Lsp.Message
   ( Incoming (..),
     Id,

@@ -1,6 +1,6 @@
--- | The positions of the protocol, which count lines and UTF-16 code units from 0. The compiler
--- uses offsets: counts of characters from the beginning of a source. A source is a main file with
--- its imported files. Only this module converts between positions and offsets.
+-- | The positions of the Language Server Protocol, which count lines and UTF-16 code units from 0.
+-- The compiler uses offsets: counts of characters from the beginning of a source. A source is a
+-- main file with its imported files. Only this module converts between positions and offsets.
 module Lsp.Position
   ( LspPosition (..),
     LspRange (..),
@@ -59,8 +59,8 @@ fileOf :: Source -> Region -> Text
 fileOf source (Region from _) = Region.file (Region.position source from)
 
 -- | The offset of a position in the main file of a source. A position beyond the end of its line
--- gives the end of the line. A position inside a surrogate pair gives the beginning of the
--- character.
+-- gives the end of the line; one beyond the last line gives the end of the text. A position inside
+-- a surrogate pair gives the beginning of the character.
 offset :: Source -> LspPosition -> Int
 offset source LspPosition {line, character} =
   Region.offset source ordinal (1 + charactersIn character content)

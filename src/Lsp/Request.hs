@@ -1,4 +1,5 @@
--- | The requests about an open document, and their answers.
+-- | The requests about an open document, and their answers. A snapshot is one state of a document's
+-- text with its imported files, as analysed by the compiler; the answers are read from it.
 module Lsp.Request
   ( Subject (..),
     Method,

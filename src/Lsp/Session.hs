@@ -1,9 +1,11 @@
--- | The conversation with one client as a state machine. A step takes a state and an event, and
--- gives the next state and the messages to send. All functions are pure.
+-- | The conversation with one client (an editor) in the Language Server Protocol, as a state
+-- machine. A step takes a state and an event, and gives the next state and the messages to send.
+-- All functions are pure.
 --
--- A step may need the snapshots of programs, and to make one the server has to read imported files.
--- So before each step the server calls 'awaited', analyses the programs that it names, and passes
--- their snapshots to 'supply'.
+-- A snapshot is one state of a program's text with its imported files, as analysed by the compiler.
+-- A step may need snapshots, and to make one the server has to read imported files. So before each
+-- step the server calls 'awaited', analyses the programs that it names, and passes their snapshots
+-- to 'supply'.
 --
 -- The argument @now@ is the present time. Diagnostics of a document are /due/ when the time has
 -- come to publish them.

@@ -1,5 +1,5 @@
--- | Messages on a stream of bytes. Each has a header with the length of its body in bytes, an empty
--- line, and the body.
+-- | Messages of the Language Server Protocol on a stream of bytes. Each message has a header with
+-- the length of its body in bytes, an empty line, and the body.
 module Lsp.Transport
   ( Received (..),
     next,
@@ -39,8 +39,8 @@ next received = case ByteString.breakSubstring "\r\n\r\n" received of
           body = ByteString.drop 4 rest
 
 -- | The length of the body in bytes, from the key @Content-Length:@. Nothing if the length is
--- missing or not from 0 to 'longest'. The key need not be at the beginning of a line: the body of
--- the previous message, if that has no valid length, may come before it.
+-- missing or not from 0 to 'longest'. The key need not be at the beginning of its line: if the
+-- previous message had no valid length, the end of its body comes before the key on the same line.
 contentLength :: ByteString -> Maybe Int
 contentLength header =
   listToMaybe

@@ -1,5 +1,6 @@
--- | File addresses of the protocol. Clients percent-encode different sets of characters. So the
--- server compares decoded addresses, and sends an address back as the client wrote it.
+-- | File addresses (URIs) of the Language Server Protocol. Clients percent-encode different sets of
+-- characters. So the server compares decoded addresses, and sends an address back as the client
+-- wrote it.
 module Lsp.Uri
   ( Uri (..),
     toPath,

@@ -24,8 +24,8 @@ data AxisForm = AxisForm
     reversed :: Bool,
     -- | true if the machine's axis changes its direction when the machine is set up for turning
     reversedOnLathe :: Bool,
-    -- | true if the machine is known to move this axis. If it is not, frames may still have a word
-    -- for the axis
+    -- | true if the machine is known to move this axis. If false, frames may still have a word for
+    -- the axis
     isDriven :: Bool
   }
   deriving stock (Eq, Show)
@@ -33,8 +33,8 @@ data AxisForm = AxisForm
 -- | Arcs that one frame can describe. All arcs lie in the plane of x and y.
 data Arcs
   = NoArcs
-  | -- | @quadrants@ is true if one frame can describe an arc within one quadrant only.
-    -- @fullCircle@ is true if one frame can describe a full circle.
+  | -- | @quadrants@ is true if the arc of one frame, unless it is a full circle, has to lie within
+    -- one quadrant. @fullCircle@ is true if one frame can describe a full circle.
     Arcs {quadrants :: Bool, fullCircle :: Bool}
   deriving stock (Eq, Show)
 

@@ -1,4 +1,9 @@
 -- | Reads the section @code@ of a description: the rows of the symbols.
+--
+-- A row is the holes across the tape at one position; a symbol is a character that a row means. A
+-- description gives a row as a pattern of holes: digits 0 and 1, the highest track first. The
+-- parity track makes the number of holes in every row even. The service track has signs and marks
+-- beside the digits.
 module Machine.CodeFromText
   ( code,
     check,
@@ -46,7 +51,8 @@ code trackCount s = do
       _ -> Nothing
     locatedSymbols = required "symbols" "symbols { 0 = 0000 … }" (symbolsFrom width)
     locatedWeights = optional "weights" Map.empty weightsFrom
-    -- An unknown symbol may be a letter of another alphabet that looks like a known one.
+    -- Weights of characters that the symbols lack. Such a character may be a letter of another
+    -- alphabet that looks like a symbol.
     unknownWeights section located =
       [ NotInCode r "the weight" [c]
         | Just weights' <- [output (locatedWeights section)],
@@ -56,7 +62,7 @@ code trackCount s = do
     track word = optional word Nothing (withArguments [word <> " 5"] (single trackNumber))
     trackNumber = fmap (fmap Just) . wholeIn "the track" 1 (most width)
 
--- | Reads the argument of a line by @f@; 'Nothing' for more or fewer arguments than one.
+-- | Reads the only argument of a line by @f@; 'Nothing' if the line has no argument or several.
 single :: (Argument -> Maybe (Result w Error a)) -> [Argument] -> Maybe (Result w Error a)
 single f args = case args of
   [a] -> f a
@@ -66,7 +72,8 @@ single f args = case args of
 -- out, because it is often the service track or the parity track.
 data Width = Width {least :: Int, most :: Int}
 
--- | Reads the symbols: the holes of each, with the region of the symbol.
+-- | Reads the symbols: the holes of each, with the region of the symbol. Bit k−1 of the number is 1
+-- if there is a hole in track k.
 symbolsFrom :: Width -> Statement -> Result w Error (Map Char (Located Word8))
 symbolsFrom width s = do
   ((), section) <- withBlock ["symbols { 0 = 0000 … }"] "the symbols" noArguments s
@@ -101,8 +108,8 @@ charOf s = case value (key s) of
       [c] -> Just c
       _ -> Nothing
 
--- | Reports symbols that an earlier line contains too. The report begins with @title@, which says
--- what the lines give.
+-- | Reports each symbol that an earlier line gives too. The report names it by @title@, such as
+-- ‘the weight of’, and the symbol.
 repetitions :: Text -> [(Char, Region)] -> [Error]
 repetitions title given =
   [ Twice r (title <> "‘" <> Text.singleton c <> "’") first
@@ -112,8 +119,8 @@ repetitions title given =
   where
     earlierOnes = scanl (\m (c, r) -> Map.insertWith (\_ old -> old) c r m) Map.empty given
 
--- | Reads a pattern of holes, the highest track first. Tracks that the pattern leaves out have no
--- hole.
+-- | Reads a pattern of holes, the highest track first, as a number whose bit k−1 is track k. Tracks
+-- that the pattern leaves out have no hole.
 holesOf :: Width -> Located Text -> Result w Error Word8
 holesOf width (Located r digits)
   | Text.any (`notElem` ("01" :: String)) digits || size > most width || size < least width =
@@ -156,8 +163,10 @@ weightsFrom s = do
             (\k -> [(c, Located (region (key e)) k)]) <$> n
         _ -> malformed ["X = 7", "digits"] e
 
--- | Checks that no two symbols have the same holes, that the parity track and the service track are
--- free, and that no symbol is a row to skip.
+-- | Checks the holes of the symbols @located@ of the code @made@, on a tape with @tracks@ tracks.
+-- No two symbols have the same holes. No symbol has a hole in the parity track. No digit, sign or
+-- point has a hole in the service track. These two tracks are different ones. No symbol is a row to
+-- skip.
 check :: Int -> DescriptionSection -> TapeCode -> Map Char (Located Word8) -> [Error]
 check tracks section made located =
   equalRows <> parityFaults <> serviceFaults <> sharedTrack <> skippedSymbols
@@ -196,8 +205,9 @@ check tracks section made located =
           (c, _) <- take 1 [e | e@(_, Located _ p) <- rows, row `elem` rowsOf tracks made p]
       ]
 
--- | Rows that a symbol with the holes @p@ can have on the tape: without and with a hole in the
--- service track, each with its parity hole.
+-- | Rows that a symbol with the holes @p@ can have on a tape with @tracks@ tracks. The first row
+-- has no hole in the service track; the second one has it, if there is a service track. Each row
+-- has a hole in the parity track if this makes its number of holes even.
 rowsOf :: Int -> TapeCode -> Word8 -> [Word8]
 rowsOf tracks made p = map even' (p : [p .|. bit' t | Just t <- [serviceTrack made], t <= tracks])
   where

@@ -48,7 +48,8 @@ data CommandContext = CommandContext
 noCommands :: CommandContext
 noCommands = CommandContext Machine.noCommandWords []
 
--- | Located words of the commands, before they are put into a 'CommandContext'.
+-- | Words of the commands with their regions in the description, before they are put into a
+-- 'CommandContext'.
 data Events = Events
   { -- | one list of words for each key in 'simpleEvents', in the order of the keys
     simple :: [[Located CommandWord]],
@@ -56,7 +57,7 @@ data Events = Events
     endFrames :: [NonEmpty (Located CommandWord)]
   }
 
--- | Located words of cutter compensation.
+-- | Words of cutter compensation with their regions.
 data CompensationEvents = CompensationEvents
   { left :: Located CommandWord,
     right :: Located CommandWord,
@@ -121,8 +122,8 @@ eventFrom word s = do
   ((), section) <- withBlock [word <> " { set M 8 }"] ("‘" <> word <> "’") noArguments s
   NonEmpty.toList <$> wordsFrom section
 
--- | Reads one or more numbers, each with the command word that holds it. Reports a second number
--- for a command word.
+-- | Reads the lines such as @set M 8@ of a section, which needs at least one. Reports a second
+-- number for the same command word.
 wordsFrom :: DescriptionSection -> Result w Error (NonEmpty (Located CommandWord))
 wordsFrom section = do
   found <-
@@ -140,7 +141,7 @@ wordsFrom section = do
           Located first _ <- take 1 [p | p <- take k ws, commandName (value p) == commandName w]
       ]
 
--- | Reads a line such as @set M 8@: the number of one command.
+-- | Reads a line such as @set M 8@: the command word @M@ and its number.
 wordFrom :: Statement -> Result w Error (Located CommandWord)
 wordFrom s = case (arguments s, block s) of
   ([name, Located _ (Word "steps")], Just ss)

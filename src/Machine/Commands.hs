@@ -12,8 +12,8 @@ import Data.List.NonEmpty (NonEmpty (..))
 import Data.Map.Strict (Map)
 import Machine.FrameLayout (CommandName)
 
--- | Numbers that a frame contains for each command. If the tape cannot give the command, the list
--- is empty, and @compensation@ is 'Nothing'.
+-- | Numbers that a frame contains for each command. For a command that the tape cannot give, the
+-- list is empty, or @compensation@ is 'Nothing'.
 data CommandWords = CommandWords
   { spindleClockwise :: [CommandWord],
     spindleCounterClockwise :: [CommandWord],
@@ -34,12 +34,12 @@ data CommandWords = CommandWords
 data CommandWord = CommandWord {commandName :: CommandName, value :: CommandValue}
   deriving stock (Eq, Show)
 
--- | Where the number of a command comes from.
+-- | Source of the number of a command.
 data CommandValue
   = -- | this number
     Fixed Int
-  | -- | The number that the program gives: of a tool, of an auxiliary command, or the spindle speed
-    -- in revolutions per minute.
+  | -- | The number that the program gives: the number of a tool or of an auxiliary command, or the
+    -- spindle speed in revolutions per minute.
     Argument
   | -- | The number of a step of the spindle: the table gives the speed of each step in revolutions
     -- per minute. The step nearest to the program's speed is taken; of two equally near, the lower

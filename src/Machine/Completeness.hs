@@ -37,8 +37,9 @@ check machine locatedAxes arcsRegion feedsRegion locatedItems =
   where
     locatedWords = [(r, w) | (r, AWord w) <- locatedItems]
 
--- | Reports a word for an axis that the machine lacks, or in a unit other than the machine's
--- pulses.
+-- | Reports the mistakes in one word. The word of an axis or centre needs an axis that the machine
+-- has, and a sign; its last decimal, if there is one, has to be one pulse. No centre is along z.
+-- The codes of a motion word differ, and fit its digits.
 wordFaults :: Machine -> (Region, Word') -> [Error]
 wordFaults machine (r, w) = case content w of
   Along a -> axisFaults a

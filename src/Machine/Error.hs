@@ -41,7 +41,7 @@ data Error
     TooDeep Region Int
   | -- | unknown key: the key as written, the name of the section, and the keys that it allows
     UnknownKey Region Text Text [Text]
-  | -- | repeated entry: its name, and the region of the first one
+  | -- | repeated entry: its name, and the region of the first entry
     Twice Region Text Region
   | -- | missing key: the name of the section, the key, and an example
     Missing Region Text Text Text
@@ -49,11 +49,11 @@ data Error
     Malformed Region Text [Text]
   | -- | value without a mark of provenance, and the count of further such values in the section
     Unmarked Region Int
-  | -- | number out of range: its name, the lowest and the highest value
+  | -- | number out of range: the name of the number, the lowest and the highest value
     OutOfRange Region Text Text Text
   | -- | mistake in the holes of a row
     BadHoles Region HoleFault
-  | -- | characters that the code lacks, and the name of the part that needs them
+  | -- | characters that the code lacks: the name of the part that needs them, and the characters
     NotInCode Region Text [Char]
   | -- | frames that cannot be decoded uniquely
     NotDecodable Region DecodingFault
@@ -69,7 +69,7 @@ data Error
 
 -- | Mistake in the holes of a row.
 data HoleFault
-  = -- | pattern with another number of digits than the tape has tracks: the number of tracks, and
+  = -- | row in the description with too many or too few digits 0 and 1: the number of tracks, and
     -- the least number of digits
     WrongWidth Int Int
   | -- | hole in the parity track, which has this number
@@ -94,8 +94,8 @@ data DecodingFault
     SameAddress Text Region
   | -- | address or separator that begins like a number
     LikeNumber Text
-  | -- | symbols that are a prefix of others which may follow at the same point: the prefix, the
-    -- longer symbols, and the region of the item that has the other symbols
+  | -- | symbols that begin with those of another item of the frame which may come at the same
+    -- position: the prefix, the longer symbols, and the region of the item that has the prefix
     Prefix Text Text Region
   | -- | number without fixed length before an item that may begin with a digit
     NumberRunsOn Region
@@ -121,11 +121,11 @@ data ServiceFault
     WrongCount Int Int
   | -- | holes of a number without fixed length
     AnyLength
-  | -- | repeated meaning of a hole
+  | -- | meaning of a hole that another hole has too: its name
     SameMeaning Text
-  | -- | bits of a command that are not 0, 1, … up to the highest
+  | -- | bits of a command that are not 0, 1, … up to the highest: the name of the command
     BitGap Text
-  | -- | bits of a command in a word that not every frame contains
+  | -- | bits of a command in a word that not every frame contains: the name of the command
     OptionalBits Text
   | -- | no hole that marks braking, although the machine brakes in frames with such a hole
     NoBrakingHole
@@ -164,7 +164,7 @@ data TableFault
     CodeTooLarge Int Int
   | -- | code that the table lacks
     NoSuchCode Int
-  | -- | range that is reversed or too long
+  | -- | range that is reversed or too long: its first and its last number
     BadRange Int Int
   | -- | feed at the end of braking that is outside the machine's feeds; the numbers are the lowest
     -- and the highest feed of the machine, in mm/min
@@ -270,7 +270,8 @@ toReport err = case err of
     listed cs =
       Text.intercalate ", " (map (quote . Text.pack . unquoted . show) (take 12 cs))
         <> (if length cs > 12 then " …" else "")
-    -- Writes control characters as escape sequences, and all other characters as they are.
+    -- Turns the output of 'show' for a character into the text of the report: a control character
+    -- becomes an escape sequence, every other character itself.
     unquoted s = case s of
       "'\\n'" -> "\\n"
       ['\'', c, '\''] -> [c]

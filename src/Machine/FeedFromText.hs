@@ -1,4 +1,6 @@
--- | Reads tables of codes with formulas, and the sections @feeds@ and @braking@ of a description.
+-- | Reads the sections @feeds@ and @braking@ of a description, and tables of codes. A code is a
+-- number on the tape that means a feed or a step of the spindle; a table gives its value, perhaps
+-- by a formula.
 module Machine.FeedFromText
   ( feeds,
     braking,

@@ -36,7 +36,7 @@ data Feeds = Feeds
 data FeedMeasure
   = -- | mm/min along the path
     AlongPath
-  | -- | pulses per second on the leading axis
+  | -- | pulses per second on the leading axis, which is the axis with most pulses in the frame
     LeadingAxis
   deriving stock (Eq, Show)
 

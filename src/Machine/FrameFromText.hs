@@ -1,4 +1,5 @@
--- | Reads the section @frame@ of a description: the layout of a frame.
+-- | Reads the section @frame@ of a description: the layout of a frame. A hole of a word is a hole
+-- in the service track of the tape beside one of the word's digits.
 module Machine.FrameFromText
   ( LocatedLayout (..),
     frame,

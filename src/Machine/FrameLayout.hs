@@ -39,7 +39,7 @@ data AxisMeasure = Increments | Positions
 
 -- | One part of a frame.
 data LayoutItem
-  = -- | symbols that every frame contains here
+  = -- | symbols that every frame contains at this position
     Literal Text
   | AWord Word'
   | -- | digit that makes the sum of the weights of all symbols in the frame a multiple of this
@@ -59,7 +59,8 @@ data Word' = Word'
 
 -- | Meaning of a word's number.
 data Content
-  = -- | number of the frame, counted from 1; of larger numbers, only the last digits
+  = -- | number of the frame, counted from 1; only its last digits if it has more digits than the
+    -- word
     FrameNumber
   | -- | kind of motion, as one of these codes
     Motion MotionCodes
@@ -91,7 +92,9 @@ data NumberForm = NumberForm
     -- | number of digits after the decimal point; 0 if there is no point
     decimals :: Int,
     sign :: Sign,
-    -- | meaning of the service track at each digit; empty without a service track
+    -- | meaning of a hole in the service track beside each digit, from the first digit on; empty
+    -- without a service track, or if the number is not padded. The service track of a tape has
+    -- signs and marks beside the digits
     service :: [Service]
   }
   deriving stock (Eq, Show)
@@ -133,8 +136,9 @@ data Presence
     Always
   | -- | in frames that move
     InMotion
-  | -- | Depends on the content. For an axis: in frames that move it, or before its position is
-    -- known. For a centre: in arcs. For a command: in frames that give it.
+  | -- | Depends on the content. For an axis: in frames that move it; with absolute positions, also
+    -- in the first frame that moves at all. For a centre: in arcs. For a command: in frames that
+    -- give it.
     WhenNeeded
   | -- | for a feed: in frames that move at another feed than the last feed on the tape
     WhenChanged

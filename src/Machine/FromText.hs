@@ -57,7 +57,8 @@ machineFrom text ss = marked *> machine
     markOfMachine = case heading of
       s : _ -> mark s
       [] -> Nothing
-    -- A machine line that could not be read may have a mark for all values: nothing is reported.
+    -- A machine line that could not be read may have a mark for all values, so no missing mark is
+    -- reported.
     marked =
       Result.failing (if any broken heading then [] else Provenance.unmarked markOfMachine body) ()
     machine =
@@ -167,8 +168,8 @@ machineOf s =
       describedValues = []
     }
 
--- | Reads the name of a machine and its title. Part programs can write the name without quotation
--- marks if it has letters, digits, points and single minus signs only.
+-- | Reads the name of a machine and its title. The name has letters, digits, points and single
+-- minus signs only, so that part programs can write it without quotation marks.
 nameFrom :: Statement -> Result w Error (Text, Text)
 nameFrom = withArguments ["machine my-mill \"The mill in hall 3\""] heading
   where

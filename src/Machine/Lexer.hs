@@ -30,7 +30,7 @@ data Token_
     Text Text
   | -- | digits as written, and their value
     Numeral Text Double
-  | -- | bracket, operator of a formula, @..@ or @:@
+  | -- | bracket, brace, @=@, operator of a formula, @..@ or @:@
     Sign Text
   | LineEnd
   | -- | character that no description contains
@@ -89,8 +89,8 @@ token formula c rest
   | c `elem` ("{}=:+-*/^()" :: String) = (Sign (Text.singleton c), 1)
   | otherwise = (Stray c, 1)
 
--- | Reads the word at the start of a text: letters and digits with single minus signs and points
--- between them. In a formula a word has only letters and digits.
+-- | Reads the word at the start of a text: letters, digits and underscores, with single minus signs
+-- and points between them. In a formula a word has no minus signs and points.
 word :: Bool -> Text -> Text
 word formula rest = case Text.uncons rest' of
   Just (c, more)

@@ -1,5 +1,9 @@
 -- | Parses the tokens of a description into statements.
 --
+-- A statement is one line: its key, then arguments, perhaps a formula after @=@, perhaps a mark;
+-- and perhaps a block of statements in braces. A mark is the word @sourced@, @corrected@ or
+-- @reconstructed@, which says how a value is known.
+--
 -- The parser recovers at the end of each line: it reports a line that it cannot read, and continues
 -- with the next one.
 module Machine.Parser
@@ -69,9 +73,9 @@ statement depth ts = case argument ts of
         (extra, afterExtra) = toLineEnd afterBlock
      in ([line {block = inner}], faults <> es <> unexpectedIn extra, afterExtra)
 
--- | Parses the rest of a line after its key, up to the end of the line or a brace: arguments,
--- formula and mark. Returns the statement without its block, at most one error, and the remaining
--- tokens.
+-- | Parses the rest of a line after its key @first@, up to the end of the line or a brace:
+-- arguments, formula and mark of provenance. Returns the statement without its block, at most one
+-- error, and the remaining tokens.
 lineOf :: Argument -> [Token] -> (Statement, [Error], [Token])
 lineOf first ts = (line, faults, afterLine)
   where
@@ -115,7 +119,8 @@ argumentsOf ts = case ts of
       Name w -> w `elem` map fst marks
       _ -> False
 
--- | Parses one argument, and gives the tokens after it.
+-- | Parses one argument, and gives the tokens after it; an error if the first token begins no
+-- argument.
 argument :: [Token] -> Either Error (Argument, [Token])
 argument ts = case ts of
   Located r (Numeral a _) : Located _ (Sign "..") : Located r' (Numeral b _) : rest

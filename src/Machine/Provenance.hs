@@ -1,6 +1,7 @@
--- | The provenance of each value of a description. A mark says the provenance. It is written on the
--- line of a value, on the line that opens a block around the value, or on the line of the machine.
--- The innermost mark is valid.
+-- | The provenance of each value of a description: how the value is known. A mark says the
+-- provenance: @sourced@, @corrected@ or @reconstructed@. It is written on the line of a value, on
+-- the line that opens a block around the value, or on the line of the machine. The innermost mark
+-- is valid.
 module Machine.Provenance
   ( describedValues,
     unmarked,
@@ -17,8 +18,8 @@ import Machine.Machine (DescribedValue (..), Provenance)
 import Machine.Syntax
 
 -- | Lists the values of a description, one for each line that describes something. Each value is a
--- sentence: the sections around the line, the line as written, and where the source prints it.
--- The arguments are the text, the mark of the machine and the statements.
+-- sentence: the sections around the line, the line as written, and where the source prints it. The
+-- arguments are the text, the mark of the machine and the statements.
 describedValues :: Text -> Maybe (Located Mark) -> [Statement] -> [DescribedValue]
 describedValues text ofMachine = concatMap (valuesIn [] (provenanceOf =<< ofMachine))
   where

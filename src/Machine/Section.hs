@@ -66,8 +66,8 @@ allowKeys once often section = Result.failing (concat (zipWith fault [0 ..] (ent
     quoted w = "‘" <> w <> "’"
 
 -- | Reads the first statement with the key @word@ by @f@. If the key is missing, the report shows
--- @example@. No report is made if the section has a misspelt key that 'allowKeys' reports as
--- unknown.
+-- @example@. No report is made if the section has a key that looks like @word@ misspelt, because
+-- 'allowKeys' reports that key as unknown.
 required ::
   Text ->
   Text ->

@@ -86,7 +86,7 @@ sourceText :: Text -> Region -> Text
 sourceText text region =
   Text.unwords (Text.words (Text.take (end region - start region) (Text.drop (start region) text)))
 
--- | Evaluates a formula at @n@. The result is NaN or infinite if the formula has no value there.
+-- | Evaluates a formula at @n@. The result is NaN or infinite if the formula has no value at @n@.
 evaluate :: Double -> Formula -> Double
 evaluate n f = case f of
   Constant _ v -> v

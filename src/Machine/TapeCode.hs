@@ -19,11 +19,13 @@ data Medium = Medium
     pitch :: Maybe Mm,
     -- | extension of a file's name, without the point
     suffix :: Text,
-    -- | number of blank rows before the first frame, and again after the last one
+    -- | number of blank rows of the leader, before the first frame, and again of the trailer, after
+    -- the last one
     leader :: Int,
     -- | number of blank rows after each frame
     gap :: Int,
-    -- | number of additional blank rows before each frame with an even number, counted from 1
+    -- | number of additional blank rows before the second frame, the fourth one, the sixth one and
+    -- so on
     evenShift :: Int,
     spare :: Spare,
     -- | symbols between the leader and the first frame

@@ -1,4 +1,6 @@
--- | Checks that the frames of a layout can be decoded uniquely, symbol by symbol.
+-- | Checks that the frames of a layout can be decoded uniquely, symbol by symbol. The items of a
+-- layout are words, literal symbols and check digits. An optional item is a word that some frames
+-- lack.
 --
 -- The reader tries the items of the layout in their order. Frames are then decoded uniquely under
 -- four conditions:
@@ -155,21 +157,22 @@ numberMayBegin w rest = case content w of
       | padded (form w) = Text.justifyRight (digits (form w)) '0' (Decimal.whole n)
       | otherwise = Decimal.whole n
 
--- | An item, and the items that may come directly after it: optional ones, and at last one that
--- every frame contains.
+-- | An item, and the items that may come directly after it. These are optional items, and then the
+-- first item that every frame contains.
 data Successors = Successors
   { item :: LocatedItem,
     next :: [Successor]
   }
 
--- | Item that may come directly after another one. @isSameFrame@ is false if it begins the next
--- frame.
+-- | Item that may come directly after another one. @isSameFrame@ is true if both are in one frame,
+-- and false if this item is in the next frame.
 data Successor = Successor
   { isSameFrame :: Bool,
     successor :: LocatedItem
   }
 
--- | Successors of all items, those in the next frame included.
+-- | Successors of each item, in the order of the layout. After the last items of a frame they are
+-- items of the next frame.
 successors :: [LocatedItem] -> [Successors]
 successors items' =
   [ Successors {item = i, next = upToFixed (restOfFrame k <> nextFrame)}

@@ -147,8 +147,8 @@ intersections tolerance c boxes = runST $ do
       where
         b = indexPrimArray (ClosedPolyarcs.bulges c) i
 
--- | The coordinates of the nodes, the node of every vertex, and the nodes of each segment's @cuts@,
--- which are in no order. The cuts are those of 'intersections'.
+-- | The coordinates of the nodes in mm, the node of every vertex, and by segment the nodes of its
+-- cuts, in any order. @cuts@ are those of 'intersections'.
 nodesOf ::
   Double ->
   ClosedPolyarcs ->
@@ -167,8 +167,8 @@ nodesOf tolerance c cuts =
       ]
         <> [(x, y, n + k) | (k, (_, x, y)) <- zip [0 ..] cuts]
     clusters = concatMap (clustered snd3 . sortOn snd3) (clustered fst3 (sortOn fst3 points))
-    -- Divides sorted points into clusters where the coordinate @f@ grows by more than four
-    -- tolerances.
+    -- Divides points, sorted by the coordinate @f@, into clusters: where @f@ grows by more than
+    -- four tolerances from one point to the next, a new cluster begins.
     clustered f ps = case ps of
       [] -> []
       p : rest -> let (same, others) = grab f (f p) rest in (p : same) : clustered f others
@@ -196,8 +196,8 @@ runPrimArray' n filled = runPrimArray $ do
   mapM_ (uncurry (writePrimArray a)) filled
   pure a
 
--- | The segments cut at their nodes. Each slice has the numbers of its first node, its last node
--- and its segment, and its bulge.
+-- | The slices: the parts of the segments between consecutive nodes. Each slice has the numbers of
+-- its first node, its last node and its segment, and its bulge.
 slices ::
   ClosedPolyarcs ->
   Vector (Double, Double) ->
@@ -502,10 +502,10 @@ windingNumbers a =
     (0, 0)
     (concat [[l, r] | e <- [0 .. Vector.length (edges a) - 1], let (l, r) = sides a (2 * e)])
 
--- | The numbers of two segments that intersect. The caller reports them as the reason why a winding
--- number is below @low@ or above @high@. Pairs that cross between their ends have priority.
--- Otherwise the first segment has such a winding number on one side. The second one meets it at a
--- node, and is not its neighbour.
+-- | The numbers of two segments that intersect, the smaller one first; Nothing when none is found.
+-- The caller reports them as the reason why a winding number is below @low@ or above @high@. Pairs
+-- that cross between their ends have priority. Otherwise one segment has such a winding number on
+-- one side; the other one meets it at a node, and is not its neighbour.
 intersectingSegments :: (Int, Int) -> Arrangement -> Maybe (Int, Int)
 intersectingSegments (low, high) a =
   listToMaybe
@@ -522,9 +522,10 @@ intersectingSegments (low, high) a =
            ]
     )
 
--- | The loops that bound the reachable faces. For the sense counter-clockwise, their edges are
--- those with the winding number @wanted@ on their left. For the sense clockwise, their edges are
--- those with @wanted − 1@ on their right. The result is Nothing when a loop does not close.
+-- | The loops around the faces that the cutter's centre can reach, with these faces on the left for
+-- the sense counter-clockwise, on the right for clockwise. Their edges have the winding number
+-- @wanted@ on their left for the first sense, and @wanted − 1@ on their right for the second. The
+-- result is Nothing when a loop does not close.
 loops :: Sense -> Int -> Arrangement -> Maybe OffsetLoops
 loops sense wanted a =
   toLoops . map vertices

@@ -23,7 +23,7 @@ import Geometry.Index.SegmentBoxTree qualified as SegmentBoxTree
 import Offset.Loop (OffsetLoops)
 import Offset.Loop qualified as Loop
 
--- | The distances that the cutter's centre has to keep. All are in mm.
+-- | The distances that the cutter's centre has to keep from the source. All are in mm.
 data Clearance = Clearance
   { -- | error by which a distance may be too small
     slack :: Double,
@@ -32,21 +32,22 @@ data Clearance = Clearance
     -- | the largest result of 'distance'
     largestDistance :: Double,
     -- | distance required from the segment with the given number. It is required only of a point on
-    -- the cutter's side whose nearest point on the segment is not an end
+    -- the cutter's side, and only if the point of the segment nearest to it is no end of the
+    -- segment
     distance :: Int -> Double,
     -- | sense of a contour around the cutter: counter-clockwise when the cutter is on the left of
     -- the source
     sense :: Sense
   }
 
--- | True when the midpoint of the first segment of loop @k@ keeps the required distance from every
--- segment of the source. @boxes@ is the bounding-box tree of the source.
+-- | True when the midpoint of the first segment of loop @k@ keeps the distances @measure@ from
+-- every segment of the source. @boxes@ is the bounding-box tree of the source.
 isClear :: Clearance -> ClosedPolyarcs -> SegmentBoxTree -> OffsetLoops -> Int -> Bool
 isClear measure source boxes l k = uncurry (isFarFrom measure source boxes) (witness l k)
 
 -- | True when a cutter whose centre is at the midpoint of the first segment of loop @k@ reaches
--- every segment of the source. The kernel discards a loop of which this is true when 'isClear' is
--- False for it.
+-- every segment of the source: its distance from each is at most the required one. The kernel
+-- discards a loop for which this is True and 'isClear' is False.
 coversSource :: Clearance -> ClosedPolyarcs -> OffsetLoops -> Int -> Bool
 coversSource measure source l k =
   and
@@ -61,7 +62,8 @@ coversSource measure source l k =
   where
     (x, y) = witness l k
 
--- | The distance in mm that 'distance' requires from segment @i@ of the source.
+-- | The distance in mm that the cutter's centre has to keep from segment @i@ of the source, given
+-- by 'distance'.
 required :: Clearance -> ClosedPolyarcs -> Int -> Double
 required measure source i =
   distance measure (fromIntegral (indexPrimArray (ClosedPolyarcs.sources source) i))
@@ -76,7 +78,7 @@ witness l k = (x0 + 0.5 * (dx + b * dy), y0 + 0.5 * (dy - b * dx))
     (dx, dy) = (indexPrimArray (Loop.xs l) j - x0, indexPrimArray (Loop.ys l) j - y0)
     b = indexPrimArray (Loop.bulges l) i
 
--- | True when the point (@x@, @y@) keeps the required distance from every segment of the source.
+-- | True when the point (@x@, @y@) keeps the distances @measure@ from every segment of the source.
 isFarFrom :: Clearance -> ClosedPolyarcs -> SegmentBoxTree -> Double -> Double -> Bool
 isFarFrom measure source boxes x y =
   SegmentBoxTree.around boxes (x - widest) (y - widest) (x + widest) (y + widest) True $ \isFar i ->
@@ -114,9 +116,9 @@ isLeftOf c i x y
     b = indexPrimArray (ClosedPolyarcs.bulges c) i
 
 -- | Passes two lengths in mm to the continuation @k@. The first one is the distance of the point
--- (@x@, @y@) from segment @i@. The second one says how far the point of the segment that is nearest
--- to (@x@, @y@) lies from the nearer end of the segment; it is zero or negative when that nearest
--- point is an end.
+-- (@x@, @y@) from segment @i@. For the second one, take the point of the segment that is nearest to
+-- (@x@, @y@): the length is its distance from the nearer end of a line, or from the radius to the
+-- nearer end of an arc. It is zero or negative when the nearest point is an end.
 fromPoint :: ClosedPolyarcs -> Int -> Double -> Double -> (Double -> Double -> r) -> r
 fromPoint c i x y k
   | b == 0 = ClosedPolyarcs.chord c i $ \ux uy ->
@@ -142,7 +144,8 @@ fromPoint c i x y k
     (gx, gy) = ClosedPolyarcs.gradient c i x y (,)
     (px, py) = ClosedPolyarcs.gradient c i x0 y0 (,)
     (qx, qy) = ClosedPolyarcs.gradient c i x1 y1 (,)
-    -- The nearest point's signed distances from the radii to both ends of the arc: the smaller one.
+    -- The smaller one of the nearest point's signed distances, in mm, from the two radii to the
+    -- arc's ends.
     inSector =
       0.5
         * min (signum b * (px * gy - py * gx)) (signum b * (gx * qy - gy * qx))

@@ -3,8 +3,8 @@
 --
 -- The path is made from the certified loops of "Offset.Kernel". Its coordinates come from the
 -- elements of the contour ("Offset.SourceOffset"). Where the cutter does not fit, 'styled' returns
--- the obstacle; 'reachable' returns the paths that the cutter's centre can take and the rest
--- material between them.
+-- the obstacle; 'reachable' returns the paths that the cutter's centre can take, and the rest
+-- material between them, which the cutter cannot remove.
 module Offset.Equidistant
   ( OffsetSegment (..),
     Origin (..),
@@ -94,9 +94,9 @@ attempt source = case Obstacle.localCauses source of
     smaller = source {radius = minus (radius source) Tolerance.clearance}
     fitting = if radius smaller > Mm 0 then TrimmedOffset.whole smaller source else Nothing
 
--- | The crevices beside a path, as reasons why the cutter does not fit. A crevice is a cusp of the
--- contour that the cutter cannot enter. The path goes directly from the element before such a cusp
--- to the element after it, without an arc about the vertex.
+-- | The crevices beside a path, as reasons why the cutter does not fit. A cusp is a point at which
+-- the contour turns back. A crevice is a cusp that the cutter cannot enter. The path goes directly
+-- from the element before such a cusp to the element after it, without an arc about the vertex.
 crevices :: OffsetSource -> [OffsetSegment] -> [Cause]
 crevices source path
   -- The path of a contour without cusps is not examined here, so it is never in memory as a whole.

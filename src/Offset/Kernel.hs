@@ -210,7 +210,7 @@ data Problem = Problem
     rawOf :: ClosedPolyarcs -> (ClosedPolyarcs, ClosedPolyarcs)
   }
 
--- | The reachable region beside the contours @c@: the positions with the winding number @wanted@.
+-- | The reachable region beside the contours @c@. @wanted@ is the result of 'wantedNumber'.
 -- Computes the raw offset of @c@ first.
 regionOfContours :: Problem -> Int -> ClosedPolyarcs -> Either OffsetFault ReachableRegion
 regionOfContours problem wanted c =
@@ -218,9 +218,9 @@ regionOfContours problem wanted c =
         rawOf problem c
    in regionOf problem wanted raws (SegmentBoxTree.build (rounding problem) source)
 
--- | The reachable region: the positions with the winding number @wanted@. @untrimmed@ is the raw
--- offset, @source@ the contours from which it was made, and @sourceBoxes@ the bounding-box tree of
--- these contours.
+-- | The reachable region. @wanted@ is the result of 'wantedNumber'. @untrimmed@ is the raw offset,
+-- @source@ the contours from which it was made, and @sourceBoxes@ the bounding-box tree of these
+-- contours.
 regionOf ::
   Problem ->
   Int ->
@@ -255,8 +255,8 @@ regionOf problem wanted (untrimmed, source) sourceBoxes =
           Certificate.sense = sense
         }
     -- A loop that fails the check makes the answer invalid, with one exception. Where the cutter
-    -- reaches every segment of a single contour at once, unreachable positions can have the wanted
-    -- winding number. Loops around such positions are removed.
+    -- reaches every segment of a single contour at once, unreachable positions can have the winding
+    -- number of the reachable ones. Loops around such positions are removed.
     certified answer
       | all isSound loops' = Just found
       | ClosedPolyarcs.loopCount source == 1 && all (\k -> isSound k || isCovering k) loops' =
@@ -296,11 +296,12 @@ isUnreachable problem c w = ClosedPolyarcs.loopCount c > 1 && isOuter && isSmall
       Right region -> Loop.count (loops region) == 0
       Left _ -> False
 
--- | The winding number of the reachable positions. It is the winding number on the left of every
--- contour, and so on the left of every loop of the offset: 1 when the outermost contours are
--- counter-clockwise, else 0. The function fails for contours that intersect or whose senses do
--- not fit their nesting. @tolerance@ (mm) covers rounding; @open@ is True when the contour is open;
--- @boxes@ is the bounding-box tree of the contours @source@.
+-- | The winding number on the left of every contour, and so on the left of every loop of the
+-- offset: 1 when the outermost contours are counter-clockwise, else 0. Reachable positions on the
+-- left of the loops have this number; reachable positions on their right have one less. The
+-- function fails for contours that intersect or whose senses do not fit their nesting. @tolerance@
+-- (mm) covers rounding; @open@ is True when the contour is open; @boxes@ is the bounding-box tree
+-- of the contours @source@.
 wantedNumber ::
   Double ->
   Sense ->
@@ -345,9 +346,9 @@ wantedNumber tolerance sense open source boxes
           )
             <$> WindingNumber.leftExcess e
 
--- | The winding number of the reachable positions, as in 'wantedNumber', from an arrangement. This
--- serves contours whose segments touch or coincide. @crossed@ makes the fault for the numbers of
--- two segments that intersect. @unbounded@ is the answer when the contours enclose nothing. The
+-- | The winding number on the left of every contour, as in 'wantedNumber', from an arrangement.
+-- This serves contours whose segments touch or coincide. @crossed@ makes the fault for the numbers
+-- of two segments that intersect. @unbounded@ is the answer when the contours enclose nothing. The
 -- tolerance (mm) covers rounding.
 numberByArrangement ::
   (Int -> Int -> OffsetFault) ->

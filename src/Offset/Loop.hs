@@ -48,7 +48,7 @@ none =
     (primArrayFromList [])
     (primArrayFromList [])
 
--- | All closed polyarcs of a raw offset, untrimmed.
+-- | All closed polyarcs of the raw offset @c@ as loops, untrimmed.
 untrimmed :: ClosedPolyarcs -> OffsetLoops
 untrimmed c =
   OffsetLoops

@@ -14,6 +14,19 @@
 -- in many functions: @structure@ is the one that the kernel computed, @source@ the one whose
 -- coordinates are wanted. They differ only for a cutter that just fits: then the radius of
 -- @structure@ is smaller by 'Tolerance.clearance'.
+--
+-- Terms:
+--
+-- * The origin of a segment of a loop is the element or the corner of the contour from whose offset
+--   the segment comes. The least origin is the one that comes first along the contour.
+-- * A run is one segment of a loop, or several consecutive ones on one arc, all with one origin.
+-- * A circuit is the runs once around a loop.
+-- * A run is beside the contour if it lies on the cutter's side of the contour. All runs of a
+--   closed contour do. An open contour also has runs on its opposite side and about its ends.
+-- * A connecting line is a straight segment that joins the offsets of two elements at an inner
+--   corner.
+-- * A slight corner turns towards the cutter by so small an angle that it is no obstacle
+--   ('Offset.SourceOffset.Corner').
 module Offset.LoopPath
   ( LoopRegion (..),
     region,
@@ -67,7 +80,7 @@ import Offset.Tolerance qualified as Tolerance
 
 -- | A region, given by the kernel's loops.
 data LoopRegion = LoopRegion
-  { -- | whether the contour is open or closed
+  { -- | the kind of the contour: open or closed
     contourEnds :: Ends,
     -- | the loops that bound the region
     loops :: OffsetLoops,
@@ -121,17 +134,16 @@ request OffsetSource {style, side, radius, elements} numbers =
 
 -- | A run: one segment of a loop, or consecutive segments on one arc. The fields speak of this run.
 data Run = Run
-  { -- | the element or corner of the contour whose offset the run is
+  { -- | origin of the run
     origin :: Origin,
-    -- | number of its first segment in the flat contour. An open contour of @n@ segments is
-    -- traversed there and back, so its numbers go up to @2n − 1@
+    -- | number of the flat contour's segment from which the run's first segment comes. An open
+    -- contour of @n@ segments is traversed there and back, so the numbers go up to @2n − 1@
     flat :: Int,
     -- | True when the run joins the two halves of an arc over half a turn
     isInterior :: Bool,
-    -- | True when the run lies on the cutter's side of the contour. False only for an open contour:
-    -- on the contour's opposite side and about its ends
+    -- | True when the run is beside the contour
     isBeside :: Bool,
-    -- | True when the run is a line that joins the offsets of two elements at an inner corner
+    -- | True when the run is a connecting line
     isConnecting :: Bool,
     -- | the point where the run begins
     from :: {-# UNPACK #-} Point,
@@ -141,12 +153,12 @@ data Run = Run
     turned :: Double
   }
 
--- | The runs once around a loop, and the origin of the run before the first one. Connecting lines
--- before the first run are skipped. A connecting line joins two offsets at an inner corner.
+-- | A circuit: @runs@ are its runs in order. The loop is closed, so the last run comes before the
+-- first one again. @before@ is the origin of the last run that is not a connecting line.
 data Circuit = Circuit {before :: Origin, runs :: [Run]}
 
--- | The runs of loop @k@ of the region @r@. The first one is a run that is not beside the contour.
--- When there is none, it is the run with the least origin.
+-- | The circuit of loop @k@ of the region @r@. It begins with a run that is not beside the contour.
+-- When there is none, it begins with the run of the least origin.
 circuit :: LoopRegion -> Int -> Circuit
 circuit r k = circuitFrom r a z (fromMaybe (leastStart r a z) beyond)
   where
@@ -154,7 +166,7 @@ circuit r k = circuitFrom r a z (fromMaybe (leastStart r a z) beyond)
     a = indexPrimArray (Loop.starts (loops r)) k
     z = indexPrimArray (Loop.starts (loops r)) (k + 1)
 
--- | The runs of the raw offset that are beside the contour, without connecting lines. Their path
+-- | The runs of a 'rawRegion' that are beside the contour, without connecting lines. Their path
 -- passes all corners of the contour, as no part of the raw offset is trimmed.
 rawCircuit :: LoopRegion -> Circuit
 rawCircuit r
@@ -164,9 +176,10 @@ rawCircuit r
     full = circuitFrom r 0 z 0
     z = if Loop.count (loops r) == 0 then 0 else indexPrimArray (Loop.starts (loops r)) 1
 
--- | The first segment of the run with the least origin, among the segments from @a@ to @z − 1@ of a
--- loop. This run may continue from the segment @z − 1@ to the segment @a@. Then its first segment
--- is near @z − 1@, unless the run is a full circle.
+-- | The number of the segment with which the run of the least origin begins, in a loop with the
+-- segments from @a@ to @z − 1@. Segment @a@ follows the last one, so the run may begin near the end
+-- of the loop and continue at @a@. The numbers of the flat contour do not decrease along a run, so
+-- a full circle begins with its first half.
 leastStart :: LoopRegion -> Int -> Int -> Int
 leastStart r a z = if first == a then backwards a (z - 1) else first
   where
@@ -182,7 +195,7 @@ leastStart r a z = if first == a then backwards a (z - 1) else first
       | i > a && originAt r i == origin && flatAt r i <= flatAt r start = backwards i (i - 1)
       | otherwise = start
 
--- | The runs of the loop with the segments from @a@ to @z − 1@. The first run begins with segment
+-- | The circuit of the loop with the segments from @a@ to @z − 1@. The first run is segment
 -- @begin@.
 circuitFrom :: LoopRegion -> Int -> Int -> Int -> Circuit
 circuitFrom r a z begin = Circuit (earlier begin) (go begin (z - a))
@@ -226,11 +239,11 @@ rawAt r i = fromIntegral (indexPrimArray (Loop.raws (loops r)) i)
 markAt :: LoopRegion -> Int -> Word8
 markAt r i = indexPrimArray (ClosedPolyarcs.marks (raw r)) (rawAt r i)
 
--- | True of a segment that goes round a corner.
+-- | True when segment @i@ of a loop goes round a corner, as an arc or a line.
 isAroundAt :: LoopRegion -> Int -> Bool
 isAroundAt r i = ClosedPolyarcs.hasMark ClosedPolyarcs.aroundMark (markAt r i)
 
--- | True of a line that connects the offsets of two elements at an inner corner.
+-- | True when segment @i@ of a loop is a connecting line.
 isConnectingAt :: LoopRegion -> Int -> Bool
 isConnectingAt r i = ClosedPolyarcs.hasMark ClosedPolyarcs.connectingMark (markAt r i)
 
@@ -239,7 +252,7 @@ isConnectingAt r i = ClosedPolyarcs.hasMark ClosedPolyarcs.connectingMark (markA
 flatAt :: LoopRegion -> Int -> Int
 flatAt r i = fromIntegral (indexPrimArray (ClosedPolyarcs.sources (raw r)) (rawAt r i))
 
--- | The element or corner of the contour from which segment @i@ of a loop comes.
+-- | The origin of segment @i@ of a loop.
 originAt :: LoopRegion -> Int -> Origin
 originAt r i = if isAroundAt r i then Around element else Along element
   where
@@ -247,15 +260,15 @@ originAt r i = if isAroundAt r i then Around element else Along element
     n = sizeofPrimArray (numbers r)
     element = indexPrimArray (numbers r) (if k < n then k else 2 * n - 1 - k)
 
--- | True of a segment on the cutter's side of the contour. False for an open contour on the
--- traversal back, and on the arcs about the ends of the contour.
+-- | True when segment @i@ of a loop is beside the contour. False on the traversal back along an
+-- open contour, and on the arcs about its ends.
 isBesideAt :: LoopRegion -> Int -> Bool
 isBesideAt r i = contourEnds r == Closed || flatAt r i < (if isAroundAt r i then n - 1 else n)
   where
     n = sizeofPrimArray (numbers r)
 
--- | The segments of a path along runs. @previous@ is the origin of the run before the first one for
--- a closed path; Nothing for an open path. Where two segments join, their ends may differ by up to
+-- | The segments of a path along runs. For a closed path, @previous@ is the field 'before' of the
+-- circuit; for an open path it is Nothing. Where two segments join, their ends may differ by up to
 -- 'Tolerance.coincident'.
 path :: OffsetSource -> OffsetSource -> Maybe Origin -> [Run] -> [OffsetSegment]
 path structure source previous runs = case joined (filter (not . isNegligible structure) runs) of
@@ -280,9 +293,9 @@ joined runs = case runs of
     | otherwise -> p : joined (q : more)
   _ -> runs
 
--- | True of a run that is no part of the path: an arc about a corner that counts as smooth, or a
--- short line between the two halves of an arc or at an inner corner. The kernel makes such lines
--- where rounding hides an intersection.
+-- | True when a run is no part of the path: an arc about a corner that counts as smooth, or a short
+-- line between the two halves of an arc or at an inner corner. The kernel makes such lines where
+-- rounding hides an intersection.
 isNegligible :: OffsetSource -> Run -> Bool
 isNegligible structure run = case origin run of
   Around i -> turned run /= 0 && cornerAt structure i == Smooth || isInterior run && isShort
@@ -293,7 +306,7 @@ isNegligible structure run = case origin run of
 -- | The lengths to cut off two neighbouring segments of a path that join at a smooth or slight
 -- corner. @p@ is the origin of the first segment, @run@ the run of the second one. The lengths
 -- belong to the offset @source@. Nothing for all other neighbours, and when the kernel joined both
--- elsewhere.
+-- far from the corner.
 jointBetween :: OffsetSource -> OffsetSource -> Origin -> Run -> Maybe Cuts
 jointBetween structure source p run = case (p, origin run) of
   (Along i, Along j)
@@ -318,9 +331,10 @@ jointBetween structure source p run = case (p, origin run) of
         -- first element's offset.
         distance = Vec.distance (from run) (Segment.end (movedElement structure i))
 
--- | The segment of a run, with the coordinates of @source@. @front@ and @back@ are lengths in mm to
--- cut off the start and the end of the exact segment. Without a length, an end that agrees with the
--- run's end is exact; otherwise it is the run's.
+-- | The segment of a run, with the coordinates of @source@. The exact segment is the whole offset
+-- of the run's origin. @front@ and @back@ are lengths in mm to cut off its start and its end. If
+-- @front@ is Nothing, the result has the start of the exact segment when the run has it too, and
+-- else the start of the run. The same is true of @back@ and the end.
 exactSegment :: OffsetSource -> OffsetSource -> Maybe Double -> Run -> Maybe Double -> OffsetSegment
 exactSegment structure source front run back = OffsetSegment (origin run) $ case origin run of
   Along i

@@ -4,9 +4,9 @@
 -- from 0.
 --
 -- A concave arc or an inner corner is an obstacle by itself, so it is found without the other
--- elements. A collision with a distant element is found by the distance between the raw offset and
--- the contour. This search takes longer. Therefore it is made only after the kernel has found that
--- the cutter does not reach every element.
+-- elements. A collision with a distant element is found by the distance between the raw offset
+-- ("Offset.RawOffset") and the contour. This search takes longer. Therefore it is made only after
+-- the kernel has found that the cutter does not reach every element.
 module Offset.Obstacle
   ( Obstacle (..),
     Cause (..),
@@ -112,9 +112,9 @@ collision source path
     found = gouges source (NonEmpty.toList path)
 
 -- | The points at which a cutter on segments of an offset would cut the contour. Each result has
--- the distance of the cutter's centre from the contour, and the position of this centre. Between
--- them are two numbers: that of the element beside which the cutter moves, and that of the element
--- that it cuts.
+-- four parts: the distance of the cutter's centre from the element that it cuts; the number of the
+-- element beside which the cutter moves; the number of the element that it cuts; the position of
+-- the centre.
 gouges :: OffsetSource -> [OffsetSegment] -> [(Mm, Int, Int, Point)]
 gouges source = concatMap gougesOf
   where

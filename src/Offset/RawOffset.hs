@@ -1,17 +1,17 @@
 {-# LANGUAGE BangPatterns #-}
 {-# OPTIONS_GHC -O2 #-}
 
--- | The raw offset: every segment of closed polyarcs is moved sideways by its distance and joined
--- to the next one.
+-- | The raw offset: every segment of closed polyarcs is moved sideways, by a distance that the
+-- caller gives for it, and joined to the next one.
 --
 -- An outer corner turns away from the cutter, an inner one towards it. Segments at an outer corner
 -- are joined by an arc about the vertex, or by two lines up to the intersection of the tangents. At
 -- an inner corner two sufficiently long lines are cut at their intersection; other segments are
 -- joined by a straight line. At a smooth joint, where the direction does not change, the moved
--- segments meet. When the distance exceeds the radius of an arc, the arc keeps its bulge and then
--- runs backwards. The raw offset deforms continuously as the distance grows from 0. Its winding
--- numbers therefore show what the cutter's centre can reach (Chen and McMains, "Polygon offsetting
--- by computing winding numbers", 2005).
+-- segments meet. When an arc is moved towards its centre by more than its radius, it keeps its
+-- bulge and then runs backwards. The raw offset deforms continuously as the distance grows from 0.
+-- Its winding numbers therefore show what the cutter's centre can reach (Chen and McMains, "Polygon
+-- offsetting by computing winding numbers", 2005).
 --
 -- Segments and vertices are given by their numbers in 'ClosedPolyarcs'. Lengths and coordinates are
 -- in mm. The marks of a segment are those of 'ClosedPolyarcs'.
@@ -47,7 +47,7 @@ data Filling s
 data Joint
   = -- | no corner, and both segments have the same distance: they meet
     Smooth
-  | -- | no corner, but different distances: a line across joins them
+  | -- | no corner, but different distances: a line square to both joins them
     Step
   | -- | an outer corner: an arc or two lines go round the vertex
     Outer
@@ -235,8 +235,8 @@ offsetPolyarc
           dt = ax * bx + ay * by
           cut = abs (d * cr / (1 + dt))
           -- The least length in mm of both lines for which cutting them is right: then the part
-          -- that is cut off lies beside the lines. With one common distance all points beyond are
-          -- unreachable anyway.
+          -- that is cut off lies beside the lines. With one common distance the cutter's centre
+          -- cannot reach any point of that part anyway.
           needed
             | uneven = max cut (if dt > 0 then abs (d * cr) else abs d)
             | otherwise = cut
@@ -247,10 +247,10 @@ offsetPolyarc
         writePrimArray rb k b
         writePrimArray rm k (m :: Word8)
         writePrimArray rs k (indexPrimArray (ClosedPolyarcs.sources c) s)
-      -- Writes segment @i@ and all later segments of the polyarc, from index @k@ on. Then come the
-      -- segment's directions at its start and its end, and its chord's length @l@. @cut@ is the
-      -- length cut off at the segment's start, @beginMark@ the mark of a smooth start, and
-      -- @closing@ the joint at the end of the polyarc.
+      -- Writes segment @i@ and all later segments of the polyarc, from index @k@ on. The next
+      -- arguments are the segment's directions at its start and its end, and its chord's length
+      -- @l@. @cut@ is the length cut off at the segment's start, @beginMark@ the mark of a smooth
+      -- start, and @closing@ the joint at the end of the polyarc.
       go !i !k !sx !sy !ex !ey !l !cut !beginMark closing
         | i == e - 1 = case closing () of
           (kind, bend, back) ->

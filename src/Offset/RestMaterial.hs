@@ -1,10 +1,11 @@
 -- | The boundaries of the rest material beside a contour, which a cutter cannot reach.
 --
--- At a gap of a path the cutter leaves the contour and touches it again farther on. The part of the
--- contour between these two positions is called a stretch; no path touches it. The boundary of the
--- rest material consists of stretches and of edges of the cutter in turn. The edge of the cutter is
--- an arc of its circumference at a gap. The boundary is followed from gap to gap until it closes.
--- Where two edges of the cutter intersect, it changes from one edge to the other.
+-- A gap is a position on a path at which the cutter touches the contour at two points, and the path
+-- leaves out the part of the contour between them. Such a part is called a stretch; no path touches
+-- it. The boundary of the rest material consists of stretches and of edges of the cutter in turn.
+-- An edge of the cutter is an arc of its circumference at a gap. The boundary is followed from gap
+-- to gap until it closes. Where two edges of the cutter intersect, the boundary changes from one
+-- edge to the other.
 module Offset.RestMaterial
   ( RestMaterial (..),
     Touching (..),
@@ -96,9 +97,10 @@ restMaterials side contour paths gaps =
 -- must have the least number of all these gaps, so that each cycle is found once; else the result
 -- is Nothing. The stretch that ends at the gap @first@ is the last.
 --
--- @stretch@ gives the stretch between two positions on the contour. @nextArrival@ gives the next
--- position at which the cutter touches the contour, and the number of its gap. @open@ has, for each
--- gap, the position at which the cutter leaves the contour, and its centre.
+-- @stretch@ gives the stretch between two positions on the contour. @nextArrival@ gives, for a
+-- position on the contour, the next one at which the cutter touches the contour again after a gap,
+-- and the number of this gap. @open@ has, for each gap, the position at which the cutter leaves the
+-- contour, and its centre.
 cycleFrom ::
   (Position -> Position -> Maybe (NonEmpty Segment)) ->
   (Position -> Maybe (Position, Int)) ->

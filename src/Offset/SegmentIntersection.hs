@@ -82,8 +82,8 @@ isArc :: ClosedPolyarcs -> Int -> Bool
 isArc c k = indexPrimArray (ClosedPolyarcs.bulges c) k /= 0
 {-# INLINE isArc #-}
 
--- | Intersections of segments @i@ and @j@ of which one of two things is true: @j@ follows @i@, or
--- @i@ begins a polyarc and @j@ ends a polyarc, perhaps another one.
+-- | Reports the intersections of segments @i@ and @j@ of which one of two things is true: @j@
+-- follows @i@, or @i@ begins a polyarc and @j@ ends a polyarc, perhaps another one.
 adjacent :: Double -> ClosedPolyarcs -> Visitor s -> Int -> Int -> ST s ()
 adjacent !tolerance !c visitor !i !j
   | after && before = when (isArc c i || isArc c j) (sharingEnds tolerance c visitor i j)
@@ -104,7 +104,8 @@ adjacent !tolerance !c visitor !i !j
     at a = indexPrimArray a (j + 1) == indexPrimArray a i
 {-# NOINLINE adjacent #-}
 
--- | Intersections of two segments that are not neighbours. Inlined where the visitor is known.
+-- | Reports the intersections of two segments that are not neighbours. Inlined where @visitor@ is
+-- known.
 unconnected :: Double -> ClosedPolyarcs -> Visitor s -> Int -> Int -> ST s ()
 unconnected !tolerance !c visitor = pair
   where
@@ -121,7 +122,7 @@ unconnected !tolerance !c visitor = pair
     bySize !i !j = arcs tolerance c visitor (crossingAt c visitor i j) i j
 {-# INLINE unconnected #-}
 
--- | Intersections of lines @i@ and @j@, which are not neighbours.
+-- | Reports the intersections of lines @i@ and @j@, which are not neighbours.
 lines' :: Double -> ClosedPolyarcs -> Visitor s -> Int -> Int -> ST s ()
 lines' !tolerance !c visitor !i !j =
   ClosedPolyarcs.chord c i $ \ux uy -> ClosedPolyarcs.chord c j $ \vx vy -> do
@@ -229,10 +230,10 @@ isDisjoint !tolerance !c !i !j =
     {-# INLINE above #-}
 {-# INLINE isDisjoint #-}
 
--- | Intersections of line @i@ and arc @j@, which are not neighbours. @report@ gets the position of
--- a crossing along the line, as a fraction. The power of a point on the line is @aa·s² + 2·half·s +
--- c0@, where the fraction @s@ is measured from the foot of the perpendicular from the arc's start.
--- Its two zeros are the intersections with the arc's circle.
+-- | Finds the intersections of line @i@ and arc @j@, which are not neighbours. @report@ gets the
+-- position of a crossing along the line, as a fraction. The power of a point on the line is @aa·s²
+-- + 2·half·s + c0@, where the fraction @s@ is measured from the foot of the perpendicular from the
+-- arc's start. Its two zeros are the intersections with the arc's circle.
 --
 -- At a crossing angle α the error of the crossing is the tolerance divided by sin α. When a
 -- crossing is nearer than this error to an end of a segment, @closely@ examines both crossings.
@@ -368,8 +369,8 @@ nearEnds c i within px py = near i || near (i + 1)
        in dx * dx + dy * dy <= within * within
 {-# INLINE nearEnds #-}
 
--- | Intersections of arcs @i@ and @j@, which are not neighbours; the circle of @i@ is not the
--- larger one. @report@ gets x and y of a crossing in mm.
+-- | Finds the intersections of arcs @i@ and @j@, which are not neighbours; the circle of @i@ is not
+-- the larger one. @report@ gets x and y of a crossing in mm.
 arcs ::
   Double ->
   ClosedPolyarcs ->
@@ -413,12 +414,12 @@ arcs !tolerance !c visitor report !i !j
         (\_ ay -> ClosedPolyarcs.gradient c j x0 y0 (\_ by -> ay - by))
     !gg = gx * gx + gy * gy
     !dist = 0.5 * sqrt gg
-    -- The square of half the circles' common chord, in mm², grows by twice this number of mm when
-    -- the circles overlap by 1 mm more.
+    -- When the circles overlap by 1 mm more, the square of half their common chord grows by twice
+    -- this number of mm².
     !opening = 0.5 * ClosedPolyarcs.diameter c i * ClosedPolyarcs.diameter c j / (2 * dist)
     !g0 = -(ClosedPolyarcs.power c j x0 y0)
-    -- A point of the radical axis. At the point that is s gradients further along the axis, the
-    -- power with respect to the first circle is gg·s² + 2·half·s + c0.
+    -- A point of the radical axis. At the point that is further along the axis by s lengths of the
+    -- gradient, the power with respect to the first circle is gg·s² + 2·half·s + c0.
     !lx = x0 - g0 * gx / gg
     !ly = y0 - g0 * gy / gg
     !half = ClosedPolyarcs.gradient c i lx ly (\ax ay -> 0.5 * (ay * gx - ax * gy))
@@ -464,8 +465,8 @@ arcs !tolerance !c visitor report !i !j
         else try (q / gg) >> try (if half == 0 then -(q / gg) else c0 / q)
 {-# INLINE arcs #-}
 
--- | Intersections of the neighbours @i@ and @j@ other than their common vertex, whose number is
--- @vertex@.
+-- | Reports the intersections of the neighbours @i@ and @j@ other than their common vertex, whose
+-- number is @vertex@.
 neighbours :: Double -> ClosedPolyarcs -> Visitor s -> Int -> Int -> Int -> ST s ()
 neighbours !tolerance !c visitor !i !j !vertex
   | not (isArc c i) && not (isArc c j) =
@@ -549,9 +550,9 @@ secondOfArcs !tolerance !c visitor !vertex !i !j =
 isThin :: Double -> Double -> Double -> Bool
 isThin tolerance hh bend = hh <= tolerance * tolerance || hh * bend <= 16 * tolerance
 
--- | Intersections of the segments @i@ and @j@, which share both ends and are not both lines. When
--- the segments coincide, the start of @j@ is reported as lying on @i@; otherwise they meet nowhere
--- else.
+-- | Finds the intersections of the segments @i@ and @j@, which share both ends and are not both
+-- lines. When the segments coincide, the start of @j@ is reported as lying on @i@; otherwise they
+-- meet nowhere else.
 sharingEnds :: Double -> ClosedPolyarcs -> Visitor s -> Int -> Int -> ST s ()
 sharingEnds !tolerance !c visitor !i !j =
   -- The bulge of an arc changes its sign when the arc is reversed.

@@ -34,8 +34,8 @@ data SelfIntersections = SelfIntersections
     -- | four numbers for each intersection: x and y in mm, then its positions along the chords of
     -- its first and its second segment, as fractions from 0 to 1
     reals :: PrimArray Double,
-    -- | for each occurrence twice the number of its segment, plus 1 where the winding number on the
-    -- left of this segment decreases
+    -- | for each occurrence twice the number of its segment; plus 1 if, along this segment, the
+    -- winding number on its left decreases at the intersection
     segments :: PrimArray Int32
   }
 
@@ -43,8 +43,8 @@ data SelfIntersections = SelfIntersections
 data SearchResult
   = -- | all intersections
     SearchResult SelfIntersections
-  | -- | not in general position: a segment ends on another one or touches it, or rounding hides the
-    -- difference
+  | -- | not in general position: a segment ends on another one or touches it, or is so near to this
+    -- that rounding hides the difference
     NotGeneral
 
 -- | Finds all self-intersections of the polyarcs @c@. @tolerance@ (mm) covers rounding; the boxes

@@ -16,7 +16,7 @@ module Offset.SourceOffset
     next,
     distanceAt,
 
-    -- * Pieces of an offset
+    -- * Segments of an offset
     OffsetSegment (..),
     Origin (..),
     numberOf,
@@ -114,7 +114,8 @@ distanceAt source i = plus (radius source) (extra (style source) i)
 data OffsetSegment = OffsetSegment {origin :: Origin, segment :: Segment}
   deriving stock (Eq, Show)
 
--- | An element of the contour by its number from 0, or the corner after it.
+-- | An element of the contour ('Along'), or the corner after it ('Around'), by the element's number
+-- from 0.
 data Origin = Along Int | Around Int
   deriving stock (Eq, Show)
 
@@ -159,13 +160,14 @@ data Corner
   | -- | a smooth joint: the direction changes by no more than 'Tolerance.smoothAngle'
     Smooth
   | -- | turns towards the cutter by a small angle θ: the gap between the vertex and the cutter's
-    -- edge is at most 'Tolerance.smallestRest'. The number is the length @r·tan(θ/2)@ in mm by
-    -- which the offsets of lines before and after the corner are shortened. Curves through measured
-    -- points have such corners
+    -- edge is at most 'Tolerance.smallestRest'. The number is the length @r·tan(θ/2)@ in mm, with
+    -- the offset's distance @r@, by which the offsets of lines before and after the corner are
+    -- shortened. Curves through measured points have such corners
     Slight Double
   | -- | turns towards the cutter, and the cutter does not reach into the corner
     Blocked
-  | -- | turns away from the cutter, or by half a turn
+  | -- | turns away from the cutter, or by half a turn; for the radius 0 also a corner that would
+    -- block a larger cutter
     Outer
   deriving stock (Eq)
 

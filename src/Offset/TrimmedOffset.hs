@@ -2,7 +2,8 @@
 --
 -- "Offset.Kernel" finds the parts of an offset that can be reached, and "Offset.LoopPath" makes
 -- segments of its loops. This module makes paths of the segments, and decides whether a path leaves
--- out a part of the contour.
+-- out a part of the contour. A run is one segment of a loop, or several consecutive ones on one
+-- arc; each comes from one element or corner of the contour, its origin.
 --
 -- As in "Offset.LoopPath", @structure@ is the offset that the kernel computed, and @source@ the one
 -- whose coordinates are wanted. The radius of @source@ may be a little larger.
@@ -45,7 +46,7 @@ import Offset.Tolerance qualified as Tolerance
 
 -- | A connected path of the cutter's centre.
 data TrimmedOffset = TrimmedOffset
-  { -- | whether the path is open or closed
+  { -- | the kind of the path: open or closed
     ends :: Ends,
     -- | the segments of the path in order, each starting exactly where the one before ends
     pieces :: NonEmpty OffsetSegment,
@@ -80,9 +81,10 @@ pathsIn structure source region =
 chained :: Ends -> NonEmpty OffsetSegment -> NonEmpty OffsetSegment
 chained = Polyarc.closeGaps segment (\s p -> p {segment = s})
 
--- | The stretches of a loop that lie on the cutter's side of an open contour. Each comes with the
--- run before it and the run after it. @first@ is the loop's first run, which does not lie on that
--- side; the second argument has all other runs.
+-- | The stretches of a loop beside an open contour. A stretch is a longest sequence of consecutive
+-- runs on the cutter's side of the contour. Each comes with the run before it and the run after it.
+-- @first@ is the loop's first run, which does not lie on that side; the second argument has all
+-- other runs.
 stretches :: Run -> [Run] -> [(Run, NonEmpty Run, Run)]
 stretches first = go first
   where
@@ -113,8 +115,7 @@ openPath structure source count (before, runs, after) =
               stopAt (count - 1) after (flat (NonEmpty.last runs) == count - 1)
             )
         }
-    -- Where the contour itself ends, the next run is the arc about the contour's end, which stops
-    -- nothing.
+    -- At an end of the contour itself, the next run is the arc about this end, which stops nothing.
     stopAt end other endsThere = case LoopPath.origin other of
       Around _ | flat other == end, endsThere -> Nothing
       o -> Just (numberOf o)

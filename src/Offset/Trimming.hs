@@ -1,13 +1,13 @@
 {-# LANGUAGE BangPatterns #-}
 {-# OPTIONS_GHC -O2 #-}
 
--- | Trims a raw offset in general position, and returns the loops that bound the region with the
--- wanted winding number.
+-- | Trims a raw offset in general position, and returns the loops that have the wanted winding
+-- number on their left.
 --
 -- Each polyarc is traversed once from a point where the winding number is known. The winding number
--- is updated at each self-intersection. Slices are the parts between consecutive intersections.
--- They are kept when the winding number on their left is the wanted one, and joined at the
--- intersections. An occurrence is an intersection seen on one of its two segments
+-- is updated at each self-intersection. Slices are the parts of a polyarc between consecutive
+-- intersections. They are kept when the winding number on their left is the wanted one, and joined
+-- at the intersections. An occurrence is an intersection seen on one of its two segments
 -- ("Offset.SelfIntersection"). The sorted occurrences are in the order in which the polyarcs pass
 -- them.
 module Offset.Trimming
@@ -203,9 +203,9 @@ areDistinct tolerance (Slices c xs begins order) = go 0 1
 
 -- | Fills @lefts@ with the winding number on the left of polyarc @w@ after each of its occurrences,
 -- in the order of the sorted occurrences. The last argument has the number @w@, the leftmost point
--- of the polyarc, the winding number there, and perhaps its rightmost point with the expected
--- winding number. The result is False when the number computed at the rightmost point differs from
--- the expected one.
+-- of the polyarc, the winding number on its left there, and perhaps its rightmost point with the
+-- expected winding number. The result is False when the number computed at the rightmost point
+-- differs from the expected one.
 propagate ::
   Slices ->
   MutablePrimArray s Int32 ->
@@ -241,9 +241,9 @@ propagate slices@(Slices _ xs begins order) lefts (w, (leftmost, left, rightmost
         go (if q + 1 == z then a else q + 1) (k + 1 :: Int) v'
 
 -- | Joins slices with the winding number @wanted@ on their left into loops. A slice runs from one
--- occurrence to the next along its polyarc. Marks the slices in @lefts@ as visited. @outermost@ is
--- that of 'uncut'. The result is Nothing when a kept slice leads to a slice with another winding
--- number.
+-- occurrence to the next along its polyarc. @lefts@ is the array of 'propagate', in which the
+-- slices are then marked as visited. @outermost@ is that of 'uncut'. The result is Nothing when a
+-- kept slice leads to a slice with another winding number.
 joinSlices ::
   Int ->
   Slices ->
@@ -261,7 +261,7 @@ joinSlices !wanted slices@(Slices !c !xs _ !order) lefts outermost = do
           pure (l + to - from, made + 1)
         | otherwise = pure (l, made)
       -- Follows the polyarc from the sorted occurrence at q to the next one. Then it continues at
-      -- the same intersection on the intersection's second segment.
+      -- the same intersection on the other segment, until it returns to the occurrence at q0.
       follow !q0 !q !l = do
         writePrimArray lefts q visited
         let w = if single then 0 else fromIntegral (indexPrimArray polyarcOf q)

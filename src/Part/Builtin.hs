@@ -1,6 +1,6 @@
 -- | Computes the operators of the language, and its functions of numbers, lists, patterns of points
--- and transformations. Constructions are in 'Part.ConstructionBuiltin', functions of curves in
--- 'Part.CurveBuiltin'.
+-- (rows, grids and circles) and transformations. Constructions are in 'Part.ConstructionBuiltin',
+-- functions of curves in 'Part.CurveBuiltin'.
 --
 -- A function of this module that yields a 'Maybe' handles some of the built-in functions. It yields
 -- 'Nothing' for all others, and 'apply' then tries the next one.

@@ -2,7 +2,7 @@
 -- parallels, circles of a given radius, distances and directions.
 --
 -- 'apply' tries functions that each know some of the constructions. Each of them yields 'Nothing'
--- for a function or for arguments that it does not know.
+-- for a function or for arguments that it does not know. A figure is a point, a line or a circle.
 module Part.ConstructionBuiltin
   ( apply,
   )
@@ -40,8 +40,8 @@ import Part.Part (polyarcOf, reversedContour)
 import Part.Selection (Answers (..), answerPoints, picked)
 import Part.Value
 
--- | Computes a construction. @region@ is that of the call. 'Nothing' if @builtin@ with these
--- arguments is not a construction.
+-- | Computes a construction. @region@ is the region of the call in the program, for reports.
+-- 'Nothing' if @builtin@ with these arguments is not a construction.
 apply :: Region -> Builtin -> [Argument] -> Maybe (Eval Value)
 apply region builtin arguments =
   asum [f region builtin arguments | f <- [pointFunction, lineFunction, circleFunction, measure]]
@@ -131,8 +131,9 @@ circleFunction region builtin arguments = case (builtin, arguments) of
       | r <= 0 = Evaluation.mistake (RadiusNotPositive region (Mm r))
       | otherwise = CircleValue (Circle c (Mm r)) <$ within region r
 
--- | All circles of radius @r@ that touch both figures @a@ and @b@. A figure is a point, a line or a
--- circle. The argument may restrict the side on which the circle touches the figure.
+-- | All circles of radius @r@ that touch both figures @a@ and @b@, with the functions that choose
+-- one of them. The word @left@, @right@, @inside@ or @outside@ before a figure restricts the side
+-- on which the circle touches it.
 touchingCircles :: Mm -> Argument -> Argument -> Answers Circle
 touchingCircles r a b =
   Answers
@@ -194,7 +195,7 @@ carrier v = case v of
   _ -> bug "a value that is no curve where one was checked"
 
 -- | An intersection of two lines or circles. If there are two, the words in @choice@ (@near@,
--- @left@, …) choose one of them.
+-- @left@, …) choose one of them. Fails if there is none.
 intersection :: Region -> ElementCarrier -> ElementCarrier -> [Argument] -> Eval Value
 intersection region a b choice = case meeting of
   Apart gap -> fault (NothingCommon region a b gap)
@@ -232,7 +233,9 @@ tangency region a b = case (a, b) of
 
 -- | The line that begins at figure @a@ and ends at figure @b@. A figure is a point on the line, or
 -- a circle to which the line is tangent. The word @left@ or @right@ before a circle says on which
--- side of the line the circle lies. @sought@ and @candidate@ describe the result in reports.
+-- side of the line the circle lies. Fails unless there is exactly one such line. For reports,
+-- @sought@ is the kind of result, and @candidate@ converts a line to an entry in the list of
+-- answers.
 tangentLine :: Region -> Sought -> (Line -> Candidate) -> Argument -> Argument -> Eval Line
 tangentLine region sought candidate a b =
   case TangentCircle.tangentLines (sensesOf a, circleAt a) (sensesOf b, circleAt b) of
@@ -268,8 +271,8 @@ obstacle (Circle p r) (Circle q s)
     Mm tolerance = Tolerance.coincident
 
 -- | The contacts that a circle may have with a figure: on the left or the right of a line, outside
--- or inside of a circle, through a point. If the program writes a side before the figure, only the
--- contact on that side remains.
+-- or inside of a circle, through a point. If the program writes a side before the figure, the list
+-- has only the contact on that side.
 touched :: Argument -> [Touched]
 touched argument = case argument of
   Plain (Spatial p) -> [Through (fromOrigin p)]

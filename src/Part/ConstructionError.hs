@@ -22,7 +22,8 @@ import Part.ErrorText (Candidate, at, describe, listed)
 import Report.Report (Report (..))
 
 -- | A fault of a construction. The first field of every constructor is the region of the function
--- call. The comment of a constructor names the other fields in order.
+-- call. A 'Sought' is the kind of result that was wanted. The comment of a constructor names the
+-- other fields in order.
 data ConstructionFault
   = -- | two figures without a common point: both figures, and the shortest distance between them
     NothingCommon Region ElementCarrier ElementCarrier Mm
@@ -32,12 +33,13 @@ data ConstructionFault
     Several Region Sought [Candidate]
   | -- | a choice that excludes every answer: all answers
     NoneFits Region Sought [Candidate]
-  | -- | a choice that still leaves several answers, or @near@ with equally near answers: these
-    -- answers
+  | -- | a choice that still leaves several answers: these answers; or @near@ with two answers that
+    -- are equally near: all answers
     SeveralFit Region Sought [Candidate]
   | -- | a construction without an answer: the reason
     NoAnswer Region NoAnswer
-  | -- | the point of contact of figures that do not touch: the gap between them
+  | -- | the point of contact of figures that do not touch: the distance by which they miss it,
+    -- which is a gap or an overlap
     NotTouching Region Mm
   | -- | a circle through three points that lie on one line
     OnOneLine Region

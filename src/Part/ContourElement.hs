@@ -1,5 +1,5 @@
 -- | Evaluates contours: their elements with modifiers and links, and the starting point of a closed
--- contour.
+-- contour. A modifier sets the feed, a slow-down, the allowance or the bevel of one element.
 module Part.ContourElement
   ( contour,
     startingNear,
@@ -50,7 +50,7 @@ import Part.Piece qualified as Piece
 import Part.Value (Value (..))
 import Part.Value qualified as Value
 
--- | Evaluates the items of a contour's body, and lets 'LinkSolver' compute the segments. If
+-- | Evaluates the items of a contour's body, and lets "Part.LinkSolver" compute the segments. If
 -- elements contain mistakes, it fails with all of these mistakes. Otherwise it fails with the
 -- faults of the links.
 contour :: Environment -> Located Name -> Checked.Closure -> [Item] -> Eval Contour
@@ -70,7 +70,8 @@ contour env name closure items = do
       Checked.Open -> Open
       Checked.Closed -> Closed
 
--- | Keeps of an element what the program wrote, and drops its ends and bevels.
+-- | Makes the record of an element as the program wrote it. The ends and the bevels of the linked
+-- element are left out.
 asWritten :: LinkSolver.LinkedElement -> ContourElement
 asWritten w =
   ContourElement
@@ -99,8 +100,9 @@ item env (Located _ i) = case i of
     linked <- linkedElements (region e) sense v finish link'
     pure (if null bevel then linked else map (\w -> w {LinkSolver.bevel}) linked)
 
--- | Adds the effect of one modifier to the finish that the earlier modifiers of the element gave. A
--- bevel leaves the finish unchanged, because 'bevelOf' evaluates it.
+-- | Adds the effect of one modifier to the finish (feed, slow-down and allowance) that the earlier
+-- modifiers of the element gave. A bevel leaves the finish unchanged, because 'bevelOf' evaluates
+-- it.
 modified :: Environment -> Checked.Modifier -> Finish -> Eval Finish
 modified env (Located _ m) finish = case m of
   ElementFeed e -> (\f -> finish {ownFeed = Just f}) <$> feedOf env e
@@ -116,8 +118,8 @@ bevelOf env v modifiers = case [e | Located _ (Bevel e) <- modifiers] of
   [] -> pure []
   e : _ -> Piece.bevelled env (case v of CurveValue c -> Just c; _ -> Nothing) e
 
--- | The elements that a value gives: several for an open contour, otherwise one. @sense@ is the
--- sense that the program writes before a circle.
+-- | The elements that a value gives: several for an open contour, otherwise one. @at@ is the region
+-- of the value in the program, and @sense@ the sense that the program writes before a circle.
 linkedElements ::
   Region ->
   Maybe Part.Sense ->
@@ -139,7 +141,7 @@ linkedElements at sense v finish link = case (v, sense) of
     Open -> pure (elementsOfContour at finish link (NonEmpty.toList (elements c)))
   _ -> bug "a value that is no element where one was checked"
   where
-    -- Evaluated here: a thunk in the element would keep the value @v@ in memory.
+    -- Evaluates the element @w@ at once: a thunk of it would keep the value @v@ in memory.
     one carrier ownStart ownEnd =
       let w =
             LinkSolver.LinkedElement
@@ -154,9 +156,10 @@ linkedElements at sense v finish link = case (v, sense) of
               }
        in w `seq` pure [w]
 
--- | The segments of a contour, as elements of another contour. Fixed links join these elements to
--- one another. All of them get the finish of the whole element. The link to the next element
--- follows the last of them.
+-- | The elements that an open contour gives when it is used as an element of another contour. Each
+-- line, arc or curve of the used contour gives one element. Links at fixed points join these
+-- elements to one another. All of them get the finish of the whole element. @link@ leads to the
+-- next element of the other contour; it follows the last of these elements.
 elementsOfContour ::
   Region ->
   Finish ->
@@ -169,8 +172,8 @@ elementsOfContour at finish link segments = case Part.curveRuns segments of
   where
     fixed curve = Just (at, Fixed (Segment.end (Part.segment (NonEmpty.last curve))))
 
--- | One element, made from the segments of one line, arc or curve. @finish@ applies where the
--- segments have no modifiers of their own.
+-- | One element, made from a run: the segments of one line, arc or curve. @finish@ applies if the
+-- segments have no modifiers of their own. @link@ is the link after the element.
 elementOfRun ::
   Finish ->
   NonEmpty Part.Element ->
@@ -197,7 +200,7 @@ elementOfRun finish run@(e :| more) link =
     lengthOf' = Segment.length . Part.segment
 
 -- | Combines the modifiers of an element of a used contour, @own@, with the modifiers @whole@ of
--- the whole used contour. A feed in @own@ has precedence.
+-- the whole used contour. A feed in @own@ has precedence, and so has an allowance other than 0.
 orElse :: Finish -> Finish -> Finish
 orElse own whole =
   Finish
@@ -294,7 +297,7 @@ cutElement e a b =
     share = if l > 0 then front / l else 0
     bevelAtCut = fmap (\(x, y) -> x + (y - x) * share) (Part.bevel e)
 
--- | Takes the slow-down away from the last of the given elements that belong to the same curve as
+-- | Removes the slow-down from the elements at the end of the list that belong to the same curve as
 -- the element after the list. The cutter slows down at the end of the whole curve, not where it was
 -- cut. @continued@ is true if the element after the list continues the last element of the list.
 withoutSlow :: Bool -> [Part.Element] -> [Part.Element]

@@ -25,13 +25,13 @@ import Part.ErrorText (andMore, at, describe, downTo, stop)
 import Part.Tolerance qualified as Tolerance
 import Report.Report (Label (..), Report (..), ReportCode, quote)
 
--- | A fault of a contour. The first field of every constructor is the region that the report points
--- at. The comment of a constructor names the other fields in order.
+-- | A fault of a contour. The first field is the region that the report points at, unless the
+-- comment of the constructor says otherwise. The comment names the other fields in order.
 data ContourFault
   = EmptyContour Region Name
   | -- | a closed contour whose only element is neither a circle nor a closed curve: that element
     LoneElement Region ElementCarrier
-  | -- | a contour whose segments are all shorter than 'Tolerance.coincident'
+  | -- | a contour whose segments are all no longer than 'Geometry.Tolerance.coincident'
     NoLength Region
   | -- | a link after the only element of a contour, although a circle or a closed curve needs none
     LinkOfLoneCircle Region
@@ -45,14 +45,16 @@ data ContourFault
     ClosedCurve Region
   | -- | a statement that sets a starting point on an open contour: the name of the contour
     OpenBegins Region Name
-  | -- | a link that cannot join its neighbours, whatever the other links do
+  | -- | a link that cannot join its neighbours, whatever the other links do; the report points at
+    -- the link
     NotLinked Neighbours LinkFault
   | -- | an element that is too short for the links at its two ends: the element, the length that is
-    -- missing, the regions of these links, and the largest fillet radius that fits. There is no
-    -- radius if no link is a fillet or no fillet fits
+    -- missing, the regions of these links, and the largest fillet radius that fits. The radius is
+    -- 'Nothing' if no link is a fillet or no radius fits
     Overrun Region ElementCarrier Mm [Region] (Maybe Mm)
-  | -- | a contour that meets itself: the regions of the two elements that meet, their common point,
-    -- and true if the contour has fillets
+  | -- | a contour that meets itself: the region of its name, the regions of the two elements that
+    -- meet, their common point, and true if the contour has fillets. The report points at the first
+    -- of the two elements
     CrossesItself Region Region Region Point Bool
   deriving stock (Eq, Show)
 

@@ -1,8 +1,9 @@
 -- | Tables and curves as values of a program.
 --
--- A curve is exact. The segments of a contour are lines and arcs, so a contour that contains a
--- curve uses a polyarc within 'Tolerance.curve' of it. This module makes that polyarc, and keeps
--- the columns of the curve's table with the curve.
+-- A curve is exact. It maps a parameter, which rises by 1 over each of its spans, to a point. The
+-- segments of a contour are lines and arcs. A contour that contains a curve therefore uses a
+-- polyarc of it: a chain of lines and arcs within 'Tolerance.curve' of the curve. This module makes
+-- that polyarc, and keeps the columns of the curve's table with the curve.
 module Part.Curve
   ( PartTable (..),
     points,
@@ -80,8 +81,8 @@ data PartCurve = PartCurve
   }
   deriving stock (Eq, Show)
 
--- | The result of fitting sections to the points of a table: the sections, their deviations from
--- the points, and the points.
+-- | The result of fitting sections (lines, parabolas and arcs) to the points of a table: the
+-- sections, their deviations from the points, and the points.
 data Fitting = Fitting
   { sections :: NonEmpty Section.Section,
     deviations :: [SectionFit.Deviation],
@@ -95,9 +96,10 @@ curve :: [(Name, Vector Double)] -> Maybe Fitting -> Exact.Curve -> PartCurve
 curve tableColumns fitting exact =
   PartCurve {exact, tableColumns, fitting, approximation = arcsAlong Tolerance.curve exact}
 
--- | A polyarc within @tolerance@ of a curve. A curve that consists of arcs and lines keeps them,
--- but small kinks between them are smoothed. 'CubicFit' fits a cubic spline, and 'ParametricFit'
--- any other curve.
+-- | A polyarc within @tolerance@ of a curve. An unshifted curve of lines and at least one arc keeps
+-- them, but small kinks between them are smoothed. "Geometry.ArcFitting.CubicFit" makes arcs of a
+-- curve for which 'Exact.cubics' finds cubic spans, such as a spline. For any other curve
+-- "Geometry.ArcFitting.ParametricFit" makes the arcs.
 arcsAlong :: Mm -> Exact.Curve -> MeasuredPolyarc
 arcsAlong tolerance exact =
   case (Exact.toSegments exact, cubics) of
@@ -114,7 +116,8 @@ arcsAlong tolerance exact =
 plain :: Exact.Curve -> PartCurve
 plain = curve [] Nothing
 
--- | An exact curve as the function of its parameter that 'ParametricFit' takes.
+-- | An exact curve in the form that "Geometry.ArcFitting.ParametricFit" takes: as a function of its
+-- parameter.
 parametric :: Exact.Curve -> ParametricCurve
 parametric c =
   ParametricCurve
@@ -148,28 +151,30 @@ reversed c =
 transformed :: Transformation -> PartCurve -> PartCurve
 transformed s c = curve (tableColumns c) Nothing (Exact.transformed s (exact c))
 
--- | The bevels along the polyarc of a curve, from their values in radians at the rows of its table.
--- A pair of the result is a station (the arc length from the start in mm) and the bevel there in
--- radians. The stations rise. Linear interpolation between them differs from the bevels of the
--- exact curve by at most 'Tolerance.bevel'.
+-- | The bevels along the polyarc of a curve, from their values in radians at the rows of the
+-- curve's table. A pair of the result is a station (the arc length from the start in mm) and the
+-- bevel there in radians. The stations rise. Linear interpolation between them differs from the
+-- bevels of the exact curve by at most 'Tolerance.bevel'.
 alongPolyarc :: PartCurve -> Vector Double -> [(Double, Double)]
 alongPolyarc c values = (0, angleAt 0) : concat (zipWith sampled stations (drop 1 stations))
   where
     stations = MeasuredPolyarc.stations (approximation c)
     column = Exact.column (exact c) values
-    -- A station on the polyarc is scaled, because the exact curve is a little longer or shorter.
+    -- Scales a station on the polyarc, because the exact curve is a little longer or shorter.
     angleAt s =
       Exact.columnAt (exact c) column (Exact.parameterAtLength (exact c) (Mm (s * whole / total)))
     Mm whole = Exact.length (exact c)
     Mm total = MeasuredPolyarc.length (approximation c)
-    -- The first steps are small enough that none of them skips a row of the table.
+    -- The first steps are at most 0.1 mm, or about an eighth of the mean distance between rows of
+    -- the table if that is larger.
     sampled a b =
       let count = max 1 (ceiling ((b - a) / stride)) :: Int
           marks = [a + (b - a) * fromIntegral k / fromIntegral count | k <- [0 .. count]]
        in concat (zipWith (halved (12 :: Int)) (map point marks) (map point (drop 1 marks)))
     point s = (s, angleAt s)
     stride = max 0.1 (total / (8 * fromIntegral (max 1 (Vector.length values))))
-    -- Bisects a step, at most 12 times, until interpolation is good at its half and its quarter.
+    -- Bisects a step, at most 12 times, until linear interpolation is good enough at its middle and
+    -- at its first quarter.
     halved depth (a, x) (b, y)
       | depth <= 0 || abs (z - (x + y) / 2) <= slack && abs (z' - (3 * x + y) / 4) <= slack =
         [(b, y)]
@@ -194,9 +199,9 @@ xRange c = (Mm (minimum xs), Mm (maximum xs))
         let Mm r = Segment.radius m p
          in q : filter (Segment.hasFootOf s) [Vec.shift (Vec.vec d 0) m | d <- [r, -r]]
 
--- | Makes the spans of a curve of the sections, one of each. The vector holds the curve's parameter
--- at each row of the table: the index, from 0, of the row's span plus the fraction of the span
--- before the row.
+-- | Makes the spans of a curve, one from each section. The vector holds the curve's parameter at
+-- each row of the table. This is the index, from 0, of the span that contains the row, plus the
+-- fraction of this span that lies before the row.
 spansOfSections :: Vector Point -> NonEmpty Section.Section -> (NonEmpty SpanShape, Vector Double)
 spansOfSections rows sections = (fmap spanOf sections, Vector.imap parameter rows)
   where
@@ -215,7 +220,8 @@ spanOf s = case (Section.formula s, Section.segment s) of
     Segment.Arc {} -> Circular segment
   (Section.Circle _ _, Nothing) -> Line (Section.from s) (Section.to s)
 
--- | The fraction, from 0 to 1, of the section @s@ that lies before the point @q@ of a row.
+-- | The fraction, from 0 to 1, of the section @s@ that lies before the point @q@ of a row: a
+-- fraction of the arc length on an arc, and otherwise of the width in x.
 share :: Section.Section -> Point -> Double
 share s q
   | Vec.x q == Vec.x (Section.from s) = 0

@@ -2,7 +2,8 @@
 -- points, directions, lengths and intersections of curves.
 --
 -- 'apply' tries functions that each know some of these functions. Each of them yields 'Nothing' for
--- a function or for arguments that it does not know.
+-- a function or for arguments that it does not know. The polyarc of a curve is a chain of lines and
+-- arcs within 'Tolerance.curve' of it.
 module Part.CurveBuiltin
   ( apply,
   )
@@ -48,8 +49,8 @@ import Part.Selection (answerPoints, picked)
 import Part.Tolerance qualified as Tolerance
 import Part.Value
 
--- | Computes a function of tables or curves. @region@ is that of the call. 'Nothing' if @builtin@
--- with these arguments is another function.
+-- | Computes a function of tables or curves. @region@ is the region of the call in the program, for
+-- reports. 'Nothing' if @builtin@ with these arguments is another function.
 apply :: Region -> Builtin -> [Argument] -> Maybe (Eval Value)
 apply region builtin arguments =
   asum [f region builtin arguments | f <- [newCurve, tableFunction, pointFunction, measure]]
@@ -113,8 +114,8 @@ tableFunction region builtin arguments = case (builtin, arguments) of
     ListValue . Vector.fromList <$> traverse (spatial region . offset) (pointsOf table)
   _ -> Nothing
 
--- | The argument as a table; a list of points becomes a table without further columns. Spends one
--- step of evaluation for every row.
+-- | The argument as a table; a list of points becomes a table without further columns. Takes one
+-- evaluation step for every row.
 tableOf :: Region -> Argument -> Eval PartTable
 tableOf region t = case t of
   Plain (TableValue table) -> table <$ Evaluation.spend region (NumberTable.count (rows table))
@@ -168,7 +169,8 @@ ofSections region table points sections = do
 -- that @fault@ names.
 faulty :: Region -> PartTable -> Exact.CurveFault -> Eval a
 faulty region table fault = Evaluation.mistake $ case fault of
-  -- The last point of a closed curve may repeat the first point.
+  -- If there are enough points, the last one repeats the first and does not count, as on a closed
+  -- curve.
   Exact.TooFew n
     | count >= n -> badPoints region table Nothing (FewDifferent (count - 1) n)
     | otherwise -> badPoints region table Nothing (FewPoints count n)
@@ -185,8 +187,8 @@ faulty region table fault = Evaluation.mistake $ case fault of
     count = NumberTable.count (rows table)
     noLength = InContour (NoLength region)
 
--- | Passes the result on, or fails if the x coordinates of the table neither rise throughout nor
--- fall throughout.
+-- | Returns the result in 'Right'. For a fault in 'Left' it fails with a mistake: the table has too
+-- few rows, or its x coordinates neither rise throughout nor fall throughout.
 ordered :: Region -> PartTable -> Either Section.PointTableFault a -> Eval a
 ordered region table = either (Evaluation.mistake . fact) pure
   where
@@ -194,7 +196,8 @@ ordered region table = either (Evaluation.mistake . fact) pure
       Section.TooFewRows n -> badPoints region table Nothing (FewPoints n 2)
       Section.OutOfOrder k -> badPoints region table (rowAt table k) (Unordered k)
 
--- | Passes the result on, or fails if the rows of the sections do not cover the table in order.
+-- | Returns the result in 'Right'. For a fault in 'Left' it fails with a mistake: the rows of the
+-- sections do not cover the table in order.
 fitted :: Region -> PartTable -> Either SectionFit.SectionFault a -> Eval a
 fitted region table = either (Evaluation.mistake . fact) pure
   where
@@ -320,8 +323,10 @@ lengthTo c p = Exact.lengthAt (exact c) (Exact.nearest p (exact c))
 
 -- Intersections
 
--- | The carrier of a line, a circle or a curve. The function 'Foot' belonging to it moves an
--- approximate intersection onto the exact figure. 'Nothing' for a value of another kind.
+-- | The carrier of a line or a circle, or the polyarc of a curve as a carrier, and a function that
+-- gives the foot of a point on the exact figure. The foot is the nearest point of the figure;
+-- 'Intersection.refine' uses it to move an approximate intersection onto the exact figure.
+-- 'Nothing' for a value of another kind.
 exactly :: Value -> Maybe (ElementCarrier, Foot)
 exactly v = case v of
   LineValue l -> Just (OnLine l, Intersection.onLine l)
@@ -356,8 +361,9 @@ intersection region (a, footA) (b, footB) choice = case MeasuredPolyarc.intersec
           (MeasuredPolyarc.segments p)
       _ -> BoundingBox.ofPoints (Vec.point 0 0) []
 
--- | The functions that give the position of a point along a carrier, in mm, for the choices @first@
--- and @last@. Empty for a circle, because a circle has no start.
+-- | The function that gives the position of a point along a carrier, in mm; the words @first@ and
+-- @last@ choose among several points by it. The list has one function. It is empty for a circle,
+-- which has no start.
 stationOn :: ElementCarrier -> [Point -> Mm]
 stationOn carrier = case carrier of
   OnCurve c -> [MeasuredPolyarc.nearestStation c]

@@ -2,6 +2,11 @@
 
 -- | Faults of curves and pieces. Points may make no curve, a shifted curve may turn back or have a
 -- gap, and a bevel or a joggle may not fit.
+--
+-- A piece is a curve that is recalculated by ciphers: each cipher shifts every point of the curve
+-- along its normal. A joggle is a local step of the curve, with a ramp at each of its two ends. A
+-- bevel is the angle between the surface of the part and the axis of the tool. A section is one
+-- line, parabola or arc of a curve that is fitted to a table.
 module Part.CurveError
   ( CurveMistake (..),
     Listing (..),
@@ -31,21 +36,22 @@ data CurveMistake
   | -- | a shift by at least the radius of curvature, at which the curve would turn back: the point,
     -- the distance of the shift, and the radius of curvature there
     Folds Region Point Mm Mm
-  | -- | a shift of a curve that has a corner: the point, and the angle between the directions there
+  | -- | a shift of a curve that has a corner: the point, and the angle between the directions
+    -- before and after it
     ShiftsCorner Region Point Rad
   | -- | a bevel of 90° or more, or of −90° or less: the number, from 1, of its row in a table, and
     -- the bevel. There is no number if the bevel is the same in all rows
     SteepBevel Region (Maybe Int) Rad
-  | -- | a cipher 1 whose second point does not lie after its first point in the direction of the
-    -- curve
+  | -- | a cipher 1, by which the distance of the shift changes between two given points: the second
+    -- point does not lie after the first one in the direction of the curve
     GrowthEnds Region
   | -- | an x coordinate of a joggle that does not belong to exactly one point of the piece: this x,
     -- the points that have it, and the least and the greatest x of the piece
     JoggleCoordinate Region Mm [Point] (Mm, Mm)
   | -- | a joggle whose two x coordinates are equal
     JoggleNowhere Region
-  | -- | a joggle whose ramps are longer than the distance between its ends: its radius, that
-    -- distance, and the largest radius that fits. There is none if no radius fits
+  | -- | a joggle whose two ramps are longer than the curve between its ends: its radius, the length
+    -- of the curve there, and the largest radius that fits, or 'Nothing' if no radius fits
     JoggleRadius Region Mm Mm (Maybe Mm)
   | -- | a joggle whose radius is too small for its depth: the radius, and the limit it must exceed
     JoggleDepth Region Mm Mm
@@ -69,8 +75,8 @@ data ListFault
     EvenPoints Int
   | -- | a row at which x stops rising, or stops falling: the number of the row
     Unordered Int
-  | -- | a section with neither two nor three rows: the number of the section, and how many rows it
-    -- has
+  | -- | a section for which the program names neither two nor three rows: the number of the
+    -- section, and the count of its rows
     SectionRows Int Int
   | -- | a section whose row numbers do not rise: the number of the section
     SectionOrder Int
@@ -164,8 +170,8 @@ coordinateReport region x points (low, high) =
       [] -> "It runs from x = " <> Decimal.mm low <> " to x = " <> Decimal.mm high <> "."
       _ -> listed (map APoint points)
 
--- | The report of a joggle with radius @r@ that needs more than the @available@ length between its
--- ends. @largest@ is the largest radius that fits.
+-- | The report of a joggle with radius @r@ that needs more than the @available@ length of curve
+-- between its ends. @largest@ is the largest radius that fits, or 'Nothing' if none fits.
 radiusReport :: Region -> Mm -> Mm -> Maybe Mm -> Report
 radiusReport region r available largest =
   (at region "E0355" title) {message = [stop "14174"], hints = [maybe none fitting largest]}

@@ -39,8 +39,9 @@ import Report.Report (Label (..), Report (..), quote)
 data Error = Error {fact :: ValueFact, calls :: [Region]}
   deriving stock (Eq, Show)
 
--- | A mistake in a value, a statement or the geometry. The first field of every constructor is the
--- region that the report points at. The comment of a constructor names the other fields in order.
+-- | A mistake in a value, a statement or the geometry. The first field of a constructor is the
+-- region that the report points at, and its comment names the other fields in order. The last four
+-- constructors contain facts of other modules.
 data ValueFact
   = DivisionByZero Region
   | OutOfDomain Region Domain
@@ -60,8 +61,8 @@ data ValueFact
     Negative Region LimitedQuantity Double
   | -- | a number that is not whole, or is outside of its range: its kind, the range, and the number
     NotWhole Region WholeNumber Range Double
-  | -- | an item that a list does not have: the number of the item, and the number of items in the
-    -- list
+  | -- | an item that a list does not have: the number of the item, from 1, and the number of items
+    -- in the list
     NoSuchItem Region Int Int
   | StepOfZero Region
   | NothingToDrill Region

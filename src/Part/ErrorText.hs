@@ -90,14 +90,15 @@ andMore most answers = case length answers - most of
   n | n > 0 -> " and " <> Decimal.whole n <> " more"
   _ -> ""
 
--- | An upper limit for values that must be below it, rounded down to three decimals.
--- 'Tolerance.coincident' is added first, so that a rounding error does not turn 5 into 4.999.
+-- | The text of a limit in mm that values must stay below. The limit is rounded down to three
+-- decimals. 'Tolerance.coincident' is added first, so that a rounding error does not turn 5 into
+-- 4.999.
 below :: Mm -> Text
 below (Mm x) = downTo (Mm (x + noise))
   where
     Mm noise = Tolerance.coincident
 
--- | An upper limit for values that may reach it, rounded down to three decimals.
+-- | The text of a limit in mm that values may reach. The limit is rounded down to three decimals.
 downTo :: Mm -> Text
 downTo (Mm x) = Decimal.mm (Mm (fromIntegral (floor (x * 1000) :: Int) / 1000))
 

@@ -29,8 +29,8 @@ newtype Eval a = Eval (Int -> Outcome a)
 -- mistakes. The list of mistakes is empty if the cause is already reported.
 data Outcome a = Found Int a | Failed Int [Error]
 
--- | Makes a computation. 'oneShot' promises GHC that the function is called only once; GHC then
--- need not allocate a closure.
+-- | Makes a computation from its function. 'oneShot' promises GHC that this function is called only
+-- once; GHC then need not allocate a closure.
 steps :: (Int -> Outcome a) -> Eval a
 steps f = Eval (oneShot f)
 
@@ -84,8 +84,8 @@ gather evals = do
       Failed left' errors -> Found left' (Left errors)
 
 -- | Applies @find@ to each item, even if it fails for some of them, and concatenates the results.
--- If any computation failed, it fails with the mistakes of all of them. It is 'gather' for long
--- lists, because it needs no stack space for each item.
+-- If any computation failed, it fails with the mistakes of all of them. For long lists it replaces
+-- 'gather', because it needs no stack space for each item.
 collect :: (a -> Eval [b]) -> [a] -> Eval [b]
 collect find items = Eval (collecting [] items)
   where

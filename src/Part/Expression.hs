@@ -47,8 +47,8 @@ import Part.Part (polyarcOf)
 import Part.Value (Value (..))
 import Part.Value qualified as Value
 
--- | The names that the statements above define. If a name has no value here, the reason is a
--- mistake that is already reported.
+-- | The names that the statements before the present one define. If a name has no value here, the
+-- reason is a mistake that is already reported.
 data Environment = Environment
   { values :: Map Name Value,
     -- | for each function: the local names that were in scope at its definition, its parameters,
@@ -67,7 +67,7 @@ empty = Environment Map.empty Map.empty Map.empty
 bind :: Name -> Value -> Environment -> Environment
 bind name v env = env {locals = Map.insert name v (locals env)}
 
--- | The value of an expression. Takes one step of 'Part.Evaluation' for every node of the
+-- | The value of an expression. Takes one step of "Part.Evaluation" for every node of the
 -- expression.
 evaluate :: Environment -> Expr -> Eval Value
 evaluate env (Located region e) =

@@ -159,8 +159,8 @@ step state (Located at s) = case s of
       run state at answer (\a left -> leave state (block a state {fuel = left}))
 
 -- | Evaluates @answer@, the expressions of the statement at the region @at@. @continue@ makes the
--- next state of their value and of the number of steps that are left. If a mistake is found, the
--- new state has more errors and fewer steps, but is the same otherwise.
+-- next state from their value and the number of steps that are left. If a mistake is found, the new
+-- state has more errors and fewer steps, but is the same otherwise.
 run :: State -> Region -> Eval a -> (a -> Int -> State) -> State
 run state at answer continue =
   case Evaluation.run (fuel state) (Evaluation.spend at statementSteps *> answer) of
@@ -173,7 +173,8 @@ statementSteps = 5
 
 -- Definitions
 
--- | Binds a name to the value @v@. @d@ is the dimension of the numbers in @v@.
+-- | Binds a name to the value @v@, and keeps the text of the value for editors. @d@ is the
+-- dimension of the numbers in @v@.
 define :: State -> Located Name -> Dimension -> Value -> State
 define state name d v =
   (withEnvironment state env')
@@ -217,8 +218,8 @@ itemsOf env list = do
   vs <- Expression.items <$> Expression.evaluate env list
   vs <$ Evaluation.spend (region list) (length vs)
 
--- | Evaluates the block @body@ once for each value in @vs@, with the local name bound to this
--- value. Names that one repetition defines are unknown in the next one.
+-- | Evaluates the block @body@ once for each value in @vs@, with the local name @name@ bound to
+-- this value. Names that one repetition defines are unknown in the next one.
 repeated :: Name -> [Checked.Statement] -> [Value] -> State -> State
 repeated name body vs state = foldl once state vs
   where

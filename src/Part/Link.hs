@@ -10,8 +10,8 @@ import Geometry.Vec (Point)
 
 -- | A link between an element of a contour and the element after it.
 data Link
-  = -- | at an intersection of the two elements; if there are several, at the one nearest to the
-    -- given point
+  = -- | at an intersection of the two elements: at the one nearest to the given point if there are
+    -- several. 'Nothing' if the program gives no point
     Meet (Maybe Point)
   | -- | at this point. Such a link joins the segments of a contour that is used as an element of
     -- another one

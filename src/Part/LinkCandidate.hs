@@ -3,7 +3,8 @@
 -- chamfer.
 --
 -- The joints of a link do not depend on the other links of the contour. If a link has several
--- joints, 'Part.LinkSolver' chooses one of them.
+-- joints, "Part.LinkSolver" chooses one of them. A curve is represented by its polyarc: a chain of
+-- lines and arcs within 'Tolerance.curve' of it.
 module Part.LinkCandidate
   ( Joint (..),
     through,
@@ -118,8 +119,8 @@ choose j own near (Mm tolerance) ps =
     distance a b = let Mm d = Vec.distance a b in d
 
 -- | The joint of two neighbours, one of which is the point @p@. Fails if @p@ does not lie on the
--- other neighbour, @carrier@. A point on a curve may be 'Tolerance.curve' away, because the curve
--- is replaced by its polyarc.
+-- other neighbour, @carrier@. A point on a curve may be 'Tolerance.curve' away from it, because a
+-- polyarc replaces the curve.
 pointOn :: Neighbours -> Point -> ElementCarrier -> Either ContourFault Joint
 pointOn j p carrier
   | gap <= slack = Right (through p)
@@ -284,7 +285,8 @@ fillet j sense r = case shapes j of
     arcLength = fmap Segment.length . inserted
 
 -- | The joint by a straight segment that cuts off a corner. The ends of the segment lie on the two
--- neighbours, at the arc length @d@ from their intersection.
+-- neighbours, at the arc length @d@ from their intersection. The points @own@ choose the
+-- intersection, as in 'meet'.
 chamfer :: Neighbours -> [Point] -> Mm -> Either ContourFault Joint
 chamfer j own (Mm d) = case shapes j of
   (AtPoint _, _) -> Left (NotLinked j FilletAtPoint)

@@ -5,8 +5,8 @@
 -- traverses no element backwards and makes the contour as short as possible. Two choices that make
 -- equally long contours are a fault.
 --
--- A station is the position of a point on a curve: the arc length from the start of its polyarc, in
--- mm.
+-- A curve is represented by its polyarc, a chain of lines and arcs. A station is the position of a
+-- point on a curve: the arc length from the start of its polyarc, in mm.
 module Part.LinkSolver
   ( LinkedElement (..),
     Link (..),
@@ -67,8 +67,8 @@ data LinkedElement = LinkedElement
   deriving stock (Eq, Show)
 
 -- | Computes the segments of a contour. @region@ is that of the contour's name. If links cannot
--- join their neighbours, it fails with the faults of all these links. Otherwise it fails with the
--- first fault.
+-- join their neighbours, it fails with the faults of all these links. Of other faults it reports
+-- only the first.
 solve ::
   Region ->
   Ends ->
@@ -188,7 +188,7 @@ closedSmoothly elements = case elements of
       first {continues = True} : rest
   _ -> elements
 
--- | Does segment @b@ continue segment @a@ without a corner?
+-- | True if segment @b@ continues segment @a@ without a corner.
 isSmooth :: Segment -> Segment -> Bool
 isSmooth a b =
   -- The cross product excludes most corners, and costs less than the angle.
@@ -248,7 +248,7 @@ closedByShortest linked = do
     list = NonEmpty.toList linked
     first = NonEmpty.head linked
     final = NonEmpty.last linked
-    -- Of several faults, the one with the smallest missing length helps the user most.
+    -- If there are several faults, reports the one with the smallest missing length.
     overlapOf fault = case fault of
       Overrun _ _ overlap _ _ -> overlap
       _ -> Mm 0
@@ -278,18 +278,18 @@ linkRegion a b = maybe (elementRegion b) fst (link a)
 
 -- | A choice of one joint for each link, from the start of the contour up to some link.
 --
--- 'cost' is the length of the contour that it makes, and 'taken' are the joints, the last one
--- first. If another choice makes an equally long contour, 'ambiguous' is the fault that reports
--- this.
+-- 'cost' is the length in mm of the part of the contour that it makes, and 'taken' are the joints,
+-- the last one first. If another choice makes an equally long contour, 'ambiguous' is the fault
+-- that reports this.
 data Route = Route {cost :: Mm, taken :: [Joint], ambiguous :: Maybe ContourFault}
 
--- | The values that stay the same during one dynamic programming. 'previous' is the segment that
--- the last link of a closed contour inserts before the first element.
+-- | The values that stay the same during one run of the dynamic programming. 'previous' is the
+-- segment that the last link of a closed contour inserts before the first element.
 data Stage = Stage {previous :: Maybe Segment, allElements :: [LinkedElement]}
 
 -- | The shortest route through all links. It starts at the point @begin@ of the first element, and
 -- @before@ is the segment inserted before this point. @final@ are the joints at which the last
--- element may end. @joints@ are the joints of the links between the elements.
+-- element may end. @joints@ has one list for each link between two elements: its joints.
 shortest ::
   [LinkedElement] ->
   Point ->
@@ -385,8 +385,8 @@ tie j choice = case mapMaybe inserted choice of
   _ -> Nothing
 
 -- | Extends a route that has reached the point @at@ of element @w@. The extension follows @w@ to
--- the joint, and then the segment that the joint inserts. 'Left' is the length in mm by which @w@
--- would be traversed backwards; such a route is not allowed.
+-- the joint, and then the segment that the joint inserts. If @w@ would be traversed backwards,
+-- which is not allowed, the result is 'Left' with the length of this part of @w@ in mm.
 extend :: Maybe Segment -> LinkedElement -> (Point, Route) -> Joint -> Either Mm Route
 extend before w (at, Route c js choice) joint
   | along < Mm 0 = Left (let Mm x = along in Mm (-x))
@@ -467,9 +467,10 @@ entryStation shape a b = case shape of
   OnCircle _ _ -> Mm 0
   AtPoint _ -> Mm 0
 
--- | Makes the elements of the contour from the segments along one element. @from@ is the station in
--- mm at which the first segment begins. Segments are cut at the stations of the bevels. A segment
--- that continues the segment before it without a corner is marked.
+-- | Makes an 'Element' of each of the segments @whole@, which follow one another along one element
+-- of the program. @from@ is the station in mm at which the first segment begins. Segments are cut
+-- at the stations of the bevels. A segment that continues the segment before it without a corner is
+-- marked.
 marked :: LinkedElement -> Mm -> [Segment] -> [Element]
 marked LinkedElement {elementRegion, carrier, finish, bevel} (Mm from) whole = case whole of
   [] -> []
@@ -491,7 +492,7 @@ marked LinkedElement {elementRegion, carrier, finish, bevel} (Mm from) whole = c
       OnLine _ -> (False, Nothing)
       OnCircle _ _ -> (False, Nothing)
       AtPoint _ -> (False, Nothing)
-    -- On a closed curve stations may exceed the length, so the bevels are repeated once.
+    -- Repeats the bevels of a closed curve once, because stations on it may exceed its length.
     angles =
       Map.fromList (bevel <> [(s + l, a) | Just (Mm l) <- [closedLength], (s, a) <- drop 1 bevel])
     cuts =
@@ -515,8 +516,9 @@ cutAtKeys table from s = case Map.lookupGT (from + least) table of
     Mm l = Segment.length s
     Mm least = Tolerance.coincident
 
--- | Interpolates linearly between the two keys of the table nearest to @s@. Outside of the keys the
--- result is the value at the nearest key. 'Nothing' if the table is empty.
+-- | Interpolates linearly between the nearest key of the table at or below @s@ and the nearest one
+-- at or above it. Outside of the keys the result is the value at the nearest key. 'Nothing' if the
+-- table is empty.
 interpolated :: Map Double Double -> Double -> Maybe Double
 interpolated table s = case (Map.lookupLE s table, Map.lookupGE s table) of
   (Just (a, x), Just (b, y)) -> Just (if b > a then x + (y - x) * (s - a) / (b - a) else x)
@@ -556,8 +558,8 @@ withoutChoice linked begin before final
       OnLine _ -> lengthOn w Nothing Nothing a b >= Mm 0
       OnCurve _ -> lengthOn w Nothing Nothing a b >= Mm 0
 
--- | The elements of the contour from the point @at@ of an element to a joint, with the segment that
--- the joint inserts. @before@ is the segment inserted before @at@.
+-- | Makes the 'Element' values from the point @at@ of one element of the program to a joint, and
+-- that of the segment which the joint inserts. @before@ is the segment inserted before @at@.
 between :: LinkedElement -> Point -> Maybe Segment -> Joint -> [Element]
 between w@LinkedElement {elementRegion, carrier, link} at before joint =
   marked w (entryStation carrier at (leave joint)) segments
@@ -567,8 +569,8 @@ between w@LinkedElement {elementRegion, carrier, link} at before joint =
   where
     segments = segmentsOn carrier before (inserted joint) at (leave joint)
 
--- | The elements of a contour whose joints are those of a route. @begin@ is the starting point on
--- the first element, and @before@ the segment inserted before it.
+-- | Makes the 'Element' values of a contour whose joints are those of a route. @begin@ is the
+-- starting point on the first element, and @before@ the segment inserted before it.
 elementsOf :: [LinkedElement] -> Point -> Maybe Segment -> Route -> [Element]
 elementsOf linked begin before route = go linked begin before (reverse (taken route))
   where

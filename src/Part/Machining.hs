@@ -173,9 +173,9 @@ startedNear env contour near = case near of
          in Evaluation.mistake (InContour (OpenBegins (region e) name))
       else pure (ContourElement.startingNear p contour)
 
--- | The heights of the passes from the highest to the lowest, in mm and negative. @depth@ is the
--- depth of the lowest pass, and @most@ the largest stepdown. All steps are equal. Without @most@
--- there is one pass.
+-- | The heights of the passes from the highest to the lowest, in mm and negative. The pair of
+-- expressions gives @depth@, the depth of the lowest pass, and @most@, the largest stepdown. All
+-- steps are equal. Without @most@ there is one pass.
 levelsOf :: Environment -> (Expr, Maybe Expr) -> Eval [Mm]
 levelsOf env (depth, most) = do
   d <- lengthOf env Parameter.Depth depth
@@ -188,7 +188,8 @@ levelsOf env (depth, most) = do
     )
   pure [times (negate (fromIntegral k / fromIntegral count)) d | k <- [1 .. count]]
 
--- | Fails if there are passes at several @heights@ and the cutter is widest at its tip.
+-- | Fails if there are passes at several @heights@ and the cutter is widest at its tip. @at@ is the
+-- region for the report.
 checkSteps :: Context -> Region -> [Mm] -> Eval ()
 checkSteps context at heights = case cutter context of
   Just c
@@ -230,7 +231,7 @@ pocketing context at e step settings = do
         ListValue vs -> map (named i . contourOf) (Vector.toList vs)
         _ -> [named i (contourOf v)]
 
--- | Fails if the estimated number of passes, @count@, exceeds 10 000. No real pocket needs so many.
+-- | Fails if the estimated number of passes, @count@, exceeds 10 000. No real pocket needs more.
 checkPassCount :: Region -> Double -> Eval ()
 checkPassCount at count =
   when
@@ -325,7 +326,7 @@ checkCutter context at statement = case cutter context of
       PocketStatement -> cutterKind == MillingCutter
       DrillStatement -> cutterKind `elem` [DrillingCutter, MillingCutter]
 
--- | Is this the kind of a cutter that mills contours with its flank?
+-- | True for the kinds of cutters that mill contours with their flank.
 isMill :: CutterKind -> Bool
 isMill cutterKind = case cutterKind of
   MillingCutter -> True
@@ -352,9 +353,9 @@ cutterOf env (Located _ c) = case c of
     when (x < 0) (Evaluation.mistake (Negative (region e) Parameter.NoseRadius x))
     pure (Cutter TurningCutter (Mm x))
 
--- | Evaluates a conical cutter from three expressions: the diameter 2R of its tip (@e@), the bevel
--- μ of its flank (@lean@), and the height @h@. At this height H above the tip the flank touches the
--- part. The radius there is @a = R + H·tan μ@ (Kolsanova, section 3).
+-- | Evaluates a conical cutter from three expressions: the diameter 2R of its tip (@e@), the angle
+-- μ between its flank and its axis (@lean@), and a height H (@h@). The flank touches the part at
+-- the height H above the tip. The radius there is @a = R + H·tan μ@ (Kolsanova, section 3).
 cone :: Environment -> Expr -> Expr -> Expr -> Eval Cutter
 cone env e lean h = do
   Mm d <- lengthOf env Parameter.CutterDiameter e

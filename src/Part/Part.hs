@@ -68,9 +68,9 @@ data Part = Part
   { name :: Maybe Name,
     title :: Maybe Text,
     machine :: Maybe (Located MachineRef),
-    -- | the position of the cutter before the first frame
+    -- | the position of the cutter at the start of the tape
     start :: Maybe (Located SpacePoint),
-    -- | the tool in the spindle before the first frame
+    -- | the tool in the spindle at the start of the tape
     firstCutter :: Maybe Cutter,
     contours :: [Contour],
     -- | all operations in the order in which the tape makes them
@@ -251,7 +251,7 @@ data Work = Milled | Turned
 
 -- | The allowed chord error of a milling or turning.
 data Accuracy
-  = -- | the same limit on both sides of the toolpath; the ends of the chords lie on it
+  = -- | the same limit on both sides of the toolpath; the ends of the chords lie on the toolpath
     OnPath Mm
   | -- | the limit towards the material, and the limit away from it
     Band Mm Mm
@@ -310,8 +310,8 @@ data CutterKind
   | TurningCutter
   deriving stock (Eq, Show)
 
--- | The end of a move without cutting, and the speed of the move. If it has no level, the cutter
--- keeps its height.
+-- | The end of a move without cutting, and the speed of the move. The level is the height of this
+-- end. If it is absent, the cutter keeps its height.
 data Stop = Stop {place :: Located Point, level :: Maybe Mm, pace :: Pace}
   deriving stock (Eq, Show)
 

@@ -1,5 +1,9 @@
 -- | Evaluates tables and pieces. A piece is a curve that is recalculated by ciphers and then
 -- joggled (Kolsanova, sections 2 and 5).
+--
+-- A cipher shifts every point of the curve along its normal; its digit 1, 2, 4 or 6 says how the
+-- distance changes along the curve. A joggle is a local step of the curve, with a ramp at each of
+-- its two ends. A bevel is the angle between the surface of the part and the axis of the tool.
 module Part.Piece
   ( table,
     piece,
@@ -138,7 +142,7 @@ alongRows env base e
     atRow k = Expression.number <$> Expression.evaluate (foldl (bound k) env (tableColumns base)) e
     bound k env' (n, values) = Expression.bind n (Quantity (values Vector.! k)) env'
 
--- | Does the expression name one of these columns?
+-- | True if the expression uses the name of one of these columns.
 mentions :: [Name] -> Expr -> Bool
 mentions names (Located _ e) = case e of
   Number _ -> False
@@ -179,8 +183,8 @@ shiftedBy at side distance lower = do
           Rad a = Vec.signedAngle before after
        in Rad (abs a)
 
--- | The gap between two spans of a curve that should meet at the parameter @u@. If @u@ is 0, it is
--- the gap between the curve's end and its start.
+-- | The gap between two spans of a curve that should meet at the parameter @u@. If @u@ is 0 or
+-- less, it is the gap between the curve's end and its start.
 gapAt :: Exact.Curve -> Double -> Mm
 gapAt whole u = Vec.distance before (Exact.pointFrom Exact.After whole (max 0 u))
   where
@@ -189,7 +193,8 @@ gapAt whole u = Vec.distance before (Exact.pointFrom Exact.After whole (max 0 u)
 -- Joggles
 
 -- | The curve @lower@ with a joggle to a side, between its points that have the two given x
--- coordinates. Mistakes are those of the control stops 15074 and 14174 (Kolsanova).
+-- coordinates. Fails for wrong coordinates, at which the Minsk-22 system stopped with the code
+-- 15074, and for a radius that does not fit (code 14174; Kolsanova).
 joggledBy :: Environment -> Carrier.Side -> Exact.Curve -> Joggle -> Eval Exact.Curve
 joggledBy env side lower (Located at (Joggle from to depth radius)) = do
   a <- parameterAtX env lower from
@@ -241,8 +246,8 @@ largestRadius depth@(Mm d) (Mm l) = if over r depth > 0.5 then Just r else Nothi
 -- Bevels
 
 -- | Evaluates the bevels along an element: pairs of a station (the arc length from its start, in
--- mm) and an angle in radians. If @on@ is a curve, the stations are those of its polyarc. Without a
--- curve the element is a line or a circle, and has one bevel.
+-- mm) and an angle in radians. If @on@ is a curve, the stations are those of the lines and arcs
+-- that approximate it. Without a curve the element is a line or a circle, and has one bevel.
 bevelled :: Environment -> Maybe PartCurve -> Expr -> Eval [(Double, Double)]
 bevelled env on e = case on of
   Nothing -> do

@@ -87,8 +87,8 @@ boxOf n = foldl BoundingBox.union first others
   where
     first :| others = fmap BoundingBox.ofSegment (Polyarc.segments (Part.polyarcOf (contour n)))
 
--- | Half of the shorter side of a contour's bounding box. The distance from the contour of a point
--- inside it is never larger, which limits the number of passes.
+-- | Half of the shorter side of a contour's bounding box. No point inside the contour is further
+-- from the contour than this, which limits the number of passes.
 halfWidth :: Named -> Mm
 halfWidth n = let BoundingBox.BoundingBox l b r t = boxOf n in Mm (min (r - l) (t - b) / 2)
 

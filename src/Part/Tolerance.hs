@@ -12,8 +12,8 @@ where
 
 import Base.Quantity (Mm (..), Rad (..))
 
--- | Two contours are equally long if their lengths differ by at most this. A choice of the shorter
--- one is then impossible, and is a fault.
+-- | Two contours are equally long if their lengths differ by at most this. The shorter of two
+-- contours has to be chosen, so two equally long ones are a fault.
 sameLength :: Mm
 sameLength = Mm 1e-6
 
@@ -21,9 +21,9 @@ sameLength = Mm 1e-6
 smallestFillet :: Mm
 smallestFillet = Mm 1e-3
 
--- | Two points are equally near to a third one if their distances from it differ by at most this. A
--- choice of the nearer one is then a fault. Points on curves have errors of up to
--- 'Geometry.Tolerance.curve'.
+-- | Two points are equally near to a third one if their distances from it differ by at most this.
+-- The nearer of two points has to be chosen, so two equally near ones are a fault. Points on curves
+-- have errors of up to 'Geometry.Tolerance.curve'.
 nearTie :: Mm
 nearTie = Mm 1e-4
 

@@ -85,7 +85,7 @@ offset :: Point -> Vec
 offset = Vec.to (Vec.point 0 0)
 
 -- | Converts @x@ to a whole number from 1 to 10⁷. A number within 'Tolerance.equal' of a whole
--- number is rounded to it. @what@ names the number in mistakes.
+-- number is rounded to it. Fails for any other number. @what@ names the number in mistakes.
 whole :: Region -> WholeNumber -> Double -> Eval Int
 whole region what x
   | abs (x - fromIntegral n) > Tolerance.equal || n < 1 || x > 1e7 =

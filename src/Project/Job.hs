@@ -25,8 +25,8 @@ data Job = Job
     verification :: Verification
   }
 
--- | The choice if a tape is verified. A verified tape is read back, and its motions are compared
--- with the part. An unverified tape is only written.
+-- | The choice between a verified and an unverified tape. A verified tape is read back, and its
+-- motions are compared with the part. An unverified tape is only written.
 data Verification = Verified | Unverified
   deriving stock (Eq, Show)
 

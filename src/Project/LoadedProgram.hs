@@ -1,5 +1,6 @@
 -- | A part program with the files that belong to it: the files that it imports, and the machine
--- descriptions that it names. An input sheet is converted to a part program when it is loaded.
+-- descriptions that it names. An input sheet, a list of numbers for the Minsk-22 system, is
+-- converted to a part program when it is loaded.
 --
 -- Nothing here reads the disk: a 'Surface.Reader', which the caller supplies, gives the texts.
 -- Names are resolved and values are computed by later compiler passes.
@@ -86,7 +87,7 @@ fromText path text = runIdentity (load withoutFiles (Text.unpack path) text)
   where
     withoutFiles = Surface.byName (const (pure (Left "only one text is looked at")))
 
--- | Does the file name mean an input sheet, that is, does it end in @.sheet@?
+-- | True if the file name means an input sheet, that is, if it ends in @.sheet@.
 isInputSheet :: FilePath -> Bool
 isInputSheet = (== ".sheet") . takeExtension
 

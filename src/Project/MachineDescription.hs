@@ -24,12 +24,13 @@ import Machine.Machine (Machine, MachineName (..))
 import Report.Report (Report)
 import System.FilePath ((</>))
 
--- | The loaded description files. The name of a file is as in the program or on the command line.
--- Next to it is the text, or the reason why the file cannot be read.
+-- | The loaded description files as pairs. The first component is the name of the file, as in the
+-- program or on the command line. The second one is the text of the file, or in 'Left' the reason
+-- why it cannot be read.
 type Descriptions = [(Text, Either Text Text)]
 
 -- | Loads a description file. @contents@ reads a file, and @file@ is a name relative to @folder@.
--- The result is the name with the text, or with the reason why the file cannot be read.
+-- The result is the name with the text, or in 'Left' with the reason why the file cannot be read.
 load ::
   Monad m =>
   (FilePath -> m (Either Text Text)) ->
@@ -38,8 +39,8 @@ load ::
   m (Text, Either Text Text)
 load contents folder file = (file,) <$> contents (folder </> Text.unpack file)
 
--- | Does the name mean a description file, and not a built-in machine? It does if it contains a
--- slash or ends in @.machine@.
+-- | True if the name means a description file, and not a built-in machine: it contains a slash or
+-- ends in @.machine@.
 isFileName :: Text -> Bool
 isFileName name = Text.any (== '/') name || Text.isSuffixOf ".machine" name
 

@@ -60,9 +60,9 @@ definition now before at = listToMaybe (mapMaybe target (found now before at))
           Target (Snapshot.source now) <$> RegionMap.forward regionMap region
       _ -> Just Target {source, region}
 
--- | A mention under the cursor: the snapshot that contains it, and the region of it in the present
--- text. The map leads from the text of an older snapshot to the present text; it is absent for the
--- present snapshot.
+-- | A mention of a name under the cursor: the snapshot that contains it, and the region of it in
+-- the present text. The map leads from the text of an older snapshot to the present text; it is
+-- absent for the present snapshot.
 data Found = Found Snapshot (Maybe RegionMap) Mention Region
 
 -- | The mentions at the offset @at@ of the present text. If both snapshots contain one, that of the
@@ -88,6 +88,6 @@ under facts at = case find (within (<)) (Mention.mentions facts) of
   where
     within before m = let Region from to = Mention.place m in from <= at && at `before` to
 
--- | Does a region lie in the program's own file, rather than in an imported file?
+-- | True if a region lies in the program's own file, and not in an imported file.
 isOwn :: Source -> Region -> Bool
 isOwn source (Region from _) = from <= Text.length (Region.text source)

@@ -54,7 +54,7 @@ commonSuffix a b = (Text.takeEnd size a, Text.dropEnd size a, Text.dropEnd size 
       length
         (takeWhile id (zipWith (==) (Text.unpack (Text.reverse a)) (Text.unpack (Text.reverse b))))
 
--- | Can a character be a part of a name or a number?
+-- | True if a character can be a part of a name or a number.
 isWordPart :: Char -> Bool
 isWordPart c = isAlphaNum c || c == '_'
 

@@ -73,7 +73,7 @@ take check loaded =
       Just analysis -> Just (Compile.mentions analysis, Compile.part analysis)
       Nothing -> first Checked.mentions <$> output (Compile.evaluate [] loaded)
 
--- | Is the program without errors? It may have warnings.
+-- | True if the program has no errors. It may have warnings.
 isGood :: Snapshot -> Bool
 isGood = not . any Report.isError . reports
 

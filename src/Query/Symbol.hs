@@ -1,5 +1,5 @@
--- | The symbols of a program, which an editor shows as its outline. A definition or a machining
--- statement has a symbol.
+-- | The symbols of a program, which an editor shows as its outline. Definitions, machining
+-- statements, moves, tool changes and statements with a block have symbols.
 module Query.Symbol
   ( DocumentSymbol (..),
     SymbolKind (..),
@@ -33,14 +33,14 @@ data DocumentSymbol = DocumentSymbol
 data SymbolKind = Part' | Value | Function | Contour' | Machining
   deriving stock (Eq, Show, Enum, Bounded)
 
--- | The symbols of a program in the order of the text. A statement that only changes a setting has
--- no symbol.
+-- | The symbols of a program in the order of the text. Settings, commands, imports and assertions
+-- have no symbol.
 symbols :: Snapshot -> [DocumentSymbol]
 symbols Snapshot {source, program} = mapMaybe (symbol source) (statements program)
 
--- | The symbol of a statement; 'Nothing' if the statement only changes a setting. A definition is
--- shown by its name. A machining statement is shown by its text up to the side, the depth or the
--- stepover.
+-- | The symbol of a statement; 'Nothing' if it has none. A definition is shown by its name. Any
+-- other statement is shown by the beginning of its text: a machining statement up to the side, the
+-- depth or the stepover.
 symbol :: Source -> Statement -> Maybe DocumentSymbol
 symbol source (Located whole s) = case s of
   Part name title -> definition Part' name (maybe "" value title)

@@ -121,8 +121,8 @@ excerptLines layout@Layout {painted, report, source, gutter} before (isMain, e, 
     sign = Text.replicate (width e) (if isMain then "^" else "-")
     words' = if text == "" then "" else " " <> text
 
--- | Sentences and hints in lines of at most 80 columns. If @hasExcerpts@ is true, an empty line of
--- the gutter separates them from the excerpts above.
+-- | Sentences and hints, broken into lines of at most 76 characters to the right of the gutter. If
+-- @hasExcerpts@ is true, an empty line of the gutter separates them from the excerpts above.
 advice :: Layout -> Bool -> [Text]
 advice layout@Layout {painted, report, gutter} hasExcerpts =
   [bar layout | hasExcerpts && not (null (message report) && null (hints report))]

@@ -30,12 +30,12 @@ import Report.Report (Label (..), Report (..), ReportCode (..), ReportPlace (..)
 import Report.Report qualified as Report
 import Prelude hiding (log)
 
--- | A report with what its rendering needs. @path@ is the name of the file if the report has no
--- region in the program. @source@ is the text to which the regions refer.
+-- | A report with the facts that its rendering needs. @path@ is the name of the file if the report
+-- has no region in the program. @source@ is the text to which the regions refer.
 data Filed = Filed {path :: Text, source :: Source, report :: Report}
 
--- | Renders the log of one run of partc. SARIF calls report codes rules. The log lists the codes
--- that occur in it, each with its explanation if there is one.
+-- | Renders the log of one run of partc. A report code is called a rule in SARIF. The log lists the
+-- codes that occur in it, each with its explanation if there is one.
 log :: [Explanation] -> [Filed] -> Text
 log explanations filed =
   Encoding.decodeUtf8 (LazyByteString.toStrict (encodingToLazyByteString whole)) <> "\n"
@@ -89,7 +89,7 @@ result indices Filed {path, source, report = r} =
             (pair "region" (pairs ("byteOffset" .= max 0 (row - 1) <> "byteLength" .= (1 :: Int))))
         ]
       InFile -> [at path mempty | path /= ""]
-    -- All related locations have to differ (3.27.22).
+    -- The related locations of a result must differ from one another (3.27.22).
     places = nub (others r)
     related (Label region words') =
       pairs
@@ -120,8 +120,8 @@ at path region =
 message' :: Text -> Encoding
 message' words' = pairs ("text" .= Text.replace "}" "}}" (Text.replace "{" "{{" words'))
 
--- | Converts a path to a URI reference (RFC 3986): relative for a relative path, with all reserved
--- bytes percent-encoded.
+-- | Converts a path to a URI reference (RFC 3986): relative for a relative path. All bytes except
+-- ASCII letters, digits and @-._~/@ are percent-encoded.
 uri :: Text -> Text
 uri path = case Text.stripPrefix "/" path of
   Just rest -> "file:///" <> encoded rest

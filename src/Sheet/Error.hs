@@ -2,9 +2,12 @@
 
 -- | Mistakes in the numbers of an input sheet.
 --
--- A sheet begins with the general data (16 numbers on part and tool) and the points of the
--- approach. Then come arrays of pieces, with points after each array. A word is a number, a sign
--- without digits, or the end mark @-0@, which ends the approach and each piece.
+-- A word is a number, a sign without digits, or the end mark @-0@. A sheet begins with the general
+-- data (16 numbers on part and tool) and the points of the approach. Then come arrays of pieces,
+-- with points after each array. A point has four numbers: x, y, z and the feed of the move to the
+-- next point. A piece is a curve through points of the drawing, with a cipher: a number whose
+-- digits say how the curve is recalculated. The mark @-0@ ends the approach, each piece, and the
+-- points between two arrays.
 module Sheet.Error
   ( Error (..),
     NumberPosition (..),
@@ -42,7 +45,8 @@ data NumberPosition = NumberPosition {site :: Region, number :: Int}
 data Error
   = -- | The word is not a number, an end mark or a sign; the text is the word.
     NotANumber NumberPosition Text
-  | -- | The sheet ends in the general data; the count is that of the general data that it has.
+  | -- | The general data are incomplete: the sheet ends in them, or they contain an end mark or a
+    -- sign. The count is that of the numbers before this position.
     GeneralShort NumberPosition Int
   | -- | A number of the general data is wrong.
     GeneralWrong NumberPosition GeneralFault
@@ -54,7 +58,7 @@ data Error
     CipherUnknown NumberPosition CipherFault
   | -- | The numbers of a piece do not fit its cipher. The second position is that of the cipher.
     PieceMisfit NumberPosition NumberPosition PieceMisfit
-  | -- | At this position an array begins that exceeds 'maxArrays'.
+  | -- | An array begins at this position, although the sheet already has 'maxArrays' arrays.
     TooManyArrays NumberPosition
   | -- | The sheet ends too early. The position is that of its last word.
     EndMissing NumberPosition Expected
@@ -62,7 +66,7 @@ data Error
     LinkMissing NumberPosition LinkNumber
   | -- | A number follows the end of the program.
     AfterTheEnd NumberPosition
-  | -- | The last point before an array has the rapid feed. It would be the feed of the array's
+  | -- | The last point before an array has the rapid feed, which would be the feed of the array's
     -- pieces.
     NoWorkingFeed NumberPosition
   deriving stock (Eq, Ord, Show)
@@ -95,7 +99,7 @@ data ApproachFault
     SignInApproach
   | ApproachFeedNotPositive
   | NoApproachPoint
-  | -- | a count of numbers that is not a multiple of four, the numbers of a point
+  | -- | a count of numbers that is not a multiple of four, although a point has four numbers
     ApproachCount Int
   deriving stock (Eq, Ord, Show)
 
@@ -121,7 +125,7 @@ data CipherFault
     SignTwice
   deriving stock (Eq, Ord, Show)
 
--- | What must follow at the point where the sheet ends too early.
+-- | The part of the sheet that is missing if the sheet ends too early.
 data Expected
   = -- | another piece, or the feed 0 of the last point
     PieceOrLastFeed
@@ -133,19 +137,20 @@ data Expected
   | AllowanceOfPiece
   deriving stock (Eq, Ord, Show)
 
--- | Which of the two numbers after the end mark of a piece is missing.
+-- | The number that is missing after the end mark of a piece: its link to the next piece, or its
+-- allowance.
 data LinkNumber = LinkNumber | AllowanceNumber
   deriving stock (Eq, Ord, Show)
 
 -- | The reason why the numbers of a piece do not fit its cipher.
 data PieceMisfit
   = -- | No whole count of points is possible. The first four fields are the counts of numbers that
-    -- the cipher demands: before all points, with each point, after all points, and again for each
+    -- the cipher demands: before all points, with each point, once after all points, and for each
     -- point after all points. The last field is the count of numbers that the piece has.
     CountOff Int Int Int Int Int
   | -- | fewer than two points
     PointsFew
-  | -- | a flag of the feed that is neither 0 nor 1
+  | -- | a flag of the feed, the last number of a piece, that is neither 0 nor 1
     FlagOff
   | -- | a sign without digits
     LoneSign

@@ -1,6 +1,10 @@
--- | Conversion of a curve with its shifts to a piece of an input sheet. The cipher of the piece
--- expresses the shifts. The conversion refuses a curve with a shift that no digit of a cipher
--- expresses.
+-- | Conversion of a curve with its shifts to a piece of an input sheet. A piece consists of points
+-- of the curve before all shifts, and of a cipher. Each digit of the cipher expresses one shift,
+-- which moves every point along the normal of the curve. The conversion refuses a curve with a
+-- shift that no digit expresses.
+--
+-- A bevel is the angle between the part's surface and the tool axis. With the flange height at a
+-- point it determines the distance by which digit 4 shifts.
 module Sheet.FromCurve
   ( piece,
     degreesOf,
@@ -74,14 +78,14 @@ piece at curve finish = do
       ShiftDistance.Bevelled {} -> True
       _ -> False
 
--- | A value that is not in the program, with an empty region.
+-- | A value with an empty region, because it does not come from the text of a sheet.
 here :: a -> Located a
 here = Located (Region 0 0)
 
 refused :: Unfit -> Result w Unfit a
 refused e = Result [] [e] Nothing
 
--- | The points of a natural spline, or the two points of a straight line.
+-- | The points of a natural spline, or the two points of a straight line. Refuses any other curve.
 pointsOf :: Region -> BasisCurve.BasisCurve -> Result w Unfit (Vector Vec.Point)
 pointsOf at base = case BasisCurve.method base of
   BasisCurve.Spline BasisCurve.Natural -> pure points
@@ -90,7 +94,7 @@ pointsOf at base = case BasisCurve.method base of
   where
     points = Vector.map BasisCurve.knotPoint (BasisCurve.rows base)
 
--- | One layer of a curve as a shift.
+-- | One shift of a curve, from its side and its distance.
 shiftOf :: (Carrier.Side, Distance) -> Shift
 shiftOf (side, distance) = case distance of
   ShiftDistance.Square mu inner -> Shift {sign, square = Just (Column.values mu), distance = inner}
@@ -103,10 +107,10 @@ shiftOf (side, distance) = case distance of
     alone = Shift {sign, square = Nothing, distance}
     sign = Carrier.sideSign side
 
--- | The side of a piece as a sign: 1 left, -1 right. A sheet has the distances of ciphers 1 and 2
--- before the points; the sign of the first one gives the side. So the result is the side to which
--- this distance shifts. If there is no such distance or it is 0, the result is the side of the
--- first shift, and 1 without shifts.
+-- | The side of a piece as a sign: 1 left, -1 right. A sheet has the distances of the digits 1 and
+-- 2 before the points, and the sign of the first of these distances gives the side. So the result
+-- is the side to which this distance shifts. If there is no such distance or it is 0, the result is
+-- the side of the first shift, and 1 without shifts.
 signOfPiece :: [Shift] -> Double
 signOfPiece shifts = case listToMaybe [sign s * h | s <- shifts, Just h <- [headOf (distance s)]] of
   Just h | h /= 0 -> signum h
@@ -132,7 +136,7 @@ onSide wanted s
       ShiftDistance.Square mu inner -> ShiftDistance.Square mu (opposite inner)
       ShiftDistance.Joggled j -> ShiftDistance.Joggled j
     minus (Mm h) = Mm (negate h)
-    -- The spline of the column would be wrong now, but this module uses only its values.
+    -- Leaves the spline of the column unchanged, because this module uses only its values.
     negative c = c {Column.values = Vector.map negate (Column.values c)}
 
 -- | Refuses a shift that the numbers of a sheet cannot express.
@@ -188,7 +192,7 @@ recalculation s = case distance s of
     nonEmptyOf = NonEmpty.nonEmpty . Vector.toList
 
 -- | An angle in radians as degrees: the shortest decimal number whose conversion to radians gives
--- exactly @angle@. If there is none, the unrounded quotient.
+-- exactly @angle@. If there is none, it is @angle@ divided by π/180, unrounded.
 degreesOf :: Double -> Double
 degreesOf angle = case [d | k <- [0 .. 16], Just d <- [rounded k], d * (pi / 180) == angle] of
   d : _ -> d

@@ -1,6 +1,7 @@
 -- | Conversion of an evaluated part to an input sheet. Every milled contour becomes an array of
 -- pieces, and every stop between contours a point. A stop is a point to which a statement moves the
--- tool. The conversion refuses a part that the numbers of a sheet cannot express.
+-- tool. A piece is a curve with a cipher, whose digits express the shifts of the curve. The
+-- conversion refuses a part that the numbers of a sheet cannot express.
 module Sheet.FromPart
   ( fromPart,
   )
@@ -138,9 +139,9 @@ sideOf (Located at side) = case side of
   Part.Inside -> refused (NoNumbers at InsideOfContour)
 
 -- | Diameter in mm, bevel in degrees and height in mm of the tool that touches the part at
--- @radius@. If the program has a cone with this radius at its upper end, they are those of the
--- cone. Otherwise they are those of a cylinder, with bevel and height 0. A cone without a bevel is
--- a cylinder.
+-- @radius@. The bevel is the angle between the tool's flank and its axis. If the program has a cone
+-- with this radius at its upper end, they are those of the cone. Otherwise they are those of a
+-- cylinder, with bevel and height 0. A cone without a bevel is a cylinder.
 toolOf :: Checked.Program -> Mm -> (Double, Double, Double)
 toolOf written (Mm radius) =
   case [ (d, mu, h)
@@ -241,8 +242,8 @@ waypoints from list final = case list of
 
 -- | The points after each array. The first arguments are the height (mm) and the feed (mm\/min) at
 -- the end of the first array. The list has an entry for each array: its region, the stops after it
--- with the feeds of the moves to them, and the feed of the next array. The last array has Nothing
--- there.
+-- with the feeds of the moves to them, and the feed of the next array. For the last array this feed
+-- is Nothing.
 retractsOf ::
   Double ->
   Double ->
@@ -277,7 +278,7 @@ belowRapid (Located at (Feed f))
 
 -- Arrays
 
--- | The array of a contour. Its points after the array are a placeholder, which 'fromPart'
+-- | The array of a contour. The points after the array are a placeholder, which 'fromPart'
 -- replaces.
 arrayOf :: (Region, Milling) -> Result w Unfit Array
 arrayOf (at, m) = do

@@ -1,8 +1,12 @@
--- | Reader of input sheets: makes a sheet of its text.
+-- | Reader of input sheets: makes a sheet from its text.
+--
+-- A sheet has the general data, the points of the approach, and arrays of pieces, each with points
+-- after it. A piece is a curve with a cipher, a number whose digits say how the curve is
+-- recalculated. The end mark is the word @-0@.
 --
 -- The reader reports all words that are not numbers. If there are none, it reports only the first
 -- wrong number: a missing or doubled number shifts the meaning of all numbers after it. The reader
--- is a state monad over the words that are still to be read. The end mark is the word @-0@.
+-- is a state monad over the words that are still to be read.
 module Sheet.FromText
   ( read,
   )
@@ -71,12 +75,12 @@ peek = gets (listToMaybe . unread)
 latest :: Reader NumberPosition
 latest = gets last'
 
--- | Reads a word. At the end of the sheet there is an error, which says that @expected@ is missing.
+-- | Reads a word. At the end of the sheet it fails with the error that @expected@ is missing.
 needed :: Expected -> Reader SheetWord
 needed expected = next >>= maybe (latest >>= \s -> refuse (EndMissing s expected)) pure
 
--- | Reads the words before the next end mark, and the mark. Without a further mark there is an
--- error, which says that @expected@ is missing.
+-- | Reads the words before the next end mark, and the mark. Without a further mark it fails with
+-- the error that @expected@ is missing.
 upToMark :: Expected -> Reader ([SheetWord], SheetWord)
 upToMark expected = do
   (inside, rest) <- gets (break ((== Mark) . symbol) . unread)
@@ -157,7 +161,7 @@ checkTool gear' bevel' height' = do
   when (value (snd gear') /= 0) (mapM_ (check BladeWithCone (== 0)) [bevel', height'])
   when (value (snd bevel') == 0) (check HeightWithoutBevel (== 0) height')
 
--- | Reports @fault@ at a number of the general data for which the predicate is False.
+-- | Fails with @fault@ if the predicate is False for a number of the general data.
 check :: GeneralFault -> (Double -> Bool) -> Positioned -> Reader ()
 check fault isRight (s, n) = unless (isRight (value n)) (refuse (GeneralWrong s fault))
 
@@ -168,7 +172,8 @@ sideOf (s, n) = case value n of
   0 -> pure (Located (region n) Nothing)
   _ -> refuse (GeneralWrong s UnknownSide)
 
--- | Reads number @count@ of the general data, counted from 1.
+-- | Reads number @count@ of the general data, counted from 1. Fails if the sheet ends before it, or
+-- if the word is a mark or a sign.
 generalWord :: Int -> Reader Positioned
 generalWord count = do
   e <- next
@@ -191,7 +196,7 @@ approachPoints = do
     Just [] -> refuse (ApproachShifted (position mark) NoApproachPoint)
     Nothing -> refuse (ApproachShifted (position mark) (ApproachCount (length inside)))
 
--- | Reports a point before an array that has the rapid feed. The position is that of the feed.
+-- | Fails if the last point before an array has the rapid feed. The position is that of the feed.
 checkWorkingFeed :: (NumberPosition, Waypoint) -> Reader ()
 checkWorkingFeed (s, w) = when (value (feed w) == rapidFeed) (refuse (NoWorkingFeed s))
 
@@ -257,7 +262,8 @@ piecesOfArray = do
       (rest, final) <- piecesOfArray
       pure (LinkedPiece one l : rest, final)
 
--- | Reads a piece and its link to the next piece; Nothing after the last piece of an array.
+-- | Reads a piece and its link to the next piece. The link is Nothing after the last piece of an
+-- array.
 piece :: Reader (Piece, Maybe (Located Link))
 piece = do
   opening <- needed PieceOrLastFeed

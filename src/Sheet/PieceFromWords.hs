@@ -1,5 +1,6 @@
--- | The meaning of the words of one piece. The digits of its cipher determine the count and the
--- order of its numbers:
+-- | The meaning of the words of one piece of an input sheet. A piece is a curve with a cipher, a
+-- number whose digits say how the curve is recalculated. These digits determine the count and the
+-- order of the numbers of the piece:
 --
 -- * for each digit 1 and each digit 2, a distance;
 -- * for each point, x and y; if there is a digit 4, also the bevel and the height of the flange;
@@ -47,9 +48,9 @@ data Layout = Layout
     before :: Int,
     -- | count of the numbers of each point: 2 or 4
     each :: Int,
-    -- | count of the numbers after all points that are there once
+    -- | count of the numbers after the last point that hold for the whole piece
     after :: Int,
-    -- | count of the numbers after all points that are there once for each point
+    -- | count of the numbers after the last point that follow there for each of the points
     again :: Int
   }
 
@@ -70,7 +71,7 @@ data Parts = Parts
     pointRows :: [[Number]],
     -- | the second distances of the digits 1, after the points
     tails :: [Number],
-    -- | a list for each digit 6, with a distance for each point
+    -- | a list for each digit 6, in the order of the digits; it has a distance for each point
     given :: [[Number]],
     -- | the flag of the feed
     flag :: Maybe Number
@@ -129,7 +130,8 @@ pieceOf opening isNegative digits inside mark = do
       [] -> []
       h : others -> fmap abs h : others
 
--- | The count of points, at least two, of a piece with @count@ numbers. Other counts are a misfit.
+-- | The count of points, at least two, of a piece with @count@ numbers. For any other count of
+-- points it returns the error that @misfit@ makes.
 pointCount :: Layout -> Int -> (PieceMisfit -> Either Error Int) -> Either Error Int
 pointCount Layout {before, each, after, again} count misfit
   | remainder /= 0 = misfit (CountOff before each after again count)

@@ -62,13 +62,13 @@ data General = General
     diameter :: Number,
     -- | diameter of the wheel that swivels a blade, mm; 0 for other tools
     gear :: Number,
-    -- | bevel of a cone, degrees; 0 for other tools
+    -- | bevel of a cone, degrees: the angle between its flank and its axis; 0 for other tools
     bevel :: Number,
     -- | height of a cone, mm; 0 for other tools
     height :: Number,
     -- | largest chord error, mm
     tolerance :: Number,
-    -- | side of the pieces on which the tool travels; Nothing if its centre is on the pieces
+    -- | side of the pieces on which the tool travels; Nothing if its centre travels on the pieces
     side :: Located (Maybe Side)
   }
   deriving stock (Eq, Show)
@@ -88,8 +88,9 @@ data Array = Array {joined :: [LinkedPiece], final :: Piece, retract :: NonEmpty
 data LinkedPiece = LinkedPiece Piece (Located Link)
   deriving stock (Eq, Show)
 
--- | A curve through points of the theoretical contour, and its recalculations. If a recalculation
--- has the digit 4, every point has a surface. If not, no point has one.
+-- | A curve through points of the theoretical contour, and its recalculations. The theoretical
+-- contour is the given curve from which the contours of the part are recalculated. If a
+-- recalculation has the digit 4, every point has a surface. If not, no point has one.
 data Piece = Piece
   { -- | the side to which a positive distance shifts the curve
     shiftSide :: Located Side,
@@ -125,6 +126,7 @@ data PointRow = PointRow {px :: Number, py :: Number, surface :: Maybe Surface}
   deriving stock (Eq, Show)
 
 -- | The bevel of the part's surface at a point, degrees, and the height of the flange there, mm.
+-- The bevel is the angle between the surface and the tool axis.
 data Surface = Surface {mu :: Number, flangeHeight :: Number}
   deriving stock (Eq, Show)
 

@@ -1,5 +1,10 @@
 -- | Conversion of an input sheet to a part program.
 --
+-- An input sheet is the form of numbers that the Minsk-22 system reads. A piece is a curve with its
+-- recalculations, each of which shifts the curve along its normal. The cipher of a piece has a
+-- digit for each recalculation. A waypoint is a point with a feed. An array is a sequence of linked
+-- pieces with the waypoints after them.
+--
 -- Every node of the syntax tree has the region of the numbers from which it is made. So the reports
 -- of later compiler passes point at the sheet.
 module Sheet.ToSurface
@@ -191,10 +196,10 @@ pointOf isFlat' Waypoint {x, y, z}
   | otherwise =
     Located (Region.merge (region x) (region z)) (Triple (unitless x) (unitless y) (unitless z))
 
--- | Converts waypoints to the stops of an approach or a retract. A waypoint has the feed of the
--- move that starts there, a stop the feed of the move to it. @isFlat'@ is the result of 'isFlat'.
--- @working@ is the feed of the pieces, which a stop need not name. @leaving@ is the feed of the
--- move to the first waypoint.
+-- | Converts waypoints to stops, the points of an approach or a retract in a part program. A
+-- waypoint has the feed of the move that starts there, a stop the feed of the move to it. @isFlat'@
+-- is the result of 'isFlat'. @working@ is the feed of the pieces, which a stop need not name.
+-- @leaving@ is the feed of the move to the first waypoint.
 stops :: Bool -> Number -> Number -> [Waypoint] -> [Stop]
 stops isFlat' working leaving list = case list of
   [] -> []
@@ -208,8 +213,8 @@ stops isFlat' working leaving list = case list of
 -- Pieces
 
 -- | The statement of a piece's table, and the statement that defines the piece. If the cipher is 0,
--- the second statement defines a curve. @count@ is the number of the piece, from which both names
--- are made.
+-- which means no recalculation, the second statement defines a curve. @count@ is the number of the
+-- piece, from which both names are made.
 pieceStatements :: Int -> Piece -> [Statement]
 pieceStatements count piece =
   [ Located at (Table (Located at points) (tableOf piece)),
@@ -231,8 +236,9 @@ pieceStatements count piece =
       LeftSide -> Surface.LeftSide
       RightSide -> Surface.RightSide
 
--- | The table of a piece: for each point a line with its coordinates, its surface and its
--- distances.
+-- | The table of a piece. It has a line for each point: the coordinates, the bevel @mu@ and the
+-- flange height @H@ of the surface if the piece has surfaces, and a distance for each recalculation
+-- with the digit 6.
 tableOf :: Piece -> Surface.Lines
 tableOf piece = Surface.WrittenLines (Located at (Surface.Header headings) : map line linesOf)
   where
@@ -255,12 +261,14 @@ tableOf piece = Surface.WrittenLines (Located at (Surface.Header headings) : map
 pieceName :: Int -> Name
 pieceName count = Name ("piece_" <> Decimal.whole count)
 
--- | The headings of @count@ columns of distances: @t@, or @t_1@, @t_2@ and so on.
+-- | The headings of the columns with the distances of digit 6: @t@ for one column, @t_1@, @t_2@ and
+-- so on for several. @count@ is the count of columns.
 thicknessNames :: Int -> [Text]
 thicknessNames count = if count == 1 then ["t"] else ["t_" <> Decimal.whole k | k <- [1 .. count]]
 
--- | The ciphers of a piece, as the program writes them. If the piece has surfaces, its distances
--- are measured square to them.
+-- | The ciphers of a piece, as the program writes them: a digit with its arguments for each
+-- recalculation. If the piece has surfaces, its distances are measured square to them. The
+-- additional argument @mu@ says so.
 ciphers :: Piece -> [Recalculation] -> [Surface.Cipher]
 ciphers piece recalculations =
   go (thicknessNames (length [() | Pointwise _ <- recalculations])) recalculations

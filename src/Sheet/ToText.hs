@@ -1,5 +1,10 @@
--- | Writer of input sheets. It writes a line for each point and for each group of numbers, and an
--- empty line before each piece.
+-- | Writer of input sheets, the forms of numbers that the Minsk-22 system reads. It writes a line
+-- for each point and for each group of numbers, and an empty line before each piece.
+--
+-- A piece is a curve with its recalculations, each of which shifts the curve along its normal. The
+-- cipher of a piece has a digit for each recalculation. A waypoint is a point with a feed. An array
+-- is a sequence of linked pieces with the waypoints after them. An end mark @-0@ closes the
+-- waypoints before an array, and the numbers of a piece.
 --
 -- 'Sheet.FromText.read' gives the same sheet again, except for the regions of its numbers.
 module Sheet.ToText
@@ -51,8 +56,8 @@ array lastArray number' a =
     <> ["-0" | number' < lastArray]
 
 -- | The lines of a piece; @link@ is the text of its link. The sign of the first distance before the
--- points gives the side. If there is no such distance or it is 0, the sign of the cipher gives the
--- side.
+-- points gives the side to which the piece is shifted: a minus means right. If there is no such
+-- distance or it is 0, the sign of the cipher gives the side.
 piece :: Piece -> Text -> [Text]
 piece p link =
   ["", cipherText]

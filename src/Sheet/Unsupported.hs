@@ -1,4 +1,8 @@
 -- | Features of parts that the numbers of an input sheet cannot express, and the reports on them.
+--
+-- An input sheet is the form of numbers that the Minsk-22 system reads. A piece is a curve with its
+-- recalculations, each of which shifts the curve along its normal. The cipher of a piece has a
+-- digit 1, 2, 4 or 6 for each recalculation. An array is a sequence of linked pieces.
 module Sheet.Unsupported
   ( Unfit (..),
     Feature (..),

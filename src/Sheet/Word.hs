@@ -1,4 +1,5 @@
--- | The words of a sheet's text: numbers, end marks @-0@, and signs without digits.
+-- | The words of the text of an input sheet: numbers, signs without digits, and end marks @-0@. An
+-- end mark closes a list of points or the numbers of a piece, which is a curve of the part.
 module Sheet.Word
   ( WordValue (..),
     SheetWord (..),
@@ -22,9 +23,9 @@ data WordValue
     Figure Double
   | -- | the end mark @-0@
     Mark
-  | -- | a plus sign without digits, the link of pieces that touch
+  | -- | a plus sign without digits: the link between pieces that touch
     Plus
-  | -- | a minus sign without digits, the link of pieces that intersect
+  | -- | a minus sign without digits: the link between pieces that intersect
     Minus
   deriving stock (Eq, Show)
 
@@ -60,7 +61,7 @@ entry number (Located at word) =
   where
     here = NumberPosition at number
 
--- | A number with its region; Nothing for end marks and signs.
+-- | The number of a word with its region; Nothing for end marks and signs.
 figure :: SheetWord -> Maybe Number
 figure e = case symbol e of
   Figure x -> Just (Located (site (position e)) x)

@@ -60,7 +60,7 @@ separator column = case column of
 
 -- | Renders lines. Neighbouring lines with the same column and the same indentation form a run,
 -- within which the second cells are aligned. A run of 'Links' or 'SettingValues' may contain lines
--- with one cell.
+-- with one cell. A line that continues the line above it ends the run.
 render :: [AlignedLine] -> [Text]
 render rows = case rows of
   [] -> []
@@ -78,7 +78,8 @@ isAlignedWith begin column row =
     WholeLine _ -> isSingleAllowed
     LineCells other _ _ -> other == column
   where
-    -- An element may have no link, and a setting no value. A line with a brace ends the run.
+    -- True if the run may contain a line with one cell: an element without a link, or a setting
+    -- without a value. A line of one cell with a brace ends the run.
     isSingleAllowed = case column of
       Values -> False
       Definitions -> False

@@ -112,7 +112,7 @@ data ParserState = ParserState
   }
 
 -- | A parsed value, the number of its tokens, and the tokens after them. The value has at most two
--- brackets or operands inside one another, so that the limit 'maxNesting' is checked once.
+-- brackets or operands inside one another, so that one check of the limit 'maxNesting' suffices.
 data Consumed a = Consumed a Int [Token]
 
 -- | The operations from which the grammar is built.
@@ -131,9 +131,9 @@ class MonadParsec Problem TokenStream p => Grammar p where
   -- | The tokens that are not consumed yet.
   remaining :: p [Token]
 
-  -- | Applies a function to the remaining tokens, and runs the given rule if the function gives
-  -- 'Nothing'. Otherwise the function must give the value that the rule would give. The explaining
-  -- parser ignores the function.
+  -- | Applies a function to the remaining tokens. If the result is 'Nothing', runs the given rule.
+  -- Any other result is used instead, and must have the value that the rule would give. The
+  -- explaining parser ignores the function and runs the rule.
   fastPath :: ([Token] -> Maybe (Consumed Expr)) -> p Expr -> p Expr
 
   -- | Tells if the next token is a word, so that a keyword is possible. The explaining parser
@@ -189,7 +189,7 @@ run parser finish tokens = (map (fromFailure (Vector.fromList tokens) finish) in
       Left bundle -> (Nothing, NonEmpty.toList (Parsec.bundleErrors bundle))
 
 -- The pragmas below let GHC specialise the combinators for the fast parser. Without them, the fast
--- parser would call every operation of 'Grammar' by way of a dictionary. Functions that only run
+-- parser would call every operation of 'Grammar' through a dictionary. Functions that only run
 -- after a mistake need no pragma.
 
 -- Tokens
@@ -481,8 +481,8 @@ isStatementEnd hasBlock isInBlock open t others =
     isBlockStatement = case shape t of
       Word word -> newLine t && open <= 0 && word `elem` Keyword.blocks
       _ -> False
-    -- Two words at the start of a line are a misspelt statement, and do not continue the broken
-    -- one, unless they are inside braces of the broken statement.
+    -- True if @t@ and the next token are two words at the start of a line. They begin a misspelt
+    -- statement, unless they are inside braces of the broken statement.
     isMisspeltKeyword = case (shape t, others) of
       (Word word, next : _)
         | Word _ <- shape next ->

@@ -4,9 +4,9 @@
 -- each column. The separator is the comma, the semicolon or the tab, whichever the first line
 -- contains. If it is not the comma, numbers may have a decimal comma. Empty lines are ignored.
 --
--- A row is plain if its cells are numbers without spaces, exponents and plus signs. Runs of plain
--- rows are read into unboxed arrays. The other rows are read one by one, with an error for each
--- wrong cell. An offset is the index of a character, from 0.
+-- A row is plain if its cells are numbers without spaces, exponents and plus signs. A run is a
+-- sequence of consecutive plain rows; it is read into unboxed arrays. The other rows are read one
+-- by one, with an error for each wrong cell. An offset is the index of a character, from 0.
 module Surface.Csv
   ( table,
   )
@@ -163,8 +163,8 @@ separatorOf header
   | Text.any (== '\t') header = '\t'
   | otherwise = ','
 
--- | Splits a line into cells. Removes spaces and a pair of quotation marks around a cell. A single
--- quotation mark remains and makes the cell wrong.
+-- | Splits a line into cells. Removes spaces and a pair of quotation marks around a cell. A
+-- quotation mark without its partner remains and makes the cell wrong.
 cellsOf :: Char -> Located Text -> NonEmpty (Located Text)
 cellsOf separator (Located (Region at _) line) = NonEmpty.zipWith trimmed starts parts
   where

@@ -126,7 +126,7 @@ remark source (Located region text) =
     before = Text.take (column - 1) (Region.lineText source (start region))
     isTrailing = not (Text.null (Text.strip before))
 
--- | Tells if the line above the line of the offset @at@ is blank.
+-- | Tells if the line above the one that contains the offset @at@ is blank.
 isBlankAbove :: Source -> Int -> Bool
 isBlankAbove source at =
   line > 1 && Text.null (Text.strip (Region.lineText source (Region.offset source (line - 1) 1)))
@@ -206,8 +206,8 @@ data Shares = Shares
   }
 
 -- | Divides comments by their positions relative to a printed line. In the source, the line reaches
--- from offset @from@ to offset @finish@. The next printed line begins there at offset @next@,
--- 'Nothing' after the last line.
+-- from offset @from@ to offset @finish@, and the next printed line begins at offset @next@, which
+-- is 'Nothing' after the last line.
 shareOut :: (Int, Int) -> Maybe Int -> [Remark] -> Shares
 shareOut (from, finish) next remarks = case (inside, trailingRemark) of
   ([r], Nothing) | isTrailing r -> Shares {early, displaced = [], trailing = Just r, below, later}
@@ -250,9 +250,9 @@ rowEntries source sourceLine from above shares =
 ownLine :: Int -> Remark -> Entry
 ownLine deep r = Entry {hasGap = isApart r, line = Own deep (text r)}
 
--- | The first and the last offset of each printed line in the source. A line without tokens in the
--- source is at the end of the line before it. A comma at the end of a line does not count, so that
--- a comment before the comma is a trailing one.
+-- | The offsets at which each printed line begins and ends in the source. A line without tokens in
+-- the source is at the end of the line before it. A comma at the end of a line does not count, so
+-- that a comment before the comma is a trailing one.
 extents :: [SourceLine] -> [(Int, Int)]
 extents = go 0
   where

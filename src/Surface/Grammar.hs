@@ -504,8 +504,8 @@ operators table = Parsec.hidden (token "an operator" operatorOf)
       Symbol s -> lookup s table
       _ -> Nothing
 
--- | The expression of a first operand, the last argument, and the operators and operands after it,
--- joined from left to right.
+-- | Parses the operators and operands after a first operand, the last argument, and joins all from
+-- left to right.
 chain :: Grammar p => p Operator -> p Expr -> Expr -> p Expr
 chain operator next = more
   where

@@ -66,8 +66,8 @@ data Progress = Progress
     named :: [(Region, Text)]
   }
 
--- | Reads a program and the files that it imports. The path of the program appears in reports; the
--- paths of imports are relative to it.
+-- | Reads a program and the files that it imports. The path of the program appears in reports. The
+-- path of an import is relative to the folder of the file that contains the import.
 load :: Monad m => Reader m -> FilePath -> Text -> m ImportedProgram
 load reader path text = do
   itself <- identity reader (simplified path)
@@ -150,7 +150,8 @@ namedPath chain at name = do
   modify' (\p -> p {named = (at, Text.pack path) : named p})
   pure path
 
--- | The definitions of an imported file. If the file is already read, the list is empty.
+-- | The definitions of an imported file. If the file is already read, the list is empty. If it
+-- cannot be imported, the list has one broken statement, and the error is recorded.
 importFile :: Monad m => Reader m -> Chain -> ImportedFile -> StateT Progress m [Statement]
 importFile reader chain i
   | Just firstPath <- lookup (importIdentity i) (open chain) =
@@ -219,11 +220,13 @@ failed :: Monad m => Region -> Error -> StateT Progress m [Statement]
 failed at e =
   [Located at (Broken (Just "import") Nothing)] <$ modify' (\p -> p {found = e : found p})
 
--- | The largest depth of imports: a file that is imported by a file that is imported, and so on.
+-- | The largest depth of imports. The files that the program itself imports have the depth 1, those
+-- that they import the depth 2.
 maxDepth :: Int
 maxDepth = 100
 
--- | Tells if a statement is a definition, which an import keeps.
+-- | Tells if a statement is a definition, which an import keeps. A broken statement counts as one
+-- if its name is known, or if it is an import.
 isDefinition :: Statement -> Bool
 isDefinition (Located _ s) = case s of
   LetValue _ _ -> True

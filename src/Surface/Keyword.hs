@@ -32,11 +32,12 @@ statements =
 softStatements :: [Text]
 softStatements = ["pocket"]
 
--- | The keywords that begin a statement with a block, or an item of a contour.
+-- | The keywords that begin a statement with a block, and also an item of a contour that repeats
+-- other items or chooses among them.
 blocks :: [Text]
 blocks = ["for", "if"]
 
--- | Tells if a word begins an item of a contour or a setting.
+-- | Tells if a word is a keyword that begins an item of a contour, or a setting.
 beginsItem :: Text -> Bool
 beginsItem word = word `elem` (["for", "if", "cw", "ccw"] <> settings)
   where
@@ -44,8 +45,8 @@ beginsItem word = word `elem` (["for", "if", "cw", "ccw"] <> settings)
       ["approach", "retract", "depth", "lead", "allowance", "corners", "climb", "conventional"]
         <> ["compensation", "start", "plunge", "peck", "islands", "rest"]
 
--- | The first words of the settings that are allowed in the block of a statement; @statement@ is
--- the keyword of the statement.
+-- | The settings that are allowed in the block of a statement, each by the one or two words with
+-- which it begins. @statement@ is the keyword of the statement.
 settingsOf :: Text -> [Text]
 settingsOf statement = case statement of
   "mill" ->

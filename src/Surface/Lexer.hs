@@ -1,8 +1,8 @@
 -- | The lexer: tokens and comments from a text.
 --
 -- The lexer never fails. Text that is not a token becomes a 'BadNumber', an 'OpenText' or a 'Stray'
--- character, which the parser reports. An offset is the index of a character, from 0; the files of
--- a program are numbered one after the other.
+-- character, which the parser reports. An offset is the index of a character, from 0; the count
+-- goes on from one file of a program to the next.
 module Surface.Lexer
   ( tokens,
   )

@@ -16,8 +16,9 @@ import Surface.Syntax
 import Surface.Unlocated qualified as Unlocated
 
 -- | Replaces the values of @param@ statements. @values@ has names of parameters and the texts of
--- expressions. The last of several texts for one name counts. The new expression has the region of
--- the parameter's name, since its text is not part of the program.
+-- expressions. The last of several texts for one name counts. An unknown name and a text with
+-- mistakes are errors and replace nothing. The new expression has the region of the parameter's
+-- name, since the text of the expression is not part of the program.
 assign :: [(Text, Text)] -> Program -> Result w Error Program
 assign values program = foldl' (\before v -> before >>= assignOne v) (pure program) values
 

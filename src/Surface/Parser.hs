@@ -2,7 +2,7 @@
 --
 -- A text is parsed by the fast parser first. If the fast parser finds a mistake, the explaining
 -- parser parses the text again and reports all mistakes. An offset is the index of a character,
--- from 0; the files of a program are numbered one after the other.
+-- from 0; the count goes on from one file of a program to the next.
 module Surface.Parser
   ( parse,
     parseExplained,

@@ -26,7 +26,8 @@ data Doc
     -- four characters
     Series [Member]
   | -- | an opening bracket, members and a closing bracket. If broken, the members are on lines of
-    -- their own, indented by two characters. The flag is true if they must be broken
+    -- their own, indented by two characters. The flag is true if the brackets must be broken, even
+    -- if one line has room for them
     Brackets Bool Text [Member] Text
   deriving stock (Eq, Show)
 

@@ -1,6 +1,6 @@
 -- | The printer of expressions, with parentheses only where the syntax tree needs them. It makes
--- documents, which "Surface.PrettyPrinter" breaks into lines. Where the source has a comment inside
--- an expression, the printer breaks the line, so that the comment keeps its position.
+-- documents, which "Surface.PrettyPrinter" breaks into lines. If the source has a comment inside an
+-- expression, the printer breaks the line there, so that the comment keeps its position.
 module Surface.PrintExpression
   ( CommentPositions (..),
     noComments,
@@ -40,7 +40,7 @@ noComments :: CommentPositions
 noComments = CommentPositions {isBetween = \_ _ -> False, isAtComma = \_ _ -> False}
 
 -- | The precedence of an expression, the lowest first. An operand is put in parentheses if its
--- precedence is lower than the one that the operator demands.
+-- precedence is lower than the one that the operator before or after it demands.
 data Precedence
   = Loose
   | Disjunction

@@ -32,8 +32,8 @@ import Surface.Token (unitName)
 program :: Program -> Text
 program = Text.unlines . Alignment.render . rows PrintExpression.noComments . statements
 
--- | The lines of statements. A list that has comments in the source is broken where the comments
--- are.
+-- | The printed lines of statements. A list that has comments in the source is broken at the
+-- comments.
 rows :: CommentPositions -> [Statement] -> [AlignedLine]
 rows comments = concatMap (statement comments 0)
 
@@ -177,8 +177,8 @@ table comments indent ls =
           isContinuation = False
         }
 
--- | Pads the cells of rows with spaces, so that columns are aligned, and in each column the decimal
--- points.
+-- | Pads the cells of rows with spaces. The columns are then aligned, and so are the decimal points
+-- within a column.
 alignColumns :: [[Text]] -> [[Text]]
 alignColumns rows' = map (zipWith3 pad fronts widths) rows'
   where
@@ -193,8 +193,8 @@ alignColumns rows' = map (zipWith3 pad fronts widths) rows'
       zipWith (\front -> maximum . map (Text.length . pointed front)) fronts (transpose rows')
         <> repeat 0
 
--- | The cells of a line of a table; a run of lines from a file gives several. Values other than
--- literals are put in parentheses.
+-- | The cells of a table's line, row by row. A run of lines from a file has several rows, every
+-- other line at most one. Values other than literals are put in parentheses.
 tableCells :: CommentPositions -> TableLine_ -> [[Text]]
 tableCells comments l = case l of
   Header columns ->

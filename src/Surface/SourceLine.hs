@@ -28,8 +28,8 @@ withSources source rows = distribute rows (zip printed (match source (map shape 
   where
     printed = fst (Lexer.tokens 0 (Text.unlines (map Alignment.unaligned rows)))
 
--- | Distributes printed tokens to the lines that they are printed on. Each comes with its token of
--- the source.
+-- | Distributes printed tokens to the lines that they are printed on. Each token comes with the
+-- matching token of the source, 'Nothing' if there is none.
 distribute :: [AlignedLine] -> [(Token, Maybe Token)] -> [SourceLine]
 distribute rows tokens = case (rows, tokens) of
   (row : more, first : rest) ->

@@ -3,6 +3,10 @@
 --
 -- Statements, items, settings and lines of tables that contain a mistake are kept as broken nodes,
 -- so that later compiler passes do not report the names that they would have defined.
+--
+-- A piece is a curve with its recalculations, each of which shifts the curve along its normal. A
+-- cipher names one recalculation by a digit. A joggle is a local step of a piece, blended with a
+-- radius.
 module Surface.Syntax
   ( Program (..),
     Statement,
@@ -158,8 +162,8 @@ data Accuracy
     Between Expr Expr
   deriving stock (Eq, Show)
 
--- | The pace of the motions in a @rapid@ or a @move@ statement to stops without a pace of their
--- own.
+-- | The pace of motions to stops without a pace of their own: rapid in a @rapid@ statement, the
+-- feed in force in a @move@ statement.
 data DefaultPace = RapidMotion | FeedMotion
   deriving stock (Eq, Show, Enum, Bounded)
 
@@ -224,7 +228,7 @@ data Argument
     Ranked (Located Rank)
   deriving stock (Eq, Show)
 
--- | The word before an argument.
+-- | The word before an argument, which says how the argument chooses a solution.
 data Selector
   = Near
   | ToLeft
@@ -232,7 +236,7 @@ data Selector
   | -- | @inside c@
     ToInside
   | ToOutside
-  | -- | @within d@: a tolerance
+  | -- | @within d@: the tolerance of a fit, which chooses no solution
     WithinTolerance
   deriving stock (Eq, Ord, Show, Enum, Bounded)
 
@@ -329,7 +333,8 @@ data Link_
   | Tangent
   | -- | an arc with this radius, positive for a clockwise arc, negative for a counter-clockwise one
     Fillet {-# UNPACK #-} Expr
-  | -- | a line, each end of which has this distance from the intersection of the elements
+  | -- | a line that cuts the corner off; each of its ends has this distance from the intersection
+    -- of the elements
     Chamfer {-# UNPACK #-} Expr
   deriving stock (Eq, Show)
 

@@ -80,8 +80,8 @@ unitName unit = case unit of
 columnUnits :: [Unit]
 columnUnits = [Millimetre, Centimetre, Metre, Inch, Degree, Radian]
 
--- | Describes a token in the words of a report; long words and numbers are shortened to 60
--- characters.
+-- | Describes a token in the words of a report. A word or a number of more than 60 characters is
+-- shortened.
 describe :: Token_ -> Text
 describe token = case token of
   Word text -> quote text

@@ -1,5 +1,5 @@
 -- | Syntax trees without the regions of their nodes: all are replaced by one region. Two texts that
--- differ in layout only have the same tree without regions.
+-- differ only in layout have the same tree without regions.
 module Surface.Unlocated
   ( statements,
     expressionAt,

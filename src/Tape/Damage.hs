@@ -1,5 +1,10 @@
 -- | Damage: the reasons why a tape cannot be read, and their reports.
 --
+-- A frame is a block of ISO 6983, and a word is an address with its number. A motion code is the
+-- number of a kind of motion, a feed code the number of a feed. A hole in the service track gives
+-- the digit in its row an extra meaning. The check sum of a frame is the sum of the weights of its
+-- symbols.
+--
 -- A damage holds positions and numbers. Only 'toReport' makes a text of them.
 module Tape.Damage
   ( Damage (..),
@@ -59,7 +64,7 @@ data Reason
     Missing Char
   | -- | A word begins at a row at which it is not allowed; the first symbol of its address.
     UnexpectedWord Char
-  | -- | Digit without the hole in the service track that marks it on every tape.
+  | -- | Digit without the hole in the service track that it has in every frame.
     MarkerMissing
   | -- | Hole in the service track of a row that must not have one.
     ServiceHole

@@ -3,6 +3,11 @@
 
 -- | Reader of frames: makes a frame of its rows, by the same steps of a layout as the writer.
 --
+-- A frame is a block of ISO 6983, and a layout gives its symbols and words in order. A hole in the
+-- service track gives the digit in its row an extra meaning, such as a minus or a bit of a command.
+-- In a layout with a check digit each symbol has a weight. The sum of the weights in a frame, the
+-- check sum, has to be a multiple of the modulus.
+--
 -- The reader reads the words and makes a frame of them. Then it writes this frame again: a row that
 -- differs from the tape is a fault. "Tape.FrameReader.Fast" tries every frame first; it reads the
 -- frames that have neither an arc nor a command. Indices of rows count from 0.
@@ -88,8 +93,8 @@ isAlong, isCentre :: Axis -> Content -> Bool
 isAlong a c = case c of Along b -> a == b; _ -> False
 isCentre a c = case c of Centre b -> a == b; _ -> False
 
--- | Reads the frame that begins at row @begin@; @state@ is the state before the frame. Gives the
--- frame and the index of the row after it, or the first fault.
+-- | Reads the frame that begins at row @begin@; @state@ is the modal state before the frame. Gives
+-- the frame and the index of the row after it, or the first fault.
 readFrame :: PreparedLayout -> State -> ShortByteString -> Int -> Either RowFault (Frame, Int)
 readFrame layout state rows begin = case FastFrameReader.readFrame layout state rows begin of
   FastFrameReader.Read f end -> Right (f, end)
@@ -118,8 +123,8 @@ wordByWord layout state rows begin = do
 readSteps :: PreparedLayout -> ShortByteString -> Int -> Either RowFault (Reading, Int)
 readSteps layout rows = go False (Layout.steps layout) [] (Reading [] [] False 0 Nothing)
   where
-    -- @done@ has the words so far, the last one first. They are kept apart from @now@, so that it
-    -- is copied only when one of its other fields changes.
+    -- @done@ has the words so far, the last one first. They are kept apart from @now@, so that
+    -- @now@ is copied only when one of its other fields changes.
     go followsWord todo done !now !k = case skipAbsent layout rows followsWord todo k of
       [] -> Right (now {readWords = reverse done}, k)
       FixedStep cs : more
@@ -193,8 +198,9 @@ withCheckDigit layout k modulus d now =
       check = Just (k, modulus)
     }
 
--- | Adds to a reading what the number @n@ of the word @w@ gives besides a position or a feed: the
--- sum of its weights, the command if @w@ is a command word, and the holes of the service track.
+-- | Adds to a reading what the number @n@ of the word @w@ gives besides its value: the weights of
+-- its symbols, the command if @w@ is a command word, and the meaning of its holes in the service
+-- track.
 withNumber :: PreparedLayout -> Word' -> TapeNumber -> Reading -> Reading
 withNumber layout w n now = case content w of
   Command o -> counted {commandNumbers = (o, NumberReader.value n) : commandNumbers counted}
@@ -220,7 +226,8 @@ expect layout rows k cs =
    in if next >= 0 then Right next else Left (mismatch layout Nothing rows k cs)
 
 -- | Fault of the first row from @k@ on that differs from the symbols @cs@, in a word with the
--- content @c@ if there is one. If no row differs, row @k@ has to be blank.
+-- content @c@ if there is one. If no row differs, the fault is that the row after the symbols is
+-- not blank.
 mismatch :: PreparedLayout -> Maybe Content -> ShortByteString -> Int -> [Symbol] -> RowFault
 mismatch layout c rows k cs = case cs of
   [] -> RowFault k c NotBlank
@@ -282,8 +289,9 @@ frameOf layout state begin reading = do
               Increments -> n
               Positions -> n - ModalState.along a (position state)
 
--- | Commands of a frame in the order of the layout, each with its number, which for a command in
--- bits is their sum. A number 0 that means no command is left out, see 'ModalState.isZeroCommand'.
+-- | Commands of a frame in the order of the layout, each with its number. The number of a command
+-- in bits is the sum of the bits. A number 0 that means no command is left out, see
+-- 'ModalState.isZeroCommand'.
 commandsOf :: PreparedLayout -> Reading -> [(Machine.CommandName, Int)]
 commandsOf layout reading
   | null (commandNumbers reading) = []
@@ -296,7 +304,8 @@ commandsOf layout reading
         v /= 0 || isZeroCommand
     ]
 
--- | Compares the number in the word @s@ with the number that the state gives to the frame.
+-- | Compares the number in the word @s@ with the number of the frame, which the state gives. The
+-- word has only the last digits of a large number.
 checkFrameNumber :: State -> ReadWord -> Either RowFault ()
 checkFrameNumber state s
   | n /= number s = Left (RowFault (at s) (Just FrameNumber) (WrongNumber (number s) n))

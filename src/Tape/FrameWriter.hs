@@ -3,6 +3,9 @@
 
 -- | Writer of frames: makes the rows of a frame by the steps of a layout.
 --
+-- A frame is a block of ISO 6983, and a layout gives its symbols and words in order. A hole in the
+-- service track gives the digit in its row an extra meaning, such as a minus or a bit of a command.
+--
 -- Each row comes with its weight in the check sum and its meaning. The same code makes the tape,
 -- which needs the holes only, and the picture of the tape, which explains every row. In 'foldRows',
 -- 'foldSign', 'addDigit' and the like the last argument is the accumulator so far.
@@ -39,7 +42,7 @@ import Tape.ModalState (State)
 import Tape.ModalState qualified as ModalState
 import Tape.Symbol qualified as Symbol
 
--- | Rows of a frame without the blank rows after it. @state@ is the state before the frame.
+-- | Rows of a frame without the blank rows after it. @state@ is the modal state before the frame.
 frameRows :: PreparedLayout -> State -> Frame -> [MarkedRow]
 frameRows layout state frame =
   reverse
@@ -78,7 +81,7 @@ checkSum layout state frame = runIdentity (foldWithSum count 0 layout state fram
         _ -> total + n
 
 -- | Fold over the rows of a frame as in 'foldRows'. @total@ is the sum of the weights of all
--- symbols but the check digit, which is chosen by it.
+-- symbols but the check digit. The check digit is chosen by this sum.
 foldWithSum ::
   Monad m =>
   AddRow m r ->
@@ -243,8 +246,8 @@ isLeading layout frame c = case c of
     pulses b = abs (ModalState.along b (increment frame))
     most = maximum (0 : map pulses (axisOrder layout))
 
--- | True if the service track gets a hole beside a digit of the number @n@; @s@ is the meaning of a
--- hole beside this digit.
+-- | True if the service track gets a hole in the row of a digit of the number @n@; @s@ is the
+-- meaning of a hole in this row.
 isServicePunched :: Frame -> Int -> Service -> Bool
 isServicePunched frame n s = case s of
   MinusHole -> n < 0

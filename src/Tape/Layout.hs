@@ -6,6 +6,10 @@
 -- has neither an arc nor a command. Most frames are simple, so the layout has a shorter list of
 -- steps and words for them.
 --
+-- A word is an address, which may be empty, and a number. A hole in the service track gives the
+-- digit in its row an extra meaning ('Service'). In a layout with a check digit each symbol has a
+-- weight. The sum of the weights in a frame is its check sum.
+--
 -- The module also owns the type of a row with its meaning, and the count of digits with which a
 -- number is written. Indices of rows count from 0.
 module Tape.Layout
@@ -95,8 +99,9 @@ data PreparedLayout = PreparedLayout
     -- | true if frames have a check digit
     hasCheckDigit :: Bool,
     -- | True if two frames with the same words (the same numbers with the same counts of digits)
-    -- have the same rows. Then the readers compare words, which is faster than comparing rows. The
-    -- layout must also end a simple frame as it ends every other frame.
+    -- have the same rows. Then the readers compare words, which is faster than comparing rows. It
+    -- is false also in a layout with a check digit, and in one that may end with a word that simple
+    -- frames never have.
     isPlain :: Bool
   }
 
@@ -115,7 +120,7 @@ data LayoutStep
 data Address = Address {spelling :: [Symbol], extent :: Int, lastHoles :: Word8}
 
 -- | Compares the rows from index @k@ on with an address. Gives the index of the row after the
--- address, or −1 if a row differs or the rows end.
+-- address, which is @k@ for an empty address, or −1 if a row differs or the rows end.
 rowAfterAddress :: ShortByteString -> Int -> Address -> Int
 rowAfterAddress rows k Address {spelling, extent, lastHoles}
   | extent == 0 = k
@@ -153,14 +158,15 @@ fromMachine machine =
     steps = map (stepOf symbols separator) items
     frameWords = Machine.wordsOf machine
     hasCheckDigit = not (null [() | CheckStep _ <- steps])
-    -- True if every optional word after the last step that all frames contain can occur in a simple
-    -- frame. Else the steps of simple frames would not notice such a word at the end of a frame.
+    -- True if every word after the last step that all frames contain can occur in a simple frame.
+    -- If another word could follow, the steps of simple frames would not notice it at the end of a
+    -- frame.
     endsSurely = all isSimpleStep (takeWhile (not . isAlwaysWritten) (reverse steps))
 
 symbolsOf :: Symbols -> Text -> [Symbol]
 symbolsOf symbols = map (Symbol.symbol symbols) . Text.unpack
 
--- | Step for an item of the layout. The symbols @separator@ come between two words.
+-- | Step for an item of the layout; @separator@ has the symbols that come between two words.
 stepOf :: Symbols -> [Symbol] -> LayoutItem -> LayoutStep
 stepOf symbols separator item = case item of
   Literal t -> FixedStep (symbolsOf symbols t)
@@ -238,8 +244,8 @@ data RowKind
     Separator Char
   | -- | check digit, 0 to 9
     CheckSymbol Int
-  | -- | row of a word: the content of the word, the number of the word, and what the row is within
-    -- the word
+  | -- | row of a word: the content of the word, the number of the word, and the purpose of the row
+    -- within the word
     InWord Content Int WordRow
   deriving stock (Eq, Show)
 
@@ -255,7 +261,7 @@ data BlankRows
     Trailer
   deriving stock (Eq, Show)
 
--- | What a row is within a word.
+-- | Purpose of a row within a word.
 data WordRow
   = AddressSymbol Char
   | -- | digit, 0 to 9, for the direction and the leading axis, see 'Machine.Machine.Priority'
@@ -264,8 +270,8 @@ data WordRow
     SignSymbol Char
   | -- | decimal point
     Point
-  | -- | The digit; its position, from 0 at the last digit, decimals included; the meaning of a hole
-    -- in the service track of the row; and true if the row has this hole.
+  | -- | a digit: its value; its position, from 0 at the last digit, decimals included; the meaning
+    -- of a hole in the service track of the row; true if the row has this hole
     Digit Int Int Service Bool
   deriving stock (Eq, Show)
 
@@ -273,7 +279,7 @@ data WordRow
 blanks :: BlankRows -> Int -> [MarkedRow]
 blanks purpose n = replicate n (MarkedRow 0 0 (Blank purpose))
 
--- | Row of a symbol, whose purpose is that of @meaning@ for the name of the symbol.
+-- | Row of a symbol. The purpose of the row is @meaning@ applied to the name of the symbol.
 constant :: (Char -> RowKind) -> Symbol -> MarkedRow
 constant meaning (Symbol.Symbol c h n) = MarkedRow h n (meaning c)
 
@@ -298,8 +304,8 @@ digitCount f n
   where
     go k = if k < mostDigits && power k <= n && n > 0 then go (k + 1) else k
 
--- | True if a number @n@ ≥ 0 is written with @count@ digits, that is @digitCount f n == count@. The
--- number must be below 10^count, so that this test is cheaper than the count.
+-- | True if a number @n@ ≥ 0 is written with @count@ digits, that is @digitCount f n == count@. It
+-- is cheaper than 'digitCount', but the caller must make sure that the number is below 10^count.
 isDigitCount :: NumberForm -> Int -> Int -> Bool
 isDigitCount f count n
   | padded f = count == digits f

@@ -1,5 +1,7 @@
 -- | Modal state: the values that stay in force from frame to frame. From the state and a frame,
 -- 'number' computes the number of each word of the frame, for the writer and for the readers.
+--
+-- A frame is a block of ISO 6983. A pulse is the smallest step of an axis.
 module Tape.ModalState
   ( State (..),
     initial,
@@ -37,7 +39,7 @@ import Machine.Machine
   )
 import Machine.Machine qualified as Machine
 
--- | State of a tape before a frame.
+-- | Modal state of a tape before a frame.
 data State = State
   { -- | number of the next frame, from 1
     ordinal :: Int,
@@ -156,8 +158,8 @@ occursInSimple word = case content word of
       WhenNeeded -> False
       WhenChanged -> False
 
--- | True for a command word in which the number 0 gives a command. It is false for a word that is
--- also in frames without a command: there 0 means that the frame has none.
+-- | True for a command word in which the number 0 gives a command. It is false for a word that
+-- frames without the command contain too: 0 then means that the frame lacks the command.
 isZeroCommand :: Word' -> Bool
 isZeroCommand word = case presence word of
   Always -> False

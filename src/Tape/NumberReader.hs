@@ -3,8 +3,9 @@
 
 -- | Numbers read from the rows of a tape, in the form that the layout gives for their word.
 --
--- Rows have indices from 0. In a layout with a check digit each symbol has a weight, and the sum of
--- the weights is checked at the end of the frame.
+-- Rows have indices from 0. A hole in the service track gives the digit in its row an extra
+-- meaning, such as a minus or a bit of a command's number. In a layout with a check digit each
+-- symbol has a weight, and the sum of the weights is checked at the end of the frame.
 module Tape.NumberReader
   ( RowFault (..),
     TapeNumber (..),
@@ -92,8 +93,8 @@ numeral layout c f rows begin = do
             total = weights ds
           }
   where
-    -- A digit for the direction may make 0 negative: the reader of frames compares this digit later
-    -- with the one that the machine would write.
+    -- A digit for the direction and the leading axis may make 0 negative. The reader of frames
+    -- compares this digit later with the one that the machine would write.
     refusesMinusZero = case sign f of
       Priority {} -> False
       Unsigned -> True

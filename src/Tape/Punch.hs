@@ -5,8 +5,12 @@
 --
 -- The reader refuses a tape that the machine would not have written, see "Tape.Damage". The rows of
 -- a single frame belong to "Tape.FrameWriter" and "Tape.FrameReader". Indices of rows count from 0,
--- numbers of frames from 1. Blank rows before a frame with an even number are a shift, blank rows
--- after a frame are a gap.
+-- numbers of frames from 1.
+--
+-- The leader is the blank rows at the start of the tape, the trailer those at its end. Opening
+-- symbols follow the leader, closing symbols precede the trailer. Blank rows before a frame with an
+-- even number are a shift, blank rows after a frame are a gap. The code skips rows that mean
+-- nothing, such as erased rows.
 module Tape.Punch
   ( write,
     rows,
@@ -51,7 +55,7 @@ import Prelude hiding (read)
 -- Writing -----------------------------------------------------------------------------------------
 
 -- | Tape of the given frames, which have to keep the rules of the machine, see
--- 'Frame.Frame.violations'. The cutter begins at the position @start@.
+-- 'Frame.Frame.violations'. The cutter begins at the position @start@, in pulses.
 write :: Machine -> Pulses3 -> [Frame] -> Tape
 write machine start frames =
   Tape
@@ -147,7 +151,8 @@ symbolsOf layout = map (Symbol.symbol (Layout.symbols layout)) . Text.unpack
 
 -- Reading -----------------------------------------------------------------------------------------
 
--- | Frames of a tape, or the first damage of the tape. The cutter begins at the position @start@.
+-- | Frames of a tape, or the first damage of the tape. The cutter begins at the position @start@,
+-- in pulses.
 --
 -- If blank rows are 'Counted', every row matters, because a blank row may be the digit 0. If they
 -- are 'Skipped', the reader first removes the rows that the code skips, and ignores blank rows
@@ -157,8 +162,8 @@ read machine start (Tape raw) = case firstFrameRow source of
   Left fault -> Left (damage source Nothing fault)
   -- Increments do not depend on the height, so the tape never has to give the height.
   Right begin | not (hasPositions source) -> readFrom source start begin False
-  -- The first frame that moves has a word for z if any frame of the tape changes the height.
-  -- Whether one does is known only after all frames are read, so they are read with that word
+  -- The first frame that moves has a word for z if any frame of the tape changes the height. The
+  -- reader knows this only after it has read all frames, so it reads them twice: with that word
   -- (True) and without it.
   Right begin -> case (readFrom source start begin True, readFrom source start begin False) of
     (Right frames, _) | ModalState.changesHeight frames -> Right frames
@@ -221,8 +226,9 @@ firstFrameRow source =
 hasPositions :: Source -> Bool
 hasPositions source = ModalState.measure (Layout.axes (layout source)) /= Increments
 
--- | All frames from row @begin@ on, or the first damage. @start@ is the position of the cutter.
--- @givesHeight@ is true if the first frame that moves has to give the height.
+-- | All frames from row @begin@ on, or the first damage. @start@ is the position of the cutter
+-- before these frames, in pulses. @givesHeight@ is true if the first frame that moves has to give
+-- the height.
 readFrom :: Source -> Pulses3 -> Int -> Bool -> Either Damage [Frame]
 readFrom source start begin givesHeight = case LazyList.end found of
   Just (n, fault) -> Left (damage source n fault)

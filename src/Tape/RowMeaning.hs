@@ -1,7 +1,8 @@
 -- | Rows of a tape explained in English, for the picture of a tape and for reports.
 --
 -- "Tape.FrameWriter" gives the meaning of each row as a 'RowKind'. This module puts it into words;
--- it does not interpret holes.
+-- it does not interpret holes. A hole in the service track gives the digit in its row an extra
+-- meaning.
 module Tape.RowMeaning
   ( Row (..),
     row,
@@ -158,7 +159,7 @@ shown c = case c of
   _ -> "‘" <> Text.singleton c <> "’"
 
 -- | English text for a word with the content @c@ and the number @n@, which is in units of the last
--- decimal. The picture of a tape that is a text explains its words with it.
+-- decimal. It explains the words in the picture of a tape that is a text, not a punched tape.
 wordMeaning :: Machine -> Content -> Int -> Text
 wordMeaning machine c n = case (c, [form w | w <- Machine.wordsOf machine, content w == c]) of
   (Motion codes, _) -> motionText codes n

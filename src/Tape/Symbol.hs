@@ -2,7 +2,8 @@
 --
 -- A code may have a parity track and a service track. A hole in the parity track makes the number
 -- of holes in a row even. A hole in the service track gives a digit of a number an extra meaning,
--- such as a minus or a command, and does not change the digit.
+-- such as a minus or a command, and does not change the digit. The check sum of a frame is the sum
+-- of the weights of its symbols.
 module Tape.Symbol
   ( Symbols (..),
     fromMachine,

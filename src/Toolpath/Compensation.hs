@@ -178,10 +178,10 @@ elementAt milling i = elements NonEmpty.!! (i `mod` length elements)
   where
     elements = Part.elements (Part.contour milling)
 
--- | The least 'referenceLength' of the segment before the segment @s@. At the joint the direction
--- changes by the angle @away@ from the cutter; @r@ is the cutter's radius in mm. If @s@ is an arc,
--- this length keeps the additional sweep of the centre's arc within 'Tolerance.controlTurn'. The
--- result is 0 if @s@ is a line, and infinite when no length suffices.
+-- | The least 'referenceLength' of the segment before the segment @s@. At the joint the contour
+-- turns away from the cutter by the angle @away@; @r@ is the cutter's radius in mm. If @s@ is an
+-- arc, this length keeps the additional sweep of the centre's arc within 'Tolerance.controlTurn'.
+-- The result is 0 if @s@ is a line, and infinite if no length suffices.
 neededBefore :: Mm -> Side -> Rad -> Segment -> Mm
 neededBefore (Mm r) side (Rad away) s = case s of
   Straight _ _ -> Mm 0
@@ -202,8 +202,8 @@ referenceLength s = case s of
   Straight a b -> Vec.distance a b
   Arc {start, centre} -> Segment.radius centre start
 
--- | The radius of a concave arc in which the cutter, of the given radius, has no room to roll.
--- Nothing for any other segment.
+-- | The radius of a concave arc that is too small for a cutter of the given radius: less than the
+-- cutter's radius plus 'Tolerance.controlArc'. Nothing for any other segment.
 tooTight :: Mm -> Side -> Segment -> Maybe Mm
 tooTight radius side s = case s of
   Straight _ _ -> Nothing
@@ -217,7 +217,8 @@ tooTight radius side s = case s of
 -- The edge
 
 -- | The edge of the part in the direction of travel, as moves: the line or arc that the cutter
--- touches during the lead-in, the elements of the contour, and that of the lead-out.
+-- touches during the lead-in, the elements of the contour, and the line or arc that it touches
+-- during the lead-out.
 programmed :: Milling -> Side -> PassMoves -> NonEmpty Move
 programmed milling side PassMoves {leadIn, cut, leadOut} = case map lead leadIn of
   [] -> elements `followedBy` map lead leadOut
@@ -240,7 +241,8 @@ programmed milling side PassMoves {leadIn, cut, leadOut} = case map lead leadIn 
     followedBy (e :| es) more = e :| es <> more
 
 -- | The line or arc that a cutter of this radius touches while its centre moves along the segment
--- @s@. The cutter is on @side@ of that line or arc. If @s@ has no length, the result is @s@.
+-- @s@. The cutter is on @side@ of that line or arc. The result is @s@ if @s@ has no length, or if
+-- the arc would have a radius of 0 or less.
 touchedCurve :: Mm -> Side -> Segment -> Segment
 touchedCurve radius side s =
   fromMaybe s (Segment.offset (Carrier.oppositeSide side) radius s)
@@ -275,8 +277,9 @@ overrun keyword milling first =
 
 -- | The moves before compensation begins, the straight move on which it begins, and the edge from
 -- the end of that move. @passMoves@ are the moves of the approach; the last of them must be
--- straight and level. If it is longer than three radii, it is divided at two radii from its end.
--- Compensation begins on the second part, whose direction certainly differs from that of the edge.
+-- straight and level. If this last move is longer than three radii of the cutter, it is divided at
+-- two radii from its end. Compensation begins on the second part, whose direction certainly differs
+-- from that of the edge. @keyword@ and @requested@ are the regions of 'checkElements'.
 entering ::
   Region ->
   Region ->
@@ -299,10 +302,12 @@ entering keyword requested milling side passMoves edge = case reverse passMoves 
   where
     radius@(Mm r) = Part.radius milling
 
--- | The end of the straight move on which compensation begins. A tangent to the cutter at the end
--- of the approach leads from the beginning of the approach to this point. It is where the tangent
--- intersects the line through the beginning of the first element in that element's direction.
--- Refuses an approach that is too short, or from a direction that a control does not accept.
+-- | The end of the straight move on which compensation begins. @approach@ is this move as the
+-- cutter's centre makes it without compensation, and @first@ is the first element of the edge. One
+-- line goes from the start of @approach@ and is tangent to the cutter at the end of @approach@. The
+-- other goes through the start of @first@ in the direction of @first@ there. The result is their
+-- intersection. Refuses an approach that is too short, or from a direction that a control does not
+-- accept.
 entryPoint :: Region -> Milling -> Side -> Move -> Segment -> Either Error Point
 entryPoint requested milling side approach first = do
   when (d <= r) (tooShort (Mm d))

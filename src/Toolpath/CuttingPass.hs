@@ -1,5 +1,9 @@
 -- | One pass along a contour: the moves on the offset of the contour, the lead-in and the lead-out,
--- and the approach and the retract. The /path/ of a pass is that offset, or a part of it.
+-- and the approach and the retract.
+--
+-- The /path/ of a pass is that offset or a part of it, or the contour itself if the cutter's centre
+-- moves on the contour. A /blade/ is a tool that swivels along a contour. The machine's z axis
+-- turns the blade, and has a height of its own at each point of the path ("Toolpath.Swivel").
 module Toolpath.CuttingPass
   ( CuttingPass (..),
     block,
@@ -57,9 +61,9 @@ data CuttingPass = CuttingPass
     isLast :: Bool,
     -- | position of the cutter before the pass
     from :: SpacePoint,
-    -- | material that the pass leaves
+    -- | thickness of the material that the pass leaves on the contour
     allowance :: Mm,
-    -- | height of the pass
+    -- | height of the pass; the top of the part is 0
     level :: Mm,
     -- | parts of the contour that the cutter does not reach
     restMaterial :: [Equidistant.UnreachedPart]
@@ -76,8 +80,8 @@ block p path = do
     milling = value (milled p)
     word = wordOf p
 
--- | The ends of the path of a pass. The fields are strict. Once they are computed, the moves along
--- the path exist, and the path itself is not needed any more.
+-- | The ends of the path of a pass. The fields are strict: to compute the last segment is to make
+-- all moves along the path. After that, the path itself is not needed any more.
 data PathEnds = PathEnds
   { -- | true when the control does the compensation and the path ends with the arc round a corner
     endsAtCorner :: Bool,
@@ -138,7 +142,7 @@ allMoves p swivels cut ends =
     (leadIn, leadOut) = leads p ends
     begin = Segment.start (maybe (firstSegment ends) Toolpath.segment (listToMaybe leadIn))
     finish = Segment.end (maybe (lastSegment ends) Toolpath.segment (listToMaybe (reverse leadOut)))
-    -- The axis of a blade is higher or lower than the pass.
+    -- The axis of a blade begins and ends the path at heights of its own.
     (inZ, outZ) = case swivels of
       Nothing -> levels p
       Just hs -> (plus (level p) (fst (NonEmpty.head hs)), plus (level p) (snd (NonEmpty.last hs)))
@@ -147,7 +151,7 @@ allMoves p swivels cut ends =
         LinkingMove.withDepth (visit p) travelHeight (inZ, outZ) begin finish
       _ -> LinkingMove.withoutDepth (visit p) (level p) (inZ, outZ) begin finish
 
--- | The keyword of the pass's statement.
+-- | The region of the first word of the pass's statement.
 wordOf :: CuttingPass -> Region
 wordOf = keyword . region . milled
 
@@ -207,8 +211,8 @@ cutMoves p swivels path =
         )
         (Part.origin (numbered p Vector.! i))
         continues
-    -- The offset of a concave arc may vanish. Then segments of elements that are no neighbours
-    -- meet at a corner, so the numbers of the elements are compared.
+    -- The offset of a concave arc may vanish. Then the segments of the elements before and after
+    -- the arc meet at a corner. So only elements with consecutive numbers continue one curve.
     isContinued previous current = case (Equidistant.origin previous, Equidistant.origin current) of
       (Equidistant.Along i, Equidistant.Along j) ->
         j == i + 1 && Part.continues (numbered p Vector.! j)

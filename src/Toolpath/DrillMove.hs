@@ -52,6 +52,6 @@ depthsOf d = case Part.peckDepth d of
         count = max 1 (min 10000 (ceiling (-bottom / most - Tolerance.equal))) :: Int
      in [Mm (bottom * fromIntegral k / fromIntegral count) | k <- [1 .. count]]
 
--- | The distance between the end of one peck and the end of the rapid move down to the next one.
+-- | The height above the end of one peck at which the rapid move down to the next peck ends.
 peckGap :: Mm
 peckGap = Mm 0.5

@@ -45,19 +45,20 @@ data Error
   | -- | in its pass along the first element the cutter would cut the second one: the statement, the
     -- cutter, both elements, the position of the centre, the largest radius that fits
     Collision Region Tool Element Element Point (Maybe Mm)
-  | -- | a move that cuts into an element: the statement, the move, the element, the depth of the
-    -- cut, its kind, the position of the centre
+  | -- | a move that cuts into an element: the region that asks for the move, the move, the element,
+    -- the depth of the cut, its kind, the position of the centre
     CutsPart Region Segment Element Mm Intrusion Point
-  | -- | a hole that cuts into a contour: the statement, the centre of the hole, the element, the
-    -- depth of the cut
+  | -- | a hole that cuts into a contour: the region of the hole, its centre, the element, the depth
+    -- of the cut
     HoleCuts Region Point Element Mm
-  | -- | milling one contour cuts into another: the statement, the element being milled, the
-    -- element cut, the depth of the cut, the position of the centre
+  | -- | milling one contour cuts into another: the statement, the region of the element that is
+    -- milled (in a pocket, of the statement), the element that is cut, the depth of the cut, the
+    -- position of the centre
     MillsAnother Region Region Element Mm Point
   | -- | milling without a depth at a height above the part, where the cutter cuts nothing: the
     -- statement, the height
     CutsAir Region Mm
-  | -- | a closed contour to be turned: the statement, the contour's name, the contour
+  | -- | a closed contour to be turned: the side as written, the contour's name, the contour
     TurnsClosed Region Name Region
   | -- | climb or conventional milling where the cutter's centre moves on the contour: the word in
     -- the program, the statement
@@ -76,11 +77,12 @@ data Error
     -- elements, their bevels at the joint in radians
     BevelJumps Region Element Element Double Double
   | -- | cutter compensation by the control, together with a request that the input of a control
-    -- cannot express
+    -- cannot express: the region that asks for cutter compensation, the other request
     NotForControl Region Unsupported
   | -- | an approach or retract too short for a control: the move, the region that asks for cutter
     -- compensation, True for an approach and False for a retract, the length of the move, the
-    -- cutter's radius. The length is 0 if there is no straight and level move
+    -- cutter's radius. If there is no straight and level move, the length is 0, and the first
+    -- region is the statement
     ShortForControl Region Region Bool Mm Mm
   | -- | an approach from a direction that a control does not accept: the move, the region that asks
     -- for cutter compensation, the end of the approach
@@ -105,7 +107,7 @@ data Error
     -- the allowance of the pass
     NoPathAlong Region Contour Mm
   | -- | a pocket without a depth in which the cutter must be lifted: the statement's first word,
-    -- the beginning and the end of that move
+    -- the beginning and the end of the straight move that a wall blocks
     HasToRise Region Point Point
   | -- | an element of a pocket's walls whose own allowance exceeds that of the pocket's last pass
     KeepsMore Region Element
@@ -505,7 +507,8 @@ unsentHint what = case what of
   Unreached -> "Leave out compensation controller, or take a smaller cutter."
 
 -- | The report that there is no room in a pocket, or beside a contour, for a pass with the
--- allowance @left@.
+-- allowance @left@. The label of the contour is @called@ followed by the contour's name. @side@ is
+-- the preposition, "in" or "beside".
 noRoom :: Region -> Text -> Text -> Text -> Contour -> Mm -> Report
 noRoom region title called side contour left =
   (at region "E0420" title)

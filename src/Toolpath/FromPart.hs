@@ -171,10 +171,10 @@ blocksOf State {number, toolRadius, at} operation = case operation of
           z <- if null (Part.levels milling) then [heightOf milling] else Part.levels milling
       ]
 
--- | The blocks of all passes of the milling statement with the number @number@, in the order of
--- execution from 0. @at@ is the position of the cutter before the statement. @side@ is the cutter's
--- side of the contour; Nothing when its centre moves on the contour. Each pass is given by its
--- allowance and its height.
+-- | The blocks of all passes of a milling statement. @number@ is the number of the statement in the
+-- order of execution, from 0. @at@ is the position of the cutter before the statement. @side@ is
+-- the cutter's side of the contour; Nothing when its centre moves on the contour. Each pass is
+-- given by its allowance and its height.
 passBlocks ::
   Int ->
   SpacePoint ->

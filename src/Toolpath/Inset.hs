@@ -42,8 +42,9 @@ inset contours@(outer :| _) = loopsAt
     walls = map (fst . FlatPolyarc.fromPolyarc) (NonEmpty.toList contours)
     BoundingBox l b r t = boundingBox (Polyarc.segments outer)
     loopsAt distance@(Mm d)
-      -- No larger circle fits into the outer contour. Without this test the kernel would have to
-      -- distinguish a cutter that covers the whole contour from one that fits.
+      -- A circle of the radius @d@ is at least as wide as the outer contour, so it does not fit.
+      -- Without this test the kernel would have to distinguish a cutter that covers the whole
+      -- contour from one that fits.
       | 2 * d >= min (r - l) (t - b) = []
       | otherwise = case Kernel.offset (Kernel.roundOffset Carrier.LeftOf distance) walls of
         Right region -> loopsOf region
@@ -51,10 +52,10 @@ inset contours@(outer :| _) = loopsAt
         Left (Kernel.SelfIntersecting _ _) -> []
         Left Kernel.WrongNesting -> []
 
--- | The loops at @distance@, including loops along narrow passages, called slots, that are exactly
--- twice as wide as @distance@. In a slot the centre can only move on a line, and @loopsAt@, such as
--- 'inset' of the contours, gives no loop there. If there is a slot, the result is the loops at a
--- distance that is smaller by 'Tolerance.clearance'.
+-- | The loops at @distance@, including loops along slots: narrow passages that are exactly twice as
+-- wide as @distance@. @loopsAt@ gives the loops at a distance, as 'inset' of the contours does, but
+-- none in a slot, where the centre can only move on a line. If there is a slot, all loops of the
+-- result are at a distance that is smaller by 'Tolerance.clearance'.
 insetWithSlots :: (Mm -> [Loop]) -> Mm -> [Loop]
 insetWithSlots loopsAt distance
   | minus (totalLength smaller) (totalLength own) > Tolerance.ignoredSlot = smaller
@@ -64,9 +65,9 @@ insetWithSlots loopsAt distance
     smaller = loopsAt (minus distance Tolerance.clearance)
     totalLength loops = total [Segment.length s | loop <- loops, s <- NonEmpty.toList loop]
 
--- | The loops at @distance@ to the left of other loops, which 'inset' gave. To compute them from
--- the walls is more work. Nothing when the kernel cannot decide, for instance because loops touch;
--- then the caller computes them from the walls.
+-- | The loops at @distance@ to the left of other loops, which 'inset' gave. This is less work than
+-- to compute them from the contours. Nothing when the kernel cannot decide, for instance because
+-- loops touch; then the caller computes them from the contours.
 insetOfLoops :: [Loop] -> Mm -> Maybe [Loop]
 insetOfLoops loops distance@(Mm d)
   | 2 * d >= min (r - l) (t - b) = Just []
@@ -77,7 +78,7 @@ insetOfLoops loops distance@(Mm d)
       Right region -> Just (loopsOf region)
       Left _ -> Nothing
   where
-    -- No larger circle fits into any of the loops.
+    -- The bounding box of all loops. A circle at least as wide as the box fits into no loop.
     BoundingBox l b r t =
       maybe
         (BoundingBox 0 0 0 0)
@@ -89,7 +90,7 @@ boundingBox :: NonEmpty Segment -> BoundingBox
 boundingBox (s :| more) =
   foldl (\box s' -> BoundingBox.union box (BoundingBox.ofSegment s')) (BoundingBox.ofSegment s) more
 
--- | The loops of a reachable region as segments.
+-- | The loops around a region that the centre can reach, each as a list of segments.
 loopsOf :: Kernel.ReachableRegion -> [Loop]
 loopsOf region =
   mapMaybe (NonEmpty.nonEmpty . FlatPolyarc.segments) (Loop.polyarcs (Kernel.loops region))

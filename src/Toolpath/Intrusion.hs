@@ -2,7 +2,8 @@
 --
 -- Approaches, retracts and linking moves are checked against all contours. Cuts are checked against
 -- the contours of other statements only: "Offset.Equidistant" already ensures that a cut does not
--- gouge its own contour. A move wholly above the top of the part cuts nothing.
+-- gouge its own contour. A move wholly above the top of the part cuts nothing. An /intrusion/ is a
+-- cut of a move into a contour, or into the allowance on a contour.
 module Toolpath.Intrusion
   ( intrusions,
   )
@@ -115,7 +116,7 @@ machinedOf blocks =
         (BoundingBox.ofSegment (Part.segment e))
         (take (groupSize - 1) es)
 
--- | For the block of a pass: the number of the pass's statement, the statement, and the contours
+-- | The statement of the pass that a block is: its number, the statement itself, and the contours
 -- that the pass machines. Nothing for other blocks, and when the centre of the cutter moves on the
 -- contour.
 contoursOf :: Block -> Maybe (Int, Milling, [Contour])
@@ -180,9 +181,8 @@ intrusionsOfBlock machined b = case b of
       CutsPart at move element deep _ _ -> HoleCuts at (Segment.end move) element deep
       _ -> e
 
--- | The deepest intrusion of a move into the contours of each statement. If there are intrusions
--- into the contours of several statements at one point, the first is listed: the statements mill
--- the same contour.
+-- | The deepest intrusion of a move into the contours of each statement. If several of these are at
+-- one point, only the first is listed, because the statements then mill the same contour.
 intrusionsOfMove :: Machined -> Intruder -> Move -> [Error]
 intrusionsOfMove machined intruder m
   | fst (Toolpath.heights m) > top machined && snd (Toolpath.heights m) > top machined = []
@@ -217,9 +217,9 @@ hits machined Intruder {tool, own, leaving} m =
       Just (leaver, left) | statement wall == leaver -> plus tool left
       _ -> tool
 
--- | The intrusion of the move @m@ into the element, or Nothing if the move keeps its distance.
--- @tool@ is the radius of the tool. @kept@ is the distance that the tool's centre has to keep from
--- the element, and @milling@ is the statement of the element.
+-- | The intrusion of the move @m@ into the element. Nothing if the move keeps its distance, within
+-- the tolerance of the element's statement @milling@. @tool@ is the radius of the tool. @kept@ is
+-- the distance that the tool's centre has to keep from the element.
 hit :: Mm -> Mm -> Milling -> Move -> Part.Element -> Maybe Error
 hit tool kept milling m element
   | plus d allowed < kept || d <= Tolerance.coincident && goesThrough allowed path wall =

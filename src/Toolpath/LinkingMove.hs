@@ -1,5 +1,6 @@
 -- | Linking moves: those from the current position to the beginning of a pass, and those that leave
--- the end of the pass.
+-- the end of the pass. A /stop/ is a point to which the program asks the tool to move, with or
+-- without a height.
 module Toolpath.LinkingMove
   ( Visit (..),
     withDepth,
@@ -28,9 +29,9 @@ data Visit = Visit
   { -- | region of the statement's first word
     word :: Region,
     milling :: Milling,
-    -- | true for the first pass of the statement
+    -- | true for the first pass of the statement; if the pass has several paths, for its first path
     isFirst :: Bool,
-    -- | true for the last pass of the statement
+    -- | true for the last pass of the statement; if the pass has several paths, for its last path
     isLast :: Bool,
     -- | position of the cutter before the pass
     from :: SpacePoint
@@ -38,7 +39,9 @@ data Visit = Visit
 
 -- | The linking moves before and after a pass of a statement without a depth. The cutter stays at
 -- its current height @z@. The pass goes from the point @begin@ at the height @inZ@ to the point
--- @finish@ at the height @outZ@. These heights differ from @z@ for a blade only.
+-- @finish@ at the height @outZ@. These heights differ from @z@ for a blade only, because the z axis
+-- swivels it. Each pass along an open contour has the approach and the retract of the program. On a
+-- closed contour only the first pass has the approach, and only the last pass the retract.
 withoutDepth :: Visit -> Mm -> (Mm, Mm) -> Point -> Point -> ([Move], [Move])
 withoutDepth Visit {word, milling, isFirst, isLast, from} z (inZ, outZ) begin finish =
   ( before
@@ -68,7 +71,9 @@ withoutDepth Visit {word, milling, isFirst, isLast, from} z (inZ, outZ) begin fi
 -- @clear@ the cutter moves to the last approach point, and plunges there. Without approach points
 -- it plunges at the beginning of the pass. After the pass it moves to the first retract point and
 -- rises there; if that point has a height of its own, the cutter rises at the end of the pass. The
--- heights and the points are those of 'withoutDepth'.
+-- other approach points are used before the first pass only, the other retract points after the
+-- last pass only. The heights @inZ@ and @outZ@ and the points @begin@ and @finish@ are those of
+-- 'withoutDepth'.
 withDepth :: Visit -> Mm -> (Mm, Mm) -> Point -> Point -> ([Move], [Move])
 withDepth Visit {word, milling, isFirst, isLast, from} clear (inZ, outZ) begin finish =
   ( up
@@ -107,8 +112,8 @@ withDepth Visit {word, milling, isFirst, isLast, from} clear (inZ, outZ) begin f
         else []
     lastOf xs = take 1 (reverse xs)
 
--- | A vertical move to the height @target@ at the plunge feed; empty if the cutter is at that
--- height.
+-- | A vertical move to the height @target@ at the plunge feed, or at the feed of the statement if
+-- the program gives no plunge feed. Empty if the cutter is at that height.
 plunge :: Region -> Milling -> SpacePoint -> Mm -> [Move]
 plunge word milling (SpacePoint p z) target =
   [Move (Straight p p) (Manner (z, target) (Part.At feedDown) False) word False | z /= target]

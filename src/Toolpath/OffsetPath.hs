@@ -25,8 +25,8 @@ import Toolpath.RestMaterial qualified as RestMaterial
 
 -- | The paths of the cutter's centre on @side@ of a contour, at the cutter's radius plus the
 -- allowance; without a side the path is the contour itself. There are several paths only if rest
--- material is allowed and occurs. The second result is that rest material. @numbered@ are the
--- elements of the contour, by their numbers from 0.
+-- material is allowed and occurs. The second result lists the parts of the contour that the cutter
+-- does not reach. @numbered@ are the elements of the contour, by their numbers from 0.
 paths ::
   Located Milling ->
   Maybe Carrier.Side ->

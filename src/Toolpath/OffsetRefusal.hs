@@ -1,4 +1,6 @@
 -- | Reasons why a cutter cannot follow contours, expressed in elements of the part program.
+--
+-- An /obstacle/ is such a reason as "Offset.Equidistant" gives it. It names elements by numbers.
 module Toolpath.OffsetRefusal
   ( refusal,
     restPositions,
@@ -44,17 +46,18 @@ restPositions tool elements = fmap restPosition
       InnerCorner i j p -> InCorner (elements ! i) (elements ! j) p
       Concave i old -> InConcaveArc (elements ! i) old (largest' rest)
       Collision i j _ -> case onlyCorner i j of
-        -- The two elements are arcs of curves that meet at a corner. No round cutter reaches into
-        -- a corner, though a smaller one comes closer.
+        -- The two elements belong to curves that meet at a corner. No round cutter reaches into a
+        -- corner, though a smaller one comes closer.
         Just (a, b) | isCorner rest a b -> InCorner a b (Segment.start (Part.segment b))
         _ -> Between (elements ! i) (elements ! j) (Equidistant.cutterCentre rest) (largest' rest)
     largest' rest = fitting tool (largest (Equidistant.stop rest))
-    -- @corners@: the numbers of the elements that do not continue a curve. @cornersBefore@: for
-    -- each element, the count of @corners@ before it; at the end, the count of all @corners@.
+    -- @corners@: the numbers of the elements that do not continue the curve of the element before,
+    -- so that a corner may be at their start. @cornersBefore@: for each element, the count of
+    -- @corners@ before it; at the end, the count of all @corners@.
     corners = Vector.findIndices (not . Part.continues) elements
     cornersBefore = Vector.scanl' (\n e -> if Part.continues e then n else n + 1) 0 elements
-    -- The two elements that meet at the corner between elements i and j, if there is exactly one
-    -- corner between them. From i to j the path may cross the contour's end.
+    -- The two elements that meet at the corner between the elements @i@ and @j@, if there is
+    -- exactly one. If @j@ is less than @i@, the end of a closed contour lies between them.
     onlyCorner i j =
       let from = cornersBefore ! (i + 1)
           around = if j < i then Vector.length corners else 0

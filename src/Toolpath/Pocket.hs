@@ -11,8 +11,10 @@
 -- The loops are cut from the inside outwards, because the cutter then plunges where it has room. On
 -- every later loop the remaining material lies on one side, and the walls are cut last.
 --
--- A /section/ is a part of this toolpath: a loop, a detour or a linking move. A /region/ is a
--- connected area that the centre can reach at one distance from the walls ("Toolpath.PocketTree").
+-- A /loop/ is a closed path of the centre at one distance from the walls. A /detour/ leaves a loop,
+-- clears residue, and returns to the loop. A /section/ is a part of the toolpath: a loop or a part
+-- of one, a detour, or a linking move. A /region/ is a connected area that the centre can reach at
+-- one distance from the walls ("Toolpath.PocketTree").
 module Toolpath.Pocket
   ( PocketRoom (..),
     Loop,
@@ -76,8 +78,8 @@ data PocketMove
   deriving stock (Eq, Show)
 
 -- | The sections that clear a pocket with the stepover @step@, which is above 0 and at most the
--- cutter's diameter. @from@ is the cutter's plunge position; Nothing if the first loop decides it.
--- The result is empty when the cutter fits nowhere.
+-- cutter's diameter. @from@ is the cutter's plunge position; Nothing if the cutter plunges at the
+-- beginning of the first loop. The result is empty when the cutter fits nowhere.
 clear :: PocketRoom -> Mm -> Maybe Point -> [PocketMove]
 clear room step from =
   along
@@ -93,14 +95,14 @@ clear room step from =
         )
     )
   where
-    -- No point of the pocket is further from the walls.
+    -- An upper bound: no point of the pocket is further from the walls.
     deepest =
       plus step (halfOf (foldr1 BoundingBox.union (fmap BoundingBox.ofSegment (walls room))))
     halfOf (BoundingBox l b r t) = Mm (min (r - l) (t - b) / 2)
 
 -- | The sections that finish the walls of a pocket after it was cleared with the larger allowance
 -- @before@. The distance between loops is at most the stepover @step@ and at most the radius.
--- @from@ is the cutter's plunge position; Nothing if the first loop decides it.
+-- @from@ is the plunge position as for 'clear'.
 finishWalls :: PocketRoom -> Mm -> Mm -> Maybe Point -> [PocketMove]
 finishWalls room step before from =
   along
@@ -143,7 +145,7 @@ linked room = link
 
 -- Order of the loops
 
--- | The state during the choice of the order.
+-- | The state while the order of the loops is chosen.
 data Progress = Progress
   { -- | current position of the cutter, if it is known
     current :: Maybe Point,
@@ -151,7 +153,8 @@ data Progress = Progress
     sections :: [PocketMove]
   }
 
--- | The sections of all loops with the linking moves between them, from the plunge position.
+-- | The sections of all loops with the linking moves between them, from the plunge position, if it
+-- is given.
 along :: PocketRoom -> Maybe Point -> [PocketTree] -> [PocketMove]
 along room from trees = reverse (sections (visitAll Progress {current = from, sections = []} trees))
   where
@@ -175,8 +178,9 @@ along room from trees = reverse (sections (visitAll Progress {current = from, se
               sections = reverse (linking <> roundOf (isReversed room) r') <> sections progress
             }
 
--- | Visits items one after the other, always the one whose position is nearest to the cutter. While
--- more than @many@ items remain, it takes them in their order, which is the order of the walls.
+-- | Visits items one after the other, always the one whose @position@ is nearest to the cutter.
+-- While more than @many@ items remain, they are visited in the order of the list, which is that of
+-- the walls. @visit@ makes the state after an item from the state before it.
 inTurn :: (Progress -> a -> Progress) -> (a -> Point) -> Progress -> [a] -> Progress
 inTurn visit position progress things = case (things, current progress) of
   ([], _) -> progress

@@ -1,5 +1,6 @@
 -- | The moves of a pocket: for each pass the plunge, the loops from the inside outwards, and the
--- retract.
+-- retract. A /section/ is a part of a pass in the plane: a part of a loop, a detour, or a linking
+-- move between loops ("Toolpath.Pocket").
 module Toolpath.PocketMove
   ( blocks,
   )
@@ -86,7 +87,8 @@ data PocketPass = PocketPass
     allowance :: Mm,
     -- | height of the pass
     level :: Mm,
-    -- | the sections of the pass, from the plunge position; Nothing if the first loop decides it
+    -- | the sections of the pass from a plunge position; for Nothing, the cutter plunges at the
+    -- beginning of the first loop
     sectionsFrom :: Maybe Point -> [PocketMove]
   }
 
@@ -144,13 +146,14 @@ blockOf number job rests visit PocketPass {allowance, level, sectionsFrom} = do
   where
     milling = wall (value job)
 
--- | The plunge position of the cutter, which is the last approach point if the program gives one.
+-- | The plunge position of the cutter: the last approach point. Nothing if the program gives none.
 lastApproach :: Milling -> Maybe Point
 lastApproach milling = value . Part.place <$> listToMaybe (reverse (Part.approach milling))
 
 -- | The moves before, in and after a pass. @travelHeight@ is the clearance height; Nothing if the
 -- pocket has no depth, so that the cutter cannot be lifted. @left@ is the allowance at the walls,
--- @z@ the height of the pass. @sectionsFrom@ gives the sections for a plunge position.
+-- @z@ the height of the pass. @sectionsFrom@ gives the sections for a plunge position, or for
+-- Nothing, as in 'PocketPass'.
 passOf ::
   Visit ->
   Maybe Mm ->
@@ -220,8 +223,9 @@ moves word milling z travelHeight section = case section of
       | s <- Pocket.segments section
     ]
 
--- | For each allowance, the sections of its passes as a function of the plunge position. The passes
--- with the first allowance clear the floor, the others finish the walls.
+-- | The sections of the passes for each allowance, in the order of the allowances, as functions of
+-- the plunge position. The passes with the first allowance clear the floor, the others finish the
+-- walls.
 sectionsFor :: Pocketing -> NonEmpty (Maybe Point -> [PocketMove])
 sectionsFor pocket =
   (\from -> Pocket.clear (room first) step from)

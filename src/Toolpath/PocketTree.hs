@@ -105,10 +105,10 @@ grouped c loops trips inside = mapMaybe part (Map.toList members)
         (BoundingBox.ofSegment . snd)
         [(n, s) | (n, loop) <- numbered, s <- NonEmpty.toList loop]
     (outers, holes) = partition (isOuter . snd) numbered
-    -- For each loop, the outer loop of the region that it bounds. Take a horizontal ray to the
-    -- right from the rightmost point of a loop round an island. The ray crosses the region, and
-    -- then meets another loop that bounds the region. The other loop extends further to the right,
-    -- so it was processed earlier: loops are processed from right to left.
+    -- The outer loop of the region that each loop bounds, both by their numbers. Take a horizontal
+    -- ray to the right from the rightmost point of a loop round an island. The ray crosses the
+    -- region, and then meets another loop that bounds the region. The other loop extends further
+    -- to the right, so it was processed earlier: loops are processed from right to left.
     outer =
       foldl
         around

@@ -34,7 +34,7 @@ data Remaining = Remaining
     offsetDistance :: Mm
   }
 
--- | One entry, in program order, for each statement that leaves rest material.
+-- | One entry for each statement that leaves rest material, in the order of execution.
 ofPath :: Toolpath -> [Remaining]
 ofPath path = Map.elems (Map.fromList (mapMaybe ofBlock (Toolpath.blocks path)))
 

@@ -109,10 +109,10 @@ gapsIn edge marks = case break isBeside marks of
       | otherwise = NonEmpty.nonEmpty (filter ((> Tolerance.coincident) . Segment.length) ss)
 
 -- | The detour along a gap: from the end of the inner pass's segment before the gap, along the gap,
--- and back to that end. It comes with the numbers of that segment and of its loop. If the segments
--- before and after the gap are neighbours, they meet at a corner of the inner pass. Then the result
--- is Nothing when the whole gap lies within the cutter's radius of that corner: the inner pass
--- clears it.
+-- and back to that end. It comes with the numbers of that segment's loop and of the segment. If the
+-- segments before and after the gap are neighbours, they meet at a corner of the inner pass. Then
+-- the result is Nothing when the whole gap lies within the cutter's radius of that corner, because
+-- the inner pass clears the gap.
 detourAlong :: Mm -> Map Int Ends -> Gap -> Maybe ((Int, Int), NonEmpty Segment)
 detourAlong radius ends (Gap owner@(loop, i) free next) = do
   Ends count corners <- Map.lookup loop ends
@@ -144,7 +144,8 @@ furthest p s = case s of
 
 -- | Divides the segment @s@ of the edge into the parts beside segments of inner passes and the free
 -- parts between them. @index@ contains the segments of the inner passes, each offset so far that it
--- lies on the edge where the pass is parallel to it; the pairs number loops and segments.
+-- lies on the edge where the pass is parallel to it. The pair before a segment has the numbers of
+-- its loop and of the segment, from 0.
 divided :: BoxTree ((Int, Int), Segment) -> Segment -> [EdgePart]
 divided index s =
   partsFrom

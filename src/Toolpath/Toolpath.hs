@@ -166,8 +166,8 @@ moves block = case block of
   Holing _ ms -> ms
   Commanding _ -> []
 
--- | For each block, the count of passes in the blocks before it; at the end of the list, the count
--- of all passes. A pass is one along a contour or one in a pocket.
+-- | The count of passes before each block; at the end of the list, the count of all passes. A pass
+-- is one along a contour or one in a pocket.
 passNumbers :: [Block] -> [Int]
 passNumbers = go 0
   where

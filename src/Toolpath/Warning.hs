@@ -36,10 +36,10 @@ warnings path = throughPart path <> stoppedSpindles path
 data Body = Body {named :: Part.Contour, outline :: Polyarc.Polyarc, isMaterial :: Bool}
 
 -- | Warnings about rapid moves that are not vertical, below the top of the part, inside a contour
--- that contains material; at most one for each stop. The innermost contour around the move decides.
--- When the whole toolpath has one height, that height counts as below the top. A move that crosses
--- a contour is an error ("Toolpath.Intrusion"). So the midpoint of a move shows which contours the
--- move lies inside.
+-- that contains material; at most one for each region of the program that asks for such moves. The
+-- innermost contour around the move decides. When the whole toolpath has one height, that height
+-- counts as below the top. A move that crosses a contour is an error ("Toolpath.Intrusion"). So a
+-- move lies inside a contour if its midpoint does.
 throughPart :: Toolpath -> [Warning]
 throughPart path =
   [ RapidThroughPart region (Toolpath.segment m) (Part.contourName (named body))
@@ -99,8 +99,9 @@ bodiesOf b = case b of
           )
   _ -> Nothing
 
--- | The contour of a milling statement with the side of its material. Empty for an open contour,
--- except for a profile turned outside, which the axis of the spindle closes.
+-- | The contour of a milling statement with the side of its material. Empty if the cutter's centre
+-- moves on the contour, and for an open contour. Only a profile turned outside is not left out: the
+-- axis of the spindle closes it.
 bodyOf :: Milling -> [Body]
 bodyOf milling = case (Part.ends contour, value (Part.side milling)) of
   (Part.Closed, Outside) -> [whole True]
@@ -135,8 +136,9 @@ bodyOf milling = case (Part.ends contour, value (Part.side milling)) of
     onAxis = Vec.point (Vec.x end) 0
     before = Vec.point (Vec.x begin) 0
 
--- | Tool changes after which the cutter cuts although the program has not started the spindle
--- again. On a lathe the part keeps turning.
+-- | Warnings about tool changes that stop a turning spindle, if the cutter then cuts although the
+-- program has not started the spindle again. There are none on a lathe, where the part keeps
+-- turning.
 stoppedSpindles :: Toolpath -> [Warning]
 stoppedSpindles path = if Toolpath.isTurned path then [] else go Resting (Toolpath.blocks path)
   where

@@ -38,7 +38,8 @@ data Tool = Tool {work :: Work, radius :: Mm, leaves :: Mm}
 data Warning
   = -- | rest material on a contour: the statement, the cutter, the unreached parts
     LeavesRestMaterial Region Tool [RestPosition]
-  | -- | a rapid move through the part, below its top: the stop, the move, the contour around it
+  | -- | a rapid move through the part, below its top: the region that asks for the move, the move,
+    -- the name of the contour around it
     RapidThroughPart Region Segment (Located Name)
   | -- | a tool change after which the program does not start the spindle
     SpindleAtRest Region
@@ -48,7 +49,7 @@ data Warning
 -- and 'Between' is the radius of the largest cutter that would reach the position; Nothing if none
 -- would. That field is lazy, because only reports need it.
 data RestPosition
-  = -- | in a corner between two elements
+  = -- | in a corner between two elements; the point is the corner
     InCorner Element Element Point
   | -- | in a concave arc of this radius
     InConcaveArc Element Mm ~(Maybe Mm)
@@ -133,8 +134,8 @@ restPositionText tool s = case s of
       <> ". "
       <> largestFit tool largest
 
--- | The text for the largest cutter of this radius: the diameter of a cutter or the radius of a
--- nose, rounded down to 0.001 mm.
+-- | The text for the size of a cutter with the radius @r@: the diameter for milling, the radius of
+-- the nose for turning. It is rounded down to 0.001 mm, so that a cutter of this size fits.
 fittingSize :: Tool -> Mm -> Text
 fittingSize tool r = case work tool of
   Milled -> down (times 2 r)

@@ -1,6 +1,7 @@
 -- | Progress of a cutter along a contour, and the uncertainty of that progress. The progress is the
 -- arc length from the start of the contour to the contact point. The contact point is the point of
--- the contour that is nearest to the cutter's centre.
+-- the contour that is nearest to the cutter's centre. A /job/ is a cut along a contour as the part
+-- demands it ("Verify.MillingJob").
 --
 -- Rounding and chords move the centre by up to the allowed deviation of the job. They also move the
 -- contact point, and by much more if an arc's radius is hardly larger than the cutter's. Then a
@@ -33,7 +34,7 @@ import Verify.Edge qualified as Edge
 import Verify.MillingJob (MillingJob (..))
 import Verify.MillingJob qualified as MillingJob
 
--- | Lengths by which the progress along one contour is judged.
+-- | Length of a contour, and the uncertainty of the progress along it.
 data Measure = Measure
   { -- | in mm
     contourLength :: Double,
@@ -45,8 +46,7 @@ data Measure = Measure
     isResolved :: Bool
   }
 
--- | Numbers with which positions along the contour of a job are compared: its length, and the
--- uncertainty of a contact point.
+-- | Lengths by which the progress along the contour of a job is judged.
 measureOf :: MillingJob -> Measure
 measureOf job =
   Measure
@@ -88,8 +88,8 @@ uncertaintyOf job
       Arc {} -> True
       Straight _ _ -> False
 
--- | Runs of the contour's elements. On a closed contour a run may extend across the start: then it
--- begins with the last elements.
+-- | Runs of the contour's elements, in order. On a closed contour a run may extend across the
+-- start. It begins with the last elements of the contour, and is the last run of the list.
 runsOf :: MillingJob -> [NonEmpty Segment]
 runsOf job = case (elements, runs elements) of
   (e : _, first : more)

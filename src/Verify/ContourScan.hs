@@ -2,8 +2,9 @@
 -- only once, which elements the cutter may touch during the motion. Three comparisons use these
 -- elements: the gouge, the distance from the contour, and the side.
 --
--- The scan also gives for each element an upper bound of its distance from the motions along the
--- contour. An element with a small bound needs no exact comparison for excess.
+-- The scan also gives for each element an upper bound of the distance of its points from the
+-- motions along the contour. An element with a small bound needs no exact comparison for excess,
+-- that is, for material that remains. A /job/ is a cut along a contour as the part demands it.
 --
 -- The /bounding paths/ of a motion enclose its real path: one path, or two for an arc whose radii
 -- at start and end differ (see "Control.Motion").

@@ -35,7 +35,8 @@ data Cover a = Cover
   { index :: BoxTree a,
     -- | paths of a member: the member covers a point if all its paths are within the distance
     pathsOf :: a -> NonEmpty Segment,
-    -- | true of the members that may cover the segment
+    -- | true of the eligible members, the only ones that may cover the segment. For an element of a
+    -- contour these are the motions on the cutter's side of the element
     isEligible :: a -> Bool,
     -- | distance at which points are covered without a gap
     reach :: Mm,
@@ -89,7 +90,8 @@ unlimited = Mm 1e7
 touching :: Mm
 touching = times 3 Tolerance.coincident
 
--- | Eligible members within a distance of a segment, and perhaps some that are further away.
+-- | Members for which 'isEligible' is true and which are within a distance of a segment, and
+-- perhaps some eligible ones that are further away.
 membersNear :: Cover a -> Mm -> Segment -> [a]
 membersNear cover distance segment =
   filter (isEligible cover) (filter mayReach (BoxTree.within around (index cover)))
@@ -133,7 +135,7 @@ distanceTo :: Point -> NonEmpty Segment -> Mm
 distanceTo p = maximum . fmap (Distance.toPoint p)
 
 -- | Stretches of a segment that no member covers at a distance. Each is given by its beginning and
--- end, as fractions of the segment's length from 0 to 1.
+-- end, as fractions of the segment's length from 0 to 1. Each member is given by its paths.
 uncovered :: Mm -> [NonEmpty Segment] -> Segment -> [(Double, Double)]
 uncovered distance members segment =
   foldl

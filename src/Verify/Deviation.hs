@@ -1,6 +1,7 @@
 -- | Comparison of a tape with one pass along a contour. It finds gouges, excess, a wrong side, and
--- a contour that is not followed from start to end. The requirements come from the part; the
--- toolpath only says which passes there are.
+-- a contour that is not followed from start to end. A gouge is a cut too deep into the part; excess
+-- is material that remains where none is allowed. The requirements come from the part; the toolpath
+-- only says which passes there are.
 module Verify.Deviation
   ( MillingPass (..),
     examine,
@@ -51,7 +52,7 @@ data MillingPass = MillingPass
   { job :: MillingJob,
     -- | number of the statement's execution, from 0: the passes of one execution share it
     passNumber :: Int,
-    -- | height of the cut
+    -- | height of the cut; the top of the part is 0
     level :: Mm,
     found :: FoundPass
   }
@@ -115,7 +116,7 @@ excessFindings :: Mm -> [Witness] -> Maybe Witness -> [Finding]
 excessFindings allowed tooMuch largest =
   [Excess first (fromMaybe first largest) allowed | first : _ <- [tooMuch]]
 
--- | Motions along the contour, without the motion that ends at its start.
+-- | Motions along the contour, without the motion that arrives at the start of the contour.
 motionsAlong :: FoundPass -> [CutterMotion]
 motionsAlong found = case found of
   Complete _ along -> along
@@ -148,7 +149,7 @@ allowedDeviation isCurved milling
 orderFindings :: MillingPass -> [Finding]
 orderFindings MillingPass {job, found} = case found of
   Complete {} -> []
-  -- Where rest material is allowed, a cut need not go along the whole contour.
+  -- If rest material is allowed, a cut need not go along the whole contour.
   Incomplete {} ->
     [ NotFollowed (statement job)
       | ContactMeasure.isMeasurable job,
@@ -251,7 +252,8 @@ missedOn set isFirst MillingPass {job, level, found} allowed bounds
       _ -> MotionSet.atHeight set level
 
 -- | Parts of an element that the cutter can touch while its centre is at @distance@ from them; the
--- whole element if rest material is not allowed. @kept@ has the distances from the other elements.
+-- whole element if rest material is not allowed. @kept@ has all elements of the contour, grouped by
+-- the distance that the centre keeps from them.
 touchableParts :: MillingJob -> [KeptDistance] -> Mm -> Edge -> [Edge]
 touchableParts job kept distance e = case (Part.rest (milling job), side job) of
   (Part.Allowed, Just demanded) ->

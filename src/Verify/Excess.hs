@@ -1,7 +1,9 @@
 -- | Excess material. There are two kinds: points of an element that are too far from all motions on
--- the cutter's side, and motions along the contour that are too far from it. The /reach/ of a job
--- is the required distance of the cutter's centre from the contour; its /allowance/ is the allowed
--- deviation. The cutter's side is the side of the contour on which the part requires it to be.
+-- the cutter's side, and motions along the contour that are too far from it.
+--
+-- A /job/ is a cut along a contour as the part demands it. The /reach/ of a job is the required
+-- distance of the cutter's centre from the contour; its /allowance/ is the allowed deviation. The
+-- cutter's side is the side of the contour on which the part requires the cutter to be.
 module Verify.Excess
   ( excesses,
     strayOf,
@@ -36,9 +38,10 @@ import Verify.Proof (Witness (Witness))
 import Verify.Proof qualified as Proof
 
 -- | Excess on elements: by how much the element's points are further than the reach from every
--- motion. An element whose excess is within the allowance is only listed if its excess is larger
--- than that of all elements before it. @bounds@ has for each element, by its number from 0, an
--- upper bound in mm of the distance of its points from the motions. @index@ contains the motions.
+-- motion. Each excess above the allowance is listed. An excess within the allowance is only listed
+-- if it is larger than the listed ones before it that are within the allowance as well. @bounds@
+-- has for each element, by its number from 0, an upper bound in mm of the distance of its points
+-- from the motions. @index@ contains the motions.
 excesses :: MillingJob -> PrimArray Double -> BoxTree CutterMotion -> [Edge] -> [Witness]
 excesses job bounds index = go (Mm 0)
   where
@@ -85,8 +88,9 @@ isSurelyCovered job bounds index least e =
     far@(Mm d) = plus (reach job) least
     near = BoxTree.within (BoundingBox.inflate far (FastDistance.box (shape e))) index
 
--- | Bounds of the directed Hausdorff distance from an element to the motions on the cutter's side.
--- They are computed from the motions within reach plus allowance of the element.
+-- | Bounds of the directed Hausdorff distance from an element to the motions on the cutter's side:
+-- the largest distance of a point of the element from the motion nearest to that point. They are
+-- computed from the motions within reach plus allowance of the element.
 distanceBounds :: MillingJob -> BoxTree CutterMotion -> Edge -> Coverage.DistanceBounds
 distanceBounds job index e =
   Coverage.DistanceBounds {Coverage.atLeast = Mm (min d low), Coverage.atMost = Mm high}

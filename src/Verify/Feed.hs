@@ -54,7 +54,9 @@ alongContour machine job =
   atFeed machine (Part.feed (milling job)) (map Part.finish (elementsOf job))
 
 -- | Findings for motions with a wrong feed. Allowed are @demanded@, the feed of the statement, and
--- the feeds of single elements, which are in @finishes@. A braking frame may also be slower.
+-- the feeds of single elements, which are in @finishes@. If the cutter has to slow down at the end
+-- of any element, the lowest feed of the machine is allowed too. A braking frame may also be slower
+-- than the allowed feeds.
 atFeed :: Machine -> Located Feed -> [Part.Finish] -> [Motion] -> [Finding]
 atFeed machine demanded finishes = mapMaybe wrongFeed
   where
@@ -78,8 +80,8 @@ atFeed machine demanded finishes = mapMaybe wrongFeed
           (Machine.valueOf machine (code found))
     feedOf = fromMaybe 0 . Machine.valueOf machine
 
--- | Findings for vertical motions into solid material, if no planned motion into solid material has
--- their speed. None if the planned frames contain no such motion.
+-- | Findings for vertical motions into solid material with a speed that no planned motion into
+-- solid material has. Empty if the planned frames contain no motion into solid material.
 downwards :: FrameProgram -> [Frame] -> [Finding]
 downwards program frames = case plunges (map Frame.frame (Frame.plannedFrames program)) of
   [] -> []
@@ -153,9 +155,10 @@ speedAlong machine m = case Machine.feedMeasure (Machine.feeds machine) of
 -- Braking -----------------------------------------------------------------------------------------
 
 -- | Findings for frames at whose end the cutter is too fast to slow down to a later, lower speed
--- @v@. At a distance @s@ before that speed, the speed may be @√(v² + 2·a·s)@ at most; @a@ is the
--- deceleration of the machine (Kolsanova; the law is reconstructed). Empty if the machine does not
--- use braking frames. @start@ is the position before the first frame. The model of the speeds:
+-- @v@. Where the cutter still has to travel the length @s@ to the position of that speed, its speed
+-- may be @√(v² + 2·a·s)@ at most; @a@ is the deceleration of the machine (Kolsanova; the law is
+-- reconstructed). Empty if the machine does not use braking frames. @start@ is the position before
+-- the first frame. The model of the speeds:
 --
 -- * a frame without braking has its speed from its start to its end;
 -- * a braking frame slows down to its speed, which it has at its end; of successive braking frames

@@ -309,7 +309,7 @@ motionsByPocket subject = foldr insert IntMap.empty (motions subject)
     pocketAt n = case IntMap.lookupLE n pocketFrames of
       Just (_, (b, k)) | n <= b -> Just k
       _ -> Nothing
-    -- For each pass, by its first frame: its last frame and the number of its pocket.
+    -- Last frame and pocket number of each pass, by the pass's first frame.
     pocketFrames =
       IntMap.fromList
         [ (a, (b, k))

@@ -59,11 +59,11 @@ gougeOf KeepOut {searchRadius, required} edges m = Proof.deepest gouges
       BoundingBox.meets (BoundingBox.inflate searchRadius (BoundingBox.ofSegment path)) b
         && BoundingBox.lowerBound (`Distance.toPoint` path) b <= searchRadius
 
--- | Allowance that a motion has to keep from the element @e@ at the point @p@ of the motion.
--- Usually it is the allowance of @e@. But other elements may join @e@ within @pulse@ of the point
--- of @e@ nearest to @p@. Then the smallest allowance of @e@ and these elements counts, because
--- the toolpath steps between allowances on whole pulses. If a joining element is nearer to @p@ than
--- @e@ is, the result is 0.
+-- | Allowance that a motion has to leave on the element @e@ while the centre is at the point @p@.
+-- Usually it is the allowance of @e@. But other elements may lie within @pulse@, the length of a
+-- pulse, of the point of @e@ nearest to @p@. Then the smallest allowance of @e@ and these elements
+-- counts, because the toolpath steps between allowances on whole pulses. If one of these elements
+-- is nearer to @p@ than @e@ is, and @e@ has an allowance, the result is 0.
 allowanceAt :: Mm -> BoxTree Edge -> Element -> Point -> Mm
 allowanceAt pulse edges e p
   | own <= Mm 0 = own

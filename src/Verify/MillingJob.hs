@@ -83,7 +83,8 @@ edgesAround job p =
 edgesNear :: MillingJob -> CutterMotion -> [Edge]
 edgesNear job m = filter (mayTouch job m) (edgesInBox job m)
 
--- | 'edgesNear' for each motion of a list; fast if the motions follow one another on the tape.
+-- | Result of 'edgesNear' for each motion of a list, in order; fast if the motions follow one
+-- another on the tape.
 edgesNearEach :: MillingJob -> [CutterMotion] -> [[Edge]]
 edgesNearEach job =
   BoxTree.each (BoundingBox.inflate (contactLimit job) . Motion.box) (mayTouch job) (edges job)
@@ -121,7 +122,8 @@ data Touch = Touch
     limit :: Double,
     -- | least value, over all elements, of the element's distance minus its allowance
     leastExcess :: Double,
-    -- | largest difference of the distances of two elements that the cutter touches both
+    -- | largest difference between the distances of two elements from the centre, less their
+    -- allowances, if the cutter touches both
     spread :: Double
   }
 

@@ -23,7 +23,7 @@ data MotionSet = MotionSet
     isFlat :: Bool,
     -- | radius of the cutter in a motion, in mm
     toolOf :: CutterMotion -> Mm,
-    -- | in the order of the tape
+    -- | all motions, in the order of the tape
     motions :: [CutterMotion],
     -- | all motions in which the cutter may touch a box, and perhaps others; in the order of the
     -- tape

@@ -32,8 +32,9 @@ framesOfCuts = rangesBy cutOf
       Frame.Cutting n -> Just n
       _ -> Nothing
 
--- | For each number that @key@ gives for the role of a planned frame: the range from the first to
--- the last frame with that number. Frames for which @key@ gives Nothing are in no range.
+-- | Range from the first to the last planned frame with the same key, by that key. @key@ gives the
+-- key of a frame from its role, such as cutting in the pass with some number. Frames for which
+-- @key@ gives Nothing are in no range.
 rangesBy :: (Frame.Role -> Maybe Int) -> FrameProgram -> IntMap FrameRange
 rangesBy key program =
   IntMap.fromListWith

@@ -3,6 +3,8 @@
 --
 -- The toolpath says which passes there are, at which height, with which allowance, and where their
 -- cuts start and end. The side of the cutter and its distance from the contour come from the part.
+-- A cut is one trip along a contour. A pass has several cuts if the cutter does not reach all of
+-- the contour.
 module Verify.PassLocation
   ( Guide (..),
     locate,
@@ -170,8 +172,8 @@ jobOf machine statement milling cut edges =
         (uncurry max (Deviation.allowedDeviation (Edge.isCurved edges) milling))
         (Machine.planeResolution machine)
 
--- | List with an entry for each block: true if the block is one of several cuts of a pass. Only
--- where rest material is allowed has a pass several cuts.
+-- | List with an entry for each block: true if the block is one of several cuts of a pass. A pass
+-- has several cuts only if rest material is allowed.
 arePartial :: [Block] -> [Bool]
 arePartial blocks =
   zipWith3
@@ -191,8 +193,9 @@ arePartial blocks =
       _ -> Nothing
 
 -- | Position of the centre at the end of a contour if the control does the cutter compensation:
--- beside the end of the last element, on its normal there. Nothing without compensation. On a
--- closed contour, the control may or may not treat the joint with the first element as a corner.
+-- beside the end of the last element, on its normal there. Nothing without compensation. The end of
+-- the toolpath does not serve: on a closed contour, the control may or may not treat the joint with
+-- the first element as a corner.
 exitByControl :: Milling -> Maybe Side -> Mm -> Maybe Point
 exitByControl milling side reach = case (Part.controlCompensation milling, side) of
   (Just _, Just s) ->

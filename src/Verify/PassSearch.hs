@@ -4,8 +4,9 @@
 -- An /arrival/ is a motion that ends at the start of the cut. From each arrival the search follows
 -- the contact point along the contour; this is the point nearest to the cutter's centre. The cut
 -- begins at the first arrival from which the contact point comes to the end of the contour. The
--- progress of the contact point and its uncertainty, the slack, are defined in
--- "Verify.ContactMeasure".
+-- /slack/ is the uncertainty of the contact point's arc length: a step back that is not larger may
+-- be due to rounding ("Verify.ContactMeasure"). A /partial cut/ is one of several cuts of a pass,
+-- none of which goes along the whole contour.
 module Verify.PassSearch
   ( FoundPass (..),
     motionsOf,
@@ -36,8 +37,9 @@ import Verify.Motion qualified as Motion
 data FoundPass
   = -- | The motion that arrives at the start, if it is known, and the motions along the contour.
     Complete [CutterMotion] [CutterMotion]
-  | -- | The start is reached, but the contour is not followed to its end: the arrival, and the
-    -- motions up to the next arrival at the end.
+  | -- | The start is reached, but the contour is not followed to its end: the motion that arrives
+    -- at the start, if it is known, and the motions up to the first one that ends at the end of the
+    -- cut.
     Incomplete [CutterMotion] [CutterMotion]
   | -- | The start is not reached.
     Missing
@@ -92,8 +94,9 @@ arrivalsIn job at = go Nothing
       Straight a b -> Vec.distance b (entry job) < Vec.distance a (entry job)
       Arc {} -> False
 
--- | Test that the cutter touches the contour in all motions up to the end of the cut. False if an
--- arrival was the end of another contour, from which the cutter moves away.
+-- | Test that the cutter touches the contour in all motions up to the end of the cut. @rest@ are
+-- the motions after an arrival. False if the arrival was the end of another contour, from which the
+-- cutter moves away.
 staysBeside :: MillingJob -> [CutterMotion] -> Bool
 staysBeside job rest =
   not (null along) && and (zipWith touches along (MillingJob.edgesNearEach job along))
@@ -161,9 +164,9 @@ untilExit job motions = leaving <> along <> takeWhile (endsAtExit job) (unbroken
 
 -- Following the contact point ---------------------------------------------------------------------
 
--- | Progress of the cutter along a contour: the count of motions so far, the arc length of the
--- contact point in mm, and the position of the centre. @latest@ is the last motion, or empty before
--- the first one.
+-- | Progress of the cutter along a contour: the count of motions so far, the arc length in mm from
+-- the start of the contour to the contact point, and the position of the centre. @latest@ is the
+-- last motion, or empty before the first one.
 data Progress = Progress
   { count :: Int,
     travelled :: Double,
@@ -212,8 +215,9 @@ follow job measure progress motions near
             others
       _ -> Nothing
 
--- | Arc length in mm of the contact point after the motion @m@, from the arc length before it.
--- Nothing if the cutter leaves the contour or goes back on it.
+-- | Arc length in mm, from the start of the contour, of the contact point after the motion @m@. The
+-- last argument is the arc length of the contact point before @m@. Nothing if the cutter leaves the
+-- contour or goes back on it.
 afterMotion :: MillingJob -> Measure -> [Edge] -> CutterMotion -> Double -> Maybe Double
 afterMotion job measure near m = go . Sample 1
   where
@@ -227,11 +231,13 @@ afterMotion job measure near m = go . Sample 1
         step = smallestStep job measure near arcLength (Segment.at (fraction k) (segment m))
     fraction k = fromIntegral k / fromIntegral count
 
--- | Sample of a motion, counted from 1, and the arc length of the contact point before it, in mm.
+-- | Number of a sample point of a motion, from 1, and the contact point of the sample point before:
+-- its arc length from the start of the contour, in mm.
 data Sample = Sample Int Double
 
 -- | Smallest signed step in mm along the contour, from @arcLength@ to a contact point of a cutter
--- with its centre at @p@; ∞ if no contact point is ahead or within the slack behind.
+-- with its centre at @p@; negative for a step back. ∞ if no contact point is ahead, or back by no
+-- more than the slack.
 smallestStep :: MillingJob -> Measure -> [Edge] -> Double -> Point -> Double
 smallestStep job measure near arcLength p = FastContact.foldContacts job near p smaller (1 / 0)
   where

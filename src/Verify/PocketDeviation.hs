@@ -148,8 +148,9 @@ deepestGouge keepOut pocket = foldl' orDeeper Nothing
         (walls pocket)
 
 -- | Excess on the segments of a rim: the largest distance of each segment's points from the
--- motions. @allowance@ is the allowed excess. An excess within it is only listed if it is larger
--- than those of all segments before.
+-- motions. Each excess above @allowance@, the allowed excess, is listed. An excess within the
+-- allowance is only listed if it is larger than the listed ones before it that are within the
+-- allowance as well.
 unreached :: Mm -> BoxTree CutterMotion -> [(Element, Segment)] -> [Witness]
 unreached allowance motions = go (Mm 0)
   where

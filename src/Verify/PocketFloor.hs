@@ -1,8 +1,8 @@
 -- | Search for material that a tape leaves on the floor of a pocket: a position that the cutter's
 -- centre may take, but that is further than the cutter's radius from every motion.
 --
--- The search starts with a square around the pocket. A square needs no division if one motion
--- clears all of it, if two motions clear it together, or if the centre may take no position in it.
+-- The search starts with a square around the pocket. A square needs no division in three cases: one
+-- motion clears all of it, two motions clear it together, or the centre may take no position in it.
 -- Any other square is divided into four, down to 'floorResolution' (a quadtree).
 module Verify.PocketFloor
   ( unclearedPoint,
@@ -130,7 +130,8 @@ nearestMotion floor' x y =
 rangeOf :: Double -> Double -> [Segment] -> Double
 rangeOf x y = foldl' (\d path -> max d (FastDistance.distance path x y)) 0
 
--- | Distance from the centre to the corners of the smallest squares. A position that is further
--- from the motions than the radius by this distance still counts as cleared.
+-- | Distance from the centre to the corners of a square, below which a square is not divided any
+-- more. A position that is further from the motions than the radius by this distance still counts
+-- as cleared.
 floorResolution :: Mm
 floorResolution = Mm 0.02

@@ -38,8 +38,8 @@ import Verify.Proof (Witness (Witness))
 import Verify.Proof qualified as Proof
 
 -- | Deepest gouge of the motion @m@ into the material beside a contour; Nothing if there is none.
--- The tool has to stay on @side@ of the contour. @allowance@ is the first depth that the search
--- tries.
+-- The tool has to stay on @side@ of the contour. @allowance@ is the first depth that the search for
+-- the deepest gouge tries; usually no gouge is deeper.
 gougeOf :: Side -> Contour -> BoxTree Edge -> Mm -> CutterMotion -> Maybe Witness
 gougeOf side contour edges allowance m =
   Proof.deepest (concatMap onPath (NonEmpty.toList (Motion.paths m)))

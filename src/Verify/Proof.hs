@@ -38,7 +38,7 @@ import Report.Report qualified as Report
 data Witness = Witness
   { -- | size of the deviation, in mm
     amount :: Mm,
-    -- | number of the frame
+    -- | number of the frame, from 1; for excess on an element, that of the motion nearest to it
     frame :: Int,
     -- | region of the contour element in the part program
     element :: Region,
@@ -128,8 +128,8 @@ data Finding
     NotClosed Pulses3
   deriving stock (Eq, Show)
 
--- | Sort key of findings: the number of the frame, and a rank by importance within the frame.
--- Findings without a frame come first, a wrong last position comes last.
+-- | Sort key of findings: the number of the frame, and a rank within the frame, lower for more
+-- important findings. Findings without a frame come first, a wrong last position comes last.
 tapeOrder :: Finding -> (Int, Int)
 tapeOrder finding = case finding of
   Gouge w _ _ -> (frame w, 0)

@@ -1,8 +1,8 @@
 -- | Motions of a swivelling blade, brought to the height of their pass.
 --
--- The controlled axis of a blade does not lift the tool: its height says how far the blade is
--- swivelled. Where this height agrees with the bevel of the contour, to a pulse, the motion gets
--- the height of the pass. Elsewhere it keeps the height of the axis, so that it does not count as a
+-- The /axis/ is the machine's z axis. It does not lift a blade: its height says how far the blade
+-- is swivelled. If this height agrees with the bevel of the contour, to a pulse, the motion gets
+-- the height of the pass. If not, it keeps the height of the axis, so that it does not count as a
 -- motion along the contour.
 module Verify.Swivel
   ( levelled,
@@ -56,14 +56,14 @@ data BladePass = BladePass
     tolerance :: Mm,
     -- | elements of the contour with their numbers from 0
     elements :: BoxTree (Int, Segment),
-    -- | heights of the axis about which the blade swivels, at the start and at the end of each
-    -- element, by its number; empty without bevels
+    -- | heights of the axis that swivels the blade, at the start and at the end of each element, by
+    -- its number; empty without bevels
     axisHeights :: Vector (Mm, Mm)
   }
 
--- | Pass of a blade. The axis turns the blade by a wheel of diameter @D2@: for a bevel of @μ°@ its
--- height is @z = ∓π·μ°·D2/360@, minus on the right of the contour, plus on the left (Kolsanova,
--- section 3).
+-- | Pass of a blade. The axis turns the blade by a wheel of diameter @D2@. For a bevel of @μ°@ the
+-- axis is above the height of the pass by @z = ∓π·μ°·D2/360@. The sign is minus on the right of the
+-- contour and plus on the left (Kolsanova, section 3).
 bladePass :: Milling -> Toolpath.Pass -> BladePass
 bladePass milling Toolpath.Pass {Toolpath.left, Toolpath.atHeight} =
   BladePass

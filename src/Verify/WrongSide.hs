@@ -1,4 +1,5 @@
--- | Motions along a contour on the wrong side of it.
+-- | Motions along a contour on the wrong side of it. A /job/ is a cut along a contour as the part
+-- demands it ("Verify.MillingJob").
 module Verify.WrongSide
   ( wrongSide,
   )

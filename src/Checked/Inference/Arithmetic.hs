@@ -2,7 +2,7 @@
 --
 -- The functions yield 'True' if the operation is solved or reported as wrong. They yield 'False' if
 -- too little is known of its operands; the operation then remains a deferred constraint. The
--- arguments @l@ and @r@ are the resolved types of its operands.
+-- arguments @l@ and @r@ are the types of its operands, as far as inference has found them.
 module Checked.Inference.Arithmetic
   ( solveArithmetic,
   )
@@ -83,7 +83,8 @@ product' a l r = case (l, r) of
   (Quantity _, Variable _) -> pure False
   (Variable _, Variable _) -> pure False
   _
-    -- A minus sign is a product with −1. The factor −1 has the region of the whole term.
+    -- A minus sign is checked as a product of −1 and its operand. The factor −1 has the region of
+    -- the whole term.
     | leftRegion == arithmeticRegion a ->
       undefinedFor a UndefinedNegation [(rightRegion, r)]
     | otherwise -> undefinedFor a UndefinedProduct [(leftRegion, l), (rightRegion, r)]
@@ -120,7 +121,7 @@ scaledVector a (numberRegion, factor) (vectorRegion, vector) = do
 ratio :: Dimension -> Dimension -> Dimension
 ratio d e = Dimension.times d (Dimension.power (-1) e)
 
--- | Solves an operation: its result has the type @t@.
+-- | Solves an operation by the decision that its result has the type @t@. Yields 'True'.
 solvedAs :: Arithmetic -> Type -> Infer Bool
 solvedAs a t = True <$ equate (arithmeticRegion a) (outcome a) t
 
@@ -131,8 +132,8 @@ undefinedFor a operation operands = do
   mistakeOnce [arithmeticRegion a] (NoOperation (arithmeticRegion a) operation operands)
   solvedAs a Wrong
 
--- | Reports that the operands of a sum, a difference or a comparison have different kinds or
--- dimensions.
+-- | Reports that the types @l@ and @r@ of the operands do not fit a sum, a difference or a
+-- comparison.
 disagree :: Arithmetic -> Type -> Type -> Infer Bool
 disagree a l r = do
   elsewhere <- decidedElsewhere [(leftRegion, leftType, l), (rightRegion, rightType, r)]

@@ -1,8 +1,9 @@
 -- | A fast version of type inference for literals and for calls whose arguments are literals.
 --
 -- Most terms of a large program are numbers, points and calls on them. Their types are visible from
--- their syntax, so this module checks them without unknowns. It gives the same terms, types and
--- errors as "Checked.Expression" would by full inference. All other terms are left to that module.
+-- their syntax, so this module checks them without unknowns: types or dimensions that inference has
+-- yet to find. It gives the same terms, types and errors as "Checked.Expression" would by full
+-- inference. All other terms are left to that module.
 module Checked.Inference.Fast
   ( literal,
     FastCall (..),
@@ -61,10 +62,10 @@ data FastCall = FastCall
     checkedCall :: Deferred Checked.Expr
   }
 
--- | Checks a call of a built-in function on literals and pairs. They must fit exactly one form of
--- the function without labels, and all types of that form must be known. Otherwise the result is
--- 'Nothing', and the caller uses full inference. @expect@ checks pairs that contain other terms
--- than literals.
+-- | Checks a call of a built-in function on literals and pairs. They must fit exactly one form
+-- (list of parameters) of the function without labels, and all types of that form must be known.
+-- Otherwise the result is 'Nothing', and the caller uses full inference. @expect@ checks pairs that
+-- contain other terms than literals.
 call ::
   (Type -> Surface.Expr -> Infer (Deferred Checked.Expr)) ->
   Surface.Expr ->
@@ -123,8 +124,8 @@ onForm expect build form es = case zipWithM literalArgument types es of
       Just x' -> Just $! Checked.Given x'
       Nothing -> Nothing
 
--- | The facts about the type of a term that its syntax shows. A quantity has its dimension if the
--- literal has a unit, and 'Nothing' if not. A pair is a point or a vector.
+-- | The facts about the type of a term that its syntax shows. The dimension of a quantity is that
+-- of the literal's unit, or 'Nothing' if the literal has no unit. A pair is a point or a vector.
 data Shape = Quantity (Maybe Dimension) | Pair
 
 shapeOf :: Surface.Expr -> Maybe Shape

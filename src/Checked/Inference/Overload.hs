@@ -3,7 +3,9 @@
 -- (@first@ or @last@).
 --
 -- A form is chosen by the number of the arguments, by their labels, and by those of their types
--- that are known. Until exactly one form fits, the call is a deferred constraint.
+-- that are known. Until exactly one form fits, the call is a deferred constraint. An unknown is a
+-- type or a dimension that inference has yet to find. A type is resolved when the unknowns in it
+-- that have a value are replaced by this value.
 module Checked.Inference.Overload
   ( solveCall,
     chooseFirst,
@@ -70,9 +72,9 @@ reportMisfit call types = case mapMaybe (oneMisfit call types) (formsByLabels ca
           length (Builtin.parameters f) == length (labels call)
       ]
 
--- | The only argument that does not fit a form. It is given only if its type and the type of the
--- parameter are both quantities or both spatial. Otherwise, or if several arguments do not fit, the
--- result is 'Nothing'.
+-- | The only argument that does not fit a form. The result is 'Nothing' if several arguments do not
+-- fit. It is also 'Nothing' unless the types of the argument and of the parameter are both
+-- quantities, or both points or vectors.
 --
 -- The result contains the region of the argument, the type of the parameter, the type of the
 -- argument before it is resolved, and its resolved type.
@@ -99,13 +101,15 @@ parameterTypes form = map Builtin.type' (filter ((/= Rank) . label) (Builtin.par
 formsByLabels :: OverloadedCall -> [Form]
 formsByLabels call = Builtin.labelled plainUnknowns (builtin call) (labels call)
 
--- | Known types that replace the unknowns of a form, where forms are only shown or compared.
+-- | A known dimension and a known type that replace the unknowns of a form, where forms are only
+-- shown or compared.
 plainUnknowns :: Fresh
 plainUnknowns = Fresh {dimension = Dimension.none, anything = Wrong}
 
--- | The forms that fit those types of a call that are known. The types of the arguments select
--- forms; among these the type that the result must have selects again. If it would exclude all of
--- them, it is ignored. Otherwise a wrong use of the result would be reported as wrong arguments.
+-- | The forms that fit those types of a call that are known. First the types of the arguments
+-- select forms. Then the type that the use of the result requires selects among these. If no form
+-- would remain, this type is ignored. Otherwise a wrong use of the result would be reported as a
+-- wrong argument.
 fittingForms :: OverloadedCall -> Infer [Form]
 fittingForms call = do
   types <- traverse (resolved . snd) (arguments call)

@@ -87,13 +87,13 @@ data InferenceState = InferenceState
     -- | the number of the first unknown of the present function; unknowns with smaller numbers
     -- belong to definitions outside of it
     firstOwn :: Int,
-    -- | the unknowns of the present function that have the same value in all its uses;
-    -- 'Checked.Inference.generalise' must not quantify them
+    -- | the numbers of the unknowns of the present function that have the same value in all its
+    -- uses; 'Checked.Inference.generalise' must not make them variables of the function's type
     shared :: IntSet,
     -- | constraints that are not solved yet, the newest first
     pending :: [DeferredConstraint],
-    -- | the mentions of names: the region, the region of the definition unless the name is built
-    -- in, the word, and its meaning
+    -- | the mentions of names, the newest first: the region of the mention, the region of the
+    -- definition unless the name is built in, the name, and its meaning
     mentioned :: [(Region, Maybe Region, Text, Meaning)],
     -- | the mistakes, the newest first
     errors :: [Error],
@@ -260,8 +260,9 @@ resolveDimension decided d =
     replacements ->
       resolveDimension decided (foldl (\d' (n, b) -> Dimension.substitute n b d') d replacements)
 
--- | The region at which the first of a type's unknowns was decided. The type must not be resolved,
--- because a resolved type no longer contains these unknowns. 'Nothing' if none of them is decided.
+-- | The region at which the first of a type's decided unknowns was decided. The type must not be
+-- resolved, because a resolved type no longer contains decided unknowns. 'Nothing' if no unknown of
+-- the type is decided.
 decidedAt :: Type -> Infer (Maybe Region)
 decidedAt t = gets (\s -> listToMaybe (ofType (decisions s) t))
   where
@@ -282,9 +283,9 @@ decidedAt t = gets (\s -> listToMaybe (ofType (decisions s) t))
           | n <- Dimension.unknowns d
         ]
 
--- | The regions outside of some terms at which the types of these terms were decided, with the
--- types. A report then also points at these regions. A term is given by its region, its type before
--- it is resolved, and its resolved type.
+-- | The regions, other than the terms themselves, at which the types of some terms were decided,
+-- with the resolved types. A report also points at these regions. A term is given by its region,
+-- its type before it is resolved, and its resolved type.
 decidedElsewhere :: [(Region, Type, Type)] -> Infer [(Region, Type)]
 decidedElsewhere terms = concat <$> traverse ofTerm terms
   where
@@ -294,7 +295,8 @@ decidedElsewhere terms = concat <$> traverse ofTerm terms
 
 -- Equations
 
--- | Makes two types equal, by decisions at @region@. 'False' if they cannot become equal.
+-- | Makes two types equal by deciding unknowns in them. @region@ is recorded as the region of these
+-- decisions. 'False' if the types cannot become equal.
 unify :: Region -> Type -> Type -> Infer Bool
 unify region a b = do
   a' <- resolved a
@@ -314,7 +316,7 @@ unify region a b = do
       | map fst cs == map fst ds -> and <$> zipWithM (\(_, c) (_, d) -> unify region c d) cs ds
     _ -> pure (a' == b')
   where
-    -- An unknown that occurs in its own value would be an infinite type.
+    -- If an unknown occurred in its own value, its type would be infinite.
     bind n t
       | n `elem` Type.variables t = pure False
       | otherwise = do
@@ -322,7 +324,8 @@ unify region a b = do
         share n (Type.variables t <> Type.dimensions t)
         pure True
 
--- | Makes two dimensions equal, by decisions at @region@. 'False' if they cannot become equal.
+-- | Makes two dimensions equal by deciding unknowns in them, as 'unify' does for types. 'False' if
+-- the dimensions cannot become equal.
 unifyDimensions :: Region -> Dimension -> Dimension -> Infer Bool
 unifyDimensions region a b = go (Dimension.times a (Dimension.power (-1) b))
   where

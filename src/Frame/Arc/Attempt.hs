@@ -2,8 +2,10 @@
 -- The loops carry more than ten numbers; this option keeps them unboxed.
 {-# OPTIONS_GHC -O2 -fmax-worker-args=40 #-}
 
--- | Rounded arcs about given grid points, and the choice of the best grid point. The grid point
--- becomes the centre of the arc. The deviation of an attempt is its distance from the exact arc.
+-- | Rounded arcs about given grid points, and the choice of the best grid point. A grid point is a
+-- position in whole pulses. An attempt is the rounded arc about one grid point, which becomes its
+-- centre. It is divided into steps, one for each frame. The deviation of an attempt is its largest
+-- distance from the exact arc.
 module Frame.Arc.Attempt
   ( bestAbout,
     isNearlyStraight,
@@ -51,9 +53,9 @@ data Ranked = Ranked {rank :: Int, attempted :: Attempt}
 --
 -- Grid points about which the whole arc is one frame have priority. The one with the least
 -- deviation is chosen, and the first of several equal ones. The grid point with the least estimated
--- deviation is attempted first. Another one is attempted only if its estimated deviation is below
--- the least deviation found so far. When no single frame is within the tolerance, the attempt with
--- the fewest steps is chosen, and among these the one with the least deviation.
+-- deviation is attempted first. Another one is attempted only if 'isBetter' finds that its
+-- deviation is below the least one so far. When no single frame is within the tolerance, the
+-- attempt with the fewest steps is chosen, and among these the one with the least deviation.
 bestAbout :: ArcContext -> RoundedArc -> [Pulses2] -> Maybe [ArcStep]
 bestAbout context arc centres
   | Just ends <- Estimate.endsOf (grid context) arc,
@@ -64,7 +66,8 @@ bestAbout context arc centres
   where
     wholes = filter (Centre.isOneFrame context arc) centres
 
--- | Steps of the attempt with the fewest steps; among these, of the one with the least deviation.
+-- | Steps of the attempt with the fewest steps; if there are several, of the one with the least
+-- deviation. Nothing if there are no attempts.
 fewestSteps :: [Attempt] -> Maybe [ArcStep]
 fewestSteps attempts = case attempts of
   [] -> Nothing
@@ -113,7 +116,8 @@ ranked :: ArcContext -> RoundedArc -> Int -> Pulses2 -> Maybe Ranked
 ranked context arc k c = Ranked k <$> attempt context arc c
 
 -- | True if the whole arc about the grid point @c@ with the rank @k@ deviates less than @best@, the
--- best attempt so far. The cheapest tests come first.
+-- best attempt so far, or if it deviates as much and has the lower rank. The cheapest tests come
+-- first.
 isBetter :: ArcContext -> RoundedArc -> ArcEnds -> Ranked -> Int -> Pulses2 -> Bool
 isBetter context arc ends best k c =
   not isSurelyWorse
@@ -131,8 +135,8 @@ isBetter context arc ends best k c =
         all (isLess . Deviation.linearErrorAt frameArc) samples
           && isLess (linear (Deviation.sampledDeviation frameArc))
 
--- | Fractions of a sweep at which the deviation is computed. Those at which it is likely to be
--- large come first.
+-- | Fractions of a sweep, between 0 and 1, at which the deviation is computed. Those at which it is
+-- likely to be large come first.
 samples :: [Double]
 samples = [4 / 8, 2 / 8, 6 / 8, 1 / 8, 7 / 8, 3 / 8, 5 / 8]
 
@@ -169,7 +173,8 @@ attempt context arc c
     deviations = map (Deviation.deviationOf (tolerance context) (exact arc) . arcAlong) legs
     isNear leg d = isStraight leg || isWithinTolerance (tolerance context) d
     Mm r = radius arc
-    -- Rounding moves each end and the centre by up to a pulse, which changes the sweep.
+    -- Rounding moves each end and the centre by up to a pulse. The sweep may change by this many
+    -- radians.
     sweepSlack = min (pi / 2) (4 * pulse (grid context) / r)
 
 -- | True when one frame of the machine can hold a full circle.
@@ -185,8 +190,8 @@ isWithinTolerance allowed d =
     && Mm (inward d) <= inwards allowed
     && Mm (outward d) <= outwards allowed
 
--- | Step between the grid points @from@ and @to@ about the grid point @c@. When a cut at an axis
--- has left a nearly straight arc, the step is a line.
+-- | Step between the grid points @from@ and @to@ about the grid point @c@; a full circle if @from@
+-- and @to@ are equal. When a cut at an axis has left a nearly straight arc, the step is a line.
 legBetween :: ArcContext -> RoundedArc -> Pulses2 -> Pulses2 -> Pulses2 -> Leg
 legBetween context arc c from to =
   Leg
@@ -221,7 +226,8 @@ stepOf arc c Leg {from, to = Pulses2 x y, isStraight} =
     Pulses3 _ _ z = finish arc
 
 -- | True when an arc from @from@ to @to@ about the grid point @c@ can be a frame. Its increments
--- and its centre have to fit their fields. The radii at both ends may differ by at most two pulses.
+-- and its centre have to fit their fields. The radii at both ends are not 0, and may differ by at
+-- most two pulses.
 isValid :: ArcContext -> Pulses2 -> (Pulses2, Pulses2) -> Bool
 isValid context c (from, to) =
   from /= c
@@ -259,9 +265,9 @@ isStraightEnough :: ArcContext -> Segment -> [Pulses2] -> Bool
 isStraightEnough context exact stops = case exact of
   Straight _ _ -> True
   Segment.Arc {Segment.start = begin, Segment.centre = middle}
-    -- The arc is at most its sagitta away from its chord. The chord is at most as far from the line
-    -- as the ends of both are from each other. If the sum is small, the whole arc lies near the
-    -- line.
+    -- The line from a to b replaces the arc. The arc is at most its sagitta away from its own
+    -- chord. The chord is at most as far from the line as its ends are from a and b. If both
+    -- distances together are small, the whole arc lies near the line.
     | [a, b] <- points,
       plus
         (Segment.sagitta exact)

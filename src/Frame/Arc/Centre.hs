@@ -20,7 +20,8 @@ import Machine.Machine (Arcs (..))
 import Machine.Machine qualified as Machine
 
 -- | Grid points near the exact centre of the arc, and near a second point. This second point is the
--- one next to the exact centre that is equally far from both rounded ends.
+-- one next to the exact centre that is equally far from both rounded ends. A full circle has only
+-- the former.
 nearCentres :: ArcContext -> RoundedArc -> [Pulses2]
 nearCentres context arc
   | begin arc == finish arc = around (nearest (centre arc))
@@ -60,8 +61,9 @@ isWithin most (Pulses2 i j) (Pulses2 k l) = abs (i - k) <= most && abs (j - l) <
 --
 -- Consider an arc of the sweep 2h about a centre that is displaced by n towards the arc's middle
 -- and by t across. This displaces the middle of the arc by @(1 − cos h)·n + sin h·t@ and its end by
--- @2·sin h·t@; the rounding of the start comes in addition. Both are at most the sum of the
--- tolerance and the rounding of the start. Therefore @(1 − cos h)·n@ is at most 3/2 of this sum.
+-- @2·sin h·t@; the rounding of the start comes in addition. Each of these two displacements is at
+-- most the sum of the tolerance and the rounding of the start. Therefore @(1 − cos h)·n@ is at most
+-- 3/2 of this sum.
 remoteCentres :: ArcContext -> RoundedArc -> [Pulses2]
 remoteCentres context arc
   | begin arc == finish arc = []

@@ -52,13 +52,13 @@ gridPoint grid (Pulses2 (Pulses x) (Pulses y)) =
 -- The radii at the beginning and at the end of a step may differ. It depends on the control which
 -- of them it uses at a point between.
 data ArcTolerance = ArcTolerance
-  { -- | for steps that are arcs, radially: if the control keeps the radius of the beginning, or
-    -- changes it linearly to that of the end
+  { -- | largest radial distance of a step that is an arc, if the control keeps the radius of the
+    -- beginning, or changes it linearly to that of the end
     linearError :: Mm,
-    -- | for all steps, towards the centre: even if the control jumps from the radius of the
-    -- beginning to that of the end at any point
+    -- | largest distance of any step towards the centre, even if the control jumps from the radius
+    -- of the beginning to that of the end at any point
     inwards :: Mm,
-    -- | away from the centre, under the same condition as 'inwards'
+    -- | largest distance of any step away from the centre, under the same condition as 'inwards'
     outwards :: Mm
   }
   deriving stock (Eq, Show)
@@ -67,8 +67,8 @@ data ArcTolerance = ArcTolerance
 data ArcContext = ArcContext
   { grid :: Grid,
     tolerance :: ArcTolerance,
-    -- | ends in pulses of the chords of a segment, from the rounded position where the segment
-    -- begins
+    -- | function that divides a segment into chords: it takes the rounded start of the segment, and
+    -- returns the ends of the chords in pulses
     chordsOf :: Pulses3 -> Segment -> [Pulses3],
     -- | height of the arc in mm
     height :: Mm
@@ -96,7 +96,8 @@ data RoundedArc = RoundedArc
     sense :: Sense
   }
 
--- | A straight or circular step: the position at its end in pulses. For an arc also the sense, and
--- the centre in pulses from the beginning of the step; Nothing for a straight step.
+-- | A straight or circular step, which becomes one frame: the position at its end in pulses. For an
+-- arc also the sense, and the centre in pulses from the beginning of the step; Nothing for a
+-- straight step.
 data ArcStep = ArcStep {target :: Pulses3, turnsAbout :: Maybe (Sense, Pulses2)}
   deriving stock (Eq, Show)

@@ -3,9 +3,9 @@
 
 -- | Radial deviation of the arc in a frame from the exact arc.
 --
--- The rounded ends of an arc usually have different distances from the rounded centre. A control
--- changes the radius from the first to the second: linearly at best, in one jump at worst. Both
--- cases are measured.
+-- The rounded ends of an arc usually have different distances from the rounded centre. So the
+-- radius at the end differs from that at the beginning. A control changes the radius along the arc
+-- from one to the other: linearly at best, in one jump at worst. Both cases are measured.
 module Frame.Arc.Deviation
   ( FrameArc (..),
     ArcDeviation (..),
@@ -78,7 +78,8 @@ data ArcDeviation = ArcDeviation
     outward :: Double
   }
 
--- | Deviation of a frame's arc from the exact arc; 0 if either of them is a line.
+-- | Deviation of a frame's arc, the last argument, from the exact arc; 0 if either of them is a
+-- line. @tolerance@ decides only if the quick method of 'deviationAtEnds' suffices.
 deviationOf :: ArcTolerance -> Segment -> Segment -> ArcDeviation
 deviationOf tolerance exact ofFrame =
   maybe
@@ -86,11 +87,11 @@ deviationOf tolerance exact ofFrame =
     (\arc -> fromMaybe (sampledDeviation arc) (deviationAtEnds tolerance arc))
     (frameArcOf exact ofFrame)
 
--- | Deviation at the ends of an arc. Nothing unless it is provably the largest deviation of the
--- arc, and the arc stays within the smaller one of the tolerances 'inwards' and 'outwards'; then
--- the caller takes samples. For a centre that is off by v and a sweep φ, the deviation between the
--- ends differs from linear interpolation by up to @φ²·v/8@. The bound used here is twice as large,
--- to cover the terms of second order in v.
+-- | Deviation at the ends of an arc, if it is provably the largest deviation of the whole arc. The
+-- arc also has to stay within the smaller one of the tolerances 'inwards' and 'outwards'. Otherwise
+-- Nothing; the caller then takes samples. For a centre that is off by v and a sweep φ, the
+-- deviation between the ends differs from linear interpolation by up to @φ²·v/8@. The bound used
+-- here is twice as large, to cover the terms of second order in v.
 deviationAtEnds :: ArcTolerance -> FrameArc -> Maybe ArcDeviation
 deviationAtEnds tolerance arc
   | abs (turned arc) < 1
@@ -109,8 +110,9 @@ deviationAtEnds tolerance arc
     off = abs asideX + abs asideY
     interpolationError = turned arc * turned arc * off / 4 + roundingError
     Mm smaller = min (inwards tolerance) (outwards tolerance)
-    -- The radial deviation is extreme where the radius is parallel to the vector between both
-    -- centres. There this product changes its sign.
+    -- Cross product of the radius at the fraction @t@ of the sweep and the vector between both
+    -- centres. Where the radial deviation is extreme, the two are parallel and the product changes
+    -- its sign.
     perpendicular t =
       let (c, s) = (cos (t * turned arc), sin (t * turned arc))
        in (c * startX arc - s * startY arc) * asideY - (c * startY arc + s * startX arc) * asideX

@@ -88,12 +88,12 @@ endsOf grid arc
     Mm toB = Vec.distance (centre arc) b
 
 -- | Estimated deviation in mm of an arc about the grid point (@i@, @j@). It is the largest of
--- three: at the middle and at the end when the control keeps the first radius, and at the middle
--- when it changes the radius linearly.
+-- three: at the middle and at the end when the control keeps the radius of the beginning, and at
+-- the middle when it changes the radius linearly.
 --
--- About a centre that is off by a vector v, the deviation is @e + v·(u − u₀)@ where the exact
--- radius has the direction u. Here e is the deviation at the beginning and u₀ the direction there.
--- Terms of second order in v are neglected.
+-- The exact radius at a point of the arc has the direction u. About a centre that is off by a
+-- vector v, the deviation at this point is @e + v·(u − u₀)@. Here e is the deviation at the
+-- beginning and u₀ the direction there. Terms of second order in v are neglected.
 estimate :: ArcEnds -> Pulses2 -> Double
 estimate
   ArcEnds {stepX, stepY, exactX, exactY, beginError, finishError, halfX, halfY, wholeX, wholeY}
@@ -165,9 +165,11 @@ frameArcAbout
       Rad turned = Carrier.sweepInSense sense (Rad short)
 {-# INLINE frameArcAbout #-}
 
--- | Exact deviation in mm in the middle of an arc about a grid point. No trigonometry is needed,
--- because the direction to the middle is square to the difference of the unit directions to the
--- ends. Apply the first two arguments once, and the result to many grid points.
+-- | Exact deviation in mm in the middle of an arc about a grid point. It is the larger one of two:
+-- when the control keeps the radius of the beginning, and when it changes the radius linearly. No
+-- trigonometry is needed, because the direction to the middle is square to the difference of the
+-- unit directions to the ends. Apply the first two arguments once, and the result to many grid
+-- points.
 errorInMiddle :: Grid -> RoundedArc -> Pulses2 -> Double
 errorInMiddle grid arc =
   let a = Context.gridPoint grid (xy (begin arc))

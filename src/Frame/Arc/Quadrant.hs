@@ -1,8 +1,8 @@
 -- | Cuts of an arc at the axes through its centre, in whole pulses, for controls whose arcs have to
 -- stay within a quadrant.
 --
--- The centre is chosen first, for the whole arc. The cuts then lie exactly on its axes, so rounding
--- cannot move a cut to the wrong side of an axis.
+-- The centre is chosen first, for the whole arc. The cuts then lie exactly on the axes through it,
+-- so rounding cannot move a cut to the wrong side of an axis.
 module Frame.Arc.Quadrant
   ( Crossings (..),
     crossings,
@@ -45,9 +45,10 @@ crossings grid (Mm r) exactCentre c =
        in Pulses (max 1 (round ((sqrt (max 0 (r * r - across * across)) - sign * along) / p)))
 
 -- | Ends of the frames of an arc about the grid point @c@, from the grid point @begin@ to @finish@.
--- When the control's arcs have to stay within a quadrant, they are every crossing before the arc's
--- end, and this end. Otherwise they are the arc's end alone. Empty when an arc of at most one turn
--- about @c@ does not lead to @finish@.
+-- @at@ are the crossings of the arc's circle with the axes through @c@. When the control's arcs
+-- have to stay within a quadrant, each crossing before the arc's end is an end of a frame, and so
+-- is @finish@. Otherwise @finish@ is the only one. Empty when the control has no arcs, or when an
+-- arc of at most one turn about @c@ does not lead to @finish@.
 frameEnds :: Machine -> Crossings -> Sense -> Pulses2 -> Pulses2 -> Pulses2 -> [Pulses2]
 frameEnds machine at sense c begin finish = case Machine.arcs machine of
   NoArcs -> []
@@ -61,8 +62,8 @@ frameEnds machine at sense c begin finish = case Machine.arcs machine of
       | most <= 0 || from == 0 || goal == 0 = []
       | otherwise = let next = nextCrossing sense at from in next : toCrossings (most - 1) next
 
--- | True for an arc about zero that stays within one quadrant between the two points, which are in
--- pulses.
+-- | True for an arc about zero, from the first point to the second, that stays within one quadrant.
+-- The points are in pulses.
 isInQuadrant :: Sense -> Pulses2 -> Pulses2 -> Bool
 isInQuadrant sense (Pulses2 a b) (Pulses2 c d) =
   a * c >= 0 && b * d >= 0 && Carrier.senseSign sense * fromIntegral (a * d - b * c) > 0

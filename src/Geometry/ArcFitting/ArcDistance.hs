@@ -5,10 +5,10 @@
 -- point is at most @|F|·(1 + |k·F|)@ away from the circle. The largest value of |F| along a curve
 -- therefore bounds the distance from the curve to the arc.
 --
--- A foot of a point is the point of the arc that is nearest to it. If the curve runs forwards in
--- the directions of both ends of the arc, the feet of its points cover the arc without a gap. Then
--- the same bound holds from the arc to the curve. A pose is a position in mm with a direction of
--- length 1.
+-- A foot of a point is the point of the arc that is nearest to it. A curve runs forwards if its
+-- direction makes less than a quarter turn with the directions of both ends of the arc. Then the
+-- feet of its points cover the arc without a gap, and the same bound holds from the arc to the
+-- curve. A pose is a position in mm with a direction of length 1.
 module Geometry.ArcFitting.ArcDistance
   ( -- * Arcs
     FastArc (..),
@@ -62,8 +62,8 @@ beyond :: FastArc -> Double -> Double -> Double
 beyond f x y = (x - px (limit f)) * dx (limit f) + (y - py (limit f)) * dy (limit f)
 {-# INLINE beyond #-}
 
--- | True if the direction of pose @p@ makes less than a quarter turn with the directions of both
--- ends of arc @f@.
+-- | True if a curve with the direction of pose @p@ runs forwards, that is, makes less than a
+-- quarter turn with the directions of both ends of arc @f@.
 runsForwards :: FastArc -> Pose -> Bool
 runsForwards f p =
   isForwardsBy
@@ -79,7 +79,8 @@ isForwardsBy :: FastArc -> Double -> Double -> Bool
 isForwardsBy f along across = along > 0 && along * cosine f + across * sine f > 0
 {-# INLINE isForwardsBy #-}
 
--- | The function F of the module header, in mm, for an arc's circle at a position.
+-- | The function F of the module header, in mm, for the circle of an arc, at the position of a
+-- pose.
 level :: FastArc -> Pose -> Double
 level f = above (bend f) (origin f)
 {-# INLINE level #-}
@@ -100,8 +101,8 @@ slope f p =
     - bend f * ((px p - px (origin f)) * dx p + (py p - py (origin f)) * dy p)
 {-# INLINE slope #-}
 
--- | Bound in mm of the distance from an arc, for a value @d@ of |F| in mm. It is infinite where the
--- value is too large for the bound to hold.
+-- | Bound in mm of the distance of a point from an arc, if |F| at the point is @d@ mm. The bound is
+-- infinite if @d@ is too large for it to hold.
 distanceOfLevel :: FastArc -> Double -> Double
 distanceOfLevel f d = if k * d < 0.2 then d * (1 + k * d) else 1 / 0
   where

@@ -41,7 +41,8 @@ import Geometry.Vec qualified as Vec
 -- arc suffices. The chords of both arcs are equal, except where they would give an S-shape to a
 -- curve that bends to one side. In this case one arc gets a chord up to four times as long as the
 -- other: the arc at the end whose direction is nearer to that of the whole chord. Nothing if the
--- points coincide, or if an arc would sweep more than half a turn.
+-- points coincide, if an arc would sweep more than half a turn, or if the joint is farther than
+-- 'Tolerance.reach' from an end.
 join :: (Point, Vec) -> (Point, Vec) -> Maybe (NonEmpty Segment)
 join from to = joinWith (ratio from to) from to
 
@@ -83,9 +84,12 @@ chordAngles (p, s) (q, t) = (a, b)
     Rad a = Vec.signedAngle (Vec.to p q) s
     Rad b = Vec.signedAngle (Vec.to p q) t
 
--- | Chord ratio that 'join' uses: the second arc's chord divided by the first arc's chord. It is 1,
--- or the ratio that avoids an S-shape. With the latter, each arc sweeps at least half of the angle
--- between the whole chord and the direction at the arc's end of the biarc.
+-- | Chord ratio of the biarc that 'join' makes: the length of the second arc's chord divided by
+-- that of the first. Let α and β be the angles from the whole chord to the directions at the start
+-- and at the end. If they have opposite signs, the curve bends to one side. Then the first arc
+-- should sweep at least |α|/2, and the second at least |β|/2, so that both bend to this side. The
+-- ratio is 1 if this gives such arcs. Otherwise it is the ratio nearest to 1 that does, but at
+-- least 1/4 and at most 4. If α and β have the same sign, the ratio is 1.
 ratio :: (Point, Vec) -> (Point, Vec) -> Double
 ratio from to
   | alpha * beta >= 0 || limited == gamma = 1
@@ -165,9 +169,9 @@ openDirections ps = case (ps, reverse ps) of
   where
     mirrored a b t = Vec.rotate (Vec.signedAngle t (Vec.to a b)) (Vec.unit (Vec.to a b))
 
--- | Unit direction at point @b@ of a chain with the neighbours @a@ and @c@; see 'through'. On the
--- circle through three points, the angle between a tangent and a chord equals the opposite angle of
--- the triangle.
+-- | Unit direction at point @b@ of a chain with the neighbours @a@ and @c@; see 'through'. It is
+-- computed by the theorem that the angle between a tangent and a chord of a circle equals the
+-- opposite angle of the triangle.
 tangentAt :: Point -> Point -> Point -> Vec
 tangentAt a b c
   | not (Vec.isNear a c) && Vec.dot circleTangent ab >= 0 && Vec.dot circleTangent bc >= 0 =

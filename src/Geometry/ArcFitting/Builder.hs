@@ -1,4 +1,6 @@
--- | Growing array of the vertices of an open polyarc, to which arc fitting appends.
+-- | Growing array of the vertices of an open polyarc, to which arc fitting appends. The bulge of a
+-- segment is the tangent of a quarter of its sweep; it is kept with the vertex at the segment's
+-- start.
 module Geometry.ArcFitting.Builder
   ( Vertices,
     new,

@@ -3,13 +3,16 @@
 
 -- | Arc fitting of cubic spans by biarcs, with an error bound in closed form.
 --
--- The bound, the function F and the arcs are those of "Geometry.ArcFitting.ArcDistance". On a
--- cubic, F is a polynomial of degree 6. Chebyshev economization reduces it to degree 3, plus a
--- small remainder; the maximum of a cubic is known in closed form.
+-- The bound and the arcs are those of "Geometry.ArcFitting.ArcDistance". The function F of a
+-- position is 0 on the circle of an arc, and the largest |F| along a curve gives a bound of its
+-- distance from the arc. The bound holds only if the curve runs forwards: its direction makes less
+-- than a quarter turn with the directions of both ends of the arc. On a cubic, F is a polynomial of
+-- degree 6. Chebyshev economization reduces it to degree 3, plus a small remainder; the maximum of
+-- a cubic is known in closed form.
 --
--- The parameter of a curve rises by 1 over each span. A stretch is the part between two corners,
--- given by the index @from@ of its first span and the index @to@ after its last. A pose is a
--- position in mm with a unit direction.
+-- The parameter of a curve rises by 1 over each span; the local parameter of a span goes from 0 to
+-- 1. A stretch is the part between two corners, given by the index @from@ of its first span and the
+-- index @to@ after its last. A pose is a position in mm with a unit direction.
 module Geometry.ArcFitting.CubicFit
   ( approximate,
   )
@@ -138,13 +141,14 @@ biarcDistances xs ys largest first u from _ v to pair
     !one = fastArc from (bend1 pair) (if single pair then to else joint pair)
     !two = fastArc (joint pair) (bend2 pair) to
 
--- | Position on the curve, by the index of its span and its local parameter, and a bound in mm. It
--- is that of the distance between arc and curve up to this position.
+-- | Position on the curve, by the index of its span and its local parameter, and a bound in mm. The
+-- bound is that of the distance between an arc and the curve up to this position.
 data Reached = Reached Int Double Double
 
--- | Advances on the curve along one arc and bounds their distance. It ends where the curve crosses
--- the normal at the arc's end, where the second arc begins. For the second arc, that is with
--- @final@, it ends at parameter @v@. It also ends once the bound exceeds @largest@ (mm).
+-- | Advances on the curve along one arc, and bounds the distance between curve and arc. The result
+-- is where it stops. Along a first arc it stops where the curve crosses the normal at the arc's
+-- end, because the second arc begins there. Along a second or single arc, for which @final@ is
+-- True, it stops at parameter @v@. It also stops once the bound exceeds @largest@ (mm).
 advance :: Cubics -> Cubics -> Double -> Double -> Bool -> FastArc -> Reached -> Reached
 advance xs ys largest v final f (Reached i0 a0 d0) = go i0 a0 d0
   where
@@ -180,8 +184,8 @@ distanceBound f p q a b = inFrame f p q a b $ \x@(Cubic _ x1 x2 x3) y@(Cubic _ y
     else 1 / 0
 
 -- | Passes a part of a span to the continuation @next@, as cubics x and y in the frame of the arc's
--- start. The part has the local parameters from @a@ to @b@ of the span; the new cubics have the
--- parameter from 0 to 1.
+-- start: x along the arc's direction there, y to its left. The part has the local parameters from
+-- @a@ to @b@ of the span; the new cubics have the parameter from 0 to 1.
 inFrame :: FastArc -> Cubic -> Cubic -> Double -> Double -> (Cubic -> Cubic -> r) -> r
 inFrame f (Cubic p0 p1 p2 p3) (Cubic q0 q1 q2 q3) a b next =
   next

@@ -87,9 +87,9 @@ forStretches count isCornerAt action = when (count > 0) (go 0 1)
       | otherwise = action from to >> when (to < count) (go to (to + 1))
 {-# INLINE forStretches #-}
 
--- | Appends the vertices of the biarcs along a range. Each biarc is as long as the tolerance @aim@
--- (mm) allows. The vertex at the end of the range is not appended, because the next range starts
--- with it.
+-- | Appends the vertices of the biarcs along a range of a curve's parameter. Each biarc is as long
+-- as the tolerance @aim@ (mm) allows. The vertex at the end of the range is not appended, because
+-- the next range starts with it.
 along :: Vertices s -> Double -> ParameterRange -> Spans -> ST s ()
 along
   vertices
@@ -150,7 +150,8 @@ along
           ArcDistances d1 d2 = arcDistances (1e6 * aim) i u from j v to pair
           d = if d1 > d2 then d1 else d2
           isKnown = d < 1e5 * aim
-          -- Factor for the chord ratio that shortens the arc with the larger deviation.
+          -- Ratio of both deviations. Its cube root is the factor for the chord ratio that shortens
+          -- the arc with the larger deviation.
           imbalance = if isKnown && d1 > 0.01 * d && d2 > 0.01 * d then d1 / d2 else 1
           balanced = max 0.4 (min 2.5 (r * cubeRoot imbalance))
           expected = if imbalance > 1 then d / sqrt imbalance else d * sqrt imbalance
@@ -250,8 +251,8 @@ maxTries = 20
 longEnough :: Double
 longEnough = 0.9
 
--- | Largest gap between success and failure at which the search ends, as a share of the biarc's
--- step.
+-- | Gap at which the search ends, as a share of the biarc's step: the difference of parameters
+-- between the longest biarc within the tolerance and the shortest longer one that failed.
 narrowBracket :: Double
 narrowBracket = 0.03
 

@@ -29,7 +29,7 @@ import Geometry.Tolerance qualified as Tolerance
 import Geometry.Vec (Point, Vec)
 import Geometry.Vec qualified as Vec
 
--- | Curve given by functions of a rising parameter.
+-- | Curve given by functions of a parameter that increases from its start to its end.
 data ParametricCurve = ParametricCurve
   { -- | point at a parameter
     place :: Double -> Point,
@@ -37,7 +37,7 @@ data ParametricCurve = ParametricCurve
     direction :: OneSided -> Double -> Vec,
     -- | parameter at the start of the curve
     begin :: Double,
-    -- | parameters at the ends of the spans, rising; within a span the direction is continuous
+    -- | parameters at the ends of the spans, ascending; within a span the direction is continuous
     breaks :: NonEmpty Double
   }
 
@@ -55,8 +55,8 @@ type Stretch = NonEmpty (Double, Double)
 --
 -- The ends of the biarcs lie on the curve and have the curve's direction. Where the directions
 -- before and after a parameter differ too little for a corner, it is their mean. Where no biarc
--- succeeds, a line over the share 'Tolerance.finestStep' of a span is used. A biarc costs some
--- dozens of curve points, and a few more for each span that it passes.
+-- succeeds, a line over the share 'Tolerance.finestStep' of a span is used. A biarc takes the
+-- computation of some dozens of curve points, and of a few more for each span that it passes.
 approximate :: Mm -> ParametricCurve -> NonEmpty (NonEmpty Segment)
 approximate (Mm tolerance) curve =
   case concatMap (long . follow curve tolerance) (NonEmpty.toList (stretches curve)) of
@@ -318,8 +318,8 @@ measured w v stations segments
     interleaved as bs = concat (zipWith (\a b -> [a, b]) as bs)
 
 -- | Counts of sample points for the parts of spans between the current parameter and @v@. Each part
--- has its first and last parameter. The count of a part is proportional to its share of the
--- parameter range or of the length, whichever is larger.
+-- has its first and last parameter. A single part has 8 points. Of several parts, each has 8 times
+-- its share of the parameter range or of the length, whichever is larger, but at least 3.
 sampleCounts :: FitState -> Double -> [(Double, Double)] -> [(Int, (Double, Double))]
 sampleCounts w v parts = case parts of
   [one] -> [(8, one)]
@@ -349,11 +349,11 @@ samplePoints point back (n, (a, b)) =
 distanceTo :: NonEmpty Segment -> Point -> Double
 distanceTo segments p = let Mm d = minimum (fmap (Distance.toPoint p) segments) in d
 
--- | Largest distance, in mm, between segments and a curve. The curve is given by the function
--- @point@ of the parameter and by the samples @points@ in order. The distance is measured at the
--- samples, near the joint of the segments, and at every maximum between samples. The result is
--- infinite if the feet of the samples on the segments jump or reverse: some point of the segments
--- may be far from the curve.
+-- | Largest distance, in mm, between segments and a curve, for a comparison with the tolerance
+-- @aim@ (mm). The curve is given by the function @point@ of the parameter and by the samples
+-- @points@ in order. The distance is measured at the samples, near the joint of the segments, and
+-- at every maximum between samples. The result is infinite if the feet of the samples on the
+-- segments jump or reverse: some point of the segments may be far from the curve.
 deviation :: (Double -> Point) -> Double -> NonEmpty Segment -> [(Double, Point)] -> Double
 deviation point aim segments points
   | largest > aim || isCovered point aim segments feet = largest
@@ -411,9 +411,10 @@ highest distance aim remaining one@(a, da) two@(b, db) three@(c, dc)
     again = highest distance aim (remaining - 1)
     max' x y = if snd x > snd y then x else y
 
--- | True if the feet of a curve's points move forwards along the segments without a jump. Each
--- entry of @feet@ has a parameter, the point there, and the length along the segments up to its
--- foot. Where the foot moves much farther than the point, the interval is bisected.
+-- | True if the feet of a curve's points move forwards along the segments without a jump. Steps
+-- below a tenth of the tolerance @aim@ (mm) are ignored. Each entry of @feet@ has a parameter, the
+-- point there, and the length along the segments up to its foot. Where the foot moves much farther
+-- than the point, the interval of the parameter is bisected.
 isCovered :: (Double -> Point) -> Double -> NonEmpty Segment -> [(Double, Point, Double)] -> Bool
 isCovered point aim segments feet = and (zipWith (isSteady (20 :: Int)) feet (drop 1 feet))
   where

@@ -4,10 +4,13 @@
 
 -- | Arc fitting of polyarcs by biarcs, with an error bound in closed form.
 --
--- The bound, the function F and the arcs are those of "Geometry.ArcFitting.ArcDistance". Along a
--- line or an arc that sweeps less than a quarter turn, F has at most one extremum. It lies where
--- the slope @F′ = d_y − k·(x·d_x + y·d_y)@ is 0; this slope is nearly linear from one end to the
--- other.
+-- The bound and the arcs are those of "Geometry.ArcFitting.ArcDistance". The function F of a
+-- position is 0 on the circle of an arc, and the largest |F| along a curve gives a bound of its
+-- distance from the arc. The bound holds only if the curve runs forwards: its direction makes less
+-- than a quarter turn with the directions of both ends of the arc. Along a segment that sweeps less
+-- than a quarter turn, F has at most one extremum. It lies where the slope @F′ = d_y − k·(x·d_x +
+-- y·d_y)@ is 0, for a position (x, y), a direction d and the arc's curvature k. This slope is
+-- nearly linear from one end to the other.
 --
 -- The parameter of a polyarc is its arc length in mm. Segments are counted from 0. A stretch is the
 -- part between two corners, given by the index @from@ of its first segment and the index @to@ after
@@ -292,8 +295,8 @@ biarcDistances chain largest first u from final v to pair
 
 -- | True if a tested vertex of the polyarc is farther than @largest@ (mm) from a biarc. The biarc
 -- starts at pose @from@ in segment @first@ and ends in segment @final@. This test rejects most
--- biarcs that deviate too much, before the exact bound is computed. It tests up to three vertices,
--- and only three of a longer run.
+-- biarcs that deviate too much, before the exact bound is computed. It tests all vertices between
+-- the ends of the biarc if they are at most three, otherwise three of them.
 isVertexFar :: SegmentTable -> Double -> Int -> Int -> Pose -> FastBiarc -> Bool
 isVertexFar chain largest first final from pair
   | final - first >= 4 = isQuarterFar 1 || isQuarterFar 2 || isQuarterFar 3
@@ -354,13 +357,14 @@ slack :: Double
 slack = 0.05
 
 -- | Position on the polyarc, by its segment, its arc length (mm) and its pose, and a bound in mm.
--- It is that of the distance between arc and polyarc up to this position.
+-- The bound is that of the distance between an arc and the polyarc up to this position.
 data Reached = Reached Int Double Pose Double
 
--- | Advances on the polyarc along one arc and bounds their distance. It ends where the polyarc
--- crosses the normal at the arc's end, where the second arc begins. For the second arc, that is
--- with @final@, it ends at the arc length @v@ with the pose @to@. It also ends once the bound
--- exceeds @largest@ (mm).
+-- | Advances on the polyarc along one arc, and bounds the distance between polyarc and arc. The
+-- result is where it stops. Along a first arc it stops where the polyarc crosses the normal at the
+-- arc's end, because the second arc begins there. Along a second or single arc, for which @final@
+-- is True, it stops at the arc length @v@ with the pose @to@. It also stops once the bound exceeds
+-- @largest@ (mm).
 advance :: SegmentTable -> Double -> Double -> Pose -> Bool -> FastArc -> Reached -> Reached
 advance !chain !largest !v !to !final !f (Reached i0 u0 begin d0) =
   go i0 u0 (px begin) (py begin) (dx begin) (dy begin) (level f begin) (abs (level f begin))

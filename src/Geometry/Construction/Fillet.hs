@@ -1,5 +1,7 @@
 -- | Fillets: arcs of a given radius and sense (clockwise or counter-clockwise) that lead from one
--- element's carrier to another. At both ends a fillet has the carrier's direction of travel.
+-- element's carrier to another. A carrier is the line, the circle, the curve or the point on which
+-- an element lies, with a direction of travel. At both ends a fillet has the carrier's direction of
+-- travel.
 module Geometry.Construction.Fillet
   ( Fillet (..),
     between,

@@ -1,5 +1,5 @@
--- | Constructions of lines and circles that touch others or pass through points. Each gives all
--- solutions; the caller chooses.
+-- | Constructions of lines and circles that touch others or pass through points. Each construction
+-- gives all solutions; the caller chooses.
 module Geometry.Construction.TangentCircle
   ( Touched (..),
     tangentLines,
@@ -25,9 +25,9 @@ data Touched
   = Through Point
   | LeftOf Line
   | RightOf Line
-  | -- | neither circle lies inside the other
+  | -- | a circle that it touches; neither of the two lies inside the other
     OutsideOf Circle
-  | -- | one of the two circles, either of them, lies inside the other
+  | -- | a circle that it touches; one of the two, whichever it is, lies inside the other
     InsideOf Circle
   deriving stock (Eq, Show)
 
@@ -43,14 +43,15 @@ tangentLines (sensesA, a) (sensesB, b) =
         Just l <- [TangentLine.directed (senseA, a) (senseB, b)]
     ]
   where
-    -- A point lies on the line, not to one side of it.
+    -- A circle of radius 0 gives the same line for both senses, so one sense is enough.
     relevant (Circle _ r) senses = if r <= Tolerance.coincident then take 1 senses else senses
     distinct ls = case ls of
       [] -> []
       l : rest -> l : distinct (filter (differs l) rest)
     differs l m = not (Vec.isNear (from l) (from m) && Vec.isNear (to l) (to m))
 
--- | The circles of the radius @r@ that meet both conditions @a@ and @b@: at most two.
+-- | The circles of the radius @r@ that meet both conditions @a@ and @b@: at most two. The list is
+-- empty also if infinitely many circles meet both.
 circles :: Mm -> Touched -> Touched -> [Circle]
 circles r a b =
   [ Circle c r

@@ -15,7 +15,8 @@ import Prelude hiding (all)
 -- | The common tangent from the first circle to the second, from tangent point to tangent point. At
 -- both points, the line has the direction in which the circle passes the point in its sense. A
 -- circle of radius 0 is a point. Nothing when one circle lies inside the other, or when circles of
--- opposite senses overlap.
+-- opposite senses overlap. Nothing also when the two tangent points coincide, so that the line
+-- would have no length.
 --
 -- With signed radii ρ, positive counter-clockwise, the tangent's left normal n satisfies
 -- @n·(c₂ − c₁) = ρ₂ − ρ₁@, and the tangent points are @cᵢ − ρᵢ·n@.
@@ -33,8 +34,8 @@ directed (sense1, Circle c1 (Mm r1)) (sense2, Circle c2 (Mm r2))
     u = Vec.add (Vec.scale (len / d) e) (Vec.scale ((rho1 - rho2) / d) (Vec.left e))
     touch c rho = Vec.shift (Vec.scale (-rho) (Vec.left u)) c
 
--- | All common tangents from the circle @a@ to the circle @b@, at most four. Each comes with the
--- senses of @a@ and @b@ for which it is 'directed'.
+-- | All common tangents from the circle @a@ to the circle @b@, at most four. Each comes after the
+-- senses of @a@ and @b@ for which 'directed' gives it.
 all :: Circle -> Circle -> [(Sense, Sense, Line)]
 all a b =
   [ (sense1, sense2, line)

@@ -2,8 +2,9 @@
 --
 -- The parameter runs from 0 to the count of spans, by 1 over each span; it has no unit. The local
 -- parameter of a span runs from 0 to 1. A base is a curve without shifts. It keeps the rows of the
--- table from which it was made. Columns of numbers are interpolated between them by the same method
--- as the points.
+-- table from which it was made. A row is a point of the table with its parameter on the curve. A
+-- column gives a number for each row and is interpolated between the rows
+-- ("Geometry.Curve.Column").
 module Geometry.Curve.BasisCurve
   ( BasisCurve (..),
     SpanList (..),
@@ -97,7 +98,7 @@ data CurveKind
 data EndCondition
   = -- | zero curvature
     Natural
-  | -- | the given unit directions at the start and at the end
+  | -- | the given directions at the start and at the end; their lengths do not matter
     Clamped Vec Vec
   | -- | the end continues into the beginning with equal first and second derivatives
     Periodic
@@ -113,9 +114,9 @@ data CurveFault
     TooFew Int
   | -- | the row with this number and the next one coincide
     Coincident Int
-  | -- | an even count of points, so that the last parabola has only two; the count
+  | -- | the count of points, which is even, so that the last parabola would have only two points
     EvenCount Int
-  | -- | x reverses between the row with this number and the next one
+  | -- | from the row with this number to the next one, x stays equal or reverses
     NotMonotone Int
   | -- | a direction at an end of a spline is a zero vector
     NoDirection
@@ -128,8 +129,8 @@ data CurveFault
     Disordered Int
   | -- | the radius of a joggle is not above half of its depth
     DeepJoggle
-  | -- | the ramps of a joggle need the first length, but the curve between its parameters has only
-    -- the second
+  | -- | the length that the two ramps of a joggle need, and the smaller length of the curve between
+    -- the parameters at which the joggle begins and ends
     LongJoggle Mm Mm
   deriving stock (Eq, Show)
 
@@ -207,9 +208,10 @@ polyline points = do
         (\i -> Spline.line (part (points Vector.! i)) (part (points Vector.! (i + 1))))
     {-# INLINE lineCubics #-}
 
--- | Cubic spline through the points. Its second derivatives by accumulated chord length are
--- continuous. At clamped ends, the first derivative by chord length is the given direction. The
--- last point of a periodic spline may repeat the first one or not.
+-- | Cubic spline through the points. Its second derivatives with respect to the accumulated chord
+-- length, the sum of the distances between consecutive points, are continuous. At clamped ends, the
+-- first derivative with respect to this length is the given direction. The last point of a periodic
+-- spline may repeat the first one or not.
 spline :: EndCondition -> Vector Point -> Either CurveFault BasisCurve
 spline ends points = case ends of
   Natural -> do
@@ -270,8 +272,8 @@ chords base
   where
     points = Vector.map knotPoint (rows base)
 
--- | Position of the middle one of the three rows of each parabola: the local parameter, from 0 to
--- 1, in the span of this parabola.
+-- | For each parabola, the local parameter, from 0 to 1, at which the middle one of its three rows
+-- lies.
 fractions :: BasisCurve -> Vector Double
 fractions base =
   Vector.generate
@@ -311,16 +313,18 @@ parabola points
     advance p q = sense * (Vec.x q - Vec.x p) - (let Mm d = Tolerance.coincident in d)
     middle i = (x (2 * i + 1) - x (2 * i)) / (x (2 * i + 2) - x (2 * i))
 
--- | Base of consecutive spans of given shapes, with the rising parameters of the table's rows.
+-- | Base of consecutive spans of given shapes. The vector contains the parameters of the rows, in
+-- ascending order.
 fromShapes :: NonEmpty SpanShape -> Vector Double -> Either CurveFault BasisCurve
 fromShapes = ofSpans . vector Span.fromShape
 
--- | Base of consecutive lines and arcs, with the rising parameters of the table's rows.
+-- | Base of consecutive lines and arcs. The vector contains the parameters of the rows, in
+-- ascending order.
 fromSegmentsAt :: NonEmpty Segment -> Vector Double -> Either CurveFault BasisCurve
 fromSegmentsAt = ofSpans . vector Span.fromSegment
 
--- | Base of consecutive spans. @parameters@ are those of the table's rows, which must rise. It is a
--- fault if they do not, or if two spans do not join.
+-- | Base of consecutive spans. @parameters@ are those of the rows. It is a fault if they are not
+-- strictly ascending or lie outside of the curve, or if two consecutive spans do not join.
 ofSpans :: Vector Span -> Vector Double -> Either CurveFault BasisCurve
 ofSpans parts parameters = do
   checkJoined parts
@@ -414,8 +418,8 @@ isLoop points = case (points Vector.!? 0, points Vector.!? (Vector.length points
   (Just p, Just q) -> Vector.length points > 2 && Vec.isNear p q
   _ -> False
 
--- | Rows with the given points, of which each lies at the start of a span or at the end of the
--- last.
+-- | Rows with the given points. Row i, counted from 0, has the parameter i: it lies at the start of
+-- span i, or at the end of the last span.
 rowsAtEnds :: Vector Point -> Vector Knot
 rowsAtEnds = Vector.imap (\i p -> Knot {at = fromIntegral i, knotPoint = p})
 
@@ -431,7 +435,8 @@ arcLength = lengthTable
 
 -- | Position on a curve. @parameter@ is that of the whole curve. @number@ is the index, from 0, of
 -- the span in which the position lies; @local@ is the parameter in this span, from 0 to 1.
--- @approach@ is the side from which the position is approached.
+-- @approach@ is the side from which the position is approached: from smaller parameters ('Before')
+-- or from larger ones ('After').
 data SpanPoint = SpanPoint
   { parameter :: Double,
     number :: Int,
@@ -440,8 +445,9 @@ data SpanPoint = SpanPoint
   }
   deriving stock (Eq, Show)
 
--- | Position at parameter @u@, approached from the given side. A parameter outside of the domain
--- gives the nearer end.
+-- | Position with the parameter @u@: the span that contains it, and the local parameter in this
+-- span. At a joint of two spans it lies in the earlier span for 'Before' and in the later one for
+-- 'After'. A parameter outside of the base gives the nearer end.
 spanPoint :: Approach -> Double -> BasisCurve -> SpanPoint
 spanPoint approach u base =
   SpanPoint {parameter, number, local = parameter - fromIntegral number, approach}
@@ -484,8 +490,8 @@ reversed base =
 mapSpans :: (Vector Span -> Vector Span) -> BasisCurve -> SpanList
 mapSpans f base = toSpanList (f (spans base))
 
--- | Values of the rows of a base, given in the order of its rows. The result has them in the order
--- of the rows of the reversed base.
+-- | Reorders values, one for each row of a base. They are given in the order of its rows; the
+-- result has the order of the rows of the reversed base.
 inReverseOrder :: BasisCurve -> Vector a -> Vector a
 inReverseOrder base values
   | lacksRepeatedStart base = Vector.cons (Vector.head values) (Vector.reverse (Vector.tail values))

@@ -3,8 +3,8 @@
 -- by a spline on a spline.
 --
 -- The base is the unshifted curve to which the table belongs. If its spans were given one by one,
--- the speed jumps from span to span. In this case the column is a cubic spline by arc length: a
--- natural one, or a periodic one on a closed base.
+-- the speed, in mm per unit of the parameter, jumps from span to span. In this case the column is a
+-- cubic spline by arc length: a natural one, or a periodic one on a closed base.
 module Geometry.Curve.Column
   ( Column (..),
     Interpolation (..),
@@ -39,7 +39,8 @@ data Column = Column {values :: Vector Double, interpolation :: Interpolation}
 data Interpolation
   = -- | a cubic for every span of the base, over the span's local parameter from 0 to 1
     BySpan Cubics
-  | -- | the arc lengths (mm) at the rows, rising, and a cubic for each interval between two of them
+  | -- | the arc lengths (mm) at the rows, in ascending order; and a cubic for each interval between
+    -- neighbouring rows, over a local parameter from 0 to 1
     ByLength (Unboxed.Vector Double) Cubics
   deriving stock (Eq, Show)
 
@@ -52,7 +53,8 @@ column base values
   where
     flat = Unboxed.convert values
     first = Vector.take 1 values
-    -- The first point may occur again as the last row, with another value; then the column jumps.
+    -- The first point may occur again as the last row, with another value. Then the column jumps at
+    -- this point and is not periodic.
     isPeriodic =
       BasisCurve.lacksRepeatedStart base || first == Vector.drop (Vector.length values - 1) values
     periodicValues =
@@ -78,7 +80,7 @@ column base values
       Joined -> byLength base values
 
 -- | Interpolation of the values by a spline in arc length along the base. A single value gives a
--- constant.
+-- constant; an empty vector gives 0.
 byLength :: BasisCurve -> Vector Double -> Interpolation
 byLength base values = case Vector.toList values of
   [] -> BySpan (Spline.generate (BasisCurve.count base) (const (Cubic 0 0 0 0)))
@@ -117,7 +119,8 @@ byLength base values = case Vector.toList values of
             (Unboxed.fromList (Vector.toList vs))
         )
 
--- | Power series of the value of column @c@ about a position, up to the power @n@ of the parameter.
+-- | Power series of the value of column @c@ about the position @spanPoint@, up to the power @n@ of
+-- the parameter.
 series :: Int -> BasisCurve -> Column -> SpanPoint -> PowerSeries
 series n base c spanPoint = case interpolation c of
   BySpan cubics -> Spline.series n (Spline.at cubics (number spanPoint)) (local spanPoint)
@@ -143,21 +146,22 @@ series n base c spanPoint = case interpolation c of
             (TaylorExpansion.speed (BasisCurve.expansion n base spanPoint))
       fraction = PowerSeries.scale (1 / width) (PowerSeries.plusConstant (-from) lengthSeries)
 
--- | Rising parameters of the rows, at which one cubic of a spline by arc length follows another.
--- The list is empty for a column by spans, whose cubics change only where the spans of the base do.
+-- | Parameters, in ascending order, at which one cubic of a spline by arc length follows another:
+-- those of the rows. The list is empty for a column by spans, whose cubics change only at the ends
+-- of the base's spans.
 knots :: BasisCurve -> Column -> [Double]
 knots base c = case interpolation c of
   BySpan _ -> []
   ByLength _ _ -> map BasisCurve.at (Vector.toList (BasisCurve.rows base))
 
--- | Index, from 0, of the interval that contains the arc length @s@ (mm). @stations@ are the rising
--- arc lengths at the ends of the intervals. A length outside of all intervals gives the first or
--- the last index.
+-- | Index, from 0, of the interval that contains the arc length @s@ (mm). @stations@ are the arc
+-- lengths at the ends of the intervals, in ascending order. A length outside of all intervals gives
+-- the first or the last index.
 intervalAt :: Double -> Unboxed.Vector Double -> Int
 intervalAt s stations = BinarySearch.lastAtMost (Unboxed.length stations - 1) s stations
 
--- | Column @c@ with its values multiplied by the factor @k@, on the given base, which is scaled
--- already.
+-- | Column @c@ with its values multiplied by the factor @k@, as a column of @base@, which the
+-- caller has scaled already.
 scaled :: BasisCurve -> Double -> Column -> Column
 scaled base k c = column base (Vector.map (k *) (values c))
 

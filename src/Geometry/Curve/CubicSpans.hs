@@ -25,7 +25,7 @@ import Linear.V2 (V2 (..))
 -- | Bound of the error in mm, and the cubic spans in x and in y. They are within the tolerance of
 -- the curve. Polynomial spans of an unshifted curve are returned unchanged, with the bound 0. The
 -- result is Nothing for an unshifted curve with arcs, and for a shifted curve whose speed is 0 or
--- nearly 0. It is also Nothing where 'maxHalvings' halvings do not suffice.
+-- nearly 0. It is also Nothing if 'maxHalvings' halvings of an interval do not suffice.
 along :: Mm -> Curve -> Maybe (Mm, Cubics, Cubics)
 along (Mm tolerance) curve = case curve of
   Unshifted b -> case spanList b of
@@ -116,8 +116,9 @@ areHalvesNear tolerance interval firstHalf secondHalf =
     -- of this function at the middle, 1/16.
     oddShare = 16 * sqrt 5 / 250
 
--- | Differences between curve and Hermite cubic at the middle of an interval. The first is the
--- distance of the points in mm. The second is that of the derivatives, in mm per whole interval.
+-- | Differences between curve and Hermite cubic at the middle of an interval. The first is that of
+-- the points in mm, the second that of the derivatives in mm per whole interval. Each is the sum of
+-- the absolute differences in x and in y, an upper bound of the distance.
 difference :: Interval -> (Double, Double)
 difference
   Interval

@@ -2,8 +2,8 @@
 --
 -- The starting point is an intersection of the polyarcs that approximate the curves to
 -- 'Tolerance.curve'. Newton's method leads from it to the exact intersection of the curves. The
--- foot of a point on a curve is the point of the curve where the perpendicular from the first point
--- meets it. Each step goes to the intersection of the tangents at both feet of the current point.
+-- foot of a point P on a curve is the point at which the perpendicular from P meets the curve. Each
+-- step goes to the intersection of the tangents at both feet of the current point.
 module Geometry.Curve.Intersection
   ( Foot,
     onLine,

@@ -122,8 +122,8 @@ refineSamples sample = go
     largestChange = 0.3
     halvings = 6 :: Int
 
--- | Rising parameters at which the curve has the x @abscissa@ (mm). A stretch on which x is
--- constantly @abscissa@ contributes its two ends.
+-- | Parameters, in ascending order, at which the curve's x is @abscissa@ (mm). A stretch on which x
+-- is constantly @abscissa@ contributes its two ends.
 atX :: Double -> Curve -> [Double]
 atX abscissa curve = distinct (concatMap found (stretches curve))
   where
@@ -167,15 +167,15 @@ atX abscissa curve = distinct (concatMap found (stretches curve))
             ShiftedCurve.expansionAt 0 curve (ShiftedCurve.spanPoint After u curve)
        in deviation (PowerSeries.value a) == 0
 
--- | Merge of two rising lists.
+-- | Merge of two ascending lists.
 merge :: [Double] -> [Double] -> [Double]
 merge as bs = case (as, bs) of
   ([], _) -> bs
   (_, []) -> as
   (a : as', b : bs') -> if a <= b then a : merge as' bs else b : merge as bs'
 
--- | Rising parameters at which the direction jumps by more than 'Tolerance.smoothAngle'. The seam
--- of a closed curve has the parameter 0.
+-- | Parameters, in ascending order, at which the direction jumps by more than
+-- 'Tolerance.smoothAngle'. The seam of a closed curve has the parameter 0.
 corners :: Curve -> [Double]
 corners curve =
   [0 | isClosed curve, isCorner 0] <> filter isCorner (drop 1 (init (ShiftedCurve.breaks curve)))
@@ -206,10 +206,10 @@ unitTangentAcrossSeam approach curve u
     unitTangent After curve 0
   | otherwise = unitTangent approach curve u
 
--- | Unit tangent just before or just after parameter @u@. At the start and at the end of the curve,
--- the only tangent is taken for both. Where the speed is 0, the tangent is the limit from the given
--- side. Where a shift has collapsed a stretch to a point, it is the tangent of the curve below the
--- shift.
+-- | Unit tangent just before or just after parameter @u@. The start and the end of the curve have
+-- only one tangent, which is the result for both approaches. Where the speed is 0, the tangent is
+-- the limit from the given side. Where a shift has collapsed a stretch to a point, it is the
+-- tangent of the curve below the shift.
 unitTangent :: Approach -> Curve -> Double -> Vec
 unitTangent approach curve u = case TaylorExpansion.direction approach (expansion 1) of
   Just d -> d

@@ -1,8 +1,9 @@
 -- | Sections: lines, parabolas and circular arcs y(x) through two rows of a table.
 --
 -- The parabolas through two given rows form a family with one parameter t, and so do the arcs. At
--- every x between the two rows, y rises with t. Therefore the largest deviation in y is least where
--- two rows deviate equally to opposite sides, or at a limit of the range of t.
+-- every x between the two rows, y rises with t. The deviation of a row is y of the section minus y
+-- of the row. Therefore the largest absolute deviation is least for the t at which two rows deviate
+-- equally to opposite sides, or for a t at a limit of its range.
 module Geometry.Curve.Section
   ( -- * Tables
     PointTable,
@@ -51,7 +52,8 @@ data PointTable = PointTable {xs :: Vector Double, ys :: Vector Double}
 data PointTableFault
   = -- | too few rows; the count of rows
     TooFewRows Int
-  | -- | the first row, counted from 1, whose x does not rise or fall as the first two rows do
+  | -- | the number of the first row that breaks the order: its x equals that of the row before, or
+    -- x turns back there
     OutOfOrder Int
   deriving stock (Eq, Show)
 
@@ -203,8 +205,8 @@ rise chord@(Chord w h) c x = case c of
   Arc (Rad t) -> arcRise chord (tan t) x
 
 -- | 'rise' of an arc. @tangent@ is the tangent of the angle between chord and arc. The circles
--- through (0, 0) and (w, h) are @μ·(x·(x − w) + y·(y − h)) + x·h − y·w = 0@, where |μ| is
--- @tangent@. The arc is the solution y that tends to the chord for μ → 0.
+-- through (0, 0) and (w, h) are @μ·(x·(x − w) + y·(y − h)) + x·h − y·w = 0@, where μ has the
+-- absolute value of @tangent@. The arc is the solution y that tends to the chord for μ → 0.
 arcRise :: Chord -> Double -> Double -> Double
 arcRise (Chord w h) tangent x = 2 * q / (p + signum w * sqrt (max 0 (p * p - 4 * mu * q)))
   where
@@ -213,16 +215,18 @@ arcRise (Chord w h) tangent x = 2 * q / (p + signum w * sqrt (max 0 (p * p - 4 *
     q = mu * x * (x - w) + x * h
 {-# INLINE arcRise #-}
 
--- | Section of kind @k@ between the rows @i@ and @j@ (indices from 0) with the least largest
--- deviation. The result is this deviation in mm, taken over the rows between, and the shape.
+-- | Section of kind @k@ between the rows @i@ and @j@ (indices from 0) whose largest absolute
+-- deviation is least. The result is this deviation in mm, taken over the rows between, and the
+-- shape.
 best :: PointTable -> SectionKind -> Int -> Int -> (Double, SectionShape)
 best t k i j = let (worst, c, _) = bestWithin (1 / 0) Nothing t k i j in (worst, c)
 
 -- | As 'best', but the search ends once the deviation exceeds a limit. The first argument is the
 -- limit in mm. The second is a pair of row indices from which the search starts, or Nothing. If the
 -- least largest deviation exceeds the limit, the first result is a lower bound of this deviation,
--- also above the limit. The third result is the pair of rows that determines the first. Given as
--- second argument for a slightly longer section, this pair saves most of the work.
+-- also above the limit. The third result is the pair of rows that determines the first; it has no
+-- meaning if there are no rows between. Given as second argument for a slightly longer section,
+-- this pair saves most of the work.
 bestWithin ::
   Double ->
   Maybe (Int, Int) ->

@@ -41,13 +41,14 @@ import Geometry.Tolerance qualified as Tolerance
 -- neighbouring rows.
 --
 -- A section that deviates by more than /twice/ the tolerance d is not extended. This pruning loses
--- no fit. Proof: let a section A start at row i, end after row j and keep within d. Let B be
--- the best section of its kind from i to j, with the largest deviation D. The difference of two
+-- no fit. Proof: let a section A start at row i, end after row j and keep within d. Let B be the
+-- best section of its kind from i to j, with the largest deviation D. The difference of two
 -- parabolas, or of two arcs that are single-valued in x, is monotone from some point on after their
 -- second common point (the sine of an arc's slope is linear in x). B deviates by D to one side at
 -- some row and to the other side at another row, or has a vertical tangent at an end, with the same
--- result. If D > d, then A − B has its second zero between these rows. It is at least D − d at the
--- later one, and no smaller at row j; but there it is at most d. So D is at most 2·d.
+-- result. If D > d, then A − B has its second zero between these rows. The absolute value of A − B
+-- is at least D − d at the later of these rows, and no smaller at row j. At row j it is at most d,
+-- since B passes through this row and A keeps within d. So D is at most 2·d.
 --
 -- With n rows, and sections of at most m rows within twice the tolerance, n·m pairs of first and
 -- last rows are tested. Most pairs are rejected by the two rows that rejected the previous pair;
@@ -69,8 +70,9 @@ sectionBetween t i j curve largestDeviation =
 -- are possible, with their largest deviations in mm.
 type SectionsFrom = [(Int, NonEmpty (SectionKind, Double))]
 
--- | Sections that a fit with the fewest sections can contain. The list has one map for each
--- position in the fit; the key is the index of a section's first row, from 0.
+-- | Sections that a fit with the fewest sections can contain. The list has one map for the first
+-- section of a fit, one for the second, and so on. The key is the index of a section's first row,
+-- from 0.
 type Layers = NonEmpty (IntMap SectionsFrom)
 
 -- | Layers within @tolerance@ (mm), by breadth-first search from the first row to the last. Step k

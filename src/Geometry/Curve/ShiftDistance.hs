@@ -1,4 +1,5 @@
--- | Distances of shifts along a curve: the ciphers of the Ural paper.
+-- | Distances of shifts along a curve. A cipher is the digit that names a kind of distance on the
+-- input sheet of the Minsk-22 system (Kolsanova, section 5).
 --
 -- A distance belongs to the curve that it shifts and may depend on that curve's arc length. It is
 -- in mm, and positive towards the side of the shift. A position on a curve is a parameter together
@@ -49,15 +50,16 @@ data Distance
     Joggled Joggle
   deriving stock (Eq, Show)
 
--- | Linear growth of the distance along the curve. @between@ has the two rising parameters between
--- which it grows, Nothing for the whole curve. Before the first parameter the distance is @from@,
--- after the second it is @to@.
+-- | Linear growth of the distance along the curve. @between@ has the two parameters between which
+-- it grows, in ascending order; Nothing means the whole curve. Before the first parameter the
+-- distance is @from@, after the second it is @to@.
 data Growth = Growth {from :: Mm, to :: Mm, between :: Maybe (Double, Double)}
   deriving stock (Eq, Show)
 
--- | Joggle between two rising parameters. Inside of this interval, a ramp at each end leads to the
--- full depth. A ramp consists of two arcs of the given radius, which is more than half of the
--- depth. A negative depth shifts away from the side of the shift.
+-- | Joggle: a local step of the edge between the parameters @begins@ and @ends@, in ascending
+-- order. Inside of this interval, a ramp at each end leads to the full depth. A ramp consists of
+-- two arcs of the given radius, which is more than half of the depth. A negative depth shifts away
+-- from the side of the shift.
 data Joggle = Joggle {begins :: Double, ends :: Double, depth :: Mm, radius :: Mm}
   deriving stock (Eq, Show)
 
@@ -65,10 +67,11 @@ data Joggle = Joggle {begins :: Double, ends :: Double, depth :: Mm, radius :: M
 ramp :: Joggle -> Mm
 ramp Joggle {depth = Mm d, radius = Mm r} = Mm (sqrt (max 0 (abs d * (4 * r - abs d))))
 
--- | Interval over which a distance changes. It has the parameters at which the distance's formula
--- changes, and the arc lengths at which the change begins and ends.
+-- | The part of the curve on which a distance changes. It has the parameters at which the
+-- distance's formula changes, and the arc lengths @first@ and @final@ from the curve's start to the
+-- beginning and to the end of this part.
 data ShiftInterval = ShiftInterval
-  { -- | parameters in rising order
+  { -- | parameters in ascending order; empty if one formula holds for the whole curve
     marks :: [Double],
     first :: Mm,
     final :: Mm
@@ -82,7 +85,9 @@ instance Eq ShiftInterval where
 instance Show ShiftInterval where
   show _ = "ShiftInterval"
 
--- | Interval of a distance on a curve with the given arc length.
+-- | The part of a curve on which a distance changes: for a growth or a joggle the part between its
+-- parameters, otherwise the whole curve. The first argument is the arc length of this curve as a
+-- function of its parameter.
 intervalOf :: ArcLength -> Distance -> ShiftInterval
 intervalOf arcLength distance = case distance of
   Constant _ -> wholeCurve
@@ -105,8 +110,9 @@ intervalOf arcLength distance = case distance of
   where
     wholeCurve = ShiftInterval {marks = [], first = Mm 0, final = ArcLength.total arcLength}
 
--- | Rising parameters of the base at which the third derivative of a distance may jump. They do not
--- include the 'marks' of the distance or the ends of the base's spans.
+-- | Parameters of the base, in ascending order, at which the columns of a distance change from one
+-- cubic to the next, so that its third derivative may jump. The third derivative may also jump at
+-- the 'marks' of the distance and at the ends of the base's spans, which are not added.
 knots :: BasisCurve -> Distance -> [Double]
 knots base distance = case distance of
   Constant _ -> []

@@ -1,5 +1,6 @@
 -- | Curves: a base curve with any number of shifts, each of which is a layer on top of the curve
--- below. They are evaluated by power series through all layers.
+-- below. They are evaluated by power series through all layers. The parameter of a curve rises by 1
+-- over each span of the base, a part on which one formula gives the points.
 module Geometry.Curve.ShiftedCurve
   ( Curve (..),
     Layer (..),
@@ -67,8 +68,8 @@ layers curve = reverse (outermost curve)
       Unshifted _ -> []
       Shifted layer lower _ -> (side layer, distance layer) : outermost lower
 
--- | Rising parameters between which the curve is smooth. The first is 0, the last is that of the
--- end.
+-- | Parameters, in ascending order, between which the curve is smooth. The first is 0, the last is
+-- that of the curve's end.
 breaks :: Curve -> [Double]
 breaks curve = case curve of
   Unshifted b -> map fromIntegral [0 .. BasisCurve.count b]
@@ -77,9 +78,10 @@ breaks curve = case curve of
   where
     isInside u = u > 0 && u < domain curve
 
--- | Rising parameters within spans at which a column changes from one cubic to the next. The
--- tangent is continuous there, but a higher derivative may jump, so arc length is integrated up to
--- them.
+-- | Parameters, in ascending order, at which the distance of a shift changes from one cubic to the
+-- next, because it interpolates between the rows of a table. The tangent of the curve is continuous
+-- there, but a higher derivative may jump. So the table of arc lengths has a new interval at each
+-- of these parameters.
 knots :: Curve -> [Double]
 knots curve = case curve of
   Unshifted _ -> []
@@ -88,7 +90,7 @@ knots curve = case curve of
   where
     isInside u = u > 0 && u < domain curve
 
--- | Union of two rising lists.
+-- | Union of two ascending lists.
 merge :: [Double] -> [Double] -> [Double]
 merge as bs = case (as, bs) of
   ([], _) -> bs
@@ -108,8 +110,10 @@ arcLength curve = case curve of
   Unshifted b -> BasisCurve.arcLength b
   Shifted _ _ along -> along
 
--- | Position at parameter @u@, approached from the given side. A parameter outside of the domain
--- gives the nearer end.
+-- | Position with the parameter @u@: the span of the base that contains it, and the local
+-- parameter, from 0 to 1, in this span. At a joint of two spans it lies in the earlier span for
+-- 'Before' and in the later one for 'After'. A parameter outside of the domain gives the nearer
+-- end.
 spanPoint :: Approach -> Double -> Curve -> SpanPoint
 spanPoint approach u curve = BasisCurve.spanPoint approach u (base curve)
 

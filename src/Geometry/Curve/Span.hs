@@ -48,7 +48,7 @@ data SpanShape
     Circular Segment
   deriving stock (Eq, Show)
 
--- | Span of a shape.
+-- | Span with the given shape.
 fromShape :: SpanShape -> Span
 fromShape shape = case shape of
   Line p q -> Polynomial (Spline.line (Vec.x p) (Vec.x q)) (Spline.line (Vec.y p) (Vec.y q))
@@ -100,8 +100,8 @@ expansion n s t = case s of
      in fromCoefficients n centre terms
   Round (Straight p q) -> fromCoefficients n p [Vec.scale t (Vec.to p q), Vec.to p q]
 
--- | Taylor expansion up to the power @n@. Its constant term is a point, and @terms@ are the
--- coefficients of the powers from 1 on.
+-- | Taylor expansion up to the power @n@. @terms@ are the coefficients of the powers from 0 on; the
+-- point @p@ is added to the first of them.
 fromCoefficients :: Int -> Point -> [Vec] -> TaylorExpansion
 fromCoefficients n p terms =
   V2 (part (Vec.x p) (map fst parts)) (part (Vec.y p) (map snd parts))

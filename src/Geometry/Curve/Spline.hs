@@ -37,7 +37,7 @@ import Geometry.Numeric.PowerSeries qualified as PowerSeries
 data Cubic = Cubic Double Double Double Double
   deriving stock (Eq, Show)
 
--- | The four coefficients in the order of rising powers.
+-- | The four coefficients in the order of ascending powers.
 coefficients :: Cubic -> [Double]
 coefficients (Cubic a b c d) = [a, b, c, d]
 

@@ -43,10 +43,10 @@ import Geometry.Distance.Fast.Estimate
 import Geometry.Segment (Segment)
 import Geometry.Segment.Fast
 
--- | Upper bound, in mm, of the distances between the points of the segment @e@ and each of the
--- segments @ts@. It is infinite if an end of @e@ is further than @most@ from one of these. A bound
--- up to @most@ need not be the smallest that can be computed, since the caller only compares it
--- with @most@.
+-- | Upper bound, in mm, of the distance of any point of the segment @e@ from any of the segments
+-- @ts@. It is infinite if an end of @e@ is further than @most@ from one of these. A bound up to
+-- @most@ need not be the smallest that can be computed, since the caller only compares it with
+-- @most@.
 furthestFrom :: Double -> Segment -> [Segment] -> Double
 furthestFrom most e ts
   | all endsNear ts = foldl' (\far t -> max far (enough t)) 0 ts
@@ -58,9 +58,9 @@ furthestFrom most e ts
       ArcAt ax ay bx by _ _ _ _ -> distance t ax ay <= most && distance t bx by <= most
 
 -- | True only if every point of the segment @e@ lies within @reach@, in mm, of one of the things
--- @others@. A thing consists of the segments that @segmentsOf@ gives; a point must lie within
--- @reach@ of all of these. Only things for which @counts@ is true are used; this condition is
--- tested last.
+-- @others@. A thing consists of the segments that @segmentsOf@ gives. A point lies within @reach@
+-- of a thing if it lies within @reach@ of every one of the thing's segments. Only things for which
+-- @counts@ is true are used; this condition is tested last.
 isCovered :: Double -> (a -> [Segment]) -> (a -> Bool) -> [a] -> Segment -> Bool
 isCovered reach segmentsOf counts others e =
   any (covers e) others || go others (parts e (concatMap segmentsOf others))
@@ -144,9 +144,9 @@ chain positionOf spanOf fits = start
     start es = case es of
       [] -> False
       e : _ -> let (x, y) = begin e in go (positionOf x y) never (negate never) 0 x y es
-    -- The arguments are the position of the run's last point that is past an end; the range of
-    -- distances and the length since that point; and x and y of the point at which the next segment
-    -- must begin.
+    -- The arguments are the position of the run's last joint that lies past an end of t, or
+    -- 'Between' if there is none; the range of distances and the length since that joint; and x and
+    -- y of the point at which the next segment must begin.
     go :: Position -> Double -> Double -> Double -> Double -> Double -> [Segment] -> Bool
     go from !low !high !long !x !y es = case es of
       [] -> False
@@ -227,7 +227,7 @@ parts e others = case marks of
   _ -> if null (drop mostParts marks) then zipWith (between e) (0 : marks) (marks <> [1]) else []
   where
     marks = rising (sort (feet others))
-    -- Where a segment begins at the end of the previous one, this point counts once.
+    -- If a segment begins at the end of the previous one, this point counts once.
     feet ts = case ts of
       [] -> []
       t : u : more

@@ -5,7 +5,7 @@
 -- | A cache of the boxes of single segments. "Geometry.Index.SegmentBoxTree" uses it to find the
 -- pairs of segments whose boxes overlap.
 --
--- The tree divides the segments into runs: run @r@ consists of the eight segments from index @8·r@
+-- That tree divides the segments into runs: run @r@ consists of the eight segments from index @8·r@
 -- on. A slot is a part of the cache with room for the eight boxes of one run. The cache has nine
 -- slots, with the indices 0 to 8. Box @i@ of slot @s@, with @i@ from 0 to 7, has the index
 -- @8·s + i@ in the cache.
@@ -65,10 +65,10 @@ data BoundingBoxCache s = BoundingBoxCache
     held :: MutablePrimArray s Int
   }
 
--- | A grid of 2²⁹ steps over the box of all segments. @halfSteps@ is half of the number of steps in
--- 1 mm. @addX@ and @addY@ are halves of the numbers that are added to x and y in steps, so that no
--- coordinate is negative. These are halves because 'fill' adds the coordinates of a segment's two
--- ends.
+-- | A grid with 2²⁹ steps over the longer side of the box of all segments. @halfSteps@ is half of
+-- the number of steps in 1 mm. @addX@ and @addY@ are halves of the numbers that are added to x and
+-- y in steps, so that no coordinate is negative. These are halves because 'fill' adds the
+-- coordinates of a segment's two ends.
 --
 -- A corner of a box is one machine word that contains both coordinates in steps. Above each
 -- coordinate is one further bit, which is set in upper corners only. A comparison subtracts a lower
@@ -162,7 +162,7 @@ fill c m Grid {halfSteps, addX, addY} (Slots !lows !highs) !s !r =
           then put k (lowerCorner (cx - wx) (cy - wy)) (upperCorner (cx + wx) (cy + wy))
           else none k
         go (k + 1) (i + 1) x' y'
-    -- No segment starts at the last vertex.
+    -- Fills the boxes of the slot after the last segment. No segment starts at the last vertex.
     rest !k
       | k >= runLength * s + runLength = pure ()
       | otherwise = none k >> rest (k + 1)
@@ -205,7 +205,7 @@ found (Slots lows _) = readPrimArray lows answer
 {-# INLINE found #-}
 
 -- | True when the boxes with the indices @p@ and @q@ in the cache overlap by more than the rounding
--- to the grid. If it is false, the caller compares the boxes with 'boxesOverlap'.
+-- to the grid can change. If it is false, the caller compares the boxes with 'boxesOverlap'.
 clearlyOverlap :: BoundingBoxCache s -> Int -> Int -> ST s Bool
 clearlyOverlap BoundingBoxCache {slots = Slots lows highs} !p !q = do
   low <- readPrimArray lows p
@@ -274,7 +274,8 @@ against (Slots !lows !highs) !s !low !high = go (begin + runLength - 1) 0
 amongThem :: Slots s -> Int -> ST s ()
 amongThem (Slots !lows !highs) !s = first (runLength * s + runLength - 2) 0
   where
-    -- The loop uses few variables, so that all stay in registers. Slots start at multiples of 8.
+    -- The loop uses few variables, so that all stay in registers. Slots start at multiples of 8, so
+    -- the lowest three bits of an index are that of the box in its slot.
     first !k !set = do
       low <- readPrimArray lows k
       high <- readPrimArray highs k

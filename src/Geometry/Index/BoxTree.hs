@@ -78,8 +78,8 @@ indexFirst count box list = indexed box (Vector.fromListN count list)
 
 -- | Build a tree of things whose neighbours in the list are not close in space. An example is the
 -- loops of a pocket, each of which surrounds the next. The things are sorted by sort-tile-recursive
--- packing: by x of their boxes' middles into columns, and each column by y. There are about as many
--- columns as groups of eight things in a column. The time is @n·log n@ for n things.
+-- packing: by x of their boxes' middles into columns, and each column by y. The count of columns is
+-- about that of the groups of eight things in one column. The time is @n·log n@ for n things.
 sortedIndex :: (a -> BoundingBox) -> [a] -> BoxTree a
 sortedIndex box list =
   index box (concatMap (sortOn (middleY . box)) (columns (sortOn (middleX . box) list)))
@@ -173,7 +173,8 @@ within (BoundingBox l b r t) =
 {-# INLINE within #-}
 
 -- | All things whose boxes satisfy the predicate @holds@, in order. If a box satisfies it, so must
--- every box that contains this box; the search skips the contents of all other boxes.
+-- every box that contains this box: the search skips the contents of a box that does not satisfy
+-- it.
 select :: (BoundingBox -> Bool) -> BoxTree a -> [a]
 select holds tree = selectWith (Vector.unsafeIndex (things tree)) holds tree
 {-# INLINE select #-}
@@ -276,9 +277,10 @@ groupLimit = 128
 
 -- Nearest things ----------------------------------------------------------------------------
 
--- | The thing nearest to the point @p@, after its distance; the first one if several are equally
--- near. Nothing for an empty tree. @distanceTo@ gives the distance of a thing from @p@. Because of
--- rounding, it may be less than the distance of the thing's box, by at most 'Tolerance.coincident'.
+-- | The thing nearest to the point @p@, preceded by its distance; the first one if several are
+-- equally near. Nothing for an empty tree. @distanceTo@ gives the distance of a thing from @p@.
+-- Because of rounding, it may be less than the distance of the thing's box, by at most
+-- 'Tolerance.coincident'.
 --
 -- This is branch and bound. A first descent, always into the nearest box, gives the bound.
 closest :: (a -> Mm) -> Point -> BoxTree a -> Maybe (Mm, a)

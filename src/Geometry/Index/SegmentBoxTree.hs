@@ -111,7 +111,7 @@ runBoxOf :: SegmentBoxTree -> Int -> (Double -> Double -> Double -> Double -> r)
 runBoxOf bs i = boxAt (sides bs) (i `shiftR` 3)
 {-# INLINE runBoxOf #-}
 
--- | The index of the first segment of the next run after that of segment @i@.
+-- | The index of the first segment of the run after the one that contains segment @i@.
 nextRun :: Int -> Int
 nextRun i = (i `shiftR` 3 + 1) `shiftL` 3
 {-# INLINE nextRun #-}
@@ -317,8 +317,7 @@ allDirections = 255
 pairs :: SegmentBoxTree -> ST s Bool -> (Int -> Int -> ST s ()) -> ST s ()
 pairs bs@SegmentBoxTree {chain = c, margin = m, sides} continues visit = do
   cache <- boundingBox bs (BoundingBoxCache.new c m)
-  let -- The pairs inside run @a@.
-      -- Visits the pairs of two segments of run @a@.
+  let -- Visits the pairs of two segments of run @a@.
       inside !a = do
         let !s = BoundingBoxCache.slotOf a
         BoundingBoxCache.load cache s a

@@ -49,8 +49,8 @@ data FastState = FastState
   }
 
 -- | A parser with continuations for success and failure. The failure continuation gets the 'room'
--- at the mistake. If it is equal to the room before the parser, no token was consumed, and an
--- alternative is tried.
+-- at the mistake. If this number is equal to the room before the parser, no token was consumed, and
+-- an alternative is tried.
 newtype FastParser a = FastParser (forall r. FastState -> (a -> FastState -> r) -> (Int -> r) -> r)
 
 -- | Runs a parser on at most @limit@ tokens. 'Nothing' if there are more tokens, or if the parser
@@ -215,8 +215,8 @@ grammarStateOf s =
     }
 {-# INLINE grammarStateOf #-}
 
--- | The position in the form that megaparsec requires. Lines and columns are not counted, so it is
--- always the start of the text.
+-- | The position in the form that megaparsec requires. Lines and columns are not counted, so the
+-- position is always the start of the text.
 nowhere :: [Token] -> Parsec.PosState TokenStream
 nowhere ts =
   Parsec.PosState

@@ -2,7 +2,7 @@
 {-# OPTIONS_GHC -O2 #-}
 
 -- | Fast reader of simple frames, which have neither an arc nor a command. Most frames of a long
--- tape are simple.
+-- tape are simple. A frame is a block of ISO 6983; its layout gives its symbols and words in order.
 --
 -- If this reader gives a frame, 'Tape.FrameReader.wordByWord' gives the same frame. The reader
 -- gives 'NotSimple' if the frame is not simple, or if a row differs from the one that the machine
@@ -50,7 +50,7 @@ data Read
   | -- | The frame is not simple, or a row differs from the one that the machine would write.
     NotSimple
 
--- | Reads the frame that begins at row @begin@. @state@ is the state before the frame.
+-- | Reads the frame that begins at row @begin@. @state@ is the modal state before the frame.
 readFrame :: PreparedLayout -> State -> ShortByteString -> Int -> Read
 readFrame layout state rows begin
   | Layout.isPlain layout =
@@ -79,7 +79,8 @@ readFrame layout state rows begin
         | otherwise -> NotSimple
         where
           at = Layout.rowAfterAddress rows k (if followsWord then joined else cs)
-    -- The frame number follows from the state; words of arcs and commands are 0 in a simple frame.
+    -- True if the number @n@ of the word @w@ is possible in a simple frame. The frame number
+    -- follows from the state; words of arcs and commands are 0 in a simple frame.
     isExpected w n = case content w of
       FrameNumber -> n == ordinal state `mod` 10 ^ digits (form w)
       Centre _ -> n == 0
@@ -189,7 +190,8 @@ motionOf layout code = case Layout.motionWord layout of
 -- the machine would write for a number.
 data Number = Number Int Int
 
--- | Reads a number of the form @f@ that begins at row @begin@; @f@ uses no service track.
+-- | Reads a number that begins at row @begin@. Its form @f@ uses no service track, the track whose
+-- holes give a digit an extra meaning.
 plainNumber :: PreparedLayout -> NumberForm -> ShortByteString -> Int -> Number
 plainNumber layout f rows begin = case sign f of
   Unsigned -> unsigned False begin

@@ -1,6 +1,7 @@
 -- | Biarcs computed on unpacked coordinates and without angles, for loops that try many of them.
 -- They equal those of "Geometry.ArcFitting.Biarc" where both end directions make an angle of less
--- than a quarter turn with the chord.
+-- than a quarter turn with the chord. A pose is a position with a direction. A chord ratio is the
+-- length of the second arc's chord divided by that of the first.
 --
 -- In the notation of that module, square roots of cosines give sine and cosine of the half angles,
 -- and @e^{iγ/2}@ is the conjugate of @w/|w|@. An arc with the chord c and the sweep 2φ has the
@@ -53,17 +54,16 @@ data FastBiarc = FastBiarc
     bulge2 :: Double
   }
 
--- | Biarc from one pose to another. Its chord ratio (second chord divided by first) is that of
--- 'Geometry.ArcFitting.Biarc.join' times the factor @times@. Curvatures and bulges are NaN if an
--- end direction makes a quarter turn or more with the chord, or if the ends coincide. A caller's
--- test of the deviation then fails.
+-- | Biarc from one pose to another. Its chord ratio is that of 'Geometry.ArcFitting.Biarc.join'
+-- times the factor @times@. Curvatures and bulges are NaN if an end direction makes a quarter turn
+-- or more with the chord, or if the ends coincide. A caller's test of the deviation then fails.
 biarc :: Double -> Pose -> Pose -> FastBiarc
 biarc times from end = withRatio times (between from end)
 {-# INLINE biarc #-}
 
--- | Family of all biarcs from one pose to another, one for each chord ratio.
+-- | All biarcs from one pose to another, one for each chord ratio.
 data Biarcs
-  = -- | one line or arc for every ratio
+  = -- | the same line or arc for every ratio, or numbers that are NaN
     Only FastBiarc
   | -- | numbers that do not depend on the chord ratio: the start in mm; the chord as a vector in
     -- mm, its length and its direction; cosine and sine of half the angle from the chord to the
@@ -86,7 +86,9 @@ data Biarcs
         chords :: Double
       }
 
--- | Family of biarcs from one pose to another.
+-- | The biarcs from one pose to another, one for each chord ratio. If a single line or arc joins
+-- the poses, it takes the place of all of them. If an end direction makes a quarter turn or more
+-- with the chord, or if the ends coincide, curvatures and bulges are NaN.
 between :: Pose -> Pose -> Biarcs
 between (Pose x0 y0 sx sy) final@(Pose x1 y1 ex ey)
   | not (l > coincident && cosA > 0 && cosB > 0) =
@@ -107,7 +109,7 @@ between (Pose x0 y0 sx sy) final@(Pose x1 y1 ex ey)
     sinA = ux * sy - uy * sx
     cosB = ux * ex + uy * ey
     sinB = ux * ey - uy * ex
-    -- Cosines and sines of the half angles from the chord.
+    -- Cosines and sines of half the angles from the chord to the directions at start and end.
     ca = sqrt (0.5 + 0.5 * cosA)
     sa = sinA / (2 * ca)
     cb = sqrt (0.5 + 0.5 * cosB)
@@ -116,8 +118,8 @@ between (Pose x0 y0 sx sy) final@(Pose x1 y1 ex ey)
     Rad straight = Tolerance.straight
     Rad oneArc = Tolerance.oneArc
 
--- | Biarc of a family whose chord ratio is that of 'Geometry.ArcFitting.Biarc.join' times the
--- factor @times@.
+-- | The biarc among @biarcs@ that has the chord ratio of 'Geometry.ArcFitting.Biarc.join' times the
+-- factor @times@; see 'chordRatio' for nearly straight arcs.
 withRatio :: Double -> Biarcs -> FastBiarc
 withRatio times biarcs = case biarcs of
   Only pair -> pair
@@ -159,9 +161,10 @@ withRatio times biarcs = case biarcs of
   where
     Rad straight = Tolerance.straight
 
--- | Chord ratio for a biarc of a family: that of 'Geometry.ArcFitting.Biarc.join' times the factor
--- @times@. If this gives an arc whose sweep is negligible, the arc is output as a line. Then the
--- result is the ratio for which the arc is exactly a line, so that there is no kink at the joint.
+-- | Chord ratio of the biarc that 'withRatio' makes: that of 'Geometry.ArcFitting.Biarc.join' times
+-- the factor @times@. If this ratio gives an arc whose sweep is negligible, the arc becomes a line.
+-- Then the result is the ratio for which the arc is exactly a line, so that there is no kink at the
+-- joint. It is taken only if it differs from the former ratio by a factor below 2.
 chordRatio :: Double -> Biarcs -> Double
 chordRatio times biarcs = case biarcs of
   Only _ -> 1

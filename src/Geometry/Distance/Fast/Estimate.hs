@@ -46,7 +46,8 @@ import Geometry.Vec (Point (Point))
 unsure :: Double
 unsure = 1e-8
 
--- | Infinite distance, in mm, where there is no point or no bound.
+-- | Infinite distance, in mm, in place of a distance from a point that does not exist, or of a
+-- bound that was not found.
 never :: Double
 never = 1 / 0
 
@@ -71,9 +72,9 @@ distance segment !px !py = case coordinates segment of
     | otherwise -> min (hypotenuse (px - ax) (py - ay)) (hypotenuse (px - bx) (py - by))
 
 -- | False only if the point (@px@, @py@) is further than @most@ from a segment whose length is
--- @long@; both are in mm. Where it is false, the caller skips the exact distance. Only the distance
--- from the segment's start is computed: no point of the segment is further than @long@ from its
--- start.
+-- @long@; both are in mm. If it is false, the caller need not compute the exact distance. Only the
+-- distance from the segment's start is computed: no point of the segment is further than @long@
+-- from its start.
 mayLieWithin :: Double -> Double -> Segment -> Double -> Double -> Bool
 mayLieWithin most long segment !px !py = case coordinates segment of
   LineAt ax ay _ _ -> about (px - ax) (py - ay)
@@ -91,8 +92,8 @@ spansAbout e !px !py = case coordinates e of
   ArcAt _ _ _ _ _ _ _ s -> abs s > pi || pastArc e px py <= unsure
 
 -- | False only if every point of the segment @e@, whose length is @long@, is further than @most@
--- from the carrier of the segment @t@; both lengths are in mm. Where it is false, the caller skips
--- the exact distance. Only the distance of the start of @e@ is computed.
+-- from the carrier of the segment @t@; both lengths are in mm. If it is false, the caller need not
+-- compute the exact distance. Only the distance of the start of @e@ is computed.
 mayComeWithin :: Double -> Double -> Segment -> Segment -> Bool
 mayComeWithin most long e t = case coordinates t of
   LineAt px py qx qy ->
@@ -119,8 +120,8 @@ apart a b
       LineAt ax ay bx by -> min (distance other ax ay) (distance other bx by)
       ArcAt ax ay bx by _ _ _ _ -> min (distance other ax ay) (distance other bx by)
 
--- | True if two segments intersect. Where they touch in a tangent, rounding may make it false;
--- 'apart' then finds the point of contact at an end or on a common normal.
+-- | True if two segments intersect. If they touch with a common tangent, rounding may make it
+-- false; 'apart' then finds the point of contact at an end or on a common normal.
 cross :: Segment -> Segment -> Bool
 cross a b = case (coordinates a, coordinates b) of
   (LineAt ax ay bx by, LineAt cx cy dx dy) ->
