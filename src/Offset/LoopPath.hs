@@ -207,8 +207,9 @@ circuitFrom r a z begin = Circuit (earlier begin) (go begin (z - a))
         i' = if i == a then z - 1 else i - 1
     go !i !left
       | left <= 0 = []
-      | otherwise = runAt r i after : go after (left - 1)
+      | otherwise = run `seq` (run : go after (left - 1))
       where
+        run = runAt r i after
         after = if i + 1 == z then a else i + 1
 
 -- | The run of segment @i@ of a loop. @j@ is the number of the vertex where the segment ends.
@@ -271,27 +272,36 @@ isBesideAt r i = contourEnds r == Closed || flatAt r i < (if isAroundAt r i then
 -- circuit; for an open path it is Nothing. Where two segments join, their ends may differ by up to
 -- 'Tolerance.coincident'.
 path :: OffsetSource -> OffsetSource -> Maybe Origin -> [Run] -> [OffsetSegment]
-path structure source previous runs = case joined (filter (not . isNegligible structure) runs) of
+path structure source previous runs = case joined structure runs of
   [] -> []
   first : rest -> go (previous >>= \o -> joint o first) first rest
     where
-      go cuts run others = segmentOf (front <$> cuts) run (back <$> cuts') : more
-        where
-          (cuts', more) = case others of
-            [] -> (if isJust previous then joint (origin run) first else Nothing, [])
-            r : rs -> let c = joint (origin run) r in (c, go c r rs)
+      go !before run others = case others of
+        [] -> [segmentOf before run (if isJust previous then joint (origin run) first else Nothing)]
+        r : more -> exact `seq` (exact : go after r more)
+          where
+            after = joint (origin run) r
+            exact = segmentOf before run after
   where
     joint = jointBetween structure source
     segmentOf = exactSegment structure source
 
--- | Joins consecutive runs along one arc.
-joined :: [Run] -> [Run]
-joined runs = case runs of
-  p : q : more
-    | origin p == origin q && turned p /= 0 && turned q /= 0 ->
-      joined (p {to = to q, turned = turned p + turned q} : more)
-    | otherwise -> p : joined (q : more)
-  _ -> runs
+-- | The runs without the negligible ones. Consecutive runs along one arc are joined.
+joined :: OffsetSource -> [Run] -> [Run]
+joined structure = start
+  where
+    start runs = case runs of
+      [] -> []
+      p : more
+        | isNegligible structure p -> start more
+        | otherwise -> go p more
+    go !p runs = case runs of
+      [] -> [p]
+      q : more
+        | isNegligible structure q -> go p more
+        | origin p == origin q && turned p /= 0 && turned q /= 0 ->
+          go p {to = to q, turned = turned p + turned q} more
+        | otherwise -> p : go q more
 
 -- | True when a run is no part of the path: an arc about a corner that counts as smooth, or a short
 -- line between the two halves of an arc or at an inner corner. The kernel makes such lines where
@@ -332,23 +342,25 @@ jointBetween structure source p run = case (p, origin run) of
         distance = Vec.distance (from run) (Segment.end (movedElement structure i))
 
 -- | The segment of a run, with the coordinates of @source@. The exact segment is the whole offset
--- of the run's origin. @front@ and @back@ are lengths in mm to cut off its start and its end. If
--- @front@ is Nothing, the result has the start of the exact segment when the run has it too, and
--- else the start of the run. The same is true of @back@ and the end.
-exactSegment :: OffsetSource -> OffsetSource -> Maybe Double -> Run -> Maybe Double -> OffsetSegment
-exactSegment structure source front run back = OffsetSegment (origin run) $ case origin run of
-  Along i
-    | isConnecting run -> Straight (from run) (to run)
-    | otherwise -> both (`movedElement` i)
-  Around i
-    | turned run /= 0 -> both (`cornerArc` i)
-    | otherwise -> Straight (snapped i (from run)) (snapped i (to run))
+-- of the run's origin. @before@ has the lengths to cut off at the joint with the segment before, and
+-- @after@ those at the joint with the segment after. If @before@ is Nothing, the result has the
+-- start of the exact segment when the run has it too, and else the start of the run. The same is
+-- true of @after@ and the end.
+exactSegment :: OffsetSource -> OffsetSource -> Maybe Cuts -> Run -> Maybe Cuts -> OffsetSegment
+exactSegment structure source before run after =
+  OffsetSegment (origin run) $ case origin run of
+    Along i
+      | isConnecting run -> Straight (from run) (to run)
+      | otherwise -> both (`movedElement` i)
+    Around i
+      | turned run /= 0 -> both (`cornerArc` i)
+      | otherwise -> Straight (snapped i (from run)) (snapped i (to run))
   where
     -- When both offsets have one radius, the segment is computed once.
     both f =
       let exact = f source
           structural = if radius structure == radius source then exact else f structure
-       in partOf front run back structural exact
+       in partOf before run after structural exact
     -- The exact point of the corner after element i that agrees with the vertex p, or p itself.
     snapped i p
       | Vec.isNear p nearest = snd pair
@@ -359,21 +371,21 @@ exactSegment structure source front run back = OffsetSegment (origin run) $ case
 
 -- | The part of an exact segment that a run covers. @structural@ is the whole segment in the offset
 -- that the kernel computed; @exact@ is the same segment in the offset whose coordinates are wanted.
--- @front@ and @back@ are those of 'exactSegment'.
-partOf :: Maybe Double -> Run -> Maybe Double -> Segment -> Segment -> Segment
-partOf front run back structural exact
+-- @before@ and @after@ are those of 'exactSegment'.
+partOf :: Maybe Cuts -> Run -> Maybe Cuts -> Segment -> Segment -> Segment
+partOf before run after structural exact
   | startsThere && endsThere = whole
   | otherwise = case exact of
     Arc {centre} | turned run /= 0 -> Arc {start, end, centre, sweep = sweepNear centre}
     _ -> Straight start end
   where
-    startsThere = isJust front || Vec.isNear (from run) (Segment.start structural)
-    endsThere = isJust back || Vec.isNear (to run) (Segment.end structural)
+    startsThere = isJust before || Vec.isNear (from run) (Segment.start structural)
+    endsThere = isJust after || Vec.isNear (to run) (Segment.end structural)
     whole
-      | Mm (a + b) < Segment.length exact = shortened a b exact
+      | a + b > 0 && Mm (a + b) < Segment.length exact = shortened a b exact
       | otherwise = exact
-    a = fromMaybe 0 front
-    b = fromMaybe 0 back
+    a = maybe 0 front before
+    b = maybe 0 back after
     start = if startsThere then Segment.start whole else from run
     end = if endsThere then Segment.end whole else to run
     -- The sweep from start to end that is nearest to the run's sweep.

@@ -58,9 +58,10 @@ data TrimmedOffset = TrimmedOffset
 
 -- | The paths beside a contour, in the contour's order; empty for a contour that intersects itself.
 along :: OffsetSource -> [TrimmedOffset]
-along source = maybe [] (pathsIn source source) (LoopPath.region source)
+along source = maybe [] (map chained . pathsIn source source) (LoopPath.region source)
 
--- | The paths in a region, which the kernel computed for @structure@.
+-- | The paths in a region, which the kernel computed for @structure@. Where two segments join, their
+-- ends may differ by rounding.
 pathsIn :: OffsetSource -> OffsetSource -> LoopPath.LoopRegion -> [TrimmedOffset]
 pathsIn structure source region =
   sortOn
@@ -72,14 +73,14 @@ pathsIn structure source region =
       r : rest
         | not (isBeside r) -> mapMaybe open (stretches r rest)
       _ ->
-        [ TrimmedOffset {ends = Closed, pieces = chained Closed ps, stops = (Nothing, Nothing)}
+        [ TrimmedOffset {ends = Closed, pieces = ps, stops = (Nothing, Nothing)}
           | Just ps <- [NonEmpty.nonEmpty (LoopPath.path structure source (Just before) runs)]
         ]
 
--- | The segments with exact joints: each starts where the one before ends. The kernel's joints may
--- differ by rounding.
-chained :: Ends -> NonEmpty OffsetSegment -> NonEmpty OffsetSegment
-chained = Polyarc.closeGaps segment (\s p -> p {segment = s})
+-- | A path with exact joints: each segment starts where the one before ends.
+chained :: TrimmedOffset -> TrimmedOffset
+chained path =
+  path {pieces = Polyarc.closeGaps segment (\s p -> p {segment = s}) (ends path) (pieces path)}
 
 -- | The stretches of a loop beside an open contour. A stretch is a longest sequence of consecutive
 -- runs on the cutter's side of the contour. Each comes with the run before it and the run after it.
@@ -109,7 +110,7 @@ openPath structure source count (before, runs, after) =
     pathOf ps =
       TrimmedOffset
         { ends = Open,
-          pieces = chained Open ps,
+          pieces = ps,
           stops =
             ( stopAt (2 * count - 1) before (flat (NonEmpty.head runs) == 0),
               stopAt (count - 1) after (flat (NonEmpty.last runs) == count - 1)
