@@ -45,9 +45,10 @@ short decimals x
     written = fixed decimals x
 
 -- | The shortest text from which 'parse' makes exactly the number @x@ again. A negative number has
--- a minus sign first, which 'parse' does not accept. A number that needs more than 'mostDigits'
--- digits is rounded to 24 decimals: no length of a part is as small as the error of that rounding.
--- If such a number is 10¹⁵ or more, its text has an exponent, which 'parse' does not accept.
+-- a minus sign first, which 'parse' does not accept. If that text has more than 'mostDigits'
+-- digits, the number is rounded to 24 decimals instead. The error of that rounding is smaller than
+-- any length of a part. If such a number is 10¹⁵ or more, its text has an exponent, which 'parse'
+-- does not accept.
 exact :: Double -> Text
 exact x
   | x == 0 = "0"

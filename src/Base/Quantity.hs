@@ -76,7 +76,7 @@ radians deg = Rad (deg * pi / 180)
 degrees :: Rad -> Double
 degrees (Rad r) = r * 180 / pi
 
--- | The time of a move with the length @l@ mm and the feed @s@ mm\/min: @60·l/s@ seconds (the paper
--- on the Ural-1 computer, section 0–1).
+-- | The time of a move with the length @l@ mm and the feed @s@ mm\/min: @60·l/s@ seconds. The
+-- formula is that of the paper on the Ural-1 computer.
 travelTime :: Mm -> Feed -> Seconds
 travelTime (Mm l) (Feed s) = Seconds (60 * l / s)

@@ -4,6 +4,8 @@
 --
 -- A piece is a curve that is shifted by ciphers, as in the Minsk-22 system. A cipher is a digit, 1,
 -- 2, 4 or 6, with values: the digit says by which rule the values give the distance of the shift.
+--
+-- A form of a function is one list of parameters with which it can be called.
 module Checked.Error
   ( Error (..),
     RequiredSetting (..),
@@ -246,11 +248,11 @@ toReport err = case err of
   NotAnElement region t ->
     (at region "E0213" (Type.describe t <> " cannot be an element of a contour"))
       { message =
-          [ "A contour walks along lines, circles, curves and open contours, and through \
+          [ "A contour leads along lines, circles, curves and open contours, and through \
             \points."
           ],
         hints =
-          ["The items of a list are walked with: for p in list { p }" | ListOf _ <- [t]]
+          ["Put the items of a list into a contour with: for p in list { p }" | ListOf _ <- [t]]
             <> [ "Lay a curve through its points, for example spline(t) for a table t."
                  | Table _ <- [t]
                ]
@@ -413,11 +415,11 @@ toReport err = case err of
 -- for types other than lines, curves and contours.
 traversalHint :: Type -> Maybe Text
 traversalHint t = case t of
-  Line -> Just "A line is walked from its first point to its second."
+  Line -> Just "A line is traversed from its first point to its second."
   Curve _ ->
-    Just "A curve is walked from its beginning to its end; the other way, write reversed(c)."
+    Just "A curve is traversed from its start to its end; for the reverse, write reversed(c)."
   Contour ->
-    Just "A contour is walked from its beginning to its end; the other way, write reversed(c)."
+    Just "A contour is traversed from its start to its end; for the reverse, write reversed(c)."
   _ -> Nothing
 
 -- | Does a number such as @24@ consist of the digits of several ciphers, written as one word?

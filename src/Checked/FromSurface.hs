@@ -261,8 +261,8 @@ contourDefinition env name closure items = do
   checked <- defining name (const (Value (region name) Type.Contour)) (mapM (item env) items)
   pure ((\items' sol -> Checked.Contour name closure (resolveAll sol items')) <$> checked)
 
--- | Checks the definition of a table, and binds its name. If the program names a file with the
--- lines, these have replaced the name of the file before this pass.
+-- | Checks the definition of a table, and binds its name. The lines of a table from a file have
+-- been read before this pass.
 tableDefinition ::
   TypingEnvironment -> Located Name -> Surface.Lines -> Infer (Maybe (Deferred Checked.Statement_))
 tableDefinition env name written = do
@@ -273,7 +273,7 @@ tableDefinition env name written = do
       Surface.WrittenLines ls -> ls
       Surface.LinesFromFile _ -> []
 
--- | Checks the definition of a piece, and binds its name.
+-- | Checks the definition of a piece, and binds its name. "Checked.Piece" defines this term.
 pieceDefinition ::
   TypingEnvironment ->
   Located Name ->
@@ -364,7 +364,8 @@ machining env make keyword e side options =
     <$> expect env Type.Contour e
       <*> Settings.check env keyword options
 
--- | Gives a stop of a @rapid@ statement the rapid speed, unless the stop has a feed of its own.
+-- | Gives a stop of a @rapid@ statement the rapid speed, unless the stop has a feed of its own. A
+-- stop is the point at which a move without cutting ends.
 atPace :: Surface.DefaultPace -> Surface.Stop -> Surface.Stop
 atPace motion s = case (motion, Surface.pace s) of
   (Surface.RapidMotion, Surface.Cutting) -> s {Surface.pace = Surface.Rapid}

@@ -1,8 +1,8 @@
 -- | Checks that a program has the statements that it needs, in the right order.
 --
--- A program begins with @part@. A setting of the whole program must occur once and outside of
--- blocks. A machining statement or a move without cutting needs certain settings above it, such as
--- the tool and the feed.
+-- A program begins with @part@. A setting of the whole program, such as the tolerance, may occur
+-- only once and not in a block. A machining statement or a move without cutting needs certain
+-- settings above it, such as the tool and the feed.
 module Checked.RequiredSetting
   ( check,
   )
@@ -71,7 +71,8 @@ step seen (isInBlock, Located at s) = (seen', misplaced <> missing <> repeated)
     now = [(setting, Nothing) | setting <- needed] <> [(setting, Just at) | Just setting <- [given]]
     seen' = Map.unionWith (<|>) seen (Map.fromList now)
 
--- | Does a statement change the tool? A program may do this several times, unlike other settings.
+-- | Does a statement change the tool? A program may do this several times, although it has only
+-- one @tool@ statement.
 isChange :: Surface.Statement_ -> Bool
 isChange s = case s of
   Surface.Change _ _ -> True

@@ -137,8 +137,9 @@ type Cipher = Located Cipher_
 
 -- | A recalculation of a curve: a shift by a distance (Kolsanova, section 5). A bevel is the angle
 -- between the part's surface and the axis of the tool. If there is one, the distance is measured
--- square to the surface. Bevels, flange heights and the distance of cipher 6 may name columns of
--- the table; they then vary along the curve.
+-- square to the surface. A flange height is the height of the part's flange at a point. Bevels,
+-- flange heights and the distance of cipher 6 may name columns of the table; they then vary along
+-- the curve.
 data Cipher_
   = -- | cipher 1: the distance at the start and at the end, the bevel, and two points of the curve.
     -- The distance grows uniformly between these points; without points, along the whole curve

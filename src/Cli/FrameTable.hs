@@ -36,8 +36,9 @@ data Column a = Column {align :: Align, title :: Text, cell :: a -> Text}
 -- | A frame with its number, from 1, and the position of the cutter at its end, in pulses.
 data Numbered = Numbered {number :: Int, planned :: PlannedFrame, to :: Pulses3}
 
--- | The table of the frames of a program. Each row ends with the line of the program from which the
--- frame is made, and its commands. A column that would be empty in all rows is left out.
+-- | The table of the frames of a program. Each row ends with the number of the program's line from
+-- which the frame is made, and with the commands of the frame. A column that would be empty in all
+-- rows is left out.
 frames :: Machine -> Source -> FrameProgram -> Text
 frames machine source program = table columns rows
   where

@@ -176,9 +176,10 @@ isGrid m = all fixed (NonEmpty.toList (items (layout m)))
           && padded (form w)
           && sign (form w) `elem` [Unsigned, ServiceSign]
 
--- | The table of a frame with fixed rows, see 'isGrid'. Each row has its number from 1, the value
--- of which it is a digit, and the meaning of a hole in the service track. The service track of a
--- tape contains signs and marks.
+-- | The table of a frame with fixed rows, see 'isGrid'. For each row of the frame it has the number
+-- from 1, the content, and the meaning of a hole in the service track. The content is the quantity
+-- of which the row is one digit, or a fixed symbol, or the check digit. The service track is the
+-- track for minus signs, bits of commands and other signals that are no digits.
 gridRows :: Machine -> [[Text]]
 gridRows m =
   ["row", "digit of", "service track"] :

@@ -212,7 +212,7 @@ summary :: Maybe (Machine, Punched) -> Toolpath -> Text
 summary punched path =
   Table.columns
     [ToLeft, ToRight, ToLeft]
-    ( [ ["ways in, out and between", fixed3 (minus (lengthOf everything) (lengthOf cutting)), "mm"],
+    ( [ ["linking moves", fixed3 (minus (lengthOf everything) (lengthOf cutting)), "mm"],
         ["total length of the path", fixed3 (lengthOf everything), "mm"],
         ["total time", seconds (total (map (moveTime machine) everything)), "s"]
       ]

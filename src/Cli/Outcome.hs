@@ -55,9 +55,9 @@ printResult :: Reporter -> Text -> IO Exit
 printResult reporter text =
   Output.result text >>= exitAfterWriting reporter "" "to standard output"
 
--- | The exit status after a result was written; a failure is also reported. @name@ is the name of
--- the program in this report, empty for none. @destination@ is the file written, in the words of
--- the report. A 'Left' in @written@ is the reason of the failure.
+-- | The exit status of a command after its attempt to write a result. If @written@ is 'Left', the
+-- attempt has failed for the given reason. The report of this failure begins "cannot write
+-- @destination@". Its heading names the file @name@, or no file if @name@ is empty.
 exitAfterWriting :: Reporter -> Text -> Text -> Either Text () -> IO Exit
 exitAfterWriting reporter name destination written = case written of
   Left why -> failWith reporter name (CannotWrite destination why)

@@ -51,9 +51,9 @@ writeTapes reporter name file sources wanted tapes = do
 
 -- | The path of the tape for a machine; @-@ is standard output. @file@ is the path of the program,
 -- @wanted@ the output path of the command line, and @count@ the count of all tapes. Without an
--- output path the tape is put into the program's folder. If the output path is a folder, or if
--- there are several tapes, the tape is put into the folder of this path. Otherwise the output path
--- is the path of the tape.
+-- output path the tape is put into the program's folder. If there are several tapes, the output
+-- path is the folder into which they are put. For one tape it is a folder if it exists as one or
+-- ends with a slash; otherwise it is the path of the tape itself.
 destination :: FilePath -> Maybe FilePath -> Int -> Machine -> IO FilePath
 destination file wanted count machine = case wanted of
   Nothing -> pure (if file == "-" then standard else replaceDirectory standard folder)

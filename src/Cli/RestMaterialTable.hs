@@ -43,8 +43,9 @@ table Remaining {tool, walls, RestMaterial.positions = regions} =
       [ToRight, ToRight, ToRight, ToRight, ToLeft]
       (["x", "y", "area mm²", "largest", "place"] : map (row tool) (NonEmpty.toList regions))
 
--- | The row of one region. @tool@ is the cutter that leaves the region. @stay@ is the reason with
--- its position, and @rest@ contains the boundary of the region.
+-- | The row of one region. @tool@ is the cutter that leaves the region. @stay@ is the place of the
+-- contour that the cutter does not reach, such as an inner corner. @rest@ contains the boundary of
+-- the region.
 row :: Tool -> (RestPosition, UnreachedPart) -> [Text]
 row tool (stay, rest) = case stay of
   InCorner _ _ p -> at p "" "inner corner"

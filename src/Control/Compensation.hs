@@ -2,8 +2,9 @@
 -- the frames describe the edge of the part. The model follows LinuxCNC; a test compares the paths
 -- of both. Without compensation, the centre moves as the frames say.
 --
--- * Entry: the first motion goes straight from the present position of the centre to the end of the
---   programmed motion, shifted sideways by the cutter's radius.
+-- * Entry: the first motion goes straight from the present position of the centre to a point beside
+--   the end of the programmed motion, one cutter radius to the side of it. A corner at that end is
+--   treated as on the contour.
 -- * Contour: each later motion is the offset of the programmed one; an arc keeps its centre. At a
 --   corner that turns away from the cutter, the centre goes round the corner on an arc. At a corner
 --   that turns towards the cutter, both offsets end at their intersection. If the direction changes
@@ -62,8 +63,8 @@ data CompensationError
   | -- | The cutter cannot reach the corner at the end of this frame without cutting into the part,
     -- or the offset of this frame would run backwards.
     CornerNotReached Int
-  | -- | Compensation is switched on while it is on, or one frame switches it on for both sides, or
-    -- on and off.
+  | -- | Compensation is switched on while it is on or before the exit after its release, or one
+    -- frame switches it on for both sides, or on and off.
     SwitchedOnTwice Int
   | -- | The tool is changed while compensation is on.
     ToolChanged Int
@@ -360,8 +361,8 @@ data Joint
 jointOf :: Offset -> Segment -> Segment -> Joint
 jointOf k a b
   | abs turned < least = Smooth
-  -- If the contour almost reverses its direction, the corner counts as one that turns towards the
-  -- cutter, whatever the side of the cutter.
+  -- If the contour almost reverses its direction, the cutter cannot reach the corner, whatever the
+  -- side of the cutter.
   | abs turned > pi - least = NoMeeting
   | turned * Carrier.sideSign (side k) < 0 =
     Around

@@ -51,7 +51,7 @@ plot part path =
              | not (null (restMaterial scene))
            ]
         <> [ Svg.layer "contours" (map contourLine (shapes scene)),
-             Svg.layer "ways" (linkingMoves scene),
+             Svg.layer "linking-moves" (linkingMoves scene),
              Svg.layer "path" (concatMap cutLine (cuts scene)),
              Svg.layer "start" (LineStyle.start (start scene) <> originMark (page scene)),
              Svg.layer "cutters" (concatMap cutter (filter showsCutter (cuts scene))),

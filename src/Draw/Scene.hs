@@ -309,8 +309,8 @@ cutsOf page block = case block of
 isCut :: Move -> Bool
 isCut m = Toolpath.pace m /= Rapid && uncurry (==) (Toolpath.heights m)
 
--- | Drops blocks that would be drawn over others: passes of a pocket at greater depths. The first
--- of such passes remains.
+-- | Drops blocks that would be drawn over others. If passes of a pocket differ only in their depth,
+-- the first of them remains.
 drawnOnce :: [Block] -> [Block]
 drawnOnce blocks = map snd (nubOrdOn key (zip [0 ..] blocks))
   where

@@ -81,8 +81,8 @@ legendEntries Scene {page, shapes, cuts, restMaterial, feeds, rapids} =
       "on a contour"
     ),
     (any numbered cuts, \p -> [LineStyle.node True (middle p)], "node"),
-    (not (null feeds), linkingMove LineStyle.feedPen, "way at feed"),
-    (not (null rapids), linkingMove LineStyle.rapidPen, "rapid way"),
+    (not (null feeds), linkingMove LineStyle.feedPen, "move at feed"),
+    (not (null rapids), linkingMove LineStyle.rapidPen, "rapid move"),
     (not (null cuts), LineStyle.cutter 2 . middle, "cutter"),
     (True, LineStyle.start . middle, "start"),
     (Page.holds Page.field (Page.place page (Vec.point 0 0)), LineStyle.origin . middle, "origin")

@@ -3,9 +3,10 @@
 -- A grid point is a position in whole pulses. A step is a line or an arc that becomes one frame.
 -- The ends of an arc are rounded to the nearest grid points. Its centre becomes the grid point
 -- about which the rounded arc deviates least from the exact one. Candidates are the grid points
--- near the exact centre, and near the point that is equally far from both rounded ends. When all of
--- them exceed the tolerance, the arc is halved. When halving does not help, or the centre does not
--- fit its field, the arc is divided into chords.
+-- near the exact centre, and those near the closest point to it that is equally far from both
+-- rounded ends. If they do not suffice, more remote grid points are tried. When the arcs about all
+-- candidates exceed the tolerance, the arc is halved. When halving does not help, or the centre
+-- does not fit its field, the arc is divided into chords.
 --
 -- Read "Frame.Arc.Context" first. "Frame.Arc.Centre" lists the grid points, "Frame.Arc.Attempt"
 -- chooses among them, "Frame.Arc.Deviation" measures, "Frame.Arc.Quadrant" cuts an arc at the axes.
@@ -96,9 +97,9 @@ asArcs context arc =
         [Centre.nearCentres context arc, Centre.remoteCentres context arc]
     )
 
--- | True for an arc whose centre fits its field in a frame, no matter from which point of the arc
--- the field counts. Otherwise only some parts of the arc could be frames. @centre@ and @r@ are the
--- exact centre and radius in mm; the third argument is the rounded start of the arc.
+-- | True for an arc whose centre fits its field in a frame, measured from any point of the arc.
+-- Otherwise only some parts of the arc could be frames. @centre@ and @r@ are the exact centre and
+-- radius in mm; the second argument is the rounded start of the arc.
 isCentreFitting :: ArcContext -> Pulses3 -> Point -> Mm -> Bool
 isCentreFitting context (Pulses3 x y _) centre (Mm r) =
   abs (i - x) < largest

@@ -1,7 +1,7 @@
 -- | Distances and intersections of points, lines and arcs in closed form.
 --
--- This module owns the distance from a point to a segment and between two segments.
--- "Geometry.Distance.Fast" computes the same on unpacked data for loops over frames.
+-- "Geometry.Distance.Fast" computes the distances faster, on unpacked coordinates, for the proof of
+-- a tape.
 --
 -- The foot of a point on a segment, as in "Geometry.Segment", is where the perpendicular from the
 -- point meets the segment's carrier.
@@ -102,10 +102,10 @@ common a b = case Intersection.carriers <$> Segment.carrier a <*> Segment.carrie
   Just Same -> [Segment.start a, Segment.end a, Segment.start b, Segment.end b]
   Just intersection -> Intersection.points intersection
 
--- | The parts of @segment@ that are further than @reach@ from all the segments @others@. Each part
--- is given by the fractions of the segment's length, from 0 to 1, at which it starts and ends. The
--- fractions are exact: they are computed from intersections with the boundary of the region within
--- @reach@ of another segment.
+-- | The parts of @segment@ that are further than @reach@ from every one of the segments @others@.
+-- Each part is given by the fractions of the segment's length, from 0 to 1, at which it starts and
+-- ends. The fractions are exact: they are computed from the intersections of @segment@ with the
+-- boundary of the region within @reach@ of each other segment.
 uncovered :: Mm -> [Segment] -> Segment -> [(Double, Double)]
 uncovered reach others segment = gaps 0 (sort (concatMap covered others))
   where

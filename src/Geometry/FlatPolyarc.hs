@@ -4,7 +4,7 @@
 -- A vertex is the start of a segment, or the end of an open polyarc. It has coordinates in mm and
 -- the bulge of the segment that starts there, @tan(sweep/4)@: 0 for a line, positive for a
 -- counter-clockwise arc, ±1 for a half circle. An arc that sweeps more than a half circle is stored
--- as two segments, so that no bulge is large and every chord has a length.
+-- as two segments. So every bulge is from −1 to 1, and a full circle has no chord of length 0.
 --
 -- The arrays are unboxed: a vertex takes 24 bytes, while a segment in a list takes 64 to 88. A flat
 -- polyarc is made from a "Geometry.Polyarc" or from its vertices.

@@ -109,7 +109,8 @@ closeBy chain
     loops = ClosedPolyarcs.fromFlatPolyarcs 0 [flat]
     Mm margin = times 2 Tolerance.coincident
     tree = SegmentBoxTree.build margin loops
-    -- The kernel closes every polyarc. The segment that closes an open one has no index: −1.
+    -- The index, in @chain@, of the segment that starts at the vertex @k@ of @loops@. It is −1 for
+    -- the segment that closes an open polyarc, which @chain@ lacks.
     number k =
       let i = fromIntegral (indexPrimArray (ClosedPolyarcs.sources loops) k)
        in if i < sizeofPrimArray numbers then indexPrimArray numbers i else -1

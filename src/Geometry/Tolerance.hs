@@ -79,8 +79,8 @@ kink = Rad 1e-3
 sameFillet :: Mm
 sameFillet = Mm 1e-5
 
--- | The largest distance between two points, one on each of two curves, for which both count as one
--- intersection of the curves.
+-- | The largest distance between a point of one curve and a point of another at which the two
+-- points count as one intersection.
 crossing :: Mm
 crossing = Mm 1e-8
 
@@ -108,8 +108,8 @@ stationary :: Mm
 stationary = Mm 1e-9
 
 -- | The largest sweep of an arc that counts as a line. The centre of such an arc is so distant that
--- distances from it lose more digits (@c·5·10⁷·10⁻¹⁶@ for a chord c) than the sagitta amounts to
--- (@c·2.5·10⁻⁹@).
+-- the rounding error of distances from it (@c·5·10⁷·10⁻¹⁶@ for a chord c) is larger than the arc's
+-- sagitta (@c·2.5·10⁻⁹@).
 straight :: Rad
 straight = Rad 2e-8
 

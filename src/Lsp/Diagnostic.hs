@@ -61,7 +61,8 @@ diagnostic client uri snapshot r =
     ReportCode reportCode = code r
     source = Snapshot.source snapshot
     (range, prefix) = shownAt snapshot (place r)
-    -- A label that is one word or part of the title adds nothing to the message.
+    -- The label, which the command line prints beside the place, adds nothing to the message if it
+    -- is one word or part of the title.
     sentences =
       [label r | length (Text.words (label r)) > 1, not (label r `Text.isInfixOf` title r)]
         <> [relatedLine l | not (related client), l <- others r]

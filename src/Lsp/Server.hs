@@ -115,7 +115,7 @@ clock = Milliseconds . fromIntegral . (`div` 1000000) <$> getMonotonicTimeNSec
 
 -- | Handles an event and sends the messages that answer it. The result is the next session, or the
 -- end of the conversation. An exception in the handling does not end the conversation (see
--- 'Session.failed'), unless it stops the program from outside.
+-- 'Session.failed'), except 'UserInterrupt' and 'ThreadKilled', which come from outside.
 handle :: Host -> Event -> Session -> IO (Either Ending Session)
 handle host event session = do
   now <- clock

@@ -1,8 +1,10 @@
--- | Reads the section @commands@ of a description: the words of a frame for each command of a part
--- program.
+-- | Reads the section @commands@ of a description: the numbers that frames contain for each command
+-- of a part program.
 --
 -- An event is what makes the compiler write a command: the spindle starts, the coolant goes off,
--- the program ends. Each event has a key in the section, such as @coolant-on@.
+-- the program ends. Each event has a key in the section, such as @coolant-on@. A command word is
+-- one number of an event, with the name of the word that contains it: @set M 8@ is the number 8 in
+-- the word @M@.
 module Machine.CommandFromText
   ( CommandContext (..),
     noCommands,
@@ -37,8 +39,8 @@ import Machine.Machine qualified as Machine
 import Machine.Section
 import Machine.Syntax
 
--- | The numbers for all commands. 'eventWords' lists the same numbers for the checks, each with its
--- region and the key of its event.
+-- | The command words of all events. 'eventWords' lists the same command words for the checks, each
+-- with its region and the key of its event.
 data CommandContext = CommandContext
   { allWords :: CommandWords,
     eventWords :: [(Text, Located CommandWord)]
@@ -48,16 +50,16 @@ data CommandContext = CommandContext
 noCommands :: CommandContext
 noCommands = CommandContext Machine.noCommandWords []
 
--- | Words of the commands with their regions in the description, before they are put into a
+-- | Command words of all events with their regions in the description, before they are put into a
 -- 'CommandContext'.
 data Events = Events
-  { -- | one list of words for each key in 'simpleEvents', in the order of the keys
+  { -- | one list of command words for each key in 'simpleEvents', in the order of the keys
     simple :: [[Located CommandWord]],
     compensations :: Maybe CompensationEvents,
     endFrames :: [NonEmpty (Located CommandWord)]
   }
 
--- | Words of cutter compensation with their regions.
+-- | Command words of cutter compensation with their regions.
 data CompensationEvents = CompensationEvents
   { left :: Located CommandWord,
     right :: Located CommandWord,
@@ -88,7 +90,7 @@ commands s = do
       <* allowKeys (simpleEvents <> ["compensation", "finish"]) [] section
   pure CommandContext {allWords = commandWords events, eventWords = withEvents events}
 
--- | The words of all commands without their regions.
+-- | The command words of all events without their regions.
 commandWords :: Events -> CommandWords
 commandWords events = case map (map value) (simple events) of
   [clockwise, counterClockwise, stop, on', off', tool', aux] ->
@@ -107,7 +109,7 @@ commandWords events = case map (map value) (simple events) of
   where
     unlocated c = CompensationCommands (value (left c)) (value (right c)) (value (off c))
 
--- | The words of all events, each with the key of its event.
+-- | The command words of all events, each with the key of its event.
 withEvents :: Events -> [(Text, Located CommandWord)]
 withEvents events =
   concat
@@ -123,7 +125,7 @@ eventFrom word s = do
   NonEmpty.toList <$> wordsFrom section
 
 -- | Reads the lines such as @set M 8@ of a section, which needs at least one. Reports a second
--- number for the same command word.
+-- number with the same name.
 wordsFrom :: DescriptionSection -> Result w Error (NonEmpty (Located CommandWord))
 wordsFrom section = do
   found <-
@@ -141,7 +143,7 @@ wordsFrom section = do
           Located first _ <- take 1 [p | p <- take k ws, commandName (value p) == commandName w]
       ]
 
--- | Reads a line such as @set M 8@: the command word @M@ and its number.
+-- | Reads a command word from a line such as @set M 8@.
 wordFrom :: Statement -> Result w Error (Located CommandWord)
 wordFrom s = case (arguments s, block s) of
   ([name, Located _ (Word "steps")], Just ss)
@@ -167,7 +169,7 @@ wordFrom s = case (arguments s, block s) of
         fmap (located n . Fixed) <$> wholeIn "the number" 0 999999999 a
       _ -> Nothing
 
--- | Reads the three events of cutter compensation: left, right and off. Each has one number.
+-- | Reads the three events of cutter compensation: left, right and off. Each has one command word.
 compensationFrom :: Statement -> Result w Error CompensationEvents
 compensationFrom s = do
   ((), section) <- withBlock [example] "the compensation" noArguments s
@@ -185,7 +187,7 @@ compensationFrom s = do
         [w] -> pure w
         _ -> malformed [word <> " { set D diameter }, with one number"] e
 
--- | Reads the numbers in the last frames of every program, one list for each frame.
+-- | Reads the command words in the last frames of every program, one list for each frame.
 finishFrom :: Statement -> Result w Error [NonEmpty (Located CommandWord)]
 finishFrom s = do
   ((), section) <- withBlock ["finish { frame { set M 2 } }"] "the end of a program" noArguments s
@@ -194,11 +196,11 @@ finishFrom s = do
   where
     frame e = withBlock ["frame { set M 2 }"] "this frame" noArguments e >>= wordsFrom . snd
 
--- | Checks the numbers of the commands against the words of the frame.
+-- | Checks all command words against the layout of the frame.
 check :: Machine -> CommandContext -> [Error]
 check machine context = concatMap (wordFaults machine) (eventWords context)
 
--- | Lists the mistakes in one number of the event with the given key.
+-- | Lists the mistakes in one command word of the event with the given key.
 wordFaults :: Machine -> (Text, Located CommandWord) -> [Error]
 wordFaults machine (event, Located r (CommandWord name v)) =
   case Machine.commandCapacity machine name of

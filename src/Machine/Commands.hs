@@ -1,4 +1,5 @@
--- | The numbers that frames contain for each command of a part program.
+-- | The numbers that frames contain for each command of a part program. Such a number has a word of
+-- its own, or bits: holes in the service track beside the digits of other words.
 module Machine.Commands
   ( CommandWords (..),
     CommandWord (..),
@@ -29,8 +30,8 @@ data CommandWords = CommandWords
   }
   deriving stock (Eq, Show)
 
--- | One number in a frame: the name of the word or of the service bits that contain the number, and
--- where the number comes from.
+-- | One number in a frame: the name of the word or of the bits that contain the number, and the
+-- source of the number.
 data CommandWord = CommandWord {commandName :: CommandName, value :: CommandValue}
   deriving stock (Eq, Show)
 

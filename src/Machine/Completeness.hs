@@ -112,7 +112,7 @@ data LocatedBit = LocatedBit
 
 -- | Checks the holes in the service track. Each bit of a command occurs once, in a word that every
 -- frame contains. The bits of a command are numbered without a gap. A command with bits has no word
--- of its own. There is at most one braking hole.
+-- of its own. At most one hole is a 'BrakingHole', which makes the machine slow down.
 bitFaults :: [(Region, Word')] -> [Error]
 bitFaults locatedWords =
   concat

@@ -94,8 +94,8 @@ data DecodingFault
     SameAddress Text Region
   | -- | address or separator that begins like a number
     LikeNumber Text
-  | -- | symbols that begin with those of another item of the frame which may come at the same
-    -- position: the prefix, the longer symbols, and the region of the item that has the prefix
+  | -- | two items that may come at the same position, where the symbols of one are a prefix of the
+    -- symbols of the other: the prefix, the longer symbols, the region of the item with the prefix
     Prefix Text Text Region
   | -- | number without fixed length before an item that may begin with a digit
     NumberRunsOn Region

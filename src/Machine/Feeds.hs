@@ -90,7 +90,8 @@ data BrakingForm
   | -- | The program slows down, in a frame at the lowest feed.
     SlowFrames
   | -- | The control slows down in frames that the program marks with a
-    -- 'Machine.FrameLayout.BrakingHole'. The program marks the frames before every lower feed, and
-    -- the frames at its end, where it brakes to the given feed.
+    -- 'Machine.FrameLayout.BrakingHole'. The program marks the frames before every lower feed. It
+    -- also marks the last frames of the program, and of each element with braking; in these the
+    -- control slows down to the given feed.
     BrakedFrames Feed
   deriving stock (Eq, Show)

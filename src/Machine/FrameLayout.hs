@@ -144,7 +144,7 @@ data Presence
     WhenChanged
   deriving stock (Eq, Show)
 
--- | Name that a description gives to the word or the service bits for a command.
+-- | Name that a description gives to the word for a command, or to its bits in the service track.
 newtype CommandName = CommandName Text
   deriving newtype (Eq, Ord)
   deriving stock (Show)

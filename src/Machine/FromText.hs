@@ -218,7 +218,7 @@ tapeFrom s = do
         then pure t
         else malformed ["suffix \"tape\""] e
 
--- | Largest count of blank rows that a description may demand for a leader, a gap or a shift.
+-- | Largest count of blank rows that a description may give for @leader@, @gap@ or @even-shift@.
 mostRows :: Int
 mostRows = 10000
 

@@ -472,8 +472,8 @@ componentsOf es ordered =
             (maybe [] (map other . Vector.toList) (IntMap.lookup k ordered) <> rest)
     other h = let e = es Vector.! (h `div` 2) in if even h then to e else from e
 
--- | True when the winding numbers agree in every sector of every node: the number on the left of
--- each half-edge is that on the right of the next one.
+-- | True when the winding numbers agree around every node: the number on the left of each half-edge
+-- is that on the right of the next one counter-clockwise.
 isConsistent :: Arrangement -> Bool
 isConsistent a =
   all
@@ -522,9 +522,9 @@ intersectingSegments (low, high) a =
            ]
     )
 
--- | The loops around the faces that the cutter's centre can reach, with these faces on the left for
--- the sense counter-clockwise, on the right for clockwise. Their edges have the winding number
--- @wanted@ on their left for the first sense, and @wanted − 1@ on their right for the second. The
+-- | The loops around the faces that the cutter's centre can reach. @sense@ is the sense of a face's
+-- outer loop. If it is counter-clockwise, the faces are on the left of the loops and have the
+-- winding number @wanted@. If it is clockwise, they are on the right and have @wanted − 1@. The
 -- result is Nothing when a loop does not close.
 loops :: Sense -> Int -> Arrangement -> Maybe OffsetLoops
 loops sense wanted a =

@@ -283,9 +283,9 @@ gapBetween source p q =
           Rad smooth = Tolerance.smoothAngle
        in abs turned > smooth
 
--- | True when the cutter cuts the elements @numbers@ while its centre stays at the point @p@, so
--- that their absence from a path is no gap. Such elements are arcs about @p@ with the cutter's
--- radius. False for no elements.
+-- | True when the cutter, with its centre at the point @p@, touches the elements @numbers@ along
+-- their whole length, so that their absence from a path is no gap. Such elements are arcs about @p@
+-- whose radius is the offset's distance. False for no elements.
 isSpent :: OffsetSource -> Point -> [Int] -> Bool
 isSpent source p numbers = not (null numbers) && all standsStill numbers
   where

@@ -58,8 +58,8 @@ data OffsetRequest = OffsetRequest
     corners :: Corners,
     -- | distance in mm of the cutter's centre from the contours; not negative
     distance :: Mm,
-    -- | additional distance in mm from a segment, not negative, by the segment's number. Segments
-    -- are numbered from 0 through all contours. Nothing when there are no additional distances
+    -- | extra distance in mm from a segment, not negative, by the segment's number. Segments are
+    -- numbered from 0 through all contours. Nothing when there are no extra distances
     extra :: Maybe (Int -> Mm)
   }
 
@@ -158,8 +158,8 @@ problemOf request contours = (problem, chain)
     -- At the distance 0 the raw offset is the contours themselves, with their smooth joints marked.
     unmoved c = let (_, marked) = raw c in (marked, marked)
 
--- | The additional distance in mm of segment @i@ of the flat arrays. @original@ is 'originalNumber'
--- of the contours.
+-- | The extra distance in mm of segment @i@ of the flat arrays. @original@ is 'originalNumber' of
+-- the contours.
 additional :: OffsetRequest -> (Int -> Int) -> Int -> Double
 additional request original i = case extra request of
   Nothing -> 0
@@ -182,8 +182,8 @@ rawWith request tolerance original c = case extra request of
     rawAt uneven at corner =
       RawOffset.raw tolerance Tolerance.tangential (corners request) uneven at corner c
     {-# INLINE rawAt #-}
-    -- An additional distance moves an arc towards its centre by no more than the arc's radius.
-    -- Moved further, the arc would leave its sector.
+    -- An extra distance does not move an arc past its centre. Past it, the arc would lie outside
+    -- the sector between the radii to its ends.
     limited i
       | requestedDistance > d && signed * indexPrimArray (ClosedPolyarcs.bulges c) i < 0 =
         min requestedDistance (max d (0.5 * ClosedPolyarcs.diameter c i))

@@ -132,14 +132,14 @@ request OffsetSource {style, side, radius, elements} numbers =
           else Just (extra style . indexPrimArray numbers)
     }
 
--- | A run: one segment of a loop, or consecutive segments on one arc. The fields speak of this run.
+-- | A run: one segment of a loop, or consecutive segments on one arc.
 data Run = Run
   { -- | origin of the run
     origin :: Origin,
     -- | number of the flat contour's segment from which the run's first segment comes. An open
     -- contour of @n@ segments is traversed there and back, so the numbers go up to @2n − 1@
     flat :: Int,
-    -- | True when the run joins the two halves of an arc over half a turn
+    -- | True when the run is the joint between the two halves of an arc over half a turn
     isInterior :: Bool,
     -- | True when the run is beside the contour
     isBeside :: Bool,
@@ -178,8 +178,8 @@ rawCircuit r
 
 -- | The number of the segment with which the run of the least origin begins, in a loop with the
 -- segments from @a@ to @z − 1@. Segment @a@ follows the last one, so the run may begin near the end
--- of the loop and continue at @a@. The numbers of the flat contour do not decrease along a run, so
--- a full circle begins with its first half.
+-- of the loop and continue at @a@. The numbers of the flat contour's segments do not decrease along
+-- a run, so a run along a full circle begins with the circle's first half.
 leastStart :: LoopRegion -> Int -> Int -> Int
 leastStart r a z = if first == a then backwards a (z - 1) else first
   where
@@ -342,8 +342,8 @@ jointBetween structure source p run = case (p, origin run) of
         distance = Vec.distance (from run) (Segment.end (movedElement structure i))
 
 -- | The segment of a run, with the coordinates of @source@. The exact segment is the whole offset
--- of the run's origin. @before@ has the lengths to cut off at the joint with the segment before, and
--- @after@ those at the joint with the segment after. If @before@ is Nothing, the result has the
+-- of the run's origin. @before@ has the lengths to cut off at the joint with the segment before,
+-- and @after@ those at the joint with the segment after. If @before@ is Nothing, the result has the
 -- start of the exact segment when the run has it too, and else the start of the run. The same is
 -- true of @after@ and the end.
 exactSegment :: OffsetSource -> OffsetSource -> Maybe Cuts -> Run -> Maybe Cuts -> OffsetSegment

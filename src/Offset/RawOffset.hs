@@ -155,8 +155,8 @@ closeUp (Filling rx ry rb rm rs) k k' = do
 
 -- | Writes the raw offset of one of the polyarcs @c@. The arguments up to @c@ are those of 'raw'.
 -- @marks@ are the marks of the segments of @c@, to which smooth joints are added. The polyarc to be
--- offset has its first vertex at index @a@ and its repeated vertex at @e@. The raw offset is
--- written from index @k0@ on; the result is the next free index.
+-- offset has its first vertex at index @a@, and the same vertex again at the end, at index @e@. The
+-- raw offset is written from index @k0@ on; the result is the next free index.
 offsetPolyarc ::
   Double ->
   Double ->
@@ -234,9 +234,9 @@ offsetPolyarc
           cr = ax * by - ay * bx
           dt = ax * bx + ay * by
           cut = abs (d * cr / (1 + dt))
-          -- The least length in mm of both lines for which cutting them is right: then the part
-          -- that is cut off lies beside the lines. With one common distance the cutter's centre
-          -- cannot reach any point of that part anyway.
+          -- The least length in mm that both lines must have to be cut. With different distances
+          -- the part that is cut off from each line has to lie beside the other line. With one
+          -- common distance the cutter's centre cannot reach any point of that part anyway.
           needed
             | uneven = max cut (if dt > 0 then abs (d * cr) else abs d)
             | otherwise = cut

@@ -82,8 +82,8 @@ isArc :: ClosedPolyarcs -> Int -> Bool
 isArc c k = indexPrimArray (ClosedPolyarcs.bulges c) k /= 0
 {-# INLINE isArc #-}
 
--- | Reports the intersections of segments @i@ and @j@ of which one of two things is true: @j@
--- follows @i@, or @i@ begins a polyarc and @j@ ends a polyarc, perhaps another one.
+-- | Reports the intersections of segments @i@ and @j@, if @j@ has the next number after @i@, or if
+-- @i@ is the first segment of a polyarc and @j@ the last one, perhaps of another polyarc.
 adjacent :: Double -> ClosedPolyarcs -> Visitor s -> Int -> Int -> ST s ()
 adjacent !tolerance !c visitor !i !j
   | after && before = when (isArc c i || isArc c j) (sharingEnds tolerance c visitor i j)
@@ -523,7 +523,7 @@ secondOfArcs !tolerance !c visitor !vertex !i !j =
           k = (ay * gx - ax * gy) / gg
           px = vx0 + k * gy
           py = vy0 - k * gx
-          -- Arcs with centres on opposite sides of the chord curve away from each other.
+          -- If the centres lie on opposite sides of the common chord, the curvatures are added.
           hx = px - vx0
           hy = py - vy0
           bend =

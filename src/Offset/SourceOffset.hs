@@ -56,12 +56,12 @@ import Geometry.Vec (Point)
 import Geometry.Vec qualified as Vec
 import Offset.Tolerance qualified as Tolerance
 
--- | The shape of outer corners, and the allowances of single elements.
+-- | The shape of outer corners, and the extra distances from single elements.
 data CornerStyle = CornerStyle
   { -- | True: two lines to the intersection of both offsets; False: an arc about the vertex.
     -- Corners that turn by more than 120° get an arc in any case
     sharp :: Bool,
-    -- | additional distance in mm from an element, by the element's number; not negative
+    -- | extra distance in mm from an element, by the element's number; not negative
     extra :: Int -> Mm
   }
 

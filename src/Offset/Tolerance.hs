@@ -18,8 +18,8 @@ import Base.Quantity (Mm (..))
 clearance :: Mm
 clearance = Mm 1e-5
 
--- | The largest length in mm of cutter path in slots exactly as wide as the cutter that is ignored.
--- The path goes into a slot and out again, so its length is twice that of the slot.
+-- | Slots exactly as wide as the cutter are ignored if the path in all of them is at most this
+-- long, in mm. The path goes into a slot and out again, so its length is twice that of the slot.
 ignoredSlot :: Mm
 ignoredSlot = Mm 0.01
 

@@ -60,8 +60,8 @@ data TrimmedOffset = TrimmedOffset
 along :: OffsetSource -> [TrimmedOffset]
 along source = maybe [] (map chained . pathsIn source source) (LoopPath.region source)
 
--- | The paths in a region, which the kernel computed for @structure@. Where two segments join, their
--- ends may differ by rounding.
+-- | The paths in a region, which the kernel computed for @structure@. Where two segments join,
+-- their ends may differ by rounding.
 pathsIn :: OffsetSource -> OffsetSource -> LoopPath.LoopRegion -> [TrimmedOffset]
 pathsIn structure source region =
   sortOn

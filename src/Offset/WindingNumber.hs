@@ -50,8 +50,9 @@ contribution c px py i = crossed + between
       if b /= 0 && aside * b < 0 && ClosedPolyarcs.power c i px py < 0
         then (if b > 0 then 1 else -1)
         else 0
-    -- On the chord the area has no sign. A point there counts as slightly left of the chord (at
-    -- smaller x), as in the comparisons above; on a horizontal chord it counts as slightly above.
+    -- A number with the sign of @side@. If @side@ is 0, the point lies on the line of the chord. It
+    -- then counts as a point at slightly smaller x, as in the comparisons above. On a horizontal
+    -- chord it counts as a point at slightly larger y.
     aside
       | side /= 0 = side
       | y1 /= y0 = y1 - y0

@@ -225,7 +225,7 @@ linkOf env (Located at l) =
     Checked.Chamfer e -> Chamfer <$> lengthOf env Parameter.Chamfer e
 
 -- | A fillet with the radius @abs r@ in mm. A positive @r@ makes a clockwise arc, a negative one a
--- counter-clockwise arc (Kolsanova: links between pieces).
+-- counter-clockwise arc, as on the input sheet (Kolsanova).
 signed :: Double -> Link
 signed r = Fillet (if r > 0 then Carrier.Clockwise else Carrier.CounterClockwise) (Mm (abs r))
 

@@ -153,7 +153,7 @@ toReport fault = case fault of
           [Label second "meets this one" | second /= first] <> [Label contour "in this contour"],
         message = ["They meet at " <> Vec.toText 4 p <> "."],
         hints =
-          [ "Check the signs of the fillets: +R is walked clockwise, −R counter-clockwise."
+          [ "Check the signs of the fillets: +R is traversed clockwise, −R counter-clockwise."
             | hasFillets
           ]
       }
@@ -163,7 +163,7 @@ toReport fault = case fault of
 overrunReport :: Region -> ElementCarrier -> Mm -> [Region] -> Maybe Mm -> Report
 overrunReport region carrier overlap links largest =
   (at region "E0324" title)
-    { label = "it would have to be walked backwards",
+    { label = "it would have to be traversed backwards",
       others = [Label l "this link takes its share" | l <- nub links],
       message = [stop "17535"],
       hints =
@@ -230,7 +230,7 @@ linkReport j fault = case fault of
         hints = ["Correct the numbers, round the corner with a fillet, or leave smooth out."]
       }
   TurnsBack ->
-    (titled "E0316" "the elements touch here, but the walk would have to turn back")
+    (titled "E0316" "the elements touch here, but the contour would have to turn back")
       { hints = ["Change the sense (cw, ccw) of a circle or the direction of a line."]
       }
   TangentNeedsCircles
@@ -255,7 +255,7 @@ linkReport j fault = case fault of
       { hints = ["Leave one of them out, or correct the centre or the radius of one."]
       }
   NoCommonTangent senses ->
-    (titled "E0320" "no common tangent fits the senses in which these circles are walked")
+    (titled "E0320" "no common tangent fits the senses in which these circles are traversed")
       { message = [stop "17533"],
         hints = [tangentHint senses]
       }
@@ -271,7 +271,7 @@ linkReport j fault = case fault of
         "E0322"
         ( "no arc of radius "
             <> Decimal.mm r
-            <> " touches both neighbours in the direction of the walk"
+            <> " touches both neighbours in the direction of travel"
         )
     )
       { message = [stop "17535"],
@@ -329,7 +329,8 @@ tangentHint :: [(Sense, Sense)] -> Text
 tangentHint senses = case senses of
   [] ->
     "One circle lies inside the other: there is no common tangent at all. Join them with a fillet."
-  _ -> "There is one when they are walked " <> Text.intercalate ", or " (map pairText senses) <> "."
+  _ ->
+    "There is one when they are traversed " <> Text.intercalate ", or " (map pairText senses) <> "."
   where
     pairText (first, second) = senseText first <> " then " <> senseText second
     senseText sense = case sense of
@@ -344,8 +345,8 @@ filletHints j r largest =
     <> [ "With the other sign there is one: fillet " <> signed <> "."
          | Just signed <- [otherSign j r]
        ]
-    <> [ "+R is walked clockwise, −R counter-clockwise; check the sign, the radius, and the senses \
-         \of the neighbours."
+    <> [ "+R is traversed clockwise, −R counter-clockwise; check the sign, the radius, and the \
+         \senses of the neighbours."
        ]
 
 -- | The text of the radius @r@ with the sign that makes the fillet fit. A positive sign means a

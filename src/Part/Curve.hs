@@ -96,10 +96,10 @@ curve :: [(Name, Vector Double)] -> Maybe Fitting -> Exact.Curve -> PartCurve
 curve tableColumns fitting exact =
   PartCurve {exact, tableColumns, fitting, approximation = arcsAlong Tolerance.curve exact}
 
--- | A polyarc within @tolerance@ of a curve. An unshifted curve of lines and at least one arc keeps
--- them, but small kinks between them are smoothed. "Geometry.ArcFitting.CubicFit" makes arcs of a
--- curve for which 'Exact.cubics' finds cubic spans, such as a spline. For any other curve
--- "Geometry.ArcFitting.ParametricFit" makes the arcs.
+-- | A polyarc within @tolerance@ of a curve. If the curve consists of lines and at least one arc,
+-- and is not shifted, these segments are the polyarc, with small kinks between them smoothed.
+-- "Geometry.ArcFitting.CubicFit" makes arcs of a curve for which 'Exact.cubics' finds cubic spans,
+-- such as a spline. For any other curve "Geometry.ArcFitting.ParametricFit" makes the arcs.
 arcsAlong :: Mm -> Exact.Curve -> MeasuredPolyarc
 arcsAlong tolerance exact =
   case (Exact.toSegments exact, cubics) of

@@ -169,8 +169,8 @@ ofSections region table points sections = do
 -- that @fault@ names.
 faulty :: Region -> PartTable -> Exact.CurveFault -> Eval a
 faulty region table fault = Evaluation.mistake $ case fault of
-  -- If there are enough points, the last one repeats the first and does not count, as on a closed
-  -- curve.
+  -- The table itself can have @n@ rows or more. Then the curve is closed, and the last row does not
+  -- count because it repeats the first one.
   Exact.TooFew n
     | count >= n -> badPoints region table Nothing (FewDifferent (count - 1) n)
     | otherwise -> badPoints region table Nothing (FewPoints count n)

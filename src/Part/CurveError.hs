@@ -140,8 +140,8 @@ toReport fault = case fault of
           ["The bevel is measured from the axis of the tool; it lies between -90 deg and 90 deg."]
       }
   GrowthEnds region ->
-    (at region "E0353" "the change of distance must end behind its beginning, along the walk")
-      { hints = ["Give the point first that the walk comes to first."]
+    (at region "E0353" "this change of distance ends before it starts")
+      { hints = ["Give the two points in the direction of travel."]
       }
   JoggleCoordinate region x points range -> coordinateReport region x points range
   JoggleNowhere region ->

@@ -2,9 +2,9 @@
 -- one solution of a link: an intersection, a smooth transition, a common tangent, a fillet arc or a
 -- chamfer.
 --
--- The joints of a link do not depend on the other links of the contour. If a link has several
--- joints, "Part.LinkSolver" chooses one of them. A curve is represented by its polyarc: a chain of
--- lines and arcs within 'Tolerance.curve' of it.
+-- The joints of a link do not depend on the other links of the contour. Only a fillet can have
+-- several joints, one for each arc; "Part.LinkSolver" chooses one of them. A curve is represented
+-- by its polyarc: a chain of lines and arcs within 'Tolerance.curve' of it.
 module Part.LinkCandidate
   ( Joint (..),
     through,
@@ -55,9 +55,10 @@ through p = Joint p p Nothing
 straight :: Point -> Point -> Joint
 straight p q = Joint p q (Just (Straight p q))
 
--- | All joints by which a link can join the neighbours @j@. Fillets are sorted by length, the
--- shortest first. The points @own@ are the end of the element before the link and the start of the
--- element after it, as far as they have any. They decide between several intersections.
+-- | The joints by which a link can join the neighbours @j@. A fillet can have several, sorted by
+-- the length of the arc, the shortest first. Every other link has one. The points @own@ are the end
+-- of the element before the link and the start of the element after it; a circle has neither. If
+-- the neighbours have several intersections, 'meet' uses @own@ to choose one of them.
 candidates :: Neighbours -> [Point] -> Link -> Either ContourFault (NonEmpty Joint)
 candidates j own link = case link of
   Meet near -> (:| []) <$> meet j own near

@@ -1,9 +1,9 @@
 -- | Computes the segments of a contour from its elements and links.
 --
--- Every link can join its neighbours by one or a few joints, such as two intersections or two
--- fillets. Dynamic programming along the contour chooses one joint for each link. Its choice
--- traverses no element backwards and makes the contour as short as possible. Two choices that make
--- equally long contours are a fault.
+-- A joint is one solution of a link. A fillet can have several joints, one for each arc that fits;
+-- every other link has one ("Part.LinkCandidate"). Dynamic programming along the contour chooses
+-- one joint for each link. Its choice traverses no element backwards and makes the contour as short
+-- as possible. Two choices that make equally long contours are a fault.
 --
 -- A curve is represented by its polyarc, a chain of lines and arcs. A station is the position of a
 -- point on a curve: the arc length from the start of its polyarc, in mm.
@@ -80,8 +80,9 @@ solve region ends linked = case attempt region ends linked of
     let faults = fromMaybe (found :| []) (NonEmpty.nonEmpty (unlinked ends linked))
      in Left (fmap (withLargest region ends linked) faults)
 
--- | The faults of the links that cannot join their neighbours. Links of a repetition that have the
--- same region, or join the same two elements, are reported once.
+-- | The faults of the links that cannot join their neighbours. A repetition can make several links
+-- with one region, or between elements of the same two regions. Only the first fault of these is
+-- reported.
 unlinked :: Ends -> NonEmpty LinkedElement -> [ContourFault]
 unlinked ends linked = case linked of
   _ :| [] -> []
@@ -386,7 +387,7 @@ tie j choice = case mapMaybe inserted choice of
 
 -- | Extends a route that has reached the point @at@ of element @w@. The extension follows @w@ to
 -- the joint, and then the segment that the joint inserts. If @w@ would be traversed backwards,
--- which is not allowed, the result is 'Left' with the length of this part of @w@ in mm.
+-- which is not allowed, the result is 'Left' with the length of the backward part in mm.
 extend :: Maybe Segment -> LinkedElement -> (Point, Route) -> Joint -> Either Mm Route
 extend before w (at, Route c js choice) joint
   | along < Mm 0 = Left (let Mm x = along in Mm (-x))

@@ -234,8 +234,9 @@ data RestPolicy
 
 -- | The clearing of a pocket: the inside of a closed contour.
 data Pocketing = Pocketing
-  { -- | the milling of the outline on its inside. The whole pocket has its linking moves, depths,
-    -- allowances and feeds. It has round corners, no leads, and no compensation by the control
+  { -- | the milling of the outline on its inside, with round corners, without leads, and without
+    -- compensation by the control. Its linking moves, depths, allowances and feeds apply to the
+    -- whole pocket
     wall :: Milling,
     -- | closed contours inside the outline, inside which the material remains. They touch neither
     -- the outline nor one another

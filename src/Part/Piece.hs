@@ -193,8 +193,8 @@ gapAt whole u = Vec.distance before (Exact.pointFrom Exact.After whole (max 0 u)
 -- Joggles
 
 -- | The curve @lower@ with a joggle to a side, between its points that have the two given x
--- coordinates. Fails for wrong coordinates, at which the Minsk-22 system stopped with the code
--- 15074, and for a radius that does not fit (code 14174; Kolsanova).
+-- coordinates. Fails for wrong coordinates and for a radius that does not fit. The Minsk-22 system
+-- stopped at the former with the code 15074, at the latter with 14174 (Kolsanova).
 joggledBy :: Environment -> Carrier.Side -> Exact.Curve -> Joggle -> Eval Exact.Curve
 joggledBy env side lower (Located at (Joggle from to depth radius)) = do
   a <- parameterAtX env lower from

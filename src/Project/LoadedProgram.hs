@@ -35,9 +35,9 @@ data LoadedProgram = LoadedProgram
   { -- | the texts of the program and of its imports, from which reports find lines and columns
     source :: Source,
     -- | the syntax tree of the program, in which each import is replaced by the imported
-    -- definitions
+    -- definitions, and each name of a table file by the lines of the table
     surface :: Result Report Report Surface.Program,
-    -- | the region of each import, and the path of the file that it names
+    -- | the regions of the names of imports and of table files, with the paths of these files
     imports :: [(Region, Text)],
     -- | the machine descriptions that the program names
     descriptions :: Descriptions

@@ -48,7 +48,7 @@ data Snapshot = Snapshot
     program :: Program,
     -- | the mentions of names in the program, and the values of its definitions
     facts :: Mentions,
-    -- | the region of each import, and the path of the file that it names
+    -- | the regions of the names of imports and of table files, with the paths of these files
     imports :: [(Region, Text)]
   }
 
@@ -77,8 +77,9 @@ take check loaded =
 isGood :: Snapshot -> Bool
 isGood = not . any Report.isError . reports
 
--- | The region of the program's import statement that includes the file of the given region,
--- directly or through other imports. 'Nothing' if that region lies in the program itself.
+-- | The region of a file name in the program's own text, after @import@ or in a table statement.
+-- The given region lies in the named file, or in a file that this one names directly or through
+-- others. 'Nothing' if the given region lies in the program itself.
 importOf :: Snapshot -> Region -> Maybe Region
 importOf Snapshot {source, imports} = go (length imports)
   where

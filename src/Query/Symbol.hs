@@ -39,8 +39,8 @@ symbols :: Snapshot -> [DocumentSymbol]
 symbols Snapshot {source, program} = mapMaybe (symbol source) (statements program)
 
 -- | The symbol of a statement; 'Nothing' if it has none. A definition is shown by its name. Any
--- other statement is shown by the beginning of its text: a machining statement up to the side, the
--- depth or the stepover.
+-- other statement is shown by the beginning of its text. For @mill@ and @turn@ this text ends with
+-- the side, for @pocket@ with the stepover, for @drill@ with the depth.
 symbol :: Source -> Statement -> Maybe DocumentSymbol
 symbol source (Located whole s) = case s of
   Part name title -> definition Part' name (maybe "" value title)

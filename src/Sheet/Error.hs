@@ -5,9 +5,12 @@
 -- A word is a number, a sign without digits, or the end mark @-0@. A sheet begins with the general
 -- data (16 numbers on part and tool) and the points of the approach. Then come arrays of pieces,
 -- with points after each array. A point has four numbers: x, y, z and the feed of the move to the
--- next point. A piece is a curve through points of the drawing, with a cipher: a number whose
--- digits say how the curve is recalculated. The mark @-0@ ends the approach, each piece, and the
--- points between two arrays.
+-- next point. The mark @-0@ ends the approach, the numbers of each piece, and the points between
+-- two arrays.
+--
+-- A piece is a curve through points of the drawing, with a number, its cipher. Each digit of the
+-- cipher names a recalculation, which shifts the curve along its normal. After the end mark of a
+-- piece come its link to the next piece, and its allowance, the material left on it.
 module Sheet.Error
   ( Error (..),
     NumberPosition (..),
@@ -71,7 +74,8 @@ data Error
     NoWorkingFeed NumberPosition
   deriving stock (Eq, Ord, Show)
 
--- | A fault of the general data.
+-- | A fault of the general data. The ciphers of the product and of the part are identification
+-- numbers; all other ciphers are those of pieces.
 data GeneralFault
   = ProductCipherNotWhole
   | PartCipherNotWhole
@@ -259,7 +263,7 @@ generalTexts fault = case fault of
   HeightWithoutBevel -> ("the height of the cone", "A tool without a bevel is no cone.")
   UnknownSide ->
     ( "the side of the tool",
-      "It is 1, left of the walk, -1, right of it, or 0, on the pieces themselves."
+      "It is 1, left of the direction of travel, -1, right of it, or 0, on the pieces."
     )
   UnusedWord ->
     ("a word that is not used", "The addresses 0101 to 0107 are not used and hold 0.")

@@ -1,7 +1,7 @@
 -- | Conversion of a curve with its shifts to a piece of an input sheet. A piece consists of points
 -- of the curve before all shifts, and of a cipher. Each digit of the cipher expresses one shift,
--- which moves every point along the normal of the curve. The conversion refuses a curve with a
--- shift that no digit expresses.
+-- which moves every point along the normal of the curve. On a sheet the shift is called a
+-- recalculation. The conversion refuses a curve with a shift that no digit expresses.
 --
 -- A bevel is the angle between the part's surface and the tool axis. With the flange height at a
 -- point it determines the distance by which digit 4 shifts.
@@ -108,9 +108,9 @@ shiftOf (side, distance) = case distance of
     sign = Carrier.sideSign side
 
 -- | The side of a piece as a sign: 1 left, -1 right. A sheet has the distances of the digits 1 and
--- 2 before the points, and the sign of the first of these distances gives the side. So the result
--- is the side to which this distance shifts. If there is no such distance or it is 0, the result is
--- the side of the first shift, and 1 without shifts.
+-- 2 before the points. The sign of the first number there gives the side, so the result is the side
+-- to which this distance shifts. If the number is 0 or missing, the result is the side of the first
+-- shift, or 1 if there are no shifts.
 signOfPiece :: [Shift] -> Double
 signOfPiece shifts = case listToMaybe [sign s * h | s <- shifts, Just h <- [headOf (distance s)]] of
   Just h | h /= 0 -> signum h
@@ -136,7 +136,7 @@ onSide wanted s
       ShiftDistance.Square mu inner -> ShiftDistance.Square mu (opposite inner)
       ShiftDistance.Joggled j -> ShiftDistance.Joggled j
     minus (Mm h) = Mm (negate h)
-    -- Leaves the spline of the column unchanged, because this module uses only its values.
+    -- Leaves the interpolation of the column unchanged, because this module uses only the values.
     negative c = c {Column.values = Vector.map negate (Column.values c)}
 
 -- | Refuses a shift that the numbers of a sheet cannot express.
@@ -178,7 +178,7 @@ surfaceOf at count shifts
       ShiftDistance.Bevelled {} -> False
       _ -> null (square s)
 
--- | The recalculation of a shift that 'checkShift' has accepted.
+-- | The recalculation that expresses a shift. 'checkShift' has accepted the shift.
 recalculation :: Shift -> Recalculation
 recalculation s = case distance s of
   ShiftDistance.Growing Growth {from = Mm a, to = Mm b} -> Growing (here a) (here b)

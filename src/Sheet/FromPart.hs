@@ -138,10 +138,10 @@ sideOf (Located at side) = case side of
   Part.Outside -> refused (NoNumbers at OutsideOfContour)
   Part.Inside -> refused (NoNumbers at InsideOfContour)
 
--- | Diameter in mm, bevel in degrees and height in mm of the tool that touches the part at
--- @radius@. The bevel is the angle between the tool's flank and its axis. If the program has a cone
--- with this radius at its upper end, they are those of the cone. Otherwise they are those of a
--- cylinder, with bevel and height 0. A cone without a bevel is a cylinder.
+-- | Diameter in mm, bevel in degrees and height in mm of the tool. The tool has the radius @radius@
+-- at the height where it touches the part. The bevel is the angle between the tool's flank and its
+-- axis. If the program's first cone has a bevel and this radius at its upper end, the result is
+-- that of the cone. Otherwise it is that of a cylinder, with bevel and height 0.
 toolOf :: Checked.Program -> Mm -> (Double, Double, Double)
 toolOf written (Mm radius) =
   case [ (d, mu, h)

@@ -1,8 +1,8 @@
 -- | Reader of input sheets: makes a sheet from its text.
 --
 -- A sheet has the general data, the points of the approach, and arrays of pieces, each with points
--- after it. A piece is a curve with a cipher, a number whose digits say how the curve is
--- recalculated. The end mark is the word @-0@.
+-- after it. A piece is a curve with a number, its cipher. Each digit of the cipher names a
+-- recalculation, which shifts the curve along its normal. The end mark is the word @-0@.
 --
 -- The reader reports all words that are not numbers. If there are none, it reports only the first
 -- wrong number: a missing or doubled number shifts the meaning of all numbers after it. The reader

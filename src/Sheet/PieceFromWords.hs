@@ -1,6 +1,6 @@
--- | The meaning of the words of one piece of an input sheet. A piece is a curve with a cipher, a
--- number whose digits say how the curve is recalculated. These digits determine the count and the
--- order of the numbers of the piece:
+-- | The meaning of the words of one piece of an input sheet. A piece is a curve with a number, its
+-- cipher. Each digit of the cipher names a recalculation, which shifts the curve along its normal.
+-- The digits determine the count and the order of the numbers of the piece:
 --
 -- * for each digit 1 and each digit 2, a distance;
 -- * for each point, x and y; if there is a digit 4, also the bevel and the height of the flange;
@@ -164,8 +164,9 @@ groups size list = case splitAt size list of
   ([], _) -> []
   (one, rest) -> one : groups size rest
 
--- | The recalculations of a cipher's digits. @heads@ are the distances before the points, @tails@
--- the second distances of the digits 1, and @given@ the distances for each point of the digits 6.
+-- | The recalculations that the digits of a cipher name. @heads@ are the distances before the
+-- points, @tails@ the second distances of the digits 1. @given@ has a list for each digit 6, with a
+-- distance for each point.
 recalculations :: [Digit] -> [Number] -> [Number] -> [[Number]] -> [Recalculation]
 recalculations digits heads tails given = case (digits, heads, tails, given) of
   (One : ds, h : hs, t : ts, _) -> Growing h t : recalculations ds hs ts given

@@ -1,6 +1,9 @@
 -- | The input sheet of the Minsk-22 system as data, with the meaning of every number
 -- (docs/input-sheet.md).
 --
+-- A piece is a curve with its recalculations, each of which shifts the curve along its normal. The
+-- cipher of a piece has a digit 1, 2, 4 or 6 for each recalculation.
+--
 -- Numbers have the units of the sheet: mm, degrees and mm\/min. Every number keeps its region in
 -- the text, so that reports can point at it. A position of a word on the sheet is counted from 1.
 module Sheet.Sheet
@@ -68,7 +71,7 @@ data General = General
     height :: Number,
     -- | largest chord error, mm
     tolerance :: Number,
-    -- | side of the pieces on which the tool travels; Nothing if its centre travels on the pieces
+    -- | the tool travels on this side of every piece; if Nothing, its centre travels on the pieces
     side :: Located (Maybe Side)
   }
   deriving stock (Eq, Show)
@@ -89,8 +92,8 @@ data LinkedPiece = LinkedPiece Piece (Located Link)
   deriving stock (Eq, Show)
 
 -- | A curve through points of the theoretical contour, and its recalculations. The theoretical
--- contour is the given curve from which the contours of the part are recalculated. If a
--- recalculation has the digit 4, every point has a surface. If not, no point has one.
+-- contour is the given curve from which the contours of the part are recalculated. If the cipher
+-- has a digit 4, every point has a surface; otherwise no point has one.
 data Piece = Piece
   { -- | the side to which a positive distance shifts the curve
     shiftSide :: Located Side,
@@ -152,7 +155,7 @@ arrays sheet = first sheet :| others sheet
 pieces :: Array -> NonEmpty Piece
 pieces array = foldr (\(LinkedPiece p _) rest -> p <| rest) (final array :| []) (joined array)
 
--- | The digit by which a cipher names a recalculation.
+-- | The digit that a cipher has for a recalculation.
 digitOf :: Recalculation -> Digit
 digitOf r = case r of
   Growing _ _ -> One

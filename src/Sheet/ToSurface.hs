@@ -266,9 +266,9 @@ pieceName count = Name ("piece_" <> Decimal.whole count)
 thicknessNames :: Int -> [Text]
 thicknessNames count = if count == 1 then ["t"] else ["t_" <> Decimal.whole k | k <- [1 .. count]]
 
--- | The ciphers of a piece, as the program writes them: a digit with its arguments for each
--- recalculation. If the piece has surfaces, its distances are measured square to them. The
--- additional argument @mu@ says so.
+-- | The ciphers of a piece in the part program, where each recalculation has a cipher of its own: a
+-- digit with arguments. If the piece has surfaces, the distances of the digits 1, 2 and 6 are
+-- measured square to them. A last argument @mu@ says so.
 ciphers :: Piece -> [Recalculation] -> [Surface.Cipher]
 ciphers piece recalculations =
   go (thicknessNames (length [() | Pointwise _ <- recalculations])) recalculations

@@ -226,7 +226,7 @@ pieceTexts fault = case fault of
   DerivedContour -> ("a contour that is moved, turned, or made of others", writePieces)
   NestedContour -> ("a contour in a contour", writePieces)
   where
-    writePieces = "Write its pieces down where they are walked."
+    writePieces = "Write its pieces down one by one."
 
 linkText :: LinkFeature -> Text
 linkText feature = case feature of
@@ -279,7 +279,7 @@ sharedText :: SharedSetting -> Text
 sharedText setting = case setting of
   SharedTool -> "tool"
   SharedTolerance -> "tolerance"
-  SharedSide -> "side of the walk"
+  SharedSide -> "side of the contour"
 
 -- | The position to which the report points, and its title.
 pathTexts :: PathFault -> (ReportPlace, Text)

@@ -9,8 +9,10 @@
 -- from them. The fast parser of "Surface.Combinator.Fast" stops at the first mistake.
 --
 -- An enclosure is a part of a program between two brackets. Recovery replaces a statement or an
--- item with a mistake by a broken node of the syntax tree, and continues after it. The offset of a
--- failure is the index of a token, all other offsets are indices of characters; both count from 0.
+-- item with a mistake by a broken node of the syntax tree, and continues after it. The nesting
+-- depth is the number of brackets and operands around a token, as far as 'nested' parses them. The
+-- offset of a failure is the index of a token, all other offsets are indices of characters; both
+-- count from 0.
 module Surface.Combinator
   ( Parser,
     Explaining,
@@ -103,7 +105,7 @@ data ParserState = ParserState
     failures :: [Failure],
     -- | the offset of the end of the last token consumed
     lastEnd :: Int,
-    -- | the number of brackets and operands around the next token; 'nested' counts each of them
+    -- | the nesting depth of the next token
     bracketDepth :: Int,
     -- | the number of statement blocks around the statement that is being parsed
     blockDepth :: Int,
@@ -111,8 +113,8 @@ data ParserState = ParserState
     hasGivenUp :: Bool
   }
 
--- | A parsed value, the number of its tokens, and the tokens after them. The value has at most two
--- brackets or operands inside one another, so that one check of the limit 'maxNesting' suffices.
+-- | A parsed value, the number of its tokens, and the tokens after them. Inside the value the
+-- nesting depth grows by at most two. So it is compared with 'maxNesting' once for the whole value.
 data Consumed a = Consumed a Int [Token]
 
 -- | The operations from which the grammar is built.
@@ -377,8 +379,8 @@ isLineEnd = isEnd <$> remaining
       t : _ -> newLine t && shape t `notElem` map Symbol [")", "]", "}"]
 {-# INLINEABLE isLineEnd #-}
 
--- | Tells if no token remains, or the next token begins a statement. A block that is open here
--- lacks its closing brace.
+-- | Tells if no token remains, or the next token begins a statement. Inside a block of items, both
+-- mean that the closing brace is missing.
 atEnd :: Grammar p => p Bool
 atEnd = maybe True beginsStatement . listToMaybe <$> remaining
 {-# INLINEABLE atEnd #-}
@@ -400,7 +402,7 @@ nested p = do
   pure a
 {-# INLINEABLE nested #-}
 
--- | The largest number of brackets and operands inside one another, a limit for 'bracketDepth'.
+-- | The largest nesting depth.
 maxNesting :: Int
 maxNesting = 500
 
@@ -477,7 +479,7 @@ isStatementEnd hasBlock isInBlock open t others =
     -- If the block of a broken @for@, @if@ or @with@ has a closing brace, the whole block is
     -- skipped, because its statements make no sense alone.
     isInOwnBlock = open > 0 && hasBlock && closesBlock (t : others)
-    -- True if @t@ is the @for@ or @if@ of a new statement: one outside of the broken one's braces.
+    -- True if @t@ begins a line with @for@ or @if@ outside of the broken statement's braces.
     isBlockStatement = case shape t of
       Word word -> newLine t && open <= 0 && word `elem` Keyword.blocks
       _ -> False
@@ -554,7 +556,7 @@ skipItem open isContinued = do
   where
     isUnfinished t = shape t `elem` map Symbol [",", "(", "[", "{", "=", "+", "-", "*", "/"]
 
--- | Tells if a token is a keyword that begins a statement at the start of a line.
+-- | Tells if a token begins a statement: a keyword of statements that is the first on its line.
 beginsStatement :: Token -> Bool
 beginsStatement t = case shape t of
   Word word -> newLine t && word `elem` Keyword.statements

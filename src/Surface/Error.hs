@@ -82,8 +82,8 @@ data Error
     BadAssignment Region Text Text Int
   deriving stock (Eq, Ord, Show)
 
--- | The tokens on both sides of a mistake: the token before it, and the token after it if no space
--- lies between. 'Nothing' at the start or the end of the text.
+-- | The neighbours of a wrong token: the token before it, and the token after it if that follows
+-- without a space. 'Nothing' for a missing neighbour.
 type Neighbours = (Maybe Token_, Maybe Token_)
 
 -- | The text found at a region: a token, or the end of the text.
@@ -182,7 +182,7 @@ toReport err = case err of
       { label = "here",
         hints =
           [ "Say on which side of its curve the piece lies, to the left or to the right of the \
-            \walk: piece q = c left"
+            \direction of travel: piece q = c left"
           ]
       }
   Misplaced region word ->

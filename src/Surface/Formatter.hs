@@ -133,8 +133,8 @@ isBlankAbove source at =
   where
     Region.Position {Region.line} = Region.position source at
 
--- | Splits a printed line that ends with @{ }@ before the closing brace, if the source has a
--- comment between the braces. Otherwise the line is the only one in the result.
+-- | Moves the closing brace of a printed line to a line of its own, if the line ends with @{ }@ and
+-- the source has a comment between these braces. Any other line is the only one in the result.
 splitEmptyBlock :: CommentPositions -> SourceLine -> [SourceLine]
 splitEmptyBlock positions sourceLine = case (shapesBackwards, sourcesBackwards) of
   (Symbol "}" : Symbol "{" : _, Just close : Just open : _)

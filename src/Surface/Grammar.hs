@@ -504,8 +504,8 @@ operators table = Parsec.hidden (token "an operator" operatorOf)
       Symbol s -> lookup s table
       _ -> Nothing
 
--- | Parses the operators and operands after a first operand, the last argument, and joins all from
--- left to right.
+-- | Parses the operators and operands after the first operand, and joins all from left to right.
+-- The arguments are the rule for an operator, the rule for an operand, and the first operand.
 chain :: Grammar p => p Operator -> p Expr -> Expr -> p Expr
 chain operator next = more
   where

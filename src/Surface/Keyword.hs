@@ -71,7 +71,7 @@ settingsOf statement = case statement of
     linkingMoves = ["approach", "retract", "lead in", "lead out"]
     passes = ["allowance", "corners"]
 
--- | The word for a selector, as it is written before an argument.
+-- | The word for a selector, such as @near@ in the argument @near p@.
 selectorWord :: Selector -> Text
 selectorWord selector = case selector of
   Near -> "near"

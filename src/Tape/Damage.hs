@@ -3,7 +3,8 @@
 -- A frame is a block of ISO 6983, and a word is an address with its number. A motion code is the
 -- number of a kind of motion, a feed code the number of a feed. A hole in the service track gives
 -- the digit in its row an extra meaning. The check sum of a frame is the sum of the weights of its
--- symbols.
+-- symbols. The leading axis of a frame is the axis with the most pulses. A priority digit before
+-- the number of an axis gives its direction, and says if the axis is the leading one.
 --
 -- A damage holds positions and numbers. Only 'toReport' makes a text of them.
 module Tape.Damage
@@ -72,10 +73,9 @@ data Reason
     NoSign
   | -- | Number 0 with a minus.
     MinusZero
-  | -- | The given digit is none of the four for the direction and the leading axis, see
-    -- 'Machine.Machine.Priority'.
+  | -- | The given digit is none of the four priority digits, see 'Machine.Machine.Priority'.
     NoPriority Int
-  | -- | Wrong digit for the direction and the leading axis: the digit found, the digit expected.
+  | -- | Wrong priority digit: the digit found, the digit expected.
     WrongPriority Int Int
   | -- | Wrong check sum of a frame: the sum, and the number of which it has to be a multiple.
     WrongSum Int Int

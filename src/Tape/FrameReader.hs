@@ -68,6 +68,7 @@ data Reading = Reading
     -- | numbers of commands, from command words and from bits in the service track; a command with
     -- several bits has one entry for each bit
     commandNumbers :: [(Machine.CommandName, Int)],
+    -- | true if a hole in the service track makes the control brake in this frame
     isBraking :: Bool,
     -- | sum of the weights of the symbols so far; stays 0 in a layout without a check digit
     total :: Int,

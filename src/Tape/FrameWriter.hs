@@ -5,6 +5,7 @@
 --
 -- A frame is a block of ISO 6983, and a layout gives its symbols and words in order. A hole in the
 -- service track gives the digit in its row an extra meaning, such as a minus or a bit of a command.
+-- The leading axis of a frame is the axis with the most pulses.
 --
 -- Each row comes with its weight in the check sum and its meaning. The same code makes the tape,
 -- which needs the holes only, and the picture of the tape, which explains every row. In 'foldRows',
@@ -121,8 +122,9 @@ addDigit add layout meaning d before =
   add before (Symbol.digit (symbols layout) d) (Symbol.digitWeight (symbols layout) d) meaning
 {-# INLINE addDigit #-}
 
--- | Adds the sign of the number @n@ of the word @w@, or the digit that says its direction and
--- whether its axis is the leading one. Adds nothing if the form has no sign before the digits.
+-- | Adds the sign of the number @n@ of the word @w@. In some forms this is a digit that gives the
+-- direction of an axis, and says if the axis is the leading one. Adds nothing if the form has no
+-- sign before the digits.
 foldSign ::
   Monad m =>
   AddRow m r ->
@@ -168,8 +170,9 @@ foldDigits add layout frame w n start = case service f of
   where
     f = form w
     count = Layout.digitCount f (abs n)
-    -- @meaningAt@ gives the meaning of the service track at a digit, and the value of @track@ for
-    -- the next digit. The loop is inlined twice, so that numbers without a service track are fast.
+    -- @track@ describes the service track from one digit on. From it @meaningAt@ gives the meaning
+    -- of a hole at this digit, and the track from the next digit on. The loop is inlined twice, so
+    -- that numbers without a service track are fast.
     digitsFrom meaningAt track = go (count - 1) track (lowestDigits count (abs n)) start
       where
         -- Adds the digits of @left@, from the digit of 10^k down to the last one.
@@ -235,9 +238,8 @@ checkDigit layout modulus total =
   where
     weightOf = Symbol.digitWeight (symbols layout)
 
--- | True if @c@ is the content of the leading axis's word. The leading axis has the most pulses in
--- this frame; of several with equal pulses it is the first in the layout. True also for words that
--- are not of an axis.
+-- | True if @c@ is the content of the leading axis's word. If several axes have the most pulses,
+-- the first in the layout leads. True also for words that are not of an axis.
 isLeading :: PreparedLayout -> Frame -> Content -> Bool
 isLeading layout frame c = case c of
   Along a -> take 1 [b | b <- axisOrder layout, pulses b == most] == [a]

@@ -74,8 +74,8 @@ data PreparedLayout = PreparedLayout
     symbols :: Symbols,
     axes :: Axes,
     steps :: [LayoutStep],
-    -- | the steps of a simple frame: 'steps' without the words of arcs and commands, unless every
-    -- frame that moves contains these words
+    -- | the steps of a simple frame: 'steps' without the words of 'frameWords' that are not in
+    -- 'simpleWords'
     simpleSteps :: [LayoutStep],
     -- | symbols between two words
     separator :: [Symbol],
@@ -85,7 +85,8 @@ data PreparedLayout = PreparedLayout
     point :: Symbol,
     -- | all words in their order on the tape
     frameWords :: [Word'],
-    -- | the words that can occur in a simple frame, see 'ModalState.occursInSimple'
+    -- | the words that can occur in a simple frame. They include words of arcs and commands that
+    -- every frame, or every frame that moves, contains; see 'ModalState.occursInSimple'.
     simpleWords :: [Word'],
     -- | axes in the order of their words
     axisOrder :: [Axis],
@@ -158,9 +159,9 @@ fromMachine machine =
     steps = map (stepOf symbols separator) items
     frameWords = Machine.wordsOf machine
     hasCheckDigit = not (null [() | CheckStep _ <- steps])
-    -- True if every word after the last step that all frames contain can occur in a simple frame.
-    -- If another word could follow, the steps of simple frames would not notice it at the end of a
-    -- frame.
+    -- Looks at the words after the last step that gives rows in every frame. True if all of them
+    -- can occur in a simple frame. Any other word at the end of a frame would not be noticed by a
+    -- reader that follows 'simpleSteps'.
     endsSurely = all isSimpleStep (takeWhile (not . isAlwaysWritten) (reverse steps))
 
 symbolsOf :: Symbols -> Text -> [Symbol]
@@ -264,7 +265,8 @@ data BlankRows
 -- | Purpose of a row within a word.
 data WordRow
   = AddressSymbol Char
-  | -- | digit, 0 to 9, for the direction and the leading axis, see 'Machine.Machine.Priority'
+  | -- | digit, 0 to 9, that gives the direction of an axis and says if the axis is the one with the
+    -- most pulses, see 'Machine.Machine.Priority'
     PriorityDigit Int
   | -- | plus or minus
     SignSymbol Char

@@ -1,7 +1,8 @@
 -- | Modal state: the values that stay in force from frame to frame. From the state and a frame,
 -- 'number' computes the number of each word of the frame, for the writer and for the readers.
 --
--- A frame is a block of ISO 6983. A pulse is the smallest step of an axis.
+-- A frame is a block of ISO 6983. A /simple frame/ has neither an arc nor a command. A pulse is the
+-- smallest step of an axis.
 module Tape.ModalState
   ( State (..),
     initial,
@@ -136,8 +137,7 @@ number system state frame word = case content word of
     given :: CommandName -> Maybe Int
     given o = lookup o (commands frame)
 
--- | True for a simple frame: one with neither an arc nor a command. Most frames are simple, and
--- there is a faster reader for them.
+-- | True for a simple frame. Most frames are simple, and there is a faster reader for them.
 isSimple :: Frame -> Bool
 isSimple frame = null (commands frame) && not (isArc frame)
 
@@ -158,8 +158,8 @@ occursInSimple word = case content word of
       WhenNeeded -> False
       WhenChanged -> False
 
--- | True for a command word in which the number 0 gives a command. It is false for a word that
--- frames without the command contain too: 0 then means that the frame lacks the command.
+-- | True for a command word in which the number 0 gives a command. False for a command word that is
+-- in every frame, or in every frame that moves: there, 0 means that the frame has no such command.
 isZeroCommand :: Word' -> Bool
 isZeroCommand word = case presence word of
   Always -> False

@@ -93,8 +93,8 @@ numeral layout c f rows begin = do
             total = weights ds
           }
   where
-    -- A digit for the direction and the leading axis may make 0 negative. The reader of frames
-    -- compares this digit later with the one that the machine would write.
+    -- A priority digit (see 'Priority') gives a sign to 0 too, so a minus before 0 is no fault. The
+    -- reader of frames later compares this digit with the one that the machine would write.
     refusesMinusZero = case sign f of
       Priority {} -> False
       Unsigned -> True

@@ -296,8 +296,9 @@ tapeIndex source at
 
 -- | Index of the row after the leader, or the fault of a leader that is too short or has holes.
 --
--- If blank rows are 'Skipped', further blank rows before the opening symbols are ignored. On a
--- medium without opening symbols they count, because they could be the trailer.
+-- If blank rows are 'Skipped', blank rows between the leader and the opening symbols are ignored.
+-- On a medium without opening symbols, blank rows after the leader are not ignored, because they
+-- could be the trailer.
 afterLeader :: Source -> Either RowFault Int
 afterLeader source
   | ByteString.null (kept source)
@@ -405,8 +406,8 @@ endAt source at = case spare (medium source) of
     closer = closing (medium source)
     torn = maybe Continued Torn (tornAt source at)
 
--- | Count of blank rows at the end of the tape. @found@ is the count of those in 'kept', which
--- lacks blank rows that the code skips.
+-- | Count of blank rows at the end of the tape. If the code skips blank rows, they are counted in
+-- 'raw'; otherwise the result is @found@, their count in 'kept'.
 trailerLength :: Source -> Int -> Int
 trailerLength source found
   | skipsBlanks source =
@@ -428,7 +429,7 @@ trailerAt source at = case FrameReader.expect (layout source) (line source) firs
       Skipped -> if null cs then at else afterBlanks source at
 
 -- | Fault of a tape whose frames end before row @at@: a trailer of a wrong length, or missing
--- closing symbols. 'Nothing' if rows with other holes follow, so that the fault is in a frame.
+-- closing symbols. 'Nothing' if other symbols than the closing ones follow: then a frame is faulty.
 tornAt :: Source -> Int -> Maybe RowFault
 tornAt source at = case trailerAt source at of
   Just found ->

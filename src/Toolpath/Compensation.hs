@@ -7,7 +7,7 @@
 -- * The first move under compensation is programmed as a straight line. The control moves the
 -- centre to the point where the offsets of that line and of the next element intersect. So the
 -- programmed line must be a tangent to the cutter at the cutter's first position on the toolpath.
--- The next element begins where that element, extended if necessary, intersects the tangent.
+-- The next element, extended if necessary, begins at its intersection with that tangent.
 --
 -- * At outer corners the control moves on arcs. It makes the arc at the last corner of a closed
 -- contour only when another move follows.
@@ -117,9 +117,10 @@ checkElements keyword requested milling side passMoves =
       mapM_
         (\old -> Left (TightForControl keyword requested (fmap element i) old radius))
         (tooTight radius side s)
-    -- A control ignores a very slight corner. When such a corner turns away from the cutter, the
-    -- centre enters the following arc too early. Rounding of the end of the segment before the arc
-    -- has the same effect.
+    -- A control ignores a very slight corner. If such a corner before an arc turns away from the
+    -- cutter, the centre begins its own arc too early. This arc then sweeps more than the arc of
+    -- the edge. The control refuses it if the difference is above 'Tolerance.controlTurn'. Rounding
+    -- to pulses turns the segment before the arc a little, which has the same effect.
     checkArcStart (i, a) (_, b) =
       let Rad deflection = Vec.signedAngle (Segment.endDirection a) (Segment.startDirection b)
           needed = neededBefore (Mm r) side (Rad (max 0 (-(deflection * Carrier.sideSign side)))) b
@@ -178,10 +179,14 @@ elementAt milling i = elements NonEmpty.!! (i `mod` length elements)
   where
     elements = Part.elements (Part.contour milling)
 
--- | The least 'referenceLength' of the segment before the segment @s@. At the joint the contour
--- turns away from the cutter by the angle @away@; @r@ is the cutter's radius in mm. If @s@ is an
--- arc, this length keeps the additional sweep of the centre's arc within 'Tolerance.controlTurn'.
--- The result is 0 if @s@ is a line, and infinite if no length suffices.
+-- | The least 'referenceLength' that the segment before the segment @s@ may have. @away@ is the
+-- angle by which the contour turns away from the cutter between the two segments; @r@ is the
+-- cutter's radius in mm.
+--
+-- If @s@ is an arc, the centre's arc may sweep more than @s@. The reasons are the angle @away@, and
+-- rounding to pulses, which turns the segment before. Rounding turns a longer segment less. With
+-- the least length, the sweeps differ by 'Tolerance.controlTurn'. The result is 0 if @s@ is a line,
+-- and infinite if no length suffices.
 neededBefore :: Mm -> Side -> Rad -> Segment -> Mm
 neededBefore (Mm r) side (Rad away) s = case s of
   Straight _ _ -> Mm 0
@@ -195,8 +200,8 @@ neededBefore (Mm r) side (Rad away) s = case s of
       Mm rounding = Tolerance.controlRounding
       Rad most = Tolerance.controlTurn
 
--- | The length of a line or the radius of an arc. The larger it is, the less a rounded end changes
--- the direction of the segment there.
+-- | The length of a line or the radius of an arc. The larger it is, the less the direction at the
+-- end of the segment changes when that end is rounded to pulses.
 referenceLength :: Segment -> Mm
 referenceLength s = case s of
   Straight a b -> Vec.distance a b

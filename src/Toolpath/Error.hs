@@ -143,7 +143,7 @@ toReport err = case err of
   SideOfOpen region side (Name name) contour ->
     (at region "E0401" ("the open contour ‘" <> name <> "’ has no " <> sideWord side))
       { others = [Label contour "this contour is open"],
-        hints = ["Say left or right of the walk, or on."]
+        hints = ["Say left or right of the direction of travel, or on."]
       }
   ConcaveRadius region tool element old largest ->
     ( at
@@ -194,7 +194,7 @@ toReport err = case err of
         message =
           [ "With its centre at "
               <> Vec.toText 3 p
-              <> " on the way along "
+              <> " on the path along "
               <> shape first
               <> " it would cut "
               <> shape second
@@ -204,7 +204,7 @@ toReport err = case err of
       }
   CutsPart region move element depth intrusion p ->
     (at region "E0405" ("this move " <> intruding intrusion depth))
-      { label = "the way to here",
+      { label = "the move to here",
         others = [Label (origin element) (shape element) | origin element /= region],
         message =
           [ if Vec.isNear (Segment.start move) (Segment.end move)
@@ -272,11 +272,11 @@ toReport err = case err of
         hints = ["Leave the word out, or mill the contour on one of its sides."]
       }
   SenseAgainstSide region side ->
-    (at region "E0409" "the cutter does not cut like this on this side of the walk")
+    (at region "E0409" "the cutter does not cut like this on this side of the contour")
       { others = [Label side "the side is given here"],
         message =
-          [ "With the spindle clockwise the cutter climbs on the left of the walk; with the \
-            \spindle counter-clockwise, on the right."
+          [ "With the spindle clockwise the cutter climbs on the left of the direction of travel; with \
+            \the spindle counter-clockwise, on the right."
           ],
         hints =
           [ "Leave the word out, take the other side, or mill reversed(…). In a mirrored block \
@@ -326,14 +326,14 @@ toReport err = case err of
         "E0417"
         ( if length' > Mm 0
             then
-              "the straight way "
+              "the straight move "
                 <> word
                 <> " the contour is "
                 <> Decimal.mm length'
                 <> " long, but a control needs one longer than the cutter's radius, "
                 <> Decimal.mm radius'
             else
-              "there is no straight way "
+              "there is no straight move "
                 <> word
                 <> " the contour on which a control could "
                 <> act
@@ -360,12 +360,12 @@ toReport err = case err of
       act =
         if isIn then "begin to keep the cutter beside it" else "stop keeping the cutter beside it"
   WrongWayForControl region asked p ->
-    (at region "E0418" "a control cannot take this way onto the contour")
+    (at region "E0418" "a control cannot make this move onto the contour")
       { others = [Label asked "asked here"],
         message =
           [ "It ends at "
               <> Vec.toText 3 p
-              <> ", and comes there out of the part, against the direction of the walk, or nearly \
+              <> ", and comes there out of the part, against the direction of travel, or nearly \
                  \along an arc with a thin cutter."
           ],
         hints =
@@ -460,7 +460,7 @@ toReport err = case err of
   HasToRise region p q ->
     (at region "E0421" "the cutter has to be lifted in this pocket, and it has no depth")
       { message =
-          [ "On the straight way from "
+          [ "On the straight line from "
               <> Vec.toText 3 p
               <> " to "
               <> Vec.toText 3 q

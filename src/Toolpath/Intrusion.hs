@@ -80,8 +80,8 @@ data Wall = Wall
     statement :: Int,
     milling :: Milling,
     -- | one bounding box for each 'groupSize' consecutive elements. The list at a box begins with
-    -- these elements, but extends to the end of the contour. A box for each element would take
-    -- more memory than the element, and few boxes are ever examined
+    -- these elements; the rest of the list is the rest of the contour, and is ignored. Such lists
+    -- share their memory. A box for each element would take more memory than the element
     groups :: BoxTree (NonEmpty Part.Element)
   }
 

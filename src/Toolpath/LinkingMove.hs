@@ -37,11 +37,12 @@ data Visit = Visit
     from :: SpacePoint
   }
 
--- | The linking moves before and after a pass of a statement without a depth. The cutter stays at
--- its current height @z@. The pass goes from the point @begin@ at the height @inZ@ to the point
--- @finish@ at the height @outZ@. These heights differ from @z@ for a blade only, because the z axis
--- swivels it. Each pass along an open contour has the approach and the retract of the program. On a
--- closed contour only the first pass has the approach, and only the last pass the retract.
+-- | The linking moves before and after a pass of a statement without a depth. The height of the
+-- pass is @z@. The pass goes from the point @begin@ to the point @finish@. @inZ@ and @outZ@ are the
+-- heights of the z axis there. They differ from @z@ for a blade only, because the z axis does not
+-- lift a blade, but swivels it. Each pass along an open contour has the approach and the retract of
+-- the program. On a closed contour only the first pass has the approach, and only the last pass the
+-- retract.
 withoutDepth :: Visit -> Mm -> (Mm, Mm) -> Point -> Point -> ([Move], [Move])
 withoutDepth Visit {word, milling, isFirst, isLast, from} z (inZ, outZ) begin finish =
   ( before

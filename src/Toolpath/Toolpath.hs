@@ -96,8 +96,8 @@ data Pass = Pass
   deriving stock (Eq, Show)
 
 -- | The input for a control that does the cutter compensation. The control computes the moves of
--- the pass from the edge of the part. Each of them ends where the corresponding move of the
--- toolpath ends. Only the move on which compensation begins may end elsewhere.
+-- the pass from the edge of the part. Each move that it computes ends where the corresponding move
+-- of the toolpath ends. Only the move on which compensation begins may end elsewhere.
 data Sent = Sent
   { -- | moves of the cutter's centre until compensation begins
     before :: [Move],

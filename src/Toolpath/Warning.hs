@@ -35,11 +35,11 @@ warnings path = throughPart path <> stoppedSpindles path
 -- outside.
 data Body = Body {named :: Part.Contour, outline :: Polyarc.Polyarc, isMaterial :: Bool}
 
--- | Warnings about rapid moves that are not vertical, below the top of the part, inside a contour
--- that contains material; at most one for each region of the program that asks for such moves. The
--- innermost contour around the move decides. When the whole toolpath has one height, that height
--- counts as below the top. A move that crosses a contour is an error ("Toolpath.Intrusion"). So a
--- move lies inside a contour if its midpoint does.
+-- | Warnings about rapid moves through the part; at most one for each region of the program that
+-- asks for such moves. Vertical moves are left out. A move goes through the part if it goes below
+-- the top of the part, and the innermost contour around it contains material. When the whole
+-- toolpath has one height, that height counts as below the top. A move that crosses a contour is an
+-- error ("Toolpath.Intrusion"). So a move lies inside a contour if its midpoint does.
 throughPart :: Toolpath -> [Warning]
 throughPart path =
   [ RapidThroughPart region (Toolpath.segment m) (Part.contourName (named body))

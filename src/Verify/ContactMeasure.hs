@@ -116,7 +116,8 @@ uncertaintyOfRun job run = case run of
   _ -> Mm (max (longest id) (longest Vector.reverse))
   where
     lengths = Vector.fromList [l | s <- NonEmpty.toList run, let Mm l = Segment.length s]
-    -- Length of the centre's path along each segment, in mm.
+    -- Length of the centre's path along each segment, in mm; on the inside of an arc, half of it,
+    -- because 'uncertaintyOn' is doubled there.
     moved =
       Vector.zipWith
         (\l u -> l * 2 * a / u)
@@ -129,8 +130,9 @@ uncertaintyOfRun job run = case run of
         (Vector.scanl' (+) 0 (change moved))
         (Vector.scanl' (+) 0 (change lengths))
 
--- | Largest growth of @seconds@ over any stretch on which @firsts@ grows by @window@, and which
--- starts at a sample. Both are rising sequences of lengths in mm, linear between their samples.
+-- | Largest growth of the lengths @seconds@ while the lengths @firsts@ grow by @window@, all in mm.
+-- Both lists have one number for each sample, rise from sample to sample, and are linear between
+-- samples. Only growth that begins at a sample is examined.
 largestGrowth :: Double -> Vector Double -> Vector Double -> Double
 largestGrowth window firsts seconds = go 0 0 0
   where
@@ -147,9 +149,10 @@ largestGrowth window firsts seconds = go 0 0 0
           + (seconds ! (step + 1) - seconds ! step)
             * (firsts ! from + window - firsts ! step) / (firsts ! (step + 1) - firsts ! step)
 
--- | Uncertainty on one segment, in mm. On the inside of an arc of radius @R@, the contact point
--- moves by @R / |R − r|@ times as much as the centre; @r@ is the distance of the centre from the
--- contour.
+-- | Uncertainty on one segment, in mm: twice the allowed deviation. On the inside of an arc of
+-- radius @R@, the contact point moves by @R / |R − r|@ times as much as the centre; @r@ is the
+-- distance of the centre from the contour. There the uncertainty is multiplied by this factor, and
+-- doubled.
 uncertaintyOn :: MillingJob -> Segment -> Double
 uncertaintyOn job s = case s of
   Arc {start, centre, sweep = Rad angle}

@@ -86,7 +86,7 @@ scan job keepOutOf allowedExcess keepingOut along = runST $ do
   frozen <- PrimArray.unsafeFreezePrimArray bounds
   pure (result, frozen)
   where
-    -- A motion is too far from the contour only beyond the largest distance that the cutter keeps.
+    -- A motion is too far from the contour if it is further than 'maxReach' plus @allowedExcess@.
     strayJob = job {reach = maxReach job, allowance = allowedExcess}
     views ms = zipWith view (MillingJob.edgesNearEach job ms) ms
     view es m = View {motion = m, close = es, bounding = Motion.pathList m}
@@ -142,8 +142,9 @@ improveBound job bounds before View {motion, bounding} e = do
 -- ∞ if there is none. @known@ is the bound so far; @before@ and @bounding@ are the bounding paths
 -- of the motion before and of the motion itself.
 --
--- If the motion alone gives no bound and @known@ is too large, the element is divided at the point
--- beside the start of the motion. Its first part is compared with the motion before.
+-- If the motion alone gives no bound, and @known@ is above 'MillingJob.contactLimit', the element
+-- is divided at its point nearest to the start of the motion. The first part is compared with the
+-- motion before, the second with the motion itself. The result is the larger bound of the two.
 boundFrom :: MillingJob -> Double -> [Segment] -> CutterMotion -> [Segment] -> Edge -> Double
 boundFrom job known before motion bounding e
   | alone < 1 / 0

@@ -102,9 +102,9 @@ membersNear cover distance segment =
       distanceTo (Segment.at 0.5 segment) (pathsOf cover a)
         <= plus distance (times 0.5 (Segment.length segment))
 
--- | Test that each point of a segment has a member within a distance. Up to 'fewAtMost' members are
--- taken together. More members are taken one by one: the next is the member nearest to the end of
--- the stretch that is already covered.
+-- | Test that each point of a segment has a member within a distance. If at most 'fewAtMost'
+-- members are near the segment, all of them are examined together. Otherwise they are examined one
+-- by one: the next is the member nearest to the end of the stretch that is already covered.
 isCovered :: Cover a -> Mm -> Segment -> Bool
 isCovered cover distance segment
   | null (drop fewAtMost near) = together
@@ -162,6 +162,6 @@ union intervals = case intervals of
   s : rest -> s : union rest
   [] -> []
 
--- | Largest number of members that 'isCovered' takes together.
+-- | Largest number of members that 'isCovered' examines together.
 fewAtMost :: Int
 fewAtMost = 30

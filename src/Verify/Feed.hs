@@ -1,7 +1,8 @@
 -- | Comparison of the feeds of a tape. The planned frames are those that the compiler made for the
 -- program. A tape with as many frames is compared with them frame by frame. Any other tape is
 -- compared with the feeds that the statements demand. The third comparison is for every tape: the
--- cutter has to be able to slow down in time.
+-- cutter has to be able to slow down in time. The /leading axis/ of a motion is the axis that moves
+-- by the most pulses.
 module Verify.Feed
   ( asPlanned,
     alongContour,
@@ -118,8 +119,8 @@ intoSolid lowest motions = case motions of
 -- Codes and speeds --------------------------------------------------------------------------------
 
 -- | Code for a feed of @v@ mm/min along the path of a motion. Nothing if the machine has no such
--- feed. On some machines a code means the pulse frequency of the leading axis. There, the frequency
--- is @v/60·n/L@ pulses per second, if a path of @L@ mm takes @n@ pulses of the leading axis.
+-- feed. On some machines a code means the pulse frequency of the leading axis. That frequency is
+-- @v/60·n/L@ pulses per second, if the motion has a path of @L@ mm and its leading axis @n@ pulses.
 codeFor :: Machine -> Motion -> Feed -> Maybe FeedCode
 codeFor machine m (Feed v) = case Machine.choose machine inMeasure of
   Machine.Given c _ -> Just c
@@ -186,7 +187,7 @@ tooFast machine start frames = case Machine.brakingForm (Machine.braking machine
 -- @begin@ and @end@ are the path lengths in mm from the start of the tape to both ends of @m@;
 -- @next@ is the motion after it, if there is one. @least@ is the least value of @v² + 2·a·s@ over
 -- all later speeds @v@ in mm/s; @s@ is the path length from the start of the tape to that speed.
--- The result has @least@ with the speed of @m@, and the findings with that for @m@.
+-- @found@ are the findings for later motions. The result has @least@ and @found@ with @m@ included.
 tooFastIn ::
   Machine ->
   ((Double, Double), Motion, Maybe Motion) ->

@@ -62,8 +62,8 @@ gougeOf KeepOut {searchRadius, required} edges m = Proof.deepest gouges
 -- | Allowance that a motion has to leave on the element @e@ while the centre is at the point @p@.
 -- Usually it is the allowance of @e@. But other elements may lie within @pulse@, the length of a
 -- pulse, of the point of @e@ nearest to @p@. Then the smallest allowance of @e@ and these elements
--- counts, because the toolpath steps between allowances on whole pulses. If one of these elements
--- is nearer to @p@ than @e@ is, and @e@ has an allowance, the result is 0.
+-- counts, because the position at which the allowance changes is rounded to pulses. If one of these
+-- elements is nearer to @p@ than @e@ is, and @e@ has an allowance, the result is 0.
 allowanceAt :: Mm -> BoxTree Edge -> Element -> Point -> Mm
 allowanceAt pulse edges e p
   | own <= Mm 0 = own

@@ -120,10 +120,11 @@ contacts job near p =
 data Touch = Touch
   { -- | 'contactLimit' of the job
     limit :: Double,
-    -- | least value, over all elements, of the element's distance minus its allowance
+    -- | least value, over all elements near the centre, of the element's distance from the centre
+    -- minus the element's allowance
     leastExcess :: Double,
-    -- | largest difference between the distances of two elements from the centre, less their
-    -- allowances, if the cutter touches both
+    -- | largest amount by which this value may exceed 'leastExcess' if the cutter touches the
+    -- element
     spread :: Double
   }
 

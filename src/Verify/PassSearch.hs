@@ -235,9 +235,9 @@ afterMotion job measure near m = go . Sample 1
 -- its arc length from the start of the contour, in mm.
 data Sample = Sample Int Double
 
--- | Smallest signed step in mm along the contour, from @arcLength@ to a contact point of a cutter
--- with its centre at @p@; negative for a step back. ∞ if no contact point is ahead, or back by no
--- more than the slack.
+-- | Signed step in mm along the contour, from @arcLength@ to a contact point of a cutter with its
+-- centre at @p@; negative for a step back. Steps back by more than the slack are ignored. Of the
+-- other steps, the result is the one with the least absolute value; ∞ if there is none.
 smallestStep :: MillingJob -> Measure -> [Edge] -> Double -> Point -> Double
 smallestStep job measure near arcLength p = FastContact.foldContacts job near p smaller (1 / 0)
   where
@@ -245,9 +245,9 @@ smallestStep job measure near arcLength p = FastContact.foldContacts job near p 
       let d = stepTo measure arcLength s
        in if d >= negate (slack measure) && abs d < abs least then d else least
 
--- | Contact points at the present position that are ahead, or back by no more than the slack. Each
--- is given by its signed step in mm from the arc length so far, and by the number of its element,
--- from 0. The list is sorted by the step.
+-- | Contact points at the present position, without those that are back by more than the slack.
+-- Each is given by its signed step in mm from the arc length so far, and by the number of its
+-- element, from 0. The list is sorted by the step.
 contactsAhead :: MillingJob -> Measure -> Progress -> [(Double, Int)]
 contactsAhead job measure progress =
   sortOn

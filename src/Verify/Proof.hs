@@ -255,8 +255,7 @@ toReport machine finding = case finding of
     wrong
       "E0709"
       (InSource region)
-      "the tape does not follow this contour from its beginning to its end in the direction of the \
-      \walk"
+      "the tape does not follow this contour from its start to its end in the direction of travel"
   NotCleared region z p ->
     ( wrong
         "E0714"

@@ -37,8 +37,8 @@ type Interval = (Double, Double)
 
 -- | Parts of an element that a cutter can touch with its centre on @side@ of the element, at
 -- @distance@ from it. @others@ are all segments of the contour, grouped by the distance kept from
--- them. A segment with a larger distance only limits centres that lie on its normals, because
--- beside its ends the toolpath steps back to the smaller distance.
+-- them. A kept distance that is larger than @distance@ only counts for centres on the normals of
+-- the segment. Beyond the ends of the segment, the toolpath steps back to the smaller distance.
 parts :: Side -> Mm -> [KeptDistance] -> Segment -> [Segment]
 parts side distance others element = case Segment.offset side distance element of
   Nothing -> []

@@ -43,8 +43,9 @@ wrongSide job m close = do
       | otherwise = let ks = Motion.samples m in zipWith (\a b -> (a + b) / 2) (0 : ks) ks
 
 -- | False only if the point @p@ is surely not on the wrong side of the element nearest to it.
--- Decided by fast bounds; True means that 'wrongAt' has to decide. The elements @close@ to the
--- motion are tried first, then the elements @around@ it.
+-- Decided by fast bounds; True means that 'wrongAt' has to decide. The elements @close@, which the
+-- cutter may touch, are examined if one of them is surely within 'MillingJob.contactLimit' of @p@.
+-- Otherwise the elements @around@ are examined: all whose bounding boxes are near the motion.
 mayBeWrong :: MillingJob -> Side -> [Edge] -> [Edge] -> Point -> Bool
 mayBeWrong job demanded close around p =
   least > a - FastDistance.unsure && any isWrong near

@@ -6,6 +6,9 @@
 -- position in whole pulses. An attempt is the rounded arc about one grid point, which becomes its
 -- centre. It is divided into steps, one for each frame. The deviation of an attempt is its largest
 -- distance from the exact arc.
+--
+-- Some controls need arcs that stay within a quadrant. For them the arc is cut at the axes through
+-- its centre.
 module Frame.Arc.Attempt
   ( bestAbout,
     isNearlyStraight,

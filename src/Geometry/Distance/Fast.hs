@@ -44,9 +44,8 @@ import Geometry.Segment (Segment)
 import Geometry.Segment.Fast
 
 -- | Upper bound, in mm, of the distance of any point of the segment @e@ from any of the segments
--- @ts@. It is infinite if an end of @e@ is further than @most@ from one of these. A bound up to
--- @most@ need not be the smallest that can be computed, since the caller only compares it with
--- @most@.
+-- @ts@. It is infinite if an end of @e@ is further than @most@ from one of these. Once a bound is
+-- at most @most@, no smaller bound is sought, since the caller only compares it with @most@.
 furthestFrom :: Double -> Segment -> [Segment] -> Double
 furthestFrom most e ts
   | all endsNear ts = foldl' (\far t -> max far (enough t)) 0 ts
@@ -128,11 +127,12 @@ arcIsAccompanied most others t = case coordinates t of
             others
   _ -> False
 
--- | True if a run of consecutive segments of a list leads past both ends of a segment t and
--- satisfies a condition. In a run, each segment begins where the one before ends. @positionOf@
--- gives the position of a point (x, y) relative to the ends of t. @spanOf@ gives the range of the
--- distances between a segment and the carrier of t. @fits@ is the condition: its arguments are the
--- range of these distances for all segments of the run, and the run's length in mm.
+-- | True if a list contains a run that leads from before the start of a segment t to after its end,
+-- or in the opposite direction, and that satisfies the condition @fits@. A run consists of
+-- consecutive segments, each of which begins where the one before ends. @positionOf@ gives the
+-- position of a point (x, y) relative to the ends of t. @spanOf@ gives the range of a segment's
+-- distances: from the carrier of a line t, with a sign; or from the centre of an arc t. @fits@ has
+-- two arguments: the range of these distances for the whole run, and the run's length in mm.
 chain ::
   (Double -> Double -> Position) ->
   (Segment -> DistanceRange) ->
@@ -175,10 +175,9 @@ data Position = Before | Between | After
 largestSweep :: Double
 largestSweep = 1
 
--- | Lower and upper bound, in mm, of the greatest distance between a point of the segment @e@ and
--- the curves @others@. Each curve is a list of segments. A point's distance from a curve is here
--- the greatest of its distances from the curve's segments. Its distance from all curves is the
--- least of its distances from one of them.
+-- | Lower and upper bound, in mm, of the greatest distance of a point of the segment @e@ from the
+-- nearest of the things @others@. A thing is a list of segments, as in 'isCovered': its distance
+-- from a point is the greatest distance of one of its segments from this point.
 range :: [[Segment]] -> Segment -> (Double, Double)
 range others e = (maximum (map from points) - unsure, maximum (map to divisions) + 2 * unsure)
   where

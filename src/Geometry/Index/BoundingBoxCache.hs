@@ -44,8 +44,8 @@ import Geometry.ClosedPolyarcs qualified as ClosedPolyarcs
 runLength :: Int
 runLength = 8
 
--- | True when a segment starts at the vertex with the index @i@. No segment starts at the repeated
--- first vertex of a loop.
+-- | True when a segment starts at the vertex with the index @i@. After its last segment, a loop
+-- repeats its first vertex, and no segment starts there.
 isSegment :: ClosedPolyarcs -> Int -> Bool
 isSegment c i =
   not
@@ -65,10 +65,10 @@ data BoundingBoxCache s = BoundingBoxCache
     held :: MutablePrimArray s Int
   }
 
--- | A grid with 2²⁹ steps over the longer side of the box of all segments. @halfSteps@ is half of
--- the number of steps in 1 mm. @addX@ and @addY@ are halves of the numbers that are added to x and
--- y in steps, so that no coordinate is negative. These are halves because 'fill' adds the
--- coordinates of a segment's two ends.
+-- | A grid with 2²⁹ steps over the longer side of the box of all segments. The coordinates x and y
+-- in mm are @2·(halfSteps·x + addX)@ and @2·(halfSteps·y + addY)@ in steps; neither is negative.
+-- The fields are halves because 'fill' adds the terms in brackets of a segment's two ends. The sums
+-- are the coordinates of the midpoint between the ends, in steps.
 --
 -- A corner of a box is one machine word that contains both coordinates in steps. Above each
 -- coordinate is one further bit, which is set in upper corners only. A comparison subtracts a lower
@@ -162,7 +162,8 @@ fill c m Grid {halfSteps, addX, addY} (Slots !lows !highs) !s !r =
           then put k (lowerCorner (cx - wx) (cy - wy)) (upperCorner (cx + wx) (cy + wy))
           else none k
         go (k + 1) (i + 1) x' y'
-    -- Fills the boxes of the slot after the last segment. No segment starts at the last vertex.
+    -- Fills the slot from box @k@ on, if the last run has fewer than eight segments. No segment
+    -- starts at the last of all vertices.
     rest !k
       | k >= runLength * s + runLength = pure ()
       | otherwise = none k >> rest (k + 1)
@@ -204,8 +205,9 @@ found :: Slots s -> ST s Int
 found (Slots lows _) = readPrimArray lows answer
 {-# INLINE found #-}
 
--- | True when the boxes with the indices @p@ and @q@ in the cache overlap by more than the rounding
--- to the grid can change. If it is false, the caller compares the boxes with 'boxesOverlap'.
+-- | True when the boxes with the indices @p@ and @q@ in the cache overlap by at least three steps
+-- of the grid. Then they also overlap without the rounding to the grid. If it is false, the caller
+-- compares the boxes with 'boxesOverlap'.
 clearlyOverlap :: BoundingBoxCache s -> Int -> Int -> ST s Bool
 clearlyOverlap BoundingBoxCache {slots = Slots lows highs} !p !q = do
   low <- readPrimArray lows p

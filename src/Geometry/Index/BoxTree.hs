@@ -78,8 +78,8 @@ indexFirst count box list = indexed box (Vector.fromListN count list)
 
 -- | Build a tree of things whose neighbours in the list are not close in space. An example is the
 -- loops of a pocket, each of which surrounds the next. The things are sorted by sort-tile-recursive
--- packing: by x of their boxes' middles into columns, and each column by y. The count of columns is
--- about that of the groups of eight things in one column. The time is @n·log n@ for n things.
+-- packing: by x of their boxes' middles into columns, and each column by y. There are about as many
+-- columns as there are groups of eight things in a column. The time is @n·log n@ for n things.
 sortedIndex :: (a -> BoundingBox) -> [a] -> BoxTree a
 sortedIndex box list =
   index box (concatMap (sortOn (middleY . box)) (columns (sortOn (middleX . box) list)))
@@ -279,7 +279,7 @@ groupLimit = 128
 
 -- | The thing nearest to the point @p@, preceded by its distance; the first one if several are
 -- equally near. Nothing for an empty tree. @distanceTo@ gives the distance of a thing from @p@.
--- Because of rounding, it may be less than the distance of the thing's box, by at most
+-- Because of rounding, this distance may be less than that of the thing's box, by at most
 -- 'Tolerance.coincident'.
 --
 -- This is branch and bound. A first descent, always into the nearest box, gives the bound.
@@ -333,8 +333,8 @@ nodeBox node = case node of
 
 -- | The result of @measure@ for the two things, one of each tree, that have the least distance from
 -- each other; any of these results if several distances are equal. Nothing if a tree is empty.
--- @distanceOf@ reads the distance from a result of @measure@. Because of rounding, it may be less
--- than the distance of the things' boxes, by at most 'Tolerance.coincident'.
+-- @distanceOf@ reads the distance from a result of @measure@. Because of rounding, this distance
+-- may be less than that of the things' boxes, by at most 'Tolerance.coincident'.
 --
 -- This is branch and bound on pairs of nodes. It divides the node with the larger box and visits
 -- nearer pairs first.

@@ -82,8 +82,8 @@ segmentBoxWithMargin bs i k =
 {-# INLINE segmentBoxWithMargin #-}
 
 -- | The box of the segment with the index @i@, without a margin, passed to the continuation @k@. An
--- arc up to a half circle lies in the parallelogram between its chord and the tangent that is
--- parallel to the chord. The box is that of this parallelogram.
+-- arc up to a half circle lies in the rectangle that has the chord as one side and the sagitta as
+-- its height. The box is that of this rectangle.
 segmentBox :: ClosedPolyarcs -> Int -> (Double -> Double -> Double -> Double -> r) -> r
 segmentBox c i k = k lx ly hx hy
   where
@@ -290,8 +290,8 @@ headings !m !c !a !e = go a (2 * enough) (2 * enough)
         ClosedPolyarcs.chord c i $ \dx dy ->
           go (i + 1) (least axis (ax * dx + ay * dy)) (least diagonal (sx * dx + sy * dy))
       | otherwise = ClosedPolyarcs.chord c i $ \dx dy ->
-        -- The lesser advance of the tangents at both ends. As vectors, these have @1 + b²@ times
-        -- the chord's length.
+        -- An arc advances by the lesser extent of its tangents at both ends. They are vectors of
+        -- @1 + b²@ times the chord's length.
         let co = 1 - b * b
             si = 2 * b
             forward px py = co * (px * dx + py * dy) - abs (si * (px * dy - py * dx))

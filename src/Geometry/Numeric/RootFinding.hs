@@ -13,7 +13,8 @@ import Geometry.Tolerance qualified as Tolerance
 --
 -- This is Newton's method safeguarded by bisection: instead of a step that leaves the bracket (the
 -- interval that contains the root), the midpoint of the bracket is taken. The iteration ends when
--- the step or the bracket is at most 'Tolerance.parameter', relative to parameters above 1.
+-- the step or the bracket is at most 'Tolerance.parameter'; if the parameter's absolute value is
+-- above 1, this limit is multiplied by it.
 zero :: (Double -> (Double, Double)) -> Double -> Double -> Double
 zero f from to = go steps from to (0.5 * (from + to))
   where

@@ -232,9 +232,9 @@ fromPoint e px py = case coordinates e of
               then ends
               else max ends r
 
--- | Upper bound, in mm, of the distance of any point of the segment @e@ from the segment @t@. It is
--- infinite unless every point of @e@ has its foot on @t@, or lies past an end of @t@ by at most
--- 'overlap'.
+-- | Upper bound, in mm, of the distance of any point of the segment @e@ from the segment @t@. For
+-- two lines it is exact. Otherwise it may be infinite. It surely is if a point of @e@ lies past an
+-- end of @t@ by more than 'overlap'.
 beside :: Segment -> Segment -> Double
 beside e t = case (e, t) of
   (Straight (Point ax ay) (Point bx by), Straight {}) -> max (distance t ax ay) (distance t bx by)
@@ -309,8 +309,8 @@ arcBesideArc e t = case (coordinates e, coordinates t) of
           nearPoint = if hasNearPoint then abs (off - r) else never
           near = min (min (away ax ay) (away bx by)) (min farPoint nearPoint)
           -- The point of the arc @e@ that is furthest past an end of the arc @t@ may be an end of
-          -- @e@. Otherwise, the line from the centre of @e@ to it is square to the line from the
-          -- centre of @t@ to that end of @t@.
+          -- @e@. Otherwise, the line to it from the centre of @e@ is perpendicular to the line from
+          -- the centre of @t@ to that end of @t@.
           squarePast x y sense =
             let f = sense * r / q
                 u = cx - f * (y - dy)
@@ -329,8 +329,8 @@ arcBesideArc e t = case (coordinates e, coordinates t) of
        in aside high past near q
   _ -> never
 
--- | Upper bound, in mm, of the distance of some points from a segment. It follows from four lengths
--- in mm. @high@ is the largest distance of the points from the segment's carrier. @past@ is their
+-- | Upper bound, in mm, of the distances of several points from a segment. It follows from four
+-- lengths in mm. @high@ is the points' largest distance from the segment's carrier. @past@ is their
 -- largest distance past an end. For an arc, @near@ is their least distance from its centre and @r@
 -- its radius; for a line, @r@ is 0. The bound is infinite if @past@ is too large.
 --
@@ -346,7 +346,7 @@ aside high past near r
   | otherwise = never
 {-# INLINE aside #-}
 
--- | Greatest distance past the end of a segment, in mm, for which 'beside' gives a bound.
+-- | Greatest distance past the end of a segment, in mm, for which 'aside' gives a bound.
 overlap :: Double
 overlap = 0.1
 
