@@ -275,8 +275,8 @@ toReport err = case err of
     (at region "E0409" "the cutter does not cut like this on this side of the contour")
       { others = [Label side "the side is given here"],
         message =
-          [ "With the spindle clockwise the cutter climbs on the left of the direction of travel; with \
-            \the spindle counter-clockwise, on the right."
+          [ "With the spindle clockwise the cutter climbs on the left of the direction of travel; \
+            \with the spindle counter-clockwise, on the right."
           ],
         hints =
           [ "Leave the word out, take the other side, or mill reversed(…). In a mirrored block \
