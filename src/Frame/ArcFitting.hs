@@ -83,10 +83,11 @@ divisions machine bounds run
       isRemote s == Just True && Segment.sagitta s >= times 0.5 (Machine.planeResolution machine)
     -- True when chords for the whole run may need fewer frames than the first division. Compares a
     -- lower bound of the number of these chords with an estimate of the number of frames of the
-    -- first division. A chord deviates from a fitted arc by at most the sum of both bounds and
-    -- twice the error of the fit. A chord across the joint of two arcs is counted for both, so one
-    -- for each arc is subtracted. In the first division a remote bend becomes chords, which deviate
-    -- by a fraction of a pulse.
+    -- first division. The curve along a chord lies in a strip whose width is the sum of both
+    -- bounds. The fitted arc lies in a strip that is wider by 'fitTolerance' on each side; this
+    -- width bounds the sagitta. A chord across the joint of two arcs is counted for both arcs.
+    -- Therefore one chord for each arc is subtracted. In the first division a remote bend becomes
+    -- chords, which deviate by a fraction of a pulse.
     mayNeedFewerChords =
       sum (fmap (leastChords band) fitted) - length fitted
         < sum

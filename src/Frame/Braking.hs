@@ -92,9 +92,10 @@ divided instruction parts = case instruction of
 data FeedLimit = FeedLimit
   { -- | square of the highest feed at this point, in (mm/s)²
     square :: Double,
-    -- | feed in mm/s at the end of the braking section that this limit needs
+    -- | feed in mm/s to which a faster move has to slow down after this point
     target :: Double,
-    -- | number of this braking section, counted from the end of the program from 0
+    -- | number of the braking section in which it slows down, counted from 0 from the end of the
+    -- program
     section :: Int
   }
 

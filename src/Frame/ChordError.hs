@@ -146,8 +146,8 @@ ends limit machine tolerance run = case tolerance of
 
 -- | Ends of the chords of a segment, the last of which is the end of the segment. The steps are
 -- equal, and each chord stays within @sagitta@ (y, in mm) of the segment: @Δφ = 2·arccos(1 − y/R) =
--- 4·arcsin √(y/2R)@ (Ural paper; R is the radius of the toolpath). No chord spans more than a
--- quarter turn.
+-- 4·arcsin √(y/2R)@, where R is the radius of the arc. The formula is that of the paper on the
+-- Ural-1 computer. No chord spans more than a quarter turn.
 chords :: Machine -> Mm -> Segment -> [Point]
 chords machine sagitta segment =
   [Segment.at (fromIntegral k / fromIntegral n) segment | k <- [1 .. n]]

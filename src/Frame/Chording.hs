@@ -41,7 +41,8 @@ data Bounds = Bounds
     right :: Mm,
     -- | difference of heights between the run and the chord at the same share of their lengths
     rise :: Mm,
-    -- | length in mm along the run that every chord may have, even if it exceeds the other bounds
+    -- | length in mm along the run that every chord may have; a chord of this length may exceed the
+    -- other bounds
     shortest :: Mm
   }
   deriving stock (Eq, Show)
@@ -79,10 +80,10 @@ data RunPoint = RunPoint {point :: Point, level :: Double, rest :: [MoveRest]}
 -- | Ends of the chords of a run whose end is @final@. The numbers of chords are compared only up to
 -- @limit@.
 --
--- Two kinds of plans are compared. A quick plan looks for the end of a chord mostly at the ends of
--- moves ('AtEnds'); a thorough plan looks at all points ('Anywhere'). The thorough plans take
--- longer, and can save a chord only on a run that bends to both sides. They are tried when the
--- chords are so few that one less matters.
+-- Two kinds of plans, that is, divisions into chords, are compared. A quick plan looks for the end
+-- of a chord mostly at the ends of moves ('AtEnds'); a thorough plan looks at all points
+-- ('Anywhere'). The thorough plans take longer, and can save a chord only on a run that bends to
+-- both sides. They are tried only if the quick plan has at most 'fewChords' chords.
 ends :: Int -> Bounds -> NonEmpty MoveRest -> RunPoint -> [RunPoint]
 ends limit bounds run final =
   if count > limit then widest chosen else kept <> equalised chosen kept others
@@ -114,7 +115,7 @@ fewChords = 16
 mostEqualised :: Int
 mostEqualised = 256
 
--- | Number of bisections in 'equalised' by which the tightness of the limits is found.
+-- | Number of bisections by which 'equalised' finds the tightest limits (see 'limitsOf').
 bisections :: Int
 bisections = 5
 
@@ -190,7 +191,7 @@ data EndSearch
     Anywhere
   deriving stock (Eq)
 
--- | Bounds in mm, made tighter by a common factor.
+-- | Limits of one chord, derived from the 'Bounds' of the run by 'limitsOf'.
 data Limits = Limits
   { -- | largest distance of the run to the left of a chord
     leftOf :: Double,
@@ -330,7 +331,7 @@ unrestricted =
     }
 
 -- | End of the longest chord from the point @p@ within the limits. If this chord is shorter than
--- the limit 'least', it is the point at that length.
+-- 'least', the result is the point of the run at the length 'least' after @p@.
 furthest :: Limits -> RunPoint -> RunPoint
 furthest limits p = case rest p of
   [] -> p
@@ -343,8 +344,9 @@ furthest limits p = case rest p of
 
 -- | Last point of @run@ that a chord from the viewpoint can reach, with the length in mm of the run
 -- from the viewpoint to this point. @best@ is the last such point found so far, and @before@ the
--- sector at the start of @run@. A chord may miss a point and still reach a later one. Therefore the
--- search ends only when the sector is closed or the run has turned too far.
+-- sector at the start of @run@. A chord to one point may exceed the limits although a chord to a
+-- later point keeps them. Therefore the search ends only when the sector is closed or the run has
+-- turned too far.
 furthestReachable ::
   Limits ->
   Viewpoint ->
@@ -375,7 +377,7 @@ data Outlook = Outlook
     move :: MoveRest,
     -- | the run that begins with the move
     run :: [MoveRest],
-    -- | the directions in which a chord touches an arc that bounds the run
+    -- | the 'Tangents' of the move
     tangents :: Tangents
   }
 

@@ -144,9 +144,9 @@ nearestStep table asked = case Map.toList table of
 -- Cutter compensation -----------------------------------------------------------------------------
 
 -- | Words that switch cutter compensation on, for a cutter with the radius @radius@ in mm on one
--- side of the contour. @asked@ is the region of the program that asks for it. The diameter goes
--- into the word as a decimal number. On a machine with a mirrored plane left and right are
--- exchanged.
+-- side of the contour. @asked@ is the region of the program that asks for it. A word that holds the
+-- cutter's diameter gets it as a decimal number. On a machine with a mirrored plane left and right
+-- are exchanged.
 compensationOn :: Machine -> Region -> Side -> Mm -> Translation
 compensationOn machine asked side radius@(Mm r) =
   case Machine.compensation (Machine.commandWords machine) of

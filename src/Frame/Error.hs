@@ -29,9 +29,10 @@ data Error
   = -- | a feed along the path for which the machine has no code: the feed asked for, and the lowest
     -- and the highest feed of the machine
     FeedOutOfRange Region Feed Feed Feed
-  | -- | a feed for which the leading axis would need a frequency that the machine does not have:
-    -- the feed asked for, and this frequency in pulses per second; the lowest and the highest
-    -- frequency of the machine, each with its feed along an axis
+  | -- | a feed for which the leading axis of a frame, the axis with the most pulses, would need a
+    -- frequency that the machine does not have: the feed asked for, and this frequency in pulses
+    -- per second; the lowest and the highest frequency of the machine, each with its feed along an
+    -- axis
     FrequencyOutOfRange Region Feed Double (Double, Feed) (Double, Feed)
   | -- | a point with a coordinate that exceeds the given limit in mm
     OutOfReach Region Point Mm
@@ -191,7 +192,7 @@ toReport machine err = case err of
         Report.Error
         "E0509"
         (InSource region)
-        (machineName machine <> " cannot keep the cutter beside the contour")
+        (machineName machine <> " has no cutter compensation")
     )
       { message = ["Its tape has no word for it."],
         hints = ["Leave this out: the compiler works out the path of the cutter's centre."]
@@ -323,7 +324,7 @@ warningReport machine warning = case warning of
         (Machine.LeadingAxis, _) -> "the machine's feeds are steps along the axis that leads"
     turns n = Decimal.short 1 n <> " turns a minute"
 
--- | Noun, in a report, for the thing that the number of a command counts.
+-- | Noun before the number of a command in a report, as in "the machine has no tool 7".
 numbered :: CommandKind -> Text
 numbered kind = case kind of
   SpindleCommand -> "spindle speed"

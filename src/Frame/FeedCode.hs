@@ -2,7 +2,7 @@
 --
 -- On some machines a code is a feed along the path. On others it is a frequency of the leading
 -- axis, in pulses per second; there the feed along the path depends on the direction of the frame
--- as well.
+-- as well. The leading axis of a frame is the axis with the most pulses.
 module Frame.FeedCode
   ( codeFor,
     feedOf,
@@ -34,8 +34,7 @@ codeValue :: Machine -> Feed -> Frame -> Mm -> Double
 codeValue machine (Feed v) f l = maybe v (v / 60 *) (pulsesPerMm machine f l)
 
 -- | Feed along the path that the code of the frame @f@ gives; @l@ is the length of the frame.
--- Nothing for a frame without motion, for a motion that is rapid by itself, and for a code that the
--- machine does not have.
+-- Nothing for the motions 'NoMotion' and 'Rapid', and for a code that the machine does not have.
 feedOf :: Machine -> Frame -> Mm -> Maybe Feed
 feedOf machine f l = case motion f of
   NoMotion -> Nothing

@@ -162,7 +162,7 @@ violations :: Machine -> [Frame] -> [Violation]
 violations machine = concat . zipWith (frameViolations machine) [1 ..]
 
 -- | Rules that the frame @f@ with the number @n@ breaks. Nearly all frames keep every rule; for
--- them no list is built. In the functions below @f@ and @n@ mean the same.
+-- them no list is built. The functions below have the same arguments.
 frameViolations :: Machine -> Int -> Frame -> [Violation]
 frameViolations machine n f = case faults of
   Faults [] [] [] [] | not isEmpty -> []

@@ -57,11 +57,11 @@ contextOf machine =
 data FrameFindings = FrameFindings
   { -- | range of the feeds that the frames get, for each feed of the program with its region
     obtained :: Map (Region, Feed) FeedRange,
-    -- | feed in the program of the last frame, and the frame's code
+    -- | feed that the program gives for the last frame, and the code of this frame
     lastPace :: Pace,
     lastCode :: FeedCode,
-    -- | for each feed of the program, the error of the first frame for which the leading axis has
-    -- no code
+    -- | for each feed of the program, the error of the first frame in which no code gives this
+    -- feed; empty on a machine whose codes are feeds along the path
     withoutCode :: Map (Region, Feed) Error,
     -- | error of the first move along an axis that the machine does not have
     missingAxis :: Maybe Error,

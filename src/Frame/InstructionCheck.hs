@@ -54,7 +54,8 @@ data InstructionContext = InstructionContext
     startError :: Maybe Error
   }
 
--- | Context for a machine and a start point in mm. The region of the program names this point.
+-- | Context for a machine and a start point in mm. @startRegion@ is the region of the program that
+-- gives this point.
 contextOf :: Machine -> Region -> Point -> InstructionContext
 contextOf machine startRegion start =
   InstructionContext
@@ -150,8 +151,8 @@ checkFeed context feedMode moves before = case (feedMode, asked) of
   where
     asked = pace (NonEmpty.head moves)
 
--- | Adds the warning about the first move in z that the machine may not have, if the run @moves@
--- contains it.
+-- | Adds a warning about the first move of the run @moves@ that changes the height, if it is
+-- uncertain whether the machine can move in z. Only the first such run of a program has a warning.
 checkHeights :: InstructionContext -> NonEmpty Move -> InstructionFindings -> InstructionFindings
 checkHeights context moves before
   | isHeightUncertain context,
@@ -163,7 +164,9 @@ checkHeights context moves before
       }
   | otherwise = before
 
--- | Adds the error of the first point of the run @moves@ that is out of reach, if there is one.
+-- | Adds the error of the first move of the run @moves@ that is not within reach; its point is a
+-- corner of the move's bounding box. If the start of the toolpath is out of reach and the first
+-- move is not, the error of the start is added.
 checkReach :: InstructionContext -> NonEmpty Move -> InstructionFindings -> InstructionFindings
 checkReach context moves before
   | null (startError context) && all (isSurelyInReach . segment) moves = before
@@ -180,8 +183,8 @@ checkReach context moves before
           <|> reachError (origin m) (Vec.point r t)
           <|> startError context
 
--- | True for a segment that is certainly within reach, so that its bounding box is not computed: a
--- line with both ends within reach, or an arc with its full circle within reach.
+-- | True for a line with both ends within reach, and for an arc whose full circle is within reach.
+-- Any other segment has to be tested by its bounding box.
 isSurelyInReach :: Segment -> Bool
 isSurelyInReach s = case s of
   Straight a b -> isInReach 0 a && isInReach 0 b

@@ -46,7 +46,8 @@ import Sheet.Unsupported
   )
 
 -- | The sheet of a part, or the reasons why there is no such sheet. The program @written@ gives the
--- dimensions of a cone, because the part keeps only the radius at which the cone touches it.
+-- dimensions of a conical cutter: the part keeps only the cutter's radius where it touches the
+-- contour.
 fromPart :: Checked.Program -> Part -> Result w Unfit Sheet
 fromPart written part = case (Part.start part, runsOf (Part.operations part)) of
   (_, Left e) -> refused e

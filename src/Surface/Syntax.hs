@@ -162,8 +162,8 @@ data Accuracy
     Between Expr Expr
   deriving stock (Eq, Show)
 
--- | The pace of motions to stops without a pace of their own: rapid in a @rapid@ statement, the
--- feed in force in a @move@ statement.
+-- | The pace of a motion to a point for which the program writes no pace: rapid in a @rapid@
+-- statement, the feed in force in a @move@ statement.
 data DefaultPace = RapidMotion | FeedMotion
   deriving stock (Eq, Show, Enum, Bounded)
 

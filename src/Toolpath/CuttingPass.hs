@@ -69,7 +69,8 @@ data CuttingPass = CuttingPass
     restMaterial :: [Equidistant.UnreachedPart]
   }
 
--- | The block of a pass along a path. Fails when a blade or a control with cutter compensation
+-- | The part of the toolpath for a pass along a path: the moves to the contour, along it and away
+-- from it, and their commands. Fails when a blade or a control with cutter compensation
 -- cannot make the pass.
 block :: CuttingPass -> NonEmpty OffsetSegment -> Either Error Block
 block p path = do

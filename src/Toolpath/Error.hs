@@ -316,7 +316,7 @@ toReport err = case err of
         hints = ["Put an element without a bevel between them: along it the blade turns evenly."]
       }
   NotForControl region what ->
-    (at region "E0416" "the control cannot keep the cutter beside the contour here")
+    (at region "E0416" "the control cannot compensate for the cutter here")
       { message = [unsent what],
         hints = [unsentHint what]
       }
@@ -358,7 +358,7 @@ toReport err = case err of
     where
       word = if isIn then "onto" else "away from"
       act =
-        if isIn then "begin to keep the cutter beside it" else "stop keeping the cutter beside it"
+        if isIn then "switch cutter compensation on" else "switch cutter compensation off"
   WrongWayForControl region asked p ->
     (at region "E0418" "a control cannot make this move onto the contour")
       { others = [Label asked "asked here"],

@@ -37,9 +37,9 @@ import Verify.Motion qualified as Motion
 data FoundPass
   = -- | The motion that arrives at the start, if it is known, and the motions along the contour.
     Complete [CutterMotion] [CutterMotion]
-  | -- | The start is reached, but the contour is not followed to its end: the motion that arrives
-    -- at the start, if it is known, and the motions up to the first one that ends at the end of the
-    -- cut.
+  | -- | The start is reached, but the motions leave the contour before its end. The first list has
+    -- the motion that arrives at the start, if it is known. The second has the motions after it, up
+    -- to the first one whose end position is the end of the cut.
     Incomplete [CutterMotion] [CutterMotion]
   | -- | The start is not reached.
     Missing

@@ -24,7 +24,7 @@ plannedTools :: FrameProgram -> Tools
 plannedTools program =
   Vector.fromList [r | p <- Frame.plannedFrames program, let Mm r = Frame.cutterRadius p]
 
--- | Number of planned frames.
+-- | Number of planned frames: 'Tools' has one radius for each of them.
 toolCount :: Tools -> Int
 toolCount = Vector.length
 

@@ -19,9 +19,8 @@ import Geometry.Vec qualified as Vec
 import Machine.Machine (Arcs (..))
 import Machine.Machine qualified as Machine
 
--- | Grid points near the exact centre of the arc, and near a second point. This second point is the
--- one next to the exact centre that is equally far from both rounded ends. A full circle has only
--- the former.
+-- | Grid points near the exact centre of the arc, and near a second point: the nearest point to the
+-- exact centre that is equally far from both rounded ends. A full circle has no second point.
 nearCentres :: ArcContext -> RoundedArc -> [Pulses2]
 nearCentres context arc
   | begin arc == finish arc = around (nearest (centre arc))
@@ -55,13 +54,13 @@ square most = [Pulses2 di dj | di <- [-most .. most], dj <- [-most .. most]]
 isWithin :: Pulses -> Pulses2 -> Pulses2 -> Bool
 isWithin most (Pulses2 i j) (Pulses2 k l) = abs (i - k) <= most && abs (j - l) <= most
 
--- | Grid points further from the exact centre than 'nearCentres'. Only those are given about which
--- the whole arc is one frame and the middle of the arc is within the tolerance. They are tried when
--- all of 'nearCentres' exceed the tolerance.
+-- | Grid points further from the exact centre than 'nearCentres'. About each of them the whole arc
+-- is one frame, and the middle of this frame's arc is within the tolerance of the exact arc. They
+-- are tried when the arc exceeds the tolerance about every one of 'nearCentres'.
 --
 -- Consider an arc of the sweep 2h about a centre that is displaced by n towards the arc's middle
 -- and by t across. This displaces the middle of the arc by @(1 − cos h)·n + sin h·t@ and its end by
--- @2·sin h·t@; the rounding of the start comes in addition. Each of these two displacements is at
+-- @2·sin h·t@. The rounding of the start is added to both. Each of these two displacements is at
 -- most the sum of the tolerance and the rounding of the start. Therefore @(1 − cos h)·n@ is at most
 -- 3/2 of this sum.
 remoteCentres :: ArcContext -> RoundedArc -> [Pulses2]

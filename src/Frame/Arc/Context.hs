@@ -1,5 +1,6 @@
 -- | Data for the rounding of arcs: the grid of a machine, the tolerances, and the arc between its
--- rounded ends. A grid point is a position in whole pulses.
+-- rounded ends. A grid point is a position in whole pulses. A step is a straight or circular motion
+-- that becomes one frame.
 module Frame.Arc.Context
   ( Grid (..),
     gridOf,
@@ -96,8 +97,7 @@ data RoundedArc = RoundedArc
     sense :: Sense
   }
 
--- | A straight or circular step, which becomes one frame: the position at its end in pulses. For an
--- arc also the sense, and the centre in pulses from the beginning of the step; Nothing for a
--- straight step.
+-- | A step: the position at its end in pulses. For an arc also the sense, and the centre in pulses
+-- from the beginning of the step; Nothing for a straight step.
 data ArcStep = ArcStep {target :: Pulses3, turnsAbout :: Maybe (Sense, Pulses2)}
   deriving stock (Eq, Show)

@@ -79,7 +79,8 @@ data ArcDeviation = ArcDeviation
   }
 
 -- | Deviation of a frame's arc, the last argument, from the exact arc; 0 if either of them is a
--- line. @tolerance@ decides only if the quick method of 'deviationAtEnds' suffices.
+-- line. @tolerance@ only selects the method of computation: the quick 'deviationAtEnds' if it gives
+-- a result, otherwise 'sampledDeviation'.
 deviationOf :: ArcTolerance -> Segment -> Segment -> ArcDeviation
 deviationOf tolerance exact ofFrame =
   maybe
@@ -87,11 +88,12 @@ deviationOf tolerance exact ofFrame =
     (\arc -> fromMaybe (sampledDeviation arc) (deviationAtEnds tolerance arc))
     (frameArcOf exact ofFrame)
 
--- | Deviation at the ends of an arc, if it is provably the largest deviation of the whole arc. The
--- arc also has to stay within the smaller one of the tolerances 'inwards' and 'outwards'. Otherwise
--- Nothing; the caller then takes samples. For a centre that is off by v and a sweep φ, the
--- deviation between the ends differs from linear interpolation by up to @φ²·v/8@. The bound used
--- here is twice as large, to cover the terms of second order in v.
+-- | Deviation at the ends of an arc, if it is provably the largest deviation of the whole arc and
+-- less than both tolerances 'inwards' and 'outwards'. Otherwise Nothing.
+--
+-- For a centre that is off by v and a sweep φ, the deviation between the ends differs from linear
+-- interpolation by up to @φ²·v/8@. The bound used here is twice as large, to cover the terms of
+-- second order in v.
 deviationAtEnds :: ArcTolerance -> FrameArc -> Maybe ArcDeviation
 deviationAtEnds tolerance arc
   | abs (turned arc) < 1
@@ -161,8 +163,7 @@ deviationAt arc t =
     between = beyondCircle arc t (startRadius arc + t * (endRadius arc - startRadius arc))
     final = beyondCircle arc t (endRadius arc)
 
--- | The field 'linear' of 'deviationAt' alone, in mm. It is computed without the record in the
--- innermost loop.
+-- | The field 'linear' of 'deviationAt' alone, in mm, for an inner loop that needs no other field.
 linearErrorAt :: FrameArc -> Double -> Double
 linearErrorAt arc t =
   max

@@ -3,8 +3,8 @@
 
 -- | Quick estimates of the deviation of an arc about a grid point, so that most grid points are
 -- rejected without the exact computation in "Frame.Arc.Deviation". The deviation is the distance of
--- the rounded arc from the exact circle. The control has a radius at the rounded beginning and
--- another one at the rounded end.
+-- the rounded arc from the exact circle. A rounded arc has different radii at its beginning and at
+-- its end. A control keeps the former, or changes it linearly to the latter.
 module Frame.Arc.Estimate
   ( ArcEnds,
     endsOf,
@@ -88,8 +88,8 @@ endsOf grid arc
     Mm toB = Vec.distance (centre arc) b
 
 -- | Estimated deviation in mm of an arc about the grid point (@i@, @j@). It is the largest of
--- three: at the middle and at the end when the control keeps the radius of the beginning, and at
--- the middle when it changes the radius linearly.
+-- three deviations: at the middle and at the end when the control keeps the radius of the
+-- beginning, and at the middle when it changes the radius linearly.
 --
 -- The exact radius at a point of the arc has the direction u. About a centre that is off by a
 -- vector v, the deviation at this point is @e + v·(u − u₀)@. Here e is the deviation at the

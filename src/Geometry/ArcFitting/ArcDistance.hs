@@ -1,9 +1,9 @@
 -- | Distances of a curve from an arc, by a bound in closed form.
 --
--- Take the frame of an arc's start, with x along its direction and y to its left. The circle with
--- the curvature k is the zero set of @F = y − k·(x² + y²)/2@. Where @|k·F|@ is well below 1, a
--- point is at most @|F|·(1 + |k·F|)@ away from the circle. The largest value of |F| along a curve
--- therefore bounds the distance from the curve to the arc.
+-- Take coordinates with the origin at an arc's start, x along its direction and y to its left. The
+-- circle with the curvature k is the zero set of @F = y − k·(x² + y²)/2@. Where @|k·F|@ is well
+-- below 1, a point is at most @|F|·(1 + |k·F|)@ away from the circle. The largest value of |F|
+-- along a curve therefore bounds the distance from the curve to the arc.
 --
 -- A foot of a point is the point of the arc that is nearest to it. A curve runs forwards if its
 -- direction makes less than a quarter turn with the directions of both ends of the arc. Then the

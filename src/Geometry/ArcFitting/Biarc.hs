@@ -118,10 +118,10 @@ arcBySweep p q sweep
 -- The direction at a point is that of the circle through the point and its two neighbours. At an
 -- end of an open chain it is that of the circle through the first or the last three points. At a
 -- sharp corner, this circle would sweep more than half a turn from the point to a neighbour. There
--- the direction is the mean of the directions to and from the point.
+-- the direction is the mean of those from the previous point and to the next one.
 --
--- Two points give a line or, in a closed chain, the circle through both. Consecutive points that
--- coincide count once. A single point gives a line of length 0.
+-- Two points give a line or, in a closed chain, the circle that has this line as a diameter.
+-- Consecutive points that coincide count once. A single point gives a line of length 0.
 through :: Ends -> NonEmpty Point -> NonEmpty Segment
 through ends points = case distinctPoints ends points of
   p :| [] -> Straight p p :| []

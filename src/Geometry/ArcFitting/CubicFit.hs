@@ -183,9 +183,9 @@ distanceBound f p q a b = inFrame f p q a b $ \x@(Cubic _ x1 x2 x3) y@(Cubic _ y
     then distanceOfLevel f (largestLevel (bend f) x y)
     else 1 / 0
 
--- | Passes a part of a span to the continuation @next@, as cubics x and y in the frame of the arc's
--- start: x along the arc's direction there, y to its left. The part has the local parameters from
--- @a@ to @b@ of the span; the new cubics have the parameter from 0 to 1.
+-- | Passes a part of a span to the continuation @next@, as cubics x and y in coordinates at the
+-- arc's start: x along the arc's direction there, y to its left. The part has the local parameters
+-- from @a@ to @b@ of the span; the new cubics have the parameter from 0 to 1.
 inFrame :: FastArc -> Cubic -> Cubic -> Double -> Double -> (Cubic -> Cubic -> r) -> r
 inFrame f (Cubic p0 p1 p2 p3) (Cubic q0 q1 q2 q3) a b next =
   next
@@ -209,7 +209,8 @@ inFrame f (Cubic p0 p1 p2 p3) (Cubic q0 q1 q2 q3) a b next =
 {-# INLINE inFrame #-}
 
 -- | Bound of |F|, in mm, for the circle of curvature @k@ (1/mm), along a curve. The curve is given
--- by cubics x and y in a parameter from 0 to 1, in the frame of the circle's pose.
+-- by cubics x and y in a parameter from 0 to 1, in coordinates at a point of the circle: x along
+-- the circle there, y to its left.
 largestLevel :: Double -> Cubic -> Cubic -> Double
 largestLevel k (Cubic x0 x1 x2 x3) (Cubic y0 y1 y2 y3) =
   largestCubic e0 e1 e2 e3 + abs c6 / 2048 + abs e5 / 512 + abs e4 / 128

@@ -230,8 +230,8 @@ along
         let p = Segment.start s in Builder.push vertices (Vec.x p) (Vec.y p) (Segment.bulge s)
 {-# INLINE along #-}
 
--- | Biarc within the tolerance: the parameter at its end, and the factor by which its chord ratio
--- is multiplied, compared with the default ratio.
+-- | Biarc within the tolerance: the parameter at its end, and its chord ratio divided by that of
+-- 'Geometry.ArcFitting.Biarc.join'.
 data Success = Success {reach :: Double, chords :: Double}
 
 -- | Previous biarc: its step, and the difference of curvature (1/mm) between its two arcs, divided

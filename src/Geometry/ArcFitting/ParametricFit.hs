@@ -3,7 +3,8 @@
 --
 -- A stretch is the part of a curve between two corners; a corner is a change of direction above
 -- 'Tolerance.kink'. A foot of a point on segments is the nearest point of the segments. A step is
--- the difference of the parameters at both ends of a biarc.
+-- the difference of the parameters at both ends of a biarc. The chord ratio of a biarc is the
+-- length of its second arc's chord divided by that of its first arc's.
 module Geometry.ArcFitting.ParametricFit
   ( ParametricCurve (..),
     OneSided (..),
@@ -263,9 +264,10 @@ type Attempt = (Double, Double, NonEmpty Segment)
 least :: [Attempt] -> Attempt
 least = minimumBy (comparing (\(d, _, _) -> d))
 
--- | Refines the chord ratio of the attempt @best@ by steps of decreasing size, if this can reach
--- the tolerance @aim@ (mm). @tried@ makes attempts with given ratios. At most @remaining@ steps
--- follow; @factor@ is the factor from one ratio to the next.
+-- | Refines the chord ratio of the attempt @best@, unless it meets the tolerance @aim@ (mm) or is
+-- too far from it. Each round tries the ratio multiplied and divided by the square root of
+-- @factor@, which is the factor of the next round. At most @remaining@ rounds follow. @tried@ makes
+-- attempts with given ratios.
 refineRatio :: Double -> ([Double] -> [Attempt]) -> Int -> Double -> Attempt -> Attempt
 refineRatio aim tried remaining factor best@(d, r, _)
   | remaining <= 0 || d <= aim || d > 4 * aim = best

@@ -351,8 +351,8 @@ isTooFar chain largest first _ from final _ to =
 testedVertices :: Int
 testedVertices = 8
 
--- | Margin of 'isTooFar', as a share of the distance. F differs from the distance by less than half
--- of this margin.
+-- | Margin of 'isTooFar', as a share of its limit @largest@. F has to exceed the limit by this
+-- margin, since F differs from the true distance from a circle by up to half of the margin.
 slack :: Double
 slack = 0.05
 

@@ -18,16 +18,16 @@ import Geometry.Tolerance qualified as Tolerance
 import Geometry.Vec (Point)
 import Geometry.Vec qualified as Vec
 
--- | A condition on a circle: the point through which it passes, or the line or circle that it
--- touches, with the side on which it lies. For example, a circle that is @LeftOf@ a line touches
--- the line and lies to the left of it.
+-- | A condition on a circle: it passes through a point, or it touches a line or another circle and
+-- lies on a certain side of it. For example, a circle that is @LeftOf@ a line touches the line and
+-- lies to the left of it.
 data Touched
   = Through Point
   | LeftOf Line
   | RightOf Line
-  | -- | a circle that it touches; neither of the two lies inside the other
+  | -- | the other circle; neither of the two lies inside the other
     OutsideOf Circle
-  | -- | a circle that it touches; one of the two, whichever it is, lies inside the other
+  | -- | the other circle; one of the two, whichever it is, lies inside the other
     InsideOf Circle
   deriving stock (Eq, Show)
 

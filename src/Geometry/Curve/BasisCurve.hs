@@ -280,9 +280,9 @@ fractions base =
     (count base)
     (\i -> maybe 0.5 (\row -> at row - fromIntegral i) (rows base Vector.!? (2 * i + 1)))
 
--- | Parabolas y(x) through points 1–3, 3–5, and so on (Lagrange; Ural paper, sections 3–8 and 8–13
--- of the template). Each span is one parabola. Its parameter is proportional to x. Over the whole
--- table, x must rise throughout or fall throughout.
+-- | Parabolas y(x) through points 1–3, 3–5, and so on, by Lagrange interpolation as in the paper on
+-- the Ural-1 computer. Each span is one parabola. Its parameter is proportional to x. Over the
+-- whole table, x must rise throughout or fall throughout.
 parabola :: Vector Point -> Either CurveFault BasisCurve
 parabola points
   | Vector.length points < 3 = Left (TooFew 3)

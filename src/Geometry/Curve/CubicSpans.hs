@@ -103,9 +103,9 @@ hermiteSpan Interval {begin, end, first = Node px py vx vy, final = Node qx qy w
 
 -- | True if the Hermite cubics of both halves of an interval are within @tolerance@ (mm), so that
 -- neither half is halved again. Two tests use the differences at the middle of an interval, those
--- of the points and those of the derivatives. First, the differences of the whole interval must
--- promise that those of its halves are at most half of the tolerance. Second, the measured
--- differences of each half must be within the tolerance.
+-- of the points and those of the derivatives. First, the differences of the whole interval must be
+-- so small that those of its halves can be expected to be at most half of the tolerance. Second,
+-- the measured differences of each half must be within the tolerance.
 areHalvesNear :: Double -> Interval -> Interval -> Interval -> Bool
 areHalvesNear tolerance interval firstHalf secondHalf =
   points <= 8 * tolerance && derivatives <= 16 * tolerance && all isNear [firstHalf, secondHalf]

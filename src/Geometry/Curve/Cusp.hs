@@ -22,8 +22,9 @@ import Geometry.Vec (Point)
 import Geometry.Vec qualified as Vec
 import Linear.V2 (V2 (..))
 
--- | Point of a shift at which the ratio of the distance to the radius of curvature is largest. This
--- ratio is at least 1, so at this point the shifted curve runs backwards or its speed is 0.
+-- | Cusps of a shift, described by one point between them: the point at which the ratio of the
+-- distance to the radius of curvature is largest. The ratio is at least 1 there, so the shifted
+-- curve runs backwards or its speed is 0.
 data Cusp = Cusp
   { -- | number of the shift; the innermost one has number 1
     layer :: Int,
@@ -115,9 +116,9 @@ speedMinima lower whole stretch =
 slopes :: PowerSeries -> (Double, Double)
 slopes g = (PowerSeries.coefficient 1 g, 2 * PowerSeries.coefficient 2 g)
 
--- | Power series of @d·κ@ (without unit) about the parameter @u@ of a stretch, up to the power @n@,
--- and True. If the speed of @lower@ is 0 there, κ is not defined; then the result is the power
--- series of d (mm) alone, and False.
+-- | Power series about the parameter @u@ of a stretch, up to the power @n@, and True if κ is
+-- defined at @u@. The series is then that of @d·κ@ (without unit). If the speed of @lower@ is 0 at
+-- @u@, κ is not defined, and the series is that of d (mm) alone.
 productSeries :: Int -> Layer -> Curve -> Curve -> (Double, Double) -> Double -> (PowerSeries, Bool)
 productSeries n top lower whole stretch u
   | Mm (Vec.norm (TaylorExpansion.velocity expansion)) > Tolerance.stationary =

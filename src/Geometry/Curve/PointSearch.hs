@@ -175,7 +175,8 @@ merge as bs = case (as, bs) of
   (a : as', b : bs') -> if a <= b then a : merge as' bs else b : merge as bs'
 
 -- | Parameters, in ascending order, at which the direction jumps by more than
--- 'Tolerance.smoothAngle'. The seam of a closed curve has the parameter 0.
+-- 'Tolerance.smoothAngle'. A corner at the common start and end of a closed curve has the
+-- parameter 0.
 corners :: Curve -> [Double]
 corners curve =
   [0 | isClosed curve, isCorner 0] <> filter isCorner (drop 1 (init (ShiftedCurve.breaks curve)))

@@ -1,6 +1,6 @@
--- | Piecewise fit of a table of points (second method of the Ural paper, Tables 1–4). A section is
--- a line, a parabola or a circular arc from one row to a later one. The fit has the fewest sections
--- within a tolerance of every row, or the sections that the user chooses.
+-- | Piecewise fit of a table of points (second method of the paper on the Ural-1 computer, Tables
+-- 1–4). A section is a line, a parabola or a circular arc from one row to a later one. The fit has
+-- the fewest sections within a tolerance of every row, or the sections that the user chooses.
 module Geometry.Curve.SectionFit
   ( fit,
     sections,
@@ -34,21 +34,28 @@ import Geometry.Tolerance qualified as Tolerance
 
 -- Choice of sections ---------------------------------------------------------------------------
 
--- | Fewest sections of the given kinds within a tolerance in y. Of the fits with the fewest
--- sections, those with the least largest deviation are kept. Of these, the fit with the simplest
--- sections is the result. The rank of a kind is its index in 'SectionKind'; the sum of the ranks is
--- least, then the sum of the deviations. A fit always exists, because a line joins any two
--- neighbouring rows.
+-- | Best fit by sections of the given kinds within a tolerance in y. Fits are compared by these
+-- numbers, of which the smaller one is better. A later number decides only between fits that are
+-- equal in the earlier ones.
+--
+-- 1. the number of sections
+-- 2. the largest deviation of a row
+-- 3. the sum of the ranks of the sections: the rank is the index of the section's kind in
+--    'SectionKind'
+-- 4. the sum of the largest deviations of the sections
+--
+-- A fit always exists, because a line joins any two neighbouring rows.
 --
 -- A section that deviates by more than /twice/ the tolerance d is not extended. This pruning loses
 -- no fit. Proof: let a section A start at row i, end after row j and keep within d. Let B be the
 -- best section of its kind from i to j, with the largest deviation D. The difference of two
 -- parabolas, or of two arcs that are single-valued in x, is monotone from some point on after their
 -- second common point (the sine of an arc's slope is linear in x). B deviates by D to one side at
--- some row and to the other side at another row, or has a vertical tangent at an end, with the same
--- result. If D > d, then A − B has its second zero between these rows. The absolute value of A − B
--- is at least D − d at the later of these rows, and no smaller at row j. At row j it is at most d,
--- since B passes through this row and A keeps within d. So D is at most 2·d.
+-- some row and to the other side at another row. If D > d, then A − B has its second zero between
+-- these rows. The absolute value of A − B is at least D − d at the later of these rows, and no
+-- smaller at row j. At row j it is at most d, since B passes through this row and A keeps within d.
+-- So D is at most 2·d. The same holds if B is an arc with a vertical tangent at an end, which may
+-- deviate by D to one side only.
 --
 -- With n rows, and sections of at most m rows within twice the tolerance, n·m pairs of first and
 -- last rows are tested. Most pairs are rejected by the two rows that rejected the previous pair;
@@ -134,9 +141,10 @@ bottleneck steps = minimum (IntMap.elems (foldl advance (IntMap.singleton 0 0) s
         ]
 
 -- | Simplest fit whose largest deviation is at most @deviation@ (mm): index of the first row, index
--- of the last row (both from 0), and kind of each section. Deviations are summed in whole steps of
--- 'Tolerance.equal', so that rounding does not decide. Of equally good fits, the one whose sections
--- end at earlier rows is taken.
+-- of the last row (both from 0), and kind of each section. The third and the fourth number of 'fit'
+-- decide which fit is the simplest. For the fourth, deviations are rounded to whole steps of
+-- 'Tolerance.equal', so that errors of the arithmetic do not decide. Of equally good fits, the one
+-- whose sections end at earlier rows is taken.
 simplest :: PointTable -> Layers -> Double -> NonEmpty (Int, Int, SectionKind)
 simplest t steps deviation = case NonEmpty.nonEmpty (reverse reversedChain) of
   Just chain -> chain
@@ -164,7 +172,7 @@ data SectionFault
     WrongCount Int Int
   | -- | the number of a section, and a row that the table does not have
     NoSuchRow Int Int
-  | -- | the number of a section whose rows do not rise
+  | -- | the number of a section whose row numbers do not rise
     RowsDoNotRise Int
   | -- | the number of a section, the row at which it begins, and the row at which it must begin
     NotJoined Int Int Int

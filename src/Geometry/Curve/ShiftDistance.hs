@@ -43,8 +43,8 @@ data Distance
     Bevelled Column Column Mm
   | -- | linear in arc length (cipher 1)
     Growing Growth
-  | -- | a distance in the plane for one that is measured square to a surface with the bevel μ
-    -- (radians): the second field divided by @cos μ@
+  | -- | @d / cos μ@ for the bevel μ (radians) of a surface, and a distance d that is measured
+    -- square to this surface
     Square Column Distance
   | -- | a local step of the edge; the distance is 0 outside of it
     Joggled Joggle
@@ -85,8 +85,9 @@ instance Eq ShiftInterval where
 instance Show ShiftInterval where
   show _ = "ShiftInterval"
 
--- | The part of a curve on which a distance changes: for a growth or a joggle the part between its
--- parameters, otherwise the whole curve. The first argument is the arc length of this curve as a
+-- | The part of a curve on which a distance changes. For a joggle, and for a distance that grows
+-- from one parameter to another, it is the part between the two parameters; otherwise the whole
+-- curve. The first argument is the arc length of this curve as a
 -- function of its parameter.
 intervalOf :: ArcLength -> Distance -> ShiftInterval
 intervalOf arcLength distance = case distance of
@@ -111,8 +112,9 @@ intervalOf arcLength distance = case distance of
     wholeCurve = ShiftInterval {marks = [], first = Mm 0, final = ArcLength.total arcLength}
 
 -- | Parameters of the base, in ascending order, at which the columns of a distance change from one
--- cubic to the next, so that its third derivative may jump. The third derivative may also jump at
--- the 'marks' of the distance and at the ends of the base's spans, which are not added.
+-- cubic to the next. There the third derivative of the distance may jump. It may also jump at the
+-- 'marks' of the distance and at the ends of the base's spans, but the result does not contain
+-- these.
 knots :: BasisCurve -> Distance -> [Double]
 knots base distance = case distance of
   Constant _ -> []

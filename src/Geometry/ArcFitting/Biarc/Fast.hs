@@ -161,10 +161,11 @@ withRatio times biarcs = case biarcs of
   where
     Rad straight = Tolerance.straight
 
--- | Chord ratio of the biarc that 'withRatio' makes: that of 'Geometry.ArcFitting.Biarc.join' times
--- the factor @times@. If this ratio gives an arc whose sweep is negligible, the arc becomes a line.
--- Then the result is the ratio for which the arc is exactly a line, so that there is no kink at the
--- joint. It is taken only if it differs from the former ratio by a factor below 2.
+-- | Chord ratio of the biarc that 'withRatio' makes. It is usually r, the chord ratio of
+-- 'Geometry.ArcFitting.Biarc.join' times the factor @times@. If r gives an arc whose sweep is
+-- negligible, this arc becomes a line. Then the result is the ratio for which the arc is exactly a
+-- line, so that there is no kink at the joint. If this ratio differs from r by a factor of 2 or
+-- more, the result is r nevertheless.
 chordRatio :: Double -> Biarcs -> Double
 chordRatio times biarcs = case biarcs of
   Only _ -> 1
