@@ -60,9 +60,9 @@ isWithin most (Pulses2 i j) (Pulses2 k l) = abs (i - k) <= most && abs (j - l) <
 --
 -- Consider an arc of the sweep 2h about a centre that is displaced by n towards the arc's middle
 -- and by t across. This displaces the middle of the arc by @(1 − cos h)·n + sin h·t@ and its end by
--- @2·sin h·t@. The rounding of the start is added to both. Each of these two displacements is at
--- most the sum of the tolerance and the rounding of the start. Therefore @(1 − cos h)·n@ is at most
--- 3/2 of this sum.
+-- @2·sin h·t@. The deviation at each of these points is the displacement plus the rounding of the
+-- start. So for a deviation within the tolerance, each displacement is at most the sum of the
+-- tolerance and the rounding of the start. Therefore @(1 − cos h)·n@ is at most 3/2 of this sum.
 remoteCentres :: ArcContext -> RoundedArc -> [Pulses2]
 remoteCentres context arc
   | begin arc == finish arc = []

@@ -87,8 +87,7 @@ instance Show ShiftInterval where
 
 -- | The part of a curve on which a distance changes. For a joggle, and for a distance that grows
 -- from one parameter to another, it is the part between the two parameters; otherwise the whole
--- curve. The first argument is the arc length of this curve as a
--- function of its parameter.
+-- curve. The first argument is the arc length of this curve as a function of its parameter.
 intervalOf :: ArcLength -> Distance -> ShiftInterval
 intervalOf arcLength distance = case distance of
   Constant _ -> wholeCurve
