@@ -170,8 +170,8 @@ data Arrays s = Arrays
     loopStarts :: MutablePrimArray s Int
   }
 
--- | Write the vertex with the index @k@: x and y in mm, the bulge @b@ of the segment that starts
--- there, and the index of this segment's @source@.
+-- | Writes the vertex with the index @k@: x and y in mm, the bulge @b@ of the segment that starts
+-- there, and @source@, the index of the input segment from which that segment comes.
 writeVertex :: Arrays s -> Int -> Double -> Double -> Double -> Int -> ST s ()
 writeVertex out !k !x !y !b !source = do
   writePrimArray (vertexXs out) k x

@@ -130,13 +130,14 @@ lines' !tolerance !c visitor !i !j =
         y i' = indexPrimArray (ClosedPolyarcs.ys c) i'
         !wx = x j - x i
         !wy = y j - y i
-        -- Twice the signed areas of the triangles between one line and an end of the other line.
+        -- Distances between one line and an end of the other line, multiplied by the line's length.
         !startJ = ux * wy - uy * wx
         !den = ux * vy - uy * vx
         !endJ = startJ + den
         !startI = wx * vy - wy * vx
         !endI = startI - den
-        -- Bounds, slightly too large, of the areas at which an end is within the tolerance.
+        -- If an end is within the tolerance of the other line, its number above is at most this
+        -- bound. The bound is a little too large: |x| + |y| is used as the length of a line.
         !nearU = tolerance * (abs ux + abs uy)
         !nearV = tolerance * (abs vx + abs vy)
         areApart a b near = if a > 0 then a > near && b > near else a < -near && b < -near

@@ -23,8 +23,8 @@ clearance = Mm 1e-5
 ignoredSlot :: Mm
 ignoredSlot = Mm 0.01
 
--- | The largest gap in mm between the vertex of a corner and the cutter's edge at which the corner
--- is no obstacle. Only a corner that turns towards the cutter has such a gap.
+-- | The largest gap in mm between the vertex of an inner corner and the cutter's edge that does not
+-- count as rest material: the cutter then counts as reaching the corner.
 smallestRest :: Mm
 smallestRest = Mm 1e-5
 

@@ -182,7 +182,8 @@ at region code = report Report.Error code (InSource region)
 inDegrees :: Double -> Text
 inDegrees a = Decimal.short 3 (degrees (Rad a)) <> " deg"
 
--- | The text for the largest cutter that fits.
+-- | The text for the largest cutter that fits. @largest@ is its radius, for a turning tool the
+-- radius of the nose; 'Nothing' if no cutter fits.
 largestFit :: Tool -> Maybe Mm -> Text
 largestFit tool largest = case (work tool, largest) of
   (_, Nothing) -> "No cutter fits here, however small."

@@ -71,7 +71,7 @@ data ClearingPass = ClearingPass
     level :: Mm,
     -- | distance of the cutter's centre from the walls
     reach :: Mm,
-    -- | true if the pass leaves the last one in the statement's list of allowances
+    -- | true if the allowance that the pass leaves is the last in the statement's list
     isFinal :: Bool,
     -- | linking moves before and after the pass
     linkingMoves :: [Segment]

@@ -1,10 +1,10 @@
 -- | Unshifted curves: consecutive spans, each of them a cubic in x and in y, or an arc.
 --
 -- The parameter runs from 0 to the count of spans, by 1 over each span; it has no unit. The local
--- parameter of a span runs from 0 to 1. A base is a curve without shifts. It keeps the rows of the
--- table from which it was made. A row is a point of the table with its parameter on the curve. A
--- column gives a number for each row and is interpolated between the rows
--- ("Geometry.Curve.Column").
+-- parameter of a span runs from 0 to 1. A shift moves the points of a curve along its normals; a
+-- base is a curve without shifts. It keeps the rows of the table from which it was made. A row is a
+-- point of the table with its parameter on the curve. A column gives a number for each row and is
+-- interpolated between the rows ("Geometry.Curve.Column").
 module Geometry.Curve.BasisCurve
   ( BasisCurve (..),
     SpanList (..),

@@ -145,8 +145,8 @@ instance MonadParsec Problem TokenStream FastParser where
           f (stateOf s)
      in ok () s {left = ts, room = negate stateOffset}
 
--- | The state in megaparsec's form. The offset is the negated room, so that the offset grows by 1
--- with each token.
+-- | The state in megaparsec's form. Megaparsec needs an offset that grows by 1 with each token. The
+-- room shrinks by 1 with each token, so the offset is the negated room.
 stateOf :: FastState -> Parsec.State TokenStream Problem
 stateOf s =
   Parsec.State
