@@ -88,7 +88,7 @@ data Program = Program
 data Mention = Mention {place :: Region, definition :: Maybe Region, word :: Text, meaning :: Text}
   deriving stock (Eq, Show)
 
--- | A statement with its region.
+-- | A statement of the checked program, with its region.
 type Statement = Located Statement_
 
 -- | A statement. Imports do not occur, because the imported definitions have replaced them.
@@ -128,11 +128,12 @@ data Statement_
 data Columns = Columns [(Name, Dimension)] [Cells]
   deriving stock (Eq, Show)
 
--- | One or more rows of numbers, or one row in which other expressions occur, with its region.
+-- | One or more rows of numbers, or one row in which other expressions occur, of the checked
+-- program, with its region.
 data Cells = Numbers {-# UNPACK #-} NumberTable | Written Region [Expr]
   deriving stock (Eq, Show)
 
--- | A cipher with its region.
+-- | A cipher of the checked program, with its region.
 type Cipher = Located Cipher_
 
 -- | A recalculation of a curve: a shift by a distance (Kolsanova, section 5). A bevel is the angle
@@ -153,7 +154,7 @@ data Cipher_
     Pointwise Expr (Maybe Expr)
   deriving stock (Eq, Show)
 
--- | A joggle with its region.
+-- | A joggle of the checked program, with its region.
 type Joggle = Located Joggle_
 
 -- | A joggle: the x at which it begins, the x at which it ends, its depth, and its radius, all in
@@ -161,7 +162,7 @@ type Joggle = Located Joggle_
 data Joggle_ = Joggle Expr Expr Expr Expr
   deriving stock (Eq, Show)
 
--- | A cutter with its region.
+-- | A cutter of the checked program, with its region.
 type Cutter = Located Cutter_
 
 -- | A tool: a cutter or a drill by its diameter in mm, a turning tool by the radius of its nose in
@@ -226,7 +227,7 @@ data Settings = Settings
   }
   deriving stock (Eq, Show)
 
--- | An expression with its region.
+-- | An expression of the checked program, with its region.
 type Expr = Located Expr_
 
 -- | An expression.
@@ -320,7 +321,7 @@ data Builtin
   | Floor
   deriving stock (Eq, Ord, Show, Enum, Bounded)
 
--- | An item of a contour with its region.
+-- | An item of a contour of the checked program, with its region.
 type Item = Located Item_
 
 -- | An item in the braces of a contour: an element, a repetition of items, or a choice between
@@ -333,14 +334,14 @@ data Item_
   | Choose Expr [Item] [Item]
   deriving stock (Eq, Show)
 
--- | A modifier with its region.
+-- | A modifier of the checked program, with its region.
 type Modifier = Located Modifier_
 
 -- | A property of one element of a contour: feed, slow-down at its end, allowance, or bevel.
 data Modifier_ = ElementFeed Expr | Slow | ElementAllowance Expr | Bevel Expr
   deriving stock (Eq, Show)
 
--- | A link with its region.
+-- | A link of the checked program, with its region.
 type Link = Located Link_
 
 -- | The link between two elements of a contour.

@@ -224,7 +224,7 @@ toReport machine err = case err of
           ]
       }
 
--- | Report of a warning; @machine@ is the machine for which the program is compiled.
+-- | Report of a warning about frames. @machine@ is the machine for which the program is compiled.
 warningReport :: Machine -> Warning -> Report
 warningReport machine warning = case warning of
   FeedDiffers region asked lowest highest ->

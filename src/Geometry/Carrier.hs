@@ -97,7 +97,7 @@ sweepInSense t (Rad short) = Rad $ case t of
 data Side = LeftOf | RightOf
   deriving stock (Eq, Show, Enum, Bounded)
 
--- | The sign of a side: +1 on the left, −1 on the right.
+-- | The sign of a side of a line or circle in its direction: +1 on the left, −1 on the right.
 sideSign :: Side -> Double
 sideSign side = case side of
   LeftOf -> 1

@@ -19,7 +19,7 @@ import Data.Text (Text)
 import Data.Text qualified as Text
 import Report.Report (quote)
 
--- | Token with its region.
+-- | Token of a machine description, with its region.
 type Token = Located Token_
 
 -- | Tokens of a description; the last four constructors are mistakes.

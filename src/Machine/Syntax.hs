@@ -36,7 +36,7 @@ data Statement = Statement
   }
   deriving stock (Eq, Show)
 
--- | Argument with its region.
+-- | Argument of a machine description, with its region.
 type Argument = Located Argument_
 
 -- | A word, a text, a number, or one of the forms that only holes and tables use.

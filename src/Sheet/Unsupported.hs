@@ -279,7 +279,7 @@ sharedText :: SharedSetting -> Text
 sharedText setting = case setting of
   SharedTool -> "tool"
   SharedTolerance -> "tolerance"
-  SharedSide -> "side of the contour"
+  SharedSide -> "milling side"
 
 -- | The position to which the report points, and its title.
 pathTexts :: PathFault -> (ReportPlace, Text)

@@ -65,7 +65,7 @@ import Surface.Token (Numeral (..), Unit)
 data Program = Program {statements :: [Statement], comments :: [Located Text]}
   deriving stock (Eq, Show)
 
--- | A statement with its region.
+-- | A statement as the program writes it, with its region.
 type Statement = Located Statement_
 
 -- | A statement by its keyword. Each constructor shows an example.
@@ -135,7 +135,7 @@ data Statement_
 data MachineRef = Named Text | Described Text
   deriving stock (Eq, Show)
 
--- | A cutter with its region.
+-- | A cutter as the program writes it, with its region.
 type Cutter = Located Cutter_
 
 -- | A cutter as written.
@@ -175,7 +175,7 @@ data Spin = Spinning Sense (Maybe Expr) | SpindleStop
 data Switch = SwitchOn | SwitchOff
   deriving stock (Eq, Show, Enum, Bounded)
 
--- | An expression with its region.
+-- | An expression as the program writes it, with its region.
 type Expr = Located Expr_
 
 -- | An expression.
@@ -247,7 +247,7 @@ data Lines
     LinesFromFile (Located Text)
   deriving stock (Eq, Show)
 
--- | A line of a table with its region.
+-- | A line of a table as the program writes it, with its region.
 type TableLine = Located TableLine_
 
 -- | A line of a table, or a run of lines from a file.
@@ -266,14 +266,14 @@ data TableLine_
 data Heading = Heading (Located Name) (Maybe Unit)
   deriving stock (Eq, Show)
 
--- | A cipher with its region.
+-- | A cipher as the program writes it, with its region.
 type Cipher = Located Cipher_
 
 -- | A recalculation of a curve: its digit and its values.
 data Cipher_ = Cipher (Located Numeral) (NonEmpty Expr)
   deriving stock (Eq, Show)
 
--- | A joggle with its region.
+-- | A joggle as the program writes it, with its region.
 type Joggle = Located Joggle_
 
 -- | @joggle from x1 to x2 depth d radius r@
@@ -288,7 +288,7 @@ data Rank = First | Last
 data Closure = Open | Closed
   deriving stock (Eq, Show, Enum, Bounded)
 
--- | An item of a contour with its region.
+-- | An item of a contour as the program writes it, with its region.
 type Item = Located Item_
 
 -- | An item in the braces of a contour.
@@ -307,7 +307,7 @@ data Item_
 data Sense = Clockwise | CounterClockwise
   deriving stock (Eq, Show, Enum, Bounded)
 
--- | A modifier with its region.
+-- | A modifier as the program writes it, with its region.
 type Modifier = Located Modifier_
 
 -- | A modifier: a property of one element of a contour.
@@ -322,7 +322,7 @@ data Modifier_
     Bevel Expr
   deriving stock (Eq, Show)
 
--- | A link with its region.
+-- | A link as the program writes it, with its region.
 type Link = Located Link_
 
 -- | The link between an element and the next one.
@@ -342,7 +342,7 @@ data Link_
 data Side = Outside | Inside | LeftSide | RightSide | On
   deriving stock (Eq, Show, Enum, Bounded)
 
--- | A setting with its region.
+-- | A setting as the program writes it, with its region.
 type Setting = Located Setting_
 
 -- | A setting in the block of a machining statement.

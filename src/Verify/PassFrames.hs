@@ -13,7 +13,8 @@ import Data.IntMap.Strict qualified as IntMap
 import Frame.Frame (FrameProgram)
 import Frame.Frame qualified as Frame
 
--- | Range of frames: the numbers of the first and of the last one, counted from 1.
+-- | The frames of a pass that the proof examines: the numbers of the first and of the last one,
+-- counted from 1.
 data FrameRange = FrameRange Int Int
 
 -- | Test that the frame with the number @n@ is in a range.

@@ -237,13 +237,16 @@ pathDeviation path contour radius =
     nearest ps q =
       sqrt (minimum [(Vec.x p - Vec.x q) ^ (2 :: Int) + (Vec.y p - Vec.y q) ^ (2 :: Int) | p <- ps])
 
--- | Points of a segment with its ends, at most @apart@ mm from one another. A short arc may have a
--- large sweep, so there are at least 17.
+-- | Points of a segment with its ends, at most @apart@ mm from one another, and on an arc also at
+-- most an eighth of a turn: a short arc may have a large sweep.
 dense :: Double -> Segment -> [Point]
 dense apart s = [Segment.at (fromIntegral k / fromIntegral n) s | k <- [0 .. n]]
   where
     Mm l = Segment.length s
-    n = max 16 (ceiling (l / apart)) :: Int
+    n = max 1 (max (ceiling (l / apart)) turns) :: Int
+    turns = case s of
+      Straight _ _ -> 1
+      Arc {Segment.sweep = Rad sweep} -> ceiling (abs sweep * 4 / pi)
 
 -- | Frames with one random mistake, and a description of the mistake.
 change :: [Frame] -> Gen (String, [Frame])

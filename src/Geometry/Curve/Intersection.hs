@@ -26,11 +26,11 @@ import Geometry.Vec qualified as Vec
 -- foot.
 type Foot = Point -> (Point, Vec)
 
--- | Foot of a point on a line.
+-- | Foot of a point on a line, for an intersection with a curve.
 onLine :: Line -> Foot
 onLine l p = (Carrier.foot l p, Carrier.direction l)
 
--- | Foot of a point on a circle.
+-- | Foot of a point on a circle, for an intersection with a curve.
 onCircle :: Circle -> Foot
 onCircle (Circle c (Mm r)) p = (Vec.shift (Vec.scale r out) c, Vec.left out)
   where
