@@ -42,7 +42,7 @@ work = do
       | (text, ExitSuccess) <- Opt.renderFailure request name -> Subcommand.showHelp text
     _ -> Opt.handleParseResult parsed >>= Subcommand.run
 
--- | The exit status: 0 for success, 1 for errors, 3 for a tape that is not proven.
+-- | The exit status: 0 for success, 1 for errors, 3 for a tape that the proof has found wrong.
 statusOf :: Exit -> ExitCode
 statusOf end = case end of
   Done -> ExitSuccess

@@ -64,7 +64,8 @@ compile Job {values, machinesFor, verification} loaded =
     -- Evaluates all reports: unevaluated ones would keep the program in memory during 'makeTapes'.
     forced result = length (errors result) `seq` length (warnings result) `seq` result
 
--- | Surface → Checked → Part. @values@ are the names and the values of the program's parameters.
+-- | Checks and evaluates a program (Surface → Checked → Part). @values@ are the names and the
+-- values of the program's parameters.
 evaluate :: [(Text, Text)] -> LoadedProgram -> Result Report Report (Checked.Program, Part)
 evaluate values loaded = do
   written <- surface loaded
@@ -76,8 +77,8 @@ evaluate values loaded = do
 -- editors), the part, and the toolpath.
 data Analysis = Analysis {mentions :: [Checked.Mention], part :: Part, path :: Toolpath}
 
--- | Surface → Checked → Part → Toolpath. @values@ are the names and the values of the program's
--- parameters.
+-- | Computes the part and the toolpath of a program (Surface → Checked → Part → Toolpath). @values@
+-- are the names and the values of the program's parameters.
 analyse :: [(Text, Text)] -> LoadedProgram -> Result Report Report Analysis
 analyse values loaded = do
   (checked, part) <- evaluate values loaded
@@ -110,7 +111,8 @@ data Compiled = Compiled
     proof :: Maybe Proof
   }
 
--- | Toolpath → Frame → Tape → read back → Control → Verify.
+-- | Makes the tape for one machine (Toolpath → Frame → Tape). If the job asks for verification,
+-- reads the tape back and proves it (Control → Verify).
 makeTape :: Verification -> Toolpath -> Machine -> Result Report Report Compiled
 makeTape verification path machine =
   -- Evaluated now, so that each cutting move is freed as soon as its frames are made.
@@ -131,7 +133,8 @@ makeTape verification path machine =
 -- | The frames of a toolpath for one machine, and the tape that contains these frames.
 data Punched = Punched {program :: Frame.FrameProgram, tape :: Tape}
 
--- | Toolpath → Frame → Tape. The tape is lazy, so no row of it is made before it is needed.
+-- | Makes the frames and the tape of a toolpath (Toolpath → Frame → Tape). The tape is lazy, so no
+-- row of it is made before it is needed.
 punch :: Machine -> Toolpath -> Result Report Report Punched
 punch machine path = do
   program <-
@@ -139,10 +142,10 @@ punch machine path = do
   let frames = map Frame.frame (Frame.plannedFrames program)
   pure Punched {program, tape = Tape.write machine (Frame.start program) frames}
 
--- | Frame → Control → Verify: runs the frames of a tape on the virtual controller and compares the
--- motions with the part. The errors of the result are the findings: all that the proof has found
--- wrong. If there are none, the tape is proven. The cuts of @toolpath@ may be reduced by
--- 'withoutCuts'.
+-- | Runs the frames of a tape on the controller model and compares the motions with the part (Frame
+-- → Control → Verify). The errors of the result are the findings: all that the proof has found
+-- wrong. If there are none, the tape is proven. The cuts of @toolpath@ may be reduced to their
+-- first and last moves by 'withoutCuts'.
 prove :: Machine -> Toolpath -> Frame.FrameProgram -> [Frame.Frame] -> Result Report Report Proof
 prove machine toolpath program frames = failing (Proof.toReports machine proof) proof
   where

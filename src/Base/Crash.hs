@@ -1,7 +1,7 @@
 -- | The only deliberate crash of the program: for a state that only a bug in partc can reach.
 --
 -- A user's mistake becomes a report instead. The command line turns the exception 'Bug' into exit
--- status 70 and asks the user to send the program.
+-- status 70 and asks the user to send in the part program.
 module Base.Crash
   ( Bug (..),
     bug,

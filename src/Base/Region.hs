@@ -35,8 +35,8 @@ import Data.Vector.Unboxed qualified as Vector
 import Prelude hiding (length, span)
 
 -- | A region of the source. Every token of a program has a region, so a region takes one word of
--- memory: the offset of its start in the upper half, the offset of its end in the lower half. Texts
--- have fewer than 2³² characters.
+-- memory: the offset of its start in the upper half, the offset of its end in the lower half. All
+-- offsets are below 2³²: the texts of a program are much shorter.
 newtype Region = Halves Word
   deriving newtype (Eq, Ord)
 

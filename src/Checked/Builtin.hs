@@ -322,7 +322,8 @@ forms Fresh {dimension = d, anything} builtin = case builtin of
           | more <- extra
         ]
 
--- | The forms of a function whose parameters have exactly the given labels, in this order.
+-- | The forms of a function whose parameters have exactly the given labels, in this order. The
+-- given unknowns occur in their types.
 labelled :: Fresh -> Builtin -> [ArgumentLabel] -> [Form]
 labelled Fresh {dimension, anything} builtin labels =
   map made (maybe [] (Map.findWithDefault [] labels) (Lazy.lookup builtin byLabels))

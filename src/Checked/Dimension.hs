@@ -66,7 +66,8 @@ unknowns (Dimension m) = [n | Unknown n <- Map.keys m]
 isKnown :: Dimension -> Bool
 isKnown = null . unknowns
 
--- | Is a dimension with unknowns certainly a square, because all its exponents are even?
+-- | True if a dimension contains unknowns and all its exponents are even. It is then a square,
+-- whatever the unknowns are.
 isUnknownSquare :: Dimension -> Bool
 isUnknownSquare d@(Dimension m) = not (isKnown d) && all even (Map.elems m)
 

@@ -74,16 +74,16 @@ data Error
   | -- | a setting of the whole program that occurs again: the setting, and the region of its first
     -- statement
     SettingTwice Region RequiredSetting Region
-  | -- | a statement without settings that it needs above it: these settings. The region is its
-    -- keyword
+  | -- | a statement without settings that it needs above it: these settings. The report points at
+    -- the keyword of the statement
     SettingsMissing Region (NonEmpty RequiredSetting)
   | -- | a name that is used in its own definition: the name
     Recursive Region Name
   | -- | arguments that fit no form of a built-in function: the function, the arguments with their
     -- types, and the forms of the function as calls
     NoForm Region Text [(Region, Type)] [Text]
-  | -- | a call whose number of arguments or labels no form has: the built-in function, and its
-    -- forms as calls
+  | -- | a call for which the number of arguments, or the words such as @near@ before them, belong
+    -- to no form: the built-in function, and its forms as calls
     NoSuchCall Region Text [Text]
   | -- | a statement that is not allowed in a block: the keyword of the statement
     NotInBlock Region Text
@@ -448,7 +448,8 @@ at region code = report Error code (InSource region)
 arguments :: Int -> Text
 arguments n = if n == 1 then "1 argument" else Decimal.whole n <> " arguments"
 
--- | The labels for other regions of the program: the use of a term there decided the given type.
+-- | The labels of a report at regions other than its own. A pair is such a region and the type that
+-- the use of a term there decided.
 decidedLabels :: [(Region, Type)] -> [Label]
 decidedLabels elsewhere =
   [Label r (Type.describe t <> ", since it is used as one here") | (r, t) <- elsewhere]

@@ -75,12 +75,13 @@ expect env wanted e = case (value e, wanted) of
     equal (region e) wanted t
     pure e'
 
--- | Requires that @t@, the type of the term at the region @at@, is the type @wanted@.
+-- | Requires that @t@, the type of the term at the region @at@, is the type @wanted@. Reports a
+-- difference.
 equal :: Region -> Type -> Type -> Infer ()
 equal at wanted t = void (isEqual at wanted t)
 
--- | Does what 'equal' does. The result is 'False' if the types differ; the difference is then
--- reported.
+-- | Requires that @t@, the type of the term at the region @at@, is the type @wanted@. If the types
+-- differ, the difference is reported and the result is 'False'.
 isEqual :: Region -> Type -> Type -> Infer Bool
 isEqual at wanted t = do
   found <- Inference.resolved t

@@ -51,8 +51,8 @@ import Surface.Syntax qualified as Surface
 check :: Surface.Program -> Result w Error Program
 check = checkBy True
 
--- | Checks a program as 'check' does, but with full inference for all terms. Tests compare the two
--- functions, which must give the same result.
+-- | Checks a program by full inference only, without the shortcuts of "Checked.Inference.Fast".
+-- Tests compare the result with that of 'check', which must be the same.
 checkByInference :: Surface.Program -> Result w Error Program
 checkByInference = checkBy False
 

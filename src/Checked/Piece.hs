@@ -114,8 +114,8 @@ typeOfTable columns =
 isExtra :: Column -> Bool
 isExtra = not . isCoordinate . value . heading
 
--- | The columns besides x and y with their dimensions, and the rows. The cells of a row are put
--- into the order x, y, other columns.
+-- | The columns besides x and y with their dimensions, and the rows, which are in reverse order in
+-- @rows@. The cells of a row are put into the order x, y, other columns.
 columnsAndRows :: [Column] -> [Row] -> Deferred Columns
 columnsAndRows columns rows sol =
   Columns
@@ -242,9 +242,9 @@ cellsOf order sizes rows sol = case rows of
 
 -- Ciphers
 
--- | Checks a cipher on a curve whose table has the columns @known@. These are 'Nothing' if a
--- mistake that is already reported makes them unknown. The result is then 'Nothing', too. It is
--- also 'Nothing' if the digit or the number of values is wrong, which is reported.
+-- | Checks a cipher on a curve whose table has the columns @known@. If a mistake that is already
+-- reported makes the columns unknown, @known@ and the result are 'Nothing'. A wrong digit or a
+-- wrong number of values is reported, and also gives 'Nothing'.
 cipher ::
   TypingEnvironment ->
   Maybe [(Text, Type)] ->
@@ -352,7 +352,7 @@ freeNames (Located at e) = case e of
 
 -- Joggles
 
--- | Checks a joggle. All its four values must be lengths.
+-- | Checks a joggle. Its two x coordinates, its depth and its radius must be lengths.
 joggle :: TypingEnvironment -> Surface.Joggle -> Infer (Deferred Checked.Joggle)
 joggle env (Located at (Surface.Joggle from to depth radius)) = do
   from' <- len from

@@ -36,8 +36,8 @@ partFirst statements = case statements of
   [] -> [NoPart (Region 0 0)]
 
 -- | The statements in the blocks of a statement; for a statement without blocks, the statement
--- itself. The flag of each result is true if it is in a block. @isInBlock@ is that flag of the
--- argument.
+-- itself. The flag of each result is true if it is in a block. @isInBlock@ is true if the given
+-- statement is in a block.
 flatten :: Bool -> Statement -> [(Bool, Statement)]
 flatten isInBlock s = case s of
   Located _ (Surface.Repeat _ _ body) -> concatMap (flatten True) body
@@ -49,8 +49,8 @@ flatten isInBlock s = case s of
 -- missing, it is reported and added without a region, so that it is reported only once.
 type Seen = Map RequiredSetting (Maybe Region)
 
--- | Checks one statement. @seen@ are the settings above it, and @isInBlock@ is the flag from
--- 'flatten'. The result also contains the settings for the next statement.
+-- | Checks one statement. @seen@ are the settings above it, and @isInBlock@ is true if it is in a
+-- block. The result contains the settings for the next statement, and the mistakes.
 step :: Seen -> (Bool, Statement) -> (Seen, [Error])
 step seen (isInBlock, Located at s) = (seen', misplaced <> missing <> repeated)
   where

@@ -151,7 +151,8 @@ keyword s = case s of
   Surface.RestAllowed -> "rest"
   Surface.BrokenSetting -> ""
 
--- | The name of a setting in reports. Two settings of a block must not have the same name.
+-- | The name of a setting in reports. Two settings of a block must not have the same name, unless
+-- the name is @approach@, @retract@ or empty.
 subject :: Surface.Setting_ -> Text
 subject s = case s of
   Surface.CutBy _ -> "climb or conventional"

@@ -128,8 +128,8 @@ data Statement_
 data Columns = Columns [(Name, Dimension)] [Cells]
   deriving stock (Eq, Show)
 
--- | One or more rows of numbers, or one row in which other expressions occur, of the checked
--- program, with its region.
+-- | One or more rows of a table: rows of numbers, or one row that contains other expressions, with
+-- its region.
 data Cells = Numbers {-# UNPACK #-} NumberTable | Written Region [Expr]
   deriving stock (Eq, Show)
 

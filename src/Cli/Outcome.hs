@@ -35,7 +35,8 @@ failWithReport reporter name report =
   Failed <$ Output.showReports reporter name (Region.fromText name "") [report]
 
 -- | Computes @result@ and writes its reports. It continues with the output if no report stops the
--- command, see 'Output.showReports'. @name@ is the program's name in reports, @source@ its text.
+-- command. A report stops it if it is an error, or a warning and warnings count as errors. @name@
+-- is the program's name in reports, @source@ its text.
 whenSound :: Reporter -> Text -> Source -> Result Report Report a -> (a -> IO Exit) -> IO Exit
 whenSound reporter name source result continue = do
   Progress.during ("working on " <> name) (evaluated result)

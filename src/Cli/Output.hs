@@ -189,7 +189,8 @@ useColour settings handle = case colour settings of
 result :: Text -> IO (Either Text ())
 result = resultBytes . Encoding.encodeUtf8
 
--- | Writes bytes to standard output, see 'result'.
+-- | Writes bytes to standard output. 'Left' is the reason of a failure. A pipe that its reader has
+-- closed is not a failure.
 resultBytes :: ByteString -> IO (Either Text ())
 resultBytes bytes = either judge Right <$> try (ByteString.hPut stdout bytes *> hFlush stdout)
   where

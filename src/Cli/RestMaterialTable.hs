@@ -23,10 +23,12 @@ import Toolpath.RestMaterial (Remaining (Remaining, tool, walls))
 import Toolpath.RestMaterial qualified as RestMaterial
 import Toolpath.Toolpath (Toolpath)
 
--- | One table for each statement that leaves rest material. A row has the position of a region in
--- mm, its area in mm², the size of the largest cutter that would reach it, and the reason why the
--- cutter of the program does not. The area is empty if the boundary of the region is not known, or
--- if the region is a part of that in another row. The size is empty for an inner corner.
+-- | One table for each statement that leaves rest material. A row is for one region of it. The row
+-- has a position in mm, the area in mm², the size of the largest cutter that would reach the
+-- region, and the reason why the cutter of the program does not. The position is an inner corner of
+-- the contour, or else the cutter's centre where the cutter goes no further. The area is empty if
+-- the boundary of the region is not known, or if the region is a part of that in another row. The
+-- size is empty for an inner corner, because no round cutter reaches its vertex.
 tables :: Toolpath -> [Text]
 tables path = map table (RestMaterial.ofPath path)
 
@@ -43,9 +45,9 @@ table Remaining {tool, walls, RestMaterial.positions = regions} =
       [ToRight, ToRight, ToRight, ToRight, ToLeft]
       (["x", "y", "area mm²", "largest", "place"] : map (row tool) (NonEmpty.toList regions))
 
--- | The row of one region. @tool@ is the cutter that leaves the region. @stay@ is the place of the
--- contour that the cutter does not reach, such as an inner corner. @rest@ contains the boundary of
--- the region.
+-- | The row of one region. @tool@ is the cutter that leaves the region. @stay@ says where on the
+-- contour the material stays, such as in an inner corner. @rest@ contains the boundary of the
+-- region.
 row :: Tool -> (RestPosition, UnreachedPart) -> [Text]
 row tool (stay, rest) = case stay of
   InCorner _ _ p -> at p "" "inner corner"

@@ -4,7 +4,7 @@
 --
 -- * Entry: the first motion goes straight from the present position of the centre to a point beside
 --   the end of the programmed motion, one cutter radius to the side of it. A corner at that end is
---   treated as on the contour.
+--   treated like a corner of the contour, as described below.
 -- * Contour: each later motion is the offset of the programmed one; an arc keeps its centre. At a
 --   corner that turns away from the cutter, the centre goes round the corner on an arc. At a corner
 --   that turns towards the cutter, both offsets end at their intersection. If the direction changes
@@ -63,8 +63,8 @@ data CompensationError
   | -- | The cutter cannot reach the corner at the end of this frame without cutting into the part,
     -- or the offset of this frame would run backwards.
     CornerNotReached Int
-  | -- | Compensation is switched on while it is on or before the exit after its release, or one
-    -- frame switches it on for both sides, or on and off.
+  | -- | One frame switches compensation on for both sides, or on and off. Or compensation is
+    -- switched on while it is on, or after its release but before the exit.
     SwitchedOnTwice Int
   | -- | The tool is changed while compensation is on.
     ToolChanged Int
@@ -72,8 +72,8 @@ data CompensationError
     NotSwitchedOff Int
   deriving stock (Eq, Show)
 
--- | Compensation that is on: the side of the cutter, in the direction of the programmed motion, and
--- its radius.
+-- | Compensation that is on: the side of the cutter, seen in the direction of the programmed
+-- motion, and the cutter's radius.
 data Offset = Offset {side :: Side, radius :: Mm}
 
 -- | State of the control between two frames.
@@ -106,9 +106,11 @@ data Role
 run :: Machine -> (Int -> Mm) -> Pulses3 -> [Frame] -> ([Moved], [CompensationError])
 run = runWith (:)
 
--- | Fold the motions of 'run' from the right, with the function @onto@, which puts a motion before
--- the result for the later ones. @toolAt@ is the function of 'run' that yields the cutter's radius.
--- Without compensation, the list of motions is never in memory as a whole.
+-- | Fold the motions of frames from the right, with the function @onto@, which puts a motion before
+-- the result for the later ones. The result also has the errors at which a control would stop.
+-- @toolAt@ gives the cutter's radius in a frame, by the frame's number from 1. It is used for a
+-- frame that switches compensation on without a diameter. Without compensation, the list of motions
+-- is never in memory as a whole.
 runWith ::
   (Moved -> [a] -> [a]) ->
   Machine ->
@@ -133,8 +135,10 @@ runWith onto machine toolAt begin frames =
         (\o -> isJust (lookup (commandName o) (Frame.commands f)))
         [compensateLeft c, compensateRight c]
 
--- | Mode at the end of the tape, and one pair for each frame: the frame's motion with its role, or
--- nothing if the frame does not move; and the errors of the frame.
+-- | Mode at the end of the tape, and a list with one pair for each frame. The pair has the motion
+-- of the frame with its role, and the errors of the frame. Nothing in place of the motion means
+-- that the frame does not move. @toolAt@ gives the cutter's radius in a frame, by the frame's
+-- number from 1.
 withRoles ::
   Machine ->
   CompensationCommands ->
@@ -289,9 +293,10 @@ offsetPaths k at corner motions = case motions of
        in (Moved m (maybe (path :| []) (:| [path]) corner), offsetErrors k m edge path joint) :
           offsetPaths k finish corner' rest
 
--- | Errors of the offset @path@ of the programmed segment @edge@. The cutter may not fit inside an
--- arc. The path may go backwards, have too large a sweep, or not meet the next path. @joint@ is the
--- transition to the next path; Nothing for the last path.
+-- | Errors of the offset @path@ of the programmed segment @edge@. There are two kinds: an arc
+-- inside which the cutter does not fit; and a path that goes backwards, has too large a sweep, or
+-- does not meet the next path. @joint@ is the transition to the next path; Nothing for the last
+-- path.
 offsetErrors :: Offset -> Motion -> Segment -> Segment -> Maybe Joint -> [CompensationError]
 offsetErrors k m edge path joint =
   tight <> [CornerNotReached (number m) | isBackwards || winds path edge || isApart]
@@ -326,7 +331,8 @@ along a b edge = case edge of
       Arc {start = a, end = b, centre, sweep = whole}
     | otherwise -> Segment.arc (Carrier.senseOf whole) centre a b
 
--- | Test that a straight path goes against its programmed segment, by more than rounding.
+-- | Test that a straight path leads against the direction of its programmed segment, by more than
+-- 'Tolerance.coincident', which rounding may cause. False for an arc.
 goesBack :: Segment -> Segment -> Bool
 goesBack path edge = case edge of
   Straight _ _ ->

@@ -58,8 +58,8 @@ middleOf :: BoundingBox -> Point
 middleOf BoundingBox {left, bottom, right, top} =
   Vec.point ((left + right) / 2) ((bottom + top) / 2)
 
--- | Bounding boxes of the labels placed so far, under each of the 'squares' that they touch. A new
--- label has to be compared only with those that touch a square that it touches too.
+-- | Bounding boxes of the labels placed so far, by the squares of a grid. Each box is listed under
+-- all 'squares' that it touches. A new label is compared only with the boxes under its own squares.
 type Taken = Map (Int, Int) [BoundingBox]
 
 -- | Adds the bounding box of a label to those of the placed labels.

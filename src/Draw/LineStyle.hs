@@ -75,7 +75,8 @@ arrowAt :: Text -> Double -> Segment -> Svg
 arrowAt colour fraction s =
   Svg.arrow colour 2.4 (Segment.directionAt fraction s) (Segment.at fraction s)
 
--- | Arrowhead as 'arrowAt' makes it; none if the segment is shorter than 4 mm of paper.
+-- | Arrowhead of the given colour on a segment, with its tip at @fraction@ of the segment's length;
+-- none if the segment is shorter than 4 mm of paper.
 arrowOn :: Text -> Double -> Segment -> [Svg]
 arrowOn colour fraction s
   | room < 4 = []

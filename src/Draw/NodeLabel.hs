@@ -1,5 +1,5 @@
--- | Dots and numbers for the nodes of a cut. A cut is the toolpath of one pass along a contour. Its
--- sections are its single lines and arcs, and its whole curves. The nodes are the ends of the
+-- | Dots and numbers for the nodes of a cut. A cut is the toolpath of one pass along a contour. A
+-- section of a cut is one line, one arc, or the arcs of one curve. The nodes are the ends of the
 -- sections. The node at the entry, where the cut begins, has the number 0.
 module Draw.NodeLabel
   ( dots,
@@ -38,8 +38,8 @@ nodes Cut {sections, away} =
     final = NonEmpty.last (NonEmpty.last sections)
     closed = Vec.isNear (Segment.start first) (Segment.end final)
     -- The segments before the start and after the end of the cut. In a closed cut they are its last
-    -- and its first segment. An open cut has none; its own first and last segment are taken for
-    -- them.
+    -- and its first segment. An open cut has no such segments; its first and its last segment are
+    -- taken in their place.
     (before, after) = if closed then (final, first) else (first, final)
     entry =
       Node
@@ -61,9 +61,8 @@ heading direction s = if Segment.length s > Mm 1e-9 then direction s else Vec.ve
 
 -- | Direction in which a label is best placed at a node: away from the contour, and square to the
 -- mean of the directions @arriving@ and @leaving@ of the cut before and after the node. @away@ is
--- the field of the cut: +1 if the side away from the contour is on the right of the cut, -1 if it
--- is on the left. At a point where the cut reverses, the result points to the upper edge of the
--- paper.
+-- +1 if the side away from the contour is on the right of the cut, -1 if it is on the left. At a
+-- point where the cut reverses, the result points to the upper edge of the paper.
 outwardAt :: Double -> Vec -> Vec -> Vec
 outwardAt away arriving leaving
   | Vec.norm along > 1e-3 = Vec.scale away (Vec.left (Vec.unit along))
@@ -98,8 +97,9 @@ labels cut
     near = [1.2, 2, 3, 4]
 
 -- | True if a node has a label; @final@ is the number of the last node. Both ends of the cut have
--- labels. If @final@ exceeds 'most', another node has one only if its number is a multiple of
--- @every@. This is the smallest of 2, 5, 10, 20 and so on that leaves at most 'most' multiples.
+-- labels. If @final@ exceeds 'most', a node between them has a label only if its number is a
+-- multiple of @every@. This is the smallest of 2, 5, 10, 20 and so on that has at most 'most'
+-- multiples from 1 to @final@.
 isMarked :: Int -> Node -> Bool
 isMarked final n = number n `mod` every == 0 || number n == final
   where
@@ -108,7 +108,7 @@ isMarked final n = number n `mod` every == 0 || number n == final
         then 1
         else round (1 / Page.round125 (fromIntegral most / fromIntegral final)) :: Int
 
--- | Greatest legible count: of node numbers on one cut, and of cuts with node numbers on one
--- drawing.
+-- | Greatest legible count of node numbers on one cut. If a drawing has more numbered cuts than
+-- this, the cuts that are no larger than a digit get no numbers.
 most :: Int
 most = 60

@@ -67,7 +67,8 @@ plot part path =
 
 -- | Areas of material in grey, with windows in white. A body is a contour with material inside, and
 -- a window is a contour with material outside. A shape is drawn after the shape in which it lies.
--- If every body lies in a window, or there is no body, each window gets a grey band around it.
+-- If no body surrounds the windows, each window gets a grey band around it, which shows the
+-- material. This is so if every body lies in a window, or if there is no body.
 material :: [Shape] -> [Svg]
 material shapes = bands <> map snd (sortOn fst (map painted bodies <> map painted windows))
   where

@@ -90,7 +90,7 @@ data MaterialSide
     Inside
   | -- | outside the contour
     Outside
-  | -- | not known, because the contour is open or is not milled on exactly one side
+  | -- | not known, because the contour is open or no cutter moves beside it
     Unknown
   deriving stock (Eq)
 
@@ -210,8 +210,8 @@ movesBetween block = case block of
   Holing _ moves -> moves
   Commanding _ -> []
 
--- | Bounding boxes, on the part, of everything that has to be on the page: contours, moves, cutters
--- and drilled holes.
+-- | Bounding boxes of everything that has to be on the page: contours, moves, cutters and drilled
+-- holes. Their coordinates are those of the part, not those of the paper.
 boxesOf :: [Part.Contour] -> Toolpath -> [BoundingBox]
 boxesOf contours path =
   [Page.extent s | c <- contours, s <- NonEmpty.toList (Polyarc.segments (Part.polyarcOf c))]
@@ -236,7 +236,8 @@ cutterBox block = case block of
         (BoundingBox.ofPoints (Segment.start (Toolpath.segment (NonEmpty.head ms))) [])
 
 -- | Converts a contour to paper. @millings@ has, for a point, the millings of all contours that
--- begin there; the side of the milling tells on which side the material lies.
+-- begin there. The side of the contour's first milling with the cutter beside it tells on which
+-- side the material lies.
 shapeOf :: Page -> Map Point [Milling] -> Part.Contour -> Shape
 shapeOf page millings c =
   Shape

@@ -3,10 +3,11 @@
 -- A grid point is a position in whole pulses. A step is a line or an arc that becomes one frame.
 -- The ends of an arc are rounded to the nearest grid points. Its centre becomes the grid point
 -- about which the rounded arc deviates least from the exact one. Candidates are the grid points
--- near the exact centre, and those near the closest point to it that is equally far from both
--- rounded ends. If they do not suffice, more remote grid points are tried. When the arcs about all
--- candidates exceed the tolerance, the arc is halved. When halving does not help, or the centre
--- does not fit its field, the arc is divided into chords.
+-- near the exact centre, and those near a second point. This is the nearest point to the exact
+-- centre that is equally far from both rounded ends. If these candidates do not suffice, more
+-- remote grid points are tried. When the arcs about all candidates exceed the tolerance, the arc is
+-- halved. When halving does not help, or the centre does not fit its field, the arc is divided into
+-- chords.
 --
 -- Read "Frame.Arc.Context" first. "Frame.Arc.Centre" lists the grid points, "Frame.Arc.Attempt"
 -- chooses among them, "Frame.Arc.Deviation" measures, "Frame.Arc.Quadrant" cuts an arc at the axes.

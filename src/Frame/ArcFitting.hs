@@ -37,7 +37,7 @@ leastShare :: Double
 leastShare = 0.1
 
 -- | Error in mm allowed for rounding: one pulse, less the amount by which 'fitTolerance' exceeds
--- the smaller bound.
+-- the smaller one of the left and the right bound.
 roundingAllowance :: Machine -> Bounds -> Mm
 roundingAllowance machine bounds =
   minus
@@ -98,9 +98,9 @@ divisions machine bounds run
       let Pulses n = Machine.centreCapacity machine
        in times (fromIntegral n) (minimum [Machine.resolutionOf machine axis | axis <- [X, Y]])
 
--- | Largest number of fitted arcs for which other divisions are tried even if none of the fitted
--- arcs is a remote bend. With more arcs the attempts would take longer than the rest of the
--- compilation.
+-- | Largest number of fitted arcs for which other divisions are tried even if none of these arcs is
+-- a remote bend. A remote bend is an arc that is too curved for a line, and whose centre does not
+-- fit its field. With more arcs the attempts would take longer than the rest of the compilation.
 mostTried :: Int
 mostTried = 1000
 
@@ -114,7 +114,7 @@ leastChords sagitta s = case s of
      in max 1 (ceiling (abs a / (2 * acos (max (-1) (1 - sagitta / r)))))
 
 -- | Arcs and lines from the start of the run to its end, whose distance from the run is at most
--- @tolerance@ mm. They are at most as many as the moves of the run.
+-- @tolerance@ mm. The run has at least as many moves as the result has arcs and lines.
 arcs :: Mm -> NonEmpty Move -> NonEmpty Segment
 arcs tolerance run =
   case NonEmpty.nonEmpty (filter ((> Mm 0) . Segment.length) (map segment (NonEmpty.toList run))) of

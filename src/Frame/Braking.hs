@@ -6,8 +6,12 @@
 -- move is cut where it reaches this limit, and the frames from there to the lower feed are marked
 -- as braking.
 --
--- On a machine whose frames have no such mark, the end of a move can only run at the lowest feed
--- code, over the length @v² / 2a@. The program asks for this at the ends of elements.
+-- On a machine whose frames have no such mark, a move slows down by running at the lowest feed code
+-- over its last part. This part has the length @v² / 2a@. The program asks for this at the ends of
+-- elements.
+--
+-- An instruction is a run or the words of a command. A run is a sequence of moves along one line,
+-- arc or curve.
 module Frame.Braking
   ( applied,
   )
@@ -52,8 +56,8 @@ nearestFeed machine (Feed asked) = case Machine.feedMeasure (Machine.feeds machi
     Machine.Given _ v -> Feed v
     Machine.NoSuchFeed low high -> Feed (max low (min high asked))
 
--- | The instruction divided in two when the program asks for braking at its end: the run at its
--- feed, and the slow end at the lowest feed code.
+-- | The instruction, divided in two if the program asks for braking at its end. The first part has
+-- the feed of the run, the second part the lowest feed code.
 slowedAtEnd :: Machine -> Instruction -> [Instruction]
 slowedAtEnd machine instruction = case instruction of
   Run {run = ms}
@@ -65,8 +69,8 @@ slowedAtEnd machine instruction = case instruction of
        in divided instruction (concat parts)
   _ -> [instruction]
   where
-    -- Divides a move, from the last move of the run backwards. @left@ is the length in mm that is
-    -- still to be slow.
+    -- Divides the move @m@. The moves of the run are taken from the last one backwards, and @left@
+    -- is the length in mm that still has to be slow.
     slowEnd left m
       | left <= 0 = (0, [(AsProgrammed, m)])
       | left >= l = (left - l, [(LowestCode, m)])
@@ -76,8 +80,8 @@ slowedAtEnd machine instruction = case instruction of
       where
         Mm l = Instruction.lengthOf m
 
--- | The run of an instruction divided into one instruction for each stretch of moves with the same
--- feed mode. @parts@ has the moves of the run with their feed modes.
+-- | The run of an instruction divided into several instructions. Each of them has neighbouring
+-- moves with the same feed mode. @parts@ has the moves of the run with their feed modes.
 divided :: Instruction -> [(FeedMode, Move)] -> [Instruction]
 divided instruction parts = case instruction of
   Words _ _ -> [instruction]
@@ -92,10 +96,11 @@ divided instruction parts = case instruction of
 data FeedLimit = FeedLimit
   { -- | square of the highest feed at this point, in (mm/s)²
     square :: Double,
-    -- | feed in mm/s to which a faster move has to slow down after this point
+    -- | lower feed in mm/s, at or after this point, that causes the limit; a faster move slows down
+    -- to this feed
     target :: Double,
-    -- | number of the braking section in which it slows down, counted from 0 from the end of the
-    -- program
+    -- | number of the braking section in which a move slows down to 'target'. The last section of
+    -- the program has the number 0, the one before it 1
     section :: Int
   }
 

@@ -43,7 +43,8 @@ data ChordTolerance
   = -- | largest sagitta in mm between a segment and its chords; the ends of the chords lie on the
     -- segment
     Sagitta Mm
-  | -- | band about an arc, in mm: the distance towards its centre, and the distance away from it
+  | -- | band about an arc, in mm: the width on the side of the arc's centre, and the width on the
+    -- other side
     ArcBand Mm Mm
   | -- | largest distances of a curve of several moves from its chords, on both sides
     OnCurve Chording.Bounds
@@ -61,9 +62,10 @@ chordTolerance machine job = \run ->
     side = fromRight Nothing (Toolpath.leadingSide job)
     onCurve = OnCurve (curveBounds machine side job)
 
--- | Chord error in mm that a tolerance in mm allows when the ends of the chords are rounded to
--- whole pulses: the tolerance less half the diagonal of a pulse, but at least 0. The result is
--- reduced by the share 'Tolerance.equal' for the rounding of doubles.
+-- | Chord error in mm that @tolerance@ allows when the ends of the chords are rounded to whole
+-- pulses. Rounding moves an end by up to half the diagonal of a square of one pulse, so this amount
+-- is subtracted; the result is at least 0. It is reduced by the share 'Tolerance.equal' for the
+-- rounding of doubles.
 remainder :: Machine -> Mm -> Mm
 remainder machine tolerance =
   times
@@ -156,7 +158,7 @@ chords machine sagitta segment =
 
 -- | Ends of the chords of the segment @s@ within a band. The band has the width @toward@ (δ₁, in
 -- mm) towards the centre of the arc, and @away@ (δ₂) away from it. The chain of chords begins at
--- the start of the arc and ends at its end. The corners between them lie on the outer edge of the
+-- the start of the arc and ends at its end. The corners of the chain lie on the outer edge of the
 -- band, @ρ = R + δ₂@, and the chords touch its inner edge: @cos(Δφ/2) = (R − δ₁)/ρ@.
 bandChords :: Machine -> Mm -> Mm -> Segment -> [Point]
 bandChords machine toward away s = case s of
@@ -170,8 +172,8 @@ bandChords machine toward away s = case s of
       Mm r = Segment.radius centre p
       inner = max 0 (let Mm d = toward in r - d)
       outer = let Mm d = away in r + d
-      -- Angle in radians from an end of the arc to the point where its chord touches the inner
-      -- edge.
+      -- Angle in radians from an end of the arc to the point where the chord from this end touches
+      -- the inner edge.
       toInnerEdge = acos (inner / r)
       toFirstCorner = min (pi / 4) (toInnerEdge + acos (inner / outer))
       widest =
@@ -187,8 +189,9 @@ bandChords machine toward away s = case s of
           centre
 
 -- | Number of frames for a run, to reject a program with too many frames before they are made. Each
--- chord is split to fit the fields of a frame. The number may be too small by one for each chord.
--- @chordEnds@ are the ends of the run's chords; they are used only for a curve.
+-- chord is split to fit the fields of a frame. Rounding may lengthen a chord, which then needs one
+-- more frame than is counted. @chordEnds@ are the ends of the run's chords; they are used only for
+-- a curve.
 frameCount :: Machine -> ChordTolerance -> NonEmpty Move -> [PathPosition] -> Int
 frameCount machine tolerance run chordEnds = case tolerance of
   Sagitta y -> equalChords y

@@ -35,9 +35,9 @@ import Toolpath.Toolpath qualified as Toolpath
 
 -- | Largest distances in mm of a run from its chords.
 data Bounds = Bounds
-  { -- | of points of the run to the left of the chord
+  { -- | distance of points of the run that lie to the left of the chord
     left :: Mm,
-    -- | of points of the run to the right of the chord
+    -- | distance of points of the run that lie to the right of the chord
     right :: Mm,
     -- | difference of heights between the run and the chord at the same share of their lengths
     rise :: Mm,
@@ -110,8 +110,8 @@ ends limit bounds run final =
 fewChords :: Int
 fewChords = 16
 
--- | Largest number of chords that are made equally long. Of a run with more chords only the last
--- ones are.
+-- | Largest number of chords that are made equally long. If a run has more chords, only this many
+-- chords at its end are made equally long.
 mostEqualised :: Int
 mostEqualised = 256
 
@@ -135,7 +135,8 @@ equalised plan kept others = go bisections (1 - 1 / fromIntegral (length others)
         middle = (low + high) / 2
         tighter = chordsFrom plan middle (NonEmpty.last (begin plan :| kept))
 
--- | True for a run with arcs of both senses. On any other run the longest chords are the fewest.
+-- | True for a run with arcs of both senses. On any other run, making every chord as long as
+-- possible gives the fewest chords.
 bendsBothWays :: NonEmpty MoveRest -> Bool
 bendsBothWays run = any (> 0) sweeps && any (< 0) sweeps
   where
@@ -209,8 +210,8 @@ data Limits = Limits
   }
 
 -- | Limits for a tightness from 0 to 1; 1 gives the full bounds. The largest angle of an arc that a
--- chord may span grows with the root of the sagitta. Therefore a chord spans the fraction
--- @tightness@ of it when the sagitta has the fraction @tightness²@.
+-- chord may span grows with the root of the allowed sagitta. Therefore the sagitta is multiplied by
+-- @tightness²@, so that this angle is multiplied by @tightness@.
 limitsOf :: Bounds -> Double -> Limits
 limitsOf bounds tightness =
   Limits
@@ -486,9 +487,9 @@ turnLimit limits before move = case segment move of
       | signum s * (heading before + s * (1 - from move) - end) <= Tolerance.equal = 1
       | otherwise = max (from move) (from move + (end - heading before) / s)
 
--- | Directions of lines from the viewpoint for which the largest distance of an arc from the line
--- is exactly the allowed one: on the left of the line, and on its right. At its furthest point the
--- arc is parallel to the line. Directions are measured as in 'Sector'.
+-- | Directions of lines from the viewpoint, in radians from 'forward'. The furthest point of an arc
+-- from such a line is exactly at the allowed distance. It lies to the left of the line in 'onLeft',
+-- and to its right in 'onRight'. At this point the arc is parallel to the line.
 data Tangents = Tangents {onLeft :: [Double], onRight :: [Double]}
 
 -- | 'Tangents' of a move, as seen from the viewpoint; none for a straight move.
@@ -560,7 +561,8 @@ rightmostDirection Outlook {limits, before, tangents} after direction distance =
     )
 
 -- | The largest direction of a chord that passes the move within the limits, up to a point of the
--- move. The arguments are those of 'rightmostDirection'.
+-- move. @after@ is the heading of the run at this point; @direction@ and @distance@ (mm) are those
+-- of the point as seen from the viewpoint.
 leftmostDirection :: Outlook -> Double -> Double -> Double -> Double
 leftmostDirection Outlook {limits, before, tangents} after direction distance =
   minimum
@@ -569,8 +571,8 @@ leftmostDirection Outlook {limits, before, tangents} after direction distance =
         <> [d | d <- onRight tangents, heading before <= d, d <= after]
     )
 
--- | Direction of the run at the fraction @t@ of a move, in radians from that at the viewpoint.
--- @before@ is the direction at the start of the rest of the move.
+-- | Direction of the run at the fraction @t@ of a move. @before@ is the direction at the start of
+-- the rest of the move. Both are in radians, measured from the direction at the viewpoint.
 headingAt :: MoveRest -> Double -> Double -> Double
 headingAt move before t = case segment move of
   Straight _ _ -> before

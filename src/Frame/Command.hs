@@ -48,7 +48,8 @@ import Part.Part qualified as Part
 
 -- | Words of a machine for a command, and the reports about it.
 data Translation = Translation
-  { -- | the words with their numbers; empty when the machine has no word, or a number is unknown
+  { -- | the words with their numbers; empty when the machine has no word for the command, or when
+    -- there is no suitable number for the word
     numbers :: [(CommandName, Int)],
     warnings :: [Warning],
     errors :: [Error]
@@ -72,7 +73,7 @@ translated machine (Located region c) = case wordsFor (Machine.commandWords mach
             n > most
         ]
 
--- | Words that a machine has for a command. Empty when the operator has to carry the command out.
+-- | Words that a machine has for a command; empty if it has none.
 wordsFor :: CommandWords -> Command -> [CommandWord]
 wordsFor table c = case c of
   Part.SpindleOn Clockwise _ -> spindleClockwise table
@@ -144,9 +145,9 @@ nearestStep table asked = case Map.toList table of
 -- Cutter compensation -----------------------------------------------------------------------------
 
 -- | Words that switch cutter compensation on, for a cutter with the radius @radius@ in mm on one
--- side of the contour. @asked@ is the region of the program that asks for it. A word that holds the
--- cutter's diameter gets it as a decimal number. On a machine with a mirrored plane left and right
--- are exchanged.
+-- side of the contour. @asked@ is the region of the program that asks for it. A word for the
+-- cutter's diameter gets it as an integer, in units of the word's last decimal. On a machine with a
+-- mirrored plane left and right are exchanged.
 compensationOn :: Machine -> Region -> Side -> Mm -> Translation
 compensationOn machine asked side radius@(Mm r) =
   case Machine.compensation (Machine.commandWords machine) of

@@ -30,9 +30,9 @@ data Error
     -- and the highest feed of the machine
     FeedOutOfRange Region Feed Feed Feed
   | -- | a feed for which the leading axis of a frame, the axis with the most pulses, would need a
-    -- frequency that the machine does not have: the feed asked for, and this frequency in pulses
-    -- per second; the lowest and the highest frequency of the machine, each with its feed along an
-    -- axis
+    -- frequency that the machine does not have. The arguments are the feed asked for, and the
+    -- frequency that it would need, in pulses per second. Then come the lowest and the highest
+    -- frequency of the machine, each with the feed that it gives along an axis
     FrequencyOutOfRange Region Feed Double (Double, Feed) (Double, Feed)
   | -- | a point with a coordinate that exceeds the given limit in mm
     OutOfReach Region Point Mm
@@ -40,7 +40,7 @@ data Error
     -- of the cutter: the tolerance and the radius in mm
     ToleranceTooLarge Region Mm Mm
   | -- | a number of a command that is too high for the machine, and the highest number that the
-    -- machine has. The latter is 0 if the machine has no such command
+    -- machine has. This highest number is 0 if the machine has no such command
     NoSuchCommand Region CommandKind Int Int
   | -- | more than the given number of frames, the largest that is allowed
     TooManyFrames Region Int

@@ -1,8 +1,8 @@
 -- | Feed codes: the code of a frame for a feed, and the feed that a code gives.
 --
 -- On some machines a code is a feed along the path. On others it is a frequency of the leading
--- axis, in pulses per second; there the feed along the path depends on the direction of the frame
--- as well. The leading axis of a frame is the axis with the most pulses.
+-- axis, in pulses per second. The feed along the path then depends on the direction of the frame as
+-- well. The leading axis of a frame is the axis with the most pulses.
 module Frame.FeedCode
   ( codeFor,
     feedOf,
@@ -60,8 +60,8 @@ pulsesPerMm machine f (Mm l) = case Machine.feedMeasure (Machine.feeds machine) 
       Circular _ -> 0
       _ -> let Pulses3 x y z = abs (increment f); Pulses n = max x (max y z) in n
 
--- | Length of a frame in mm: for a straight frame the length in space, for an arc that in the
--- plane.
+-- | Length of a frame in mm: for a straight frame the length in space, for an arc the length in the
+-- plane of x and y.
 frameLength :: Machine -> Frame -> Mm
 frameLength machine f = case motion f of
   Circular _ -> plane
@@ -70,7 +70,7 @@ frameLength machine f = case motion f of
     plane = Segment.length (Frame.segment machine 0 f)
 
 -- | Code for the feed @v@ in the frame @f@. For a feed outside of the machine's range it is the
--- lowest or the highest code.
+-- code of the machine's lowest or highest feed.
 nearestCode :: Machine -> Feed -> Frame -> FeedCode
 nearestCode machine v f = case Machine.choose machine asked of
   Given code _ -> code
@@ -85,10 +85,9 @@ rapidFeed :: Machine -> Feed
 rapidFeed machine =
   maybe (Feed 0) (feedAlongAxis machine) (Machine.valueOf machine (Machine.rapidCode machine))
 
--- | Feed that the machine gives for the feed asked for. The result is exact if codes are feeds
--- along the path. If codes are frequencies, the direction of the frame is needed but not known
--- here, so the result is the feed asked for. It is also the feed asked for if the machine has no
--- such feed.
+-- | Feed that the machine gives for the feed @asked@. The result is exact if codes are feeds along
+-- the path. If codes are frequencies, the feed depends on the direction of the frame, which is not
+-- known here, so the result is @asked@. It is also @asked@ if the machine has no such feed.
 expectedFeed :: Machine -> Feed -> Feed
 expectedFeed machine asked@(Feed v) =
   case (Machine.feedMeasure (Machine.feeds machine), Machine.choose machine v) of

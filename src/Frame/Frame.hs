@@ -54,8 +54,8 @@ data Frame = Frame
 data FrameMotion
   = -- | none: the frame holds only commands
     NoMotion
-  | -- | rapid move, on machines that have a word for it; on all others a rapid move is a straight
-    -- line with the highest feed code
+  | -- | rapid move, on machines that have a motion code for it; on all others a rapid move is a
+    -- straight line with the feed code of rapid moves
     Rapid
   | -- | straight line
     Linear
@@ -90,8 +90,8 @@ data PlannedFrame = PlannedFrame
   }
   deriving stock (Eq, Show)
 
--- | Purpose of a frame. The number of the first three is that of the pass along a contour or in a
--- pocket, from 0.
+-- | Purpose of a frame. The first three purposes have the number of the pass along a contour or in
+-- a pocket, from 0.
 data Role = Approaching Int | Cutting Int | Retracting Int | Linking | Drilling | Commanding
   deriving stock (Eq, Show)
 
@@ -162,7 +162,8 @@ violations :: Machine -> [Frame] -> [Violation]
 violations machine = concat . zipWith (frameViolations machine) [1 ..]
 
 -- | Rules that the frame @f@ with the number @n@ breaks. Nearly all frames keep every rule; for
--- them no list is built. The functions below have the same arguments.
+-- them no list is built. The functions from 'capacityFaults' to 'commandFaults' have the same
+-- arguments.
 frameViolations :: Machine -> Int -> Frame -> [Violation]
 frameViolations machine n f = case faults of
   Faults [] [] [] [] | not isEmpty -> []

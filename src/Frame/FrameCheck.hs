@@ -57,11 +57,12 @@ contextOf machine =
 data FrameFindings = FrameFindings
   { -- | range of the feeds that the frames get, for each feed of the program with its region
     obtained :: Map (Region, Feed) FeedRange,
-    -- | feed that the program gives for the last frame, and the code of this frame
+    -- | the last feed that the program gave for a frame, and the code of this frame
     lastPace :: Pace,
     lastCode :: FeedCode,
     -- | for each feed of the program, the error of the first frame in which no code gives this
-    -- feed; empty on a machine whose codes are feeds along the path
+    -- feed. Empty on a machine whose codes mean feeds along the path: there "Frame.InstructionCheck"
+    -- reports a feed without a code, because it does not depend on the frame
     withoutCode :: Map (Region, Feed) Error,
     -- | error of the first move along an axis that the machine does not have
     missingAxis :: Maybe Error,

@@ -103,8 +103,8 @@ quantise
       startWarnings = startWarning machine startRegion startPoint begin
       warnings = nubOrd (startWarnings <> warningsOf made)
 
--- | All errors, each once. @tooCoarse@ are the errors of the tolerances, @tooMany@ that of the
--- number of contours, and @made@ is the state after the last instruction.
+-- | All errors, each once. @tooCoarse@ are the errors about too large tolerances, @tooMany@ is the
+-- error about too many contours, and @made@ is the state after the last instruction.
 errorsOf :: [Error] -> [Error] -> Making -> [Error]
 errorsOf tooCoarse tooMany made =
   nubOrd
@@ -135,7 +135,7 @@ commandWarnings :: Making -> [Warning]
 commandWarnings made = concatMap Command.warnings (reverse (translations made))
 
 -- | Warning about the start point @asked@ in mm if it lies between two pulses. @begin@ is its
--- rounded position; the region is that of the point in the program.
+-- rounded position; @region@ is the part of the program that gives the point.
 startWarning :: Machine -> Region -> Point -> Pulses3 -> [Warning]
 startWarning machine region asked begin =
   [StartRounded region asked given | not (Vec.isNear given asked)]
@@ -144,7 +144,8 @@ startWarning machine region asked begin =
 
 -- Errors that need no frames ----------------------------------------------------------------------
 
--- | Error of a block whose tolerance is too large for its cutter; Nothing for every other block.
+-- | Error of a block whose tolerance is too large for its cutter; Nothing for every other block. A
+-- block has the moves of one statement, or of one of its passes.
 toleranceError :: Machine -> Toolpath.Block -> Maybe Error
 toleranceError machine block = case block of
   Toolpath.Cutting {Toolpath.job = Located _ job} -> tooLarge job
@@ -307,8 +308,9 @@ addStep context@Context {machine} instruction made step = case instruction of
               (PlannedFrame f' role (origin m) cutterRadius)
               made {pending = Nothing}
 
--- | Adds the frame @p@. @feed@ is its feed in the program, 'Part.Rapid' where the compiler sets the
--- feed; @end@ is the position at its end in pulses.
+-- | Adds the frame @p@. @feed@ is its feed in the program. It is 'Part.Rapid' for a rapid move, for
+-- commands, and where the compiler sets the feed. @end@ is the position at the end of the frame in
+-- pulses.
 addFrame :: Context -> Pace -> Pulses3 -> PlannedFrame -> Making -> Making
 addFrame Context {frameContext} feed end p@(PlannedFrame _ _ asked _) made =
   made
@@ -418,8 +420,8 @@ partSteps context@Context {machine} bounds m begin part = case part of
     level = fst (heights m)
     lastOr p ps = fromMaybe p (listToMaybe (reverse ps))
 
--- | Steps along one segment, as arcs or as chords, from a position in pulses. The move @m@ gives
--- the height.
+-- | Steps along one segment, as arcs or as chords, from a position in pulses. @tolerance@ is the
+-- allowed error of arcs, @chordError@ that of chords. The move @m@ gives the height.
 segmentSteps ::
   Context -> ArcTolerance -> ChordTolerance -> Move -> Pulses3 -> Segment -> [ArcStep]
 segmentSteps Context {machine, grid} tolerance chordError m =
@@ -436,8 +438,8 @@ segmentSteps Context {machine, grid} tolerance chordError m =
     )
     (fst (heights m))
 
--- | Ends of the chords of a run in mm, with their heights. Tolerances below the rounding error are
--- raised.
+-- | Ends of the chords of a run in mm, with their heights. A tolerance that rounding would make
+-- pointless is raised first, see 'ChordError.raisedToRounding'.
 chordEndsOf :: Machine -> ChordTolerance -> NonEmpty Move -> [PathPosition]
 chordEndsOf machine tolerance =
   ChordError.ends

@@ -62,7 +62,8 @@ instructions machine path =
   where
     blocks = Toolpath.blocks path
 
--- | Instructions for the block @b@; @n@ is the number of its pass, from 0.
+-- | Instructions for the block @b@, which has the moves of one statement or of one of its passes.
+-- The number of its pass is @n@, from 0.
 ofBlock :: Machine -> Int -> Block -> [Instruction]
 ofBlock machine n b = case b of
   Toolpath.Travelling radius ms -> straightRuns Linking radius ms

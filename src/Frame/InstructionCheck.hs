@@ -1,6 +1,7 @@
 -- | Checks of instructions before their frames are made: feeds without a code, points out of reach,
 -- too many frames, moves in z that the machine may not have. Instructions are checked one by one,
--- in order.
+-- in order. An instruction is a run or the words of a command. A run is a sequence of moves along
+-- one line, arc or curve.
 module Frame.InstructionCheck
   ( InstructionContext,
     contextOf,
@@ -67,7 +68,7 @@ contextOf machine startRegion start =
 
 -- | Findings in the instructions that are checked so far; the lists have the latest first.
 data InstructionFindings = InstructionFindings
-  { -- | feed of the run that was checked last
+  { -- | feed for which a code was looked up last; a run with the same feed needs no new look-up
     lastPace :: Pace,
     -- | errors about feeds along the path that no code gives
     withoutCode :: [Error],
@@ -112,7 +113,7 @@ heightWarnings :: InstructionFindings -> [Warning]
 heightWarnings = maybeToList . uncertainHeight
 
 -- | Adds the findings in the next instruction. @chordEnds@ are the ends of the chords of its run;
--- they are evaluated only along a curve on a machine without arcs.
+-- they are evaluated only for a curve that cannot become arcs.
 check ::
   InstructionContext ->
   Instruction ->
@@ -164,9 +165,9 @@ checkHeights context moves before
       }
   | otherwise = before
 
--- | Adds the error of the first move of the run @moves@ that is not within reach; its point is a
--- corner of the move's bounding box. If the start of the toolpath is out of reach and the first
--- move is not, the error of the start is added.
+-- | Adds the error of the first move of the run @moves@ that is not within reach. The point in the
+-- error is a corner of the move's bounding box. If the start of the toolpath is out of reach, but
+-- the first move of the run is within reach, the error of the start is added.
 checkReach :: InstructionContext -> NonEmpty Move -> InstructionFindings -> InstructionFindings
 checkReach context moves before
   | null (startError context) && all (isSurelyInReach . segment) moves = before
@@ -203,7 +204,7 @@ reachError region p =
   if isInReach 0 p then Nothing else Just (OutOfReach region p Tolerance.reach)
 
 -- | Adds the number of frames of the run @moves@, without making them. On a machine with arcs a
--- level run, which stays at one height, counts as one frame. So there the number is a lower bound.
+-- level run, which stays at one height, counts as one frame, although it may need more.
 counted ::
   InstructionContext ->
   ChordTolerance ->

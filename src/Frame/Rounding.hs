@@ -44,7 +44,7 @@ heightAt t m
   | otherwise = plus (fst (heights m)) (times t (minus (snd (heights m)) (fst (heights m))))
 
 -- | True for moves that all stay at one height when heights are rounded to whole pulses. Only such
--- a run can have arcs.
+-- moves can become frames with arcs.
 isLevel :: Machine -> NonEmpty Move -> Bool
 isLevel machine ms =
   isFlat ms || all (\m -> isSameLevel (fst (heights m)) && isSameLevel (snd (heights m))) ms
@@ -52,8 +52,8 @@ isLevel machine ms =
     isSameLevel z = level z == level (fst (heights (NonEmpty.head ms)))
     level z = component Z (rounded machine (Vec.point 0 0, z))
 
--- | True for moves that all stay at one height exactly. Most runs do, so 'isLevel' tries this quick
--- test first.
+-- | True for moves that all stay at one height exactly. This holds for most moves, so 'isLevel'
+-- tries this quick test first.
 isFlat :: NonEmpty Move -> Bool
 isFlat (m :| more) = case heights m of
   (Mm first, Mm final) -> first == final && go first more
@@ -74,7 +74,7 @@ split machine begin ((a, za), (b, zb)) = case Machine.measure (Machine.layout ma
   where
     finish = rounded machine (b, zb)
     fewest = maximum (1 : [partCount axis d | (axis, d) <- axes (finish - begin)])
-    -- An axis without a field has the capacity 0. "Frame.FrameCheck" reports it.
+    -- An axis without a field has the capacity 0; "Frame.FrameCheck" reports a move along it.
     partCount axis (Pulses d) =
       let Pulses c = Machine.capacity machine axis
        in if d == 0 || c == 0 then 1 else (abs d + c - 1) `div` c
@@ -95,8 +95,9 @@ split machine begin ((a, za), (b, zb)) = case Machine.measure (Machine.layout ma
       x : _ -> x
       [] -> [finish]
 
--- | Number of larger part counts that 'split' tries after the smallest one. Rounding makes a part
--- at most one pulse longer, so this is always enough for a field of two digits or more.
+-- | If the fewest parts do not fit their fields, 'split' tries one part more, then two, and so on
+-- up to this number. Rounding makes a part at most one pulse too long. In a field of two digits or
+-- more, shorter parts leave room for this pulse before the last try.
 spareParts :: Int
 spareParts = 1000
 

@@ -84,9 +84,9 @@ senseSign t = case t of
 senseOf :: Rad -> Sense
 senseOf (Rad sweep) = if sweep > 0 then CounterClockwise else Clockwise
 
--- | The sweep of an arc in a given sense. @short@ is the angle between the directions from the
--- centre to its start and to its end, in [−π, π]. The sweep is that angle, or differs from it by a
--- full turn. It lies in [0, 2π) counter-clockwise and in (−2π, 0] clockwise.
+-- | The sweep of an arc in a given sense. @short@ is the angle, in [−π, π], from the radius at the
+-- arc's start to the radius at its end. The sweep is that angle, or differs from it by a full turn.
+-- It lies in [0, 2π) counter-clockwise and in (−2π, 0] clockwise.
 sweepInSense :: Sense -> Rad -> Rad
 sweepInSense t (Rad short) = Rad $ case t of
   CounterClockwise | short < 0 -> short + 2 * pi

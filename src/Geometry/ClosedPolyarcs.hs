@@ -181,9 +181,9 @@ writeVertex out !k !x !y !b !source = do
   writePrimArray (segmentSources out) k (fromIntegral source)
 {-# INLINE writeVertex #-}
 
--- | Write the normalised segments of a polyarc from vertex @k@ on, and return the next free vertex.
--- The polyarc's first segment has the index @source@ in 'sources'. @tolerance@, in mm, is that of
--- 'fromFlatPolyarcs'.
+-- | Write the normalised segments of a polyarc from vertex @k@ on, and return the index of the next
+-- free vertex. The entry of the polyarc's first segment in 'sources' is @source@. Segments whose
+-- chord and sagitta are at most @tolerance@, in mm, are omitted.
 writeSegments :: Double -> Arrays s -> Int -> Int -> FlatPolyarc -> ST s Int
 writeSegments tolerance out k source polyarc@(FlatPolyarc _ px py pb)
   | sizeofPrimArray px == 0 = pure k
@@ -207,7 +207,8 @@ copySegments out !k !source (FlatPolyarc _ px py pb) = do
         writePrimArray (segmentSources out) (k + i) (fromIntegral (source + i)) >> number (i + 1)
 
 -- | 'writeSegments' for a polyarc with tiny segments, flat arcs, or arcs that sweep more than a
--- half circle. Each segment starts at the end of the last segment that was not omitted.
+-- half circle. The first vertex has the index @start@. Each segment starts at the end of the last
+-- segment that was not omitted.
 normaliseSegments :: Double -> Arrays s -> Int -> Int -> FlatPolyarc -> ST s Int
 normaliseSegments !tolerance out start !source (FlatPolyarc _ px py pb) =
   go 0 start (indexPrimArray px 0) (indexPrimArray py 0)
@@ -244,8 +245,8 @@ normaliseSegments !tolerance out start !source (FlatPolyarc _ px py pb) =
         !sagitta2 = b * b * c2 / 4
 
 -- | Finish the loop with the index @loop@, whose segments start at the vertices from @k@ to
--- @end − 1@. Repeat its first vertex at @end@, with the index @source@ in 'sources', and set the
--- marks.
+-- @end − 1@. Repeat its first vertex at the index @end@, with the entry @source@ in 'sources'. Mark
+-- the first segment, the last segment and the repeated vertex.
 closeLoop :: Arrays s -> Int -> Int -> Int -> Int -> ST s ()
 closeLoop out loop k end source = do
   x <- readPrimArray (vertexXs out) k

@@ -1,5 +1,4 @@
--- | Planar curves given by point tables, span shapes or segments, and their shifts, without
--- sampling.
+-- | Planar curves given by point tables, span shapes or segments, and the shifts of such curves.
 --
 -- A span is a part of a curve on which one formula gives the points: an arc, or a cubic in x and
 -- one in y. A curve maps a parameter, from 0 to the count of its spans, to a point. The rows of a
@@ -8,8 +7,8 @@
 -- A shift adds a layer: it moves every point of the curve below along its normal, by a distance
 -- that is a function of the parameter. Points, directions and curvatures are computed by power
 -- series through all layers, so rounding is the only error. A shift of a curve with a corner leaves
--- a gap or an overlap at the corner. This module does not close it; the caller inserts a link
--- there.
+-- a gap or an overlap at the corner. This module does not close it; "Part.Piece" refuses such a
+-- shift.
 --
 -- This module is the interface of the folder "Geometry.Curve". It does not export the fields of
 -- 'BasisCurve', 'Knot', 'Column' and 'Cusp'; these are read through the modules of the types.
@@ -205,8 +204,9 @@ toSegments curve = case curve of
   Unshifted b -> BasisCurve.asSegments b
   Shifted {} -> Nothing
 
--- | Cubic spans in x and in y within a tolerance of the curve, preceded by a bound of their error.
--- Nothing if such spans are not found; see 'CubicSpans.along'.
+-- | Bound of the error in mm, then cubic spans in x and in y that are within a tolerance of the
+-- curve. Nothing for an unshifted curve with arcs, and for a shifted curve if no such spans are
+-- found.
 cubics :: Mm -> Curve -> Maybe (Mm, Cubics, Cubics)
 cubics = CubicSpans.along
 
@@ -233,7 +233,7 @@ tangent = PointSearch.unitTangent After
 tangentFrom :: Approach -> Curve -> Double -> Vec
 tangentFrom = PointSearch.unitTangentAcrossSeam
 
--- | Left normal, of length 1, at the parameter @u@.
+-- | Normal, of length 1, to the left of the direction of travel at the parameter @u@.
 normal :: Curve -> Double -> Vec
 normal curve u = Vec.left (tangent curve u)
 

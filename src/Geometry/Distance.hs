@@ -66,7 +66,8 @@ data ClosestPoint = ClosestPoint {distance :: Mm, nearestPoint :: Point}
 
 -- | The least distance between the segments @a@ and @b@, with the point of @a@ at which it occurs.
 -- This point is an end of @a@, the point nearest to an end of @b@, an intersection, or the foot of
--- a common normal of both. A common normal passes through the centre of an arc.
+-- a common normal of both. A common normal of an arc and another segment passes through the arc's
+-- centre.
 segments :: Segment -> Segment -> ClosestPoint
 segments a b = minimumBy (comparing distance) (map fromA onA <> map fromB onB)
   where
@@ -104,8 +105,8 @@ common a b = case Intersection.carriers <$> Segment.carrier a <*> Segment.carrie
 
 -- | The parts of @segment@ that are further than @reach@ from every one of the segments @others@.
 -- Each part is given by the fractions of the segment's length, from 0 to 1, at which it starts and
--- ends. The fractions are exact: they are computed from the intersections of @segment@ with the
--- boundary of the region within @reach@ of each other segment.
+-- ends. The fractions are exact: each is computed from an intersection of @segment@ with the
+-- boundary of the region within @reach@ of one of @others@.
 uncovered :: Mm -> [Segment] -> Segment -> [(Double, Double)]
 uncovered reach others segment = gaps 0 (sort (concatMap covered others))
   where

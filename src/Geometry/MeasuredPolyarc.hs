@@ -117,8 +117,8 @@ isClosed :: MeasuredPolyarc -> Bool
 isClosed p = Vec.isNear (start p) (end p)
 
 -- | The index, from 0, of the segment that contains the station @s@; and the fraction of this
--- segment's length, from 0 to 1, at which the station lies. A station outside of the polyarc gives
--- the nearer end.
+-- segment's length, from 0 to 1, at which the station lies. A station outside of the polyarc counts
+-- as the nearer end.
 locate :: MeasuredPolyarc -> Mm -> (Int, Double)
 locate p (Mm s) = (i, if l <= 0 then 0 else max 0 (min 1 ((s - table p Unboxed.! i) / l)))
   where
@@ -130,7 +130,7 @@ at :: MeasuredPolyarc -> Mm -> Point
 at p s = let (i, t) = locate p s in Segment.at t (chain p Vector.! i)
 
 -- | The direction of travel at the station @s@, of length 1. A station outside of the polyarc gives
--- the nearer end.
+-- the direction at the nearer end.
 directionAt :: MeasuredPolyarc -> Mm -> Vec
 directionAt p s = let (i, t) = locate p s in Segment.directionAt t (chain p Vector.! i)
 
@@ -145,8 +145,8 @@ nearestStation p q = Mm (table p Unboxed.! best + Distance.nearestFraction q seg
     Mm l = Segment.length segment
 
 -- | The segments from the station @a@ to the later station @b@; the first and the last are cut at
--- these stations. A part no longer than 'Tolerance.coincident' is omitted, unless it is the only
--- one.
+-- these stations. Segments no longer than 'Tolerance.coincident' are omitted. When both stations
+-- lie on one segment, the part between them is omitted only if its length is 0.
 segmentsBetween :: MeasuredPolyarc -> Mm -> Mm -> [Segment]
 segmentsBetween p a b =
   [ part i
@@ -167,9 +167,10 @@ segmentsBetween p a b =
 -- | The intersections of the polyarcs @a@ and @b@, in order along @a@.
 --
 -- A polyarc that represents a curve deviates from it by up to 'Tolerance.curve'. Two polyarcs that
--- do not cross therefore count as touching when they come within twice that tolerance. Two
--- neighbouring crossings less than 0.5 mm apart count as one if the polyarcs are within twice that
--- tolerance in the middle between them.
+-- do not cross therefore count as touching when they come within twice that tolerance; the result
+-- is then the point of @a@ nearest to @b@. Two successive crossings less than 0.5 mm apart may
+-- belong to one touch. They are replaced by the point of @a@ midway between them if this point is
+-- within twice that tolerance of @b@.
 intersections :: NonEmpty Segment -> NonEmpty Segment -> [Point]
 intersections a b = case mergeTouching (crossings a b) of
   [] | closest <- nearest a b, distance closest <= slack -> [nearestPoint closest]

@@ -1,9 +1,11 @@
 -- | The self-intersections of a polyarc of the part: a report for the user names the first one.
 --
--- The bounding-box tree of the offset kernel finds the pairs of segments that may meet. Pairs of
--- neighbours are added, and 'Distance.intersections' decides. Raw offsets also intersect
--- themselves, but that is no mistake of the user: "Offset.SelfIntersection" finds those
--- intersections.
+-- Neighbours are two consecutive segments, which join at a common end, their joint. For segments
+-- that are not neighbours, the bounding-box tree of the offset kernel finds the pairs that may
+-- meet. 'Distance.intersections' finds the points at which the segments of a pair do meet.
+--
+-- Offsets intersect themselves before they are trimmed, but that is no mistake of the user:
+-- "Offset.SelfIntersection" finds those intersections.
 module Geometry.SelfIntersection
   ( firstSelfIntersection,
     firstSelfIntersectionBy,
@@ -34,9 +36,9 @@ import Geometry.Vec (Point)
 import Geometry.Vec qualified as Vec
 
 -- | The first self-intersection of a polyarc; nothing if it has none. The result has the indices,
--- from 0, of two segments that cross or touch elsewhere than at a common joint. The point at which
--- they do comes third. Of all such pairs, the result has the least first index, and with it the
--- least second index.
+-- from 0, of two segments that cross or touch elsewhere than at a common joint, and then the point
+-- at which they do. If there are several such pairs, it is the one with the least first index, and
+-- among equal first indices the one with the least second index.
 firstSelfIntersection :: Polyarc -> Maybe (Int, Int, Point)
 firstSelfIntersection (Polyarc ends ss) = firstSelfIntersectionBy id ends ss
 
@@ -66,8 +68,8 @@ count = Vector.length . segments
 isClosingPair :: Chain -> Int -> Int -> Bool
 isClosingPair chain i j = ends chain == Closed && i == 0 && j == count chain - 1
 
--- | The indices of neighbouring segments that may meet elsewhere than at their joint. Most pairs
--- that surely do not are omitted, since 'crossingsOf' takes longer than this test.
+-- | The indices of neighbouring segments that may meet elsewhere than at their joint. A quick test
+-- excludes most pairs that meet only there, so that the slower 'crossingsOf' need not examine them.
 neighbours :: Chain -> [(Int, Int)]
 neighbours chain = go 0
   where
@@ -78,8 +80,8 @@ neighbours chain = go 0
          in if meetOnce then go (i + 1) else (i, i + 1) : go (i + 1)
       | otherwise = [(0, count chain - 1) | ends chain == Closed, count chain > 2]
 
--- | The points at which the segments @i@ and @j@ meet, other than their common joints; @i@ is less
--- than @j@.
+-- | The points at which the segments with the indices @i@ and @j@ meet, other than their common
+-- joints; @i@ is less than @j@.
 crossingsOf :: Chain -> Int -> Int -> [Point]
 crossingsOf chain i j
   | closes && goesStraightOn other s = []

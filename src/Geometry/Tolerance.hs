@@ -51,8 +51,8 @@ coincident = Mm 1e-6
 equal :: Double
 equal = 1e-9
 
--- | The largest coordinate or radius: 1 km. A larger one is taken for a mistake of the user; it
--- would also be too large for the other tolerances.
+-- | The largest coordinate or radius: 1 km. A larger one is taken for a mistake of the user; its
+-- rounding errors would also be too large for the other tolerances.
 reach :: Mm
 reach = Mm 1e6
 

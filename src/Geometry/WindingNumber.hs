@@ -29,7 +29,7 @@ about p segments = round (angles / (2 * pi)) + corrections
        in angle' `seq` (angle', count + correction s) :: (Double, Int)
     subtended s = case s of
       _ | Vec.norm (from s) == 0 || Vec.norm (to s) == 0 -> 0
-      -- The chord of an arc subtends a half turn at a point on it, in the sense of the arc.
+      -- If the point lies on an arc's chord, the chord subtends a half turn in the arc's sense.
       Arc {sweep = Rad w} | side s == 0 && Vec.dot (from s) (to s) < 0 -> signum w * pi
       _ -> let Rad t = Vec.signedAngle (from s) (to s) in t
     correction s = case s of

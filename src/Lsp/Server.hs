@@ -41,9 +41,9 @@ data Host = Host
     input :: Handle,
     -- | the stream of messages to the client, which nothing else may use
     output :: Handle,
-    -- | Loads a program with its imports. The arguments: the text of a file that is open in the
-    -- editor, by its path; the path of the program; the text of the program. An open text takes
-    -- precedence over its file on the disk.
+    -- | Loads a program with its imports. The first argument maps the path of a file to its text
+    -- if the file is open in the editor; this text takes precedence over the file on the disk. The
+    -- other arguments are the path and the text of the program.
     load :: (Text -> Maybe Text) -> Text -> Text -> IO LoadedProgram,
     -- | finds the mistakes of a loaded program
     check :: Check
@@ -84,8 +84,8 @@ continue host received outcome = case outcome of
   Left ending -> pure ending
   Right session -> loop host received session
 
--- | Receives bytes from the client; nothing at the end of the input. At least @missing@ bytes are
--- needed to complete a message. If this count exceeds 64 KiB, @missing@ bytes are read in one call.
+-- | Receives bytes from the client; nothing at the end of the input. It takes what has arrived, at
+-- most 64 KiB. If the message lacks more, it waits for all @missing@ bytes of the message instead.
 receive :: Host -> Int -> IO (Maybe ByteString)
 receive host missing = do
   bytes <-

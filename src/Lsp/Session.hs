@@ -273,8 +273,8 @@ opened now session document = (filesChanged now (put path fresh session), [])
     path = Uri.toPath (Document.uri document)
     fresh = Open {document, present = Nothing, sound = Nothing, due = Just now}
 
--- | Edits a document. Its diagnostics become due after the delay of 'afterDelay'. The tuple: the
--- address, the version after the edits, the edits.
+-- | Edits a document. Its diagnostics become due 200 ms later (see 'afterDelay'). The tuple has the
+-- address of the document, its version after the edits, and the edits.
 changed :: Milliseconds -> Session -> (Uri, Maybe Int, [Edit]) -> (Session, [Effect])
 changed now session (uri, version, edits) = case Map.lookup path (documents session) of
   Nothing -> (session, [])

@@ -28,7 +28,7 @@ import Machine.Section
 import Machine.Syntax
 
 -- | Reads the section @code@. @trackCount@ is the number of tracks. It is 'Nothing' if the number
--- cannot be read, and then a pattern of holes may have 1 to 8 digits.
+-- cannot be read, and then the pattern of a symbol may have 1 to 8 digits.
 code :: Maybe Int -> Statement -> Result w Error TapeCode
 code trackCount s = do
   (name, section) <- withBlock ["code \"NAME\" { … }"] "the code" codeNameFrom s

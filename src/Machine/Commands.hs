@@ -43,8 +43,8 @@ data CommandValue
     -- spindle speed in revolutions per minute.
     Argument
   | -- | The number of a step of the spindle: the table gives the speed of each step in revolutions
-    -- per minute. The step nearest to the program's speed is taken; of two equally near, the lower
-    -- number.
+    -- per minute. The step nearest to the program's speed is taken. If two steps are equally near,
+    -- the one with the lower number is taken.
     Step (Map Int Double)
   | -- | diameter of the cutter, in mm
     Diameter

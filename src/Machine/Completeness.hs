@@ -38,8 +38,8 @@ check machine locatedAxes arcsRegion feedsRegion locatedItems =
     locatedWords = [(r, w) | (r, AWord w) <- locatedItems]
 
 -- | Reports the mistakes in one word. The word of an axis or centre needs an axis that the machine
--- has, and a sign; its last decimal, if there is one, has to be one pulse. No centre is along z.
--- The codes of a motion word differ, and fit its digits.
+-- has, and a sign. If it has decimals, one unit of the last decimal has to be one pulse. No centre
+-- is along z. The codes of a motion word differ, and fit its digits.
 wordFaults :: Machine -> (Region, Word') -> [Error]
 wordFaults machine (r, w) = case content w of
   Along a -> axisFaults a

@@ -94,8 +94,9 @@ data DecodingFault
     SameAddress Text Region
   | -- | address or separator that begins like a number
     LikeNumber Text
-  | -- | two items that may come at the same position, where the symbols of one are a prefix of the
-    -- symbols of the other: the prefix, the longer symbols, the region of the item with the prefix
+  | -- | item whose symbols begin with those of another item that may come at the same position. The
+    -- arguments are the shorter symbols, the longer ones, and the region of the item with the
+    -- shorter ones
     Prefix Text Text Region
   | -- | number without fixed length before an item that may begin with a digit
     NumberRunsOn Region

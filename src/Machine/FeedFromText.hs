@@ -31,9 +31,9 @@ import Machine.Machine
 import Machine.Section
 import Machine.Syntax
 
--- | Reads the lines of a table that gives each code a value, a feed or a spindle speed. Examples of
--- lines are @1 = 15@ and @0..40 = 10 * 10^(n/20)@. Each line gives the values of a code or of a
--- range of codes, as a formula in the code @n@. A value must be above 0 and below 10^9.
+-- | Reads the lines of a table of codes with their values, which are feeds or spindle speeds.
+-- Examples of lines are @1 = 15@ and @0..40 = 10 * 10^(n/20)@. Each line gives the values of a code
+-- or of a range of codes, as a formula in the code @n@. A value must be above 0 and below 10^9.
 table :: DescriptionSection -> Result w Error (Map Int Double)
 table section = do
   given <- concat . catMaybes <$> traverse (attempt . tableLine) (entries section)

@@ -18,7 +18,7 @@ where
 import Base.Quantity (Feed (..))
 import Data.Map.Strict (Map)
 
--- | Number in the feed word of a frame, which means a feed.
+-- | Number in the feed word of a frame. It means a feed.
 newtype FeedCode = FeedCode Int
   deriving newtype (Eq, Ord)
   deriving stock (Show)
@@ -48,7 +48,7 @@ data FeedCodes
     Direct Int Int
   deriving stock (Eq, Show)
 
--- | Choice of the code for a feed between the values of two codes.
+-- | Rule that chooses the code for a feed that lies between the values of two codes.
 data Rule
   = -- | the code of the largest value that does not exceed the feed
     NotAbove
@@ -75,7 +75,7 @@ data FeedChoice
 
 -- Braking -----------------------------------------------------------------------------------------
 
--- | Slowing down from one feed to a lower one.
+-- | Deceleration of a machine, and the means by which the machine slows down to a lower feed.
 data Braking = Braking
   { -- | deceleration in mm/s²
     deceleration :: Double,
@@ -83,7 +83,7 @@ data Braking = Braking
   }
   deriving stock (Eq, Show)
 
--- | Who slows the machine down: the control, or the program on the tape.
+-- | Means by which the machine slows down: the control, or the program on the tape.
 data BrakingForm
   = -- | The control slows down by itself.
     ByControl

@@ -1,5 +1,6 @@
 -- | Reads the section @frame@ of a description: the layout of a frame. A hole of a word is a hole
--- in the service track of the tape beside one of the word's digits.
+-- in the service track of the tape beside one of the word's digits. In this module @hasService@ is
+-- true if the code has a service track. It is 'Nothing' if the code cannot be read.
 module Machine.FrameFromText
   ( LocatedLayout (..),
     frame,
@@ -41,8 +42,8 @@ data LocatedLayout = LocatedLayout
     separatorRegion :: Region
   }
 
--- | Reads the section @frame@. @hasService@ is true if the code has a service track. It is
--- 'Nothing' if the code cannot be read, and then every hole beside a digit is accepted.
+-- | Reads the section @frame@. If the code cannot be read (@hasService@ is 'Nothing'), a word may
+-- have holes beside its digits.
 frame :: Maybe Bool -> Statement -> Result w Error LocatedLayout
 frame hasService s = do
   ((), section) <- withBlock ["frame { … }"] "the frame" noArguments s
@@ -66,7 +67,7 @@ frame hasService s = do
     measureFrom = choice [("increments", Increments), ("positions", Positions)]
     separatorFrom e = (extent e,) <$> quotedText e
 
--- | Reads all items of a frame, in their order. @hasService@ is that of 'frame'.
+-- | Reads all items of a frame, in their order: words, literal symbols and check digits.
 itemsFrom :: Maybe Bool -> DescriptionSection -> Result w Error [(Region, LayoutItem)]
 itemsFrom hasService section = concat <$> traverse item (entries section)
   where
@@ -90,8 +91,7 @@ quotedText e = withArguments [keyText e <> " \"…\""] text e
       [Located _ (Quoted t)] -> Just (pure t)
       _ -> Nothing
 
--- | Reads a word of a frame: its address, its content and its form. @hasService@ is that of
--- 'frame'.
+-- | Reads a word of a frame: its address, its content and its form.
 word :: Maybe Bool -> Statement -> Result w Error Word'
 word hasService e = do
   ((address', found), section) <- withBlock forms "this word" heading e
@@ -138,8 +138,8 @@ motionCodes section =
       [a] -> wholeIn "the number of a motion" 0 999999999 a
       _ -> Nothing
 
--- | Reads the block of the word with the address @address'@ and the content @content'@.
--- @hasService@ is that of 'frame'; @e@ is the line of the word.
+-- | Reads the block of the word with the address @address'@ and the content @content'@. @e@ is the
+-- line of the word.
 wordFrom :: Maybe Bool -> Statement -> Text -> Content -> DescriptionSection -> Result w Error Word'
 wordFrom hasService e address' content' section = do
   (exactly, n) <- required "digits" "digits 4" digitsFrom section
@@ -231,8 +231,8 @@ holesFrom args = if null args then Nothing else pure <$> traverse (hole . value)
       Dash -> Just NoHole
       _ -> Nothing
 
--- | Lists the mistakes in the holes beside the digits of a word with the form @f@. @hasService@ is
--- that of 'frame'; @isGiven@ is true if the description of the word gives holes.
+-- | Lists the mistakes in the holes beside the digits of a word with the form @f@. @isGiven@ is
+-- true if the description of the word gives holes.
 holeFaults :: Maybe Bool -> Region -> Bool -> NumberForm -> [Error]
 holeFaults hasService r isGiven f
   | not isGiven = []

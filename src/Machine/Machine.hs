@@ -255,9 +255,9 @@ commandDecimals :: Machine -> CommandName -> Int
 commandDecimals machine command =
   maximum (0 : [decimals (form w) | w <- wordsOf machine, content w == Command command])
 
--- | True if a frame can give a command with the number @v@. The number 0 needs a word that only the
--- frames with the command contain. In a word or in bits of all frames, 0 means that there is no
--- command.
+-- | True if a frame can give a command with the number @v@. The number 0 can be given only by a
+-- word that frames without the command lack. In a word or in bits that all frames contain, 0 means
+-- that there is no command.
 canEncode :: Machine -> CommandName -> Int -> Bool
 canEncode machine command v = case commandCapacity machine command of
   Nothing -> False

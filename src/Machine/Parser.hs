@@ -60,8 +60,9 @@ statementsOf depth ts = case dropWhile ((== LineEnd) . value) ts of
         (more, es', afterAll) = statementsOf depth afterOne
      in (s <> more, es <> es', afterAll)
 
--- | Parses one statement and its block. @depth@ is that of 'statementsOf'. A line without a key
--- gives no statement, but the errors in its block are reported.
+-- | Parses one statement and its block. @depth@ is the number of blocks around the statement. A
+-- line without a key gives no statement, but the errors in its block are reported. The result has
+-- the remaining tokens.
 statement :: Int -> [Token] -> ([Statement], [Error], [Token])
 statement depth ts = case argument ts of
   Left e ->

@@ -48,9 +48,9 @@ unmarked ofMachine sections = case ofMachine of
       | isJust (mark s) || broken s = []
       | otherwise = [extent s | isDescriptive s] <> concatMap unmarkedLines (inner s)
 
--- | True if the line itself describes a value. A line with a block does not, with three exceptions:
--- a word, because the line says that the frame contains the word at this position; the number of a
--- command; and a line with a mark.
+-- | True if the line itself describes a value. A line with a block does not, with three exceptions.
+-- They are a word of the frame, because its line says at which position the frame contains it; the
+-- number of a command; and a line with a mark.
 isDescriptive :: Statement -> Bool
 isDescriptive s =
   isNothing (block s) || keyWord s `elem` [Just "word", Just "set"] || isJust (mark s)

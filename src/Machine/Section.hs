@@ -1,4 +1,6 @@
--- | Access to the statements of a section by their keys, and to the arguments of a statement.
+-- | Access to the statements of a section by their keys, and to the arguments of a statement. A
+-- statement is one line of a description, together with the block in braces that may follow it. The
+-- key is the word, number or text with which the line begins.
 --
 -- A function that reads arguments returns 'Nothing' if they do not have the form that it accepts.
 -- It returns a failed result if they have that form but contain a mistake.

@@ -15,7 +15,7 @@ import Data.Word (Word8)
 data Medium = Medium
   { -- | number of tracks, 1 to 8; bit k−1 of a row is track k
     tracks :: Int,
-    -- | distance between two rows; 'Nothing' for a text file
+    -- | distance between neighbouring rows; 'Nothing' for a text file
     pitch :: Maybe Mm,
     -- | extension of a file's name, without the point
     suffix :: Text,
@@ -40,7 +40,8 @@ data Spare
   = -- | The reader counts the blank rows. Their number must be exactly the one that 'Medium' gives.
     Counted
   | -- | The reader skips blank rows, and the rows in 'skips' wherever they are. The number of blank
-    -- rows must be at least the one that 'Medium' gives.
+    -- rows must be at least the one that 'Medium' gives. If 'skips' contains the blank row, this
+    -- holds for the leader and the trailer only.
     Skipped
   deriving stock (Eq, Show)
 

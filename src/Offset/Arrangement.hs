@@ -4,12 +4,12 @@
 -- edge gets the winding numbers on its left and on its right.
 --
 -- This module handles polyarcs whose segments coincide, touch or intersect at vertices. Points that
--- agree within a tolerance become one node. Segments between the same two nodes with the same
--- sagitta become one edge with a multiplicity. Every edge has two half-edges, one leaving each of
--- its nodes. The half-edges at each node are sorted by angle, and the winding numbers are
--- propagated from edge to edge (de Berg et al., "Computational Geometry", chapter 8). 'arrange'
--- refuses an arrangement whose winding numbers contradict each other at a node: then the half-edges
--- are in the wrong order.
+-- agree within a tolerance become one node. A slice is the part of a segment between two
+-- consecutive nodes. Slices between the same two nodes with the same sagitta become one edge with a
+-- multiplicity. Every edge has two half-edges, one leaving each of its nodes. The half-edges at
+-- each node are sorted by angle, and the winding numbers are propagated from edge to edge (de Berg
+-- et al., "Computational Geometry", chapter 8). 'arrange' refuses an arrangement whose winding
+-- numbers contradict each other at a node: then the half-edges are in the wrong order.
 --
 -- Nodes, edges and segments are given by number from 0. The two half-edges of edge @e@ have the
 -- numbers @2e@ and @2e + 1@. Coordinates are in mm, tolerances too.
@@ -148,7 +148,7 @@ intersections tolerance c boxes = runST $ do
         b = indexPrimArray (ClosedPolyarcs.bulges c) i
 
 -- | The coordinates of the nodes in mm, the node of every vertex, and by segment the nodes of its
--- cuts, in any order. @cuts@ are those of 'intersections'.
+-- cuts, in any order. A cut has the segment's number, and x and y of the point in mm.
 nodesOf ::
   Double ->
   ClosedPolyarcs ->
@@ -189,15 +189,16 @@ nodesOf tolerance c cuts =
         (concat [map (\p -> (number p, k)) ps | (k, ps) <- zip [0 ..] clusters])
     own = clonePrimArray ids 0 n
 
--- | An array of size @n@, filled with pairs of index and value.
+-- | An array of size @n@. Each of the pairs has an index and the value at this index.
 runPrimArray' :: Int -> [(Int, Int)] -> PrimArray Int
 runPrimArray' n filled = runPrimArray $ do
   a <- newPrimArray n
   mapM_ (uncurry (writePrimArray a)) filled
   pure a
 
--- | The slices: the parts of the segments between consecutive nodes. Each slice has the numbers of
--- its first node, its last node and its segment, and its bulge.
+-- | The slices of all segments. Each has the numbers of its first node, its last node and its
+-- segment, and its bulge. @nodeOf@ has the node of every vertex, and @cutNodes@ the nodes at the
+-- cuts of each segment.
 slices ::
   ClosedPolyarcs ->
   Vector (Double, Double) ->
@@ -253,8 +254,8 @@ alongChord c coordinates i node =
      in (x - indexPrimArray (ClosedPolyarcs.xs c) i) * dx
           + (y - indexPrimArray (ClosedPolyarcs.ys c) i) * dy
 
--- | Merges slices between the same nodes with the same sagitta into one edge. The slices are those
--- of 'slices'. When as many slices run forwards as backwards, they cancel and give no edge.
+-- | Merges slices (first node, last node, segment, bulge) between the same nodes with the same
+-- sagitta into one edge. As many slices forwards as backwards cancel and give no edge.
 merged :: Double -> Vector (Double, Double) -> [(Int, Int, Int, Double)] -> [Edge]
 merged tolerance coordinates cut =
   concatMap
@@ -394,7 +395,8 @@ propagated coordinates es ordered =
     outside = outsideNumber coordinates es (componentsOf es ordered)
 
 -- | The winding number, at a node, of all components other than the node's own. @components@ has
--- the component of every node. Apply the first three arguments once, and the result to many nodes.
+-- the component of every node. A tree of the edges is built from the first three arguments; all
+-- nodes to which the result is applied share it.
 outsideNumber :: Vector (Double, Double) -> Vector Edge -> IntMap Int -> Int -> Int
 outsideNumber coordinates es components =
   \k ->
@@ -579,7 +581,7 @@ toLoops made =
   where
     listed f = primArrayFromList (map f (concat made))
 
--- | Consecutive edges of one segment as one vertex of a loop, in the form that 'toLoops' takes.
+-- | One vertex of a loop for consecutive edges of one segment: x, y, bulge, the segment's number.
 loopVertex :: Arrangement -> NonEmpty.NonEmpty Int -> (Double, Double, Double, Int)
 loopVertex a run = (x, y, joined, i)
   where

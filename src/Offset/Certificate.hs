@@ -31,9 +31,9 @@ data Clearance = Clearance
     leastDistance :: Double,
     -- | the largest result of 'distance'
     largestDistance :: Double,
-    -- | distance required from the segment with the given number. It is required only of a point on
-    -- the cutter's side, and only if the point of the segment nearest to it is no end of the
-    -- segment
+    -- | distance required from a segment of the source, by the number of the input segment from
+    -- which it comes ('ClosedPolyarcs.sources'). It is required only of a point on the cutter's
+    -- side, and only if the point of the segment nearest to it is no end of the segment
     distance :: Int -> Double,
     -- | sense of a contour around the cutter: counter-clockwise when the cutter is on the left of
     -- the source

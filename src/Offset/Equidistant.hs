@@ -176,7 +176,8 @@ reachable style side radius contour =
   )
   where
     asked = SourceOffset.fromContour style side radius contour
-    -- With round corners the cutter's centre reaches more positions than with sharp ones.
+    -- The paths are computed with round corners, because the cutter's centre then reaches more
+    -- positions than with sharp ones.
     rolling = asked {style = style {sharp = False}}
     paths = TrimmedOffset.along rolling
     gaps = gapsOf rolling paths
@@ -189,8 +190,9 @@ reachable style side radius contour =
           restMaterial = IntMap.findWithDefault Unbounded k material
         }
 
--- | A path with sharp corners in place of round ones. A corner stays round in two cases: its arc is
--- trimmed, or the cutter on the two lines of the sharp corner would cut another element.
+-- | A path with sharp corners in place of round ones. A corner stays round in four cases: its arc
+-- is trimmed; it turns by more than 120°; its two elements have different distances; the cutter on
+-- the two lines of the sharp corner would cut another element.
 sharpened :: OffsetSource -> TrimmedOffset -> TrimmedOffset
 sharpened source =
   \path -> path {TrimmedOffset.pieces = corner =<< TrimmedOffset.pieces path}
@@ -295,8 +297,9 @@ isSpent source p numbers = not (null numbers) && all standsStill numbers
          in Mm (abs d) <= Tolerance.clearance && Vec.distance p centre <= Tolerance.clearance
       Straight _ _ -> False
 
--- | The largest cutter radius in mm, below the requested one, that the cause with the given number
--- from 0 does not stop. Nothing when it stops even a tiny cutter. The radius is found by bisection.
+-- | The radius in mm of the largest cutter, smaller than the requested one, that a cause does not
+-- stop. The cause is given by its number from 0 in @causes@. Nothing when the cause stops even a
+-- tiny cutter. The radius is found by bisection.
 largestPast :: OffsetSource -> [Cause] -> Int -> Maybe Mm
 largestPast source causes =
   \k -> if IntSet.member k passSmallest then Just (bisect k smallest asked everywhere) else Nothing

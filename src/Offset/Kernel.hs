@@ -119,9 +119,9 @@ rawOffset request contours = fst (rawOf problem chain)
 isOpen :: [FlatPolyarc] -> Bool
 isOpen = any ((== Open) . FlatPolyarc.ends)
 
--- | The number of a segment in the given contours, by its number in the flat arrays. The numbers
--- differ only for an open contour: in the flat arrays it is traversed forwards and then backwards,
--- so each of its segments has two numbers there.
+-- | The number of a segment in the given contours, by the number that 'ClosedPolyarcs.sources' has
+-- for it. The numbers differ only for an open contour. It is traversed forwards and then backwards,
+-- so 'ClosedPolyarcs.sources' has two numbers for each of its segments.
 originalNumber :: [FlatPolyarc] -> Int -> Int
 originalNumber contours
   | isOpen contours = \i -> if i >= count then 2 * count - 1 - i else i
@@ -158,15 +158,16 @@ problemOf request contours = (problem, chain)
     -- At the distance 0 the raw offset is the contours themselves, with their smooth joints marked.
     unmoved c = let (_, marked) = raw c in (marked, marked)
 
--- | The extra distance in mm of segment @i@ of the flat arrays. @original@ is 'originalNumber' of
--- the contours.
+-- | The extra distance in mm of a segment for which 'ClosedPolyarcs.sources' has the number @i@.
+-- @original@ turns this number into the segment's number in the given contours.
 additional :: OffsetRequest -> (Int -> Int) -> Int -> Double
 additional request original i = case extra request of
   Nothing -> 0
   Just f -> let Mm e = f (original i) in e
 
 -- | The raw offset of the contours @c@ in flat arrays, and @c@ itself with its smooth joints
--- marked. @tolerance@ (mm) covers rounding; @original@ is 'originalNumber' of the contours.
+-- marked. @tolerance@ (mm) covers rounding. @original@ turns a number of 'ClosedPolyarcs.sources'
+-- into the segment's number in the given contours.
 rawWith ::
   OffsetRequest ->
   Double ->
@@ -203,24 +204,24 @@ data Problem = Problem
     least :: Double,
     -- | the largest distance that the cutter's centre keeps from any segment
     widest :: Double,
-    -- | the distance that the cutter's centre keeps from a segment, by the segment's number in the
-    -- flat arrays
+    -- | the distance that the cutter's centre keeps from a segment, by the number that
+    -- 'ClosedPolyarcs.sources' has for the segment
     distances :: Int -> Double,
     -- | the raw offset of contours, and the contours with their smooth joints marked
     rawOf :: ClosedPolyarcs -> (ClosedPolyarcs, ClosedPolyarcs)
   }
 
--- | The reachable region beside the contours @c@. @wanted@ is the result of 'wantedNumber'.
--- Computes the raw offset of @c@ first.
+-- | The reachable region beside the contours @c@. @wanted@ is the winding number on the left of
+-- every contour ('wantedNumber'). Computes the raw offset of @c@ first.
 regionOfContours :: Problem -> Int -> ClosedPolyarcs -> Either OffsetFault ReachableRegion
 regionOfContours problem wanted c =
   let raws@(_, source) =
         rawOf problem c
    in regionOf problem wanted raws (SegmentBoxTree.build (rounding problem) source)
 
--- | The reachable region. @wanted@ is the result of 'wantedNumber'. @untrimmed@ is the raw offset,
--- @source@ the contours from which it was made, and @sourceBoxes@ the bounding-box tree of these
--- contours.
+-- | The reachable region. @wanted@ is the winding number on the left of every contour
+-- ('wantedNumber'). @untrimmed@ is the raw offset, @source@ the contours from which it was made,
+-- and @sourceBoxes@ the bounding-box tree of these contours.
 regionOf ::
   Problem ->
   Int ->
@@ -300,8 +301,8 @@ isUnreachable problem c w = ClosedPolyarcs.loopCount c > 1 && isOuter && isSmall
 -- offset: 1 when the outermost contours are counter-clockwise, else 0. Reachable positions on the
 -- left of the loops have this number; reachable positions on their right have one less. The
 -- function fails for contours that intersect or whose senses do not fit their nesting. @tolerance@
--- (mm) covers rounding; @open@ is True when the contour is open; @boxes@ is the bounding-box tree
--- of the contours @source@.
+-- (mm) covers rounding; @sense@ is that of the reachable region's outer boundary; @open@ is True
+-- when the contour is open; @boxes@ is the bounding-box tree of the contours @source@.
 wantedNumber ::
   Double ->
   Sense ->
@@ -346,9 +347,9 @@ wantedNumber tolerance sense open source boxes
           )
             <$> WindingNumber.leftExcess e
 
--- | The winding number on the left of every contour, as in 'wantedNumber', from an arrangement.
--- This serves contours whose segments touch or coincide. @crossed@ makes the fault for the numbers
--- of two segments that intersect. @unbounded@ is the answer when the contours enclose nothing. The
+-- | The winding number on the left of every contour, found by an arrangement: 1 or 0. This serves
+-- contours whose segments touch or coincide. @crossed@ makes the fault for the numbers of two
+-- segments that intersect. @unbounded@ is the answer when the contours enclose nothing. The
 -- tolerance (mm) covers rounding.
 numberByArrangement ::
   (Int -> Int -> OffsetFault) ->

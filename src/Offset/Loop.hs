@@ -1,7 +1,8 @@
 {-# OPTIONS_GHC -O2 #-}
 
 -- | Offset loops in flat arrays: closed loops of lines and arcs. They bound the region that the
--- cutter's centre can reach. Loops, segments and vertices are numbered from 0.
+-- cutter's centre can reach. They are cut out of the raw offset, the contour's segments moved
+-- sideways and joined ("Offset.RawOffset"). Loops, segments and vertices are numbered from 0.
 module Offset.Loop
   ( OffsetLoops (..),
     none,

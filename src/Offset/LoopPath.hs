@@ -268,9 +268,9 @@ isBesideAt r i = contourEnds r == Closed || flatAt r i < (if isAroundAt r i then
   where
     n = sizeofPrimArray (numbers r)
 
--- | The segments of a path along runs. For a closed path, @previous@ is the field 'before' of the
--- circuit; for an open path it is Nothing. Where two segments join, their ends may differ by up to
--- 'Tolerance.coincident'.
+-- | The segments of a path along runs. @previous@ is the origin of the run before the first one,
+-- not counting connecting lines; it is Nothing for an open path. Where two segments join, their
+-- ends may differ by up to 'Tolerance.coincident'.
 path :: OffsetSource -> OffsetSource -> Maybe Origin -> [Run] -> [OffsetSegment]
 path structure source previous runs = case joined structure runs of
   [] -> []
@@ -371,7 +371,8 @@ exactSegment structure source before run after =
 
 -- | The part of an exact segment that a run covers. @structural@ is the whole segment in the offset
 -- that the kernel computed; @exact@ is the same segment in the offset whose coordinates are wanted.
--- @before@ and @after@ are those of 'exactSegment'.
+-- @before@ and @after@ have the lengths to cut off at the joints at its start and its end. Each is
+-- Nothing where the segment joins no neighbour at a smooth or slight corner.
 partOf :: Maybe Cuts -> Run -> Maybe Cuts -> Segment -> Segment -> Segment
 partOf before run after structural exact
   | startsThere && endsThere = whole

@@ -1,7 +1,8 @@
 {-# LANGUAGE BangPatterns #-}
 
 -- | The reasons why a cutter does not fit beside a contour. Elements of the contour are numbered
--- from 0.
+-- from 0. An inner corner turns towards the cutter. It is slight when the cutter comes so near to
+-- its vertex that no material counts as left there.
 --
 -- A concave arc or an inner corner is an obstacle by itself, so it is found without the other
 -- elements. A collision with a distant element is found by the distance between the raw offset
@@ -78,9 +79,10 @@ tooTight source i = case elements source Vector.! i of
       Just old
   _ -> Nothing
 
--- | The corners where an element is too short for the corners at its ends. Each slight corner cuts
--- a length off the offsets that meet there. An element is too short when its offset is no longer
--- than the sum of both lengths.
+-- | A corner for each element that is too short for the slight corners at its ends: one of these
+-- corners. Its point is the end of the element's offset, not the vertex. Each slight corner cuts a
+-- length off the offsets that meet there. An element is too short when its offset is not longer
+-- than the lengths cut off at its start and its end together.
 tooShort :: OffsetSource -> [Cause]
 tooShort source = go 0 frontOfFirst (movedElement source 0)
   where
@@ -98,9 +100,10 @@ tooShort source = go 0 frontOfFirst (movedElement source 0)
         corner = InnerCorner a (next source a) (Segment.end s)
         a = if front > 0 && (i > 0 || back <= 0) then (i - 1) `mod` count else i
 
--- | The collision at the point where a cutter on @path@, the offset of all elements, would cut the
--- contour deepest. When the cutter cuts nowhere, the path only intersects itself. Then the result
--- has the start of the path as its point, and the element of the first segment twice.
+-- | The collision of a cutter whose centre moves along @path@, the offset of all elements. It is at
+-- the point where the centre is nearest to an element that the cutter would cut. When the cutter
+-- cuts nowhere, the path only intersects itself. Then the result has the start of the path as its
+-- point, and the element of the first segment twice.
 collision :: OffsetSource -> NonEmpty OffsetSegment -> Cause
 collision source path
   | null found =

@@ -14,7 +14,8 @@
 -- offsetting by computing winding numbers", 2005).
 --
 -- Segments and vertices are given by their numbers in 'ClosedPolyarcs'. Lengths and coordinates are
--- in mm. The marks of a segment are those of 'ClosedPolyarcs'.
+-- in mm. A mark says something about a segment, for example that it starts smoothly;
+-- 'ClosedPolyarcs' has one constant for each mark.
 module Offset.RawOffset
   ( Corners (..),
     raw,
@@ -47,20 +48,21 @@ data Filling s
 data Joint
   = -- | no corner, and both segments have the same distance: they meet
     Smooth
-  | -- | no corner, but different distances: a line square to both joins them
+  | -- | no corner, but different distances: a line square to both segments joins them
     Step
   | -- | an outer corner: an arc or two lines go round the vertex
     Outer
   | -- | an inner corner between two lines, which are cut at their intersection
     Trimmed
-  | -- | any other inner corner: a line joins the end of one segment to the start of the next
+  | -- | any other inner corner: a line joins the end of one segment to the start of the next; if
+    -- any distances differ, two lines do, which meet at the vertex
     Over
   deriving stock (Eq)
 
 -- | The raw offset of the polyarcs @c@, and @c@ itself with its smooth joints marked. The other
 -- arguments are:
 --
--- * @tolerance@: segments of the raw offset that are shorter (mm) are omitted;
+-- * @tolerance@: a length in mm; shorter segments of the raw offset are omitted;
 -- * @smoothness@: two directions are equal when the sine of the angle between them is at most this;
 -- * @corners@: the form of outer corners;
 -- * @uneven@: True when the segments' distances differ;
@@ -153,10 +155,12 @@ closeUp (Filling rx ry rb rm rs) k k' = do
   m' <- readPrimArray rm (k' - 1)
   writePrimArray rm (k' - 1) (m' + ClosedPolyarcs.lastMark)
 
--- | Writes the raw offset of one of the polyarcs @c@. The arguments up to @c@ are those of 'raw'.
--- @marks@ are the marks of the segments of @c@, to which smooth joints are added. The polyarc to be
--- offset has its first vertex at index @a@, and the same vertex again at the end, at index @e@. The
--- raw offset is written from index @k0@ on; the result is the next free index.
+-- | Writes the raw offset of one of the polyarcs @c@. The arguments up to @c@ are the tolerances of
+-- length and of direction, the form of outer corners, True for different distances, and the
+-- distances and arc radii of the segments ('raw'). @marks@ are the marks of the segments of @c@, to
+-- which smooth joints are added. The polyarc to be offset has its first vertex at index @a@, and
+-- the same vertex again at the end, at index @e@. The raw offset is written from index @k0@ on; the
+-- result is the next free index.
 offsetPolyarc ::
   Double ->
   Double ->
@@ -264,8 +268,10 @@ offsetPolyarc
                   markSmooth (i + 1) kind
                   segment i (i + 1) k sx sy ex ey l cut cut' beginMark kind bend $ \k' beginMark' ->
                     go (i + 1) k' sx' sy' ex' ey' l' cut' beginMark' closing
-      -- Writes segment @i@ and its joint to segment @j@. @kind@ and @bend@ are the results of
-      -- 'joint'; @next@ gets the next free index and the mark of a smooth start.
+      -- Writes segment @i@ and its joint to segment @j@. @cut@ and @cut'@ are the lengths cut off
+      -- at the start and the end of segment @i@. @kind@ is the kind of the joint, and @bend@ is
+      -- tan(θ/4) of an outer corner that turns by θ. @next@ gets the next free index, and the mark
+      -- of segment @j@ if it starts smoothly, else 0.
       segment !i !j !k !sx !sy !ex !ey !l !cut !cut' !beginMark kind !bend next = do
         let d = distance i
             b = bulge i

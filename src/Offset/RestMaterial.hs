@@ -4,8 +4,8 @@
 -- leaves out the part of the contour between them. Such a part is called a stretch; no path touches
 -- it. The boundary of the rest material consists of stretches and of edges of the cutter in turn.
 -- An edge of the cutter is an arc of its circumference at a gap. The boundary is followed from gap
--- to gap until it closes. Where two edges of the cutter intersect, the boundary changes from one
--- edge to the other.
+-- to gap until it closes; the sequence of stretches met until then is called a cycle. Where two
+-- edges of the cutter intersect, the boundary changes from one edge to the other.
 module Offset.RestMaterial
   ( RestMaterial (..),
     Touching (..),
@@ -85,8 +85,9 @@ restMaterials side contour paths gaps =
             found <- materials side (Vector.singleton (Bound s k at))
         ]
     isSameElement (Position i _) (Position j _) = i == j
-    -- For the remaining gaps: by gap, the position at which the cutter leaves the contour, and its
-    -- centre. @arrivals@ has the gap by the position at which the cutter touches the contour again.
+    -- The remaining gaps, by number: the position at which the cutter leaves the contour, and the
+    -- position of the cutter's centre. @arrivals@ has the gap by the position at which the cutter
+    -- touches the contour again.
     open = IntMap.fromList [(k, (a, at)) | (k, a, _, at) <- numbered, IntMap.notMember k alone]
     arrivals = Map.fromList [(b, k) | (k, _, b, _) <- numbered, IntMap.notMember k alone]
     nextArrival from = case (Map.lookupGE from arrivals, Polyarc.ends contour) of
@@ -100,7 +101,7 @@ restMaterials side contour paths gaps =
 -- @stretch@ gives the stretch between two positions on the contour. @nextArrival@ gives, for a
 -- position on the contour, the next one at which the cutter touches the contour again after a gap,
 -- and the number of this gap. @open@ has, for each gap, the position at which the cutter leaves the
--- contour, and its centre.
+-- contour, and the position of the cutter's centre.
 cycleFrom ::
   (Position -> Position -> Maybe (NonEmpty Segment)) ->
   (Position -> Maybe (Position, Int)) ->

@@ -66,8 +66,8 @@ meetsOnlyAtJoint tolerance c i j
       (\ux uy -> ClosedPolyarcs.chord c j (\vx vy -> not (foldsBack tolerance ux uy vx vy)))
 {-# INLINE meetsOnlyAtJoint #-}
 
--- | True when the chord (@vx@, @vy@) leads back along the chord (@ux@, @uy@) before it within the
--- tolerance (mm), so that the end of one lies on the other.
+-- | True when the chord (@vx@, @vy@) folds back onto the chord (@ux@, @uy@) that precedes it: the
+-- end of the shorter one lies on the longer one, within the tolerance (mm).
 foldsBack :: Double -> Double -> Double -> Double -> Double -> Bool
 foldsBack tolerance ux uy vx vy =
   ux * vx + uy * vy < 0 && cross * cross <= tolerance * tolerance * (if uu > vv then uu else vv)
@@ -136,7 +136,7 @@ lines' !tolerance !c visitor !i !j =
         !endJ = startJ + den
         !startI = wx * vy - wy * vx
         !endI = startI - den
-        -- If an end is within the tolerance of the other line, its number above is at most this
+        -- If an end is within the tolerance of the other line, its product above is at most this
         -- bound. The bound is a little too large: |x| + |y| is used as the length of a line.
         !nearU = tolerance * (abs ux + abs uy)
         !nearV = tolerance * (abs vx + abs vy)
@@ -281,7 +281,7 @@ lineArc !tolerance !c visitor report !i !j
         !px = lx + s * ux
         !py = ly + s * uy
     {-# INLINE verdict #-}
-    -- The segments touch, or an end lies on the other segment.
+    -- Reports the intersections when the segments may touch, or an end may lie on the other one.
     closely = do
       let endTouches = eitherRests tolerance c i j
           foot = s0 - half / aa
@@ -438,7 +438,7 @@ arcs !tolerance !c visitor report !i !j
     {-# INLINE verdict #-}
     reportAt s = report (lx - s * gy) (ly + s * gx)
     {-# INLINE reportAt #-}
-    -- The segments touch, or an end lies on the other segment.
+    -- Reports the intersections when the segments may touch, or an end may lie on the other one.
     closely = do
       let endTouches = eitherRests tolerance c i j
           footX = lx + half / gg * gy

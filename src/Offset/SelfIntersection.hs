@@ -66,8 +66,8 @@ find !tolerance !c !boxes = runST $ do
         writePrimArray r (4 * k + 2) s
         writePrimArray r (4 * k + 3) t
         g <- readMutVar ss
-        -- The second segment crosses to the left of the first: the winding number on the left of
-        -- the first decreases by one.
+        -- When the second segment crosses to the left of the first, the winding number on the left
+        -- of the first decreases by one, and that on the left of the second increases by one.
         writePrimArray g (2 * k) (fromIntegral (2 * i + (if cross > 0 then 1 else 0)))
         writePrimArray g (2 * k + 1) (fromIntegral (2 * j + (if cross > 0 then 0 else 1)))
         writePrimArray state 0 (k + 1)
@@ -133,8 +133,8 @@ segmentPair c h = (half (2 * h), half (2 * h + 1))
   where
     half k = fromIntegral (indexPrimArray (segments c) k) `quot` 2
 
--- | True when the winding number on the left of its segment decreases by one at occurrence @o@.
--- Otherwise it increases by one.
+-- | True when the winding number on the left of a segment decreases by one at the occurrence @o@ on
+-- this segment. Otherwise it increases by one.
 decreases :: SelfIntersections -> Int -> Bool
 decreases c o = odd (indexPrimArray (segments c) o)
 {-# INLINE decreases #-}

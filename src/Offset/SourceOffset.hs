@@ -256,8 +256,9 @@ beside :: OffsetSource -> Int -> Mm -> Vec.Vec -> Point
 beside source i distance direction =
   Carrier.beside (side source) distance direction (Segment.end (elements source Vector.! i))
 
--- | The points at which the offset's lines at the corner after element @i@ can start or end. They
--- lie square to both elements at both elements' distances; a sharp corner has its tip as well.
+-- | The points at which lines of the offset at the corner after element @i@ can start or end. Four
+-- of them lie square to the end of element @i@ or to the start of the next one, at the distance of
+-- either element. A sharp corner has its tip as well.
 cornerPoints :: OffsetSource -> Int -> [Point]
 cornerPoints source i =
   [beside source i r direction | direction <- [before, after], r <- [r1, r2]]
@@ -269,8 +270,8 @@ cornerPoints source i =
     r2 = distanceAt source (next source i)
 
 -- | The line at the corner after element @i@ that joins the end of this element's offset to the
--- start of the next one's. Nothing when both elements have the same distance, and at corners where
--- the two offsets meet elsewhere.
+-- start of the next one's. Nothing when both elements have the same distance, at 'Slight' and
+-- 'Blocked' corners, and at the end of an open contour.
 cornerStep :: OffsetSource -> Int -> Maybe Segment
 cornerStep source i = case cornerAt source i of
   Smooth -> step

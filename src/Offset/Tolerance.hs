@@ -18,8 +18,9 @@ import Base.Quantity (Mm (..))
 clearance :: Mm
 clearance = Mm 1e-5
 
--- | Slots exactly as wide as the cutter are ignored if the path in all of them is at most this
--- long, in mm. The path goes into a slot and out again, so its length is twice that of the slot.
+-- | The length in mm of a path in slots exactly as wide as the cutter. Up to this length, in all of
+-- them together, the slots are ignored. The path goes into a slot and out again, so it is twice as
+-- long as the slot.
 ignoredSlot :: Mm
 ignoredSlot = Mm 0.01
 

@@ -3,10 +3,12 @@
 -- "Offset.Kernel" finds the parts of an offset that can be reached, and "Offset.LoopPath" makes
 -- segments of its loops. This module makes paths of the segments, and decides whether a path leaves
 -- out a part of the contour. A run is one segment of a loop, or several consecutive ones on one
--- arc; each comes from one element or corner of the contour, its origin.
+-- arc; each comes from one element or corner of the contour, its origin. A stretch is a longest
+-- sequence of consecutive runs on the cutter's side of an open contour.
 --
 -- As in "Offset.LoopPath", @structure@ is the offset that the kernel computed, and @source@ the one
--- whose coordinates are wanted. The radius of @source@ may be a little larger.
+-- whose coordinates are wanted. The radius of @source@ may be a little larger. The flat contour is
+-- the contour with arcs over half a turn divided into two.
 module Offset.TrimmedOffset
   ( TrimmedOffset (..),
     along,
@@ -82,10 +84,9 @@ chained :: TrimmedOffset -> TrimmedOffset
 chained path =
   path {pieces = Polyarc.closeGaps segment (\s p -> p {segment = s}) (ends path) (pieces path)}
 
--- | The stretches of a loop beside an open contour. A stretch is a longest sequence of consecutive
--- runs on the cutter's side of the contour. Each comes with the run before it and the run after it.
--- @first@ is the loop's first run, which does not lie on that side; the second argument has all
--- other runs.
+-- | The stretches of a loop beside an open contour. Each comes with the run before it and the run
+-- after it. @first@ is the loop's first run, which does not lie on the cutter's side of the
+-- contour; the second argument has all other runs.
 stretches :: Run -> [Run] -> [(Run, NonEmpty Run, Run)]
 stretches first = go first
   where

@@ -190,8 +190,8 @@ areDistinct tolerance (Slices c xs begins order) = go 0 1
     n = sizeofPrimArray (ClosedPolyarcs.xs c)
     total = 2 * SelfIntersection.count xs
     at o k = indexPrimArray (SelfIntersection.reals xs) (4 * (fromIntegral o `quot` 2) + k)
-    -- Compares the sorted occurrences at @q − 1@ and @q@. Segment @i@ is not after the segment of
-    -- the first of them.
+    -- Compares the sorted occurrences at @q − 1@ and @q@. The number @i@ is at most that of the
+    -- segment on which the first of them lies.
     go !i !q
       | q >= total = True
       | i < n && fromIntegral (indexPrimArray begins (i + 1)) <= q - 1 = go (i + 1) q
@@ -241,8 +241,10 @@ propagate slices@(Slices _ xs begins order) lefts (w, (leftmost, left, rightmost
         go (if q + 1 == z then a else q + 1) (k + 1 :: Int) v'
 
 -- | Joins slices with the winding number @wanted@ on their left into loops. A slice runs from one
--- occurrence to the next along its polyarc. @lefts@ is the array of 'propagate', in which the
--- slices are then marked as visited. @outermost@ is that of 'uncut'. The result is Nothing when a
+-- occurrence to the next along its polyarc. @lefts@ has the winding number on the left of each
+-- slice, in the order of the sorted occurrences at which the slices begin. In it the slices are
+-- then marked as visited. @outermost@ has for each polyarc its leftmost point, the winding number
+-- on its left there, and perhaps the same for its rightmost point. The result is Nothing when a
 -- kept slice leads to a slice with another winding number.
 joinSlices ::
   Int ->

@@ -6,7 +6,8 @@
 -- counter-clockwise around a point counts 1, one that goes clockwise −1.
 --
 -- Polyarcs, segments and vertices are given by their numbers in 'ClosedPolyarcs'. Coordinates are
--- in mm.
+-- in mm. A run is a group of eight consecutive segments, around which the bounding-box tree has one
+-- box.
 module Offset.WindingNumber
   ( at,
     contribution,
@@ -30,9 +31,9 @@ at :: ClosedPolyarcs -> SegmentBoxTree -> Double -> Double -> Int
 at c boxes px py =
   SegmentBoxTree.around boxes (-1e300) py px py 0 (\total i -> total + contribution c px py i)
 
--- | The contribution of segment @i@ to the winding number around the point (@px@, @py@). It is ±1
--- when the segment's chord crosses the ray from the point to the left, else 0. A point between an
--- arc and its chord adds ±1.
+-- | The contribution of segment @i@ to the winding number around the point (@px@, @py@). It is the
+-- sum of two parts: ±1 when the segment's chord crosses the ray from the point to the left, else 0;
+-- and ±1 when the point lies between an arc and its chord, else 0.
 contribution :: ClosedPolyarcs -> Double -> Double -> Int -> Int
 contribution c px py i = crossed + between
   where
@@ -70,8 +71,8 @@ data Extreme = Extreme
     -- | y of the point in mm
     y :: Double,
     -- | the winding number on the left of the polyarc at the point, less the winding number just
-    -- outside it: 1 or 0. Nothing where the polyarc runs back along itself, so that left and right
-    -- cannot be distinguished
+    -- beyond the point, on its outer side: 1 or 0. Nothing where the polyarc runs back along
+    -- itself, so that left and right cannot be distinguished
     leftExcess :: Maybe Int
   }
 
@@ -79,9 +80,8 @@ data Extreme = Extreme
 data Outward = Leftmost | Rightmost
   deriving stock (Eq)
 
--- | The leftmost or rightmost point of the polyarc with the number @w@. The bounding-box tree has a
--- box for each run of consecutive segments. Runs whose box lies further inside than a known point
--- are skipped.
+-- | The leftmost or rightmost point of the polyarc with the number @w@. Runs whose box lies further
+-- inside than a known point are skipped.
 extreme :: Outward -> ClosedPolyarcs -> SegmentBoxTree -> Int -> Extreme
 extreme outward c boxes w = go start start 0 (1e300 :: Double)
   where
@@ -106,8 +106,8 @@ extreme outward c boxes w = go start start 0 (1e300 :: Double)
                 if isBetween && ex < least1 && t' > endMargin && t' < 1 - endMargin
                   then go (i + 1) i t' ex
                   else go (i + 1) best1 t1 least1
-    -- The fraction of an arc's chord within which its outermost point is replaced by the nearer end
-    -- of the arc.
+    -- The least distance between an arc's outermost point and an end of the arc, as a fraction of
+    -- the chord. Below it the end counts as the outermost point.
     endMargin = Tolerance.negligibleShare
 
 -- | The factor, 1 or −1, by which x is multiplied so that the outermost point has the least
@@ -126,8 +126,8 @@ outermostSide outward lx _ hx _ = case outward of
 {-# INLINE outermostSide #-}
 
 -- | An upper bound of x at the outermost point of polyarc @w@, in mm and multiplied by 'signOf'. It
--- is the x of the outermost vertex of one run of segments, the run whose bounding box reaches
--- furthest out. 'extreme' skips all runs that do not reach this bound.
+-- is the x of the outermost vertex of one run, the run whose bounding box reaches furthest out.
+-- 'extreme' skips all runs that do not reach this bound.
 outermostBound :: Outward -> ClosedPolyarcs -> SegmentBoxTree -> Int -> Double
 outermostBound outward c boxes w =
   foldl'
@@ -149,15 +149,16 @@ outermostBound outward c boxes w =
 
 -- | Passes the outermost point of the circle of arc @i@ to the continuation @k@. Its arguments are:
 -- True when the point lies between the ends of the arc; the position of the point along the arc's
--- chord, as a fraction; x of the point in mm, multiplied by @sign@. This @sign@, as in the
--- functions below, is that of 'signOf'.
+-- chord, as a fraction; x of the point in mm, multiplied by @sign@. In this function and those
+-- below, @sign@ is 1 for the leftmost point, −1 for the rightmost one.
 outermostOfArc :: Double -> ClosedPolyarcs -> Int -> (Bool -> Double -> Double -> r) -> r
 outermostOfArc sign c i k = ClosedPolyarcs.chord c i $ \dx dy ->
   let b = indexPrimArray (ClosedPolyarcs.bulges c) i
       co = 1 - b * b
       si = 2 * b
-      -- x components of the directions at both ends, which change sign where an extreme is between
-      -- them
+      -- The x components of the arc's directions at its start and its end, multiplied by @sign@.
+      -- The first is negative and the second positive when the circle's outermost point lies
+      -- between the ends.
       out = sign * (dx * co + dy * si)
       into = sign * (dx * co - dy * si)
       l = sqrt (dx * dx + dy * dy)
@@ -193,7 +194,8 @@ extremeAt sign c w i t least
     heightOf = ClosedPolyarcs.chord c i (\dx _ -> (1 - b * b) / (4 * b) * dx)
 
 -- | The value of 'leftExcess' at the vertex where segment @i@ of polyarc @w@ starts, which is the
--- outermost point of the polyarc: 1 when the polyarc turns left there, else 0.
+-- outermost point of the polyarc: 1 when the polyarc turns left there, else 0. Nothing when the
+-- polyarc runs back along itself there.
 excessAtVertex :: Double -> ClosedPolyarcs -> Int -> Int -> Maybe Int
 excessAtVertex sign c w i
   | abs cross > 1e-9 * size = Just (if cross > 0 then 1 else 0)

@@ -2,8 +2,8 @@
 -- (rows, grids and circles) and transformations. Constructions are in 'Part.ConstructionBuiltin',
 -- functions of curves in 'Part.CurveBuiltin'.
 --
--- A function of this module that yields a 'Maybe' handles some of the built-in functions. It yields
--- 'Nothing' for all others, and 'apply' then tries the next one.
+-- A function of this module whose result is a 'Maybe' computes one group of the built-in functions.
+-- It yields 'Nothing' for all others, and 'apply' then tries the next group.
 module Part.Builtin
   ( apply,
     binary,
@@ -191,9 +191,9 @@ transformation region builtin arguments = case builtin of
       | k <= 0 = Evaluation.mistake (NotPositive region Parameter.ScalingFactor k)
       | otherwise = pure (Transformation.scaling k p)
 
--- | Transforms the first argument, if it is a value to transform; @make@ then gets the other
--- arguments. Otherwise @make@ gets all arguments and the result is the transformation itself. A
--- first argument that is a number, or the only argument, is not a value to transform.
+-- | The image of the first argument under a transformation, which @make@ makes from the other
+-- arguments. If the first argument is no value to transform, @make@ gets all arguments, and the
+-- result is the transformation itself. A number, or the only argument, is no value to transform.
 transformed :: Region -> [Argument] -> ([Value] -> Eval Transformation) -> Eval Value
 transformed region arguments make = case [v | Plain v <- arguments] of
   Quantity a : rest -> PlacementValue <$> make (Quantity a : rest)

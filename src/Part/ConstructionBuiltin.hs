@@ -1,8 +1,8 @@
 -- | Constructions with points, lines and circles: intersections, perpendicular feet, tangents,
 -- parallels, circles of a given radius, distances and directions.
 --
--- 'apply' tries functions that each know some of the constructions. Each of them yields 'Nothing'
--- for a function or for arguments that it does not know. A figure is a point, a line or a circle.
+-- 'apply' tries four functions in turn. Each of them computes one group of the constructions, and
+-- yields 'Nothing' for all other functions and arguments. A figure is a point, a line or a circle.
 module Part.ConstructionBuiltin
   ( apply,
   )

@@ -33,8 +33,8 @@ data ConstructionFault
     Several Region Sought [Candidate]
   | -- | a choice that excludes every answer: all answers
     NoneFits Region Sought [Candidate]
-  | -- | a choice that still leaves several answers: these answers; or @near@ with two answers that
-    -- are equally near: all answers
+  | -- | a choice that leaves several answers: these answers. For @near@ with two answers that are
+    -- equally near: all answers of the construction
     SeveralFit Region Sought [Candidate]
   | -- | a construction without an answer: the reason
     NoAnswer Region NoAnswer

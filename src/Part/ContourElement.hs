@@ -82,8 +82,9 @@ asWritten w =
       Part.link = snd <$> LinkSolver.link w
     }
 
--- | The elements that one item of a contour's body gives. A repetition gives its elements for every
--- value. An open contour that is used as an element gives several elements, too.
+-- | The elements that one item of a contour's body gives. A repetition gives the elements of its
+-- body once for every value of its list. An open contour that is used as an element gives several
+-- elements, too.
 item :: Environment -> Item -> Eval [LinkSolver.LinkedElement]
 item env (Located _ i) = case i of
   For name list body -> do
@@ -156,10 +157,11 @@ linkedElements at sense v finish link = case (v, sense) of
               }
        in w `seq` pure [w]
 
--- | The elements that an open contour gives when it is used as an element of another contour. Each
--- line, arc or curve of the used contour gives one element. Links at fixed points join these
--- elements to one another. All of them get the finish of the whole element. @link@ leads to the
--- next element of the other contour; it follows the last of these elements.
+-- | The elements that an open contour gives when it is used as an element of another contour: one
+-- for each of its lines, arcs and curves. Links at fixed points, with the region @at@, join these
+-- elements to one another. @link@ joins the last of them to the next element of the other contour.
+-- @finish@ is that of the whole used contour; it applies where an element has no modifiers of its
+-- own.
 elementsOfContour ::
   Region ->
   Finish ->
@@ -200,7 +202,8 @@ elementOfRun finish run@(e :| more) link =
     lengthOf' = Segment.length . Part.segment
 
 -- | Combines the modifiers of an element of a used contour, @own@, with the modifiers @whole@ of
--- the whole used contour. A feed in @own@ has precedence, and so has an allowance other than 0.
+-- the whole used contour. A feed in @own@ has precedence, and so has an allowance other than 0. The
+-- cutter slows down if either of the two asks for it.
 orElse :: Finish -> Finish -> Finish
 orElse own whole =
   Finish

@@ -45,8 +45,8 @@ data ContourFault
     ClosedCurve Region
   | -- | a statement that sets a starting point on an open contour: the name of the contour
     OpenBegins Region Name
-  | -- | a link that cannot join its neighbours, whatever the other links do; the report points at
-    -- the link
+  | -- | a link that cannot join its neighbours, whatever the other links do: the neighbours, and
+    -- the reason. The report points at the link
     NotLinked Neighbours LinkFault
   | -- | an element that is too short for the links at its two ends: the element, the length that is
     -- missing, the regions of these links, and the largest fillet radius that fits. The radius is

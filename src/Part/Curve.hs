@@ -1,9 +1,10 @@
 -- | Tables and curves as values of a program.
 --
--- A curve is exact. It maps a parameter, which rises by 1 over each of its spans, to a point. The
--- segments of a contour are lines and arcs. A contour that contains a curve therefore uses a
--- polyarc of it: a chain of lines and arcs within 'Tolerance.curve' of the curve. This module makes
--- that polyarc, and keeps the columns of the curve's table with the curve.
+-- A curve is exact: it maps a parameter to a point. It consists of spans, each of which has one
+-- formula. The parameter rises by 1 over each span. The segments of a contour are lines and arcs. A
+-- contour that contains a curve therefore uses a polyarc of it: a chain of lines and arcs within
+-- 'Tolerance.curve' of the curve. This module makes that polyarc, and keeps the columns of the
+-- curve's table with the curve.
 module Part.Curve
   ( PartTable (..),
     points,
@@ -74,7 +75,7 @@ data PartCurve = PartCurve
     -- | the columns besides x and y of the table from which the curve was made: the name of each
     -- column, and its value in every row
     tableColumns :: [(Name, Vector Double)],
-    -- | for a curve whose sections were fitted to a table: that fit
+    -- | the fit, if the curve consists of lines, parabolas and arcs fitted to a table
     fitting :: Maybe Fitting,
     -- | lines and arcs within 'Tolerance.curve' of the exact curve
     approximation :: ~MeasuredPolyarc
@@ -96,8 +97,8 @@ curve :: [(Name, Vector Double)] -> Maybe Fitting -> Exact.Curve -> PartCurve
 curve tableColumns fitting exact =
   PartCurve {exact, tableColumns, fitting, approximation = arcsAlong Tolerance.curve exact}
 
--- | A polyarc within @tolerance@ of a curve. If the curve consists of lines and at least one arc,
--- and is not shifted, these segments are the polyarc, with small kinks between them smoothed.
+-- | A polyarc within @tolerance@ of a curve. An unshifted curve of lines and arcs, with at least
+-- one arc, is a polyarc already; only small kinks in it are smoothed.
 -- "Geometry.ArcFitting.CubicFit" makes arcs of a curve for which 'Exact.cubics' finds cubic spans,
 -- such as a spline. For any other curve "Geometry.ArcFitting.ParametricFit" makes the arcs.
 arcsAlong :: Mm -> Exact.Curve -> MeasuredPolyarc
@@ -165,8 +166,8 @@ alongPolyarc c values = (0, angleAt 0) : concat (zipWith sampled stations (drop 
       Exact.columnAt (exact c) column (Exact.parameterAtLength (exact c) (Mm (s * whole / total)))
     Mm whole = Exact.length (exact c)
     Mm total = MeasuredPolyarc.length (approximation c)
-    -- The first steps are at most 0.1 mm, or about an eighth of the mean distance between rows of
-    -- the table if that is larger.
+    -- The steps before bisection are at most 0.1 mm, or about an eighth of the mean distance
+    -- between rows of the table if that is larger.
     sampled a b =
       let count = max 1 (ceiling ((b - a) / stride)) :: Int
           marks = [a + (b - a) * fromIntegral k / fromIntegral count | k <- [0 .. count]]

@@ -1,9 +1,10 @@
 -- | Functions of tables and curves: splines, polylines, parabolas, biarcs and fitted sections;
 -- points, directions, lengths and intersections of curves.
 --
--- 'apply' tries functions that each know some of these functions. Each of them yields 'Nothing' for
--- a function or for arguments that it does not know. The polyarc of a curve is a chain of lines and
--- arcs within 'Tolerance.curve' of it.
+-- 'apply' tries four functions in turn. Each of them computes one group of the built-in functions,
+-- and yields 'Nothing' for all other functions and arguments. The polyarc of a curve is a chain of
+-- lines and arcs within 'Tolerance.curve' of it. A section is one line, parabola or arc between two
+-- rows of a table. A biarc consists of two arcs with a common tangent at their joint.
 module Part.CurveBuiltin
   ( apply,
   )
@@ -221,8 +222,8 @@ noSuchRow :: Region -> PartTable -> Int -> ValueFact
 noSuchRow region table n =
   InCurve (NoSuchRow region (listing region table) n (NumberTable.count (rows table)))
 
--- | Tells a table of the program from a list of points, which 'tableOf' has made a table. The rows
--- of such a list all have the region of the call.
+-- | The source of the rows: a table of the program, or a list of points that 'tableOf' has
+-- converted to a table. All rows of a converted list have the region of the call.
 listing :: Region -> PartTable -> Listing
 listing region table = if rowAt table 1 == Just region then InList else InTable
 
@@ -323,9 +324,9 @@ lengthTo c p = Exact.lengthAt (exact c) (Exact.nearest p (exact c))
 
 -- Intersections
 
--- | The carrier of a line or a circle, or the polyarc of a curve as a carrier, and a function that
--- gives the foot of a point on the exact figure. The foot is the nearest point of the figure;
--- 'Intersection.refine' uses it to move an approximate intersection onto the exact figure.
+-- | The carrier of a line, a circle or a curve, and its foot function. The carrier of a curve is
+-- its polyarc. The foot function yields the point of the exact figure that is nearest to a given
+-- point. 'Intersection.refine' uses it to move an approximate intersection onto the exact figure.
 -- 'Nothing' for a value of another kind.
 exactly :: Value -> Maybe (ElementCarrier, Foot)
 exactly v = case v of

@@ -1,6 +1,6 @@
--- | The phrases that all reports on a part share. They name elements and answers, round limits, and
--- quote the control stops of the Minsk-22 system. A control stop is a numbered halt of that system
--- at a wrong input.
+-- | The phrases that all reports on a part share. They name elements and the answers of
+-- constructions, round limits, and quote the control stops of the Minsk-22 system. A control stop
+-- is a numbered halt of that system at a wrong input.
 module Part.ErrorText
   ( at,
     describe,
@@ -78,8 +78,8 @@ listed candidates = case candidates of
       ALine l -> describeLine l
       ACircle c -> describeCircle c
 
--- | The largest number of answers that a report lists. It suffices for eight circles of one radius,
--- which can touch two circles.
+-- | The largest number of answers that a report lists. This is also the largest number of circles
+-- of one radius that can touch two given circles.
 mostCandidates :: Int
 mostCandidates = 8
 
@@ -102,6 +102,7 @@ below (Mm x) = downTo (Mm (x + noise))
 downTo :: Mm -> Text
 downTo (Mm x) = Decimal.mm (Mm (fromIntegral (floor (x * 1000) :: Int) / 1000))
 
--- | The sentence that names the control stop of the Minsk-22 system for the same mistake.
+-- | The sentence that names the control stop @number@, at which the Minsk-22 system halted for the
+-- same mistake.
 stop :: Text -> Text
 stop number = "The Minsk-22 system stopped here with " <> number <> "."

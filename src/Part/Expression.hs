@@ -67,8 +67,8 @@ empty = Environment Map.empty Map.empty Map.empty
 bind :: Name -> Value -> Environment -> Environment
 bind name v env = env {locals = Map.insert name v (locals env)}
 
--- | The value of an expression. Takes one step of "Part.Evaluation" for every node of the
--- expression.
+-- | The value of an expression. Every node of the expression takes one step, the unit of work that
+-- "Part.Evaluation" counts.
 evaluate :: Environment -> Expr -> Eval Value
 evaluate env (Located region e) =
   Evaluation.spend region 1 *> case e of
@@ -111,8 +111,9 @@ evaluate env (Located region e) =
       Chosen choice x -> Value.Choosing choice <$> evaluate env x
       Ranked rank -> pure (Value.Ranking rank)
 
--- | Calls a function of the program. The body sees the arguments, and the local names that were in
--- scope at the definition. @region@ is that of the call, for mistakes.
+-- | Calls a function of the program. The last argument is the function: the local names that were
+-- in scope at its definition, its parameters, and its body. The body sees these names and the
+-- values of @arguments@. @region@ is that of the call, for mistakes.
 call ::
   Environment ->
   Region ->

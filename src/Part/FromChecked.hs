@@ -49,7 +49,8 @@ data State = State
     readings' :: [(Region, Text)],
     fittings' :: [(Located Name, Fitting)],
     errors' :: [Error],
-    -- | the number of evaluation steps that are left; see 'Evaluation.mostSteps'
+    -- | the number of evaluation steps that are left; a step is the unit of work in
+    -- "Part.Evaluation"
     fuel :: Int
   }
 
@@ -158,9 +159,9 @@ step state (Located at s) = case s of
     within answer block =
       run state at answer (\a left -> leave state (block a state {fuel = left}))
 
--- | Evaluates @answer@, the expressions of the statement at the region @at@. @continue@ makes the
--- next state from their value and the number of steps that are left. If a mistake is found, the new
--- state has more errors and fewer steps, but is the same otherwise.
+-- | Evaluates a statement. @at@ is its region, and @answer@ evaluates its expressions. @continue@
+-- makes the next state from the result of @answer@ and the number of steps that are left. After a
+-- mistake, the new state differs from @state@ only by more errors and fewer steps.
 run :: State -> Region -> Eval a -> (a -> Int -> State) -> State
 run state at answer continue =
   case Evaluation.run (fuel state) (Evaluation.spend at statementSteps *> answer) of

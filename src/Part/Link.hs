@@ -13,8 +13,8 @@ data Link
   = -- | at an intersection of the two elements: at the one nearest to the given point if there are
     -- several. 'Nothing' if the program gives no point
     Meet (Maybe Point)
-  | -- | at this point. Such a link joins the segments of a contour that is used as an element of
-    -- another one
+  | -- | at this point. If an open contour is used as an element of another contour, such links join
+    -- its lines, arcs and curves to one another
     Fixed Point
   | -- | at a point where both elements have the same direction
     Smooth

@@ -179,9 +179,10 @@ smoothLines j l m
     Apart gap -> Left (NotLinked j (NotSmooth gap))
     _ -> meet j [] Nothing
 
--- | The joint of a smooth link, from the point and the direction at the end of one neighbour and
--- those at the start of the next. It allows a gap of 'Tolerance.smoothGap' and an angle of
--- 'Tolerance.smoothTurn', because curves may come from measured points.
+-- | The joint of a smooth link. The first pair is the point and the direction at the end of the
+-- element before the link, the second pair those at the start of the element after it. A gap of
+-- 'Tolerance.smoothGap' and an angle of 'Tolerance.smoothTurn' are allowed, because curves may come
+-- from measured points.
 smoothEnds :: Neighbours -> (Point, Vec) -> (Point, Vec) -> Either ContourFault Joint
 smoothEnds j (p, u) (q, v)
   | Vec.distance p q > Tolerance.smoothGap =
@@ -232,8 +233,8 @@ smoothCircles j (s, Circle c (Mm r)) (t, Circle d (Mm q))
     innerGap = abs (distance - abs (r - q))
     towards x = Vec.shift (Vec.scale x (Vec.unit (Vec.to c d))) c
 
--- | The joint at the point @p@, at which two neighbours touch up to the distance @gap@ in mm. Fails
--- if @gap@ exceeds 'Tolerance.coincident'.
+-- | The joint at the point @p@, at which two neighbours touch. @gap@ is the distance between them
+-- there in mm. Fails if it exceeds 'Tolerance.coincident'.
 touching :: Neighbours -> Double -> Point -> Either ContourFault Joint
 touching j gap p
   | abs gap <= tolerance = Right (through p)
@@ -286,8 +287,8 @@ fillet j sense r = case shapes j of
     arcLength = fmap Segment.length . inserted
 
 -- | The joint by a straight segment that cuts off a corner. The ends of the segment lie on the two
--- neighbours, at the arc length @d@ from their intersection. The points @own@ choose the
--- intersection, as in 'meet'.
+-- neighbours, at the arc length @d@ from their intersection. Of several intersections it takes the
+-- one that is among the points @own@, the ends of the neighbours.
 chamfer :: Neighbours -> [Point] -> Mm -> Either ContourFault Joint
 chamfer j own (Mm d) = case shapes j of
   (AtPoint _, _) -> Left (NotLinked j FilletAtPoint)

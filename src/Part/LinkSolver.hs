@@ -60,8 +60,8 @@ data LinkedElement = LinkedElement
     bevel :: [(Double, Double)],
     -- | the exact curve, if the element is a curve
     sourceCurve :: Maybe PartCurve,
-    -- | the region of the link, and the link; absent if the element meets the next one or is the
-    -- last
+    -- | the region of the link, and the link; absent if the program writes no link. The element
+    -- then meets the next one, unless it is the last of an open contour
     link :: Maybe (Region, Link)
   }
   deriving stock (Eq, Show)
@@ -81,8 +81,8 @@ solve region ends linked = case attempt region ends linked of
      in Left (fmap (withLargest region ends linked) faults)
 
 -- | The faults of the links that cannot join their neighbours. A repetition can make several links
--- with one region, or between elements of the same two regions. Only the first fault of these is
--- reported.
+-- with one region, or between elements of the same two regions. Of the faults of such links, only
+-- the first is reported.
 unlinked :: Ends -> NonEmpty LinkedElement -> [ContourFault]
 unlinked ends linked = case linked of
   _ :| [] -> []
@@ -229,9 +229,9 @@ closed linked
     Right elements
   | otherwise = closedByShortest linked
 
--- | The segments of a closed contour for which a link has several joints, or which has a fault.
--- Solves the contour once for each joint of the link after the last element, and takes the shortest
--- result.
+-- | The segments of a closed contour in which a link has several joints, or the fault of the
+-- contour. Solves the contour once for each joint of the link after the last element, and takes the
+-- shortest result.
 closedByShortest :: NonEmpty LinkedElement -> Either ContourFault [Element]
 closedByShortest linked = do
   joints <- traverse (uncurry jointsOf) (zip list (drop 1 list))
@@ -368,8 +368,8 @@ overrun stage w overlap next =
 unambiguous :: Route -> Either ContourFault Route
 unambiguous route = maybe (Right route) Left (ambiguous route)
 
--- | The first link at which two lists of joints differ, with its joint in each of them. @js@ are
--- the neighbours of all links, in the same order.
+-- | The first link at which two lists of joints differ: its neighbours, and its joint in each list.
+-- @js@ are the neighbours of all links, in the order of the lists.
 firstDifference :: [Joint] -> [Joint] -> [Neighbours] -> Maybe (Neighbours, Joint, Joint)
 firstDifference as bs js = case (as, bs, js) of
   (a : as', b : bs', j : js')
@@ -377,8 +377,8 @@ firstDifference as bs js = case (as, bs, js) of
     | otherwise -> Just (j, a, b)
   _ -> Nothing
 
--- | The fault that two joints of the link @j@ make equally long contours. 'Nothing' if they insert
--- no segments.
+-- | The fault that the two joints in @choice@ make equally long contours. @j@ are the neighbours of
+-- their link. 'Nothing' unless both joints insert a segment.
 tie :: Neighbours -> [Joint] -> Maybe ContourFault
 tie j choice = case mapMaybe inserted choice of
   segments@(_ : _ : _) ->
@@ -386,8 +386,9 @@ tie j choice = case mapMaybe inserted choice of
   _ -> Nothing
 
 -- | Extends a route that has reached the point @at@ of element @w@. The extension follows @w@ to
--- the joint, and then the segment that the joint inserts. If @w@ would be traversed backwards,
--- which is not allowed, the result is 'Left' with the length of the backward part in mm.
+-- the joint, and then the segment that the joint inserts. @before@ is the segment inserted before
+-- the first element. If @w@ would be traversed backwards, which is not allowed, the result is
+-- 'Left' with the length of the backward part in mm.
 extend :: Maybe Segment -> LinkedElement -> (Point, Route) -> Joint -> Either Mm Route
 extend before w (at, Route c js choice) joint
   | along < Mm 0 = Left (let Mm x = along in Mm (-x))
@@ -396,8 +397,8 @@ extend before w (at, Route c js choice) joint
     along = lengthOn (carrier w) (arrival before js) (inserted joint) at (leave joint)
     insertedLength = maybe (Mm 0) Segment.length (inserted joint)
 
--- | The segment inserted just before an element. The newest joint of the route inserts it; if there
--- is no joint yet, it is @before@.
+-- | The segment inserted just before an element that a route has reached. @js@ are the joints of
+-- the route, the newest first. If there are none, the segment is @before@.
 arrival :: Maybe Segment -> [Joint] -> Maybe Segment
 arrival before js = case js of
   [] -> before
@@ -420,9 +421,9 @@ lengthOn shape before after a b = case shape of
 -- segments inserted at @a@ and @b@.
 --
 -- On a circle, two equal points give a full circle. Without this rule, the shortest contour would
--- skip the circle. There is an exception for a circle between straight segments of about the same
--- direction. An example is the middle one of three equal circles joined by tangents. Such a circle
--- gives no segment.
+-- skip the circle. There is one exception: a circle between two straight segments whose directions
+-- differ by less than 60° gives no segment. An example is the middle one of three equal circles
+-- joined by tangents.
 segmentsOn :: ElementCarrier -> Maybe Segment -> Maybe Segment -> Point -> Point -> [Segment]
 segmentsOn shape before after a b = case shape of
   OnLine (Line _ _) -> [Straight a b | not (Vec.isNear a b)]
@@ -559,8 +560,9 @@ withoutChoice linked begin before final
       OnLine _ -> lengthOn w Nothing Nothing a b >= Mm 0
       OnCurve _ -> lengthOn w Nothing Nothing a b >= Mm 0
 
--- | Makes the 'Element' values from the point @at@ of one element of the program to a joint, and
--- that of the segment which the joint inserts. @before@ is the segment inserted before @at@.
+-- | Makes the 'Element' values along the element @w@ of the program, from its point @at@ to a
+-- joint. The segment that the joint inserts gives one more. @before@ is the segment inserted before
+-- @at@.
 between :: LinkedElement -> Point -> Maybe Segment -> Joint -> [Element]
 between w@LinkedElement {elementRegion, carrier, link} at before joint =
   marked w (entryStation carrier at (leave joint)) segments

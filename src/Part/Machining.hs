@@ -160,8 +160,8 @@ contourOf v = case v of
   ContourValue c -> c
   _ -> bug "a value that is no contour where one was checked"
 
--- | The contour with its start moved to its point nearest to @near@, if the statement gives such a
--- point. Fails if the contour is open.
+-- | The contour. If the statement gives a point @near@, the start is moved to the point of the
+-- contour that is nearest to @near@; this fails if the contour is open.
 startedNear :: Environment -> Contour -> Maybe Expr -> Eval Contour
 startedNear env contour near = case near of
   Nothing -> pure contour

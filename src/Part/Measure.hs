@@ -1,4 +1,5 @@
--- | Evaluates lengths, feeds and whole numbers, and checks their limits.
+-- | Evaluates lengths, feeds and whole numbers, and checks their limits. 'Tolerance.reach' is the
+-- largest coordinate or radius that a program may use.
 module Part.Measure
   ( positive,
     lengthOf,
@@ -22,8 +23,9 @@ import Part.Parameter (LimitedQuantity, Range (FromTo), WholeNumber)
 import Part.Parameter qualified as Parameter
 import Part.Value qualified as Value
 
--- | Evaluates a quantity that must be above 0 and at most 'Tolerance.reach'. @parameter@ names the
--- quantity in mistakes, and @make@ turns the number into the result.
+-- | Evaluates a quantity whose number must be above 0 and at most that of 'Tolerance.reach',
+-- whatever its unit. @parameter@ names the quantity in mistakes, and @make@ turns the number into
+-- the result.
 positive :: Environment -> LimitedQuantity -> (Double -> q) -> Expr -> Eval q
 positive env parameter make e = do
   x <- Expression.number <$> Expression.evaluate env e

@@ -47,7 +47,7 @@ data LimitedQuantity
   | Allowance
   | Chamfer
   | FilletRadius
-  | -- | the depth or the radius of a joggle
+  | -- | the depth or the radius of a joggle, which is a local step of an edge
     JoggleMeasure
   deriving stock (Eq, Show)
 
@@ -132,7 +132,7 @@ rangeText range = case range of
   UpTo high -> "up to " <> Decimal.whole high
   FromTo low high -> "from " <> Decimal.whole low <> " to " <> Decimal.whole high
 
--- | A function whose argument is outside of its domain, with that argument.
+-- | A function with an argument outside of its domain. The field of a constructor is this argument.
 data Domain
   = -- | the tangent of an angle whose cosine is 0
     TangentAtPole Rad

@@ -75,7 +75,8 @@ data Part = Part
     contours :: [Contour],
     -- | all operations in the order in which the tape makes them
     operations :: [Operation],
-    -- | the curves that are made of sections fitted to a table, with their names
+    -- | the curves that consist of lines, parabolas and arcs fitted to a table: the name of each
+    -- curve, and the fit
     fittings :: [(Located Name, Fitting)],
     -- | for editors: the values of the definitions as text, each with the region of the defined
     -- name
@@ -159,8 +160,8 @@ reversedContour c =
         e {segment = Segment.reverse (segment e), bevel = fmap swap (bevel e), continues = next}
       )
 
--- | The segments of a contour as a polyarc. All segments are evaluated at once, so that the polyarc
--- does not keep the elements in memory.
+-- | The segments of a contour as a polyarc. A segment is evaluated together with its list cell, so
+-- that the cell does not keep the contour's element in memory.
 polyarcOf :: Contour -> Polyarc.Polyarc
 polyarcOf contour = Polyarc.Polyarc (ends contour) (segment first :| segmentsOf others)
   where

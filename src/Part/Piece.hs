@@ -90,9 +90,9 @@ piece env base ciphers (Located _ side) joggles = do
 
 -- Ciphers
 
--- | Shifts the curve @lower@, the result of the ciphers before this one. @base@ is the curve of the
--- table, before all ciphers. A column has a value for every row of the table. A row keeps its
--- parameter on all these curves, so the column applies to each of them.
+-- | Shifts the curve @lower@ to a side by one cipher. @lower@ is the result of the ciphers before
+-- this one, and @base@ is the curve before all ciphers. Every row of the table has the same
+-- parameter on both curves, so that columns of the table apply to @lower@, too.
 recalculated ::
   Environment ->
   PartCurve ->
@@ -131,7 +131,7 @@ mistake :: CurveMistake -> Eval a
 mistake = Evaluation.mistake . InCurve
 
 -- | The values of the expression @e@ at the rows of a curve's table. If @e@ names no column of the
--- table, it is evaluated only once.
+-- table, it is evaluated once, and its value applies to every row.
 alongRows :: Environment -> PartCurve -> Expr -> Eval (Vector Double)
 alongRows env base e
   | mentions names e = Vector.fromList <$> Evaluation.gather (map atRow [0 .. count - 1])
@@ -184,7 +184,7 @@ shiftedBy at side distance lower = do
        in Rad (abs a)
 
 -- | The gap between two spans of a curve that should meet at the parameter @u@. If @u@ is 0 or
--- less, it is the gap between the curve's end and its start.
+-- less, the result is the gap between the curve's end and its start.
 gapAt :: Exact.Curve -> Double -> Mm
 gapAt whole u = Vec.distance before (Exact.pointFrom Exact.After whole (max 0 u))
   where
@@ -193,8 +193,9 @@ gapAt whole u = Vec.distance before (Exact.pointFrom Exact.After whole (max 0 u)
 -- Joggles
 
 -- | The curve @lower@ with a joggle to a side, between its points that have the two given x
--- coordinates. Fails for wrong coordinates and for a radius that does not fit. The Minsk-22 system
--- stopped at the former with the code 15074, at the latter with 14174 (Kolsanova).
+-- coordinates. Fails if these are equal, or if one does not belong to exactly one point; the
+-- Minsk-22 system stopped here with the code 15074 (Kolsanova). Fails, too, if the radius does not
+-- fit; for one that was too large, the code was 14174.
 joggledBy :: Environment -> Carrier.Side -> Exact.Curve -> Joggle -> Eval Exact.Curve
 joggledBy env side lower (Located at (Joggle from to depth radius)) = do
   a <- parameterAtX env lower from
@@ -256,8 +257,8 @@ bevelled env on e = case on of
     pure [(0, a)]
   Just c -> Curve.alongPolyarc c <$> (alongRows env c e >>= checkedBevels c e)
 
--- | The bevels @values@ unchanged, in radians, one for each row of the curve's table. Fails if one
--- is a right angle or more, of either sign. @e@ is their expression.
+-- | Returns the bevels @values@, in radians, one for each row of the curve's table. Fails if the
+-- absolute value of one reaches 'bevelLimit'. @e@ is the expression of the bevels.
 checkedBevels :: PartCurve -> Expr -> Vector Double -> Eval (Vector Double)
 checkedBevels c e values = case find ((>= bevelLimit) . abs . snd) numbered of
   Just (k, a) -> mistake (SteepBevel (region e) (if byRow then Just k else Nothing) (Rad a))
@@ -266,7 +267,7 @@ checkedBevels c e values = case find ((>= bevelLimit) . abs . snd) numbered of
     numbered = zip [1 ..] (Vector.toList values)
     byRow = mentions (map fst (tableColumns c)) e
 
--- | The limit that the absolute value of a bevel must stay below, in radians. It is just under a
--- right angle.
+-- | The limit, in radians, that the absolute value of a bevel must stay below. It is just under a
+-- right angle, whose tangent is infinite.
 bevelLimit :: Double
 bevelLimit = pi / 2 - 1e-6

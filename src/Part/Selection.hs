@@ -43,7 +43,8 @@ data Answers a = Answers
     answers :: [a]
   }
 
--- | Answers that are points. @tie@ and @stations@ are the fields of these names.
+-- | Answers that are points. @tie@ is the largest difference of distances that count as equal. The
+-- functions @stations@ give the position of a point along each line or curve of the construction.
 answerPoints :: Mm -> [Point -> Mm] -> [Point] -> Answers Point
 answerPoints tie stations answers =
   Answers {sought = SoughtPoint, candidate = APoint, keyPoint = id, stations, tie, answers}

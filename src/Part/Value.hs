@@ -1,4 +1,5 @@
--- | The values of the language, and checks that the built-in functions make of their results.
+-- | The values of the language, and checks that the built-in functions make of their results. The
+-- parameter @region@ of a check is the region that a mistake points at.
 module Part.Value
   ( Value (..),
     Argument (..),
@@ -51,8 +52,8 @@ data Value
 data Argument = Plain Value | Choosing Selector Value | Ranking Rank
   deriving stock (Eq, Show)
 
--- | Makes the value of a point or vector. Fails if it is longer than 'Tolerance.reach'. @region@ is
--- that of the call, as in the functions below.
+-- | Makes the value of a point or vector. Fails if its length exceeds 'Tolerance.reach'. The length
+-- of a point is its distance from (0, 0).
 spatial :: Region -> Vec -> Eval Value
 spatial region v = Spatial v <$ within region (Vec.norm v)
 

@@ -18,7 +18,7 @@ import Toolpath.Toolpath (Toolpath)
 
 -- | The choices of one run of the compiler.
 data Job = Job
-  { -- | values for parameters of the program: the name and the text of each value
+  { -- | values for parameters of the program: the name of each parameter and the text of its value
     values :: [(Text, Text)],
     -- | chooses the machines for a part and its toolpath; if it chooses none, no tape is made
     machinesFor :: Part -> Toolpath -> Result Report Report [Machine],
@@ -32,13 +32,13 @@ data Verification = Verified | Unverified
 
 -- | A job that makes a verified tape for each of the machines @names@. If there are no names, it
 -- uses the machine that the program names. It is an error if the program names none either.
--- @values@ are those of the program's parameters.
+-- @values@ contains pairs of a parameter's name and the text of its value.
 forTargets :: [Text] -> [(Text, Text)] -> LoadedProgram -> Job
 forTargets names values loaded =
   Job {values, machinesFor = Target.targets (descriptions loaded) names, verification = Verified}
 
 -- | A job that makes a verified tape for the machine that the program names. It makes no tape if
--- the program names none. @values@ are those of the program's parameters.
+-- the program names none. @values@ contains pairs of a parameter's name and the text of its value.
 forOwnMachine :: [(Text, Text)] -> LoadedProgram -> Job
 forOwnMachine values loaded =
   Job {values, machinesFor = Target.ownMachines (descriptions loaded), verification = Verified}

@@ -80,8 +80,8 @@ describedMachines program =
         Surface.statements program
   ]
 
--- | Loads a program that consists of one text. An import in it is an error, because there are no
--- other files.
+-- | Loads a program that consists of the text @text@. Reports name it by @path@. An import in it is
+-- an error, because there are no other files.
 fromText :: Text -> Text -> LoadedProgram
 fromText path text = runIdentity (load withoutFiles (Text.unpack path) text)
   where

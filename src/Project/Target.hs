@@ -36,8 +36,8 @@ targets descriptions names part path =
       ([], Just reference) -> pure <$> ownMachine descriptions reference
       (some, _) -> traverse (Result.fromEither . machineNamed descriptions) some
 
--- | The machine that the program names, set up for the toolpath. Empty if the program names no
--- machine.
+-- | The machine that the program names, prepared by 'setUpFor' for milling or for turning. The list
+-- is empty if the program names no machine.
 ownMachines :: Descriptions -> Part -> Toolpath -> Result w Report [Machine]
 ownMachines descriptions part path = case Part.machine part of
   Nothing -> pure []

@@ -13,8 +13,8 @@ import Data.Text (Text)
 import Part.Part (Part)
 import Part.Part qualified as Part
 
--- | All mentions of names in a program, and the values of its definitions. A value is a text, next
--- to the region of the name that the definition gives it.
+-- | All mentions of names in a program, and the values of its definitions. Each pair in @values@ is
+-- the region of the defined name and the value as text.
 data Mentions = Mentions {mentions :: [Mention], values :: [(Region, Text)]}
   deriving stock (Eq, Show)
 

@@ -60,9 +60,9 @@ definition now before at = listToMaybe (mapMaybe target (found now before at))
           Target (Snapshot.source now) <$> RegionMap.forward regionMap region
       _ -> Just Target {source, region}
 
--- | A mention of a name under the cursor: the snapshot that contains it, and the region of it in
--- the present text. The map leads from the text of an older snapshot to the present text; it is
--- absent for the present snapshot.
+-- | A mention of a name under the cursor. The first field is the snapshot that contains it. The map
+-- leads from the text of this snapshot to the present text; it is absent for the present snapshot.
+-- The last field is the region of the mention in the present text.
 data Found = Found Snapshot (Maybe RegionMap) Mention Region
 
 -- | The mentions at the offset @at@ of the present text. If both snapshots contain one, that of the

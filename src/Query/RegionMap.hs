@@ -1,4 +1,5 @@
--- | A map of regions from an old text to a new one, which keeps answers about the old text useful.
+-- | A map of regions from an old text to a new one. With it, answers about the old text can be
+-- shown in the new text.
 --
 -- The changed region of each text lies between the common prefix and the common suffix of both
 -- texts. A region before or after the change is mapped; a region that overlaps the change is not.

@@ -33,8 +33,8 @@ import Prelude hiding (take)
 -- command line use the same function.
 type Check = LoadedProgram -> Result Report Report Analysis
 
--- | Checks a program with all compiler passes up to the frames for the machine that it names.
--- @values@ are the names and the values of the program's parameters.
+-- | Checks a program with all compiler passes up to the frames for the machine that it names. Each
+-- pair in @values@ is the name of a parameter and the text of the value that replaces its own.
 checkWith :: [(Text, Text)] -> Check
 checkWith values loaded = Compile.check (Job.forOwnMachine values loaded) loaded
 
@@ -44,7 +44,7 @@ data Snapshot = Snapshot
     source :: Source,
     -- | errors and warnings, in the order of the text
     reports :: [Report],
-    -- | the syntax tree of the program's own text, in which imports are statements
+    -- | the syntax tree of the program's own text, without the definitions that it imports
     program :: Program,
     -- | the mentions of names in the program, and the values of its definitions
     facts :: Mentions,
@@ -77,9 +77,9 @@ take check loaded =
 isGood :: Snapshot -> Bool
 isGood = not . any Report.isError . reports
 
--- | The region of a file name in the program's own text, after @import@ or in a table statement.
--- The given region lies in the named file, or in a file that this one names directly or through
--- others. 'Nothing' if the given region lies in the program itself.
+-- | Finds the file name in the program's own text, after @import@ or in a table statement, through
+-- which the compiler reads the file of the given region. Gives the region of this name. 'Nothing'
+-- if the given region lies in the program itself.
 importOf :: Snapshot -> Region -> Maybe Region
 importOf Snapshot {source, imports} = go (length imports)
   where

@@ -41,8 +41,8 @@ short path source r =
       InFile -> path <> ":1:1"
 
 -- | Renders a report as one JSON object with a line end. Lines count from 1, columns count
--- characters from 1; the field @end@ is the position after the last character. @path@ means the
--- same as in 'short'.
+-- characters from 1; the field @end@ is the position after the last character. @path@ is the name
+-- of the file in a report that has no region in the program.
 json :: Text -> Source -> Report -> Text
 json path source r =
   Encoding.decodeUtf8 (LazyByteString.toStrict (encodingToLazyByteString (pairs fields))) <> "\n"

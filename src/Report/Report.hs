@@ -1,7 +1,8 @@
 -- | The report: one error or warning as a user reads it.
 --
--- Every stage converts its errors and warnings to reports by its own @toReport@. The other modules
--- of this folder render a report for a terminal, for an editor, as JSON and as SARIF.
+-- Every compiler pass converts its errors to reports by its own @toReport@, and its warnings, if it
+-- has any, by @warningReport@. The other modules of this folder render a report for a terminal, for
+-- an editor, as JSON and as SARIF.
 module Report.Report
   ( Report (..),
     Severity (..),

@@ -94,7 +94,7 @@ pointsOf at base = case BasisCurve.method base of
   where
     points = Vector.map BasisCurve.knotPoint (BasisCurve.rows base)
 
--- | One shift of a curve, from its side and its distance.
+-- | One shift of a curve, from the side to which a positive distance shifts, and the distance.
 shiftOf :: (Carrier.Side, Distance) -> Shift
 shiftOf (side, distance) = case distance of
   ShiftDistance.Square mu inner -> Shift {sign, square = Just (Column.values mu), distance = inner}
@@ -108,9 +108,9 @@ shiftOf (side, distance) = case distance of
     sign = Carrier.sideSign side
 
 -- | The side of a piece as a sign: 1 left, -1 right. A sheet has the distances of the digits 1 and
--- 2 before the points. The sign of the first number there gives the side, so the result is the side
--- to which this distance shifts. If the number is 0 or missing, the result is the side of the first
--- shift, or 1 if there are no shifts.
+-- 2 before the points, and the sign of the first of them gives the side. So the result is the side
+-- to which this distance shifts. If the distance is 0 or missing, the result is the side of the
+-- first shift, or 1 if there are no shifts.
 signOfPiece :: [Shift] -> Double
 signOfPiece shifts = case listToMaybe [sign s * h | s <- shifts, Just h <- [headOf (distance s)]] of
   Just h | h /= 0 -> signum h
@@ -121,7 +121,8 @@ signOfPiece shifts = case listToMaybe [sign s * h | s <- shifts, Just h <- [head
       ShiftDistance.Growing Growth {from = Mm h} -> Just h
       _ -> Nothing
 
--- | A shift equal to @s@ whose distances are positive on the side @wanted@ (1 left, -1 right).
+-- | Writes the shift @s@ in another way: a positive distance shifts to the side @wanted@ (1 left,
+-- -1 right). Distances of a shift to the other side change their sign.
 onSide :: Double -> Shift -> Shift
 onSide wanted s
   | wanted == sign s = s
@@ -178,7 +179,7 @@ surfaceOf at count shifts
       ShiftDistance.Bevelled {} -> False
       _ -> null (square s)
 
--- | The recalculation that expresses a shift. 'checkShift' has accepted the shift.
+-- | The recalculation that expresses a shift, which 'checkShift' must have accepted.
 recalculation :: Shift -> Recalculation
 recalculation s = case distance s of
   ShiftDistance.Growing Growth {from = Mm a, to = Mm b} -> Growing (here a) (here b)

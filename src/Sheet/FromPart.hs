@@ -242,9 +242,9 @@ waypoints from list final = case list of
     waypoint (a, b, c) f = Waypoint {x = here a, y = here b, z = here c, feed = here f}
 
 -- | The points after each array. The first arguments are the height (mm) and the feed (mm\/min) at
--- the end of the first array. The list has an entry for each array: its region, the stops after it
--- with the feeds of the moves to them, and the feed of the next array. For the last array this feed
--- is Nothing.
+-- the end of the first array. The list has an entry for each array: the region of its statement's
+-- keyword, the stops after it with the feeds of the moves to them, and the feed of the next array.
+-- For the last array this feed is Nothing.
 retractsOf ::
   Double ->
   Double ->

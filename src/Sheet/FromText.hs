@@ -4,9 +4,9 @@
 -- after it. A piece is a curve with a number, its cipher. Each digit of the cipher names a
 -- recalculation, which shifts the curve along its normal. The end mark is the word @-0@.
 --
--- The reader reports all words that are not numbers. If there are none, it reports only the first
--- wrong number: a missing or doubled number shifts the meaning of all numbers after it. The reader
--- is a state monad over the words that are still to be read.
+-- The reader reports all words that are neither numbers nor signs nor end marks. If there are none,
+-- it reports only the first mistake: a missing or doubled number shifts the meaning of all numbers
+-- after it. The reader is a state monad over the words that are still to be read.
 module Sheet.FromText
   ( read,
   )

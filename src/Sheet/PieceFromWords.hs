@@ -50,7 +50,7 @@ data Layout = Layout
     each :: Int,
     -- | count of the numbers after the last point that hold for the whole piece
     after :: Int,
-    -- | count of the numbers after the last point that follow there for each of the points
+    -- | count of the further numbers of each point, which come after those of the whole piece
     again :: Int
   }
 
@@ -93,9 +93,9 @@ partsOf Layout {before, each, after, again} points numbers =
     (tails, afterTails) = splitAt after afterBody
     (givenNumbers, rest) = splitAt (points * again) afterTails
 
--- | Makes a piece. @opening@ is the word of its cipher; @isNegative@ and @digits@ are what
--- 'cipherOf' reads from this word. @inside@ are the words up to the end mark @mark@. The allowance
--- of the piece is set to 0, because its word comes after the end mark.
+-- | Makes a piece. @opening@ is the word of its cipher. @isNegative@ tells if the cipher has a
+-- minus sign; @digits@ are its digits. @inside@ are the words up to the end mark @mark@. The
+-- allowance of the piece is set to 0, because its word comes after the end mark.
 pieceOf :: SheetWord -> Bool -> [Digit] -> [SheetWord] -> SheetWord -> Either Error Piece
 pieceOf opening isNegative digits inside mark = do
   mapM_ (\e -> Left (misfitAt e LoneSign)) (filter isSign inside)
@@ -130,8 +130,8 @@ pieceOf opening isNegative digits inside mark = do
       [] -> []
       h : others -> fmap abs h : others
 
--- | The count of points, at least two, of a piece with @count@ numbers. For any other count of
--- points it returns the error that @misfit@ makes.
+-- | The count of points of a piece with @count@ numbers. If this count is not whole or is less than
+-- two, the result is the error that @misfit@ makes from the reason.
 pointCount :: Layout -> Int -> (PieceMisfit -> Either Error Int) -> Either Error Int
 pointCount Layout {before, each, after, again} count misfit
   | remainder /= 0 = misfit (CountOff before each after again count)

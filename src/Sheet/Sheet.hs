@@ -2,7 +2,8 @@
 -- (docs/input-sheet.md).
 --
 -- A piece is a curve with its recalculations, each of which shifts the curve along its normal. The
--- cipher of a piece has a digit 1, 2, 4 or 6 for each recalculation.
+-- cipher of a piece has a digit 1, 2, 4 or 6 for each recalculation. An array is a sequence of
+-- linked pieces with the points after them.
 --
 -- Numbers have the units of the sheet: mm, degrees and mm\/min. Every number keeps its region in
 -- the text, so that reports can point at it. A position of a word on the sheet is counted from 1.
@@ -82,8 +83,8 @@ data General = General
 data Waypoint = Waypoint {x :: Number, y :: Number, z :: Number, feed :: Number}
   deriving stock (Eq, Show)
 
--- | A run of linked pieces: all pieces but the last one, the last one, and the points after it. A
--- point of @retract@ may also lead to the next array.
+-- | A sequence of linked pieces: @joined@ has all pieces but the last one, @final@ is the last one.
+-- @retract@ has the points to which the tool moves after the last piece, up to the next array.
 data Array = Array {joined :: [LinkedPiece], final :: Piece, retract :: NonEmpty Waypoint}
   deriving stock (Eq, Show)
 

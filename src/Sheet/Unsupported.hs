@@ -281,7 +281,7 @@ sharedText setting = case setting of
   SharedTolerance -> "tolerance"
   SharedSide -> "milling side"
 
--- | The position to which the report points, and its title.
+-- | The position to which the report points, and the report's title.
 pathTexts :: PathFault -> (ReportPlace, Text)
 pathTexts fault = case fault of
   NoStart -> (InFile, "the program does not say where the tool stands")

@@ -8,11 +8,11 @@
 -- One grammar has two parsers. The explaining parser of this module reports mistakes and recovers
 -- from them. The fast parser of "Surface.Combinator.Fast" stops at the first mistake.
 --
--- An enclosure is a part of a program between two brackets. Recovery replaces a statement or an
--- item with a mistake by a broken node of the syntax tree, and continues after it. The nesting
--- depth is the number of brackets and operands around a token, as far as 'nested' parses them. The
--- offset of a failure is the index of a token, all other offsets are indices of characters; both
--- count from 0.
+-- An enclosure is a part of a program between two brackets. A statement or an item that contains a
+-- mistake is called broken. Recovery puts a broken node of the syntax tree in its position and
+-- continues after it. The nesting depth of a token is the number of 'nested' parsers around it:
+-- one for each bracket, for example, and one for the operand of a minus. The offset of a failure is
+-- the index of a token, all other offsets are indices of characters; both count from 0.
 module Surface.Combinator
   ( Parser,
     Explaining,
@@ -114,7 +114,7 @@ data ParserState = ParserState
   }
 
 -- | A parsed value, the number of its tokens, and the tokens after them. Inside the value the
--- nesting depth grows by at most two. So it is compared with 'maxNesting' once for the whole value.
+-- nesting depth grows by at most two, so it is compared with 'maxNesting' only before the value.
 data Consumed a = Consumed a Int [Token]
 
 -- | The operations from which the grammar is built.
@@ -441,9 +441,9 @@ isTooDeep failure = case failure of
   FancyError _ problems -> Parsec.ErrorCustom TooDeep `Set.member` problems
   TrivialError {} -> False
 
--- | Replaces a statement with a mistake by a broken node; @taken@ has the statement's tokens up to
--- the mistake. Skips to the line on which the next statement begins. The node has the name that the
--- statement was to define, and its keyword, or the keyword that its first word resembles.
+-- | Skips the rest of a broken statement and makes its broken node. @taken@ has the statement's
+-- tokens up to the mistake. The node has the name that the statement was to define, and its
+-- keyword, or the keyword that its first word resembles.
 brokenStatement :: Grammar p => [Token] -> p Statement
 brokenStatement taken = do
   isInBlock <- (> 0) . blockDepth <$> parserState
@@ -467,8 +467,9 @@ skipStatement hasBlock isInBlock open = do
         Parsec.anySingle *> ((t :) <$> skipStatement hasBlock isInBlock (open + braceBalance [t]))
     _ -> pure []
 
--- | Tells if a broken statement ends before the token @t@, which the tokens @others@ follow. The
--- first three parameters are those of 'skipStatement'.
+-- | Tells if a broken statement ends before the token @t@, which the tokens @others@ follow.
+-- @hasBlock@ tells if the statement has a block of statements, @isInBlock@ tells if it is inside
+-- one. @open@ is the count of the statement's braces that are still open.
 isStatementEnd :: Bool -> Bool -> Int -> Token -> [Token] -> Bool
 isStatementEnd hasBlock isInBlock open t others =
   beginsStatement t && not isInOwnBlock
@@ -527,10 +528,10 @@ firstRegion ts = case ts of
   t : _ -> Token.place t
   [] -> Region 0 0
 
--- | Replaces an item with a mistake by the node that @broken@ makes; @taken@ has the item's tokens
--- up to the mistake. Skips to the next line outside of the braces of the item, or to the end of its
--- block. A line after a comma or an operator belongs to the item. The argument of @broken@ is the
--- name that a misplaced @let@ was to define.
+-- | Skips the rest of a broken item and makes its node by @broken@. @taken@ has the item's tokens
+-- up to the mistake. The rest ends at the next line outside of the item's braces, or at the end of
+-- its block. A line after a comma or an operator belongs to the item. The argument of @broken@ is
+-- the name that a misplaced @let@ was to define.
 brokenItem :: Grammar p => (Maybe (Located Name) -> a) -> [Token] -> p a
 brokenItem broken taken = do
   next <- Parsec.optional (Parsec.lookAhead Parsec.anySingle)
@@ -540,9 +541,9 @@ brokenItem broken taken = do
       ([Word "let"], Just Token {shape = Word what, place}) -> Just (Located place (Name what))
       _ -> Nothing
 
--- | Skips the remaining tokens of a broken item, @open@ of whose braces are still open.
--- @isContinued@ tells if the last token is a comma, an operator or an opening bracket, so that the
--- next line belongs to the item.
+-- | Skips the remaining tokens of a broken item. @open@ is the count of the item's braces that are
+-- still open. @isContinued@ tells if the last token is a comma, an operator or an opening bracket,
+-- so that the next line belongs to the item.
 skipItem :: Grammar p => Int -> Bool -> p ()
 skipItem open isContinued = do
   next <- Parsec.optional (Parsec.lookAhead Parsec.anySingle)

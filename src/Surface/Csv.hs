@@ -4,9 +4,10 @@
 -- each column. The separator is the comma, the semicolon or the tab, whichever the first line
 -- contains. If it is not the comma, numbers may have a decimal comma. Empty lines are ignored.
 --
--- A row is plain if its cells are numbers without spaces, exponents and plus signs. A run is a
--- sequence of consecutive plain rows; it is read into unboxed arrays. The other rows are read one
--- by one, with an error for each wrong cell. An offset is the index of a character, from 0.
+-- A row is plain if its cells are numbers without spaces, quotation marks, exponents, plus signs
+-- and decimal commas. A run is a sequence of consecutive plain rows; it is read into unboxed
+-- arrays. The other rows are read one by one, with an error for each wrong cell. An offset is the
+-- index of a character, from 0.
 module Surface.Csv
   ( table,
   )

@@ -385,7 +385,7 @@ headingAdvice token = case token of
 counted :: Int -> Text -> Text
 counted n thing = Decimal.whole n <> " " <> thing <> (if n == 1 then "" else "s")
 
--- | Tells if the expected tokens are exactly one word, so that no suggestion is needed.
+-- | Tells if exactly one keyword is expected. The report names it, so that 'advice' is left out.
 isWord :: [Text] -> Bool
 isWord expected = case expected of
   [one] -> Text.any isLetter one && Text.isPrefixOf "‘" one

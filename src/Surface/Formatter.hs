@@ -134,7 +134,7 @@ isBlankAbove source at =
     Region.Position {Region.line} = Region.position source at
 
 -- | Moves the closing brace of a printed line to a line of its own, if the line ends with @{ }@ and
--- the source has a comment between these braces. Any other line is the only one in the result.
+-- the source has a comment between these braces. Leaves any other line unchanged.
 splitEmptyBlock :: CommentPositions -> SourceLine -> [SourceLine]
 splitEmptyBlock positions sourceLine = case (shapesBackwards, sourcesBackwards) of
   (Symbol "}" : Symbol "{" : _, Just close : Just open : _)
@@ -222,7 +222,7 @@ shareOut (from, finish) next remarks = case (inside, trailingRemark) of
 
 -- | The lines of the output for one printed line: the comments above it, then the line itself. In
 -- the source the printed line begins at offset @from@. @above@ has the comments between this line
--- and the line before it.
+-- and the line before it. The last argument has the comments in and around the printed line.
 rowEntries :: Source -> SourceLine -> Int -> [Remark] -> Shares -> [Entry]
 rowEntries source sourceLine from above shares =
   [own {hasGap = hasGap own && isStart} | own <- map (ownLine deep) (above <> early shares)]
@@ -251,8 +251,8 @@ ownLine :: Int -> Remark -> Entry
 ownLine deep r = Entry {hasGap = isApart r, line = Own deep (text r)}
 
 -- | The offsets at which each printed line begins and ends in the source. A line without tokens in
--- the source is at the end of the line before it. A comma at the end of a line does not count, so
--- that a comment before the comma is a trailing one.
+-- the source begins and ends where the line before it ends. A comma at the end of a line does not
+-- count, so that a comment before the comma is a trailing one.
 extents :: [SourceLine] -> [(Int, Int)]
 extents = go 0
   where
@@ -278,8 +278,8 @@ withoutLeadingGaps list = zipWith keep (Nothing : map Just list) list
       Own _ _ -> False
       Printed sourceLine _ -> SourceLine.isOpening sourceLine
 
--- | Renders the lines. Columns are aligned within each run of printed lines that no blank line and
--- no comment line interrupts. Trailing comments are aligned too.
+-- | Renders the lines. Columns are aligned among consecutive printed lines, as far as no blank line
+-- and no comment line separates them. Trailing comments are aligned too.
 renderEntries :: [Entry] -> [Text]
 renderEntries list = withComments (go list)
   where
@@ -299,7 +299,7 @@ renderEntries list = withComments (go list)
       Printed _ _ -> True
     blank isWanted = [("", Nothing) | isWanted]
 
--- | Puts trailing comments after their lines, aligned within each run of lines that have them.
+-- | Puts trailing comments after their lines. Comments of neighbouring lines begin in one column.
 withComments :: [(Text, Maybe Text)] -> [Text]
 withComments list = case list of
   [] -> []
@@ -310,7 +310,7 @@ withComments list = case list of
      in [Text.justifyLeft column ' ' line <> Maybe.fromMaybe "" comment | (line, comment) <- run]
           <> withComments others
 
--- | The column of trailing comments, in characters from 0. After a longer line the comment begins
--- further right.
+-- | The column of trailing comments, in characters from 0. If one of several consecutive lines is
+-- too long for it, the comments of all these lines begin further right.
 commentColumn :: Int
 commentColumn = 39

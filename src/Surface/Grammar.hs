@@ -2,8 +2,8 @@
 
 -- | The grammar of programs, by recursive descent with one token of lookahead.
 --
--- A mistake ends the statement or the item of a block that contains it. Parsing continues at the
--- next one, so that one run finds all mistakes. The rules are written once for two parsers. The
+-- A mistake ends the statement, or the item of a block, in which it occurs. Parsing continues at
+-- the next one, so that all mistakes are reported at once. The rules serve two parsers. The
 -- explaining parser of "Surface.Combinator" reports mistakes. The fast parser of
 -- "Surface.Combinator.Fast" only accepts programs without a mistake. Each rule parses the construct
 -- that its comment names.

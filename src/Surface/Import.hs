@@ -50,7 +50,7 @@ data ImportedProgram = ImportedProgram
     source :: Source,
     -- | the program with its imports replaced
     surface :: Result Error Error Program,
-    -- | the regions of imports and of table files, with the paths that they name
+    -- | the regions of the names of imported files and table files, with the paths of these files
     imports :: [(Region, Text)]
   }
 
@@ -62,7 +62,8 @@ data Progress = Progress
     seen :: Set FilePath,
     -- | the mistakes, the newest first
     found :: [Error],
-    -- | the regions of imports and of table files, with the paths that they name, the newest first
+    -- | the regions of the names of imported files and table files, with the paths of these files,
+    -- the newest first
     named :: [(Region, Text)]
   }
 
@@ -98,7 +99,7 @@ load reader path text = do
           }
 
 -- | The file whose statements are being read, and the files through which the program imports it.
--- A file that is imported again in this chain is an import cycle.
+-- An import of a file that is in this chain already is an import cycle.
 data Chain = Chain
   { -- | the identity and the path of each file, the file being read first, the program last
     open :: [(FilePath, FilePath)],
@@ -106,7 +107,8 @@ data Chain = Chain
     file :: FilePath
   }
 
--- | An @import@ statement: its region, the name as written, the path and the identity of the file.
+-- | The file that an @import@ statement names: the region of the name, the name as written, the
+-- path of the file and its identity.
 data ImportedFile = ImportedFile
   { importRegion :: Region,
     importName :: Text,

@@ -32,8 +32,8 @@ statements =
 softStatements :: [Text]
 softStatements = ["pocket"]
 
--- | The keywords that begin a statement with a block, and also an item of a contour that repeats
--- other items or chooses among them.
+-- | The keywords that begin a repetition or a choice, either of statements or of items of a
+-- contour.
 blocks :: [Text]
 blocks = ["for", "if"]
 

@@ -15,10 +15,10 @@ import Surface.Parser qualified as Parser
 import Surface.Syntax
 import Surface.Unlocated qualified as Unlocated
 
--- | Replaces the values of @param@ statements. @values@ has names of parameters and the texts of
--- expressions. The last of several texts for one name counts. An unknown name and a text with
--- mistakes are errors and replace nothing. The new expression has the region of the parameter's
--- name, since the text of the expression is not part of the program.
+-- | Replaces the values of @param@ statements. Each pair in @values@ is the name of a parameter and
+-- the text of its new expression. The last of several texts for one name counts. An unknown name
+-- and a text with mistakes are errors and replace nothing. The new expression has the region of the
+-- parameter's name, since the text of the expression is not part of the program.
 assign :: [(Text, Text)] -> Program -> Result w Error Program
 assign values program = foldl' (\before v -> before >>= assignOne v) (pure program) values
 

@@ -23,11 +23,11 @@ data Doc
   | -- | documents next to one another, without a break between them
     Beside [Doc]
   | -- | members with a space or a line break between them. Lines after the first are indented by
-    -- four characters
+    -- four characters more than the first
     Series [Member]
   | -- | an opening bracket, members and a closing bracket. If broken, the members are on lines of
-    -- their own, indented by two characters. The flag is true if the brackets must be broken, even
-    -- if one line has room for them
+    -- their own, indented by two characters more than the closing bracket. The flag is true if the
+    -- brackets must be broken, even if one line has room for them
     Brackets Bool Text [Member] Text
   deriving stock (Eq, Show)
 
@@ -43,7 +43,7 @@ data PrintedLine = PrintedLine {indent :: Int, text :: Text}
 maxWidth :: Int
 maxWidth = 100
 
--- | The first text of a document that is not empty; empty if there is none.
+-- | The first non-empty text in a document; the empty text if there is none.
 firstText :: Doc -> Text
 firstText doc = case doc of
   Text t -> t
@@ -92,9 +92,8 @@ write indent trailing doc pen
       let inside = fill (indent + 2) 0 members (newLine (indent + 2) (put open pen))
        in put close (newLine indent inside)
 
--- | For each document of a sequence without breaks between the documents: the number of characters
--- from the end of the document to the next possible line break. @trailing@ is the number of
--- characters after the last document.
+-- | Computes, for each of the documents next to one another, the number of characters from its end
+-- to the next possible line break. @trailing@ is this number for the last document.
 widthsAfter :: Int -> [Doc] -> [Int]
 widthsAfter trailing = drop 1 . scanr step trailing
   where
@@ -102,8 +101,8 @@ widthsAfter trailing = drop 1 . scanr step trailing
       Text t -> Text.length t + after
       _ -> Text.length (firstText doc)
 
--- | Writes as many members on each line as fit. The parameters @indent@ and @trailing@ are those of
--- 'write'.
+-- | Writes as many members on each line as fit. New lines are indented by @indent@ characters. The
+-- last line keeps room for @trailing@ characters, which follow without a possible line break.
 fill :: Int -> Int -> [Member] -> Pen -> Pen
 fill indent trailing members = case members of
   [] -> id
@@ -121,8 +120,8 @@ fill indent trailing members = case members of
 fits :: Int -> Doc -> Bool
 fits room doc = maybe False (>= 0) (roomAfter doc room)
 
--- | The number of characters, out of @room@, that remain after an unbroken document. Gives
--- 'Nothing' as soon as the room is exceeded or a break is forced.
+-- | The number of characters, out of @room@, that remain after an unbroken document. If the room is
+-- exceeded, the result is negative or 'Nothing'. It is 'Nothing' if a break is forced.
 roomAfter :: Doc -> Int -> Maybe Int
 roomAfter doc room
   | room < 0 = Nothing

@@ -28,8 +28,8 @@ import Surface.Syntax hiding (Statement_ (..))
 import Surface.Token (unitName)
 
 -- | The positions of comments in the source. An offset is the index of a character in the source.
--- 'isBetween' tells if a comment begins between two offsets. 'isAtComma' tells the same of the
--- comments that follow or precede a comma.
+-- 'isBetween' tells if a comment begins at the first offset or after it, but before the second one.
+-- 'isAtComma' answers the same question, but only about comments next to a comma.
 data CommentPositions = CommentPositions
   { isBetween :: Int -> Int -> Bool,
     isAtComma :: Int -> Int -> Bool
@@ -67,8 +67,8 @@ element comments e = if isContinuation (PrettyPrinter.firstText doc) then bracke
     isContinuation text =
       "-" `Text.isPrefixOf` text || Text.takeWhile (\c -> isAlphaNum c || c == '_') text == "by"
 
--- | Documents, each with its region in the source, separated by commas. A document begins a new
--- line if the source has a comment next to the comma before it.
+-- | Puts commas between documents, each of which is given with its region in the source. A document
+-- begins a new line if the source has a comment next to the comma before it.
 list :: CommentPositions -> NonEmpty (Region, Doc) -> NonEmpty Member
 list comments things = NonEmpty.zipWith piece (NonEmpty.zip before things) commas
   where

@@ -32,8 +32,8 @@ import Surface.Token (unitName)
 program :: Program -> Text
 program = Text.unlines . Alignment.render . rows PrintExpression.noComments . statements
 
--- | The printed lines of statements. A list that has comments in the source is broken at the
--- comments.
+-- | The printed lines of statements. If the source has comments inside a list of values, the list
+-- is broken into several lines, so that the comments keep their positions.
 rows :: CommentPositions -> [Statement] -> [AlignedLine]
 rows comments = concatMap (statement comments 0)
 
@@ -51,8 +51,9 @@ whole indent doc = case PrettyPrinter.render indent doc of
       } :
     map continued more
 
--- | One line with the two cells @first@ and @second@, if both documents fit on it. Otherwise the
--- lines of both documents, joined without alignment.
+-- | One line with the two cells @first@ and @second@, if both documents fit on it. Its second cell
+-- is aligned with those of the same kind @column@ in neighbouring lines. If the documents do not
+-- fit on one line, the result is the lines of both, joined without alignment.
 cells' :: AlignmentColumn -> Int -> Doc -> Doc -> [AlignedLine]
 cells' column indent first second =
   case (PrettyPrinter.render indent first, PrettyPrinter.render indent second, alone) of
@@ -193,8 +194,8 @@ alignColumns rows' = map (zipWith3 pad fronts widths) rows'
       zipWith (\front -> maximum . map (Text.length . pointed front)) fronts (transpose rows')
         <> repeat 0
 
--- | The cells of a table's line, row by row. A run of lines from a file has several rows, every
--- other line at most one. Values other than literals are put in parentheses.
+-- | The rows of cells for a line of a table. The 'Numbers' of a file give several rows, any other
+-- line gives at most one. Values other than literals are put in parentheses.
 tableCells :: CommentPositions -> TableLine_ -> [[Text]]
 tableCells comments l = case l of
   Header columns ->
@@ -310,8 +311,8 @@ accuracy comments a = case a of
         PrintExpression.value comments outside
       ]
 
--- | The document of points separated by commas. The pace of the motion to a point stays on the line
--- of the point.
+-- | The document of points separated by commas. The pace of the motion to a point, @rapid@ or a
+-- feed, stays on the line of the point.
 stops :: CommentPositions -> NonEmpty Stop -> Doc
 stops comments = Series . NonEmpty.toList . PrintExpression.list comments . fmap stop
   where

@@ -43,8 +43,8 @@ distribute rows tokens = case (rows, tokens) of
   _ -> []
 
 -- | Matches each printed token with a token of the source. For each printed token the search ends
--- at the first source token that is not optional. So a token without a match does not spoil the
--- matches of later ones.
+-- at the first source token that is not optional. So a printed token without a match does not use
+-- up the source tokens that later printed tokens match.
 match :: [Token] -> [Token_] -> [Maybe Token]
 match source printed = case printed of
   [] -> []

@@ -61,7 +61,7 @@ import Data.List.NonEmpty (NonEmpty)
 import Data.Text (Text)
 import Surface.Token (Numeral (..), Unit)
 
--- | A program: its statements and its comments, both in order.
+-- | A program: its statements and its comments, each list in the order of the text.
 data Program = Program {statements :: [Statement], comments :: [Located Text]}
   deriving stock (Eq, Show)
 
@@ -250,13 +250,13 @@ data Lines
 -- | A line of a table as the program writes it, with its region.
 type TableLine = Located TableLine_
 
--- | A line of a table, or a run of lines from a file.
+-- | A line of a table, or consecutive lines of a table file.
 data TableLine_
   = -- | @x y mu deg H@: the headings
     Header (NonEmpty Heading)
   | -- | one cell for each column
     Entries {-# UNPACK #-} (NonEmpty Expr)
-  | -- | a run of lines from a file, with one number without a unit for each column
+  | -- | consecutive lines of a table file; each has one number without a unit for each column
     Numbers {-# UNPACK #-} NumberTable
   | -- | a line with a mistake
     BrokenLine
@@ -316,7 +316,7 @@ data Modifier_
     ElementFeed Expr
   | -- | a lower feed at the end of the element
     Slow
-  | -- | the material left on it
+  | -- | the thickness of the material that is left on the element
     ElementAllowance Expr
   | -- | the angle of the element's surface to the axis of the tool
     Bevel Expr

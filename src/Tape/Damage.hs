@@ -33,9 +33,11 @@ data Damage = Damage {row :: Int, frame :: Maybe Int, field :: Maybe Content, re
 
 -- | Fault of a row, of a frame or of the whole tape.
 data Reason
-  = -- | The leader has a row with holes; the number is the length of the leader in rows.
+  = -- | The leader has a row with holes; the number is the length that the leader must have, in
+    -- rows.
     LeaderNotBlank Int
-  | -- | The tape ends within its leader; the number is the length of the leader in rows.
+  | -- | The tape ends within its leader; the number is the length that the leader must have, in
+    -- rows.
     NoFrames Int
   | -- | Hole in the blank rows before a frame with an even number ('Machine.Machine.evenShift').
     ShiftNotBlank
@@ -63,7 +65,8 @@ data Reason
     NotBlank
   | -- | Blank row where the given symbol is expected.
     Missing Char
-  | -- | A word begins at a row at which it is not allowed; the first symbol of its address.
+  | -- | A word begins at a row at which it is not allowed; the argument is the first symbol of its
+    -- address.
     UnexpectedWord Char
   | -- | Digit without the hole in the service track that it has in every frame.
     MarkerMissing
@@ -77,7 +80,7 @@ data Reason
     NoPriority Int
   | -- | Wrong priority digit: the digit found, the digit expected.
     WrongPriority Int Int
-  | -- | Wrong check sum of a frame: the sum, and the number of which it has to be a multiple.
+  | -- | Wrong check sum of a frame: the sum found, and the number of which it has to be a multiple.
     WrongSum Int Int
   | -- | Wrong frame number: the number found, the number expected.
     WrongNumber Int Int

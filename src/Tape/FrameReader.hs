@@ -9,8 +9,8 @@
 -- check sum, has to be a multiple of the modulus.
 --
 -- The reader reads the words and makes a frame of them. Then it writes this frame again: a row that
--- differs from the tape is a fault. "Tape.FrameReader.Fast" tries every frame first; it reads the
--- frames that have neither an arc nor a command. Indices of rows count from 0.
+-- differs from the tape is a fault. Before this, it tries each frame with "Tape.FrameReader.Fast",
+-- which can read the frames with neither an arc nor a command. Indices of rows count from 0.
 module Tape.FrameReader
   ( RowFault (..),
     readFrame,
@@ -101,7 +101,9 @@ readFrame layout state rows begin = case FastFrameReader.readFrame layout state 
   FastFrameReader.Read f end -> Right (f, end)
   FastFrameReader.NotSimple -> wordByWord layout state rows begin
 
--- | Gives the result of 'readFrame' without the fast reader of "Tape.FrameReader.Fast".
+-- | Reads the frame that begins at row @begin@ word by word, without "Tape.FrameReader.Fast".
+-- @state@ is the modal state before the frame. Gives the frame and the index of the row after it,
+-- or the first fault.
 wordByWord :: PreparedLayout -> State -> ShortByteString -> Int -> Either RowFault (Frame, Int)
 wordByWord layout state rows begin = do
   (reading, end) <- readSteps layout rows begin
@@ -199,9 +201,8 @@ withCheckDigit layout k modulus d now =
       check = Just (k, modulus)
     }
 
--- | Adds to a reading what the number @n@ of the word @w@ gives besides its value: the weights of
--- its symbols, the command if @w@ is a command word, and the meaning of its holes in the service
--- track.
+-- | Adds the number @n@ of the word @w@ to a reading: the weights of its symbols, and the meaning
+-- of its holes in the service track. If @w@ is the word of a command, it also adds the command.
 withNumber :: PreparedLayout -> Word' -> TapeNumber -> Reading -> Reading
 withNumber layout w n now = case content w of
   Command o -> counted {commandNumbers = (o, NumberReader.value n) : commandNumbers counted}

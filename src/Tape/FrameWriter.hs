@@ -81,8 +81,8 @@ checkSum layout state frame = runIdentity (foldWithSum count 0 layout state fram
         CheckSymbol _ -> total
         _ -> total + n
 
--- | Fold over the rows of a frame as in 'foldRows'. @total@ is the sum of the weights of all
--- symbols but the check digit. The check digit is chosen by this sum.
+-- | Monadic left fold over the rows of a frame, from the first row to the last. @total@ is the sum
+-- of the weights of all symbols but the check digit. The check digit is chosen by this sum.
 foldWithSum ::
   Monad m =>
   AddRow m r ->
@@ -228,8 +228,8 @@ mostRows layout = sum (map most (steps layout))
 lowestDigits :: Int -> Int -> Int
 lowestDigits count n = if n < Layout.power count then n else n `rem` Layout.power count
 
--- | Smallest digit whose weight makes the check sum @total@ a multiple of @modulus@; 0 if no digit
--- does.
+-- | Smallest digit whose weight, added to the sum @total@ of all other weights in the frame, gives
+-- a multiple of @modulus@; 0 if no digit does.
 checkDigit :: PreparedLayout -> Int -> Int -> Int
 checkDigit layout modulus total =
   case [d | d <- [0 .. 9], (total + weightOf d) `mod` max 1 modulus == 0] of

@@ -198,8 +198,8 @@ isAlwaysWritten step = case step of
   WordStep w _ _ -> presence w == Always
   CheckStep _ -> True
 
--- | Commands that a word can give, by its number or by bits in its service track. The flag is that
--- of 'commandWords'.
+-- | Commands that a word can give, by its number or by bits in its service track. The flag is true
+-- if the number 0 gives the command, and false if 0 means that the frame lacks the command.
 commandsOf :: Word' -> [(CommandName, Bool)]
 commandsOf w =
   [(o, ModalState.isZeroCommand w) | Command o <- [content w]]

@@ -103,8 +103,8 @@ numeral layout c f rows begin = do
       EitherSign -> True
 
 -- | True if a number of the form @f@ can begin at row @k@: the row is a digit, or a sign that the
--- form allows. Always true for a form without digits. The reader finds with it which optional words
--- are present.
+-- form allows. Always true for a form without digits. By this test the reader of frames finds which
+-- optional words are present.
 canBegin :: PreparedLayout -> NumberForm -> ShortByteString -> Int -> Bool
 canBegin layout f rows k =
   digits f == 0
@@ -218,7 +218,8 @@ digitsUpTo layout rows end ds
             Just d <- [Symbol.digitAt table (Short.index rows k)]
         ]
 
--- | Reads digits as 'digitsUpTo' does, in a form that uses the service track.
+-- | Reads digits up to row @end@, excluded, in a form that uses the service track. It stops at the
+-- first row that is no digit, or that lacks a hole in the service track or has a wrong one.
 serviceDigits :: PreparedLayout -> ShortByteString -> Int -> Digits -> Digits
 serviceDigits layout rows end ds =
   go (at ds) (amount ds) (negative ds) (commandBits ds) (braking ds) (weights ds) (services ds)

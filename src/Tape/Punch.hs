@@ -108,8 +108,8 @@ rows machine start frames =
   where
     layout = Layout.fromMachine machine
 
--- | Rows of a tape in groups: one group for each frame, with the number of the frame, and one group
--- for each end of the tape, without a number.
+-- | Rows of a tape in groups. Each frame is a group with the number of the frame. The rows before
+-- the first frame and those after the last one are two groups without a number.
 markedRows :: PreparedLayout -> Pulses3 -> [Frame] -> [(Maybe Int, [MarkedRow])]
 markedRows layout start frames =
   (Nothing, rowsBefore layout) :

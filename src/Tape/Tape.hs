@@ -12,8 +12,8 @@ import Data.ByteString qualified as ByteString
 import Machine.Machine (Machine)
 import Machine.Machine qualified as Machine
 
--- | Rows of a punched tape in order, one byte each. If the machine reads a text instead of a tape,
--- the bytes of this text.
+-- | Rows of a punched tape in order, one byte each. For a machine that reads a text instead of a
+-- tape, these are the bytes of the text.
 newtype Tape = Tape ByteString
   deriving newtype (Eq)
   deriving stock (Show)

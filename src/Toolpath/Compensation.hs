@@ -139,8 +139,8 @@ checkElements keyword requested milling side passMoves =
     Rad smooth = Tolerance.smoothAngle
     element = elementAt milling
 
--- | Refuses an element shorter than 'Tolerance.controlLength'. The regions are those of
--- 'checkElements'.
+-- | Refuses an element shorter than 'Tolerance.controlLength'. @keyword@ is the region of the
+-- statement's first word, @requested@ that of the request for compensation.
 checkLength :: Region -> Region -> Element -> Either Error ()
 checkLength keyword requested e =
   when
@@ -179,9 +179,9 @@ elementAt milling i = elements NonEmpty.!! (i `mod` length elements)
   where
     elements = Part.elements (Part.contour milling)
 
--- | The least 'referenceLength' that the segment before the segment @s@ may have. @away@ is the
--- angle by which the contour turns away from the cutter between the two segments; @r@ is the
--- cutter's radius in mm.
+-- | The least length of a line, or the least radius of an arc, that a control accepts before the
+-- segment @s@ ('referenceLength'). @away@ is the angle by which the contour turns away from the
+-- cutter between the two segments; @r@ is the cutter's radius in mm.
 --
 -- If @s@ is an arc, the centre's arc may sweep more than @s@. The reasons are the angle @away@, and
 -- rounding to pulses, which turns the segment before. Rounding turns a longer segment less. With
@@ -284,7 +284,8 @@ overrun keyword milling first =
 -- the end of that move. @passMoves@ are the moves of the approach; the last of them must be
 -- straight and level. If this last move is longer than three radii of the cutter, it is divided at
 -- two radii from its end. Compensation begins on the second part, whose direction certainly differs
--- from that of the edge. @keyword@ and @requested@ are the regions of 'checkElements'.
+-- from that of the edge. @keyword@ is the region of the statement's first word, @requested@ that of
+-- the request for compensation.
 entering ::
   Region ->
   Region ->

@@ -70,8 +70,8 @@ data CuttingPass = CuttingPass
   }
 
 -- | The part of the toolpath for a pass along a path: the moves to the contour, along it and away
--- from it, and their commands. Fails when a blade or a control with cutter compensation
--- cannot make the pass.
+-- from it, and the input for a control with cutter compensation, if the program asks for that.
+-- Fails when a blade or a control with cutter compensation cannot make the pass.
 block :: CuttingPass -> NonEmpty OffsetSegment -> Either Error Block
 block p path = do
   swivels <- Swivel.axis word milling (cutterSide p) path
@@ -99,9 +99,10 @@ pathEnds milling path cut =
       lastSegment = Toolpath.segment (NonEmpty.last cut)
     }
 
--- | The block of a pass. @swivels@ has the heights of a blade's axis as for 'cutMoves', @cut@ the
--- moves along the contour. The strict @ends@ of the path are computed before the block, so the
--- block keeps no reference to the path.
+-- | The block of a pass. @swivels@ has, for the start and the end of each segment of the path, the
+-- height of a blade's axis above its middle position; Nothing without a blade. @cut@ has the moves
+-- along the contour. The strict @ends@ of the path are computed before the block, so the block
+-- keeps no reference to the path.
 blockOf ::
   CuttingPass -> Maybe (NonEmpty (Mm, Mm)) -> NonEmpty Move -> PathEnds -> Either Error Block
 blockOf p swivels cut ends@PathEnds {} = do
@@ -127,8 +128,9 @@ blockOf p swivels cut ends@PathEnds {} = do
     word = wordOf p
     passMoves = allMoves p swivels cut ends
 
--- | All moves of a pass. @swivels@ has the heights of a blade's axis as for 'cutMoves', @cut@ the
--- moves along the contour, and @ends@ the ends of the path.
+-- | All moves of a pass. @swivels@ has, for the start and the end of each segment of the path, the
+-- height of a blade's axis above its middle position; Nothing without a blade. @cut@ has the moves
+-- along the contour, and @ends@ the ends of the path.
 allMoves :: CuttingPass -> Maybe (NonEmpty (Mm, Mm)) -> NonEmpty Move -> PathEnds -> PassMoves
 allMoves p swivels cut ends =
   PassMoves

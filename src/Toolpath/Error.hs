@@ -29,9 +29,9 @@ import Report.Report (Label (..), Report (..))
 import Toolpath.Tolerance qualified as Tolerance
 import Toolpath.WarningReport
 
--- | Reasons why there is no toolpath. The first region is the one that the report shows; mostly it
--- is the statement's first word. A position is one of the cutter's centre. A largest radius that
--- fits is that of a cutter that would not have this problem; it is Nothing if no cutter would do.
+-- | Reasons why there is no toolpath. The first region is mostly that of the statement's first
+-- word. A position is one of the cutter's centre. A largest radius that fits is that of a cutter
+-- that would not have this problem; it is Nothing if no cutter would do.
 data Error
   = -- | @outside@ or @inside@ at an open contour: the side as written, the contour's name, the
     -- contour
@@ -109,7 +109,8 @@ data Error
   | -- | a pocket without a depth in which the cutter must be lifted: the statement's first word,
     -- the beginning and the end of the straight move that a wall blocks
     HasToRise Region Point Point
-  | -- | an element of a pocket's walls whose own allowance exceeds that of the pocket's last pass
+  | -- | an element of a pocket's walls whose own allowance exceeds that of the pocket's last pass:
+    -- the statement's first word, the element
     KeepsMore Region Element
   deriving stock (Eq, Show)
 

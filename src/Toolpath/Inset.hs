@@ -32,8 +32,8 @@ oriented outer islands = orient (> 0) outer :| map (orient (< 0)) islands
   where
     orient wanted c = if wanted (Polyarc.signedArea c) then c else Polyarc.reverse c
 
--- | The loops at a distance to the left of an outer contour and islands. The contours must be
--- oriented as by 'oriented', and free of self-intersections. There are no loops when the contours
+-- | The loops at a distance to the left of an outer contour and islands. Each contour must have the
+-- free space on its left, and must not intersect itself. There are no loops when the contours
 -- intersect each other. The partial application to the contours converts them once for all
 -- distances.
 inset :: NonEmpty Polyarc -> Mm -> [Loop]
@@ -53,9 +53,9 @@ inset contours@(outer :| _) = loopsAt
         Left Kernel.WrongNesting -> []
 
 -- | The loops at @distance@, including loops along slots: narrow passages that are exactly twice as
--- wide as @distance@. @loopsAt@ gives the loops at a distance, as 'inset' of the contours does, but
--- none in a slot, where the centre can only move on a line. If there is a slot, all loops of the
--- result are at a distance that is smaller by 'Tolerance.clearance'.
+-- wide as @distance@. @loopsAt@ is 'inset' applied to the contours. It gives no loop in a slot,
+-- because the centre can only move on a line there. If there is a slot, all loops of the result are
+-- at a distance that is smaller by 'Tolerance.clearance'.
 insetWithSlots :: (Mm -> [Loop]) -> Mm -> [Loop]
 insetWithSlots loopsAt distance
   | minus (totalLength smaller) (totalLength own) > Tolerance.ignoredSlot = smaller

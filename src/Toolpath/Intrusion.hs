@@ -41,8 +41,8 @@ import Toolpath.Swivel qualified as Swivel
 import Toolpath.Toolpath (Block (..), Move, Pass (..), Toolpath)
 import Toolpath.Toolpath qualified as Toolpath
 
--- | One error for each region of the program whose moves cut into a contour deeper than its
--- tolerance: the deepest of these cuts.
+-- | One error for each region of the program that asks for moves which cut into a contour deeper
+-- than the contour's tolerance. It is the deepest of these cuts.
 intrusions :: Toolpath -> [Error]
 intrusions path = worst (concatMap (intrusionsOfBlock machined) (Toolpath.blocks path))
   where
@@ -116,9 +116,9 @@ machinedOf blocks =
         (BoundingBox.ofSegment (Part.segment e))
         (take (groupSize - 1) es)
 
--- | The statement of the pass that a block is: its number, the statement itself, and the contours
--- that the pass machines. Nothing for other blocks, and when the centre of the cutter moves on the
--- contour.
+-- | The statement to which the pass of a block belongs: its number, the statement itself, and the
+-- contours that the pass machines. Nothing for blocks other than passes, and when the centre of the
+-- cutter moves on the contour.
 contoursOf :: Block -> Maybe (Int, Milling, [Contour])
 contoursOf b = case b of
   Cutting {job = Located _ milling, pass}
@@ -243,8 +243,9 @@ hit tool kept milling m element
       | plus d allowed < tool = CutsContour
       | otherwise = CutsAllowance
 
--- | True if a segment @path@ leads from one side of the segment @wall@ to the other, and further
--- than @allowed@ on both sides. The check is for pointed tools, whose radius is 0.
+-- | True if a segment @path@ leads from one side of the segment @wall@ to the other, and gets
+-- further than @allowed@ away from it on both sides. The check is for pointed tools: their radius
+-- is 0, so no distance from a wall is too small.
 goesThrough :: Mm -> Segment -> Segment -> Bool
 goesThrough allowed path wall = case wall of
   Straight a b ->

@@ -39,10 +39,10 @@ data Visit = Visit
 
 -- | The linking moves before and after a pass of a statement without a depth. The height of the
 -- pass is @z@. The pass goes from the point @begin@ to the point @finish@. @inZ@ and @outZ@ are the
--- heights of the z axis there. They differ from @z@ for a blade only, because the z axis does not
--- lift a blade, but swivels it. Each pass along an open contour has the approach and the retract of
--- the program. On a closed contour only the first pass has the approach, and only the last pass the
--- retract.
+-- heights of the z axis at these two points. They differ from @z@ for a blade only, because the z
+-- axis does not lift a blade, but swivels it. Each pass along an open contour has the approach and
+-- the retract of the program. On a closed contour only the first pass has the approach, and only
+-- the last pass the retract.
 withoutDepth :: Visit -> Mm -> (Mm, Mm) -> Point -> Point -> ([Move], [Move])
 withoutDepth Visit {word, milling, isFirst, isLast, from} z (inZ, outZ) begin finish =
   ( before
@@ -73,8 +73,8 @@ withoutDepth Visit {word, milling, isFirst, isLast, from} z (inZ, outZ) begin fi
 -- it plunges at the beginning of the pass. After the pass it moves to the first retract point and
 -- rises there; if that point has a height of its own, the cutter rises at the end of the pass. The
 -- other approach points are used before the first pass only, the other retract points after the
--- last pass only. The heights @inZ@ and @outZ@ and the points @begin@ and @finish@ are those of
--- 'withoutDepth'.
+-- last pass only. @begin@ and @finish@ are the ends of the pass, @inZ@ and @outZ@ the heights of
+-- the z axis at these ends.
 withDepth :: Visit -> Mm -> (Mm, Mm) -> Point -> Point -> ([Move], [Move])
 withDepth Visit {word, milling, isFirst, isLast, from} clear (inZ, outZ) begin finish =
   ( up

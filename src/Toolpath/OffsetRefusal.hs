@@ -56,8 +56,9 @@ restPositions tool elements = fmap restPosition
     -- @corners@ before it; at the end, the count of all @corners@.
     corners = Vector.findIndices (not . Part.continues) elements
     cornersBefore = Vector.scanl' (\n e -> if Part.continues e then n else n + 1) 0 elements
-    -- The two elements that meet at the corner between the elements @i@ and @j@, if there is
-    -- exactly one. If @j@ is less than @i@, the end of a closed contour lies between them.
+    -- The two elements that meet at the corner between the elements @i@ and @j@, if exactly one
+    -- corner lies between them. If @j@ is less than @i@, the end of a closed contour lies between
+    -- them.
     onlyCorner i j =
       let from = cornersBefore ! (i + 1)
           around = if j < i then Vector.length corners else 0

@@ -69,7 +69,7 @@ data PocketRoom = PocketRoom
 data PocketMove
   = -- | along a loop or a part of one; the distance is that of the loop from the walls
     AlongLoop Mm (NonEmpty Segment)
-  | -- | a detour that clears stepover residue, no nearer to the walls than the loops
+  | -- | a detour that clears stepover residue, nowhere nearer to the walls than the outermost loop
     Detour (NonEmpty Segment)
   | -- | straight to the next loop, with no wall between
     DirectLink Segment
@@ -102,7 +102,8 @@ clear room step from =
 
 -- | The sections that finish the walls of a pocket after it was cleared with the larger allowance
 -- @before@. The distance between loops is at most the stepover @step@ and at most the radius.
--- @from@ is the plunge position as for 'clear'.
+-- @from@ is the cutter's plunge position; Nothing if the cutter plunges at the beginning of the
+-- first loop.
 finishWalls :: PocketRoom -> Mm -> Mm -> Maybe Point -> [PocketMove]
 finishWalls room step before from =
   along

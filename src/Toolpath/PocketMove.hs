@@ -152,8 +152,8 @@ lastApproach milling = value . Part.place <$> listToMaybe (reverse (Part.approac
 
 -- | The moves before, in and after a pass. @travelHeight@ is the clearance height; Nothing if the
 -- pocket has no depth, so that the cutter cannot be lifted. @left@ is the allowance at the walls,
--- @z@ the height of the pass. @sectionsFrom@ gives the sections for a plunge position, or for
--- Nothing, as in 'PocketPass'.
+-- @z@ the height of the pass. @sectionsFrom@ gives the sections for a plunge position; for Nothing,
+-- the cutter plunges at the beginning of the first loop.
 passOf ::
   Visit ->
   Maybe Mm ->

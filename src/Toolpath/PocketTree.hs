@@ -95,7 +95,8 @@ ring wallDistance trips (n, loop) =
 
 -- | The regions at one distance @c@ from the walls. The @loops@ at that distance are grouped by the
 -- regions that they bound. The regions @inside@, at the next distance, become children of the
--- regions that contain them. @trips@ has the detours as for 'ring'.
+-- regions that contain them. @trips@ has the detours, by the number of a loop and the number of the
+-- segment at whose end they begin.
 grouped :: Mm -> [Loop] -> Map (Int, Int) [NonEmpty Segment] -> [PocketTree] -> [PocketTree]
 grouped c loops trips inside = mapMaybe part (Map.toList members)
   where

@@ -144,8 +144,8 @@ furthest p s = case s of
 
 -- | Divides the segment @s@ of the edge into the parts beside segments of inner passes and the free
 -- parts between them. @index@ contains the segments of the inner passes, each offset so far that it
--- lies on the edge where the pass is parallel to it. The pair before a segment has the numbers of
--- its loop and of the segment, from 0.
+-- lies on the edge where the pass is parallel to the edge. The pair before a segment has the
+-- numbers of its loop and of the segment, from 0.
 divided :: BoxTree ((Int, Int), Segment) -> Segment -> [EdgePart]
 divided index s =
   partsFrom

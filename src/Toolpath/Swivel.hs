@@ -105,8 +105,9 @@ shares ls = zip marks (drop 1 marks)
     marks = scanl (\s l -> s + l / sum ls) 0 ls
 
 -- | The bevels at the beginning and the end of each segment of an offset, in radians.
--- @elementBevels@ are those of 'bevels'. On the arc round a corner the bevel changes linearly from
--- the bevel of the element before the corner to that of the element after it.
+-- @elementBevels@ has the bevels at the beginning and the end of each element. On the arc round a
+-- corner the bevel changes linearly from the bevel of the element before the corner to that of the
+-- element after it.
 angles :: Vector (Double, Double) -> NonEmpty OffsetSegment -> NonEmpty (Double, Double)
 angles elementBevels offsetSegments =
   NonEmpty.fromList
@@ -128,8 +129,9 @@ angles elementBevels offsetSegments =
                   shares [l | q <- NonEmpty.toList ps, let Mm l = Segment.length (segment q)]
             ]
 
--- | Refuses a joint without a corner of two elements whose bevels differ: the blade would have to
--- swivel at one point. @region@ is the region of the statement's first word.
+-- | Refuses consecutive segments along two elements, without an arc between them, if the bevels of
+-- the elements differ there: the blade would have to swivel at one point. @region@ is the region of
+-- the statement's first word.
 checkJoints ::
   Region ->
   Vector Element ->

@@ -100,8 +100,8 @@ bodiesOf b = case b of
   _ -> Nothing
 
 -- | The contour of a milling statement with the side of its material. Empty if the cutter's centre
--- moves on the contour, and for an open contour. Only a profile turned outside is not left out: the
--- axis of the spindle closes it.
+-- moves on the contour, and for an open contour. The one exception is a profile turned outside: it
+-- is open, but the axis of the spindle closes it.
 bodyOf :: Milling -> [Body]
 bodyOf milling = case (Part.ends contour, value (Part.side milling)) of
   (Part.Closed, Outside) -> [whole True]

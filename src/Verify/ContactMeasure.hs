@@ -152,7 +152,7 @@ largestGrowth window firsts seconds = go 0 0 0
 -- | Uncertainty on one segment, in mm: twice the allowed deviation. On the inside of an arc of
 -- radius @R@, the contact point moves by @R / |R − r|@ times as much as the centre; @r@ is the
 -- distance of the centre from the contour. There the uncertainty is multiplied by this factor, and
--- doubled.
+-- doubled as a margin.
 uncertaintyOn :: MillingJob -> Segment -> Double
 uncertaintyOn job s = case s of
   Arc {start, centre, sweep = Rad angle}

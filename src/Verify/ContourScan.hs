@@ -56,12 +56,12 @@ data View = View {motion :: CutterMotion, close :: [Edge], bounding :: [Segment]
 
 -- | Scan two lists of motions, each in the order of the tape: @keepingOut@ are the motions that are
 -- examined for gouges, @along@ those that have to follow the contour. A motion may be in both.
--- @keepOutOf@ gives the distances that a motion has to keep from the elements. @allowedExcess@ says
--- by how much a motion along the contour may exceed the distance of the pass.
+-- @keepOutOf@ gives the distances that a motion has to keep from the elements. A motion along the
+-- contour may be further from it than 'maxReach' by at most @allowedExcess@.
 --
--- The array has an upper bound in mm for each element, by the element's number from 0. Each point
--- of the element has a motion of @along@ within that distance, on the required side. A bound comes
--- from one motion or from two successive ones; it is ∞ if none was found.
+-- The array of the result has an upper bound in mm for each element, by the element's number from
+-- 0. Each point of the element has a motion of @along@ within that distance, on the required side.
+-- A bound comes from one motion or from two successive ones; it is ∞ if none was found.
 scan ::
   MillingJob ->
   (CutterMotion -> KeepOut) ->

@@ -33,14 +33,15 @@ import Offset.Tolerance qualified as Tolerance
 -- | Set of members that may cover a segment.
 data Cover a = Cover
   { index :: BoxTree a,
-    -- | paths of a member: the member covers a point if all its paths are within the distance
+    -- | paths of a member; it covers a point at some distance if all its paths are within that
+    -- distance of the point
     pathsOf :: a -> NonEmpty Segment,
     -- | true of the eligible members, the only ones that may cover the segment. For an element of a
     -- contour these are the motions on the cutter's side of the element
     isEligible :: a -> Bool,
-    -- | distance at which points are covered without a gap
+    -- | allowed distance: a point with a member within this distance has no gap
     reach :: Mm,
-    -- | first gap that is tried when the largest one is searched; usually no gap is larger
+    -- | first size that is tried in the search for the gap of a segment; usually no gap is larger
     allowance :: Mm
   }
 
@@ -50,9 +51,10 @@ data DistanceBounds = DistanceBounds {atLeast :: Mm, atMost :: Mm}
 -- | Size of a gap in mm, the point of the segment with this gap, and the members near the segment.
 data Gap a = Gap {size :: Mm, location :: Point, members :: [a]}
 
--- | Largest gap of a segment. Nothing if it is not larger than @least@, or if there are no members
--- near the segment. A gap that is larger than 'unlimited' gets the size 'unlimited'. @known@ are
--- bounds of the distance that save exact comparisons.
+-- | Gap of a segment, which is that of its point furthest from all members. Nothing if it is not
+-- larger than @least@, or if there are no members near the segment. A gap that is larger than
+-- 'unlimited' gets the size 'unlimited'. @known@ are bounds of the Hausdorff distance; they save
+-- exact comparisons.
 largestGap :: Cover a -> Maybe DistanceBounds -> Mm -> Segment -> Maybe (Gap a)
 largestGap cover known least segment
   | isClosedBy least = Nothing
@@ -104,7 +106,8 @@ membersNear cover distance segment =
 
 -- | Test that each point of a segment has a member within a distance. If at most 'fewAtMost'
 -- members are near the segment, all of them are examined together. Otherwise they are examined one
--- by one: the next is the member nearest to the end of the stretch that is already covered.
+-- by one, from the start of the segment: the next is the member nearest to the point up to which
+-- the segment is already covered.
 isCovered :: Cover a -> Mm -> Segment -> Bool
 isCovered cover distance segment
   | null (drop fewAtMost near) = together
@@ -134,8 +137,9 @@ isCovered cover distance segment
 distanceTo :: Point -> NonEmpty Segment -> Mm
 distanceTo p = maximum . fmap (Distance.toPoint p)
 
--- | Stretches of a segment that no member covers at a distance. Each is given by its beginning and
--- end, as fractions of the segment's length from 0 to 1. Each member is given by its paths.
+-- | Parts of a segment that no member covers at the given distance. A part is given by its
+-- beginning and end, as fractions of the segment's length from 0 to 1. A member is given by its
+-- paths.
 uncovered :: Mm -> [NonEmpty Segment] -> Segment -> [(Double, Double)]
 uncovered distance members segment =
   foldl

@@ -60,9 +60,9 @@ data MillingPass = MillingPass
 -- | Allowed deviations into the part and away from it. Each is a chord error plus one pulse.
 data Allowed = Allowed {allowedGouge :: Mm, allowedExcess :: Mm}
 
--- | Compare the motions of a tape with a pass along a contour. If @isFirst@ is true, the pass is
--- the first one along its contour. Then all motions near the contour are examined for gouges;
--- otherwise only those of the pass.
+-- | Compare the motions of a tape with a pass along a contour. If @isFirst@ is true, it is the
+-- first pass of its statement, and all motions near the contour are examined for gouges. Otherwise
+-- only those of the pass are.
 examine :: MotionSet -> Bool -> MillingPass -> (ContourProof, [Finding])
 examine set isFirst pass = (contourProof, if null findings then orderFindings pass else findings)
   where
@@ -163,7 +163,9 @@ allowsRest job = Part.rest (milling job) == Part.Allowed
 
 -- Gouge -------------------------------------------------------------------------------------------
 
--- | Motions that are examined for gouges: none if the cutter runs on the contour.
+-- | Motions that are examined for gouges. In the first pass of a statement they are all motions
+-- near the contour, otherwise the motions @along@ it; motions above the top of the part are left
+-- out. There are none if the cutter runs on the contour.
 motionsKeepingOut :: MotionSet -> Bool -> MillingJob -> [CutterMotion] -> [CutterMotion]
 motionsKeepingOut set isFirst job along
   | isNothing (side job) = []
@@ -206,8 +208,9 @@ ascending ns = case ns of
   a : more -> a : ascending more
   [] -> []
 
--- | Gouges of a tool with radius 0 that are deeper than @allowed@; empty for any other tool. Such a
--- tool gouges only by crossing the contour, which 'PointedTool.gougeOf' finds.
+-- | Gouges of a tool with radius 0; empty for any other tool. Such a tool gouges only by crossing
+-- the contour, which 'PointedTool.gougeOf' finds. @allowed@ is the allowed depth; gouges within it
+-- are listed as well.
 piercedBy :: MillingJob -> Mm -> [CutterMotion] -> [Witness]
 piercedBy job allowed motions =
   [ w
@@ -221,9 +224,9 @@ piercedBy job allowed motions =
 -- Excess ------------------------------------------------------------------------------------------
 
 -- | Excess on the elements of a contour; @allowed@ is the largest allowed one. If rest material is
--- allowed, the elements are compared with all motions at the height of the pass. These are the same
--- for all cuts of the pass, so only the first cut is examined. @bounds@ is the array that
--- 'ContourScan.scan' returns.
+-- allowed, the elements are compared with all motions at the height of the pass. Only the first cut
+-- of the statement's execution is then examined. @bounds@ has for each element, by its number from
+-- 0, an upper bound in mm of the distance of its points from the motions along the contour.
 missedOn :: MotionSet -> Bool -> MillingPass -> Mm -> PrimArray Double -> [Witness]
 missedOn set isFirst MillingPass {job, level, found} allowed bounds
   | allowsRest job && not isFirst = []

@@ -79,9 +79,10 @@ isCurved = BoxTree.foldl' (\is e -> is || continues e) False
 largestAllowance :: BoxTree Edge -> Mm
 largestAllowance = BoxTree.foldl' (\most e -> max most (ownAllowance e)) (Mm (-1 / 0))
 
--- | Least value of an element's distance from the point @p@ minus the element's allowance, in mm,
--- over the elements @near@; the @limit@ if no element has less. By this value the elements that a
--- cutter with its centre at @p@ touches are chosen.
+-- | Least value over the elements @near@ of this difference, in mm: the element's distance from the
+-- point @p@, minus the element's allowance. It is @limit@ if no element has a smaller value.
+-- @allowanceOf@ gives the allowance of an element. A cutter with its centre at @p@ touches the
+-- elements that come near to the least value.
 leastExcess :: (Edge -> Mm) -> Double -> [Edge] -> Point -> Double
 leastExcess allowanceOf limit near p = foldl' lesser limit near
   where

@@ -3,7 +3,9 @@
 --
 -- A /job/ is a cut along a contour as the part demands it. The /reach/ of a job is the required
 -- distance of the cutter's centre from the contour; its /allowance/ is the allowed deviation. The
--- cutter's side is the side of the contour on which the part requires the cutter to be.
+-- cutter's side is the side of the contour on which the part requires the cutter to be. The
+-- /bounding paths/ of a motion enclose its real path: one path, or two for an arc whose radii at
+-- start and end differ (see "Control.Motion").
 module Verify.Excess
   ( excesses,
     strayOf,
@@ -38,10 +40,10 @@ import Verify.Proof (Witness (Witness))
 import Verify.Proof qualified as Proof
 
 -- | Excess on elements: by how much the element's points are further than the reach from every
--- motion. Each excess above the allowance is listed. An excess within the allowance is only listed
--- if it is larger than the listed ones before it that are within the allowance as well. @bounds@
--- has for each element, by its number from 0, an upper bound in mm of the distance of its points
--- from the motions. @index@ contains the motions.
+-- motion in @index@. Each excess above the allowance is listed. An excess within the allowance is
+-- listed only if it is larger than all earlier ones within the allowance. @bounds@ has for each
+-- element, by its number from 0, an upper bound in mm of the distance of its points from the
+-- motions.
 excesses :: MillingJob -> PrimArray Double -> BoxTree CutterMotion -> [Edge] -> [Witness]
 excesses job bounds index = go (Mm 0)
   where
@@ -78,8 +80,8 @@ excesses job bounds index = go (Mm 0)
           Coverage.allowance = allowance job
         }
 
--- | True only if each point of an element has a motion within the reach plus @least@. Decided by
--- fast bounds; False means that the exact comparison has to decide.
+-- | True only if each point of an element has a motion within the reach plus @least@; fast bounds
+-- decide this. False means that the exact comparison has to decide.
 isSurelyCovered :: MillingJob -> PrimArray Double -> BoxTree CutterMotion -> Mm -> Edge -> Bool
 isSurelyCovered job bounds index least e =
   PrimArray.indexPrimArray bounds (rank e) <= d - 2 * FastDistance.unsure
@@ -110,7 +112,7 @@ isEligible job e (m, bounding) =
   all (isSurelyOnSide job (shape e)) bounding
     || all (isOnSide job (Part.segment (element e))) (paths m)
 
--- | True only if a path lies wholly on the cutter's side of an element. Decided by fast bounds;
+-- | True only if a path lies wholly on the cutter's side of an element; fast bounds decide this.
 -- False means that 'isOnSide' has to decide.
 isSurelyOnSide :: MillingJob -> Segment -> Segment -> Bool
 isSurelyOnSide job e path = case side job of

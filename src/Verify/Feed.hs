@@ -82,7 +82,8 @@ atFeed machine demanded finishes = mapMaybe wrongFeed
     feedOf = fromMaybe 0 . Machine.valueOf machine
 
 -- | Findings for vertical motions into solid material with a speed that no planned motion into
--- solid material has. Empty if the planned frames contain no motion into solid material.
+-- solid material has. If the planned frames contain no such motion, there is nothing to compare
+-- with, and the result is empty.
 downwards :: FrameProgram -> [Frame] -> [Finding]
 downwards program frames = case plunges (map Frame.frame (Frame.plannedFrames program)) of
   [] -> []
@@ -185,9 +186,10 @@ tooFast machine start frames = case Machine.brakingForm (Machine.braking machine
 
 -- | Step of 'tooFast' for the motion @m@; the steps are done from the end of the tape to its start.
 -- @begin@ and @end@ are the path lengths in mm from the start of the tape to both ends of @m@;
--- @next@ is the motion after it, if there is one. @least@ is the least value of @v² + 2·a·s@ over
--- all later speeds @v@ in mm/s; @s@ is the path length from the start of the tape to that speed.
--- @found@ are the findings for later motions. The result has @least@ and @found@ with @m@ included.
+-- @next@ is the motion after it, if there is one. @least@ is the least value of @v² + 2·a·p@ over
+-- all later speeds @v@ in mm/s; @a@ is the deceleration, and @p@ is the path length from the start
+-- of the tape to the position of that speed. @found@ are the findings for later motions. The result
+-- has @least@ and @found@ with @m@ included.
 tooFastIn ::
   Machine ->
   ((Double, Double), Motion, Maybe Motion) ->
@@ -209,7 +211,7 @@ tooFastIn machine ((begin, end), m, next) (least, found)
     rounding = 1e-9 * max 1 (v * v)
     Mm pulse = Machine.planeResolution machine
 
--- | Largest change of the distance between two positions by rounding, in pulses: one pulse for each
--- position.
+-- | Largest change, by rounding, of the distance between two positions. It is counted in pulses:
+-- one pulse for each position.
 pulsesRounded :: Double
 pulsesRounded = 2

@@ -71,8 +71,8 @@ type Commands = [(CommandName, Int)]
 
 -- | Findings for frames whose commands differ from those of the planned frames. A tape with as many
 -- frames as planned is compared frame by frame. On any other tape, the first frame with commands is
--- compared with the first such planned frame, the second with the second, and so on. The two frames
--- of a pair also have to begin at the same position, to two pulses.
+-- compared with the first such planned frame, the second with the second, and so on. The positions
+-- at which the two frames of a pair begin may differ by at most two pulses on each axis.
 wrongCommands :: FrameProgram -> [Frame] -> [Finding]
 wrongCommands program frames =
   [ WrongCommand n name (lookup name found) (lookup name wanted)
@@ -87,9 +87,10 @@ wrongCommands program frames =
       | length frames == length commanded = frameByFrame 1 commanded (map Frame.commands frames)
       | otherwise = inOrder (length frames) (positioned planned) (positioned frames)
 
--- | Frames with different commands, numbered from @n@. @own@ are the commands of the planned
--- frames, @found@ those of the tape. Each entry of the result has the number, the planned commands
--- and those of the tape. If one of the lists is longer, the other one counts as empty there.
+-- | Frames with different commands. @n@ is the number of the first frame in both lists. @own@ has
+-- the commands of the planned frames, @found@ those of the frames on the tape. Each entry of the
+-- result has the number of the frame, the planned commands and those of the tape. A frame that only
+-- one list has is compared with a frame without commands.
 frameByFrame :: Int -> [Commands] -> [Commands] -> [(Int, Commands, Commands)]
 frameByFrame n own found = case (own, found) of
   (a : as, b : bs) | a == b -> frameByFrame (n + 1) as bs
@@ -107,10 +108,12 @@ positioned fs =
   ]
 
 -- | Differences between the planned frames with commands and the frames with commands on the tape,
--- compared in pairs. Both lists have the form of 'positioned', the result that of 'frameByFrame'.
--- If the positions of a pair differ, the planned frame counts as one without commands. Planned
--- commands that are missing at the end of the tape get the number of their planned frame. If that
--- number is less than @frameCount@, the count of frames on the tape, they get @frameCount@.
+-- compared in pairs. An entry of both lists has the number of a frame from 1, the position in
+-- pulses where the frame begins, and its commands. An entry of the result has the number of a frame
+-- on the tape, the planned commands, and those of the tape. If the positions of a pair differ by
+-- more than two pulses, the planned frame counts as one without commands. Planned commands that are
+-- missing at the end of the tape get the number of their planned frame, but at least @frameCount@,
+-- the count of frames on the tape.
 inOrder ::
   Int ->
   [(Int, Pulses3, Commands)] ->

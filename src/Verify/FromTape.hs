@@ -126,8 +126,8 @@ prove machine path program frames =
     closure = closureOf subject
 
 -- | Subject of a proof. The frames are executed lazily, so the list of the controller model's
--- motions is never in memory as a whole. The list of the cutter's motions is; they are much
--- smaller.
+-- motions is never in memory as a whole. The list of the cutter's motions is kept in memory; these
+-- are much smaller.
 subjectOf :: Machine -> Toolpath -> FrameProgram -> [Frame] -> Subject
 subjectOf machine path program frames =
   Subject
@@ -172,8 +172,8 @@ isFlat subject = Toolpath.isFlat (path subject)
 
 -- Passes on the tape ------------------------------------------------------------------------------
 
--- | Passes along contours on the tape. If the tape has exactly the planned frames, each pass is
--- searched among its own planned frames only.
+-- | Passes along contours on the tape. If the frames of the tape are exactly the planned ones, each
+-- pass is searched among its own frames only.
 locatedPasses :: Subject -> [MillingPass]
 locatedPasses subject@Subject {machine, path, program} =
   PassLocation.locate
@@ -241,15 +241,15 @@ toolIn subject passes
     radiusOf = Part.radius . milling . job
     smallest = if null passes then Mm 0 else minimum (map radiusOf passes)
 
--- | Use of the cutter of a pass: its radius, and the frames of the motions @pass@. Empty if there
--- are no motions.
+-- | Use of a cutter in a pass: the numbers of the first and the last frame of the motions @pass@,
+-- and the @radius@ of the cutter. Empty if there are no motions.
 useOf :: Mm -> [CutterMotion] -> [Use]
 useOf radius pass = case pass of
   [] -> []
   first : later -> [Use (number first) (number (foldl' (\_ m -> m) first later)) radius]
 
--- | Motions in each pass of each pocket, found by their positions. This serves for a tape on which
--- the frames of the passes are unknown.
+-- | Motions in each pass of each pocket, found by their positions. An entry has the pocket, the
+-- pass, and its motions. This serves for a tape on which the frames of the passes are unknown.
 pocketVisits :: Subject -> [(Pocket, ClearingPass, [CutterMotion])]
 pocketVisits subject =
   [ ( pocket,
@@ -359,8 +359,9 @@ isAlong machine s move =
     (\p -> Distance.toPoint p move <= times 2 (Machine.planeResolution machine))
     [Segment.start s, Segment.end s]
 
--- | Motions of the controller model in the same frames as some motions of the cutter. The frames
--- are executed again instead of being stored, because few tapes need this.
+-- | Motions as the frames program them, before cutter compensation, in the frames of some motions
+-- of the cutter. The frames are executed again instead of being stored, because few tapes need
+-- this.
 programmed :: Subject -> [CutterMotion] -> [Control.Motion]
 programmed subject ms =
   filter

@@ -1,5 +1,6 @@
 -- | Gouges: motions in which the cutter's centre comes nearer to an element than the required
--- distance.
+-- distance. The /bounding paths/ of a motion enclose its real path: one path, or two for an arc
+-- whose radii at start and end differ (see "Control.Motion").
 module Verify.Gouge
   ( KeepOut (..),
     constantKeepOut,
@@ -37,9 +38,9 @@ data KeepOut = KeepOut
 constantKeepOut :: Mm -> KeepOut
 constantKeepOut d = KeepOut {searchRadius = d, largest = d, required = \_ _ -> d}
 
--- | Deepest gouge of a motion; Nothing if the motion keeps its distance. The amount of a gouge is
--- the required distance minus the actual one. The examined curves are the bounding paths of the
--- motion, and the lines that connect their ends (see "Control.Motion").
+-- | Deepest gouge of the motion @m@ into the elements @edges@; Nothing if the motion keeps its
+-- distance. The amount of a gouge is the required distance minus the actual one. It is measured on
+-- the bounding paths of the motion, and on the lines that connect the ends of two such paths.
 gougeOf :: KeepOut -> BoxTree Edge -> CutterMotion -> Maybe Witness
 gougeOf KeepOut {searchRadius, required} edges m = Proof.deepest gouges
   where
@@ -60,10 +61,11 @@ gougeOf KeepOut {searchRadius, required} edges m = Proof.deepest gouges
         && BoundingBox.lowerBound (`Distance.toPoint` path) b <= searchRadius
 
 -- | Allowance that a motion has to leave on the element @e@ while the centre is at the point @p@.
--- Usually it is the allowance of @e@. But other elements may lie within @pulse@, the length of a
--- pulse, of the point of @e@ nearest to @p@. Then the smallest allowance of @e@ and these elements
--- counts, because the position at which the allowance changes is rounded to pulses. If one of these
--- elements is nearer to @p@ than @e@ is, and @e@ has an allowance, the result is 0.
+-- Usually it is the allowance of @e@. The exception concerns other elements near the foot, which is
+-- the point of @e@ nearest to @p@. If some are within @pulse@ of the foot, the length of a pulse,
+-- the smallest allowance of @e@ and these elements counts. The reason is that the position at which
+-- the allowance changes is rounded to pulses. If one of these elements is nearer to @p@ than @e@
+-- is, and @e@ has an allowance, the result is 0: there the allowance of the nearer element decides.
 allowanceAt :: Mm -> BoxTree Edge -> Element -> Point -> Mm
 allowanceAt pulse edges e p
   | own <= Mm 0 = own

@@ -22,7 +22,8 @@ import Verify.Motion qualified as Motion
 import Verify.Proof (Finding (HoleMissing))
 
 -- | Findings for holes that no vertical motion drills. The motion has to be within a pulse of the
--- hole's centre. Its lowest point may be at most 0.6 pulses above the hole's bottom.
+-- hole's centre. Its lowest point may be at most 0.6 pulses above the hole's bottom. Both limits
+-- allow for rounding to pulses, which moves a position by up to half a pulse on each axis.
 missingHoles :: Machine -> Toolpath -> [CutterMotion] -> [Finding]
 missingHoles machine path motions =
   [ HoleMissing at p

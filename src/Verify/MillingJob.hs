@@ -83,8 +83,8 @@ edgesAround job p =
 edgesNear :: MillingJob -> CutterMotion -> [Edge]
 edgesNear job m = filter (mayTouch job m) (edgesInBox job m)
 
--- | Result of 'edgesNear' for each motion of a list, in order; fast if the motions follow one
--- another on the tape.
+-- | Elements that a cutter may touch during each motion of a list, in the order of the list. The
+-- function is fast if the motions follow one another on the tape.
 edgesNearEach :: MillingJob -> [CutterMotion] -> [[Edge]]
 edgesNearEach job =
   BoxTree.each (BoundingBox.inflate (contactLimit job) . Motion.box) (mayTouch job) (edges job)
@@ -120,11 +120,11 @@ contacts job near p =
 data Touch = Touch
   { -- | 'contactLimit' of the job
     limit :: Double,
-    -- | least value, over all elements near the centre, of the element's distance from the centre
-    -- minus the element's allowance
+    -- | an element's distance from the centre, minus the element's allowance: the least of these
+    -- values over all elements near the centre
     leastExcess :: Double,
-    -- | largest amount by which this value may exceed 'leastExcess' if the cutter touches the
-    -- element
+    -- | largest amount by which this value of an element may exceed 'leastExcess' if the cutter
+    -- touches the element
     spread :: Double
   }
 

@@ -19,7 +19,7 @@ import Verify.Motion qualified as Motion
 -- | Motions of a tape on a machine.
 data MotionSet = MotionSet
   { machine :: Machine,
-    -- | true if the cutter stays at its first height, so that heights are not compared
+    -- | true if the whole toolpath is at the height of its start; heights are then not compared
     isFlat :: Bool,
     -- | radius of the cutter in a motion, in mm
     toolOf :: CutterMotion -> Mm,

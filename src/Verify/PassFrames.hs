@@ -1,5 +1,5 @@
 -- | Numbers of the planned frames of each pass. Planned frames are those that the compiler made for
--- the program.
+-- the program. If a pass has several cuts along parts of a contour, each cut counts as a pass here.
 module Verify.PassFrames
   ( FrameRange (..),
     includes,
@@ -33,9 +33,9 @@ framesOfCuts = rangesBy cutOf
       Frame.Cutting n -> Just n
       _ -> Nothing
 
--- | Range from the first to the last planned frame with the same key, by that key. @key@ gives the
--- key of a frame from its role, such as cutting in the pass with some number. Frames for which
--- @key@ gives Nothing are in no range.
+-- | Ranges of planned frames by key. A range extends from the first to the last frame with its key.
+-- The function @key@ gives the key of a frame from its role, such as the number of the pass that
+-- the frame cuts. Frames for which @key@ gives Nothing are in no range.
 rangesBy :: (Frame.Role -> Maybe Int) -> FrameProgram -> IntMap FrameRange
 rangesBy key program =
   IntMap.fromListWith

@@ -4,7 +4,7 @@
 -- The toolpath says which passes there are, at which height, with which allowance, and where their
 -- cuts start and end. The side of the cutter and its distance from the contour come from the part.
 -- A cut is one trip along a contour. A pass has several cuts if the cutter does not reach all of
--- the contour.
+-- the contour. In the numbers of passes, each of these cuts counts as a pass of its own.
 module Verify.PassLocation
   ( Guide (..),
     locate,
@@ -45,13 +45,13 @@ import Verify.Requirement qualified as Requirement
 -- | Facts that guide the search.
 data Guide = Guide
   { machine :: Machine,
-    -- | true if the cutter stays at its first height, so that heights are not compared
+    -- | true if the whole toolpath is at the height of its start; heights are then not compared
     isFlat :: Bool,
     -- | number of the last planned frame of a pass, by the number of the pass from 0; Nothing if
     -- the tape does not have as many frames as planned
     lastFrameOf :: Int -> Maybe Int,
-    -- | planned frames of a pass's cut, by the number of the pass from 0; Nothing if they are not
-    -- known or not needed. They decide between passes that lie within the tolerance of one another
+    -- | planned frames of a cut, by the number of its pass from 0; Nothing if they are not known or
+    -- not needed. They decide between cuts that lie within the tolerance of one another
     cutFramesOf :: Int -> Maybe FrameRange
   }
 
@@ -65,7 +65,7 @@ data SearchState = SearchState
 
 -- | Cut of the toolpath along a contour. A pass around rest material has several.
 data Cut = Cut
-  { -- | number of its pass among all passes of the toolpath, from 0
+  { -- | number among all passes of the toolpath, from 0; each cut counts as a pass
     passIndex :: Int,
     -- | true if the pass has several cuts
     isPartial :: Bool,
@@ -223,7 +223,7 @@ largestReach milling allowance reach
   | Part.corners milling == Part.Sharp = times 2 (plus reach allowance)
   | otherwise = plus reach allowance
 
--- | List with an entry for each pass: true if it is the first pass of its statement.
+-- | List with an entry for each cut: true if it is the first cut of its statement's execution.
 areFirst :: [MillingPass] -> [Bool]
 areFirst passes =
   zipWith (/=) (map (Just . passNumber) passes) (Nothing : map (Just . passNumber) passes)

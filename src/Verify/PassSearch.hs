@@ -75,8 +75,8 @@ find job at motions = case (complete, filter (staysBeside job . snd) arrivals <>
 
 -- | Arrivals at the start of a cut, in the order of the tape. The arriving motion is unknown if the
 -- cutter was at the start already, or came from another height. A line that begins near the start
--- and ends still nearer belongs to the approach, which was divided for braking. So the arrival is
--- at its end.
+-- and ends still nearer belongs to the approach, which was divided for braking. The start then
+-- counts as reached at the end of that line.
 arrivalsIn :: MillingJob -> Maybe Point -> [CutterMotion] -> [Arrival]
 arrivalsIn job at = go Nothing
   where
@@ -142,8 +142,8 @@ isFullCircle m = case segment m of
   Straight _ _ -> False
   Arc {start, end} -> start == end
 
--- | First motions of a list, up to the first gap in the numbers of their frames. At a gap there is
--- a motion at another height on the tape.
+-- | First motions of a list, up to the first gap in the numbers of their frames. At a gap, the tape
+-- has a motion at another height, which the list leaves out.
 unbroken :: [CutterMotion] -> [CutterMotion]
 unbroken motions = case motions of
   m : rest@(next : _) | number next <= number m + 1 -> m : unbroken rest
@@ -151,7 +151,8 @@ unbroken motions = case motions of
   [] -> []
 
 -- | Motions up to the first one that ends at the end of the cut, and the motions after it that stay
--- there.
+-- at that end. Motions that stay at the start of the cut are skipped in the search for the end,
+-- because the start and the end of a closed contour may be the same point.
 untilExit :: MillingJob -> [CutterMotion] -> [CutterMotion]
 untilExit job motions = leaving <> along <> takeWhile (endsAtExit job) (unbroken back)
   where
@@ -182,7 +183,7 @@ countFollowing job measure motions =
 
 -- | Follow the contact point through the motions that remain. @near@ has, for each of them, the
 -- elements that the cutter may touch. The result is the count of all motions up to the end of the
--- cut; Nothing as for 'countFollowing'.
+-- cut. Nothing if the motions leave the contour, reverse on it, or stop before its end.
 follow :: MillingJob -> Measure -> Progress -> [CutterMotion] -> [[Edge]] -> Maybe Int
 follow job measure progress motions near
   | hasArrived =

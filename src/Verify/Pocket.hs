@@ -146,9 +146,10 @@ wallsOf elements =
       | (rank, e) <- zip [0 ..] elements
     ]
 
--- | Rim of a pocket at a distance from its walls. Each segment comes with the wall to which it runs
--- parallel. Where two walls almost touch, a segment beside one of them may lie outside of the
--- pocket, beyond the other; it is left out.
+-- | Rim of a pocket at a distance from its walls. @contours@ has the elements of the outline and
+-- those of each island. Each segment of the rim comes with the wall to which it runs parallel.
+-- Where two walls almost touch, a segment beside one of them may lie outside of the pocket, beyond
+-- the other wall; such a segment is left out.
 rimOf :: Side -> Mm -> BoxTree Edge -> [[Element]] -> [(Element, Segment)]
 rimOf side distance walls contours =
   [ (elements Vector.! i, s)
@@ -189,9 +190,10 @@ isOnFreeSide side walls p e = (Edge.leftwardness walls foot p > 0) == (side == L
   where
     foot = snd (Distance.nearest p (Edge.shape e))
 
--- | Test that motions cut the depths of a pocket in the order of its passes. A depth is cut when
--- the first horizontal motion in the pocket occurs at that depth. If the cutter has less than a
--- pulse of room, there is no such motion. Then a vertical motion down to the depth counts.
+-- | Test that the depths of a pocket are cut one after the other, in the order of its passes. A
+-- depth is cut by a horizontal motion in the pocket at that depth. The next depth has to be cut by
+-- a later motion. If the cutter has less than a pulse of room at a depth, there is no such
+-- horizontal motion. Then a vertical motion down to the depth counts.
 isInOrder :: Machine -> Pocket -> [CutterMotion] -> Bool
 isInOrder machine pocket motions =
   go (map NonEmpty.head (NonEmpty.group (map level (NonEmpty.toList (passes pocket))))) motions

@@ -113,9 +113,9 @@ allowedIn set pocket =
     isCurved = any Part.continues (Part.elements (Part.contour (milling pocket)))
 
 -- | Motions that clear the floor in a pass: the motions at the height of the pass, with a cutter at
--- least as large as that of the pocket. If one of them starts in the bounding box of the pocket,
--- the motions further from the box than its diagonal are left out: that one is nearer to any point
--- in the box.
+-- least as large as that of the pocket. Suppose that one of them starts in the bounding box of the
+-- pocket. Then it is nearer to any point in the box than a motion whose distance from the box
+-- exceeds the box's diagonal; motions that are so far away are left out.
 clearingMotions :: MotionSet -> Pocket -> ClearingPass -> [CutterMotion]
 clearingMotions set pocket pass
   | any (startsInBounds . segment) around = around
@@ -149,8 +149,7 @@ deepestGouge keepOut pocket = foldl' orDeeper Nothing
 
 -- | Excess on the segments of a rim: the largest distance of each segment's points from the
 -- motions. Each excess above @allowance@, the allowed excess, is listed. An excess within the
--- allowance is only listed if it is larger than the listed ones before it that are within the
--- allowance as well.
+-- allowance is listed only if it is larger than all earlier ones within the allowance.
 unreached :: Mm -> BoxTree CutterMotion -> [(Element, Segment)] -> [Witness]
 unreached allowance motions = go (Mm 0)
   where

@@ -51,9 +51,10 @@ unclearedPoint pocket (Mm radius) motions =
   where
     BoundingBox left bottom right top = Pocket.bounds pocket
 
--- | Uncleared positions in a square. @hint@ has the paths of the motion that is nearest to the
--- centre of the larger square around it, because this motion often clears it. @isKnownInside@ is
--- true if the square is known to lie inside the pocket.
+-- | Uncleared positions in a square. @hint@ has the bounding paths of the motion nearest to the
+-- centre of the larger square from which this one was divided. That motion often clears this square
+-- too. @hint@ is Nothing if that motion was not looked for, or if there are no motions.
+-- @isKnownInside@ is true if the square is known to lie inside the pocket.
 unclearedIn :: Floor -> Maybe [Segment] -> Bool -> Square -> [Point]
 unclearedIn floor' hint isKnownInside square@Square {centreX = x, centreY = y, half}
   | corner < radius floor', Just paths <- hint, covers paths = []
@@ -65,7 +66,7 @@ unclearedIn floor' hint isKnownInside square@Square {centreX = x, centreY = y, h
       | plus w (Mm corner) < limit -> []
       -- The square meets no wall, and its centre lies outside of the pocket.
       | w > Mm corner && not isKnownInside && not (isFree wall) -> []
-      -- A smallest square is decided by its centre.
+      -- A square of the smallest size is not divided: its centre decides for all of it.
       | Mm corner <= floorResolution ->
         [p | w >= limit, isKnownInside || w > Mm corner || isFree wall]
       | otherwise ->
@@ -111,8 +112,8 @@ quarters Square {centreX, centreY, half} =
 diagonals :: [(Double, Double)]
 diagonals = [(-1, -1), (1, -1), (1, 1), (-1, 1)]
 
--- | Radius plus 'floorResolution', in mm. With this tolerance, one cleared centre is enough for a
--- square that is too small to be divided.
+-- | Radius plus 'floorResolution', in mm. With it, a square of the smallest size counts as cleared
+-- if its centre is within the radius of a motion.
 tolerantRadius :: Floor -> Double
 tolerantRadius floor' = let Mm finest = floorResolution in radius floor' + finest
 

@@ -88,7 +88,7 @@ divided points s =
        in if a > 0 then snd (Segment.cutAt (a / b) upTo) else upTo
 
 -- | Normals of an open contour at both ends, as lines that extend by 'Tolerance.reach' to either
--- side. Empty for a closed contour.
+-- side. Empty for a closed contour, which has no ends.
 normals :: Contour -> [Segment]
 normals contour = case Part.ends contour of
   Part.Closed -> []
@@ -104,9 +104,10 @@ normals contour = case Part.ends contour of
           n = Vec.scale far (Vec.left d)
        in Straight (Vec.shift (Vec.negate n) p) (Vec.shift n p)
 
--- | Side of the segment @s@, a part of a motion that does not cross the contour. It is the side of
--- the middle of @s@. If the middle has no side, @s@ is divided into eight, and those eighths that
--- have a side are listed.
+-- | Parts of the segment @s@, each with the side of the contour on which it lies. @s@ is a part of
+-- a motion and does not cross the contour. If the middle of @s@ has a side, the result is @s@ as a
+-- whole with this side. Otherwise @s@ is divided into eight, and those eighths are listed whose
+-- middles have a side.
 sided :: Contour -> BoxTree Edge -> Segment -> [(Side, Segment)]
 sided contour edges s = case sideOf contour edges (Segment.at 0.5 s) of
   Just side -> [(side, s)]

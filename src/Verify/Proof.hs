@@ -38,17 +38,18 @@ import Report.Report qualified as Report
 data Witness = Witness
   { -- | size of the deviation, in mm
     amount :: Mm,
-    -- | number of the frame, from 1; for excess on an element, that of the motion nearest to it
+    -- | number of the frame, from 1; for excess on an element, that of the frame whose motion is
+    -- nearest to 'location'
     frame :: Int,
     -- | region of the contour element in the part program
     element :: Region,
-    -- | point of the part, or position of the cutter's centre
+    -- | position of the cutter's centre; for excess on an element, a point of the element
     location :: Point
   }
   deriving stock (Eq, Show)
 
--- | Larger of two deviations; the first one if they are equal. If the first one is Nothing, it is
--- the second one.
+-- | Larger of two deviations; the first one if they are equal. If the first one is Nothing, the
+-- result is the second one.
 deeper :: Maybe Witness -> Witness -> Witness
 deeper best w = case best of
   Just b | amount b >= amount w -> b
@@ -344,7 +345,8 @@ toReport machine finding = case finding of
 refusedFrame :: Refusal -> Int
 refusedFrame refusal = let (n, _, _) = refusalWords refusal in n
 
--- | Number of a frame, the reason why a control refuses it, and further sentences.
+-- | Number of a frame, the reason why a control refuses it, and further sentences. The reason
+-- completes a sentence that begins with the frame.
 refusalWords :: Refusal -> (Int, Text, [Text])
 refusalWords refusal = case refusal of
   ByRule broken -> case broken of
@@ -385,7 +387,8 @@ refusalWords refusal = case refusal of
       Machine.Y -> "y"
       Machine.Z -> "z"
 
--- | Result of 'refusalWords' for a failure of cutter compensation.
+-- | Number of a frame, the reason why cutter compensation fails in it, and further sentences. The
+-- reason completes a sentence that begins with the frame.
 compensationWords :: CompensationError -> (Int, Text, [Text])
 compensationWords err = case err of
   ShortEntry n l r ->

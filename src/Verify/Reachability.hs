@@ -37,8 +37,9 @@ type Interval = (Double, Double)
 
 -- | Parts of an element that a cutter can touch with its centre on @side@ of the element, at
 -- @distance@ from it. @others@ are all segments of the contour, grouped by the distance kept from
--- them. A kept distance that is larger than @distance@ only counts for centres on the normals of
--- the segment. Beyond the ends of the segment, the toolpath steps back to the smaller distance.
+-- them. A distance larger than @distance@ has to be kept from a segment of @others@ only where the
+-- centre is on a normal of this segment. Beyond its ends, the toolpath steps back to the smaller
+-- distance.
 parts :: Side -> Mm -> [KeptDistance] -> Segment -> [Segment]
 parts side distance others element = case Segment.offset side distance element of
   Nothing -> []
@@ -64,9 +65,9 @@ freeOf side distance element centres free (KeptDistance kept others) =
       BoundingBox.union (BoundingBox.ofSegment element) (BoundingBox.ofSegment centres)
     common xs ys = [(max a c, min b d) | (a, b) <- xs, (c, d) <- ys, max a c < min b d]
 
--- | Distance below which a centre is too near, where the distance @d@ has to be kept. It is smaller
--- than @d@ by half of 'Tolerance.clearance', so that rounding decides nothing where the cutter just
--- fits.
+-- | Distance below which a centre counts as too near to a segment from which it has to keep the
+-- distance @d@. It is smaller than @d@ by half of 'Tolerance.clearance', so that rounding decides
+-- nothing where the cutter just fits.
 roomy :: Mm -> Mm
 roomy d = minus d (times 0.5 Tolerance.clearance)
 

@@ -38,8 +38,9 @@ data Use = Use Int Int Mm
 
 -- | Radius of the cutter in frame @n@ of a tape whose frames are not the planned ones. @uses@ are
 -- the passes that were found, in the order of the tape. A frame in a pass has the cutter of the
--- pass. A frame between two passes has the smaller cutter of the two. If no pass was found, the
--- result is @otherwiseRadius@.
+-- pass. A frame between two passes has the smaller cutter of the two. A frame before the first pass
+-- or after the last one has the cutter of that pass. If no pass was found, the result is
+-- @otherwiseRadius@.
 supposedTool :: [Use] -> Mm -> Int -> Mm
 supposedTool uses otherwiseRadius n =
   case ( [r | Use _ end r <- reverse uses, end < n],

@@ -39,7 +39,7 @@ summarize begin@(Pulses3 _ _ startHeight) planned frames = case missing of
     Comparison summary missing = foldl' (withFrame startHeight) (Comparison empty planned) frames
     empty = TapeSummary 0 begin 0 Nothing Nothing
 
--- | Summary of the first frames of a tape, and the planned frames after these.
+-- | Summary of the frames of a tape that are already compared, and the planned frames that are not.
 data Comparison = Comparison TapeSummary [PlannedFrame]
 
 -- | Comparison after the next frame @f@ of the tape. @startHeight@ is the height of the start

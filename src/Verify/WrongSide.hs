@@ -42,10 +42,11 @@ wrongSide job m close = do
       | FastDistance.isLine (segment m) = [0.5]
       | otherwise = let ks = Motion.samples m in zipWith (\a b -> (a + b) / 2) (0 : ks) ks
 
--- | False only if the point @p@ is surely not on the wrong side of the element nearest to it.
--- Decided by fast bounds; True means that 'wrongAt' has to decide. The elements @close@, which the
--- cutter may touch, are examined if one of them is surely within 'MillingJob.contactLimit' of @p@.
--- Otherwise the elements @around@ are examined: all whose bounding boxes are near the motion.
+-- | False only if the point @p@ is surely not on the wrong side of the element nearest to it; fast
+-- bounds decide this. True means that 'wrongAt' has to decide. @demanded@ is the side on which the
+-- cutter has to be. The elements @close@, which the cutter may touch, are examined if one of them
+-- is surely within 'MillingJob.contactLimit' of @p@. Otherwise the elements @around@ are examined:
+-- all whose bounding boxes are near the motion.
 mayBeWrong :: MillingJob -> Side -> [Edge] -> [Edge] -> Point -> Bool
 mayBeWrong job demanded close around p =
   least > a - FastDistance.unsure && any isWrong near
@@ -67,9 +68,9 @@ mayBeWrong job demanded close around p =
       Carrier.LeftOf -> FastDistance.isLeftOf (FastDistance.spot x y) (shape e)
       Carrier.RightOf -> FastDistance.isRightOf (FastDistance.spot x y) (shape e)
 
--- | Finding if the point @p@ of a motion is on the wrong side of the nearest element, by an exact
--- comparison. Nothing if the distance of @p@ from the element is within the allowed deviation, or
--- if no normal of the element goes through @p@.
+-- | Finding if the point @p@ of the motion @m@ is not on the side @demanded@ of the nearest of the
+-- elements @around@, by an exact comparison. Nothing if the distance of @p@ from this element is
+-- within the allowed deviation, or if no normal of the element goes through @p@.
 wrongAt :: MillingJob -> Side -> CutterMotion -> [Edge] -> Point -> Maybe Finding
 wrongAt job demanded m around p = case [(Distance.toPoint p (segmentOf e), e) | e <- around] of
   [] -> Nothing

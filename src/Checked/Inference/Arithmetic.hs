@@ -106,8 +106,8 @@ quotient a l r = case (l, r) of
     leftRegion = fst (left a)
     rightRegion = fst (right a)
 
--- | Solves the product or quotient of a vector and a plain number. @factor@ and @vector@ are their
--- types.
+-- | Solves the product or quotient of a vector and a plain number. The first pair is the region and
+-- the type of the number, the second pair those of the vector.
 scaledVector :: Arithmetic -> (Region, Type) -> (Region, Type) -> Infer Bool
 scaledVector a (numberRegion, factor) (vectorRegion, vector) = do
   isNumber <- unify numberRegion factor Type.number

@@ -63,9 +63,9 @@ data FastCall = FastCall
   }
 
 -- | Checks a call of a built-in function on literals and pairs. They must fit exactly one form
--- (list of parameters) of the function without labels, and all types of that form must be known.
--- Otherwise the result is 'Nothing', and the caller uses full inference. @expect@ checks pairs that
--- contain other terms than literals.
+-- (list of parameters) of the function. No parameter of this form may have a label, which is a word
+-- such as @near@, and all its types must be known. Otherwise the result is 'Nothing', and the
+-- caller uses full inference. @expect@ checks pairs that contain other terms than literals.
 call ::
   (Type -> Surface.Expr -> Infer (Deferred Checked.Expr)) ->
   Surface.Expr ->
@@ -106,7 +106,7 @@ call expect (Located at e) = case e of
       Surface.Chosen _ _ -> Nothing
       Surface.Ranked _ -> Nothing
 
--- | Checks the arguments @es@ against a form, and lets @build@ make the call of them. If all
+-- | Checks the arguments @es@ against a form, and lets @build@ make the call from them. If all
 -- arguments are literals, the call is made at once. @expect@ checks the other arguments.
 onForm ::
   (Type -> Surface.Expr -> Infer (Deferred Checked.Expr)) ->

@@ -101,15 +101,15 @@ parameterTypes form = map Builtin.type' (filter ((/= Rank) . label) (Builtin.par
 formsByLabels :: OverloadedCall -> [Form]
 formsByLabels call = Builtin.labelled plainUnknowns (builtin call) (labels call)
 
--- | A known dimension and a known type that replace the unknowns of a form, where forms are only
--- shown or compared.
+-- | Replacements for the unknowns of forms that are only shown or compared: the dimension of plain
+-- numbers, and the type 'Wrong', which fits every type.
 plainUnknowns :: Fresh
 plainUnknowns = Fresh {dimension = Dimension.none, anything = Wrong}
 
--- | The forms that fit those types of a call that are known. First the types of the arguments
--- select forms. Then the type that the use of the result requires selects among these. If no form
--- would remain, this type is ignored. Otherwise a wrong use of the result would be reported as a
--- wrong argument.
+-- | The forms that fit a call, as far as its types are known. First the types of the arguments
+-- select forms. Among these, the type that the use of the result requires selects again. If no form
+-- would then remain, this type is ignored. Otherwise a wrong use of the result would be reported as
+-- a wrong argument.
 fittingForms :: OverloadedCall -> Infer [Form]
 fittingForms call = do
   types <- traverse (resolved . snd) (arguments call)

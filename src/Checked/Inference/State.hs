@@ -243,7 +243,7 @@ monomorphic d =
 resolved :: Type -> Infer Type
 resolved t = gets (`resolve` t)
 
--- | Does what 'resolved' does, for a state that is given as an argument.
+-- | The type @t@ in which all unknowns that are decided in @state@ are replaced by their values.
 resolve :: InferenceState -> Type -> Type
 resolve state t = Type.substitute (resolveDimension (decisions state)) unknown t
   where
@@ -283,9 +283,9 @@ decidedAt t = gets (\s -> listToMaybe (ofType (decisions s) t))
           | n <- Dimension.unknowns d
         ]
 
--- | The regions, other than the terms themselves, at which the types of some terms were decided,
--- with the resolved types. A report also points at these regions. A term is given by its region,
--- its type before it is resolved, and its resolved type.
+-- | The regions at which the types of some terms were decided, each with the resolved type. Regions
+-- of the terms themselves are left out. A report also points at these regions. A term is given by
+-- its region, its type before it is resolved, and its resolved type.
 decidedElsewhere :: [(Region, Type, Type)] -> Infer [(Region, Type)]
 decidedElsewhere terms = concat <$> traverse ofTerm terms
   where
@@ -324,8 +324,8 @@ unify region a b = do
         share n (Type.variables t <> Type.dimensions t)
         pure True
 
--- | Makes two dimensions equal by deciding unknowns in them, as 'unify' does for types. 'False' if
--- the dimensions cannot become equal.
+-- | Makes two dimensions equal by deciding unknowns in them. @region@ is recorded as the region of
+-- these decisions. 'False' if the dimensions cannot become equal.
 unifyDimensions :: Region -> Dimension -> Dimension -> Infer Bool
 unifyDimensions region a b = go (Dimension.times a (Dimension.power (-1) b))
   where
@@ -358,7 +358,8 @@ equate region wanted found = do
   same <- unify region wanted found
   unless same (mistakeOnce (region : map fst elsewhere) (Mismatch region wanted' found' elsewhere))
 
--- | Can two types become equal when more unknowns are decided? Decides none itself.
+-- | Can two types become equal when more unknowns are decided? A dimension that contains unknowns
+-- counts as fitting every other dimension. Decides no unknowns itself.
 isCompatible :: Type -> Type -> Bool
 isCompatible found wanted = case (found, wanted) of
   _ | found `elem` [Wrong, wanted] || wanted == Wrong -> True

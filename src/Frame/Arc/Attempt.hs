@@ -118,9 +118,9 @@ leastDeviation context arc ends = go 0
 ranked :: ArcContext -> RoundedArc -> Int -> Pulses2 -> Maybe Ranked
 ranked context arc k c = Ranked k <$> attempt context arc c
 
--- | True if the whole arc about the grid point @c@ with the rank @k@ deviates less than @best@, the
--- best attempt so far, or if it deviates as much and has the lower rank. The cheapest tests come
--- first.
+-- | True if the whole arc about the grid point @c@, which has the rank @k@, is better than @best@,
+-- the best attempt so far. The better one has the smaller deviation; of two equal ones it has the
+-- lower rank. The cheapest tests come first.
 isBetter :: ArcContext -> RoundedArc -> ArcEnds -> Ranked -> Int -> Pulses2 -> Bool
 isBetter context arc ends best k c =
   not isSurelyWorse
@@ -176,8 +176,9 @@ attempt context arc c
     deviations = map (Deviation.deviationOf (tolerance context) (exact arc) . arcAlong) legs
     isNear leg d = isStraight leg || isWithinTolerance (tolerance context) d
     Mm r = radius arc
-    -- Rounding moves each end and the centre by up to a pulse. The sweep may change by this many
-    -- radians.
+    -- Largest difference in radians between the sweep of the attempt and that of the exact arc. The
+    -- ends and the centre are rounded, so it is the angle of four pulses along the arc, but at most
+    -- a quarter turn.
     sweepSlack = min (pi / 2) (4 * pulse (grid context) / r)
 
 -- | True when one frame of the machine can hold a full circle.
@@ -279,7 +280,8 @@ isStraightEnough context exact stops = case exact of
       isWithin
         (Distance.toPoint middle (Straight a b))
         (max (Vec.distance middle a) (Vec.distance middle b))
-    -- Lines that do not follow the arc would pass otherwise, so points of the arc are sampled.
+    -- The distances of the lines from the centre are not enough: lines that do not follow the arc
+    -- could have them too. So the distances of nine points of the arc from the lines are tested.
     | otherwise ->
       isWithin
         (minimum (map (Distance.toPoint middle) lines'))

@@ -146,7 +146,7 @@ sampledDeviation arc =
 larger :: ArcDeviation -> ArcDeviation -> ArcDeviation
 larger (ArcDeviation a b d) (ArcDeviation a' b' d') = ArcDeviation (max a a') (max b b') (max d d')
 
--- | The fractions at which the sweep is sampled.
+-- | Fractions of the sweep, besides 0, at which the deviation is computed.
 eighths :: [Double]
 eighths = [k / 8 | k <- [1 .. 8]]
 
@@ -171,8 +171,8 @@ linearErrorAt arc t =
     (abs (beyondCircle arc t (startRadius arc + t * (endRadius arc - startRadius arc))))
 {-# INLINE linearErrorAt #-}
 
--- | Signed distance in mm from the exact circle to the point at the fraction @t@ of the sweep whose
--- distance from the frame's centre is @radius@ mm. It is positive outside of the circle.
+-- | Signed distance in mm of a point from the exact circle, positive outside of the circle. The
+-- point lies at the fraction @t@ of the sweep, @radius@ mm away from the centre of the frame's arc.
 beyondCircle :: FrameArc -> Double -> Double -> Double
 beyondCircle
   FrameArc {centreX, centreY, startX, startY, startRadius, turned, exactX, exactY, exactRadius}

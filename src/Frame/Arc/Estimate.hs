@@ -4,7 +4,7 @@
 -- | Quick estimates of the deviation of an arc about a grid point, so that most grid points are
 -- rejected without the exact computation in "Frame.Arc.Deviation". The deviation is the distance of
 -- the rounded arc from the exact circle. A rounded arc has different radii at its beginning and at
--- its end. A control keeps the former, or changes it linearly to the latter.
+-- its end. A control keeps the radius of the beginning, or changes it linearly to that of the end.
 module Frame.Arc.Estimate
   ( ArcEnds,
     endsOf,
@@ -87,9 +87,9 @@ endsOf grid arc
     Mm toA = Vec.distance (centre arc) a
     Mm toB = Vec.distance (centre arc) b
 
--- | Estimated deviation in mm of an arc about the grid point (@i@, @j@). It is the largest of
--- three deviations: at the middle and at the end when the control keeps the radius of the
--- beginning, and at the middle when it changes the radius linearly.
+-- | Estimated deviation in mm of an arc about the grid point (@i@, @j@). It is the largest of three
+-- deviations. Two are those at the middle and at the end, if the control keeps the radius of the
+-- beginning. The third is that at the middle, if the control changes the radius linearly.
 --
 -- The exact radius at a point of the arc has the direction u. About a centre that is off by a
 -- vector v, the deviation at this point is @e + v·(u − u₀)@. Here e is the deviation at the
@@ -123,7 +123,7 @@ estimateError ArcEnds {stepX, stepY, exactX, exactY, exactRadius} (Pulses2 (Puls
 {-# INLINE estimateError #-}
 
 -- | Exact deviation in mm at the beginning of an arc about the grid point (@i@, @j@). It equals the
--- result of 'Frame.Arc.Deviation.linearErrorAt' to the last digit.
+-- result of 'Frame.Arc.Deviation.linearErrorAt' at the fraction 0 of the sweep, to the last digit.
 errorAtBegin :: ArcEnds -> Pulses2 -> Double
 errorAtBegin
   ArcEnds {stepX, stepY, beginX, beginY, exactX, exactY, exactRadius}
@@ -165,11 +165,11 @@ frameArcAbout
       Rad turned = Carrier.sweepInSense sense (Rad short)
 {-# INLINE frameArcAbout #-}
 
--- | Exact deviation in mm in the middle of an arc about a grid point. It is the larger one of two:
--- when the control keeps the radius of the beginning, and when it changes the radius linearly. No
--- trigonometry is needed, because the direction to the middle is square to the difference of the
--- unit directions to the ends. Apply the first two arguments once, and the result to many grid
--- points.
+-- | Exact deviation in mm in the middle of an arc about a grid point. It is the larger one of two
+-- deviations: for a control that keeps the radius of the beginning, and for a control that changes
+-- it linearly. No trigonometry is needed, because the direction to the middle is square to the
+-- difference of the unit directions to the ends. Apply the first two arguments once, and the result
+-- to many grid points.
 errorInMiddle :: Grid -> RoundedArc -> Pulses2 -> Double
 errorInMiddle grid arc =
   let a = Context.gridPoint grid (xy (begin arc))

@@ -46,9 +46,9 @@ crossings grid (Mm r) exactCentre c =
 
 -- | Ends of the frames of an arc about the grid point @c@, from the grid point @begin@ to @finish@.
 -- @at@ are the crossings of the arc's circle with the axes through @c@. When the control's arcs
--- have to stay within a quadrant, each crossing before the arc's end is an end of a frame, and so
--- is @finish@. Otherwise @finish@ is the only one. Empty when the control has no arcs, or when an
--- arc of at most one turn about @c@ does not lead to @finish@.
+-- have to stay within a quadrant, a frame ends at each crossing before @finish@, and the last one
+-- ends at @finish@. Otherwise @finish@ is the only end. The list is empty when the control has no
+-- arcs. It is also empty when the arc has to be cut at the axes, but begins or ends at @c@ itself.
 frameEnds :: Machine -> Crossings -> Sense -> Pulses2 -> Pulses2 -> Pulses2 -> [Pulses2]
 frameEnds machine at sense c begin finish = case Machine.arcs machine of
   NoArcs -> []
@@ -68,7 +68,8 @@ isInQuadrant :: Sense -> Pulses2 -> Pulses2 -> Bool
 isInQuadrant sense (Pulses2 a b) (Pulses2 c d) =
   a * c >= 0 && b * d >= 0 && Carrier.senseSign sense * fromIntegral (a * d - b * c) > 0
 
--- | First crossing after the point (@x@, @y@) on an arc about zero, in pulses.
+-- | First of the crossings @at@ that an arc about zero meets after the point (@x@, @y@). All points
+-- are in pulses.
 nextCrossing :: Sense -> Crossings -> Pulses2 -> Pulses2
 nextCrossing sense at (Pulses2 x y) = case sense of
   CounterClockwise

@@ -46,7 +46,8 @@ import Geometry.Vec qualified as Vec
 join :: (Point, Vec) -> (Point, Vec) -> Maybe (NonEmpty Segment)
 join from to = joinWith (ratio from to) from to
 
--- | As 'join', with the ratio @r@ of the second arc's chord to the first arc's chord.
+-- | Biarc from one point and unit direction to another, like that of 'join', but with @r@ as the
+-- ratio of the second arc's chord to the first arc's chord.
 joinWith :: Double -> (Point, Vec) -> (Point, Vec) -> Maybe (NonEmpty Segment)
 joinWith r from@(p, _) to@(q, _) = do
   guard (not (Vec.isNear p q))

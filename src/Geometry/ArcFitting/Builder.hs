@@ -1,6 +1,6 @@
--- | Growing array of the vertices of an open polyarc, to which arc fitting appends. The bulge of a
--- segment is the tangent of a quarter of its sweep; it is kept with the vertex at the segment's
--- start.
+-- | Growing array of the vertices of an open polyarc, to which arc fitting appends. A polyarc is a
+-- chain of lines and arcs. The bulge of a segment is the tangent of a quarter of its sweep; it is
+-- kept with the vertex at the segment's start.
 module Geometry.ArcFitting.Builder
   ( Vertices,
     new,
@@ -42,7 +42,8 @@ push (Vertices ref) x y bulge = do
   PrimArray.writePrimArray array' (3 * n + 2) bulge
   writeSTRef ref (Buffer (n + 1) array')
 
--- | Open polyarc of all vertices. The caller may not append a vertex afterwards.
+-- | Open polyarc of all vertices. The caller must not append a vertex afterwards, because the array
+-- is frozen without a copy.
 polyarc :: Vertices s -> ST s FlatPolyarc
 polyarc (Vertices ref) = do
   Buffer n array <- readSTRef ref

@@ -37,8 +37,8 @@ import Geometry.Vec qualified as Vec
 
 -- | Arcs and lines within a tolerance of a curve. The arguments are the tolerance and the cubics of
 -- the curve's spans in x and in y. The tolerance holds from the curve to the arcs and from the arcs
--- to the curve. Each biarc is as long as possible, as in 'ParametricFit.approximate'. The speed
--- must not be 0 at the ends of spans.
+-- to the curve. The fit is greedy: each biarc is as long as possible. The speed must not be 0 at
+-- the ends of spans, because a direction is computed as the velocity divided by the speed.
 approximate :: Mm -> Cubics -> Cubics -> FlatPolyarc
 approximate (Mm tolerance) xs ys = runST $ do
   vertices <- Builder.new
@@ -224,9 +224,10 @@ largestLevel k (Cubic x0 x1 x2 x3) (Cubic y0 y1 y2 y3) =
     c4 = -(h * (x2 * x2 + y2 * y2 + 2 * (x1 * x3 + y1 * y3)))
     c5 = -(2 * h * (x2 * x3 + y2 * y3))
     c6 = -(h * (x3 * x3 + y3 * y3))
-    -- Chebyshev economization on [0, 1]. Within 1/2048: t⁶ = 3·t⁵ − 27/8·t⁴ + 7/4·t³ − 105/256·t² +
-    -- 9/256·t − 1/2048; within 1/512: t⁵ = 5/2·t⁴ − 35/16·t³ + 25/32·t² − 25/256·t + 1/512; within
-    -- 1/128: t⁴ = 2·t³ − 5/4·t² + t/4 − 1/128.
+    -- Chebyshev economization on [0, 1] replaces t⁶ by 3·t⁵ − 27/8·t⁴ + 7/4·t³ − 105/256·t² +
+    -- 9/256·t − 1/2048, with an error of at most 1/2048. It replaces t⁵ by 5/2·t⁴ − 35/16·t³ +
+    -- 25/32·t² − 25/256·t + 1/512, with an error of at most 1/512. It replaces t⁴ by
+    -- 2·t³ − 5/4·t² + t/4 − 1/128, with an error of at most 1/128.
     e5 = c5 + 3 * c6
     e4 = c4 - 3.375 * c6 + 2.5 * e5
     e3 = c3 + 1.75 * c6 - 2.1875 * e5 + 2 * e4

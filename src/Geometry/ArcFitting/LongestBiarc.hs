@@ -5,8 +5,9 @@
 -- "Geometry.ArcFitting.CubicFit" and polyarcs in "Geometry.ArcFitting.PolyarcFit".
 --
 -- A stretch is the part of a curve between two corners. A pose is a position in mm with a unit
--- direction. The chord ratio of a biarc is the second arc's chord divided by the first one's. A
--- step is the difference of the parameters at both ends of a biarc.
+-- direction. The chord ratio of a biarc is the second arc's chord divided by the first one's. The
+-- default ratio is that of 'Geometry.ArcFitting.Biarc.join'. A step is the difference of the
+-- parameters at both ends of a biarc.
 module Geometry.ArcFitting.LongestBiarc
   ( ParameterRange (..),
     Spans (..),
@@ -52,8 +53,8 @@ data Spans = Spans
     -- mean of both
     pose :: Int -> Double -> Pose,
     -- | distances of a biarc from the curve between its two ends. The arguments are a limit in mm,
-    -- then span, parameter and pose of the start and of the end. A result above the limit need not
-    -- be a bound
+    -- then span, parameter and pose of the start, those of the end, and the biarc. A result above
+    -- the limit need not be a bound
     arcDistances ::
       Double ->
       Int ->
@@ -112,8 +113,8 @@ along
             1
             (if final - u <= 1.5 * step then final else u + step)
       -- Bracketing search for the end of the biarc that starts at @u@. The end lies between the
-      -- longest success so far (@u@ if there is none) and the nearest failure. The biarc to @v@
-      -- with the factor @r@ on its chord ratio is tried next.
+      -- longest success so far (@u@ if there is none) and the nearest failure. The biarc to @v@ is
+      -- tried next; its chord ratio is @r@ times the default one.
       bracket !remaining !i !u !from before !success !failed !r !v
         | v <= u || remaining <= 0 = settle i u from before success
         | d <= aim =
@@ -230,8 +231,8 @@ along
         let p = Segment.start s in Builder.push vertices (Vec.x p) (Vec.y p) (Segment.bulge s)
 {-# INLINE along #-}
 
--- | Biarc within the tolerance: the parameter at its end, and its chord ratio divided by that of
--- 'Geometry.ArcFitting.Biarc.join'.
+-- | Biarc within the tolerance: the parameter at its end, and its chord ratio divided by the
+-- default one.
 data Success = Success {reach :: Double, chords :: Double}
 
 -- | Previous biarc: its step, and the difference of curvature (1/mm) between its two arcs, divided
@@ -243,7 +244,7 @@ data Previous = Previous {lastStep :: Double, lastRate :: Double}
 evenRate :: Double
 evenRate = 0.25
 
--- | Largest count of biarcs that are tried from one position.
+-- | Largest count of biarcs that the bracketing search tries from one position.
 maxTries :: Int
 maxTries = 20
 
@@ -251,8 +252,9 @@ maxTries = 20
 longEnough :: Double
 longEnough = 0.9
 
--- | Gap at which the search ends, as a share of the biarc's step: the difference of parameters
--- between the longest biarc within the tolerance and the shortest longer one that failed.
+-- | Width of the bracket at which the search ends, as a share of the step of the longest biarc
+-- within the tolerance. The width is the difference of the parameters at the end of this biarc and
+-- at the end of the shortest one that failed.
 narrowBracket :: Double
 narrowBracket = 0.03
 

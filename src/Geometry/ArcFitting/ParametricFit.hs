@@ -42,8 +42,8 @@ data ParametricCurve = ParametricCurve
     breaks :: NonEmpty Double
   }
 
--- | Side from which a direction at a point is taken: that with which the curve arrives at the
--- point, or that with which it leaves.
+-- | Choice between two directions of a curve at one of its points: the direction in which the curve
+-- arrives at the point, or the direction in which it leaves the point.
 data OneSided = Arriving | Leaving
   deriving stock (Eq, Show)
 
@@ -54,10 +54,11 @@ type Stretch = NonEmpty (Double, Double)
 -- and from the arcs to the curve. The fit is greedy: each biarc is as long as possible. The result
 -- has one group of segments for each stretch; within a group the direction is continuous.
 --
--- The ends of the biarcs lie on the curve and have the curve's direction. Where the directions
--- before and after a parameter differ too little for a corner, it is their mean. Where no biarc
--- succeeds, a line over the share 'Tolerance.finestStep' of a span is used. A biarc takes the
--- computation of some dozens of curve points, and of a few more for each span that it passes.
+-- The ends of the biarcs lie on the curve and have the curve's direction. Where two spans meet with
+-- directions that differ too little for a corner, the end of a biarc has their mean direction.
+-- Where no biarc succeeds, a line is used instead, over the share 'Tolerance.finestStep' of a span.
+-- For each biarc some dozens of curve points are computed, and a few more for each span that it
+-- passes.
 approximate :: Mm -> ParametricCurve -> NonEmpty (NonEmpty Segment)
 approximate (Mm tolerance) curve =
   case concatMap (long . follow curve tolerance) (NonEmpty.toList (stretches curve)) of
@@ -184,9 +185,10 @@ longestBiarc w first = tryLonger (search w 24 Nothing Nothing first)
           [] -> best
           t : _ -> search w 8 (Just t) Nothing (1.1 * (reached t - u))
 
--- | Bracketing search for the longest biarc, with at most @remaining@ further trials. @success@ is
--- the longest trial within the tolerance so far, @failure@ the least parameter whose trial failed,
--- both Nothing if there is none. @step@ is tried next.
+-- | Bracketing search for the longest biarc. @step@ is tried next, and at most @remaining@ trials
+-- follow it. If all of them fail, the search goes on until one succeeds or the step is the smallest
+-- one. @success@ is the longest trial within the tolerance so far, and @failure@ the least
+-- parameter whose trial failed. Each is Nothing if there is none.
 search :: FitState -> Int -> Maybe Trial -> Maybe Double -> Double -> Trial
 search w remaining success failure step
   | step <= leastStep w = fromMaybe (fallbackLine w) success
@@ -280,9 +282,9 @@ refineRatio aim tried remaining factor best@(d, r, _)
       (least (best : tried [r / sqrt factor, r * sqrt factor]))
 
 -- | Chord ratios for biarcs between two points of a curve; the joint is then near a point at which
--- two of the parts meet. A part is a span, or the rest of one, by its first and last parameter.
--- Such ratios help on chains of lines and arcs. A curve of more than nine parts is not such a
--- chain, and the list is empty.
+-- two of the @parts@ meet. A part is a span, or the rest of one, by its first and last parameter.
+-- Such ratios help on chains of lines and arcs. More than nine parts are not taken for such a
+-- chain; the list is then empty.
 ratiosAtSpans :: ParametricCurve -> Point -> Point -> [(Double, Double)] -> [Double]
 ratiosAtSpans curve p q parts = case drop 1 parts of
   inner
@@ -319,9 +321,10 @@ measured w v stations segments
       concat [interleaved ms (samplePoints (place (curve w)) 0 part) | (part, ms) <- stations]
     interleaved as bs = concat (zipWith (\a b -> [a, b]) as bs)
 
--- | Counts of sample points for the parts of spans between the current parameter and @v@. Each part
--- has its first and last parameter. A single part has 8 points. Of several parts, each has 8 times
--- its share of the parameter range or of the length, whichever is larger, but at least 3.
+-- | Counts of sample points for the parts of spans between the current parameter and @v@, each with
+-- its part. A part is given by its first and last parameter. A single part has 8 points. Of several
+-- parts, each has 8 times its share of the parameter range or of the length, whichever is larger,
+-- but at least 3.
 sampleCounts :: FitState -> Double -> [(Double, Double)] -> [(Int, (Double, Double))]
 sampleCounts w v parts = case parts of
   [one] -> [(8, one)]
@@ -383,9 +386,9 @@ deviation point aim segments points
         )
 
 -- | Parameter and value of a maximum of a distance near the middle one of three neighbouring
--- samples, by successive parabolic interpolation. The middle sample is the result if it is not the
--- largest of the three or is below 0.3 of the tolerance @aim@ (mm). A sample is a parameter and the
--- distance there in mm.
+-- samples, by at most @remaining@ steps of parabolic interpolation. The middle sample is the result
+-- if it is not the largest of the three or is below 0.3 of the tolerance @aim@ (mm). A sample is a
+-- parameter and the distance there in mm.
 highest ::
   (Double -> Double) ->
   Double ->
@@ -413,10 +416,11 @@ highest distance aim remaining one@(a, da) two@(b, db) three@(c, dc)
     again = highest distance aim (remaining - 1)
     max' x y = if snd x > snd y then x else y
 
--- | True if the feet of a curve's points move forwards along the segments without a jump. Steps
--- below a tenth of the tolerance @aim@ (mm) are ignored. Each entry of @feet@ has a parameter, the
--- point there, and the length along the segments up to its foot. Where the foot moves much farther
--- than the point, the interval of the parameter is bisected.
+-- | True if the feet of a curve's points move forwards along the segments without a jump. Movements
+-- of a foot by less than a tenth of the tolerance @aim@ (mm) are ignored. Each entry of @feet@ has
+-- a parameter, the point there, and the length along the segments up to its foot. If a foot moves
+-- much farther than the point from one entry to the next, the interval of the parameter is
+-- bisected.
 isCovered :: (Double -> Point) -> Double -> NonEmpty Segment -> [(Double, Point, Double)] -> Bool
 isCovered point aim segments feet = and (zipWith (isSteady (20 :: Int)) feet (drop 1 feet))
   where

@@ -9,12 +9,13 @@
 -- distance from the arc. The bound holds only if the curve runs forwards: its direction makes less
 -- than a quarter turn with the directions of both ends of the arc. Along a segment that sweeps less
 -- than a quarter turn, F has at most one extremum. It lies where the slope @F′ = d_y − k·(x·d_x +
--- y·d_y)@ is 0, for a position (x, y), a direction d and the arc's curvature k. This slope is
--- nearly linear from one end to the other.
+-- y·d_y)@ is 0. Here k is the arc's curvature; (x, y) is the position on the segment and d the
+-- direction, in coordinates with the origin at the arc's start and x along the arc. This slope is
+-- nearly linear from one end of the segment to the other.
 --
--- The parameter of a polyarc is its arc length in mm. Segments are counted from 0. A stretch is the
--- part between two corners, given by the index @from@ of its first segment and the index @to@ after
--- its last. A pose is a position in mm with a unit direction.
+-- A polyarc is a chain of lines and arcs. Its parameter is the arc length in mm. Segments are
+-- counted from 0. A stretch is the part between two corners, given by the index @from@ of its first
+-- segment and the index @to@ after its last. A pose is a position in mm with a unit direction.
 module Geometry.ArcFitting.PolyarcFit
   ( approximate,
     smoothed,
@@ -324,10 +325,10 @@ isVertexFar chain largest first final from pair
       | otherwise = abs (above (bend2 pair) (joint pair) p) > largest
     {-# INLINE isFar #-}
 
--- | True if a vertex between two positions is farther than @largest@ (mm) from every biarc between
--- them, so that the caller tries none. Each position is given by its segment, arc length and pose.
--- All biarcs between two poses lie between two circles through both positions: one has the start
--- direction, the other the end direction.
+-- | True if a tested vertex between two positions is farther than @largest@ (mm) from every biarc
+-- between them, so that the caller tries none. Each position is given by its segment, arc length
+-- and pose. All biarcs between two poses lie between two circles through both positions: one has
+-- the start direction, the other the end direction.
 isTooFar :: SegmentTable -> Double -> Int -> Double -> Pose -> Int -> Double -> Pose -> Bool
 isTooFar chain largest first _ from final _ to =
   max (abs bendA) (abs bendB) * largest < slack / 2 && go 1
@@ -347,12 +348,13 @@ isTooFar chain largest first _ from final _ to =
         !p = beginning chain (first + k * (final - first) `quot` n)
     isOutside a b = a > far && b > far || a < -far && b < -far
 
--- | Largest count of vertices that 'isTooFar' tests.
+-- | Largest count of parts into which 'isTooFar' divides the segments between two positions. It
+-- tests the vertices between neighbouring parts, which are one fewer.
 testedVertices :: Int
 testedVertices = 8
 
--- | Margin of 'isTooFar', as a share of its limit @largest@. F has to exceed the limit by this
--- margin, since F differs from the true distance from a circle by up to half of the margin.
+-- | Margin of 'isTooFar', as a share of its limit @largest@. |F| has to exceed the limit by this
+-- margin, since |F| differs from the distance to a circle by up to half of the margin.
 slack :: Double
 slack = 0.05
 

@@ -102,8 +102,8 @@ circles (Circle c1 (Mm r1)) (Circle c2 (Mm r2))
     -- line, with a distant centre.
     (origin, towards, small, large) =
       if r1 <= r2 then (c1, e, r1, r2) else (c2, Vec.scale (-1) e, r2, r1)
-    -- The signed distance, from the origin towards the other centre, at which the common chord
-    -- crosses the line of centres.
+    -- The signed distance at which the common chord crosses the line of centres. It is measured
+    -- from the smaller circle's centre, positive towards the larger circle's centre.
     a = ((d - large) * (d + large) + small * small) / (2 * d)
     half = sqrt (max 0 ((small - a) * (small + a)))
     at s h = Vec.shift (Vec.add (Vec.scale s towards) (Vec.scale h (Vec.left e))) origin

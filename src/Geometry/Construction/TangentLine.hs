@@ -13,10 +13,10 @@ import Geometry.Vec qualified as Vec
 import Prelude hiding (all)
 
 -- | The common tangent from the first circle to the second, from tangent point to tangent point. At
--- both points, the line has the direction in which the circle passes the point in its sense. A
--- circle of radius 0 is a point. Nothing when one circle lies inside the other, or when circles of
--- opposite senses overlap. Nothing also when the two tangent points coincide, so that the line
--- would have no length.
+-- each of these points, the line has the direction of travel along the circle in the circle's
+-- sense. A circle of radius 0 is a point. Nothing when one circle lies inside the other, or when
+-- circles of opposite senses overlap. Nothing also when the two tangent points coincide, so that
+-- the line would have no length.
 --
 -- With signed radii ρ, positive counter-clockwise, the tangent's left normal n satisfies
 -- @n·(c₂ − c₁) = ρ₂ − ρ₁@, and the tangent points are @cᵢ − ρᵢ·n@.

@@ -272,8 +272,8 @@ chords base
   where
     points = Vector.map knotPoint (rows base)
 
--- | For each parabola, the local parameter, from 0 to 1, at which the middle one of its three rows
--- lies.
+-- | Local parameters, from 0 to 1, of the middle rows of a base of parabolas. There is one for each
+-- parabola, which passes through three rows.
 fractions :: BasisCurve -> Vector Double
 fractions base =
   Vector.generate
@@ -281,8 +281,8 @@ fractions base =
     (\i -> maybe 0.5 (\row -> at row - fromIntegral i) (rows base Vector.!? (2 * i + 1)))
 
 -- | Parabolas y(x) through points 1–3, 3–5, and so on, by Lagrange interpolation as in the paper on
--- the Ural-1 computer. Each span is one parabola. Its parameter is proportional to x. Over the
--- whole table, x must rise throughout or fall throughout.
+-- the Ural-1 computer. Each span is one parabola, on which x is a linear function of the parameter.
+-- Over the whole table, x must rise throughout or fall throughout.
 parabola :: Vector Point -> Either CurveFault BasisCurve
 parabola points
   | Vector.length points < 3 = Left (TooFew 3)

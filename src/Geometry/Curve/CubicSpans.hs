@@ -116,9 +116,9 @@ areHalvesNear tolerance interval firstHalf secondHalf =
     -- of this function at the middle, 1/16.
     oddShare = 16 * sqrt 5 / 250
 
--- | Differences between curve and Hermite cubic at the middle of an interval. The first is that of
--- the points in mm, the second that of the derivatives in mm per whole interval. Each is the sum of
--- the absolute differences in x and in y, an upper bound of the distance.
+-- | Differences between curve and Hermite cubic at the middle of an interval, in mm. The first is
+-- that of the points, the second that of the derivatives by the fraction t of the interval. Each is
+-- the sum of the absolute differences in x and in y, which is an upper bound of the distance.
 difference :: Interval -> (Double, Double)
 difference
   Interval

@@ -1,6 +1,10 @@
 -- | Cusps of shifted curves, which are an error of the part program. Where a curve is shifted
 -- towards its centre of curvature by more than the radius of curvature, the shifted curve runs
 -- backwards between two cusps.
+--
+-- The letter d is the distance of a shift, positive to the left. The letter κ is the curvature of
+-- the curve before the shift. A stretch is a part of a curve on which the curve is smooth, given by
+-- its first and last parameter.
 module Geometry.Curve.Cusp
   ( Cusp (..),
     firstCusp,
@@ -39,9 +43,8 @@ data Cusp = Cusp
   }
   deriving stock (Eq, Show)
 
--- | Cusp of the innermost shift that has one. Nothing if no shift has a cusp: @1 − d·κ > 0@
--- everywhere, with the shift distance d, positive to the left, and the curvature κ of the curve
--- before the shift. Only smooth stretches between corners are tested, not the corners.
+-- | Cusp of the innermost shift that has one. Nothing if no shift has a cusp, which means that
+-- @d·κ@ is below 1 everywhere. Only smooth stretches are tested, not the corners between them.
 firstCusp :: Curve -> Maybe Cusp
 firstCusp curve = case curve of
   Unshifted _ -> Nothing
@@ -79,7 +82,8 @@ cuspOfLayer top lower whole
             (PointSearch.positionWithin stretch whole parameter)
         )
     -- Candidates for the maximum of @d·κ@ on a stretch: the samples, the maxima between them, and
-    -- the minima of the speed of @lower@, near which the curvature is large.
+    -- the minima of the speed of @lower@, near which the curvature is large. Each has the stretch,
+    -- the parameter, and the value of @d·κ@ at this parameter.
     candidates s =
       [ (s, u, shareAt s u)
         | u <- PointSearch.samples s <> maxima s <> speedMinima lower whole s
@@ -95,9 +99,8 @@ cuspOfLayer top lower whole
         (\u -> slopes (snd (productAt s 2 u)))
         [(u, fst (slopes (snd (productAt s 1 u)))) | u <- PointSearch.samples s]
 
--- | Parameters, within a stretch, of the local minima of the speed of @lower@. @whole@ is this
--- curve after a shift. The stretch is a pair of first and last parameter, between which @whole@ is
--- smooth.
+-- | Parameters, within a stretch of @whole@, of the local minima of the speed of @lower@. @whole@
+-- is the curve that results from a shift of @lower@.
 speedMinima :: Curve -> Curve -> (Double, Double) -> [Double]
 speedMinima lower whole stretch =
   RootFinding.rising slope [(u, fst (slope u)) | u <- PointSearch.samples stretch]
@@ -116,9 +119,9 @@ speedMinima lower whole stretch =
 slopes :: PowerSeries -> (Double, Double)
 slopes g = (PowerSeries.coefficient 1 g, 2 * PowerSeries.coefficient 2 g)
 
--- | Power series about the parameter @u@ of a stretch, up to the power @n@, and True if κ is
--- defined at @u@. The series is then that of @d·κ@ (without unit). If the speed of @lower@ is 0 at
--- @u@, κ is not defined, and the series is that of d (mm) alone.
+-- | Power series of @d·κ@ about the parameter @u@ of a stretch, up to the power @n@, and True. If
+-- the speed of @lower@ is 0 at @u@, κ is not defined. In this case the result is the power series
+-- of d in mm, and False. The shift @top@ of the curve @lower@ gives the curve @whole@.
 productSeries :: Int -> Layer -> Curve -> Curve -> (Double, Double) -> Double -> (PowerSeries, Bool)
 productSeries n top lower whole stretch u
   | Mm (Vec.norm (TaylorExpansion.velocity expansion)) > Tolerance.stationary =

@@ -1,9 +1,10 @@
 -- | Refinement of intersections of curves, lines and circles from a nearby starting point.
 --
 -- The starting point is an intersection of the polyarcs that approximate the curves to
--- 'Tolerance.curve'. Newton's method leads from it to the exact intersection of the curves. The
--- foot of a point P on a curve is the point at which the perpendicular from P meets the curve. Each
--- step goes to the intersection of the tangents at both feet of the current point.
+-- 'Tolerance.curve'. A polyarc is a chain of lines and arcs. Newton's method leads from the
+-- starting point to the exact intersection of the curves. The foot of a point P on a curve is the
+-- point at which the perpendicular from P meets the curve. Each step goes to the intersection of
+-- the tangents at both feet of the current point.
 module Geometry.Curve.Intersection
   ( Foot,
     onLine,

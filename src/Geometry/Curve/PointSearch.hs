@@ -102,7 +102,8 @@ nearest p curve =
 
 -- | Samples of a stretch, with further ones inserted by bisection. They are inserted between
 -- neighbours whose directions differ by more than 'largestChange'. A sample is a parameter, the
--- point there, and the velocity there (mm per unit of the parameter).
+-- point there, and the velocity there (mm per unit of the parameter). @sample@ gives the sample at
+-- a parameter.
 refineSamples ::
   (Double -> (Double, Point, Vec)) ->
   [(Double, Point, Vec)] ->
@@ -150,8 +151,8 @@ atX abscissa curve = distinct (concatMap found (stretches curve))
         roots _ = []
     -- Differences up to 'Tolerance.equal' count as 0.
     deviation v = if abs (v - abscissa) <= Tolerance.equal then 0 else v - abscissa
-    -- Merges consecutive parameters between which x is constantly @abscissa@. They become one
-    -- parameter, or the first and the last parameter of a vertical stretch.
+    -- Merges consecutive parameters between which x is constantly @abscissa@. Only the first and
+    -- the last of them remain; if these two are nearly equal, only the first.
     distinct us = case us of
       [] -> []
       a : rest ->

@@ -1,9 +1,10 @@
 -- | Sections: lines, parabolas and circular arcs y(x) through two rows of a table.
 --
 -- The parabolas through two given rows form a family with one parameter t, and so do the arcs. At
--- every x between the two rows, y rises with t. The deviation of a row is y of the section minus y
--- of the row. Therefore the largest absolute deviation is least for the t at which two rows deviate
--- equally to opposite sides, or for a t at a limit of its range.
+-- every x between the two rows, y rises with t (arcs) or falls with t (parabolas). The deviation of
+-- a row is y of the section minus y of the row. Therefore the largest absolute deviation is least
+-- for the t at which two rows deviate equally to opposite sides, or for a t at a limit of its
+-- range.
 module Geometry.Curve.Section
   ( -- * Tables
     PointTable,
@@ -204,9 +205,10 @@ rise chord@(Chord w h) c x = case c of
   Parabola a -> x * h / w + a * x * (x - w)
   Arc (Rad t) -> arcRise chord (tan t) x
 
--- | 'rise' of an arc. @tangent@ is the tangent of the angle between chord and arc. The circles
--- through (0, 0) and (w, h) are @μ·(x·(x − w) + y·(y − h)) + x·h − y·w = 0@, where μ has the
--- absolute value of @tangent@. The arc is the solution y that tends to the chord for μ → 0.
+-- | y of an arc minus y of its first end, in mm. @x@ is measured from the first end, in mm and with
+-- its sign. @tangent@ is the tangent of the angle between chord and arc. The circles through (0, 0)
+-- and (w, h) are @μ·(x·(x − w) + y·(y − h)) + x·h − y·w = 0@, where μ has the absolute value of
+-- @tangent@. The arc is the solution y that tends to the chord for μ → 0.
 arcRise :: Chord -> Double -> Double -> Double
 arcRise (Chord w h) tangent x = 2 * q / (p + signum w * sqrt (max 0 (p * p - 4 * mu * q)))
   where
@@ -221,12 +223,14 @@ arcRise (Chord w h) tangent x = 2 * q / (p + signum w * sqrt (max 0 (p * p - 4 *
 best :: PointTable -> SectionKind -> Int -> Int -> (Double, SectionShape)
 best t k i j = let (worst, c, _) = bestWithin (1 / 0) Nothing t k i j in (worst, c)
 
--- | As 'best', but the search ends once the deviation exceeds a limit. The first argument is the
--- limit in mm. The second is a pair of row indices from which the search starts, or Nothing. If the
--- least largest deviation exceeds the limit, the first result is a lower bound of this deviation,
--- also above the limit. The third result is the pair of rows that determines the first; it has no
--- meaning if there are no rows between. Given as second argument for a slightly longer section,
--- this pair saves most of the work.
+-- | Section of kind @k@ between the rows @i@ and @j@ (indices from 0) whose largest absolute
+-- deviation is least. The result is this deviation in mm, the shape, and the pair of rows that
+-- determines the deviation. The pair has no meaning if there are no rows between.
+--
+-- The search ends once the deviation is known to exceed @limit@ (mm). Then the first result is a
+-- lower bound of the deviation, also above the limit. The search starts with the rows
+-- @initialPair@, if they are given. The pair that was found for a slightly shorter section saves
+-- most of the work.
 bestWithin ::
   Double ->
   Maybe (Int, Int) ->
@@ -293,10 +297,11 @@ extremes i j value
         v = value m
 {-# INLINE extremes #-}
 
--- | Minimax fit of the parameter t of the family by single exchange (Remez). The result is the
--- least largest deviation in mm, the t for which it occurs, and the two rows that determine it.
--- Only the rows strictly between @i@ and @j@ (indices from 0) count. @limit@ is in mm;
--- @initialPair@ has the two rows of the first round.
+-- | Minimax fit of the parameter t of a family of sections by single exchange (Remez). The result
+-- is the least largest deviation in mm, the t for which it occurs, and the two rows that determine
+-- it. Only the rows strictly between @i@ and @j@ (indices from 0) count. @limit@ is in mm.
+-- @initialPair@ has the two rows of the first round; Nothing means the rows with the lowest and the
+-- highest deviation for t = 0.
 --
 -- @balance@ gives the t for which two rows deviate equally to opposite sides. @deviation@ gives the
 -- deviation of a row, in mm, for a t. At the optimum, two rows balance and no other row deviates

@@ -48,13 +48,14 @@ import Geometry.Tolerance qualified as Tolerance
 --
 -- A section that deviates by more than /twice/ the tolerance d is not extended. This pruning loses
 -- no fit. Proof: let a section A start at row i, end after row j and keep within d. Let B be the
--- best section of its kind from i to j, with the largest deviation D. The difference of two
--- parabolas, or of two arcs that are single-valued in x, is monotone from some point on after their
--- second common point (the sine of an arc's slope is linear in x). B deviates by D to one side at
--- some row and to the other side at another row. If D > d, then A − B has its second zero between
--- these rows. The absolute value of A − B is at least D − d at the later of these rows, and no
--- smaller at row j. At row j it is at most d, since B passes through this row and A keeps within d.
--- So D is at most 2·d. The same holds if B is an arc with a vertical tangent at an end, which may
+-- best section of the same kind from i to j, with the largest deviation D. The difference of two
+-- parabolas has at most one extremum. The same is true of two arcs that are single-valued in x,
+-- since the sine of an arc's slope angle is linear in x. The difference A − B has its first zero at
+-- row i, and is monotone from its second zero on. B deviates by D to one side at some row and to
+-- the other side at another row. If D > d, then A − B has its second zero between these two rows.
+-- The absolute value of A − B is at least D − d at the later of these rows, and no smaller at row
+-- j. At row j it is at most d, since B passes through this row and A keeps within d. So D is at
+-- most 2·d. The result holds also if B is an arc with a vertical tangent at an end, which may
 -- deviate by D to one side only.
 --
 -- With n rows, and sections of at most m rows within twice the tolerance, n·m pairs of first and
@@ -141,8 +142,9 @@ bottleneck steps = minimum (IntMap.elems (foldl advance (IntMap.singleton 0 0) s
         ]
 
 -- | Simplest fit whose largest deviation is at most @deviation@ (mm): index of the first row, index
--- of the last row (both from 0), and kind of each section. The third and the fourth number of 'fit'
--- decide which fit is the simplest. For the fourth, deviations are rounded to whole steps of
+-- of the last row (both from 0), and kind of each section. The simplest fit has the least sum of
+-- the ranks of its sections, which are the indices of their kinds. Of fits with the same sum, it
+-- has the least sum of their largest deviations. Deviations are rounded to whole steps of
 -- 'Tolerance.equal', so that errors of the arithmetic do not decide. Of equally good fits, the one
 -- whose sections end at earlier rows is taken.
 simplest :: PointTable -> Layers -> Double -> NonEmpty (Int, Int, SectionKind)

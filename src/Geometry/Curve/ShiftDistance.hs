@@ -228,12 +228,13 @@ lengthSeries n below position = case n of
   where
     Mm runLength = ArcLength.lengthAt (along below) (parameter position)
 
--- | Count of the given marks (parameters) before a position. It tells which formula applies there.
+-- | Count of the given marks (parameters) before a position. It tells which formula gives the
+-- distance at this position.
 marksBefore :: SpanPoint -> [Double] -> Int
 marksBefore position = length . filter (position `isPast`)
 
--- | True if the parameter @mark@ lies before a position, or at it and the position is approached
--- from larger parameters.
+-- | True if the parameter @mark@ is smaller than that of a position. A position with the parameter
+-- @mark@ is past it only if it is approached from larger parameters.
 isPast :: SpanPoint -> Double -> Bool
 isPast position mark = case approach position of
   After -> mark <= parameter position

@@ -92,8 +92,7 @@ generate n cubic = Cubics $
 count :: Cubics -> Int
 count (Cubics array) = Unboxed.length array `div` 4
 
--- | Cubic at index @i@, counted from 0. The caller must not exceed the count, because it is not
--- checked.
+-- | Cubic at index @i@, counted from 0. The index is not checked; it must be below the count.
 at :: Cubics -> Int -> Cubic
 at (Cubics array) i = Cubic (coefficient 0) (coefficient 1) (coefficient 2) (coefficient 3)
   where
@@ -104,7 +103,7 @@ at (Cubics array) i = Cubic (coefficient 0) (coefficient 1) (coefficient 2) (coe
 data Boundary
   = -- | zero second derivatives at both ends
     Natural
-  | -- | the given first derivatives by the parameter at the start and at the end
+  | -- | the given first derivatives, by the spline's parameter: at the start, then at the end
     Clamped Double Double
   | -- | the end continues into the beginning; the last value equals the first
     Periodic

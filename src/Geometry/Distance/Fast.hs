@@ -5,9 +5,9 @@
 -- counterpart of "Geometry.Distance".
 --
 -- The proof of a tape compares motions with elements of the part. For nearly every pair a bound
--- shows that the two are near enough or far enough apart. A predicate that is true "only if"
--- something is certain allows for the rounding error 'unsure'; where it is false, the caller
--- compares exactly by "Geometry.Distance".
+-- shows that the two are near enough or far enough apart. Some comments say that a predicate is
+-- true only if a fact is certain: it allows for the rounding error 'unsure'. If such a predicate is
+-- false, nothing is known, and the caller compares exactly by "Geometry.Distance".
 --
 -- The foot of a point on a segment is where the perpendicular from the point meets the segment's
 -- carrier.
@@ -43,9 +43,10 @@ import Geometry.Distance.Fast.Estimate
 import Geometry.Segment (Segment)
 import Geometry.Segment.Fast
 
--- | Upper bound, in mm, of the distance of any point of the segment @e@ from any of the segments
--- @ts@. It is infinite if an end of @e@ is further than @most@ from one of these. Once a bound is
--- at most @most@, no smaller bound is sought, since the caller only compares it with @most@.
+-- | Upper bound, in mm, of the distances of all points of the segment @e@ from every one of the
+-- segments @ts@. It is infinite if an end of @e@ is further than @most@ from one of these. Once a
+-- bound is at most @most@, no smaller bound is sought, since the caller only compares it with
+-- @most@.
 furthestFrom :: Double -> Segment -> [Segment] -> Double
 furthestFrom most e ts
   | all endsNear ts = foldl' (\far t -> max far (enough t)) 0 ts
@@ -65,8 +66,8 @@ isCovered reach segmentsOf counts others e =
   any (covers e) others || go others (parts e (concatMap segmentsOf others))
   where
     covers part other = all (isWithin (reach - 2 * unsure) part) (segmentsOf other) && counts other
-    -- The others usually come in the order of the parts. So the search for each part begins where
-    -- the search for the previous part succeeded.
+    -- The things @others@ usually come in the order of the parts of @e@. So the search for each
+    -- part begins where the search for the previous part succeeded.
     go ahead ps = case ps of
       [] -> False
       [part] -> covered ahead part
@@ -79,12 +80,13 @@ isCovered reach segmentsOf counts others e =
 -- | True only if every point of the segment @t@ lies within @most@, in mm, of one of the segments
 -- @others@. Always false for an arc with a sweep above 'largestSweep'.
 --
--- A run of others, each of which begins where the one before ends, is one curve. It must begin
--- before the start of @t@ and end after the end of @t@, or the reverse. For a line, before and
--- after are meant along the line; for an arc, by the angle at its centre. Such a curve crosses the
--- normal of @t@ at every point of @t@. There the curve's distance from the point is its distance
--- from the carrier of @t@, which must not exceed @most@ anywhere on the curve. For an arc, the
--- curve must also be too short to go around the far side of the centre.
+-- Consecutive segments of @others@, each of which begins where the one before ends, form one curve.
+-- The curve must begin before the start of @t@ and end after the end of @t@, or the reverse. For a
+-- line @t@, before and after are meant along the line; for an arc, by the angle at its centre. Such
+-- a curve crosses the normal of @t@ at every point of @t@. The distance from the point to this
+-- crossing is the distance of the crossing from the carrier of @t@. No point of the curve may be
+-- further than @most@ from this carrier. For an arc, the curve must also be too short to go around
+-- the far side of the centre.
 isAccompanied :: Double -> [Segment] -> Segment -> Bool
 isAccompanied most others t
   | isLine t = lineIsAccompanied (most - 2 * unsure) others t
@@ -176,8 +178,8 @@ largestSweep :: Double
 largestSweep = 1
 
 -- | Lower and upper bound, in mm, of the greatest distance of a point of the segment @e@ from the
--- nearest of the things @others@. A thing is a list of segments, as in 'isCovered': its distance
--- from a point is the greatest distance of one of its segments from this point.
+-- nearest of the things @others@. A thing is a list of segments. Its distance from a point is the
+-- greatest distance of one of its segments from this point.
 range :: [[Segment]] -> Segment -> (Double, Double)
 range others e = (maximum (map from points) - unsure, maximum (map to divisions) + 2 * unsure)
   where

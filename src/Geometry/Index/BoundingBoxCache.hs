@@ -162,8 +162,8 @@ fill c m Grid {halfSteps, addX, addY} (Slots !lows !highs) !s !r =
           then put k (lowerCorner (cx - wx) (cy - wy)) (upperCorner (cx + wx) (cy + wy))
           else none k
         go (k + 1) (i + 1) x' y'
-    -- Fills the slot from box @k@ on, if the last run has fewer than eight segments. No segment
-    -- starts at the last of all vertices.
+    -- Fills the slot from box @k@ on with boxes that overlap no other box. This concerns the last
+    -- run, which may have fewer than eight segments. No segment starts at the last of all vertices.
     rest !k
       | k >= runLength * s + runLength = pure ()
       | otherwise = none k >> rest (k + 1)
@@ -276,8 +276,8 @@ against (Slots !lows !highs) !s !low !high = go (begin + runLength - 1) 0
 amongThem :: Slots s -> Int -> ST s ()
 amongThem (Slots !lows !highs) !s = first (runLength * s + runLength - 2) 0
   where
-    -- The loop uses few variables, so that all stay in registers. Slots start at multiples of 8, so
-    -- the lowest three bits of an index are that of the box in its slot.
+    -- The loop uses few variables, so that all stay in registers. Slots start at multiples of 8. So
+    -- the lowest three bits of a box's index in the cache are its index in the slot, from 0 to 7.
     first !k !set = do
       low <- readPrimArray lows k
       high <- readPrimArray highs k

@@ -9,7 +9,8 @@
 --
 -- This is the tree for things of any type. "Geometry.Index.SegmentBoxTree" is the one for the
 -- segments of 'Geometry.ClosedPolyarcs.ClosedPolyarcs'. It computes the boxes of single segments
--- when they are needed, and excludes pairs of segments that advance in a common direction.
+-- when they are needed. It skips consecutive segments that all advance in one direction, since such
+-- segments do not meet except at their joints.
 --
 -- Things and the boxes of a level have indices from 0. Two boxes meet when they have a point in
 -- common.
@@ -205,8 +206,9 @@ selectWith make holds tree = case levels tree of
 
 -- Many boxes at once ------------------------------------------------------------------------
 
--- | For each element b of a list, all things whose boxes meet the box @boxOf b@ and which satisfy
--- the predicate @holds b@, in order.
+-- | Finds, for each element b of a list, all things whose boxes meet the box @boxOf b@ and which
+-- satisfy the predicate @holds b@. The results are in the order of the list; the things of each are
+-- in the order of the tree.
 --
 -- Consecutive elements whose boxes are close form a group, which shares one descent of the tree.
 -- The descent finds the things that meet the box around the whole group. These things are then
@@ -218,8 +220,8 @@ each boxOf holds tree = start
       [] -> []
       b : rest -> let box = boxOf b in gather (1 :: Int) (halfPerimeter box) box [box] [b] rest
     -- Extends a group of @count@ elements. @boxes@ and @members@ are their boxes and the elements,
-    -- both in reverse order. @whole@ is the box around all of them, and @least@ the least half
-    -- perimeter of a box.
+    -- both in reverse order. @whole@ is the box around all of @boxes@, and @least@ the least half
+    -- perimeter of one of @boxes@.
     gather count least whole boxes members rest = case rest of
       b : more
         | count < groupSize,
@@ -234,8 +236,9 @@ each boxOf holds tree = start
       | otherwise = \box b -> filter (holds b) (within box tree)
 {-# INLINE each #-}
 
--- | The results of @query@ for the elements of a group and their boxes, in front of @rest@. The
--- lists @boxes@ and @members@ are in reverse order.
+-- | The results of @query@ for the elements of a group, in order, and then the results @rest@ for
+-- the elements after the group. @members@ are the elements of the group and @boxes@ their boxes,
+-- both in reverse order.
 answers :: (BoundingBox -> b -> [a]) -> [BoundingBox] -> [b] -> [[a]] -> [[a]]
 answers query boxes members rest = case (boxes, members) of
   (box : boxes', b : members') ->
@@ -243,7 +246,8 @@ answers query boxes members rest = case (boxes, members) of
   _ -> rest
 {-# INLINEABLE answers #-}
 
--- | Those of the things with the given indices whose boxes meet @box@ and which satisfy @holds@.
+-- | Things out of those with the given indices: the ones whose boxes meet @box@ and which satisfy
+-- @holds@.
 among :: BoxTree a -> (a -> Bool) -> BoundingBox -> [Int] -> [a]
 among tree holds box = go
   where

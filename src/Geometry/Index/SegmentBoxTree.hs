@@ -264,8 +264,9 @@ runBox c a e lx0 ly0 hx0 hy0 k = go a lx0 ly0 hx0 hy0
 
 -- | The set, as bits, of those of the eight directions in which all segments from @a@ to @e − 1@
 -- advance. Only two are tested: the axis and the diagonal that are nearest to the direction from
--- the first vertex to the last. A segment advances in a direction only if its extent along it is
--- above 32 times the margin @m@. So, even with the margin, no segment before it meets one after it.
+-- the first vertex to the last. A segment advances in a direction only if it extends along this
+-- direction by more than 32 times the margin @m@. So the segments before it and those after it do
+-- not meet, even with the margin.
 headings :: Double -> ClosedPolyarcs -> Int -> Int -> Int
 headings !m !c !a !e = go a (2 * enough) (2 * enough)
   where
@@ -312,8 +313,8 @@ allDirections = 255
 -- Pairs -------------------------------------------------------------------------------------
 
 -- | Visit all pairs of segments that may meet and whose boxes overlap, by their indices. Each pair
--- is visited once, the earlier segment first. The action @continues@ is run now and then; if it
--- returns false, the search ends early.
+-- is visited once, the earlier segment first. The action @continues@ is run before the search
+-- enters a box above the lowest level. If it returns false, the pairs inside this box are skipped.
 pairs :: SegmentBoxTree -> ST s Bool -> (Int -> Int -> ST s ()) -> ST s ()
 pairs bs@SegmentBoxTree {chain = c, margin = m, sides} continues visit = do
   cache <- boundingBox bs (BoundingBoxCache.new c m)
@@ -351,9 +352,10 @@ pairs bs@SegmentBoxTree {chain = c, margin = m, sides} continues visit = do
   runPairs bs continues inside between
 {-# INLINE pairs #-}
 
--- | Run the action @inRun@ for each run that may have pairs inside. Run the action @betweenRuns@
--- for each two runs whose boxes overlap, the earlier run first. No further pairs are sought once
--- @continues@ returns false.
+-- | Run the action @inRun@ for the index of each run that may contain two segments that meet. Run
+-- the action @betweenRuns@ for each two runs whose boxes overlap and whose segments may meet, the
+-- earlier run first. The action @continues@ is run before a box above the lowest level is entered.
+-- If it returns false, the runs inside this box are skipped.
 runPairs ::
   SegmentBoxTree -> ST s Bool -> (Int -> ST s ()) -> (Int -> Int -> ST s ()) -> ST s ()
 runPairs SegmentBoxTree {sides, directions, begins, counts, highest} continues inRun betweenRuns =

@@ -60,9 +60,9 @@ fromSpeed speed breaks = ArcLength {starts, lengths, speeds}
     lengths = Unboxed.scanl' (+) 0 (Unboxed.fromList [2 * Unboxed.head cs | Panel _ _ cs <- panels])
     speeds = Unboxed.concat [cs | Panel _ _ cs <- panels]
 
--- | The panels between the parameters @a@ and @b@. @depth@ is the number of bisections that have
--- led to this interval. The bisection also ends where the speed is infinite or NaN, and at a depth
--- of 16.
+-- | The panels between the parameters @a@ and @b@. @depth@ is the count of bisections that have led
+-- to this interval. The bisection ends when the estimated error is small enough. It also ends where
+-- the speed is infinite or NaN, and at a depth of 16.
 measuredBetween :: (Double -> Double) -> Int -> Double -> Double -> [Panel]
 measuredBetween speed depth a b
   | b <= a = []
@@ -154,7 +154,8 @@ nodes =
   where
     improved x = let (p, slope) = legendre count x in x - p / slope
 
--- | The factor of the speed at node i in coefficient k, with the index @8·k + i@. It is
+-- | The factors that give the Legendre coefficients of the speed. Coefficient k is the sum, over
+-- all nodes i, of the speed at node i times the factor with the index @8·k + i@. This factor is
 -- @(2k + 1)/2·w_i·P_k(x_i)@ with the weight @w_i = 2 / ((1 − x_i²)·P_8′(x_i)²)@.
 analysis :: Vector Double
 analysis = Unboxed.concat [Unboxed.map (weight k) nodes | k <- [0 .. count - 1]]

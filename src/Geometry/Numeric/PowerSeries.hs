@@ -1,5 +1,5 @@
--- | Truncated power series: the Taylor coefficients of a function of a parameter at one of its
--- values, @f(u₀ + t) = c₀ + c₁·t + c₂·t² + …@ up to some order.
+-- | Truncated power series: the Taylor coefficients of a function about the value u₀ of its
+-- parameter, @f(u₀ + t) = c₀ + c₁·t + c₂·t² + …@ up to some order.
 --
 -- Sums, products, quotients, powers and sines are computed on the coefficients
 -- (Knuth, TAOCP 2, section 4.7). All derivatives of such a combination are therefore exact but for

@@ -36,12 +36,13 @@ zero f from to = go steps from to (0.5 * (from + to))
     steps = 200
 
 -- | The roots at which a function rises. @f@ gives its value and its derivative at a parameter. A
--- sample is a parameter and the function's value at it. There is one root between two neighbouring
--- samples if the first has a negative value and the second a positive one.
+-- sample is a parameter and the function's value at it. The result has one root for each pair of
+-- neighbouring samples of which the first has a negative value and the second a positive one.
 rising :: (Double -> (Double, Double)) -> [(Double, Double)] -> [Double]
 rising f samples = [zero f a b | ((a, va), (b, vb)) <- zip samples (drop 1 samples), va < 0, vb > 0]
 
--- | The roots at which the function @f@ falls. There is one between two neighbouring samples, as in
--- 'rising', if the first has a positive value and the second a negative one.
+-- | The roots at which a function falls. @f@ gives its value and its derivative at a parameter. A
+-- sample is a parameter and the function's value at it. The result has one root for each pair of
+-- neighbouring samples of which the first has a positive value and the second a negative one.
 falling :: (Double -> (Double, Double)) -> [(Double, Double)] -> [Double]
 falling f = rising (\u -> let (v, slope) = f u in (-v, -slope)) . map (\(u, v) -> (u, -v))

@@ -105,10 +105,11 @@ hypotenuse a b = sqrt (a * a + b * b)
 {-# INLINE hypotenuse #-}
 
 -- | Position of a point relative to the two rays from an arc's centre through its ends: three
--- numbers, passed to the continuation @k@. Each is a length times the arc's radius, in mm². The
--- first is the distance from the ray through the start, positive past the start in the arc's sense.
--- The second is the distance from the ray through the end, positive before the end. The third is
--- the extent along the ray through the start, from the centre.
+-- numbers in mm², passed to the continuation @k@, a function that is the last argument. Each number
+-- is a length times the arc's radius. The first length is the distance from the ray through the
+-- start, positive past the start in the arc's sense. The second is the distance from the ray
+-- through the end, positive before the end. The third is measured from the centre along the ray
+-- through the start, to the foot of the perpendicular from the point.
 --
 -- The arc is given by its start (@ax@, @ay@), its end (@bx@, @by@) and its centre (@cx@, @cy@) in
 -- mm, and by its sweep @s@ in radians. The point is (@px@, @py@).

@@ -42,7 +42,7 @@ data FastState = FastState
     room :: Int,
     -- | the offset of the end of the last token consumed
     ended :: Int,
-    -- | the number of brackets and operands around the next token
+    -- | the nesting depth of the next token, which "Surface.Combinator" defines
     open :: Int,
     -- | the number of statement blocks around the statement that is being parsed
     blocks :: Int
@@ -62,8 +62,8 @@ run limit (FastParser p) ts =
     (\a _ -> Just a)
     (const Nothing)
 
--- | The argument of the failure continuation after which no alternative is tried. No room has this
--- value.
+-- | The argument of the failure continuation that forbids alternatives. It differs from every
+-- 'room', so that no parser takes it for a failure without a consumed token.
 final :: Int
 final = minBound
 

@@ -16,11 +16,12 @@ import Verify.Motion (CutterMotion (segment), connectors)
 import Verify.Proof (Witness)
 import Verify.Proof qualified as Proof
 
--- | False only if the motion gouges no element of a list deeper than @best@, the deepest gouge so
--- far. True means that the exact test has to decide. @bounding@ are the paths between which the
--- cutter's centre stays ("Control.Motion"). After rounding, an arc may have different radii at its
--- start and its end; the bounding paths differ from the motion's segment by at most this
--- difference.
+-- | False only if the motion @m@ gouges none of the given elements deeper than @best@, the deepest
+-- gouge so far. True means that the exact test has to decide. @bounding@ are the bounding paths of
+-- the motion, between which the cutter's centre stays ("Control.Motion"). After rounding, an arc
+-- may have different radii at its start and its end. Its bounding paths then deviate from its
+-- segment by at most the difference of the radii. A test of the segment therefore adds this
+-- difference to the distance that is required.
 mayGougeDeeper :: KeepOut -> Maybe Witness -> CutterMotion -> [Segment] -> [Edge] -> Bool
 mayGougeDeeper keepOut best m bounding = go
   where

@@ -16,8 +16,10 @@ import Verify.Edge (Edge (..))
 import Verify.MillingJob (MillingJob (..))
 import Verify.MillingJob qualified as MillingJob
 
--- | Strict left fold over the list 'Verify.MillingJob.contacts'. The function @with@ gets the
--- result so far, the number of the element from 0, and the arc length of the contact point in mm.
+-- | Strict left fold over the contact points of a cutter with its centre at @p@. @near@ has to
+-- contain all elements within 'MillingJob.contactLimit' of @p@. The function @with@ gets the result
+-- so far, the number of the element from 0, and the arc length in mm from the start of the contour
+-- to the contact point.
 foldContacts :: MillingJob -> [Edge] -> Point -> (b -> Int -> Double -> b) -> b -> b
 foldContacts job near p with = go near
   where
@@ -42,7 +44,9 @@ foldContacts job near p with = go near
 leastDistance :: Double -> [Edge] -> Double -> Double -> Double
 leastDistance = leastExcess (const (Mm 0))
 
--- | 'Verify.Edge.leastExcess' of a point given by its coordinates.
+-- | Least value over the elements @near@ of this difference, in mm: the element's distance from the
+-- point @(x, y)@, minus the element's allowance, which @allowanceOf@ gives. It is @limit@ if no
+-- element has a smaller value.
 leastExcess :: (Edge -> Mm) -> Double -> [Edge] -> Double -> Double -> Double
 leastExcess allowanceOf limit near !x !y = go limit near
   where

@@ -1,11 +1,13 @@
 -- | Biarcs computed on unpacked coordinates and without angles, for loops that try many of them.
 -- They equal those of "Geometry.ArcFitting.Biarc" where both end directions make an angle of less
--- than a quarter turn with the chord. A pose is a position with a direction. A chord ratio is the
--- length of the second arc's chord divided by that of the first.
+-- than a quarter turn with the chord. Only where an arc is nearly straight, their chord ratio can
+-- differ; see 'chordRatio'. A pose is a position with a direction. A chord ratio is the length of
+-- the second arc's chord divided by that of the first.
 --
--- In the notation of that module, square roots of cosines give sine and cosine of the half angles,
--- and @e^{iγ/2}@ is the conjugate of @w/|w|@. An arc with the chord c and the sweep 2φ has the
--- curvature @2·sin φ/c@ and the bulge @tan(φ/2)@.
+-- The formulas are those in the header of "Geometry.ArcFitting.Biarc", with the same letters. The
+-- sines and cosines of the half angles α/2 and β/2 are computed by square roots. @e^{iγ/2}@ is the
+-- conjugate of @w/|w|@. An arc with the chord c and the sweep 2φ has the curvature @2·sin φ/c@ and
+-- the bulge @tan(φ/2)@.
 module Geometry.ArcFitting.Biarc.Fast
   ( Pose (..),
     meanPose,
@@ -184,9 +186,10 @@ chordRatio times biarcs = case biarcs of
     Rad straight = Tolerance.straight
 {-# INLINE chordRatio #-}
 
--- | Chord ratio of 'Geometry.ArcFitting.Biarc.ratio', from sines and cosines of the angles from the
--- chord to the directions at the start (A) and at the end (B). It is 1, except where the angles
--- have opposite signs and one is more than twice the other in size.
+-- | Default chord ratio, as 'Geometry.ArcFitting.Biarc.ratio' gives it. It is computed from sines
+-- and cosines of the angles from the chord to the directions at the start (A) and at the end (B).
+-- It is 1, except where the angles have opposite signs and one is more than twice the other in
+-- size.
 ratio :: Double -> Double -> Double -> Double -> Double
 ratio sinA cosA sinB cosB
   | sinA * sinB >= 0

@@ -3,9 +3,9 @@
 
 -- | Distances of two segments and bounds of these, computed on unpacked coordinates.
 --
--- A predicate that is true "only if" something is certain allows for the rounding error 'unsure';
--- where it is false, the caller compares exactly by "Geometry.Distance". "Geometry.Distance.Fast"
--- adds the distance of a segment from several others.
+-- Some comments say that a predicate is true only if a fact is certain: it allows for the rounding
+-- error 'unsure'. If such a predicate is false, nothing is known, and the caller compares exactly by
+-- "Geometry.Distance". "Geometry.Distance.Fast" adds the distance of a segment from several others.
 --
 -- A point is given by the numbers x and y in mm. The foot of a point on a segment is where the
 -- perpendicular from the point meets the segment's carrier.
@@ -233,8 +233,8 @@ fromPoint e px py = case coordinates e of
               else max ends r
 
 -- | Upper bound, in mm, of the distance of any point of the segment @e@ from the segment @t@. For
--- two lines it is exact. Otherwise it may be infinite. It surely is if a point of @e@ lies past an
--- end of @t@ by more than 'overlap'.
+-- two lines it is exact. Otherwise it may be infinite. It is always infinite if a point of @e@ lies
+-- past an end of @t@ by more than 'overlap'.
 beside :: Segment -> Segment -> Double
 beside e t = case (e, t) of
   (Straight (Point ax ay) (Point bx by), Straight {}) -> max (distance t ax ay) (distance t bx by)
@@ -353,7 +353,7 @@ overlap = 0.1
 -- | Distance, in mm, of the point (@px@, @py@) past the nearer end of an arc: its distance from the
 -- ray from the centre through that end. It is 0 in the sector between the rays through both ends.
 -- It is infinite on the side of the centre opposite to an arc of at most a quarter turn. The arc
--- sweeps at most half a turn, or is a full circle.
+-- must sweep at most half a turn, or be a full circle. The result is infinite for a line.
 pastArc :: Segment -> Double -> Double -> Double
 pastArc t !px !py = case coordinates t of
   LineAt {} -> never
