@@ -285,11 +285,10 @@ broken kept c =
     differences = case exact c of
       Right a : _ ->
         [ what
-            <> " of the peer is "
+            <> " of the peer differs by the fraction "
             <> scientific d
-            <> " apart"
             <> ( if open b > 0
-                   then "; it returned " <> Decimal.whole (open b) <> " open pieces"
+                   then "; open pieces in its result: " <> Decimal.whole (open b)
                    else ""
                )
           | Right b <- others,
