@@ -29,7 +29,7 @@ main = do
   code <- work `catches` [Handler pure, Handler interrupted, Handler crashed, Handler unexpected]
   exitWith code
 
--- | Runs the command line.
+-- | Parses the command line and runs its subcommand.
 work :: IO ExitCode
 work = do
   parsed <-
@@ -42,7 +42,7 @@ work = do
       | (text, ExitSuccess) <- Opt.renderFailure request name -> Subcommand.showHelp text
     _ -> Opt.handleParseResult parsed >>= Subcommand.run
 
--- | The exit status: 0 for success, 1 for errors, 3 for a tape that the proof has found wrong.
+-- | The exit status: 0 for success, 1 for errors, 3 for a tape that @verify@ has proven wrong.
 statusOf :: Exit -> ExitCode
 statusOf end = case end of
   Done -> ExitSuccess

@@ -64,8 +64,8 @@ compile Job {values, machinesFor, verification} loaded =
     -- Evaluates all reports: unevaluated ones would keep the program in memory during 'makeTapes'.
     forced result = length (errors result) `seq` length (warnings result) `seq` result
 
--- | Checks and evaluates a program (Surface → Checked → Part). @values@ are the names and the
--- values of the program's parameters.
+-- | Checks and evaluates a program (Surface → Checked → Part). @values@ has the names of the
+-- parameters that the command line sets, with the texts of their new values.
 evaluate :: [(Text, Text)] -> LoadedProgram -> Result Report Report (Checked.Program, Part)
 evaluate values loaded = do
   written <- surface loaded
@@ -78,7 +78,7 @@ evaluate values loaded = do
 data Analysis = Analysis {mentions :: [Checked.Mention], part :: Part, path :: Toolpath}
 
 -- | Computes the part and the toolpath of a program (Surface → Checked → Part → Toolpath). @values@
--- are the names and the values of the program's parameters.
+-- has the names of the parameters that the command line sets, with the texts of their new values.
 analyse :: [(Text, Text)] -> LoadedProgram -> Result Report Report Analysis
 analyse values loaded = do
   (checked, part) <- evaluate values loaded
@@ -104,8 +104,7 @@ makeTapes verification path machines = case machines of
 -- | A tape for one machine. Its proof is present if the job asks for verification.
 data Compiled = Compiled
   { machine :: Machine,
-    -- | the toolpath, in which each cut is reduced to its first and last move, except the cuts of a
-    -- blade; 'prove' needs no more
+    -- | the toolpath as 'withoutCuts' reduces it; 'prove' does not need the moves that are missing
     toolpath :: Toolpath,
     punched :: Punched,
     proof :: Maybe Proof
@@ -144,8 +143,7 @@ punch machine path = do
 
 -- | Runs the frames of a tape on the controller model and compares the motions with the part (Frame
 -- → Control → Verify). The errors of the result are the findings: all that the proof has found
--- wrong. If there are none, the tape is proven. The cuts of @toolpath@ may be reduced to their
--- first and last moves by 'withoutCuts'.
+-- wrong. If there are none, the tape is proven. @toolpath@ may be reduced by 'withoutCuts'.
 prove :: Machine -> Toolpath -> Frame.FrameProgram -> [Frame.Frame] -> Result Report Report Proof
 prove machine toolpath program frames = failing (Proof.toReports machine proof) proof
   where

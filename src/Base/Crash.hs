@@ -21,6 +21,6 @@ instance Show Bug where
 
 instance Exception Bug
 
--- | Throws a 'Bug' with this description of the impossible state.
+-- | Throws a 'Bug' with the description @what@ of the impossible state.
 bug :: HasCallStack => Text -> a
 bug what = throw Bug {what, place = Text.pack (prettyCallStack callStack)}

@@ -44,11 +44,12 @@ short decimals x
   where
     written = fixed decimals x
 
--- | The shortest text from which 'parse' makes exactly the number @x@ again. A negative number has
--- a minus sign first, which 'parse' does not accept. If that text has more than 'mostDigits'
--- digits, the number is rounded to 24 decimals instead. The error of that rounding is smaller than
--- any length of a part. If such a number is 10¹⁵ or more, its text has an exponent, which 'parse'
--- does not accept.
+-- | The shortest decimal text that gives exactly the number @x@ when it is read back. 'parse' reads
+-- it back unless @x@ is negative: the text then begins with a minus sign.
+--
+-- An exception is a number whose text would have more than 'mostDigits' digits. If its absolute
+-- value is below 10¹⁵, it is rounded to 24 decimals. This error is smaller than any length of a
+-- part. Otherwise its text has an exponent, which 'parse' does not accept.
 exact :: Double -> Text
 exact x
   | x == 0 = "0"
@@ -58,9 +59,9 @@ exact x
     written = Text.pack (showFFloat Nothing x "")
     plain = fromMaybe written (Text.stripSuffix ".0" written)
 
--- | The double nearest to the number that a text consists of: digits, and optionally a point and
--- more digits. Nothing for any other text, such as one with a sign or an exponent, and for a number
--- with more than 'mostDigits' digits.
+-- | Parses a text that is one unsigned decimal number: digits, and optionally a point and more
+-- digits. Yields the double nearest to the number. Nothing for any other text, such as one with a
+-- sign or an exponent, and for a number with more than 'mostDigits' digits.
 parse :: Text -> Maybe Double
 parse text = case leading text of
   Leading {consumed, parsed, remainder} | consumed > 0 && Text.null remainder -> parsed
@@ -122,9 +123,9 @@ powersOfTen = Vector.iterateN fewDigits (10 *) 1
 fewDigits :: Int
 fewDigits = 18
 
--- | The double nearest to a number that has the digits @before@ the point and the digits @fraction@
--- after it. It serves numbers that are too long for the faster method of 'leading'. Nothing for
--- more than 'mostDigits' digits in all.
+-- | The double nearest to a number of many digits. The text @before@ contains the digits before the
+-- point, and @fraction@ those after it. 'leading' uses this function for numbers that are too long
+-- for its faster method. Nothing for more than 'mostDigits' digits in all.
 longer :: Text -> Text -> Maybe Double
 longer before fraction
   | Text.length before + places > mostDigits = Nothing
@@ -148,9 +149,9 @@ whole = Text.pack . show
 mm :: Mm -> Text
 mm (Mm x) = short 4 x <> " mm"
 
--- | The text of the length @x@ for a report that also names the length @other@. It has up to four
--- decimals, or up to nine if with fewer both lengths would have the same text. Lengths that nine
--- decimals do not distinguish have four.
+-- | The text of the length @x@ for a report that also names the length @other@. Both are rounded to
+-- four decimals or, if their texts are then equal, to the fewest decimals that distinguish them. If
+-- even nine decimals do not distinguish them, the text has four.
 distinctMm :: Mm -> Mm -> Text
 distinctMm (Mm other) (Mm x) =
   case [ written
@@ -161,8 +162,8 @@ distinctMm (Mm other) (Mm x) =
     written : _ -> written <> " mm"
     [] -> mm (Mm x)
 
--- | The text of a length that is not 0, for a report. It has at most four decimals, or at most nine
--- below 0.0001 mm, where four decimals would show 0.
+-- | The text of a length that is not 0, for a report. It has at most four decimals. Below 0.0001 mm
+-- it has at most nine, because four could show 0.
 nonZeroMm :: Mm -> Text
 nonZeroMm (Mm x)
   | abs x >= 0.0001 = mm (Mm x)

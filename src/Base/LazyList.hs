@@ -21,13 +21,13 @@ prependReversed latest list = case latest of
   [] -> list
   a : earlier -> prependReversed earlier (Next a list)
 
--- | The items in order.
+-- | The items of a lazy list, in order.
 toList :: LazyList e a -> [a]
 toList list = case list of
   Next a more -> a : toList more
   End _ -> []
 
--- | The value at the end.
+-- | The value at the end of a lazy list.
 end :: LazyList e a -> e
 end list = case list of
   Next _ more -> end more

@@ -54,8 +54,8 @@ latin c = Maybe.fromMaybe c (lookup c (zip "асеорхуіјѕАВСЕНІЈК
 -- | The Levenshtein distance of the words @a@ and @b@: the least count of letters to insert, delete
 -- or replace. Nothing if it exceeds @most@.
 --
--- The usual table is computed row by row. The computation stops at the first row in which all
--- numbers exceed @most@; for most words that row comes early.
+-- The table of the Wagner–Fischer algorithm is computed row by row. The computation stops at the
+-- first row in which all distances exceed @most@. Usually this is one of the first rows.
 distance :: Int -> String -> String -> Maybe Int
 distance most a b = go [0 .. length b] a
   where

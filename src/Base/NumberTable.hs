@@ -19,8 +19,8 @@ import Data.Primitive.PrimArray (PrimArray)
 import Data.Primitive.PrimArray qualified as PrimArray
 
 -- | A table whose rows have @width@ numbers each. @numbers@ contains the rows one after the other.
--- @places@ contains two offsets for each row: the start and the end of its region of the text. An
--- offset counts the characters of the text before a position.
+-- @places@ contains two offsets for each row: the start and the end of its region. They are offsets
+-- in the source of a program, as in "Base.Region".
 data NumberTable = NumberTable {width :: Int, places :: PrimArray Int, numbers :: PrimArray Double}
   deriving stock (Eq, Show)
 
@@ -45,7 +45,7 @@ fromList rows = runST $ do
       (_, first) : _ -> PrimArray.sizeofPrimArray first
       [] -> 0
 
--- | The number of rows.
+-- | The count of the rows of a table.
 count :: NumberTable -> Int
 count rows = PrimArray.sizeofPrimArray (places rows) `quot` 2
 

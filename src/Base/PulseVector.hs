@@ -11,11 +11,11 @@ where
 
 import Base.Quantity (Pulses (..))
 
--- | A vector in the plane: x and y.
+-- | A vector of pulses in the plane: its components x and y.
 data Pulses2 = Pulses2 Pulses Pulses
   deriving stock (Eq, Show)
 
--- | A vector in space: x, y and z.
+-- | A vector of pulses in space: its components x, y and z.
 data Pulses3 = Pulses3 Pulses Pulses Pulses
   deriving stock (Eq, Show)
 
@@ -37,6 +37,6 @@ instance Num Pulses3 where
   signum (Pulses3 a b c) = Pulses3 (signum a) (signum b) (signum c)
   fromInteger n = let a = fromInteger n in Pulses3 a a a
 
--- | The x and y of a vector in space.
+-- | The components x and y of a vector of pulses in space.
 xy :: Pulses3 -> Pulses2
 xy (Pulses3 x y _) = Pulses2 x y

@@ -2,8 +2,9 @@
 
 -- | Quantities: lengths, angles, feeds, times and pulses are different types.
 --
--- Sums stay in one type. A product of two lengths is no length, so only 'Pulses' have a 'Num'
--- instance. Formulas with other quantities unwrap the numbers, compute, and wrap the result.
+-- The sum of two lengths is a length, but their product is not. Lengths, angles, feeds and times
+-- therefore have no 'Num' instance; 'Pulses' have one, because they are counts. Formulas with the
+-- other quantities unwrap the numbers, compute, and wrap the result.
 module Base.Quantity
   ( Mm (..),
     Rad (..),
@@ -52,7 +53,7 @@ newtype Pulses = Pulses Int
 plus :: Coercible q Double => q -> q -> q
 plus a b = coerce (coerce a + coerce b :: Double)
 
--- | The first quantity less the second.
+-- | The difference of two quantities: the first minus the second.
 minus :: Coercible q Double => q -> q -> q
 minus a b = coerce (coerce a - coerce b :: Double)
 
@@ -64,7 +65,7 @@ times k a = coerce (k * coerce a :: Double)
 over :: Coercible q Double => q -> q -> Double
 over a b = coerce a / coerce b
 
--- | The sum of a list; 0 for an empty one.
+-- | The sum of a list of quantities; 0 for an empty list.
 total :: Coercible q Double => [q] -> q
 total = foldl plus (coerce (0 :: Double))
 

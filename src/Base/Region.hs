@@ -4,9 +4,9 @@
 -- | Regions of the source text, and their lines and columns.
 --
 -- An offset is a position in the source as a number: it counts characters (code points) from 0. The
--- texts of a program and its imports are numbered one after another, so an offset also determines
--- the file. Only this module converts offsets to lines and columns. Lines and columns count from 1,
--- and a column counts characters.
+-- count starts in the text of the program and continues through the texts of its imports, so an
+-- offset also determines the file. Only this module converts offsets to lines and columns. Lines
+-- and columns are numbered from 1, and a column counts characters.
 module Base.Region
   ( Region (Region, start, end),
     Located (..),
@@ -34,14 +34,14 @@ import Data.Vector qualified as Boxed
 import Data.Vector.Unboxed qualified as Vector
 import Prelude hiding (length, span)
 
--- | A region of the source. Every token of a program has a region, so a region takes one word of
--- memory: the offset of its start in the upper half, the offset of its end in the lower half. All
--- offsets are below 2³²: the texts of a program are much shorter.
+-- | A region: a range of characters of the source. Every token of a program has a region. To save
+-- memory, a region is one word: the upper half is the offset of its start, the lower half the
+-- offset of its end. All offsets are below 2³²: the texts of a program are much shorter.
 newtype Region = Halves Word
   deriving newtype (Eq, Ord)
 
--- | A region by the offset of its first character and the offset after its last one. Neither is
--- below 0.
+-- | A region as two offsets: @start@ is the offset of its first character, and @end@ is the offset
+-- after its last character. Neither is below 0.
 pattern Region :: Int -> Int -> Region
 pattern Region {start, end} <-
   (offsets -> (start, end))
@@ -66,7 +66,7 @@ offsets (Halves both) =
 half :: Int
 half = 32
 
--- | A value and its region.
+-- | A value, and the region of the source from which it comes.
 data Located a = Located {region :: Region, value :: a}
   deriving stock (Eq, Show)
 
@@ -99,7 +99,7 @@ data File = File
     contents :: ~(Boxed.Vector Text)
   }
 
--- | A position in a file, given by its path: line and column, both from 1.
+-- | A position as the path of a file, a line and a column. Line and column count from 1.
 data Position = Position {file :: Text, line :: Int, column :: Int}
   deriving stock (Eq, Ord, Show)
 
@@ -125,7 +125,7 @@ text = content . own
 mainFile :: Source -> Text
 mainFile = path . own
 
--- | A file from its path, the offset of its first character in the source, and its text.
+-- | Makes a file with an index of its lines. @base@ is the offset of its first character.
 indexed :: Text -> Int -> Text -> File
 indexed path base content =
   File
@@ -158,7 +158,8 @@ fileAt :: Source -> Int -> File
 fileAt source at =
   Boxed.foldl' (\_ file' -> file') (own source) (Boxed.takeWhile ((<= at) . base) (imported source))
 
--- | The position of an offset. An offset outside of all texts counts as the nearest end of a text.
+-- | The position of an offset. An offset below 0 counts as 0, and an offset beyond the last text
+-- counts as the end of that text.
 position :: Source -> Int -> Position
 position source at =
   Position {file = path found, line = index + 1, column = within + 1 - starts found Vector.! index}

@@ -17,7 +17,7 @@ module Base.Result
   )
 where
 
--- | Warnings, errors, and an output if there is one.
+-- | The result of a compiler pass: its warnings, its errors, and its output if there is one.
 data Result w e a = Result {warnings :: [w], errors :: [e], output :: Maybe a}
   deriving stock (Eq, Show)
 
@@ -50,7 +50,7 @@ warned ws = Result ws [] (Just ())
 fromEither :: Either e a -> Result w e a
 fromEither = either failed pure
 
--- | Applies one function to every warning and another to every error.
+-- | Applies one function to every warning of a result and another to every error.
 mapErrors :: (w -> w') -> (e -> e') -> Result w e a -> Result w' e' a
 mapErrors f g (Result ws es a) = Result (map f ws) (map g es) a
 

@@ -44,8 +44,8 @@ data Form = Form {parameters :: [Parameter], result :: Type}
 -- label 'Rank' has no value, so its name and type are meaningless.
 data Parameter = Parameter {label :: ArgumentLabel, title :: Text, type' :: Type}
 
--- | The label before an argument: none, or a word such as @near@. A rank (@first@ or @last@) is a
--- label without a value.
+-- | The label of an argument: none, or a word before its value, such as @near@. A rank is the word
+-- @first@ or @last@; no value follows it.
 data ArgumentLabel = NoLabel | Word Selector | Rank
   deriving stock (Eq, Ord, Show)
 
@@ -280,8 +280,8 @@ forms Fresh {dimension = d, anything} builtin = case builtin of
     curve = given "curve" (Curve anything)
     table' = given "table" (Table anything)
     tolerance = Parameter (Word WithinTolerance) "tolerance" Type.len
-    -- The forms of a curve through the rows of a table or through points. Points have no columns
-    -- besides x and y.
+    -- The forms of a function that makes a curve through the rows of a table or through points.
+    -- @more@ are the other parameters. Points have no columns besides x and y.
     curveThrough more =
       [ Form (table' : more) (Curve anything),
         Form (given "points" points : more) (Curve (Fields []))
@@ -289,13 +289,13 @@ forms Fresh {dimension = d, anything} builtin = case builtin of
     points = ListOf Type.aPoint
     word t = Text.unwords (drop 1 (Text.words (Type.describe t)))
     sided title t = [Parameter (Word side) title t | side <- [ToLeft, ToRight]]
-    -- The labelled arguments that choose one of several answers.
+    -- The labelled parameters whose arguments choose one of several answers.
     chosen =
       [Parameter (Word Near) "point" Type.aPoint]
         <> sided "line" Line
         <> [Parameter (Word side) "circle" Circle | side <- [ToInside, ToOutside]]
-    -- The parameters that a circle of a given radius can touch or, if they are points, pass
-    -- through.
+    -- The parameters for what a circle of a given radius passes through or touches: a point, a line
+    -- or a circle. The label of a line or circle, if it has one, chooses a side of it.
     touched =
       [point, line, circle]
         <> sided "line" Line
@@ -355,8 +355,8 @@ unknownTemplate :: Fresh
 unknownTemplate =
   Fresh {dimension = Dimension.atom (Dimension.Unknown anyUnknown), anything = Variable anyUnknown}
 
--- | The forms of a function that have @count@ parameters without labels. The flag of a form is true
--- if its types contain no unknowns.
+-- | The forms of a function that have exactly @count@ parameters, all without labels. The flag of a
+-- form is true if its types contain no unknowns.
 unlabelled :: Builtin -> Int -> [(Form, Bool)]
 unlabelled builtin count = maybe [] (Map.findWithDefault [] count) (Lazy.lookup builtin byCount)
 
@@ -381,11 +381,12 @@ byCount =
 isOverloaded :: Builtin -> Bool
 isOverloaded builtin = not (null (drop 1 (forms unknownTemplate builtin)))
 
--- | A number that represents any unknown. Unknowns of type inference have numbers from 0.
+-- | The number that represents every unknown in 'byLabels'. Type inference does not use it for an
+-- unknown: it numbers them from 0.
 anyUnknown :: Int
 anyUnknown = -1
 
--- | A form as a call with the names of its parameters, for reports.
+-- | The text of a form, written as a call with the names of its parameters, for reports.
 formText :: Builtin -> Form -> Text
 formText builtin form = callText (name builtin) (map parameter (parameters form))
   where
@@ -394,7 +395,7 @@ formText builtin form = callText (name builtin) (map parameter (parameters form)
       Rank -> "first or last"
       Word choice -> Keyword.selectorWord choice <> " " <> title p
 
--- | The description of a function by its first four forms, for editors.
+-- | The description of a built-in function or constant, for editors: its first four forms.
 description :: Builtin -> Text
 description builtin = "of the language: " <> Text.intercalate "; " (take 4 (formTexts builtin))
 

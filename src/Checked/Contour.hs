@@ -2,7 +2,8 @@
 -- modifier is a property of one element, such as a feed or an allowance.
 --
 -- The functions yield 'Deferred' terms, which are complete only when type inference has found all
--- dimensions of the program. They take the solution of inference as an argument, here @sol@.
+-- dimensions of the program. Such a term takes these dimensions, the solution of inference, as an
+-- argument, here @sol@.
 module Checked.Contour
   ( item,
   )
@@ -55,8 +56,8 @@ item env (Located at i) = case i of
     pure (Located at . element)
 
 -- | Checks the modifiers of an element of type @t@. A bevel may name the columns of the table
--- through which the element's curve passes. If the element is already reported as wrong, its
--- columns are unknown, so bevels are left out.
+-- through which the element's curve passes. Bevels are left out if inference does not know these
+-- columns, for example because the element is already reported as wrong.
 elementModifiers ::
   TypingEnvironment -> Type -> [Surface.Modifier] -> Infer [Deferred Checked.Modifier]
 elementModifiers env t modifiers

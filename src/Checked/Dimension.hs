@@ -71,7 +71,7 @@ isKnown = null . unknowns
 isUnknownSquare :: Dimension -> Bool
 isUnknownSquare d@(Dimension m) = not (isKnown d) && all even (Map.elems m)
 
--- | The result of one step of 'solve' towards the solution of an equation.
+-- | The result of 'solve', which makes one step towards the solution of an equation.
 data UnificationStep
   = Solved
   | Impossible
@@ -143,9 +143,8 @@ unitWord (Dimension m) = case (factors (> 0), factors (< 0)) of
       PointWeight -> "point"
       Unknown _ -> ""
 
--- | The factor for a number that the program writes without a unit, and whose dimension is @d@. In
--- the program such a number is in mm, minutes and degrees; the factor converts it to mm, minutes
--- and radians.
+-- | The factor for a number of dimension @d@ that the program writes without a unit. Such a number
+-- is written in mm, minutes and degrees. The factor converts it to mm, minutes and radians.
 defaultUnit :: Dimension -> Double
 defaultUnit d = case exponent Angle d of
   0 -> 1

@@ -38,7 +38,7 @@ import Report.Report
 -- | A mistake. The first field of every constructor is the region that the report points at. The
 -- comment of a constructor names the other fields in order.
 data Error
-  = -- | an unknown name: this name, and the names in scope, for a suggestion
+  = -- | an unknown name: this name, and all names and words that are known, for a suggestion
     UndefinedName Region Name [Text]
   | -- | a name that is defined only below: the name, and the region of the definition
     UsedBeforeDefinition Region Name Region
@@ -46,11 +46,12 @@ data Error
     DefinedTwice Region Name Region
   | -- | a definition of a name that belongs to the language: the name
     NameTaken Region Name
-  | -- | a term of the wrong type: the type that its context requires, the type of the term, and the
-    -- other regions that decided these types, with the types
+  | -- | a term of the wrong type: the required type, the type of the term, and the other regions at
+    -- which these types were decided, each with the decided type
     Mismatch Region Type Type [(Region, Type)]
   | -- | a sum, a difference or a comparison whose operands do not fit: the operator, the left and
-    -- the right operand, and the other regions that decided their types, with the types
+    -- the right operand, and the other regions at which their types were decided, each with the
+    -- decided type
     Disagree Region Operator (Region, Type) (Region, Type) [(Region, Type)]
   | -- | an operation that is not defined for its operands: the operation, and the operands
     NoOperation Region UndefinedOperation [(Region, Type)]
@@ -74,21 +75,21 @@ data Error
   | -- | a setting of the whole program that occurs again: the setting, and the region of its first
     -- statement
     SettingTwice Region RequiredSetting Region
-  | -- | a statement without settings that it needs above it: these settings. The report points at
-    -- the keyword of the statement
+  | -- | a statement that needs settings above it which are missing: the missing settings. The
+    -- report points at the keyword of the statement
     SettingsMissing Region (NonEmpty RequiredSetting)
   | -- | a name that is used in its own definition: the name
     Recursive Region Name
-  | -- | arguments that fit no form of a built-in function: the function, the arguments with their
-    -- types, and the forms of the function as calls
+  | -- | arguments that fit no form of a built-in function: the function, the regions and types of
+    -- the arguments, and the forms of the function as calls
     NoForm Region Text [(Region, Type)] [Text]
   | -- | a call for which the number of arguments, or the words such as @near@ before them, belong
     -- to no form: the built-in function, and its forms as calls
     NoSuchCall Region Text [Text]
   | -- | a statement that is not allowed in a block: the keyword of the statement
     NotInBlock Region Text
-  | -- | a setting that its statement does not have: the setting, the keyword of the statement, and
-    -- the settings that this statement has
+  | -- | a setting that is not allowed in its statement: the setting, the keyword of the statement,
+    -- and the settings that are allowed in this statement
     ForeignSetting Region Text Text [Text]
   | -- | a setting that occurs again in a block: the setting, and the region of an earlier
     -- occurrence
@@ -123,7 +124,7 @@ data Error
 data UndefinedOperation = UndefinedNegation | UndefinedProduct | UndefinedQuotient
   deriving stock (Eq, Show)
 
--- | The settings that statements may need above them.
+-- | A setting that a statement such as @tool@ makes. Other statements may need it above them.
 data RequiredSetting
   = PartSetting
   | MachineSetting
@@ -448,8 +449,8 @@ at region code = report Error code (InSource region)
 arguments :: Int -> Text
 arguments n = if n == 1 then "1 argument" else Decimal.whole n <> " arguments"
 
--- | The labels of a report at regions other than its own. A pair is such a region and the type that
--- the use of a term there decided.
+-- | The labels of a report at the other regions that decided its types. A pair contains such a
+-- region, and the type that the use of a term decided there.
 decidedLabels :: [(Region, Type)] -> [Label]
 decidedLabels elsewhere =
   [Label r (Type.describe t <> ", since it is used as one here") | (r, t) <- elsewhere]

@@ -1,10 +1,10 @@
 -- | Checks expressions: resolves names, infers types, and converts units.
 --
--- Every function yields a 'Deferred' term, most of them also its type. Such a term is complete only
--- when inference knows all dimensions of the program. It takes the solution of inference as an
--- argument, here @sol@. An unknown is a type or a dimension that inference has yet to find. A
--- deferred constraint is an operation or a call whose type inference finds later, when it knows
--- more types.
+-- A function that checks an expression yields a 'Deferred' term, and often also its type. Such a
+-- term is complete only when inference knows all dimensions of the program. It takes these
+-- dimensions, the solution of inference, as an argument, here @sol@. An unknown is a type or a
+-- dimension that inference has yet to find. A deferred constraint is an operation or a call whose
+-- type is found later, when inference knows more types.
 module Checked.Expression
   ( TypingEnvironment (..),
     expect,
@@ -52,8 +52,8 @@ import Surface.Token (Numeral (..), Unit)
 
 -- | The facts about a program that are needed to check its expressions.
 data TypingEnvironment = TypingEnvironment
-  { -- | all names that the program, or a block around the expression, defines above or below it,
-    -- with the regions of their definitions
+  { -- | the names that the program and the blocks around the expression define, even those that
+    -- they define only below it, each with the region of its definition
     definitions :: Map Name Region,
     -- | true if "Checked.Inference.Fast" checks literals and calls on literals, false if full
     -- inference checks them
@@ -63,7 +63,7 @@ data TypingEnvironment = TypingEnvironment
 -- | The type of a term, and the checked term.
 type Typed = (Type, Deferred Checked.Expr)
 
--- Wanted types
+-- Expressions of a wanted type
 
 -- | Checks an expression that must have the type @wanted@.
 expect :: TypingEnvironment -> Type -> Surface.Expr -> Infer (Deferred Checked.Expr)
@@ -145,7 +145,7 @@ contourElement env sense e = case (sense, value e) of
 fastCall :: TypingEnvironment -> Surface.Expr -> Infer (Maybe FastInference.FastCall)
 fastCall env e = if isFast env then FastInference.call (expect env) e else pure Nothing
 
--- Inferred types
+-- Expressions whose type is inferred
 
 -- | Checks an expression whose type is not known in advance, and infers its type.
 infer :: TypingEnvironment -> Surface.Expr -> Infer Typed
@@ -236,9 +236,10 @@ binary env at op l r
     result <- operation at op (region l, lt) (region r, rt)
     pure (result, \sol -> Located at (Checked.Binary op (l' sol) (r' sol)))
 
--- | Decides that a factor consisting of literals without a unit is a plain number, if the other
--- factor has a known dimension: twice an angle is an angle. A divisor without a unit always is a
--- plain number. If the other factor is a plain number, the literal may have any dimension: @20 * k@
+-- | Decides that an operand of a product or a quotient is a plain number, if it consists of
+-- literals without units and the other operand does not. The dimension of the other operand must be
+-- known and not that of a plain number: twice an angle is an angle. For a divisor, the dimension of
+-- the dividend does not matter. Beside a plain number the literals may have any dimension: @20 * k@
 -- can be a length.
 plainFactor :: Surface.Operator -> (Surface.Expr, Type) -> (Surface.Expr, Type) -> Infer ()
 plainFactor op (l, lt) (r, rt) = do
@@ -255,7 +256,7 @@ plainFactor op (l, lt) (r, rt) = do
       Type.Quantity d -> Dimension.isKnown d && d /= Dimension.none
       _ -> False
 
--- | Does an expression consist of literals without units only?
+-- | Does an expression consist only of literals without units?
 hasNoUnit :: Surface.Expr -> Bool
 hasNoUnit (Located _ e) = case e of
   Surface.Literal _ Nothing -> True
@@ -391,11 +392,12 @@ call env at callee@(Located nameRegion name@(Name text)) arguments = do
   where
     this = Call {callRegion = at, callee, written = NonEmpty.toList arguments}
 
--- | Reports a call, and checks its arguments, so that mistakes in them are reported, too.
+-- | Reports the mistake @e@ in a call. Also checks the arguments, so that mistakes in them are
+-- reported, too.
 wrongCall :: TypingEnvironment -> Call -> Error -> Infer Typed
 wrongCall env c e = wrong (callRegion c) <$ (checkArguments env c *> Inference.mistake e)
 
--- | Checks the arguments of a call whose function is not known.
+-- | Checks the arguments of a call that is reported as wrong. They may have any types.
 checkArguments :: TypingEnvironment -> Call -> Infer ()
 checkArguments env c = mapM_ (infer env) (argumentValues c)
 
@@ -420,9 +422,10 @@ functionCall env c parameters scheme = do
     name = value (callee c)
 
 -- | Checks a call of a function of the language. A form is one list of parameters with the type of
--- the result. The arguments are checked against a form at once if two conditions are true. No other
--- form has the labels of the call, and either the call has a label or the function has only this
--- form. Otherwise the call becomes a deferred constraint.
+-- the result. A form fits the labels of the call if its parameters have these labels. If no form
+-- fits them, the call is reported. If only one form fits them, the arguments are checked against it
+-- at once; but if the call has no labels, this is done only for a function with a single form. In
+-- all other cases the call becomes a deferred constraint.
 builtinCall :: TypingEnvironment -> Call -> Checked.Builtin -> Infer Typed
 builtinCall env c builtin = do
   unknowns <- freshUnknowns
@@ -454,8 +457,8 @@ builtinCall env c builtin = do
     term values sol =
       Located at (Checked.Builtin builtin (withLabels (written c) (map ($ sol) values)))
 
--- | Adds the deferred constraint of a call for which several forms are possible, and yields the
--- type of its result. @types@ are the types of the arguments.
+-- | Adds the deferred constraint of a call of a function with several forms, and yields the type of
+-- its result. @types@ are the types of the arguments that have a value.
 overloadedCall :: Call -> Checked.Builtin -> [ArgumentLabel] -> [Type] -> Infer Type
 overloadedCall c builtin labels types = do
   callType <- Inference.freshType
@@ -511,8 +514,8 @@ argumentValues c = concatMap valueOf (written c)
       Surface.Chosen _ e -> [e]
       Surface.Ranked _ -> []
 
--- | Makes the arguments of a checked call from the written arguments, for their labels, and from
--- the checked values.
+-- | The arguments of a checked call: the checked values @vs@, with the labels of the written
+-- arguments @as@.
 withLabels :: [Surface.Argument] -> [Checked.Expr] -> [Checked.Argument]
 withLabels as vs = case (as, vs) of
   (Surface.Given _ : more, v : rest) -> Checked.Given v : withLabels more rest

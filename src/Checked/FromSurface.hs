@@ -108,8 +108,8 @@ definedName s = case s of
 
 -- Statements
 
--- | Checks a statement. 'Nothing' if it contains a mistake, or if the checked program has no such
--- statement.
+-- | Checks a statement. 'Nothing' if the statement has no counterpart in the checked program, such
+-- as @part@, or if it contains a mistake. Mistakes inside its blocks do not count.
 statement :: TypingEnvironment -> Statement -> Infer (Maybe (Deferred Checked.Statement))
 statement env (Located at s) = case s of
   Surface.Part n _ -> Nothing <$ mentionDefinition n (Inference.Described "the name of the part")
@@ -178,8 +178,8 @@ inBlock env body = catMaybes <$> mapM (statement inner) body
   where
     inner = env {definitions = Map.union (definedIn body) (definitions env)}
 
--- | Checks a statement that repeats a block. Its variable is poisoned if the list contains a
--- mistake.
+-- | Checks a @for@ statement, which repeats the block @body@ for each item of the list @list@. Its
+-- variable @counter@ is poisoned if @list@ contains a mistake.
 repeated ::
   TypingEnvironment ->
   Located Name ->
@@ -293,8 +293,8 @@ pieceDefinition env name e ciphers side joggles = do
         Checked.Piece name (e' sol) (resolveAll sol ciphers') side (resolveAll sol joggles')
   pure (make <$> checked)
 
--- | Checks an expression that must be a curve. After the check, inference knows the columns of its
--- table.
+-- | Checks an expression that must be a curve. Then solves all pending constraints, so that the
+-- columns of the curve's table become known.
 curve :: TypingEnvironment -> Surface.Expr -> Infer (Type, Deferred Checked.Expr)
 curve env e = do
   t <- Type.Curve <$> Inference.freshType
@@ -317,7 +317,8 @@ defining name bindingOf inside = do
       mapM_ (mentionDefinition name) (meaningOf binding)
   pure checked
 
--- | Reports a name that is already defined or that belongs to the language.
+-- | Reports a name that a definition above has already, or that belongs to the language. Does not
+-- report the name of a variable of a surrounding @for@.
 reportTaken :: Located Name -> Infer ()
 reportTaken located@(Located at name) = do
   binding <- Inference.find name
@@ -409,8 +410,8 @@ assertion env e within = case (value e, within) of
   (Surface.Binary Surface.Equal l r, _) -> do
     (t, l', r') <- compared Surface.Equal l r
     kind <- Inference.resolved t
-    -- If the operands do not fit, 'compared' has reported them. The type 'Wrong' then prevents a
-    -- report on the tolerance.
+    -- If the left operand is not a quantity, 'compared' has reported it, unless its type is still
+    -- unknown. The type 'Wrong' then accepts every tolerance, so that no report on it follows.
     let toleranceType = case kind of
           Type.Quantity _ -> t
           _ -> Type.Wrong

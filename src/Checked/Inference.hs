@@ -68,8 +68,9 @@ import Data.IntMap.Strict qualified as IntMap
 import Data.IntSet qualified as IntSet
 import Data.List (partition)
 
--- | Checks a statement, and solves all of its constraints at the end. 'Nothing' if it contains a
--- mistake or depends on one.
+-- | Runs @infer@, which checks a statement or a part of it. Then solves all pending constraints.
+-- 'Nothing' if this statement or part contains a mistake, or uses a name whose definition contains
+-- one.
 separately :: Infer a -> Infer (Maybe a)
 separately infer = do
   before <- gets isTainted
@@ -179,8 +180,8 @@ constraintResult constraint = case constraint of
   Overloaded c -> (callRegion c, callType c)
 
 -- | Instantiates a scheme: replaces its variables by new unknowns, for a call at the region @use@.
--- The result contains the types of the parameters and the type of the call. The third component
--- adds the scheme's constraints. The caller runs it after it has checked the arguments.
+-- The result contains the types of the parameters, the type of the call, and an action that adds
+-- the constraints of the scheme. The caller checks the arguments before it runs this action.
 instantiate :: Region -> Scheme -> Infer ([Type], Type, Infer ())
 instantiate use scheme = do
   renamed <- traverse (const freshNumber) (IntMap.fromSet id (quantified scheme))
@@ -229,8 +230,8 @@ solve constraint = case constraint of
   Operation a -> solveArithmetic a
   Overloaded c -> solveCall c
 
--- | Solves pending constraints until no further one can be solved. The other constraints are
--- removed from the state and are the result, the oldest first.
+-- | Solves pending constraints until no further one can be solved. Removes the constraints that
+-- remain unsolved from the state, and yields them, the oldest first.
 solvePending :: Infer [DeferredConstraint]
 solvePending = do
   waiting <- gets pending

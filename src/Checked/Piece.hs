@@ -44,8 +44,9 @@ import Surface.Token (Numeral (..))
 
 -- Columns
 
--- | A column of a table. 'kind' is the type of its cells. 'size' is the size of the heading's unit
--- in mm, radians, minutes or turns, or 'Nothing' if the heading has no unit.
+-- | A column of a table. 'kind' is the type of its cells. 'size' is the factor that converts
+-- numbers from the heading's unit to mm, radians, mm/min or turns per minute. It is 'Nothing' if
+-- the heading has no unit.
 data Column = Column {heading :: Located Name, kind :: Type, size :: Maybe Double}
 
 -- | Checks the lines of a table and infers the type of the table. The first line must name the
@@ -225,8 +226,8 @@ joinRows = go []
       _ -> go (Numbers (NumberTable.fromList found) : done) rows
 
 -- | The cells of one or more rows. @order@ gives, for each column of the result, the index from 0
--- of the column in the text. @sizes@ are the sizes of the units, in the order of the text; numbers
--- are multiplied by them.
+-- of this column in the program's table. @sizes@ has a factor for each column of the program's
+-- table. Numbers without units are multiplied by it.
 cellsOf :: [Int] -> [Double] -> Row -> Deferred Cells
 cellsOf order sizes rows sol = case rows of
   Numbers numbers -> inOrder numbers

@@ -83,7 +83,7 @@ isChange s = case s of
 data Requirement = Requirement
   { -- | the number of characters of the statement's keyword; reports point at the keyword
     keywordLength :: Int,
-    -- | the setting that the statement makes; 'Nothing' if it makes none that others need
+    -- | the setting that the statement makes; 'Nothing' if it makes none of type 'RequiredSetting'
     given :: Maybe RequiredSetting,
     -- | the settings that must occur above the statement
     needed :: [RequiredSetting],

@@ -39,7 +39,8 @@ data Scheme = Scheme
     deferred :: [DeferredConstraint]
   }
 
--- | The meaning of a mention of a name, from which editors describe the name.
+-- | The facts about a mentioned name, from which inference makes the description that an editor
+-- shows.
 data Meaning
   = -- | a value: its type
     Valued Type
@@ -70,7 +71,8 @@ data OverloadedCall = OverloadedCall
   { -- | the region of the whole call
     callRegion :: Region,
     builtin :: Builtin,
-    -- | the labels of all arguments in order, such as @near@ or @first@, or none
+    -- | the labels of all arguments in order: each is a word such as @near@, a rank (@first@ or
+    -- @last@), or the mark of an argument without a label
     labels :: [ArgumentLabel],
     -- | the regions and the types of the arguments that have a value: all but @first@ and @last@
     arguments :: [(Region, Type)],

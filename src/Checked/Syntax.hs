@@ -137,10 +137,10 @@ data Cells = Numbers {-# UNPACK #-} NumberTable | Written Region [Expr]
 type Cipher = Located Cipher_
 
 -- | A recalculation of a curve: a shift by a distance (Kolsanova, section 5). A bevel is the angle
--- between the part's surface and the axis of the tool. If there is one, the distance is measured
--- square to the surface. A flange height is the height of the part's flange at a point. Bevels,
--- flange heights and the distance of cipher 6 may name columns of the table; they then vary along
--- the curve.
+-- between the part's surface and the axis of the tool. If cipher 1, 2 or 6 has a bevel, its
+-- distance is measured square to the surface, otherwise in the plane of the part. A flange height
+-- is the height of the part's flange at a point. Bevels, flange heights and the distance of cipher
+-- 6 may name columns of the table; they then vary along the curve.
 data Cipher_
   = -- | cipher 1: the distance at the start and at the end, the bevel, and two points of the curve.
     -- The distance grows uniformly between these points; without points, along the whole curve
@@ -148,7 +148,7 @@ data Cipher_
   | -- | cipher 2: the distance, which is the same along the whole curve, and the bevel
     Constant Expr (Maybe Expr)
   | -- | cipher 4: the bevel and the flange height, from which the distance follows, and an
-    -- allowance
+    -- allowance that is added to the distance
     Bevelled Expr Expr (Maybe Expr)
   | -- | cipher 6: the distance at each row of the table, and the bevel
     Pointwise Expr (Maybe Expr)
@@ -218,7 +218,7 @@ data Settings = Settings
     startNear :: Maybe Expr,
     -- | the feed of moves down into the material
     plunge :: Maybe Expr,
-    -- | the depth to drill before the drill is retracted
+    -- | the largest depth of a peck, which is a step of drilling before the drill is retracted
     peck :: Maybe Expr,
     -- | the islands of a pocket: expressions of contours and of lists of contours
     islands :: [Expr],

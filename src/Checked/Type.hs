@@ -86,8 +86,8 @@ aPoint = Spatial (Dimension.atom PointWeight)
 aVector :: Type
 aVector = Spatial Dimension.none
 
--- | The type of a number that has a unit, and the factor that converts this number to mm, radians,
--- minutes and turns.
+-- | The type of a number with the unit @unit@, and the factor that converts this number to the unit
+-- of checked programs: mm, radians, mm/min or turns per minute.
 ofUnit :: Unit -> (Type, Double)
 ofUnit unit = case unit of
   Millimetre -> (len, 1)
@@ -131,8 +131,8 @@ describe t = case t of
   Variable _ -> "a value"
   Wrong -> "a value"
 
--- | The words that name the columns of a table besides x and y, such as "with mu". Empty if there
--- are none.
+-- | The words of a description that name the columns in the 'Fields' @t@, such as "with mu". Empty
+-- if there are no columns, or if @t@ is an unknown.
 withColumns :: Type -> Text
 withColumns t = case t of
   Fields columns@(_ : _) -> " with " <> Text.intercalate ", " (map fst columns)
@@ -146,7 +146,8 @@ plural t = case Text.words (describe t) of
   article : rest | article `elem` ["a", "an"] -> Text.unwords rest <> "s"
   phrase -> Text.unwords phrase
 
--- | Is a type a quantity whose dimension contains unknowns, but certainly is a square?
+-- | True if a type is a quantity whose dimension is a square, whatever its unknowns are. False if
+-- the dimension contains no unknowns.
 isSquare :: Type -> Bool
 isSquare t = case t of
   Quantity d -> Dimension.isUnknownSquare d

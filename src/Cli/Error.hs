@@ -28,8 +28,8 @@ data Error
   | -- | The command line names no machine for a tape. The list contains the names of the built-in
     -- machines, for the hint.
     NoMachineForTape [Text]
-  | -- | The output would replace this file, which is the program, one of its imports or one of its
-    -- machine descriptions.
+  | -- | The output would replace this file: the program, a program or table that it imports, or one
+    -- of its machine descriptions.
     OverwritesProgram Text
   | -- | Several tapes would be written to this path; @-@ is standard output.
     OneForSeveral Text
@@ -112,8 +112,8 @@ toReport err = case err of
   where
     wrong = report Report.Error
 
--- | The reason why a file cannot be read, without code and file name. It completes the sentence of
--- another report, such as that on an @import@ statement.
+-- | The reason why a file cannot be read, without a report code and without the name of the file.
+-- It completes the sentence of another report, such as the report on an @import@ statement.
 reason :: Error -> Text
 reason err = case err of
   CannotRead why -> why

@@ -21,8 +21,8 @@ import Surface.Parser qualified as Parser
 import Surface.Syntax (Program)
 
 -- | Formats one program in place, or from standard input to standard output if the file is @-@. If
--- @checkOnly@ is true, it writes no file. It then prints the name of a program that is not in the
--- canonical layout, and fails.
+-- @checkOnly@ is true, it changes nothing: it prints the program's name and fails if the program is
+-- not in the canonical layout.
 fmt :: Reporter -> Bool -> FilePath -> IO Exit
 fmt reporter checkOnly file
   | LoadedProgram.isInputSheet file = failWith reporter (Text.pack file) SheetLaidOut
@@ -37,9 +37,9 @@ fmt reporter checkOnly file
   where
     name = if file == "-" then "<stdin>" else Text.pack file
 
--- | Replaces a program by its formatted text; if @checkOnly@ is true, only compares the two. The
--- @file@ may be @-@ for standard output. @name@ is the file's name in reports, @text@ the program
--- as it was read.
+-- | Replaces the program @text@ in @file@ by the text @formatted@; @-@ is standard output. If
+-- @checkOnly@ is true, nothing is replaced. The command then fails if the two texts differ, and
+-- prints @name@, the file's name in reports.
 replaceText :: Reporter -> Bool -> FilePath -> Text -> Text -> Text -> IO Exit
 replaceText reporter checkOnly file name text formatted
   | checkOnly, formatted == text = pure Done

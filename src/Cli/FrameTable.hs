@@ -37,8 +37,8 @@ data Column a = Column {align :: Align, title :: Text, cell :: a -> Text}
 data Numbered = Numbered {number :: Int, planned :: PlannedFrame, to :: Pulses3}
 
 -- | The table of the frames of a program. Each row ends with the number of the program's line from
--- which the frame is made, and with the commands of the frame. A column that would be empty in all
--- rows is left out.
+-- which the frame is made, and with the commands of the frame. The columns of kinds of motion, arc
+-- centres, braking, heights and commands are left out if no frame needs them.
 frames :: Machine -> Source -> FrameProgram -> Text
 frames machine source program = table columns rows
   where
@@ -112,7 +112,7 @@ framesJson machine source program = Text.concat (map row (numbered program))
         <> "\n"
 
 -- | The table of frames that were read from a tape. It has no positions and no lines of a program,
--- because the tape contains neither.
+-- because the tape does not contain the start position and the program.
 decoded :: Machine -> [Frame] -> Text
 decoded machine fs = table columns (zip [1 :: Int ..] fs)
   where
@@ -164,7 +164,7 @@ brakeColumn :: [Frame] -> [Column Frame]
 brakeColumn fs = [Column ToLeft "" (\f -> if braking f then "brakes" else "") | any braking fs]
 
 -- | One column for each command that occurs in the frames. A cell has the number that the frame
--- gives to the command, such as that of the tool in a tool change.
+-- gives to the command, such as the number of the tool in a tool change.
 commandColumns :: [Frame] -> [Column Frame]
 commandColumns fs =
   [ Column ToRight name (maybe "" Decimal.whole . lookup o . commands)
@@ -186,8 +186,8 @@ motionWord m = case m of
   Circular Clockwise -> "arc cw"
   Circular CounterClockwise -> "arc ccw"
 
--- | The frames with their numbers, from 1, and their end positions: sums of the increments from the
--- start of the program.
+-- | The frames with their numbers, from 1, and their end positions. An end position is the start
+-- position of the program plus all increments up to this frame.
 numbered :: FrameProgram -> [Numbered]
 numbered program =
   zipWith3

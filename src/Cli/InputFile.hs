@@ -73,8 +73,8 @@ withInput reporter file targets continue = do
   where
     values = Output.values (Output.settings reporter)
 
--- | The paths of the files from which a program is compiled: the program itself, its imports, its
--- machine descriptions. No output may replace them.
+-- | The paths of the files from which a program is compiled: the program itself, the programs and
+-- tables that it imports, its machine descriptions. No output may replace them.
 ownFiles :: FilePath -> Input -> [FilePath]
 ownFiles file input = file : imported <> concatMap asWritten described
   where

@@ -176,10 +176,10 @@ isGrid m = all fixed (NonEmpty.toList (items (layout m)))
           && padded (form w)
           && sign (form w) `elem` [Unsigned, ServiceSign]
 
--- | The table of a frame with fixed rows, see 'isGrid'. For each row of the frame it has the number
--- from 1, the content, and the meaning of a hole in the service track. The content is the quantity
--- of which the row is one digit, or a fixed symbol, or the check digit. The service track is the
--- track for minus signs, bits of commands and other signals that are no digits.
+-- | The table of a frame with fixed rows, see 'isGrid'. For each row of the frame it has the row's
+-- number, counted from 1; the row's content; and the meaning of a hole in the service track. The
+-- content is the quantity of which the row is one digit, or a fixed symbol, or the check digit. The
+-- service track is for minus signs, bits of commands and other signals that are no digits.
 gridRows :: Machine -> [[Text]]
 gridRows m =
   ["row", "digit of", "service track"] :

@@ -1,10 +1,10 @@
 -- | The tables of the subcommand @report@, after the paper on the Ural-1 computer: the nodes of
 -- every equidistant, lengths, times, and the length of the tape.
 --
--- Coordinates and lengths are in mm, times in seconds. An equidistant is the offset of a contour
--- that the cutter's centre follows. Nodes are the points at which its sections join, numbered from
--- 0. A section is the part of a pass from one node to the next: a line, an arc, or all arcs of one
--- curve. The 'Milling' of a pass is the statement of the program that causes it.
+-- Coordinates and lengths are in mm, times in seconds. The cutter's centre follows the equidistant
+-- of a contour, which is the contour's offset. The equidistant consists of sections: lines, arcs
+-- and curves. A curve is one section, although arcs approximate it. Nodes are the points at which
+-- sections join, numbered from 0. The 'Milling' of a pass is the statement that asks for the pass.
 module Cli.NodeTable
   ( nodes,
   )
@@ -207,7 +207,7 @@ holeTable drillings =
   ]
 
 -- | The length of all linking moves, the length and the time of the whole toolpath, and the size of
--- the tape.
+-- the tape. Moves for the drilling of holes count as linking moves.
 summary :: Maybe (Machine, Punched) -> Toolpath -> Text
 summary punched path =
   Table.columns

@@ -46,8 +46,8 @@ whenSound reporter name source result continue = do
     Nothing | not isStopped -> bug "a stage gave neither an output nor a report"
     _ -> pure Failed
 
--- | Evaluates a result until all its errors and warnings are known. The progress message thus
--- covers the time of the computation.
+-- | Evaluates a result until all its errors and warnings are known. 'Progress.during' runs this
+-- action, so that the progress message is shown as long as the computation lasts.
 evaluated :: Result w e a -> IO ()
 evaluated result = void (evaluate (length (errors result) + length (warnings result)))
 

@@ -71,7 +71,7 @@ data Format = HumanFormat | ShortFormat | JsonFormat | SarifFormat
   deriving stock (Eq, Show)
 
 -- | The user's choice of coloured reports. 'Auto' colours them if they go to a terminal and the
--- environment variable @NO_COLOR@ is not set.
+-- environment variable @NO_COLOR@ is empty or not set.
 data ColourChoice = Auto | Always | Never
   deriving stock (Eq, Show)
 
@@ -122,7 +122,7 @@ ioProblem e
 -- formats the list stays empty.
 data Reporter = Reporter {settings :: OutputSettings, collected :: IORef [Filed]}
 
--- | Runs a command, and writes the SARIF log of the collected reports at its end.
+-- | Runs a command. In the SARIF format, writes the log of the collected reports after the command.
 reporting :: OutputSettings -> (Reporter -> IO a) -> IO a
 reporting settings work = do
   collected <- newIORef []

@@ -1,6 +1,6 @@
 -- | The files that subcommands write. An output that would replace one of its sources is refused.
--- The sources are the files of which it is made: the program, its imports and its machine
--- descriptions.
+-- The sources are the files of which it is made: the program, the programs and tables that it
+-- imports, and its machine descriptions.
 module Cli.OutputFile
   ( writeTapes,
     writeText,

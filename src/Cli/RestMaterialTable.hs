@@ -23,12 +23,14 @@ import Toolpath.RestMaterial (Remaining (Remaining, tool, walls))
 import Toolpath.RestMaterial qualified as RestMaterial
 import Toolpath.Toolpath (Toolpath)
 
--- | One table for each statement that leaves rest material. A row is for one region of it. The row
--- has a position in mm, the area in mm², the size of the largest cutter that would reach the
--- region, and the reason why the cutter of the program does not. The position is an inner corner of
--- the contour, or else the cutter's centre where the cutter goes no further. The area is empty if
--- the boundary of the region is not known, or if the region is a part of that in another row. The
--- size is empty for an inner corner, because no round cutter reaches its vertex.
+-- | One table for each statement that leaves rest material. Each row describes one region of rest
+-- material. It has a position in mm, the area in mm², the size of the largest cutter that would
+-- reach the region, and the reason why the cutter of the program does not.
+--
+-- The position is the vertex of an inner corner in which the material remains. If the material does
+-- not remain in a corner, it is the cutter's centre where the cutter goes no further. The area is
+-- empty if the boundary of the region is not known, or if another row has the area of this region.
+-- The size is empty for an inner corner, because no round cutter reaches the vertex.
 tables :: Toolpath -> [Text]
 tables path = map table (RestMaterial.ofPath path)
 

@@ -7,8 +7,9 @@
 --   treated like a corner of the contour, as described below.
 -- * Contour: each later motion is the offset of the programmed one; an arc keeps its centre. At a
 --   corner that turns away from the cutter, the centre goes round the corner on an arc. At a corner
---   that turns towards the cutter, both offsets end at their intersection. If the direction changes
---   by less than 'Tolerance.controlBend', the next motion starts at the end of the one before.
+--   that turns towards the cutter, both offsets are trimmed at their intersection. If the direction
+--   changes by less than 'Tolerance.controlBend', the next motion starts at the end of the one
+--   before.
 -- * Exit: the first motion after the release (the end of compensation) goes straight from the
 --   present position to the programmed end.
 --
@@ -101,16 +102,15 @@ data Role
 -- Frames in order ---------------------------------------------------------------------------------
 
 -- | Motions of frames from a start position, and the errors at which a control would stop. The
--- function yields the cutter's radius in a frame, given by the frame's number from 1. It is used
--- for a frame that switches compensation on without a diameter.
+-- second argument is a function from the number of a frame, from 1, to the cutter's radius. It is
+-- applied to a frame that switches compensation on without giving the cutter's diameter.
 run :: Machine -> (Int -> Mm) -> Pulses3 -> [Frame] -> ([Moved], [CompensationError])
 run = runWith (:)
 
--- | Fold the motions of frames from the right, with the function @onto@, which puts a motion before
--- the result for the later ones. The result also has the errors at which a control would stop.
--- @toolAt@ gives the cutter's radius in a frame, by the frame's number from 1. It is used for a
--- frame that switches compensation on without a diameter. Without compensation, the list of motions
--- is never in memory as a whole.
+-- | Variant of 'run' that folds the motions from the right. @onto@ joins a motion with the list
+-- made of all later motions. @toolAt@ gives the cutter's radius for the number of a frame, from 1.
+-- It is applied to a frame that switches compensation on without giving the cutter's diameter.
+-- Without compensation, the list of motions is never in memory as a whole.
 runWith ::
   (Moved -> [a] -> [a]) ->
   Machine ->
@@ -331,8 +331,8 @@ along a b edge = case edge of
       Arc {start = a, end = b, centre, sweep = whole}
     | otherwise -> Segment.arc (Carrier.senseOf whole) centre a b
 
--- | Test that a straight path leads against the direction of its programmed segment, by more than
--- 'Tolerance.coincident', which rounding may cause. False for an arc.
+-- | Test that a straight path leads backwards relative to its programmed segment, by a distance of
+-- more than 'Tolerance.coincident'. A shorter distance may come from rounding. False for an arc.
 goesBack :: Segment -> Segment -> Bool
 goesBack path edge = case edge of
   Straight _ _ ->
@@ -358,7 +358,7 @@ data Joint
     Smooth
   | -- | the centre goes round the corner on an arc
     Around Segment
-  | -- | both offsets end at a common point
+  | -- | both offsets are trimmed at this point, their intersection
     Intersection Point
   | -- | the offsets do not meet
     NoMeeting

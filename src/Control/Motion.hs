@@ -5,8 +5,8 @@
 -- may differ. Controllers resolve this difference in different manners, but all controllers move
 -- about the programmed centre, in the programmed sense, between the two radii. The model therefore
 -- gives two /bounding paths/ for an arc with two radii: one arc on each radius. It also gives the
--- lines that connect the ends of the two. A statement about the motion is true if it is true of
--- both bounding paths and of these lines.
+-- lines that connect the ends of these two arcs. A statement about the motion is true if it is true
+-- of both bounding paths and of these lines.
 module Control.Motion
   ( Motion (..),
     run,
@@ -39,13 +39,13 @@ import Machine.Machine (Machine)
 data Motion = Motion {number :: Int, from :: Pulses3, to :: Pulses3, frame :: Frame}
   deriving stock (Eq, Show)
 
--- | List the motions of frames from a start position. A frame with commands only has no motion. A
--- full circle has one, although its increment is zero.
+-- | List the motions of frames, the first of which begins at the given position. A frame that has
+-- only commands gives no motion. A full circle gives one, although its increment is zero.
 run :: Pulses3 -> [Frame] -> [Motion]
 run = runWith (:)
 
--- | Fold the motions of frames from the right, with the function @onto@, which puts a motion before
--- the result for the later ones. The list of motions is never in memory as a whole.
+-- | Fold the motions of frames from the right. The function @onto@ takes a motion and the result
+-- for all later motions. The list of motions is never in memory as a whole.
 runWith :: (Motion -> [a] -> [a]) -> Pulses3 -> [Frame] -> [a]
 runWith onto = go 1
   where
@@ -58,8 +58,8 @@ runWith onto = go 1
            in m `seq` onto m (go (n + 1) next more)
         | otherwise -> go (n + 1) at more
 
--- | Test that a frame is an arc about a centre. False for an arc whose centre is its start or its
--- end, because it then has no radius there.
+-- | Test that a frame is an arc whose radii at the start and at the end are not 0. In other words,
+-- the centre of the arc is neither its start nor its end.
 isRound :: Frame -> Bool
 isRound f = case motion f of
   Circular _ -> Frame.centre f /= 0 && Frame.centre f /= Pulses2 x y
@@ -78,9 +78,10 @@ endsInStartDirection f = a * d == b * c && a * c + b * d > 0
     Pulses3 x y _ = increment f
     (a, b, c, d) = (-i, -j, x - i, y - j)
 
--- | Motion in the plane, in mm, with exact end points. The radius of an arc is that of its start.
--- If both ends lie in the same direction from the centre, the arc is a full circle, because
--- controls compare the directions of the ends and not the points.
+-- | Segment of a motion in the plane, in mm. Its ends are those of the motion, even if the ends of
+-- an arc have different radii. An arc that is not 'isRound' becomes a line. If both ends lie in the
+-- same direction from the centre, the arc is a full circle. Controls compare these directions, not
+-- the positions of the ends.
 segment :: Machine -> Motion -> Segment
 segment machine m = case (Frame.segment machine (from m) (frame m), motion (frame m)) of
   (a@Arc {}, Circular sense)

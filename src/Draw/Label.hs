@@ -39,7 +39,7 @@ data PointLabel = PointLabel
   }
   deriving stock (Eq, Show)
 
--- | Size of the letters in mm.
+-- | Letter size of the labels in mm, as the font size of SVG.
 size :: Double
 size = 3
 
@@ -79,7 +79,8 @@ squares BoundingBox {left, bottom, right, top} =
 candidates :: PointLabel -> [BoundingBox]
 candidates PointLabel {caption, anchor, outward, distances} = [at d a | d <- distances, a <- angles]
   where
-    -- Half of the label's height and half of its width. The height of digits is 0.72 of their size.
+    -- Half the height and half the width of the label. The height of a digit is 0.72 of the letter
+    -- size.
     high = 0.36 * size
     wide = max high (Draw.textWidth size caption / 2)
     at distance angle =
@@ -112,6 +113,7 @@ free area drawn taken box@BoundingBox {left, bottom, right, top} =
     around = BoundingBox.inflate (Mm 0.6) box
     half = (top - bottom) / 2
     y = (bottom + top) / 2
-    -- For its distance from a segment, a text counts as a thick line of the letters' height.
+    -- For its distance from a segment, the text counts as a thick line with round ends, which is as
+    -- long and as high as the box.
     middle = Straight (Vec.point (left + half / 2) y) (Vec.point (right - half / 2) y)
     clear s = let ClosestPoint (Mm d) _ = Distance.segments middle s in d > half + 0.5

@@ -92,7 +92,7 @@ axisArrow = Svg.arrow grey 2.4
 node :: Bool -> Point -> Svg
 node numbered = Svg.dot blue (if numbered then 0.6 else 0.35)
 
--- | Symbol of the workpiece zero: a circle with two black quarters.
+-- | Symbol of the part's origin, the workpiece zero: a circle with two black quarters.
 origin :: Point -> [Svg]
 origin p = [Svg.dot "white" r p, quarter 0, quarter pi, Svg.ring (Pen black 0.2 []) r p]
   where

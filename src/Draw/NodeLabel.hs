@@ -92,7 +92,7 @@ labels cut
     final = NonEmpty.last numbered
     between = filter (isMarked (number final)) (drop 1 (NonEmpty.init numbered))
     plain n = PointLabel (Decimal.whole (number n)) (place n) (outward n) near
-    -- The entry needs more room, because the cutter is drawn there.
+    -- The label of the entry may be further away, because the cutter is drawn at the entry.
     entry words' n = PointLabel words' (place n) (outward n) (near <> [5.5, 7.5, 10])
     near = [1.2, 2, 3, 4]
 

@@ -73,10 +73,10 @@ choose box = Page {scale = chosen, middle = Vec.point ((left + right) / 2) ((bot
     wider = BoundingBox.union box (BoundingBox.ofPoints (Vec.point 0 0) [])
     BoundingBox {left, bottom, right, top} = if fits wider chosen then wider else box
 
--- | Chooses the scale for a bounding box. It is full size if the box then fits into the field and
--- fills at least 0.4 of the field's width or height. Otherwise it is the largest standard scale
--- (those of ISO 5455, and 1:2.5) at which the box fits. A box without width and height gets full
--- size.
+-- | Chooses the scale for a bounding box. The scale is 1:1 if the box then fits into the field and
+-- fills at least 0.4 of the field's width or height. Otherwise it is the largest standard scale at
+-- which the box fits. The standard scales are those of ISO 5455, and 1:2.5. A box without width and
+-- height gets 1:1.
 scaleFor :: BoundingBox -> Scale
 scaleFor box
   | not (fits box (Scale 1 1)) = fromMaybe (Scale 1 1) (find (fits box) reductions)
@@ -130,8 +130,8 @@ unplace Page {scale, middle} p =
     (Vec.x middle + (Vec.x p - (leftmost field + rightmost field) / 2) / factor scale)
     (Vec.y middle - (Vec.y p - (upper field + lower field) / 2) / factor scale)
 
--- | Converts a segment of the part to paper. Its arcs look the same on paper, but their sweeps
--- change sign, because y points down.
+-- | Converts a segment of the part to paper. An arc looks the same on paper, but its sweep changes
+-- sign, because y points down.
 segment :: Page -> Segment -> Segment
 segment page s = case s of
   Straight a b -> Straight (place page a) (place page b)

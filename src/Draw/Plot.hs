@@ -63,12 +63,12 @@ plot part path =
   where
     scene = Scene.fromPart part path
 
--- The part
+-- Part --------------------------------------------------------------------------------------------
 
 -- | Areas of material in grey, with windows in white. A body is a contour with material inside, and
 -- a window is a contour with material outside. A shape is drawn after the shape in which it lies.
--- If no body surrounds the windows, each window gets a grey band around it, which shows the
--- material. This is so if every body lies in a window, or if there is no body.
+-- If every body lies in a window, or if there is no body, each window gets a grey band around it.
+-- The band shows the material outside the window.
 material :: [Shape] -> [Svg]
 material shapes = bands <> map snd (sortOn fst (map painted bodies <> map painted windows))
   where
@@ -153,8 +153,8 @@ originMark :: Page -> [Svg]
 originMark page =
   concatMap LineStyle.origin (filter (Page.holds Page.field) [Page.place page (Vec.point 0 0)])
 
--- | Arrowheads and names of the axes, in mm of paper. The axes cross at (@px@, @py@). @right@ is
--- the x of the right end of the x axis, @top@ the y of the upper end of the y axis.
+-- | Arrowheads and names of the axes, which cross at (@px@, @py@). @right@ is the x of the right
+-- end of the x axis, @top@ the y of the upper end of the y axis. All arguments are in mm of paper.
 axisHeads :: Double -> Double -> Double -> Double -> [Svg]
 axisHeads px py right top =
   [ LineStyle.axisArrow (Vec.vec 1 0) (Vec.point right py),
@@ -163,12 +163,12 @@ axisHeads px py right top =
     Svg.text LineStyle.small Centred (Vec.point (px + 2.4) (top + 1)) "y"
   ]
 
--- | Step of the round coordinates in 'axes': a length in mm of the part, which is 3.2 to 8 mm on
--- paper.
+-- | Length in mm of the part of which the round coordinates in 'axes' are multiples. On paper this
+-- length is 3.2 to 8 mm.
 gridOf :: Page -> Double
 gridOf page = Page.round125 (8 / Page.onPaper page (Mm 1))
 
--- The path
+-- Toolpath ----------------------------------------------------------------------------------------
 
 -- | Lines of the linking moves. A segment that the cutter traverses in both directions is drawn
 -- once, with an arrow for each direction.
@@ -193,9 +193,9 @@ once known segments = case segments of
     where
       key = min s (Segment.reverse s)
 
--- | Toolpath of a cut with its arrows. A cut of at most 12 mm of paper has no arrows, any other cut
--- has five. In a pocket there is an arrow for every 40 mm, but at least five. If the cutter's
--- centre is on the contour, the toolpath is drawn between two thin lines.
+-- | Toolpath of a cut with its arrows. A cut that is at most 12 mm long on paper has no arrows. A
+-- longer cut has five along a contour; in a pocket it has one for every 40 mm, but at least five.
+-- If the cutter's centre is on the contour, the toolpath is drawn between two thin lines.
 cutLine :: Cut -> [Svg]
 cutLine cut@Cut {isOnContour, numbered} =
   [Svg.stroke pen segments | isOnContour, pen <- [LineStyle.edgePen, LineStyle.bedPen]]
@@ -264,7 +264,8 @@ numbers Scene {shapes, cuts, feeds, rapids, start} =
         <> rapids
         <> LineStyle.diamond start
 
--- | Segments of a cut, and of the cutter if one is drawn there; labels must not cover them.
+-- | Segments of a cut, and of the cutter's symbol if it is drawn at the beginning of the cut.
+-- Labels must not cover these segments.
 cutLines :: Cut -> [Segment]
 cutLines cut@Cut {cutterRadius, showsCutter} =
   (if showsCutter then rim : LineStyle.cross cutterRadius p else [])

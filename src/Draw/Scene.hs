@@ -1,6 +1,7 @@
 -- | Objects of a drawing in mm of paper: contours, cuts, linking moves and rest material. A cut is
 -- a part of the toolpath that removes material; linking moves are all other moves. Rest material is
--- material that the cutter cannot reach. An outline is a chain of segments that bounds an area.
+-- material that the cutter cannot reach. An outline is the chain of segments along a contour or a
+-- drilled hole, or around an area of rest material.
 module Draw.Scene
   ( Scene (..),
     Shape (..),
@@ -72,12 +73,12 @@ data Scene = Scene
     restMaterial :: [[Segment]],
     -- | linking moves at feed
     feeds :: [Segment],
-    -- | linking moves in rapid
+    -- | linking moves that are rapid moves
     rapids :: [Segment],
     -- | starting position of the cutter
     start :: Point,
-    -- | each tool by its kind of work, milling or turning, and by the radius, in mm of the part, of
-    -- the cutter or of the turning tool's nose
+    -- | tools, each as its work (milling or turning) and a radius in mm of the part. The radius is
+    -- that of the cutter, or that of the turning tool's nose
     tools :: [(Part.Work, Mm)]
   }
 
@@ -109,7 +110,8 @@ data Cut = Cut
     isOnContour :: Bool,
     -- | True if the nodes have numbers; False in a pocket
     numbered :: Bool,
-    -- | True if the cutter is drawn where the cut begins; in a pocket only for the first cut
+    -- | True if the cutter is drawn where the cut begins; in a pocket only for the first cut of a
+    -- pass
     showsCutter :: Bool
   }
 
@@ -171,9 +173,9 @@ millingOf operation = case operation of
   Travel _ -> []
   Command _ -> []
 
--- | Outlines of rest material, in mm of the part. If the outline is not known for a position of the
--- cutter's centre, a circle about this position takes its place. The radius of the circle is a
--- quarter of the distance of the cutter's centre from the contour.
+-- | Outlines of rest material, in mm of the part. If the boundary of some rest material was not
+-- found, its outline is a circle about the cutter's centre at that material. The radius of this
+-- circle is a quarter of the cutter centre's distance from the contour in the last pass.
 restMaterialOf :: Toolpath -> [[Segment]]
 restMaterialOf path = nubOrd (concatMap drawn (RestMaterial.ofPath path))
   where
@@ -235,9 +237,9 @@ cutterBox block = case block of
         (radius milling)
         (BoundingBox.ofPoints (Segment.start (Toolpath.segment (NonEmpty.head ms))) [])
 
--- | Converts a contour to paper. @millings@ has, for a point, the millings of all contours that
--- begin there. The side of the contour's first milling with the cutter beside it tells on which
--- side the material lies.
+-- | Converts a contour to paper. @millings@ gives for each point the millings of all contours that
+-- begin at this point. The material of the contour lies on the side opposite to the cutter. This
+-- side is taken from the contour's first milling in which the cutter runs beside the contour.
 shapeOf :: Page -> Map Point [Milling] -> Part.Contour -> Shape
 shapeOf page millings c =
   Shape

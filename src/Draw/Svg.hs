@@ -82,12 +82,13 @@ loop pen segments =
     ! Attribute.fill "none"
     ! drawnWith pen
 
--- | Area that segments enclose, filled with a colour. The last segment need not end at the start.
+-- | Area that segments enclose, filled with a colour. The last segment need not end where the first
+-- one begins.
 area :: Text -> [Segment] -> Svg
 area colour segments =
   Svg.path ! Attribute.d (toValue (pathData segments <> "Z")) ! Attribute.fill (toValue colour)
 
--- | Rectangle with a pen, filled with a colour.
+-- | Rectangle, drawn with a pen and filled with a colour.
 rectangle :: Pen -> Text -> Area -> Svg
 rectangle pen colour Area {leftmost, upper, rightmost, lower} =
   Svg.rect
@@ -122,8 +123,8 @@ arrow colour size direction tip = area colour [Straight tip (back 1), Straight (
     along = Vec.scale (-size) direction
     back side = Vec.shift (Vec.add along (Vec.scale (side * size / 4) (Vec.left direction))) tip
 
--- | Part of a text that lies at the text's position: the start, the middle or the end of the base
--- line. For 'Centred' it is the point at the middle of the width and at half the height of a digit.
+-- | Point of a text that is put at the given position: the start, the middle or the end of its base
+-- line. 'Centred' is the point above the middle of the base line, at half the height of a digit.
 data Anchor = Start | Middle | End | Centred
   deriving stock (Eq, Show)
 
@@ -150,7 +151,7 @@ text TextStyle {size, ink, bold} anchor p words' =
       Centred -> ("middle", 0.36 * size)
 
 -- | Estimated width in mm of a text whose letter size is @size@ mm. The estimate is rarely too
--- small, so that a text that is said to fit does fit.
+-- small, so a text that should fit by this estimate rarely exceeds its space.
 textWidth :: Double -> Text -> Double
 textWidth size words' =
   0.6
@@ -190,9 +191,9 @@ pathCommands s = case s of
   Straight _ b -> ["L", pair b]
   Arc {start, centre, sweep = Rad a} ->
     let Mm r = Segment.radius centre start
-        -- SVG gives an arc by its ends. With rounded ends the centre of a long arc is inexact, and
-        -- the ends of a full circle do not determine it. So the arc is divided into parts of at
-        -- most a third of a circle.
+        -- SVG gives an arc by its ends, here rounded to four decimals. The rounding makes the
+        -- centre of a long arc inexact, and the ends of a full circle do not determine its centre.
+        -- So the arc is divided into parts of at most a third of a circle.
         pieces = max 1 (ceiling (abs a * 3 / (2 * pi) - 1e-9)) :: Int
         sense = if a > 0 then "1 " else "0 "
         to i = Segment.at (fromIntegral i / fromIntegral pieces) s

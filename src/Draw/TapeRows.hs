@@ -44,8 +44,8 @@ pictureLines machine range rows = case Machine.pitch (Machine.medium machine) of
   where
     chosen' r = filter (\(n, line) -> any (\row -> inRange r n row) line)
 
--- | Unit in which @range@ counts, as reports name it: frame, row, or line of a text. The number is
--- the count of these units on the whole tape.
+-- | Unit in which @range@ counts, and the count of these units on the whole tape. The unit is a
+-- frame, a row, or a line of a text; the result has its name for reports.
 extent :: Machine -> RowRange -> [Row] -> (Text, Int)
 extent machine range rows = case (range, Machine.pitch (Machine.medium machine)) of
   (Frames _ _, _) -> ("frame", foldl' max 0 (mapMaybe frame rows))
@@ -65,7 +65,8 @@ chosen range = filter (uncurry (inRange range)) . untilEnd
       Rows _ b -> takeWhile ((<= b) . fst)
       Frames _ b -> takeWhile (maybe True (<= b) . frame . snd)
 
--- | True if a range contains @row@, whose number from 1 is @n@.
+-- | True if @range@ contains @row@. @n@ is the number of the row, counted from 1; in a text medium
+-- it is the number of the line to which the row belongs.
 inRange :: RowRange -> Int -> Row -> Bool
 inRange range n row = case range of
   Everything -> True
@@ -85,9 +86,9 @@ acrossTracks tracks each =
   Text.unwords
     (concat [[each k] <> ["∘" | k == sprocket tracks + 1] | k <- [tracks, tracks - 1 .. 1]])
 
--- | Number of the track next to the sprocket holes on the side of the lower numbers, by the count
--- of tracks. The lowest track has the number 1. The sprocket holes lie between tracks 2 and 3 of a
--- five-track tape, and between tracks 3 and 4 of a wider one.
+-- | Number, from 1, of the last track before the sprocket holes, by the count of tracks. The
+-- sprocket holes lie between tracks 2 and 3 of a tape with at most five tracks, and between tracks
+-- 3 and 4 of a wider tape.
 sprocket :: Int -> Int
 sprocket tracks = if tracks <= 5 then 2 else 3
 

@@ -148,8 +148,8 @@ title part Scene {page, tools} =
         [] -> []
         sizes -> [word <> Text.intercalate ", " sizes <> " mm"]
 
--- | Text from point @p@ on that ends before the right edge of the strip. A text that is too long
--- gets smaller letters, down to 2 mm. If that is not enough, its end is cut off.
+-- | Text that begins at point @p@ and ends before the right edge of the strip. A text that is too
+-- long gets smaller letters, down to 2 mm. If that is not enough, "…" replaces its end.
 fitted :: TextStyle -> Point -> Text -> Svg
 fitted style p words' =
   Svg.text style {size = chosen} Start p (if fits chosen words' then words' else short)

@@ -5,12 +5,13 @@
 -- about which the rounded arc deviates least from the exact one. Candidates are the grid points
 -- near the exact centre, and those near a second point. This is the nearest point to the exact
 -- centre that is equally far from both rounded ends. If these candidates do not suffice, more
--- remote grid points are tried. When the arcs about all candidates exceed the tolerance, the arc is
+-- remote grid points are tried. When no candidate gives frames within the tolerance, the arc is
 -- halved. When halving does not help, or the centre does not fit its field, the arc is divided into
 -- chords.
 --
 -- Read "Frame.Arc.Context" first. "Frame.Arc.Centre" lists the grid points, "Frame.Arc.Attempt"
--- chooses among them, "Frame.Arc.Deviation" measures, "Frame.Arc.Quadrant" cuts an arc at the axes.
+-- chooses among them. "Frame.Arc.Deviation" measures how far the rounded arc is from the exact one.
+-- "Frame.Arc.Quadrant" cuts an arc at the axes.
 module Frame.Arc
   ( ArcStep (..),
     ArcTolerance (..),
@@ -55,7 +56,7 @@ steps ::
 steps grid tolerance chordsOf height =
   halved mostHalvings ArcContext {grid, tolerance, chordsOf, height}
 
--- | Number of times an arc is halved before it is divided into chords.
+-- | Greatest number of times that an arc is halved. After that, its parts are divided into chords.
 mostHalvings :: Int
 mostHalvings = 5
 
@@ -87,9 +88,9 @@ halved halvings context begin s = case s of
           middle = Context.roundedPoint context (Segment.end front)
        in halved (halvings - 1) context begin front <> halved (halvings - 1) context middle back
 
--- | Steps of a rounded arc about the best grid point. Grid points near the exact centre have
--- priority. Nothing when the arcs about all candidates exceed the tolerance; then the arc is
--- halved.
+-- | Steps of a rounded arc about the best grid point. The grid points of 'Centre.remoteCentres' are
+-- tried only if those of 'Centre.nearCentres' give no steps within the tolerance. Nothing if both
+-- give none; then the arc is halved.
 asArcs :: ArcContext -> RoundedArc -> Maybe [ArcStep]
 asArcs context arc =
   listToMaybe
@@ -98,9 +99,9 @@ asArcs context arc =
         [Centre.nearCentres context arc, Centre.remoteCentres context arc]
     )
 
--- | True for an arc whose centre fits its field in a frame, measured from any point of the arc.
--- Otherwise only some parts of the arc could be frames. @centre@ and @r@ are the exact centre and
--- radius in mm; the second argument is the rounded start of the arc.
+-- | True for an arc whose centre fits its field in a frame, measured from the rounded start of the
+-- arc and from any point of its circle. Any other arc becomes chords, even if parts of it fit.
+-- @centre@ and @r@ are the exact centre and radius in mm. The second argument is the rounded start.
 isCentreFitting :: ArcContext -> Pulses3 -> Point -> Mm -> Bool
 isCentreFitting context (Pulses3 x y _) centre (Mm r) =
   abs (i - x) < largest

@@ -1,7 +1,7 @@
--- | Curves on machines with circular interpolation. A run is the sequence of moves along one curve.
--- Its moves are arcs and lines that approximate the curve much more exactly than a job needs, to
--- 'Geometry.Tolerance.curve'. Within the tolerance of a job far fewer arcs are enough; this module
--- fits them. A level run stays at one height.
+-- | Arcs fitted to curves, for machines with circular interpolation. A run is the sequence of moves
+-- along one curve. Its moves are arcs and lines within 'Geometry.Tolerance.curve' of the curve. A
+-- milling usually has a much larger tolerance, for which far fewer arcs are enough. This module
+-- fits these arcs to the run. A level run stays at one height.
 module Frame.ArcFitting
   ( RunPart (..),
     divisions,
@@ -23,10 +23,10 @@ import Machine.Machine (Axis (..), Machine)
 import Machine.Machine qualified as Machine
 import Toolpath.Toolpath (Move (segment))
 
--- | Largest distance in mm of the fitted arcs from the curve. @bounds@ are the distances in mm that
--- the tolerance of the job allows to the left and to the right of an arc or chord. The result is
--- the smaller one of both, but at least 'leastShare' of a pulse. The smaller bound is nearly 0 for
--- a tolerance on one side of the contour only. Then the result exceeds this bound, and
+-- | Largest distance in mm of the fitted arcs from the run. @bounds@ are the distances in mm that
+-- the tolerance of the milling allows to the left and to the right of an arc or chord. The result
+-- is the smaller one of both, but at least 'leastShare' of a pulse. The smaller bound is nearly 0
+-- for a tolerance on one side of the contour only. Then the result exceeds this bound, and
 -- 'roundingAllowance' is smaller by the excess.
 fitTolerance :: Machine -> Bounds -> Mm
 fitTolerance machine bounds =
@@ -53,10 +53,10 @@ data RunPart
   deriving stock (Eq, Show)
 
 -- | Alternative divisions of a level run into parts; the caller chooses the one with the fewest
--- frames. The first division consists of fitted arcs only. If the centres of some arcs of the run
--- do not fit their fields, there may be two more. One has chords for the moves with these centres,
--- and fitted arcs for the others. The other has chords for the whole run; it is left out if it
--- certainly needs no fewer frames than the first division.
+-- frames. The first division consists of fitted arcs and lines only. If the centres of some arcs of
+-- the run do not fit their fields, there may be two more. The second division has chords for the
+-- moves with these centres, and fitted arcs for the others. The third one has chords for the whole
+-- run; it is left out if an estimate says that it needs no fewer frames than the first one.
 divisions :: Machine -> Bounds -> NonEmpty Move -> NonEmpty [RunPart]
 divisions machine bounds run
   | or kinds && (any isRemoteBend fitted || length fitted <= mostTried) =
@@ -86,8 +86,9 @@ divisions machine bounds run
     -- first division. The curve along a chord lies in a strip whose width is the sum of both
     -- bounds. The fitted arc lies in a strip that is wider by 'fitTolerance' on each side; this
     -- width bounds the sagitta. A chord across the joint of two arcs is counted for both arcs.
-    -- Therefore one chord for each arc is subtracted. In the first division a remote bend becomes
-    -- chords, which deviate by a fraction of a pulse.
+    -- Therefore one chord for each arc is subtracted. The estimate has two frames for each fitted
+    -- arc or line. A remote bend becomes chords; for it the estimate has twice the least number of
+    -- chords with a chord error of 0.3 pulses.
     mayNeedFewerChords =
       sum (fmap (leastChords band) fitted) - length fitted
         < sum

@@ -40,15 +40,16 @@ applied machine instructions = case brakingForm (Machine.braking machine) of
   SlowFrames -> concatMap (slowedAtEnd machine) instructions
   BrakedFrames least -> withBrakedFrames machine least instructions
 
--- | Feed in mm/s that the machine gives for a move. On machines whose feed depends on the direction
--- it is the feed asked for.
+-- | Feed in mm/s that the machine gives for a move: its rapid feed for a rapid move, otherwise the
+-- 'nearestFeed' for the feed of the move.
 obtained :: Machine -> Move -> Double
 obtained machine m = case pace m of
   Rapid -> let Feed v = FeedCode.rapidFeed machine in v / 60
   At (Located _ asked) -> let Feed v = nearestFeed machine asked in v / 60
 
--- | Feed that the machine gives for the feed @asked@ in mm/min, limited to the machine's range. On
--- machines whose feed depends on the direction it is @asked@ itself.
+-- | Feed in mm/min that the machine gives for the feed @asked@, limited to the machine's range. If
+-- the feed codes are frequencies of the leading axis, the feed depends on the direction of the
+-- move. Then the result is @asked@ itself.
 nearestFeed :: Machine -> Feed -> Feed
 nearestFeed machine (Feed asked) = case Machine.feedMeasure (Machine.feeds machine) of
   LeadingAxis -> Feed asked
@@ -99,8 +100,8 @@ data FeedLimit = FeedLimit
     -- | lower feed in mm/s, at or after this point, that causes the limit; a faster move slows down
     -- to this feed
     target :: Double,
-    -- | number of the braking section in which a move slows down to 'target'. The last section of
-    -- the program has the number 0, the one before it 1
+    -- | number of the braking section in which a move slows down to 'target'. The numbers begin
+    -- with 0 at the end of the program and rise towards its beginning, not always by 1
     section :: Int
   }
 

@@ -1,9 +1,9 @@
 -- | Allowed chord errors, and the chords of single segments.
 --
--- The module derives from the tolerance of a job how far a chord may lie from the toolpath. It
--- divides an arc into equal chords within that error, and counts chords and frames in advance. A
--- run is a sequence of moves along one line, arc or curve. Curves of several moves are divided by
--- "Frame.Chording".
+-- A job is the milling or turning of a contour. From the tolerance of a job this module derives how
+-- far a chord may lie from the toolpath. It divides an arc into equal chords within this distance,
+-- and counts chords and frames in advance. A run is a sequence of moves along one line, arc or
+-- curve. Curves of several moves are divided by "Frame.Chording".
 module Frame.ChordError
   ( ChordTolerance (..),
     chordTolerance,
@@ -50,8 +50,8 @@ data ChordTolerance
     OnCurve Chording.Bounds
   deriving stock (Eq, Show)
 
--- | Allowed chord error of the runs of a milling job. Apply the first two arguments once, and the
--- result to many runs.
+-- | Allowed chord error of the runs of a job. Apply the first two arguments once, and the result to
+-- many runs.
 chordTolerance :: Machine -> Milling -> NonEmpty Move -> ChordTolerance
 chordTolerance machine job = \run ->
   if Toolpath.isCurve run
@@ -146,10 +146,11 @@ ends limit machine tolerance run = case tolerance of
           | k <- [1 .. length points]
         ]
 
--- | Ends of the chords of a segment, the last of which is the end of the segment. The steps are
--- equal, and each chord stays within @sagitta@ (y, in mm) of the segment: @Δφ = 2·arccos(1 − y/R) =
--- 4·arcsin √(y/2R)@, where R is the radius of the arc. The formula is that of the paper on the
--- Ural-1 computer. No chord spans more than a quarter turn.
+-- | Ends of the chords of a segment, the last of which is the end of the segment. The chords are
+-- equal, and each stays within @sagitta@ (y, in mm) of the segment. A chord of an arc of radius R
+-- spans at most @Δφ = 2·arccos(1 − y/R) = 4·arcsin √(y/2R)@, and at most a quarter turn. The
+-- formula is that of the paper on the Ural-1 computer. If such chords are shorter than a pulse,
+-- chords of about one pulse replace them, even if these exceed @sagitta@.
 chords :: Machine -> Mm -> Segment -> [Point]
 chords machine sagitta segment =
   [Segment.at (fromIntegral k / fromIntegral n) segment | k <- [1 .. n]]

@@ -209,9 +209,10 @@ data Limits = Limits
     search :: EndSearch
   }
 
--- | Limits for a tightness from 0 to 1; 1 gives the full bounds. The largest angle of an arc that a
--- chord may span grows with the root of the allowed sagitta. Therefore the sagitta is multiplied by
--- @tightness²@, so that this angle is multiplied by @tightness@.
+-- | Limits for a @tightness@ from 0 to 1. A smaller @tightness@ gives tighter limits; 1 gives the
+-- full bounds. The largest angle of an arc that a chord may span grows with the root of the allowed
+-- sagitta. Therefore the bounds are multiplied by @tightness²@, so that this angle is multiplied by
+-- @tightness@.
 limitsOf :: Bounds -> Double -> Limits
 limitsOf bounds tightness =
   Limits
@@ -292,7 +293,7 @@ data Sector = Sector
     heading :: Double,
     leastHeading :: Double,
     mostHeading :: Double,
-    -- | length of the run up to this point in mm
+    -- | length in mm of the run from the viewpoint to this point
     travelled :: Double,
     -- | side on which a chord that ends at this point is outside of the sector
     miss :: Miss,
@@ -453,9 +454,10 @@ lastWithin function (first, atFirst) (final, atFinal) =
             else (low + high) / 2
         secant = low + (high - low) * (a / (a - b))
 
--- | Fractions of a move below @t@, in descending order, at which the direction of a chord changes
--- its sense of rotation. The chord leads from the viewpoint to the point where chords meet. These
--- points lie on a circle, and the chord is tangent to it at the fractions of the result.
+-- | Fractions of a move below @t@, in descending order, at which the chord from the viewpoint stops
+-- turning one way and begins to turn the other way. The chord to a fraction ends at its point of
+-- 'meeting'. Along an arc these points form a circle, to which the chord is tangent at the
+-- fractions of the result.
 turningPoints :: Limits -> Viewpoint -> MoveRest -> Double -> [Double]
 turningPoints limits view move t = case segment move of
   Straight _ _ -> []

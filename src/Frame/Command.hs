@@ -1,9 +1,10 @@
 -- | Commands of the part program as words of a machine, and the frames that hold them.
 --
 -- A command for which a machine has no word becomes a warning, because the operator can carry it
--- out by hand. An auxiliary command without a word is an error; so is a number that does not fit
--- its word. Commands are pending until the next move, and are put into its frame. When the word of
--- a new command is already pending, the pending words first get a frame of their own.
+-- out by hand. For an auxiliary command, which the program writes as @aux N@, a missing word is an
+-- error. A number that does not fit its word is an error too. Commands are pending until the next
+-- move, and are put into its frame. When the word of a new command is already pending, the pending
+-- words first get a frame of their own.
 module Frame.Command
   ( Translation (..),
     translated,
@@ -145,9 +146,9 @@ nearestStep table asked = case Map.toList table of
 -- Cutter compensation -----------------------------------------------------------------------------
 
 -- | Words that switch cutter compensation on, for a cutter with the radius @radius@ in mm on one
--- side of the contour. @asked@ is the region of the program that asks for it. A word for the
--- cutter's diameter gets it as an integer, in units of the word's last decimal. On a machine with a
--- mirrored plane left and right are exchanged.
+-- side of the contour. @asked@ is the region of the program that asks for compensation. If the word
+-- takes the cutter's diameter, its number is the diameter in units of the word's last decimal. On a
+-- machine with a mirrored plane left and right are exchanged.
 compensationOn :: Machine -> Region -> Side -> Mm -> Translation
 compensationOn machine asked side radius@(Mm r) =
   case Machine.compensation (Machine.commandWords machine) of
@@ -215,9 +216,9 @@ add machine region commandWords pending = case (withoutRepetition commandWords, 
         ws : others | fst o `notElem` map fst ws -> (o : ws) : others
         others -> [o] : others
 
--- | Words in the order in which the machine's frame has them. A word of a command is a word of its
--- own in the frame, or some bits in the service track of other words. The service track is a track
--- of the tape besides those that hold the number of a word.
+-- | Words in the order in which the machine's frame has them. The frame holds the number of a
+-- command in a word for this command, or in bits in the service track of other words. The service
+-- track is a track of the tape besides those that hold the number of a word.
 inOrder :: Machine -> [(CommandName, Int)] -> [(CommandName, Int)]
 inOrder machine = sortOn (\(o, _) -> elemIndex o names)
   where

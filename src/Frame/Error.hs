@@ -74,7 +74,8 @@ data Warning
     SpindleSpeedMissing Region
   deriving stock (Eq, Ord, Show)
 
--- | The device that a command concerns: spindle, coolant, tool, or an auxiliary function.
+-- | Kind of a command. Every command that does not concern the spindle, the coolant or the tool is
+-- an auxiliary command.
 data CommandKind = SpindleCommand | CoolantCommand | ToolCommand | AuxiliaryCommand
   deriving stock (Eq, Ord, Show)
 
@@ -332,7 +333,7 @@ numbered kind = case kind of
   ToolCommand -> "tool"
   AuxiliaryCommand -> "auxiliary command"
 
--- | Name of the word of an axis.
+-- | Name of an axis in a report: x, y or z.
 axisName :: Axis -> Text
 axisName axis = Machine.contentName (Machine.Along axis)
 

@@ -1,8 +1,8 @@
 -- | Frames: what a controller does at once, in whole pulses along the axes of the part.
 --
 -- The module owns the frame, the program of frames and the rules that every frame of a machine
--- keeps; 'violations' lists the broken rules. Positions in mm are derived from pulses here and
--- nowhere else. Passes are numbered from 0, and frames from 1.
+-- keeps; 'violations' lists the broken rules. 'position', 'height', 'centreOf' and 'segment'
+-- convert pulses to mm. Passes are numbered from 0, and frames from 1.
 module Frame.Frame
   ( Frame (..),
     FrameMotion (..),
@@ -34,7 +34,8 @@ import Geometry.Vec qualified as Vec
 import Machine.Machine (Arcs (..), Axis (..), AxisMeasure (..), CommandName, FeedCode (..), Machine)
 import Machine.Machine qualified as Machine
 
--- | One frame with the numbers that the tape holds.
+-- | One frame in the machine's own numbers: pulses, the feed code and the numbers of commands. Even
+-- if the tape holds absolute positions, a frame here has increments.
 data Frame = Frame
   { motion :: FrameMotion,
     -- | pulses along x, y and z from the beginning of the frame to its end
@@ -45,7 +46,8 @@ data Frame = Frame
     feedCode :: FeedCode,
     -- | True when the frame is marked as braking: the cutter slows down to the feed of the frame
     braking :: Bool,
-    -- | commands with their numbers, in the order of the layout's words; each at most once
+    -- | commands with their numbers, in the order that they have in the machine's frame layout;
+    -- each at most once
     commands :: [(CommandName, Int)]
   }
   deriving stock (Eq, Show)
@@ -63,7 +65,7 @@ data FrameMotion
     Circular Sense
   deriving stock (Eq, Show)
 
--- | Frame that holds only these commands.
+-- | Frame that holds only the commands @given@.
 commandFrame :: [(CommandName, Int)] -> Frame
 commandFrame given =
   Frame
@@ -129,8 +131,8 @@ centreOf machine (Pulses3 x y z) f =
   let Pulses2 i j = centre f in position machine (Pulses3 (x + i) (y + j) z)
 
 -- | Line or arc in mm that the frame @f@ describes in the plane, from the position @at@ in pulses.
--- An arc has the centre of the frame and ends where the frame ends, so by rounding the radii at its
--- two ends may differ.
+-- An arc has the centre of the frame and ends where the frame ends. Start, end and centre are
+-- rounded, so the radii at the arc's start and at its end may differ.
 segment :: Machine -> Pulses3 -> Frame -> Segment
 segment machine at f = case motion f of
   Circular sense -> Segment.arcOrCircle sense (centreOf machine at f) begin finish
@@ -139,7 +141,8 @@ segment machine at f = case motion f of
     begin = position machine at
     finish = position machine (at + increment f)
 
--- | Rule that a frame breaks. The first number of each is the number of the frame, from 1.
+-- | Violation of a rule by a frame. The first argument of every constructor is the number of the
+-- frame, from 1.
 data Violation
   = -- | an increment that does not fit its field: the axis, and the increment in pulses
     OverCapacity Int Axis Pulses

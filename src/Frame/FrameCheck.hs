@@ -1,5 +1,6 @@
--- | Checks of finished frames: feeds that the machine does not have, axes that it lacks, positions
--- that do not fit their fields. Frames are checked one by one, in order.
+-- | Checks of finished frames: feeds that the machine does not have, feeds that differ from the
+-- program's, axes that the machine lacks, positions that do not fit their fields. Frames are
+-- checked one by one, in order.
 module Frame.FrameCheck
   ( FrameContext,
     contextOf,
@@ -39,7 +40,7 @@ data FrameContext = FrameContext
     largestPositions :: [(Axis, Pulses)]
   }
 
--- | Context for the frames of a machine.
+-- | Facts about @machine@ for the function 'check'.
 contextOf :: Machine -> FrameContext
 contextOf machine =
   FrameContext
@@ -53,7 +54,8 @@ contextOf machine =
   where
     capacities = [(axis, Machine.capacity machine axis) | axis <- [X, Y, Z]]
 
--- | Findings in the frames that are checked so far: errors, and feeds for warnings.
+-- | Findings in the frames that are checked so far: errors, and the feeds from which 'warnings' are
+-- made.
 data FrameFindings = FrameFindings
   { -- | range of the feeds that the frames get, for each feed of the program with its region
     obtained :: Map (Region, Feed) FeedRange,
@@ -61,8 +63,8 @@ data FrameFindings = FrameFindings
     lastPace :: Pace,
     lastCode :: FeedCode,
     -- | for each feed of the program, the error of the first frame in which no code gives this
-    -- feed. Empty on a machine whose codes mean feeds along the path: there "Frame.InstructionCheck"
-    -- reports a feed without a code, because it does not depend on the frame
+    -- feed. Empty on a machine whose codes mean feeds along the path. There a feed has a code in
+    -- all frames or in none, so "Frame.InstructionCheck" reports a feed without a code
     withoutCode :: Map (Region, Feed) Error,
     -- | error of the first move along an axis that the machine does not have
     missingAxis :: Maybe Error,
@@ -106,9 +108,9 @@ warnings findings =
       max (v - low) (high - v) > (feedSlack + Tolerance.equal) * v
   ]
 
--- | Adds the findings in the next frame @p@. @asked@ is its feed in the program; it is 'Rapid' for
--- a rapid move, and where the compiler sets the feed itself. @at@ is the position at its end in
--- pulses.
+-- | Adds the findings in the next frame @p@. @asked@ is the feed of this frame in the program. It
+-- is 'Rapid' for a rapid move, for commands, and where the compiler sets the feed. @at@ is the
+-- position in pulses at the end of the frame.
 check :: FrameContext -> Pace -> Pulses3 -> PlannedFrame -> FrameFindings -> FrameFindings
 check context asked at p = checkPosition context at p . checkFeed context asked (frame p)
 
@@ -153,7 +155,8 @@ checkNewFeed FrameContext {machine, isAlongPath} key@(region, v) f before =
 united :: FeedRange -> FeedRange -> FeedRange
 united (FeedRange a b) (FeedRange c d) = FeedRange (min a c) (max b d)
 
--- | Adds the findings in the axes of the frame @p@, and in the position @at@ at its end in pulses.
+-- | Adds the findings about the axes along which the frame @p@ moves, and about @at@, the position
+-- in pulses at the end of this frame.
 checkPosition :: FrameContext -> Pulses3 -> PlannedFrame -> FrameFindings -> FrameFindings
 checkPosition FrameContext {machine, missingAxes, largestPositions} at p before
   | not (any isUsed missingAxes) && all isFitting largestPositions = before

@@ -1,13 +1,14 @@
 -- | From the toolpath to the frames of a machine.
 --
--- A run is a sequence of moves along one line, arc or curve. It becomes arcs on machines with
--- circular interpolation, and chords within the tolerance on others. Positions are rounded to whole
--- pulses, moves are split to fit their fields, and every frame gets its feed code, its braking mark
--- and its commands. Requests that the machine cannot carry out are refused or reported as warnings,
--- see "Frame.Error".
+-- A run is a sequence of moves along one line, arc or curve. A level run stays at one height. On
+-- machines with circular interpolation a level run becomes lines and arcs, and chords where arcs
+-- are not possible. Every other run becomes chords within the tolerance.
 --
--- A step is a motion of one frame, before the frame has its feed and its commands. A level run
--- stays at one height.
+-- Positions are rounded to whole pulses, moves are split to fit their fields, and every frame gets
+-- its feed code, its braking mark and its commands. Requests that the machine cannot carry out are
+-- refused or reported as warnings, see "Frame.Error".
+--
+-- A step is a motion of one frame, before the frame has its feed and its commands.
 module Frame.FromToolpath
   ( quantise,
     chords,
@@ -68,8 +69,8 @@ import Toolpath.Toolpath (Move (..), Toolpath (Toolpath), heights)
 import Toolpath.Toolpath qualified as Toolpath
 
 -- | Frames of a toolpath, or the errors because of which there are none. If a point is out of reach
--- or the frames would be too many, no frames are made. Then only the warnings about the start and
--- the commands are given.
+-- or "Frame.InstructionCheck" estimates too many frames, no more moves become frames. Then only the
+-- warnings about the start and the commands are given.
 quantise :: Machine -> Toolpath -> Result Warning Error FrameProgram
 quantise
   machine
@@ -144,8 +145,9 @@ startWarning machine region asked begin =
 
 -- Errors that need no frames ----------------------------------------------------------------------
 
--- | Error of a block whose tolerance is too large for its cutter; Nothing for every other block. A
--- block has the moves of one statement, or of one of its passes.
+-- | Error of a block whose tolerance is too large for its cutter. Nothing for every other block,
+-- and for a block in which the cutter's centre follows the contour itself. A block has the moves of
+-- one statement, or of one of its passes.
 toleranceError :: Machine -> Toolpath.Block -> Maybe Error
 toleranceError machine block = case block of
   Toolpath.Cutting {Toolpath.job = Located _ job} -> tooLarge job
@@ -162,8 +164,8 @@ toleranceError machine block = case block of
       where
         tolerance = uncurry max (Part.deviationLimits (Part.tolerance job))
 
--- | Error of more contours than the machine allows; empty if there are not too many. A contour
--- counts once for all of its passes.
+-- | The error 'TooManyContours' if the machine does not allow so many contours; otherwise empty.
+-- Each milling or pocket statement counts as one contour, however many passes it has.
 contourErrors :: Machine -> Toolpath -> [Error]
 contourErrors machine path = case Machine.mostContours (Machine.limits machine) of
   Nothing -> []
@@ -190,7 +192,8 @@ data Context = Context
     frameContext :: FrameCheck.FrameContext
   }
 
--- | State after the instructions so far. No instruction is kept in memory.
+-- | State after the instructions so far. It has no reference to these instructions, so they do not
+-- stay in memory.
 data Making = Making
   { -- | position of the cutter in pulses
     at :: Pulses3,
@@ -200,7 +203,7 @@ data Making = Making
     pending :: Maybe Pending,
     -- | frames of the current instruction, the latest first
     latest :: [PlannedFrame],
-    -- | the words of all commands so far, the latest first
+    -- | words and reports of all commands so far, the latest first
     translations :: [Translation],
     -- | number of frames so far
     count :: Int,
@@ -240,7 +243,7 @@ framesOf context made instructions = case instructions of
     emptied = made {latest = []}
 
 -- | Makes the frames of the next instruction. The words of commands wait for the frame of the next
--- move. When there are too many frames or a point is out of reach, no more moves become frames.
+-- move. After a point out of reach, or an estimate of too many frames, no more moves become frames.
 next :: Context -> Making -> Instruction -> Making
 next context@Context {machine, instructionContext} made instruction = case instruction of
   Words region translation ->
@@ -345,8 +348,8 @@ frameOf machine feedMode pace begin ArcStep {target, turnsAbout} = case turnsAbo
 
 -- Steps of a run ----------------------------------------------------------------------------------
 
--- | Steps of an instruction from the position @begin@ in pulses. @chordEnds@ are the ends of the
--- chords of its run in mm.
+-- | Steps of an instruction from the position @begin@ in pulses. If the instruction is a run,
+-- @chordEnds@ are the ends in mm of the run's chords.
 stepsOf :: Context -> Pulses3 -> Instruction -> [PathPosition] -> [ArcStep]
 stepsOf context@Context {machine} begin instruction chordEnds = case instruction of
   Words _ _ -> []
@@ -385,9 +388,9 @@ arcSteps context@Context {machine} begin tolerance run = case tolerance of
         begin
         (segment m)
 
--- | Steps of a level run along a curve, from the position @begin@ in pulses. Of the run's possible
--- divisions into arcs and chords the one with the fewest steps is chosen. The deviation of the
--- fitted arcs from the curve is subtracted from the tolerance of their steps.
+-- | Steps of a level run along a curve, from the position @begin@ in pulses. 'ArcFitting.divisions'
+-- divides the run into arcs and chords in several ways. The result has the steps of the division
+-- with the fewest steps.
 curveSteps :: Context -> Pulses3 -> Bounds -> NonEmpty Move -> [ArcStep]
 curveSteps context begin bounds run =
   minimumBy
@@ -438,8 +441,8 @@ segmentSteps Context {machine, grid} tolerance chordError m =
     )
     (fst (heights m))
 
--- | Ends of the chords of a run in mm, with their heights. A tolerance that rounding would make
--- pointless is raised first, see 'ChordError.raisedToRounding'.
+-- | Ends in mm of the chords of a run, with their heights. A tolerance that is too small beside the
+-- rounding to pulses is raised first, see 'ChordError.raisedToRounding'.
 chordEndsOf :: Machine -> ChordTolerance -> NonEmpty Move -> [PathPosition]
 chordEndsOf machine tolerance =
   ChordError.ends
@@ -447,8 +450,8 @@ chordEndsOf machine tolerance =
     machine
     (ChordError.raisedToRounding machine tolerance)
 
--- | Ends in pulses of the steps along the chords of a run, from the position @begin@ on. @ends@ are
--- the ends of the chords in mm.
+-- | Positions in pulses at the ends of the steps along the chords of a run. The first step begins
+-- at the position @begin@ in pulses. @ends@ are the ends of the chords in mm.
 chordSteps :: Machine -> Pulses3 -> NonEmpty Move -> [PathPosition] -> [Pulses3]
 chordSteps machine begin run ends =
   concat

@@ -1,4 +1,4 @@
--- | Instructions: the toolpath as runs of moves and commands, before anything is rounded.
+-- | Instructions: the toolpath as a sequence of runs and commands, before anything is rounded.
 --
 -- A run is a sequence of moves along one line, arc or curve. An instruction is either a run with
 -- its purpose, its tolerance and its feed, or the words of a command. "Frame.Braking" divides runs,

@@ -1,7 +1,7 @@
 -- | Checks of instructions before their frames are made: feeds without a code, points out of reach,
--- too many frames, moves in z that the machine may not have. Instructions are checked one by one,
--- in order. An instruction is a run or the words of a command. A run is a sequence of moves along
--- one line, arc or curve.
+-- too many frames, moves in z on a machine that may not move in z. Instructions are checked one by
+-- one, in order. An instruction is a run or the words of a command. A run is a sequence of moves
+-- along one line, arc or curve.
 module Frame.InstructionCheck
   ( InstructionContext,
     contextOf,
@@ -39,7 +39,8 @@ import Machine.Machine qualified as Machine
 import Part.Part (Pace (..))
 import Toolpath.Toolpath (Move (..), heights, pace)
 
--- | Largest number of frames of a program. More than this would take 38 km of tape.
+-- | Largest number of frames of a program. With 15 rows of 2.54 mm for each frame, so many frames
+-- need 38 km of tape.
 mostFrames :: Int
 mostFrames = 1000000
 
@@ -55,8 +56,8 @@ data InstructionContext = InstructionContext
     startError :: Maybe Error
   }
 
--- | Context for a machine and a start point in mm. @startRegion@ is the region of the program that
--- gives this point.
+-- | Facts for the function 'check': about @machine@, and about @start@, the start of the toolpath
+-- in mm. @startRegion@ is the region of the program that gives this start.
 contextOf :: Machine -> Region -> Point -> InstructionContext
 contextOf machine startRegion start =
   InstructionContext
@@ -78,7 +79,7 @@ data InstructionFindings = InstructionFindings
     count :: Int,
     -- | error for the run with which the number of frames exceeds 'mostFrames'
     tooMany :: Maybe Error,
-    -- | warning about the first move in z that the machine may not have
+    -- | warning about the first move in z, on a machine that may not move in z
     uncertainHeight :: Maybe Warning
   }
 
@@ -108,7 +109,7 @@ feedErrors = reverse . withoutCode
 boundErrors :: InstructionFindings -> [Error]
 boundErrors findings = reverse (outOfReach findings) <> maybeToList (tooMany findings)
 
--- | Warning about moves in z that the machine may not have; empty if there are none.
+-- | Warning about moves in z on a machine that may not move in z; empty if there are no such moves.
 heightWarnings :: InstructionFindings -> [Warning]
 heightWarnings = maybeToList . uncertainHeight
 

@@ -4,8 +4,8 @@
 -- | Positions in whole pulses, and the splitting of straight moves that are too long for one frame.
 --
 -- Every position is rounded by itself as an absolute position, so rounding errors never add up. An
--- increment is the difference of two rounded positions. Machine coordinates have one resolution for
--- each axis, the size of its pulse in mm.
+-- increment is the difference of two rounded positions. Each axis has a resolution of its own, the
+-- size of its pulse in mm.
 module Frame.Rounding
   ( PathPosition,
     rounded,
@@ -29,7 +29,7 @@ import Toolpath.Toolpath (Move (..), heights)
 -- | Position in mm: the point in the plane x, y, and the height z.
 type PathPosition = (Point, Mm)
 
--- | Position in whole pulses that is nearest on each axis; half a pulse is rounded up.
+-- | Position in mm, rounded to the nearest whole pulse on each axis; half a pulse is rounded up.
 rounded :: Machine -> PathPosition -> Pulses3
 rounded machine (p, Mm z) = Pulses3 (pulses X (Vec.x p)) (pulses Y (Vec.y p)) (pulses Z z)
   where
@@ -95,9 +95,9 @@ split machine begin ((a, za), (b, zb)) = case Machine.measure (Machine.layout ma
       x : _ -> x
       [] -> [finish]
 
--- | If the fewest parts do not fit their fields, 'split' tries one part more, then two, and so on
--- up to this number. Rounding makes a part at most one pulse too long. In a field of two digits or
--- more, shorter parts leave room for this pulse before the last try.
+-- | Largest count of parts that 'split' adds to the fewest parts, one at a time, until all parts
+-- fit their fields. Rounding makes a part at most one pulse too long. In a field for up to c
+-- pulses, the added parts always suffice if the fewest parts number at most @1000·(c − 1)@.
 spareParts :: Int
 spareParts = 1000
 

@@ -1,7 +1,7 @@
 -- | Carriers: the directed line and the circle on which a segment lies.
 --
--- The module also owns the two senses of an arc and the two sides of a direction of travel, with
--- their signs in formulas. Counter-clockwise and left are positive.
+-- The module also defines the two senses of an arc and the two sides of a direction of travel. In
+-- formulas each sense and side has a sign: counter-clockwise and left are positive.
 module Geometry.Carrier
   ( Carrier (..),
 
@@ -97,7 +97,7 @@ sweepInSense t (Rad short) = Rad $ case t of
 data Side = LeftOf | RightOf
   deriving stock (Eq, Show, Enum, Bounded)
 
--- | The sign of a side of a line or circle in its direction: +1 on the left, −1 on the right.
+-- | The sign of a side of a direction of travel: +1 on the left, −1 on the right.
 sideSign :: Side -> Double
 sideSign side = case side of
   LeftOf -> 1

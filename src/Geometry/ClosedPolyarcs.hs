@@ -77,7 +77,7 @@ data ClosedPolyarcs = ClosedPolyarcs
     loopHeads :: PrimArray Int
   }
 
--- | The number of loops.
+-- | The number of loops in the arrays.
 loopCount :: ClosedPolyarcs -> Int
 loopCount c = sizeofPrimArray (loopHeads c) - 1
 
@@ -100,12 +100,14 @@ smoothMark = 1
 repeatedMark :: Word8
 repeatedMark = 2
 
--- | The mark of an arc of an offset that rounds a corner of the offset's source contour.
+-- | The mark of a raw offset's segment that goes round a vertex of the source contour. At an outer
+-- corner it is an arc about the vertex or one of two lines. It is also a line square to the contour
+-- where the offset's distance changes.
 aroundMark :: Word8
 aroundMark = 4
 
--- | The mark of a segment of an offset that leads through a corner of the offset's source contour.
--- It connects the offsets of the corner's two sides.
+-- | The mark of a raw offset's line at an inner corner of the source contour. It connects the
+-- offsets of the corner's two sides: directly, or as one of two lines that meet at the vertex.
 connectingMark :: Word8
 connectingMark = 8
 
@@ -339,10 +341,10 @@ toFlatPolyarc c w = FlatPolyarc Closed (cut (xs c)) (cut (ys c)) (cut (bulges c)
   where
     cut a = clonePrimArray a (firstVertex c w) (repeatedVertex c w - firstVertex c w)
 
--- | Segments that need not be connected, so that the functions of this module and the bounding-box
--- tree can be used for them. Each is in a loop of its own that is not closed. The first segment has
--- the index 0, the next one 2, and so on. A segment is given by x and y of its start, x and y of
--- its end, and its bulge.
+-- | Separate segments in the arrays of 'ClosedPolyarcs', for the functions of this module and the
+-- bounding-box tree. Each segment counts as a loop of its own, although it is not closed: the
+-- vertex after it is its end. So the segments have the indices 0, 2, 4 and so on. A segment is
+-- given by x and y of its start, x and y of its end, and its bulge.
 fromSeparateSegments :: [(Double, Double, Double, Double, Double)] -> ClosedPolyarcs
 fromSeparateSegments ss =
   ClosedPolyarcs
@@ -415,10 +417,10 @@ diameter c i =
 
 -- | The bulge of the part of segment @i@ between the points (@px@, @py@) and (@qx@, @qy@) on it.
 --
--- With the vectors u and v from the arc's centre to the points, the part's sweep θ, at most a half
--- circle, has the tangent @tan(θ/2) = |u×v| / (|u||v| + u·v)@. Where @u·v@ is negative, the form
--- @(|u||v| − u·v) / |u×v|@ is more exact. The bulge follows from @tan(θ/2) = p/q@ as
--- @tan(θ/4) = p / (q + √(p² + q²))@.
+-- Let u and v be the vectors from the arc's centre to the points, and θ the absolute value of the
+-- part's sweep, at most a half circle. Then @tan(θ/2) = |u×v| / (|u||v| + u·v)@. Where @u·v@ is
+-- negative, the equal form @(|u||v| − u·v) / |u×v|@ is more exact. From @tan(θ/2) = p/q@ follows
+-- @tan(θ/4) = p / (q + √(p² + q²))@. The bulge is this number with the sign of the segment's bulge.
 partialBulge :: ClosedPolyarcs -> Int -> Double -> Double -> Double -> Double -> Double
 partialBulge c i px py qx qy
   | b == 0 = 0

@@ -1,8 +1,9 @@
 -- | Planar curves given by point tables, span shapes or segments, and the shifts of such curves.
 --
--- A span is a part of a curve on which one formula gives the points: an arc, or a cubic in x and
--- one in y. A curve maps a parameter, from 0 to the count of its spans, to a point. The rows of a
--- curve are the points of the table from which it was made; each row has a parameter.
+-- A span is a part of a curve on which one formula gives the points: an arc, or a pair of cubic
+-- polynomials of the parameter, one for x and one for y. A curve maps a parameter, from 0 to the
+-- count of its spans, to a point. The rows of a curve are the points of the table from which it was
+-- made; each row has a parameter.
 --
 -- A shift adds a layer: it moves every point of the curve below along its normal, by a distance
 -- that is a function of the parameter. Points, directions and curvatures are computed by power
@@ -185,8 +186,9 @@ inReverseOrder :: Curve -> Vector Double -> Vector Double
 inReverseOrder curve = BasisCurve.inReverseOrder (base curve)
 
 -- | Shift distance of a joggle on a curve. A joggle is a local step of the curve, with a ramp at
--- each end of it. It does not fit if its radius is not above half of its depth. Nor does it fit if
--- its two ramps are longer than the curve between the parameters at which it begins and ends.
+-- each end. The result is the fault 'DeepJoggle' if the joggle's radius is at most half of its
+-- depth. It is 'LongJoggle' if both ramps together are longer than the curve between the parameters
+-- @begins@ and @ends@.
 fitJoggle :: Joggle -> Curve -> Either CurveFault Distance
 fitJoggle joggle@Joggle {begins, ends, depth = Mm depth, radius = Mm r} curve
   | r <= 0 || abs depth >= 2 * r = Left DeepJoggle
@@ -197,16 +199,17 @@ fitJoggle joggle@Joggle {begins, ends, depth = Mm depth, radius = Mm r} curve
     available = minus (lengthAt curve ends) (lengthAt curve begins)
 
 -- | Segments of an unshifted curve that consists of lines and arcs only and has at least one arc.
--- Nothing for any other curve, which has to be approximated. Each segment starts exactly where the
--- previous one ends.
+-- Each segment starts exactly where the previous one ends. Nothing for any other curve, even for a
+-- polyline: its lines are among the spans of 'cubics'.
 toSegments :: Curve -> Maybe (NonEmpty Segment)
 toSegments curve = case curve of
   Unshifted b -> BasisCurve.asSegments b
   Shifted {} -> Nothing
 
--- | Bound of the error in mm, then cubic spans in x and in y that are within a tolerance of the
--- curve. Nothing for an unshifted curve with arcs, and for a shifted curve if no such spans are
--- found.
+-- | Cubic spans within a tolerance of the curve: first a bound of their error in mm, then the
+-- cubics for x, then those for y. An unshifted curve without arcs consists of cubic spans already,
+-- so the bound is 0. Nothing for an unshifted curve with arcs, and for a shifted curve if no such
+-- spans are found.
 cubics :: Mm -> Curve -> Maybe (Mm, Cubics, Cubics)
 cubics = CubicSpans.along
 

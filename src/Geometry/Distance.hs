@@ -76,8 +76,9 @@ segments a b = minimumBy (comparing distance) (map fromA onA <> map fromB onB)
     onA = Segment.start a : Segment.end a : filter (Segment.hasFootOf a) (normals a b <> common a b)
     onB = Segment.start b : Segment.end b : filter (Segment.hasFootOf b) (normals b a)
 
--- | The points on the carrier of the segment @a@ whose normal passes through the centre of the arc
--- @b@. There are none if @b@ is a line, nor if both segments are arcs about the same centre.
+-- | The points of the carrier of @a@ at which the normal of @a@ passes through the centre of @b@.
+-- There are none if @b@ is a line, if @a@ is a line between equal points, or if both segments are
+-- arcs about the same centre.
 normals :: Segment -> Segment -> [Point]
 normals a b = case (a, b) of
   (Straight p q, Arc {centre}) | p /= q -> [Vec.interpolate (Segment.fraction a centre) p q]
@@ -88,8 +89,9 @@ normals a b = case (a, b) of
        in [Vec.shift (Vec.scale r e) centre, Vec.shift (Vec.scale (-r) e) centre]
   _ -> []
 
--- | The points at which two segments cross or touch, to 'Tolerance.coincident'. For segments that
--- overlap on one carrier, these are the ends of each that lie on the other segment.
+-- | The points at which two segments cross or touch: the common points of their carriers that lie
+-- within 'Tolerance.coincident' of both segments. If both have the same carrier, these are the ends
+-- of each that lie on the other segment.
 intersections :: Segment -> Segment -> [Point]
 intersections a b = filter (\p -> reaches a p && reaches b p) (common a b)
   where
@@ -128,8 +130,9 @@ uncovered reach others segment = gaps 0 (sort (concatMap covered others))
         -- finds no intersections. So these ends are added.
         ends = [p | reach <= Mm 0, p <- [Segment.start other, Segment.end other]]
 
--- | Segments that contain the boundary of the region within @reach@ of @segment@. They are circles
--- about its ends and its offsets to both sides; the offsets of an arc are full circles.
+-- | Segments that together contain the boundary of the region within @reach@ of @segment@. They are
+-- two circles about the ends of @segment@, and the offsets of @segment@ to both sides. The offsets
+-- of an arc are full circles.
 neighbourhood :: Mm -> Segment -> [Segment]
 neighbourhood reach@(Mm d) segment =
   disc (Segment.start segment) <> disc (Segment.end segment) <> beside

@@ -52,8 +52,8 @@ segmentsWithin box carrier = case carrier of
   AtPoint p -> Straight p p :| []
 
 -- | The segment of a line that contains the foot of every point of a bounding box. It thus contains
--- all points of the line inside the box. The box is first enlarged by 1 mm, so that the ends of the
--- segment lie outside of it.
+-- all points of the line inside the box. It is computed from a box that is larger by 1 mm on every
+-- side, so that the ends of the segment lie outside of the given box.
 lineWithin :: BoundingBox -> Line -> Segment
 lineWithin box l = Straight (at (minimum corners)) (at (maximum corners))
   where

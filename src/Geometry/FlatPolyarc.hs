@@ -64,7 +64,7 @@ vertices o =
     (PrimArray.primArrayToList (ys o))
     (PrimArray.primArrayToList (bulges o))
 
--- | The number of segments.
+-- | The number of segments of a flat polyarc.
 size :: FlatPolyarc -> Int
 size o = case ends o of
   Closed -> PrimArray.sizeofPrimArray (xs o)
@@ -92,8 +92,8 @@ reverse o@FlatPolyarc {ends} =
 
 -- | The area that a closed polyarc encloses, in mm²; positive when the polyarc runs
 -- counter-clockwise. It is the area of the polygon of chords (shoelace formula) plus the areas
--- between arcs and chords. For a chord of length @c@ and a sweep @s@, the latter is
--- @c²·(s − sin s)/(8·sin²(s/2))@.
+-- between arcs and chords. The area between an arc with the sweep @s@ and its chord of length @c@
+-- is @c²·(s − sin s)/(8·sin²(s/2))@; it has the sign of @s@.
 area :: FlatPolyarc -> Double
 area o = folded o $ \x0 y0 x1 y1 b ->
   let ax = x0 - ox
@@ -112,7 +112,7 @@ area o = folded o $ \x0 y0 x1 y1 b ->
       | abs b < 1e-3 = cc * b / 3 * (1 + b * b / 5)
       | otherwise = let s = 4 * atan b in cc * (s - sin s) / (8 * square (sin (s / 2)))
 
--- | The sum of the segments' lengths.
+-- | The length of a flat polyarc: the sum of its segments' lengths.
 length :: FlatPolyarc -> Mm
 length o = Mm . folded o $ \x0 y0 x1 y1 b ->
   let chord = sqrt ((x1 - x0) * (x1 - x0) + (y1 - y0) * (y1 - y0))
@@ -188,7 +188,7 @@ isOverHalf s = case s of
   Straight _ _ -> False
   Arc {sweep = Rad a} -> abs a > pi
 
--- | The segments in order.
+-- | The segments of a flat polyarc in order.
 segments :: FlatPolyarc -> [Segment]
 segments o = map segment [0 .. size o - 1]
   where

@@ -61,7 +61,7 @@ import Prelude hiding (length)
 data MeasuredPolyarc = MeasuredPolyarc {chain :: Vector Segment, table :: ~(Unboxed.Vector Double)}
   deriving stock (Eq, Show)
 
--- | The polyarc of segments in order.
+-- | The measured polyarc that consists of the segments @ss@ in their order.
 fromSegments :: NonEmpty Segment -> MeasuredPolyarc
 fromSegments ss = fromVector (Vector.fromList (NonEmpty.toList ss))
 
@@ -71,8 +71,8 @@ fromVector chain = MeasuredPolyarc {chain, table = Unboxed.scanl' (+) 0 lengths}
   where
     lengths = Unboxed.convert (Vector.map (\s -> let Mm l = Segment.length s in l) chain)
 
--- | The polyarc of an open 'FlatPolyarc' with at least two vertices. Consecutive segments share
--- their common point in memory.
+-- | The measured polyarc of the open 'FlatPolyarc' @flat@, which has at least two vertices.
+-- Consecutive segments share their common point in memory.
 fromFlatPolyarc :: FlatPolyarc -> MeasuredPolyarc
 fromFlatPolyarc flat = fromVector (Vector.unfoldrN (n - 1) segment (0, vertex 0))
   where
@@ -88,31 +88,32 @@ fromFlatPolyarc flat = fromVector (Vector.unfoldrN (n - 1) segment (0, vertex 0)
             s = Segment.fromBulge p q (PrimArray.indexPrimArray (FlatPolyarc.bulges flat) i)
          in s `seq` Just (s, (i + 1, q))
 
--- | The segments in order.
+-- | The segments of a measured polyarc in order.
 segments :: MeasuredPolyarc -> NonEmpty Segment
 segments p = Vector.head (chain p) :| drop 1 (Vector.toList (chain p))
 
--- | The number of segments.
+-- | The number of segments of a measured polyarc.
 count :: MeasuredPolyarc -> Int
 count = Vector.length . chain
 
--- | The first point.
+-- | The first point of a measured polyarc.
 start :: MeasuredPolyarc -> Point
 start = Segment.start . Vector.head . chain
 
--- | The last point.
+-- | The last point of a measured polyarc.
 end :: MeasuredPolyarc -> Point
 end = Segment.end . Vector.last . chain
 
--- | The sum of the segments' lengths.
+-- | The length of a measured polyarc: the sum of its segments' lengths.
 length :: MeasuredPolyarc -> Mm
 length = Mm . Unboxed.last . table
 
--- | The stations at which the segments start, then the station of the end; in mm.
+-- | The stations, in mm, at which the segments of a measured polyarc start; then the station of its
+-- end.
 stations :: MeasuredPolyarc -> [Double]
 stations = Unboxed.toList . table
 
--- | True when the polyarc ends where it starts, to 'Tolerance.coincident'.
+-- | True when a measured polyarc ends where it starts, to 'Tolerance.coincident'.
 isClosed :: MeasuredPolyarc -> Bool
 isClosed p = Vec.isNear (start p) (end p)
 
@@ -167,10 +168,12 @@ segmentsBetween p a b =
 -- | The intersections of the polyarcs @a@ and @b@, in order along @a@.
 --
 -- A polyarc that represents a curve deviates from it by up to 'Tolerance.curve'. Two polyarcs that
--- do not cross therefore count as touching when they come within twice that tolerance; the result
--- is then the point of @a@ nearest to @b@. Two successive crossings less than 0.5 mm apart may
--- belong to one touch. They are replaced by the point of @a@ midway between them if this point is
--- within twice that tolerance of @b@.
+-- do not meet therefore count as touching if their distance is at most twice this tolerance. The
+-- result is then the point of @a@ that is nearest to @b@.
+--
+-- Two successive crossings less than 0.5 mm apart may be one touch of the curves. The point of @a@
+-- midway between the two along @a@ replaces them, if its distance from @b@ is at most twice
+-- 'Tolerance.curve'.
 intersections :: NonEmpty Segment -> NonEmpty Segment -> [Point]
 intersections a b = case mergeTouching (crossings a b) of
   [] | closest <- nearest a b, distance closest <= slack -> [nearestPoint closest]

@@ -1,9 +1,10 @@
 -- | Polyarcs: chains of segments, open or closed. Each segment starts where the previous one ends.
 --
--- This is the basic representation, a list of segments; contours, toolpaths and frames are built
--- from it. Where a list is too slow, it is converted to one of three others:
--- "Geometry.MeasuredPolyarc" for positions by arc length, "Geometry.FlatPolyarc" for the input and
--- output of the offset kernel, and "Geometry.ClosedPolyarcs" for the computation inside it.
+-- This is the basic representation, a list of segments. The contours of a part are passed on in
+-- this form. Where a list is too slow, it is converted to one of three other representations.
+-- "Geometry.MeasuredPolyarc" serves for positions by arc length. "Geometry.FlatPolyarc" is the
+-- input and output of the offset kernel and of arc fitting. "Geometry.ClosedPolyarcs" serves for
+-- the computation inside the kernel.
 module Geometry.Polyarc
   ( Polyarc (..),
     Ends (..),
@@ -33,7 +34,7 @@ data Ends = Open | Closed
 data Polyarc = Polyarc {ends :: Ends, segments :: NonEmpty Segment}
   deriving stock (Eq, Show)
 
--- | The sum of the segments' lengths.
+-- | The length of a polyarc: the sum of its segments' lengths.
 length :: Polyarc -> Mm
 length = total . map Segment.length . NonEmpty.toList . segments
 
@@ -51,9 +52,12 @@ neighbours (Polyarc ends ss) = zip3 [0 ..] list (drop 1 list <> closing)
       Open -> []
       Closed -> [NonEmpty.head ss]
 
--- | Closes the gaps that rounding leaves between the segments of consecutive things. Each segment
--- is made to start exactly at the end of the previous one. The last segment of a closed polyarc is
--- made to end at the start of the first. @get@ reads the segment of a thing, and @set@ replaces it.
+-- | Closes the gaps that rounding leaves between the segments of a polyarc. The polyarc is given as
+-- a list of things that contain one segment each, such as the elements of a contour. @get@ reads
+-- the segment of a thing, and @set@ replaces it.
+--
+-- Each segment is made to start exactly at the end of the previous one. The last segment of a
+-- closed polyarc is made to end at the start of the first.
 closeGaps :: (a -> Segment) -> (Segment -> a -> a) -> Ends -> NonEmpty a -> NonEmpty a
 closeGaps get set ends (first :| rest) = case rest of
   [] -> (case ends of Open -> first; Closed -> set (closing (get first)) first) :| []
@@ -80,10 +84,12 @@ closeGaps get set ends (first :| rest) = case rest of
 signedArea :: Polyarc -> Double
 signedArea (Polyarc _ ss) = areaOf id ss
 
--- | The signed area, in mm², that the segments of consecutive things enclose; @get@ reads the
--- segment of a thing. It is the sum of the triangles from the first start point to the chords
--- (shoelace formula) and of the regions between arcs and chords. For a radius r and a sweep φ, such
--- a region has the area @r²·(φ − sin φ)/2@.
+-- | The area that a closed polyarc encloses, in mm²; positive when it is counter-clockwise. The
+-- polyarc is given as a list of things that contain one segment each; @get@ reads the segment.
+--
+-- The area is a sum over the segments. Each contributes the signed area of a triangle: its corners
+-- are the polyarc's start point and the segment's ends (shoelace formula). An arc of radius r and
+-- sweep φ also contributes the region between arc and chord, with the area @r²·(φ − sin φ)/2@.
 areaOf :: (a -> Segment) -> NonEmpty a -> Double
 areaOf get (first :| others) = go 0 first others
   where

@@ -5,7 +5,9 @@
 -- intersections of two segments are in "Geometry.Distance".
 --
 -- The foot of a point @p@ on a segment is the point where the perpendicular from @p@ meets the
--- segment's carrier. On an arc's circle it lies in the direction of @p@ from the centre.
+-- segment's carrier. On an arc's circle it lies in the direction of @p@ from the centre. The sector
+-- of an arc is the region between the rays from its centre through its ends, on the side of the
+-- arc.
 module Geometry.Segment
   ( Segment (..),
 
@@ -47,7 +49,8 @@ import Prelude hiding (length, reverse)
 
 -- | A straight line or an arc between two points. The sweep of an arc is positive
 -- counter-clockwise, and its absolute value is at most 2π. Both ends of an arc lie on the circle
--- about its centre. They are kept as points so that neighbours share exactly the same point.
+-- about its centre, but for rounding. They are kept as points so that neighbours share exactly the
+-- same point.
 data Segment
   = Straight {start :: {-# UNPACK #-} Point, end :: {-# UNPACK #-} Point}
   | Arc
@@ -71,7 +74,7 @@ fullCircle sense (Circle centre _) start =
   Arc {start, end = start, centre, sweep = Rad (Carrier.senseSign sense * 2 * pi)}
 
 -- | The 'arc' from @start@ to @end@ about @centre@ in the given sense, or the full circle when both
--- ends are equal. Frames describe arcs in this form.
+-- ends are equal. A frame in which an arc ends where it starts means a full circle.
 arcOrCircle :: Sense -> Point -> Point -> Point -> Segment
 arcOrCircle sense centre start end
   | start == end = fullCircle sense (Circle centre (radius centre start)) start
@@ -153,20 +156,20 @@ at t segment
 flat :: Double
 flat = 1e-4
 
--- | The direction of travel at the start, of length 1. The segment must have a length.
+-- | The direction of travel at the start, of length 1. The length of the segment must not be 0.
 startDirection :: Segment -> Vec
 startDirection segment = case segment of
   Straight a b -> Vec.unit (Vec.to a b)
   Arc {start, centre, sweep} -> tangent sweep (Vec.to centre start)
 
--- | The direction of travel at the end, of length 1. The segment must have a length.
+-- | The direction of travel at the end, of length 1. The length of the segment must not be 0.
 endDirection :: Segment -> Vec
 endDirection segment = case segment of
   Straight a b -> Vec.unit (Vec.to a b)
   Arc {end, centre, sweep} -> tangent sweep (Vec.to centre end)
 
--- | The direction of travel at the fraction @t@ of the length, of length 1. The segment must have a
--- length.
+-- | The direction of travel, of length 1, at the fraction @t@ of the segment's length. This length
+-- must not be 0.
 directionAt :: Double -> Segment -> Vec
 directionAt t segment = case segment of
   Straight a b -> Vec.unit (Vec.to a b)
@@ -200,8 +203,8 @@ reverse segment = case segment of
   Arc {start, end, centre, sweep = Rad s} ->
     Arc {start = end, end = start, centre, sweep = Rad (-s)}
 
--- | The parts of the segment before and after the point at the fraction @t@ of its length, which
--- lies between 0 and 1.
+-- | The parts of the segment before and after the point at the fraction @t@ of its length. @t@ lies
+-- between 0 and 1.
 cutAt :: Double -> Segment -> (Segment, Segment)
 cutAt t segment = (part (start segment) p t, part p (end segment) (1 - t))
   where
@@ -210,9 +213,9 @@ cutAt t segment = (part (start segment) p t, part p (end segment) (1 - t))
       Straight _ _ -> Straight a b
       Arc {centre, sweep = Rad s} -> Arc {start = a, end = b, centre, sweep = Rad (s * share)}
 
--- | The segment moved sideways by a distance to the given side: the parallel line, or the
--- concentric arc. Nothing for a segment without a length, and for an arc whose offset would have a
--- radius of 0 or less.
+-- | The segment moved sideways by the distance @d@ to the given side: the parallel line, or the
+-- concentric arc. Nothing for a line of length 0, for an arc of radius 0, and for an arc whose
+-- offset would have a radius of 0 or less.
 offset :: Side -> Mm -> Segment -> Maybe Segment
 offset side d@(Mm distance) segment = case segment of
   Straight a b
@@ -229,8 +232,8 @@ offset side d@(Mm distance) segment = case segment of
       moved p = Vec.shift (Vec.scale (new / old) (Vec.to centre p)) centre
 
 -- | The radius of the offset of an arc with the radius @r@ and the sweep @s@. The offset lies at
--- the distance @d@ to the given side of the arc. On the side of the centre its radius is @r − d@,
--- which is negative when @d@ is larger than @r@.
+-- the distance @d@ to the given side of the arc. Its radius is @r − d@ if the centre lies on this
+-- side, else @r + d@. The result is negative when @d@ is larger than @r@ on the side of the centre.
 offsetRadius :: Side -> Mm -> Rad -> Mm -> Mm
 offsetRadius side (Mm d) (Rad s) (Mm r)
   | signum s == Carrier.sideSign side = Mm (r - d)

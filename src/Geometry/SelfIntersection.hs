@@ -95,7 +95,8 @@ crossingsOf chain i j
     closes = j /= i + 1 && isClosingPair chain i j
     joints = [Segment.end s | j == i + 1] <> [Segment.start s | isClosingPair chain i j]
 
--- | The indices of all pairs of segments whose bounding boxes overlap and which are not neighbours.
+-- | The indices of the pairs of segments that are not neighbours but may meet. The bounding boxes
+-- of such a pair, enlarged by a small margin, overlap.
 closeBy :: Chain -> [(Int, Int)]
 closeBy chain
   | ClosedPolyarcs.loopCount loops == 0 = []
@@ -135,8 +136,8 @@ goesStraightOn a b =
       Straight _ _ -> True
       Arc {sweep = Rad t} -> abs t <= 1
 
--- | True when two neighbours are lines much longer than 'Tolerance.coincident', and the second line
--- does not run back along the first. Such lines meet only at their joint.
+-- | True when two neighbours are lines, each more than 100 times as long as 'Tolerance.coincident',
+-- and the second line does not run back along the first. Such lines meet only at their joint.
 meetAtCorner :: Segment -> Segment -> Bool
 meetAtCorner a b = case (a, b) of
   (Straight p q, Straight _ r)

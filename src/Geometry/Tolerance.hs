@@ -1,4 +1,5 @@
--- | The tolerances of geometry: every small number with which "Geometry" compares, by name.
+-- | The tolerances of geometry, by name: small numbers with which the modules of the folder
+-- @Geometry@ and later stages compare.
 --
 -- Tolerances for the purposes of a single stage are in the folder of that stage:
 -- "Offset.Tolerance", "Part.Tolerance" and "Toolpath.Tolerance".
@@ -40,9 +41,9 @@ where
 
 import Base.Quantity (Mm (..), Rad (..))
 
--- | The largest distance between points that count as one. In a part 20 m long, rounding changes a
--- coordinate by at most 4·10⁻¹² mm. The square roots of constructions lose half of the digits at
--- worst.
+-- | The largest distance between points that count as one. Rounding changes a coordinate by much
+-- less: at most 4·10⁻¹² mm in a part 20 m long. But constructions take square roots, and these can
+-- lose half of the digits.
 coincident :: Mm
 coincident = Mm 1e-6
 
@@ -65,7 +66,8 @@ negligibleShare = 1e-9
 smoothAngle :: Rad
 smoothAngle = Rad 1e-7
 
--- | The largest sine of the angle between lines that count as parallel.
+-- | The largest sine of the angle between lines that count as parallel. A vector of at most this
+-- length counts as having no direction.
 parallel :: Double
 parallel = 1e-12
 
@@ -93,8 +95,8 @@ curve = Mm 1e-5
 arcLength :: Mm
 arcLength = Mm 1e-9
 
--- | The share of a panel's arc length that is always accepted as its error, because the rounding
--- errors of the speed can be as large.
+-- | The share of the mean speed on a panel that is always accepted as the error of the speed,
+-- because its rounding errors can be as large.
 arcLengthShare :: Double
 arcLengthShare = 1e-12
 
@@ -113,8 +115,9 @@ stationary = Mm 1e-9
 straight :: Rad
 straight = Rad 2e-8
 
--- | The largest difference of two angles for which a biarc becomes a single arc. They are the
--- angles between the biarc's chord and its tangents at the start and at the end.
+-- | The largest difference between the angles at the two ends of a biarc that becomes a single arc.
+-- At each end the angle lies between the chord and the tangent. On a single arc both angles are
+-- equal.
 oneArc :: Rad
 oneArc = Rad 1e-9
 

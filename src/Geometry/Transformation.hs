@@ -31,12 +31,12 @@ import Linear.Matrix (M22, (!*), (!*!), (*!!))
 import Linear.V2 (V2 (..))
 import Linear.Vector ((^+^), (^-^))
 
--- | The map @p ↦ M·p + t@, where M is a multiple of an orthogonal matrix. The scale factor and the
--- reflection could be computed from the determinant of M, but only to rounding. Both must be exact,
--- so they are stored.
+-- | The map @p ↦ M·p + t@, where the matrix M is a multiple of an orthogonal one, and t is the
+-- displacement. The scale factor and the reflection also follow from the determinant of M, but it
+-- has rounding errors. Both must be exact, so they are stored.
 data Transformation = Transformation
   { matrix :: M22 Double,
-    -- | in mm
+    -- | the vector t, in mm
     displacement :: V2 Double,
     -- | the scale factor, above 0
     factor :: Double,

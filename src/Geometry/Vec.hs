@@ -113,11 +113,11 @@ rotate (Rad a) v = add (scale (cos a) v) (scale (sin a) (left v))
 polar :: Mm -> Rad -> Vec
 polar (Mm r) (Rad a) = vec (r * cos a) (r * sin a)
 
--- | The angle of a vector from the x axis, in (−π, π].
+-- | The angle of a vector from the x axis, in [−π, π].
 angle :: Vec -> Rad
 angle (Vec vx vy) = Rad (atan2 vy vx)
 
--- | The angle from the direction of the vector @a@ to that of @b@, in (−π, π], counter-clockwise
+-- | The angle from the direction of the vector @a@ to that of @b@, in [−π, π], counter-clockwise
 -- positive.
 signedAngle :: Vec -> Vec -> Rad
 signedAngle a b = Rad (atan2 (cross a b) (dot a b))

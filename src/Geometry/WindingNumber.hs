@@ -42,9 +42,9 @@ about p segments = round (angles / (2 * pi)) + corrections
         | otherwise -> 0
     from = Vec.to p . start
     to = Vec.to p . end
-    -- The sign says on which side of the chord the point lies: positive on the left, negative on
-    -- the right. 'subtended' and 'correction' must agree on it even for a point very near the
-    -- chord.
+    -- A number that is positive if the point lies on the left of the chord, and negative on the
+    -- right. 'subtended' and 'correction' use the same rounded number. So they assume the same side
+    -- even for a point very near the chord.
     side s = Vec.cross (from s) (to s)
 
 -- | True when a point lies inside a closed polyarc of either sense.

@@ -13,7 +13,7 @@ import Data.Aeson.KeyMap qualified as KeyMap
 import Data.Foldable (toList)
 import Data.Text (Text)
 
--- | Those capabilities of the client that change the form of answers.
+-- | The capabilities of the client that change the form of answers and diagnostics.
 data Client = Client
   { -- | true if a symbol may have two ranges: that of the statement and that of the name
     hierarchical :: Bool,

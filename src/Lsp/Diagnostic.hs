@@ -32,8 +32,9 @@ publish client document snapshot =
     document
     (maybe [] (\s -> map (diagnostic client (uri document) s) (Snapshot.reports s)) snapshot)
 
--- | The notification that replaces all diagnostics of a document by one: its analysis raised an
--- exception with the message @failure@. The diagnostic is at the beginning of the document.
+-- | The notification that replaces all diagnostics of a document by one about a bug of the
+-- compiler. This diagnostic is at the beginning of the document. @failure@ is the message of the
+-- exception.
 bug :: Document -> Text -> Outgoing
 bug document failure =
   notification
@@ -61,8 +62,8 @@ diagnostic client uri snapshot r =
     ReportCode reportCode = code r
     source = Snapshot.source snapshot
     (range, prefix) = shownAt snapshot (place r)
-    -- The label, which the command line prints beside the place, adds nothing to the message if it
-    -- is one word or part of the title.
+    -- The label of the report is left out if it is at most one word or is part of the title. It
+    -- would then add nothing to the message.
     sentences =
       [label r | length (Text.words (label r)) > 1, not (label r `Text.isInfixOf` title r)]
         <> [relatedLine l | not (related client), l <- others r]

@@ -77,15 +77,16 @@ loop host received session = case Transport.next received of
       Just "" -> handle host Due session >>= continue host received
       Just bytes -> loop host (received <> bytes) session
 
--- | Continues the loop with the session of 'Right'; ends it if the outcome is the end of the
--- conversation. @received@ are the bytes not yet handled.
+-- | Continues the loop with the session in @outcome@. If @outcome@ is the end of the conversation,
+-- the loop ends. @received@ are the bytes not yet handled.
 continue :: Host -> ByteString -> Either Ending Session -> IO Ending
 continue host received outcome = case outcome of
   Left ending -> pure ending
   Right session -> loop host received session
 
--- | Receives bytes from the client; nothing at the end of the input. It takes what has arrived, at
--- most 64 KiB. If the message lacks more, it waits for all @missing@ bytes of the message instead.
+-- | Receives bytes from the client; nothing at the end of the input. @missing@ is the least count
+-- of bytes that the current message lacks. If @missing@ is above 64 KiB, the function waits for all
+-- these bytes. Otherwise it returns the bytes that have arrived, at most 64 KiB.
 receive :: Host -> Int -> IO (Maybe ByteString)
 receive host missing = do
   bytes <-
@@ -105,7 +106,7 @@ inputWithin host wait = do
     Left e | isEOFError e -> pure True
     Left e -> throwIO e
 
--- | The milliseconds from the second time to the first, or 0 if the first is earlier.
+-- | The milliseconds from @now@ to @time@, or 0 if @time@ is earlier.
 after :: Milliseconds -> Milliseconds -> Int
 after (Milliseconds time) (Milliseconds now) = max 0 (time - now)
 
@@ -134,7 +135,8 @@ handle host event session = do
     firstLine e = Text.takeWhile (/= '\n') (Text.pack (displayException e))
 
 -- | The session after an event, the end of the conversation if the event ends it, and the messages
--- to send, encoded. All three are evaluated here, so that 'handle' catches their exceptions.
+-- to send, encoded. The session and the messages are evaluated here, so that 'handle' catches their
+-- exceptions.
 handled :: Host -> Milliseconds -> Event -> Session -> IO (Session, Maybe Ending, [ByteString])
 handled host now event session = do
   supplied <-

@@ -54,7 +54,7 @@ data Session = Session {phase :: Phase, documents :: Map Text Open}
 
 -- | The phases of the protocol's life cycle.
 data Phase
-  = -- | before @initialize@, the only request that is answered
+  = -- | before the request @initialize@; all other requests are refused
     Waiting
   | Running Client
   | -- | after @shutdown@: only @exit@ has an effect
@@ -95,8 +95,9 @@ data Effect = Send Outgoing | Stop Ending
 data Ending = Orderly | Abrupt
   deriving stock (Eq, Show)
 
--- | The time at which diagnostics become due after a change at the given time: 200 ms later. Each
--- further change delays them again, so a program is not analysed while the user types.
+-- | The time at which the diagnostics of a document become due after a change at the time @now@:
+-- 200 ms later. Each further change of the document delays them again, so they are not published
+-- while the user types.
 afterDelay :: Milliseconds -> Milliseconds
 afterDelay (Milliseconds now) = Milliseconds (now + 200)
 
@@ -166,9 +167,9 @@ leaving session = case phase session of
   Waiting -> Abrupt
   Running _ -> Abrupt
 
--- | Handles an event for which 'step' raised an exception with the message @why@. A request is
--- refused; for a notification the editor's log gets the message. In place of diagnostics that were
--- due, the message is published.
+-- | Handles an event in whose handling an exception was raised; @why@ is its text. A request is
+-- refused. For any other message of the client, the editor's log gets @why@. For 'Due', each
+-- document whose diagnostics were due gets one diagnostic with @why@ instead.
 failed :: Milliseconds -> Text -> Event -> Session -> (Session, [Effect])
 failed now why event session = case event of
   Received (Request ident _ _) ->

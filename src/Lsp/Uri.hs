@@ -19,7 +19,7 @@ import Data.Text.Encoding qualified as Encoding
 import Data.Text.Encoding.Error qualified as Encoding
 import Data.Word (Word8)
 
--- | An address in the client's spelling.
+-- | An address as the client wrote it, or as 'fromPath' made it.
 newtype Uri = Uri Text
   deriving newtype (Eq, Ord, FromJSON, ToJSON)
   deriving stock (Show)

@@ -32,8 +32,8 @@ find name = snd <$> lookup name builtIn
 machines :: [Machine]
 machines = [m | (_, (_, m)) <- builtIn]
 
--- | Finds the text that describes a machine by the machine's name; 'Nothing' if no built-in machine
--- has the name.
+-- | The text that describes the built-in machine with the given name; 'Nothing' if no built-in
+-- machine has the name.
 text :: MachineName -> Maybe Text
 text name = fst <$> lookup name builtIn
 

@@ -2,8 +2,8 @@
 --
 -- A row is the holes across the tape at one position; a symbol is a character that a row means. A
 -- description gives a row as a pattern of holes: digits 0 and 1, the highest track first. The
--- parity track makes the number of holes in every row even. The service track has signs and marks
--- beside the digits.
+-- parity track makes the number of holes in every row even. In the row of a digit, a hole in the
+-- service track is a sign or a mark.
 module Machine.CodeFromText
   ( code,
     check,
@@ -51,8 +51,8 @@ code trackCount s = do
       _ -> Nothing
     locatedSymbols = required "symbols" "symbols { 0 = 0000 … }" (symbolsFrom width)
     locatedWeights = optional "weights" Map.empty weightsFrom
-    -- Weights of characters that the symbols lack. Such a character may be a letter of another
-    -- alphabet that looks like a symbol.
+    -- Reports weights of characters that are not symbols. Such a character may be a letter of
+    -- another alphabet that looks like a symbol.
     unknownWeights section located =
       [ NotInCode r "the weight" [c]
         | Just weights' <- [output (locatedWeights section)],
@@ -68,12 +68,12 @@ single f args = case args of
   [a] -> f a
   _ -> Nothing
 
--- | Least and largest count of digits, 0 or 1, in a pattern of holes. The highest track may be left
+-- | Least and largest count of digits in a pattern of holes. A pattern may leave the highest track
 -- out, because it is often the service track or the parity track.
 data Width = Width {least :: Int, most :: Int}
 
--- | Reads the symbols: the holes of each, with the region of the symbol. Bit k−1 of the number is 1
--- if there is a hole in track k.
+-- | Reads the symbols, each with its region and its holes. The holes are a number whose bit k−1 is
+-- 1 if there is a hole in track k.
 symbolsFrom :: Width -> Statement -> Result w Error (Map Char (Located Word8))
 symbolsFrom width s = do
   ((), section) <- withBlock ["symbols { 0 = 0000 … }"] "the symbols" noArguments s
@@ -164,9 +164,9 @@ weightsFrom s = do
         _ -> malformed ["X = 7", "digits"] e
 
 -- | Checks the holes of the symbols @located@ of the code @made@, on a tape with @tracks@ tracks.
--- No two symbols have the same holes. No symbol has a hole in the parity track. No digit, sign or
--- point has a hole in the service track. These two tracks are different ones. No symbol is a row to
--- skip.
+-- The rules: no two symbols have the same holes. No symbol has a hole in the parity track. No
+-- digit, sign or point has a hole in the service track. The service track is not the parity track.
+-- No row that a tape reader skips is a row of a symbol.
 check :: Int -> DescriptionSection -> TapeCode -> Map Char (Located Word8) -> [Error]
 check tracks section made located =
   equalRows <> parityFaults <> serviceFaults <> sharedTrack <> skippedSymbols
@@ -206,8 +206,8 @@ check tracks section made located =
       ]
 
 -- | Rows that a symbol with the holes @p@ can have on a tape with @tracks@ tracks. The first row
--- has no hole in the service track; the second one has it, if there is a service track. Each row
--- has a hole in the parity track if this makes its number of holes even.
+-- has the holes @p@. If there is a service track, a second row also has a hole in this track. Each
+-- row has a further hole in the parity track if this makes its number of holes even.
 rowsOf :: Int -> TapeCode -> Word8 -> [Word8]
 rowsOf tracks made p = map even' (p : [p .|. bit' t | Just t <- [serviceTrack made], t <= tracks])
   where

@@ -46,7 +46,7 @@ data CommandContext = CommandContext
     eventWords :: [(Text, Located CommandWord)]
   }
 
--- | The context of a description without the section @commands@.
+-- | The command words of a description without the section @commands@: none.
 noCommands :: CommandContext
 noCommands = CommandContext Machine.noCommandWords []
 
@@ -169,7 +169,7 @@ wordFrom s = case (arguments s, block s) of
         fmap (located n . Fixed) <$> wholeIn "the number" 0 999999999 a
       _ -> Nothing
 
--- | Reads the three events of cutter compensation: left, right and off. Each has one command word.
+-- | Reads the event @compensation@: one command word each for left, right and off.
 compensationFrom :: Statement -> Result w Error CompensationEvents
 compensationFrom s = do
   ((), section) <- withBlock [example] "the compensation" noArguments s

@@ -24,8 +24,8 @@ data CommandWords = CommandWords
     toolChange :: [CommandWord],
     auxiliary :: [CommandWord],
     compensation :: Maybe CompensationCommands,
-    -- | numbers in the last frames of a program, one list for each frame; these frames contain
-    -- nothing else
+    -- | numbers in the last frames of a program, one list for each frame; these frames contain no
+    -- move
     finish :: [NonEmpty CommandWord]
   }
   deriving stock (Eq, Show)

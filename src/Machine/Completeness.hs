@@ -66,8 +66,8 @@ wordFaults machine (r, w) = case content w of
               n `elem` take k ns || n >= 10 ^ digits (form w)
           ]
 
--- | Largest relative difference between an axis's resolution and the last decimal of its word at
--- which the two count as equal.
+-- | Relative difference below which the resolution of an axis counts as equal to one unit of the
+-- last decimal of the axis's word.
 pulseTolerance :: Double
 pulseTolerance = 1e-9
 
@@ -111,8 +111,9 @@ data LocatedBit = LocatedBit
   }
 
 -- | Checks the holes in the service track. Each bit of a command occurs once, in a word that every
--- frame contains. The bits of a command are numbered without a gap. A command with bits has no word
--- of its own. At most one hole is a 'BrakingHole', which makes the machine slow down.
+-- frame contains. The bits of a command have all numbers from 0 to the highest one. A command with
+-- bits has no word of its own. At most one hole is a 'BrakingHole', which makes the machine slow
+-- down.
 bitFaults :: [(Region, Word')] -> [Error]
 bitFaults locatedWords =
   concat

@@ -69,12 +69,12 @@ data Error
 
 -- | Mistake in the holes of a row.
 data HoleFault
-  = -- | row in the description with too many or too few digits 0 and 1: the number of tracks, and
-    -- the least number of digits
+  = -- | pattern of holes with a digit other than 0 and 1, or with too many or too few digits. The
+    -- arguments are the largest and the least count of digits that a pattern may have.
     WrongWidth Int Int
   | -- | hole in the parity track, which has this number
     InParityTrack Int
-  | -- | hole of a digit, sign or point in the service track, which has this number
+  | -- | digit, sign or point with a hole in the service track, which has this number
     InServiceTrack Int
   | -- | same holes as another symbol: that symbol and its region
     SameHoles Text Region
@@ -116,7 +116,7 @@ data DecodingFault
 
 -- | Mistake in the holes beside the digits of a word.
 data ServiceFault
-  = -- | holes of a code without a service track
+  = -- | holes, although the code has no service track
     NoTrack
   | -- | number of holes that differs from the number of digits: holes, digits
     WrongCount Int Int
@@ -142,7 +142,8 @@ data FrameFault
     NoWord Text
   | -- | form that does not suit the content: the name of the content, and the reason
     Unsuited Text Text
-  | -- | the count of decimals, and the pulse of the axis, which is not one unit of the last decimal
+  | -- | pulse that is not one unit of the last decimal of its axis's word: the count of decimals,
+    -- and the pulse
     PulseNotDecimal Int Mm
   | -- | code of a motion that has too many digits for its word, or is used twice
     BadMotion Int
@@ -165,14 +166,16 @@ data TableFault
     CodeTooLarge Int Int
   | -- | code that the table lacks
     NoSuchCode Int
-  | -- | range that is reversed or too long: its first and its last number
+  | -- | range of codes that is reversed or too long, or that begins below 1 in a line @direct@: its
+    -- first and its last number
     BadRange Int Int
   | -- | feed at the end of braking that is outside the machine's feeds; the numbers are the lowest
     -- and the highest feed of the machine, in mm/min
     NoSuchFeed Double Double
   deriving stock (Eq, Ord, Show)
 
--- | Mistake in the words of a command.
+-- | Mistake in a line of the section @commands@, such as @set M 8@. The line gives the number 8 to
+-- the word or the bits @M@ at one event. An event has a key, such as @coolant-on@.
 data CommandFault
   = -- | name for which the frame has neither a word nor bits, and the names that it has
     UnknownCommandName Text [Text]
@@ -271,8 +274,9 @@ toReport err = case err of
     listed cs =
       Text.intercalate ", " (map (quote . Text.pack . unquoted . show) (take 12 cs))
         <> (if length cs > 12 then " …" else "")
-    -- Turns the output of 'show' for a character into the text of the report: a control character
-    -- becomes an escape sequence, every other character itself.
+    -- Turns @s@, the output of 'show' for a character, into the text of the report. A line feed
+    -- becomes @\n@. An apostrophe, a backslash and every other ASCII control character stay as
+    -- 'show' writes them. All remaining characters become themselves.
     unquoted s = case s of
       "'\\n'" -> "\\n"
       ['\'', c, '\''] -> [c]

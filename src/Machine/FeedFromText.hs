@@ -70,7 +70,8 @@ codesOf e = case value (key e) of
   Range a b -> Just (a, b)
   _ -> Nothing
 
--- | Reports codes that an earlier line contains too, with one report for each line.
+-- | Reports codes that an earlier line contains too. Successive codes of one line that repeat the
+-- same earlier line have one report.
 repetitions :: [(Int, Region, Double)] -> [Error]
 repetitions given =
   withoutRuns
@@ -144,8 +145,9 @@ braking s = do
         fmap (BrakedFrames . Feed) <$> quantityIn "the feed" "mm/min" 1e9 a b
       _ -> Nothing
 
--- | Checks feeds and braking against each other. @wordCapacity@ is the largest code that the feed
--- word can hold; 'Nothing' if frames have no feed word.
+-- | Checks that the code of rapid moves is a feed code, that the feed word can hold the largest
+-- code, and that the machine has the feed at the end of braking. @wordCapacity@ is the largest code
+-- that the feed word can hold; 'Nothing' if frames have no feed word.
 checkFeeds :: Located Feeds -> Located Braking -> Maybe Int -> [Error]
 checkFeeds (Located feedsRegion f) (Located brakingRegion b) wordCapacity =
   rapidFaults <> capacityFaults <> brakingFaults

@@ -23,7 +23,7 @@ newtype FeedCode = FeedCode Int
   deriving newtype (Eq, Ord)
   deriving stock (Show)
 
--- | Feeds of a machine and the choice of their codes.
+-- | Feed codes of a machine with their values, and the rules by which a code is chosen.
 data Feeds = Feeds
   { feedMeasure :: FeedMeasure,
     codes :: FeedCodes,
@@ -52,11 +52,13 @@ data FeedCodes
 data Rule
   = -- | the code of the largest value that does not exceed the feed
     NotAbove
-  | -- | the code of the nearest value; the lower code if two are equally near
+  | -- | the code of the nearest value; if two are equally near, the lower code of a table, but the
+    -- higher code of a 'Direct' range
     Nearest
   deriving stock (Eq, Show)
 
--- | Feed code of rapid moves, on a machine that has no motion code for them.
+-- | Feed code of rapid moves. If the machine has a motion code for rapid moves, their frames do not
+-- contain this feed code. Its value is then only their speed.
 data RapidCode
   = -- | the code of the highest value
     Highest

@@ -109,7 +109,8 @@ word hasService e = do
       _ -> (\c -> pure ("", c)) <$> contentFrom args
 
 -- | Reads the content of a word from the arguments of its line; 'Nothing' if they are no content.
--- The inner result is 'Nothing' for the kind of motion, whose codes are in the block of the word.
+-- The result is @Just Nothing@ for a word with the kind of motion, because the codes of the motions
+-- are in the block of the word.
 contentFrom :: [Argument] -> Maybe (Maybe Content)
 contentFrom args = case map value args of
   [Word "frame-number"] -> Just (Just FrameNumber)
@@ -189,7 +190,8 @@ digitsFrom = withArguments ["digits 4", "digits at-most 4"] digitCount
       [a] -> fmap (True,) <$> wholeIn "the number of digits" 0 mostDigits a
       _ -> Nothing
 
--- | Reads the count of decimals, from 0 to @most@, the count of digits.
+-- | Reads the count of decimals, which may be 0 to @most@. @most@ is the count of all digits of the
+-- number.
 decimalsFrom :: Int -> Statement -> Result w Error Int
 decimalsFrom most = withArguments ["decimals 3"] one
   where

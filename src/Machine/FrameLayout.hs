@@ -27,13 +27,13 @@ import Machine.Axis (Axis, axisName)
 data Layout = Layout
   { items :: NonEmpty LayoutItem,
     measure :: AxisMeasure,
-    -- | symbols between two words of a frame
+    -- | symbols between two words of a frame that follow each other directly
     separator :: Text
   }
   deriving stock (Eq, Show)
 
--- | Meaning of the words of axes: increments from the last point, or absolute positions. Centres of
--- arcs are always relative to the start of the arc.
+-- | Meaning of the words of axes: increments from the start of the frame's motion to its end, or
+-- absolute positions of the end. Centres of arcs are always relative to the start of the arc.
 data AxisMeasure = Increments | Positions
   deriving stock (Eq, Show)
 
@@ -87,7 +87,7 @@ data MotionCodes = MotionCodes
 data NumberForm = NumberForm
   { -- | number of digits, decimals included; a maximum if the number is not padded
     digits :: Int,
-    -- | true if the number always has all its digits
+    -- | true if the number is always written with 'digits' digits, with zeros at its beginning
     padded :: Bool,
     -- | number of digits after the decimal point; 0 if there is no point
     decimals :: Int,
@@ -109,10 +109,11 @@ data Sign
     MinusSign
   | -- | plus or minus before every number
     EitherSign
-  | -- | One of four digits before the number. It says whether the number is negative, and whether
-    -- this is the leading axis, which is the one with most pulses. The four digits are for: leading
-    -- and positive, leading and negative, not leading and positive, not leading and negative. If
-    -- several axes have most pulses, the first one leads.
+  | -- | One of four digits before the number. The digit gives the sign of the number, and tells the
+    -- leading axis, which is the one with most pulses in the frame, from the others. The digits are
+    -- for: leading and positive, leading and negative, not leading and positive, not leading and
+    -- negative. If several axes have most pulses, the first one in the layout leads. The word of a
+    -- centre always has a digit for leading.
     Priority Int Int Int Int
   deriving stock (Eq, Show)
 
@@ -136,11 +137,12 @@ data Presence
     Always
   | -- | in frames that move
     InMotion
-  | -- | Depends on the content. For an axis: in frames that move it; with absolute positions, also
-    -- in the first frame that moves at all. For a centre: in arcs. For a command: in frames that
-    -- give it.
+  | -- | in frames that need the content: for an axis, frames that move the axis; for a centre,
+    -- arcs; for a command, frames that give the command. With absolute positions, the first frame
+    -- that moves needs x and y, and also z if any frame of the tape moves z.
     WhenNeeded
-  | -- | for a feed: in frames that move at another feed than the last feed on the tape
+  | -- | for the feed: in frames with a line or an arc, if the feed code differs from that of the
+    -- last such frame before
     WhenChanged
   deriving stock (Eq, Show)
 

@@ -2,8 +2,8 @@
 --
 -- 1. "Machine.Parser" parses the text into statements.
 -- 2. Each section is read by itself. A mistake in one section does not hide those in another.
--- 3. The words of the frame are checked against axes, code, feeds and commands. This step needs all
---    sections.
+-- 3. The sections are checked against each other, for example the words of the frame against axes,
+--    code, feeds and commands. This step is left out if a section cannot be read.
 --
 -- Each step reports all mistakes that it finds. A description with a mistake gives no machine.
 module Machine.FromText

@@ -144,6 +144,6 @@ escape rest = case Text.uncons rest of
 isLineEnd :: Char -> Bool
 isLineEnd c = c == '\n' || c == '\r'
 
--- | True for a character that words and numbers may contain.
+-- | True for a letter, a digit or an underscore.
 isPart :: Char -> Bool
 isPart c = isAlphaNum c || c == '_'

@@ -255,9 +255,9 @@ commandDecimals :: Machine -> CommandName -> Int
 commandDecimals machine command =
   maximum (0 : [decimals (form w) | w <- wordsOf machine, content w == Command command])
 
--- | True if a frame can give a command with the number @v@. The number 0 can be given only by a
--- word that frames without the command lack. In a word or in bits that all frames contain, 0 means
--- that there is no command.
+-- | True if a frame can give the command @command@ with the number @v@. In a word or in bits that
+-- every frame contains, 0 means that there is no command. Therefore a command with the number 0
+-- needs a word of its own, which only frames with this command contain.
 canEncode :: Machine -> CommandName -> Int -> Bool
 canEncode machine command v = case commandCapacity machine command of
   Nothing -> False
@@ -331,7 +331,8 @@ feedRange machine = case codes (feeds machine) of
     [] -> (0, 0)
     vs -> (minimum vs, maximum vs)
 
--- | Feed code of rapid moves, for a machine that has no motion code for rapid moves.
+-- | Feed code of rapid moves. If the machine has a motion code for rapid moves, their frames do not
+-- contain this feed code. Its value is then only their speed.
 rapidCode :: Machine -> FeedCode
 rapidCode machine = case rapidFeed (feeds machine) of
   ByCode c -> c

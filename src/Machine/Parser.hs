@@ -190,8 +190,9 @@ factor ts = case ts of
   Located r t : _ -> Left (Unexpected r (describe t) "a number, ‘n’ or ‘(’")
   [] -> Left (Unexpected (Region 0 0) "the end" "a number, ‘n’ or ‘(’")
 
--- | Parses left-associative operators of one precedence and the operands after them, each by
--- @next@. @a@ is the first operand.
+-- | Parses the rest of a formula after its first operand @a@: an operator of @operators@, an
+-- operand, and so on. All @operators@ have one precedence and are left-associative. @next@ parses
+-- one operand.
 chain ::
   Reader Formula ->
   [(Text, Operator)] ->
@@ -232,6 +233,6 @@ blockOf depth ts = case ts of
 deepest :: Int
 deepest = 16
 
--- | Splits the tokens before the next line end or brace from those after it.
+-- | Splits the tokens at the next line end or brace, which is the first token of the second part.
 toLineEnd :: [Token] -> ([Token], [Token])
 toLineEnd = break ((`elem` [LineEnd, Sign "{", Sign "}"]) . value)

@@ -17,9 +17,10 @@ import Machine.Error (Error (..))
 import Machine.Machine (DescribedValue (..), Provenance)
 import Machine.Syntax
 
--- | Lists the values of a description, one for each line that describes something. Each value is a
--- sentence: the sections around the line, the line as written, and where the source prints it. The
--- arguments are the text, the mark of the machine and the statements.
+-- | Lists the values of a description, one for each line that describes a value and has a
+-- provenance. Each value is a sentence: the lines that open the blocks around the line, the line
+-- itself, and the text of its mark, which says where the source prints the value. The arguments are
+-- the text of the description, the mark of the machine and the statements.
 describedValues :: Text -> Maybe (Located Mark) -> [Statement] -> [DescribedValue]
 describedValues text ofMachine = concatMap (valuesIn [] (provenanceOf =<< ofMachine))
   where

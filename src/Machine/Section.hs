@@ -24,7 +24,7 @@ module Machine.Section
     attempt,
     alreadyReported,
 
-    -- * Numbers
+    -- * Numbers and words
     wholeIn,
     quantityIn,
     choice,
@@ -148,8 +148,8 @@ keyText s = case value (key s) of
 
 -- Failures ----------------------------------------------------------------------------------------
 
--- | Turns a failed result into a successful one with the value 'Nothing', so that the reader
--- continues. The errors of the result are kept.
+-- | Makes a result that always has an output: 'Nothing' if @r@ has none. So the reader continues
+-- after a failed result. The errors of @r@ are kept.
 attempt :: Result w e a -> Result w e (Maybe a)
 attempt r = r {output = Just (output r)}
 
@@ -157,7 +157,7 @@ attempt r = r {output = Just (output r)}
 alreadyReported :: Result w e a
 alreadyReported = Result [] [] Nothing
 
--- Numbers -----------------------------------------------------------------------------------------
+-- Numbers and words -------------------------------------------------------------------------------
 
 -- | Reads a whole number from @low@ to @high@. In the report of a number out of range, @name@ says
 -- what the number is. 'Nothing' if the argument is no whole number.
@@ -184,11 +184,11 @@ quantityIn name unit high a b = case (value a, value b) of
   where
     lowText = Decimal.exact leastQuantity
 
--- | Lower limit of every length, feed and deceleration of a machine, in the unit of the quantity.
+-- | Lower limit of every number that 'quantityIn' reads, in the unit of the number.
 leastQuantity :: Double
 leastQuantity = 0.000001
 
--- | Reads a line whose only argument is one of the words in the table.
+-- | Reads a line whose only argument is a word of @table@, and gives the value of this word.
 choice :: [(Text, a)] -> Statement -> Result w Error a
 choice table s = withArguments [keyText s <> " " <> w | (w, _) <- table] one s
   where

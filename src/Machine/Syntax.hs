@@ -39,7 +39,7 @@ data Statement = Statement
 -- | Argument of a machine description, with its region.
 type Argument = Located Argument_
 
--- | A word, a text, a number, or one of the forms that only holes and tables use.
+-- | Argument or key of a statement: a word, a text, a number, a range, a bit or a dash.
 data Argument_
   = Word Text
   | -- | text in quotation marks, without them
@@ -50,11 +50,12 @@ data Argument_
     Range Int Int
   | -- | name of a command and index of one of its bits, @name:2@
     Bit Text Int
-  | -- | the sign @-@, which says that there is no hole
+  | -- | the sign @-@: no hole beside a digit; as a key, the symbol @-@ of the code
     Dash
   deriving stock (Eq, Show)
 
--- | Provenance of a value, and the text that says where the source prints it, if there is one.
+-- | Mark of a line: the provenance of a value. The mark may have a text, which says where the
+-- source prints the value.
 data Mark = Mark Provenance (Maybe Text)
   deriving stock (Eq, Show)
 

@@ -19,8 +19,8 @@ data Medium = Medium
     pitch :: Maybe Mm,
     -- | extension of a file's name, without the point
     suffix :: Text,
-    -- | number of blank rows of the leader, before the first frame, and again of the trailer, after
-    -- the last one
+    -- | number of blank rows in the leader at the start of the tape; the trailer at its end has as
+    -- many
     leader :: Int,
     -- | number of blank rows after each frame
     gap :: Int,
@@ -35,21 +35,23 @@ data Medium = Medium
   }
   deriving stock (Eq, Show)
 
--- | Treatment of blank rows between frames by a tape reader.
+-- | Rule by which a tape reader treats the blank rows of a tape. 'Medium' gives their number in the
+-- leader, between frames and in the trailer.
 data Spare
-  = -- | The reader counts the blank rows. Their number must be exactly the one that 'Medium' gives.
+  = -- | The reader counts the blank rows, and skips no rows. The blank rows must be exactly as many
+    -- as 'Medium' gives.
     Counted
-  | -- | The reader skips blank rows, and the rows in 'skips' wherever they are. The number of blank
-    -- rows must be at least the one that 'Medium' gives. If 'skips' contains the blank row, this
-    -- holds for the leader and the trailer only.
+  | -- | The reader skips further blank rows. Anywhere on the tape it skips the rows in 'skips'. The
+    -- blank rows must be at least as many as 'Medium' gives. If 'skips' contains the blank row,
+    -- this minimum applies to the leader and the trailer only.
     Skipped
   deriving stock (Eq, Show)
 
 -- | Tape code: the row of holes for each symbol.
 data TapeCode = TapeCode
   { codeName :: Text,
-    -- | holes of each symbol, without those of the service track and the parity track; no two
-    -- symbols have the same holes
+    -- | holes of each symbol, without the hole in the parity track. A digit, sign or point has no
+    -- hole in the service track here. No two symbols have the same holes.
     symbols :: Map Char Word8,
     -- | contribution of a symbol to the check sum of a frame; 0 for symbols that are not listed
     weights :: Map Char Int,
@@ -57,7 +59,8 @@ data TapeCode = TapeCode
     evenTrack :: Maybe Int,
     -- | number of the track that contains signs and marks beside the digits
     serviceTrack :: Maybe Int,
-    -- | rows that a tape reader skips, such as erased rows, which have a hole in every track
+    -- | rows that a tape reader skips if 'spare' is 'Skipped'; for example erased rows, which have
+    -- a hole in every track
     skips :: [Word8]
   }
   deriving stock (Eq, Show)

@@ -2,13 +2,19 @@
 -- layout are words, literal symbols and check digits. An optional item is a word that some frames
 -- lack.
 --
--- The reader tries the items of the layout in their order. Frames are then decoded uniquely under
--- four conditions:
+-- The reader tries the items of the layout in their order. The conditions on the layout are:
 --
--- * No address begins like a number.
--- * No address is a prefix of other symbols that may follow at the same position.
--- * A number without fixed length ends before a symbol that is no digit.
--- * At least one item occurs in every frame.
+-- * The code has a row for every symbol.
+-- * Every optional word has an address. No two addresses are equal.
+-- * No address and no separator begins like a number.
+-- * If one address is a prefix of another, the word with the longer address comes first, and the
+--   rest of the longer address cannot be the number of the other word.
+-- * The address of an optional word is no prefix of a literal symbol, and no literal symbol is a
+--   prefix of it.
+-- * The symbol after a number without fixed length is neither a digit nor a point.
+-- * At least one item occurs in every frame. At most one item is a check digit.
+-- * No frame can begin with a blank row if the reader skips blank rows.
+-- * No frame can begin with the closing symbols of the tape.
 module Machine.UniqueDecoding
   ( check,
   )
@@ -107,9 +113,8 @@ addressFaults (r, i) = case i of
 beginsLikeNumber :: Text -> Bool
 beginsLikeNumber t = Text.any (\c -> isDigit c || c `elem` ("+-." :: String)) (Text.take 1 t)
 
--- | Reports an address that an earlier word has too. It also reports an address and other symbols
--- that may follow at the same position, if one is a prefix of the other. There is at most one
--- report for each item.
+-- | Reports each item that the reader could confuse with an earlier one, because their addresses or
+-- literal symbols are equal or begin in the same way. There is at most one report for each item.
 prefixFaults :: [LocatedItem] -> [Error]
 prefixFaults items' =
   concat
@@ -145,7 +150,9 @@ commonPrefix literalRegion wordRegion ofWord ofLiteral
     [NotDecodable wordRegion (Prefix ofLiteral ofWord literalRegion)]
   | otherwise = []
 
--- | True if the number of a word may begin with the symbols @rest@.
+-- | True if the reader could take @rest@ for the number of the word @w@, or for symbols that begin
+-- with this number or with a part of it. @rest@ is what follows the address of @w@. True also if
+-- @w@ has no number.
 numberMayBegin :: Word' -> Text -> Bool
 numberMayBegin w rest = case content w of
   Motion m -> any (\t -> rest `Text.isPrefixOf` t || t `Text.isPrefixOf` rest) (numbersOf m)
@@ -171,8 +178,8 @@ data Successor = Successor
     successor :: LocatedItem
   }
 
--- | Successors of each item, in the order of the layout. After the last items of a frame they are
--- items of the next frame.
+-- | Lists each item with its successors, in the order of the layout. If all items after an item are
+-- optional, its successors include items of the next frame.
 successors :: [LocatedItem] -> [Successors]
 successors items' =
   [ Successors {item = i, next = upToFixed (restOfFrame k <> nextFrame)}

@@ -52,8 +52,8 @@ data Edge = Edge
     from :: Int,
     -- | the node at which the edge ends
     to :: Int,
-    -- | the multiplicity: the number of its segments in this direction less the number of those in
-    -- the opposite direction
+    -- | the multiplicity: the number of segments that run along the edge in its direction, less the
+    -- number of those that run in the opposite direction
     times :: Int,
     -- | @tan(sweep/4)@, 0 for a line
     bulge :: Double,
@@ -147,8 +147,8 @@ intersections tolerance c boxes = runST $ do
       where
         b = indexPrimArray (ClosedPolyarcs.bulges c) i
 
--- | The coordinates of the nodes in mm, the node of every vertex, and by segment the nodes of its
--- cuts, in any order. A cut has the segment's number, and x and y of the point in mm.
+-- | The coordinates of the nodes in mm; the node of every vertex; and for each segment the nodes at
+-- its cuts, in any order. Each of @cuts@ has the segment's number, and x and y of the point in mm.
 nodesOf ::
   Double ->
   ClosedPolyarcs ->
@@ -181,7 +181,7 @@ nodesOf tolerance c cuts =
     fst3 (x, _, _) = x
     snd3 (_, y, _) = y
     number (_, _, i) = i
-    -- The node of a vertex has the vertex's exact coordinates.
+    -- A node has the exact coordinates of its first vertex, or else of its first cut.
     position ps = let (x, y, _) = foldr1 (\p q -> if number p < number q then p else q) ps in (x, y)
     ids =
       runPrimArray'
@@ -189,7 +189,7 @@ nodesOf tolerance c cuts =
         (concat [map (\p -> (number p, k)) ps | (k, ps) <- zip [0 ..] clusters])
     own = clonePrimArray ids 0 n
 
--- | An array of size @n@. Each of the pairs has an index and the value at this index.
+-- | An array of size @n@. Each pair in @filled@ is an index and the value at this index.
 runPrimArray' :: Int -> [(Int, Int)] -> PrimArray Int
 runPrimArray' n filled = runPrimArray $ do
   a <- newPrimArray n
@@ -255,7 +255,7 @@ alongChord c coordinates i node =
           + (y - indexPrimArray (ClosedPolyarcs.ys c) i) * dy
 
 -- | Merges slices (first node, last node, segment, bulge) between the same nodes with the same
--- sagitta into one edge. As many slices forwards as backwards cancel and give no edge.
+-- sagitta into one edge. Slices cancel and give no edge if equally many run in both directions.
 merged :: Double -> Vector (Double, Double) -> [(Int, Int, Int, Double)] -> [Edge]
 merged tolerance coordinates cut =
   concatMap
@@ -283,7 +283,7 @@ merged tolerance coordinates cut =
     edge a b m (forth, i, g) = if forth then Edge a b m g i else Edge b a m (-g) i
     bundle a b list = case compare net 0 of
       EQ -> []
-      -- The edge takes its bulge and number from the first of the coinciding segments.
+      -- The bulge and the number are those of the first coinciding segment in the edge's direction.
       GT -> [edge a b net one | one : _ <- [sortOn second [s | s@(True, _, _) <- list]]]
       LT -> [edge a b (-net) one | one : _ <- [sortOn second [s | s@(False, _, _) <- list]]]
       where
@@ -318,9 +318,9 @@ ring coordinates es halves = case halves of
         (\a b -> (b - a, (a + b) / 2))
         angles
         (drop 1 angles <> map (+ 2 * pi) (take 1 angles))
-    -- The middle of the widest gap. When the half-edges leave straight up and straight down, the
-    -- gaps on the left and on the right are equally wide. The left one is the last, so the last
-    -- gap gets preference.
+    -- The direction in the middle of the widest gap, an angle between two neighbours. When two
+    -- half-edges leave straight up and straight down, the gaps on the left and on the right are
+    -- equally wide. The left one is the last of @gaps@, so the last one is preferred.
     cut =
       snd
         ( maximumBy
@@ -394,9 +394,9 @@ propagated coordinates es ordered =
       _ -> known
     outside = outsideNumber coordinates es (componentsOf es ordered)
 
--- | The winding number, at a node, of all components other than the node's own. @components@ has
--- the component of every node. A tree of the edges is built from the first three arguments; all
--- nodes to which the result is applied share it.
+-- | The winding number at a node, counting all components except the node's own. @components@ has
+-- the component of every node. The result is a function of the node. All calls of this function
+-- share one bounding-box tree of the edges.
 outsideNumber :: Vector (Double, Double) -> Vector Edge -> IntMap Int -> Int -> Int
 outsideNumber coordinates es components =
   \k ->
@@ -543,7 +543,7 @@ loops sense wanted a =
       Just (e, rest) -> do
         (loop, rest') <- follow e e rest
         (loop :) <$> closedLoops rest'
-    -- Nothing when the loop does not return to its first edge.
+    -- The loop from edge @e@ on, and the edges left over. Nothing when it does not reach @first@.
     follow first e rest = case next e of
       Just e'
         | e' == first -> Just ([e], rest)
@@ -551,8 +551,8 @@ loops sense wanted a =
           (more, rest') <- follow first e' (IntSet.delete e' rest)
           Just (e : more, rest')
       _ -> Nothing
-    -- The edge after edge @e@ on the boundary of the reachable face: the neighbour of @e@ at the
-    -- node where @e@ ends. Nothing when this neighbour is not kept.
+    -- The edge after edge @e@ around the reachable face: at the node where @e@ ends, the next
+    -- half-edge on the face's side. Nothing when no edge that is kept begins with this half-edge.
     next e = do
       halves <- IntMap.lookup (to (edges a Vector.! e)) (rings a)
       k <- Vector.elemIndex (2 * e + 1) halves

@@ -32,8 +32,9 @@ data Clearance = Clearance
     -- | the largest result of 'distance'
     largestDistance :: Double,
     -- | distance required from a segment of the source, by the number of the input segment from
-    -- which it comes ('ClosedPolyarcs.sources'). It is required only of a point on the cutter's
-    -- side, and only if the point of the segment nearest to it is no end of the segment
+    -- which it comes ('ClosedPolyarcs.sources'). It is required only where the cutter's centre is
+    -- on the cutter's side of the segment, and an end of the segment is not its nearest point.
+    -- Elsewhere 'leastDistance' is required
     distance :: Int -> Double,
     -- | sense of a contour around the cutter: counter-clockwise when the cutter is on the left of
     -- the source
@@ -46,8 +47,8 @@ isClear :: Clearance -> ClosedPolyarcs -> SegmentBoxTree -> OffsetLoops -> Int -
 isClear measure source boxes l k = uncurry (isFarFrom measure source boxes) (witness l k)
 
 -- | True when a cutter whose centre is at the midpoint of the first segment of loop @k@ reaches
--- every segment of the source: its distance from each is at most the required one. The kernel
--- discards a loop for which this is True and 'isClear' is False.
+-- every segment of the source: its distance from each is at most the required one. If the source is
+-- a single contour, the kernel may discard a loop for which this is True and 'isClear' is False.
 coversSource :: Clearance -> ClosedPolyarcs -> OffsetLoops -> Int -> Bool
 coversSource measure source l k =
   and
@@ -115,10 +116,11 @@ isLeftOf c i x y
   where
     b = indexPrimArray (ClosedPolyarcs.bulges c) i
 
--- | Passes two lengths in mm to the continuation @k@. The first one is the distance of the point
--- (@x@, @y@) from segment @i@. For the second one, take the point of the segment that is nearest to
--- (@x@, @y@): the length is its distance from the nearer end of a line, or from the radius to the
--- nearer end of an arc. It is zero or negative when the nearest point is an end.
+-- | Passes two lengths in mm to the continuation @k@: the distance of the point (@x@, @y@) from
+-- segment @i@, and the depth of the foot. The foot is the point of the segment that is nearest to
+-- (@x@, @y@). On a line its depth is its distance from the nearer end. On an arc its depth is its
+-- distance from the nearer one of the two radii that lead to the ends. The depth is zero or
+-- negative when the foot is an end.
 fromPoint :: ClosedPolyarcs -> Int -> Double -> Double -> (Double -> Double -> r) -> r
 fromPoint c i x y k
   | b == 0 = ClosedPolyarcs.chord c i $ \ux uy ->
@@ -144,8 +146,8 @@ fromPoint c i x y k
     (gx, gy) = ClosedPolyarcs.gradient c i x y (,)
     (px, py) = ClosedPolyarcs.gradient c i x0 y0 (,)
     (qx, qy) = ClosedPolyarcs.gradient c i x1 y1 (,)
-    -- The smaller one of the nearest point's signed distances, in mm, from the two radii to the
-    -- arc's ends.
+    -- The depth of the foot on an arc, in mm: the smaller one of its distances from the radii to
+    -- both ends. It is negative when the point (@x@, @y@) is outside the sector between them.
     inSector =
       0.5
         * min (signum b * (px * gy - py * gx)) (signum b * (gx * qy - gy * qx))

@@ -3,8 +3,8 @@
 --
 -- The path is made from the certified loops of "Offset.Kernel". Its coordinates come from the
 -- elements of the contour ("Offset.SourceOffset"). Where the cutter does not fit, 'styled' returns
--- the obstacle; 'reachable' returns the paths that the cutter's centre can take, and the rest
--- material between them, which the cutter cannot remove.
+-- the obstacle. There 'reachable' returns the paths that the cutter's centre can take, and the
+-- parts of the contour that they leave out, with the rest material.
 module Offset.Equidistant
   ( OffsetSegment (..),
     Origin (..),
@@ -95,8 +95,8 @@ attempt source = case Obstacle.localCauses source of
     fitting = if radius smaller > Mm 0 then TrimmedOffset.whole smaller source else Nothing
 
 -- | The crevices beside a path, as reasons why the cutter does not fit. A cusp is a point at which
--- the contour turns back. A crevice is a cusp that the cutter cannot enter. The path goes directly
--- from the element before such a cusp to the element after it, without an arc about the vertex.
+-- the contour turns back. A crevice is a cusp that the cutter cannot enter. At a crevice the path
+-- goes directly from one element to the next, without an arc about the vertex.
 crevices :: OffsetSource -> [OffsetSegment] -> [Cause]
 crevices source path
   -- The path of a contour without cusps is not examined here, so it is never in memory as a whole.
@@ -209,9 +209,9 @@ sharpened source =
           a :| [b]
       _ -> p :| []
 
--- | The reachable paths, and the parts of the contour that they leave out, of a cutter that also
--- enters slots exactly as wide as itself. In such a slot its centre can only move along a line, and
--- the kernel finds no region. When there are such slots, the paths are those of a cutter whose
+-- | The results of 'reachable', but the cutter also enters slots exactly as wide as itself. In such
+-- a slot its centre can only move along a line, and the kernel finds no region. When the paths in
+-- such slots are longer than 'Tolerance.ignoredSlot', the results are those of a cutter whose
 -- radius is smaller by 'Tolerance.clearance'.
 reachableFitting :: CornerStyle -> Side -> Mm -> Polyarc -> ([TrimmedOffset], [UnreachedPart])
 reachableFitting style side radius contour
@@ -229,9 +229,10 @@ reachableFitting style side radius contour
 -- touches there.
 data Gap = Gap {reason :: Cause, touching :: Touching}
 
--- | The gaps of paths. A gap is where a path continues from one element of the contour to another
--- one that does not follow it. A path that begins or ends elsewhere than the contour has a gap
--- there, too.
+-- | The gaps of paths. A path has a gap where it continues from one element of the contour to
+-- another one that does not follow it, and at every inner corner where two elements join directly.
+-- An open path that begins or ends elsewhere than the contour has a gap there, too. An arc whose
+-- offset is a point makes no gap.
 gapsOf :: OffsetSource -> [TrimmedOffset] -> [Gap]
 gapsOf source = concatMap gapsAlong
   where
@@ -287,7 +288,7 @@ gapBetween source p q =
 
 -- | True when the cutter, with its centre at the point @p@, touches the elements @numbers@ along
 -- their whole length, so that their absence from a path is no gap. Such elements are arcs about @p@
--- whose radius is the offset's distance. False for no elements.
+-- whose radius is the offset's distance. The result is False when @numbers@ is empty.
 isSpent :: OffsetSource -> Point -> [Int] -> Bool
 isSpent source p numbers = not (null numbers) && all standsStill numbers
   where
@@ -320,8 +321,8 @@ largestPast source causes =
               below = halvings low middling,
               above = halvings middling high
             }
-    -- The numbers of the causes that do not stop a cutter of this radius, and whose elements that
-    -- cutter can reach.
+    -- The numbers of the causes that do not stop a cutter of radius @r@. This cutter must also
+    -- reach the elements of the cause.
     passing r =
       IntSet.fromDistinctAscList
         [ k
@@ -338,7 +339,8 @@ largestPast source causes =
         on =
           IntSet.fromList
             [numberOf (origin p) | w <- found, p <- NonEmpty.toList (TrimmedOffset.pieces w)]
-    -- No cutter reaches into an inner corner, not even a tiny one.
+    -- The elements of a cause, in ascending order. Nothing for an inner corner: not even a tiny
+    -- cutter reaches into it.
     between c = case c of
       Concave i _ -> Just [i]
       Collision i j _ -> Just [min i j, max i j]
@@ -349,7 +351,7 @@ largestPast source causes =
 data Halving = Halving
   { -- | the middle of both radii, in mm
     middling :: Mm,
-    -- | the numbers of the causes that do not stop a cutter of this radius
+    -- | the numbers of the causes that do not stop a cutter of the radius 'middling'
     passed :: ~IntSet,
     -- | the next steps: between the smaller radius and the middle, and between the middle and the
     -- larger radius

@@ -3,12 +3,14 @@
 -- | The offset kernel: it computes the boundary of all positions that a cutter's centre can reach
 -- beside closed contours, or on one side of an open one.
 --
--- The reachable region lies on the same side of every contour: inside an outer contour and outside
--- its islands, or outside all contours. The raw offset ("Offset.RawOffset") moves the contours to
--- that side and keeps all self-intersections. It deforms continuously as the distance grows from 0.
--- Therefore its winding number has one known value at exactly the reachable positions. At all other
--- positions it is larger, or at all of them smaller (Chen and McMains, "Polygon offsetting by
--- computing winding numbers", 2005).
+-- The reachable region lies on the same side of every contour, left or right: inside an outer
+-- contour and outside its islands, or outside all contours. The raw offset ("Offset.RawOffset")
+-- moves the contours to that side and keeps all self-intersections. It deforms continuously as the
+-- distance grows from 0. Therefore the raw offset has one known winding number at all reachable
+-- positions (Chen and McMains, "Polygon offsetting by computing winding numbers", 2005). At other
+-- positions the winding number is smaller if the region is on the left of the contours, larger if
+-- it is on their right. The only exception is a position at which the cutter covers a whole pocket:
+-- it can have the winding number of the reachable positions. The kernel discards such positions.
 --
 -- When the segments of the raw offset only cross each other between their ends (general position),
 -- "Offset.Trimming" finds the region in a single traversal. Where segments touch or coincide,
@@ -78,7 +80,8 @@ data OffsetFault
   | -- | the senses of the contours do not fit their nesting: outermost contours must have one
     -- sense, and islands the opposite one
     WrongNesting
-  | -- | no computed result passed the check of "Offset.Certificate"
+  | -- | no computed result passed the check of "Offset.Certificate", or no arrangement of the
+    -- contours had winding numbers that agree
     Uncertain
   deriving stock (Eq, Show)
 
@@ -200,11 +203,11 @@ data Problem = Problem
     sense :: Sense,
     -- | the tolerance for rounding, in mm
     rounding :: Double,
-    -- | the smallest distance that the cutter's centre keeps from any segment
+    -- | the smallest distance, which the cutter's centre has to keep from every segment
     least :: Double,
-    -- | the largest distance that the cutter's centre keeps from any segment
+    -- | the largest distance that the cutter's centre has to keep from a segment
     widest :: Double,
-    -- | the distance that the cutter's centre keeps from a segment, by the number that
+    -- | the distance that the cutter's centre has to keep from a segment, by the number that
     -- 'ClosedPolyarcs.sources' has for the segment
     distances :: Int -> Double,
     -- | the raw offset of contours, and the contours with their smooth joints marked
@@ -276,10 +279,10 @@ isArtefact tolerance answer k =
   Loop.size answer k <= 4
     && abs (FlatPolyarc.area (Loop.polyarc answer k)) <= tolerance * tolerance
 
--- | True when contour @w@ is an outer contour, one of several, and bounds a region too small for
--- the cutter. The winding numbers of all contours together would count such a region as reachable
--- where the cutter covers it completely. Therefore the kernel omits the contour. The test is that
--- the offset of this contour alone has no loops.
+-- | True when contour @w@, one of several, is an outer contour and bounds a region too small for
+-- the cutter: the offset of this contour alone has no loops. The kernel omits such a contour.
+-- Otherwise a position at which the cutter covers the whole region could have the winding number of
+-- the reachable positions.
 isUnreachable :: Problem -> ClosedPolyarcs -> Int -> Bool
 isUnreachable problem c w = ClosedPolyarcs.loopCount c > 1 && isOuter && isSmall && hasNoLoops
   where
@@ -298,11 +301,13 @@ isUnreachable problem c w = ClosedPolyarcs.loopCount c > 1 && isOuter && isSmall
       Left _ -> False
 
 -- | The winding number on the left of every contour, and so on the left of every loop of the
--- offset: 1 when the outermost contours are counter-clockwise, else 0. Reachable positions on the
--- left of the loops have this number; reachable positions on their right have one less. The
--- function fails for contours that intersect or whose senses do not fit their nesting. @tolerance@
--- (mm) covers rounding; @sense@ is that of the reachable region's outer boundary; @open@ is True
--- when the contour is open; @boxes@ is the bounding-box tree of the contours @source@.
+-- offset. It is 1 when the outermost contours are counter-clockwise, 0 when they are clockwise. An
+-- open contour encloses nothing; its number is 0 for a cutter on the left, 1 for one on the right.
+-- Reachable positions on the left of the loops have this number; reachable positions on their right
+-- have one less. The function fails for contours that intersect or whose senses do not fit their
+-- nesting. @tolerance@ (mm) covers rounding; @sense@ is that of the reachable region's outer
+-- boundary; @open@ is True when the contour is open; @boxes@ is the bounding-box tree of the
+-- contours @source@.
 wantedNumber ::
   Double ->
   Sense ->

@@ -2,11 +2,11 @@
 
 -- | The toolpath beside a contour, made from the loops of the kernel.
 --
--- Each segment of a loop is a part of the offset of one element of the contour. Its vertices are
--- exact to rounding. Arcs over half a turn, and segments that the kernel has cut, are several
--- segments of the loop. Here consecutive segments of one element become one segment again. Its
--- coordinates come from the element ("Offset.SourceOffset"): a vertex that agrees with an exact
--- point of the element's offset is replaced by this point. A vertex where the offsets of two
+-- Each segment of a loop is a part of the offset of one element or corner of the contour. The
+-- vertices of the loop are exact to rounding. Some arcs, such as those over half a turn, are
+-- several segments of the loop. Here these segments become one arc again. The coordinates of the
+-- path come from the contour ("Offset.SourceOffset"): a vertex that agrees with an exact point of
+-- the element's or corner's offset is replaced by this point. A vertex where the offsets of two
 -- distant elements intersect keeps the kernel's coordinates.
 --
 -- The flat contour is the contour with arcs over half a turn divided into two. Its segments, the
@@ -78,7 +78,7 @@ import Offset.SourceOffset
   )
 import Offset.Tolerance qualified as Tolerance
 
--- | A region, given by the kernel's loops.
+-- | A region of positions of the cutter's centre, given by the kernel's loops.
 data LoopRegion = LoopRegion
   { -- | the kind of the contour: open or closed
     contourEnds :: Ends,
@@ -177,9 +177,10 @@ rawCircuit r
     z = if Loop.count (loops r) == 0 then 0 else indexPrimArray (Loop.starts (loops r)) 1
 
 -- | The number of the segment with which the run of the least origin begins, in a loop with the
--- segments from @a@ to @z − 1@. Segment @a@ follows the last one, so the run may begin near the end
--- of the loop and continue at @a@. The numbers of the flat contour's segments do not decrease along
--- a run, so a run along a full circle begins with the circle's first half.
+-- segments from @a@ to @z − 1@. Segment @a@ follows segment @z − 1@. So a run that contains segment
+-- @a@ may begin before it, near the end of the loop. The search goes back from segment @a@ as long
+-- as the number of the flat contour's segment does not increase. Thus a run along a full circle
+-- begins with the circle's first half.
 leastStart :: LoopRegion -> Int -> Int -> Int
 leastStart r a z = if first == a then backwards a (z - 1) else first
   where
@@ -314,9 +315,9 @@ isNegligible structure run = case origin run of
     isShort = Vec.distance (from run) (to run) <= Tolerance.clearance
 
 -- | The lengths to cut off two neighbouring segments of a path that join at a smooth or slight
--- corner. @p@ is the origin of the first segment, @run@ the run of the second one. The lengths
--- belong to the offset @source@. Nothing for all other neighbours, and when the kernel joined both
--- far from the corner.
+-- corner. @p@ is the origin of the first segment, @run@ the run of the second one. The lengths are
+-- those of the offset @source@. Nothing for all other neighbours, and when the kernel joined the
+-- two segments far from the corner.
 jointBetween :: OffsetSource -> OffsetSource -> Origin -> Run -> Maybe Cuts
 jointBetween structure source p run = case (p, origin run) of
   (Along i, Along j)
@@ -337,8 +338,8 @@ jointBetween structure source p run = case (p, origin run) of
         Mm r = distanceAt structure i
         Mm close = Tolerance.coincident
         angle = indexPrimArray (turnings structure) i
-        -- The distance in mm between the point where the kernel joined both and the end of the
-        -- first element's offset.
+        -- The distance in mm between the point where the kernel joined the two segments and the
+        -- end of the first element's offset.
         distance = Vec.distance (from run) (Segment.end (movedElement structure i))
 
 -- | The segment of a run, with the coordinates of @source@. The exact segment is the whole offset

@@ -46,10 +46,11 @@ data Cause
     -- than the distance between the cutter's centre and the arc
     Concave Int Mm
   | -- | a corner that turns towards the cutter: the numbers of the elements before and after it,
-    -- and its vertex
+    -- and its vertex. If an element is too short between slight corners ('localCauses'), the point
+    -- is the end of the element's offset
     InnerCorner Int Int Point
-  | -- | a gouge: the cutter's centre moves along the offset of the first element, and at the given
-    -- point the cutter cuts the second element
+  | -- | a collision: the cutter moves beside the first element, and meets the second one when its
+    -- centre is at the given point
     Collision Int Int Point
   deriving stock (Eq, Show)
 
@@ -79,10 +80,10 @@ tooTight source i = case elements source Vector.! i of
       Just old
   _ -> Nothing
 
--- | A corner for each element that is too short for the slight corners at its ends: one of these
--- corners. Its point is the end of the element's offset, not the vertex. Each slight corner cuts a
--- length off the offsets that meet there. An element is too short when its offset is not longer
--- than the lengths cut off at its start and its end together.
+-- | An obstacle for each element that is too short for the slight corners at its ends. It names one
+-- of these corners, but its point is the end of the element's offset, not the vertex. Each slight
+-- corner cuts a length off the two offsets that meet there. An element is too short when its offset
+-- is not longer than the lengths cut off at its start and its end together.
 tooShort :: OffsetSource -> [Cause]
 tooShort source = go 0 frontOfFirst (movedElement source 0)
   where

@@ -155,12 +155,10 @@ closeUp (Filling rx ry rb rm rs) k k' = do
   m' <- readPrimArray rm (k' - 1)
   writePrimArray rm (k' - 1) (m' + ClosedPolyarcs.lastMark)
 
--- | Writes the raw offset of one of the polyarcs @c@. The arguments up to @c@ are the tolerances of
--- length and of direction, the form of outer corners, True for different distances, and the
--- distances and arc radii of the segments ('raw'). @marks@ are the marks of the segments of @c@, to
--- which smooth joints are added. The polyarc to be offset has its first vertex at index @a@, and
--- the same vertex again at the end, at index @e@. The raw offset is written from index @k0@ on; the
--- result is the next free index.
+-- | Writes the raw offset of one of the polyarcs @c@. The arguments up to @c@ are those of 'raw'.
+-- @marks@ are the marks of the segments of @c@, to which the marks of smooth joints are added. The
+-- polyarc to be offset has its first vertex at index @a@, and the same vertex again at the end, at
+-- index @e@. The raw offset is written from index @k0@ on; the result is the next free index.
 offsetPolyarc ::
   Double ->
   Double ->
@@ -205,8 +203,8 @@ offsetPolyarc
       -- of an outer corner that turns by θ; the length in mm by which both lines of an inner corner
       -- are cut. @shorter@ is the length of the shorter chord. @restI@ and @restJ@ are the lengths
       -- that earlier cuts leave of both lines. Rounding of the vertices changes the direction of a
-      -- chord. Therefore a corner counts as smooth when it moves no offset point by more than the
-      -- tolerance.
+      -- chord. Therefore a corner also counts as smooth when this moves no point of the offset by
+      -- more than the tolerance.
       joint i j ax ay bx by shorter restI restJ k
         | dt > 0
             && ( abs cr <= smoothness

@@ -1,11 +1,14 @@
 -- | The boundaries of the rest material beside a contour, which a cutter cannot reach.
 --
 -- A gap is a position on a path at which the cutter touches the contour at two points, and the path
--- leaves out the part of the contour between them. Such a part is called a stretch; no path touches
--- it. The boundary of the rest material consists of stretches and of edges of the cutter in turn.
--- An edge of the cutter is an arc of its circumference at a gap. The boundary is followed from gap
--- to gap until it closes; the sequence of stretches met until then is called a cycle. Where two
--- edges of the cutter intersect, the boundary changes from one edge to the other.
+-- leaves out the part of the contour between them. A stretch is a part of the contour that no path
+-- touches. It begins where the cutter leaves the contour at a gap. It ends where the cutter touches
+-- the contour again, at the same gap or at another one.
+--
+-- The boundary of the rest material consists of stretches and of edges of the cutter. An edge of
+-- the cutter is an arc of its circumference at a gap. The boundary is followed from gap to gap
+-- until it closes; the sequence of stretches met until then is called a cycle. Where two edges of
+-- the cutter intersect, the boundary changes from one edge to the other.
 module Offset.RestMaterial
   ( RestMaterial (..),
     Touching (..),
@@ -50,9 +53,9 @@ data RestMaterial
 -- the gap, and the position of its centre.
 data Touching = Touching {before :: Origin, after :: Origin, centreAt :: Point}
 
--- | The rest material beside a contour, by the numbers of the gaps from 0. @side@ is the cutter's
--- side of the contour; @paths@ are the paths beside it, and @gaps@ their gaps. A gap without an
--- entry is at material whose boundary was not found.
+-- | The rest material beside a contour, by the number of the gap. @side@ is the cutter's side of
+-- the contour; @paths@ are the paths beside it. @gaps@ are their gaps, numbered from 0 in this
+-- order. The result has no entry for a gap at material whose boundary was not found.
 restMaterials :: Side -> Polyarc -> [TrimmedOffset] -> [Touching] -> IntMap.IntMap RestMaterial
 restMaterials side contour paths gaps =
   IntMap.union
@@ -75,7 +78,7 @@ restMaterials side contour paths gaps =
         | (k, g) <- zip [0 ..] gaps,
           let at = centreAt g
       ]
-    -- The material at gaps whose boundary is one stretch and the cutter's edge at the gap.
+    -- The material at the gaps where its boundary is one stretch and the cutter's edge at the gap.
     alone =
       IntMap.fromList
         [ found
@@ -94,9 +97,9 @@ restMaterials side contour paths gaps =
       (Nothing, Closed) -> Map.lookupMin arrivals
       (found, _) -> found
 
--- | All stretches from gap to gap until they return to the gap with the number @first@. That gap
--- must have the least number of all these gaps, so that each cycle is found once; else the result
--- is Nothing. The stretch that ends at the gap @first@ is the last.
+-- | The cycle of stretches that begins at the gap with the number @first@. Its last stretch ends at
+-- this gap. The result is Nothing when the stretches do not return to the gap. It is also Nothing
+-- when they meet a gap with a number smaller than @first@, so that each cycle is found once.
 --
 -- @stretch@ gives the stretch between two positions on the contour. @nextArrival@ gives, for a
 -- position on the contour, the next one at which the cutter touches the contour again after a gap,
@@ -126,10 +129,10 @@ cycleFrom stretch nextArrival open first = go IntSet.empty [] first
 -- the position of the cutter's centre there.
 data Bound = Bound {along :: NonEmpty Segment, gap :: Int, cutterAt :: Point}
 
--- | The rest materials of a cycle of stretches, by the numbers of their gaps: the cutter's edge at
--- the end of each stretch leads to the start of the next one. Where edges of the cutter intersect
--- there are several materials. Each material is listed with its boundary at the gap before its
--- first stretch. At the gaps before its other stretches it is listed as 'SameAs'.
+-- | The rest materials of a cycle, each with the number of the gap at which it is listed. A cycle
+-- has several materials when edges of the cutter intersect. Each material is listed with its
+-- boundary at the gap before its first stretch. At the gaps before its other stretches it is listed
+-- as 'SameAs'.
 materials :: Side -> Vector Bound -> [(Int, RestMaterial)]
 materials side bounds = go IntSet.empty [0 .. Vector.length bounds - 1]
   where
@@ -146,8 +149,8 @@ materials side bounds = go IntSet.empty [0 .. Vector.length bounds - 1]
 
 -- | The boundary that begins with the stretch with index @first@ of a cycle, and the indices of the
 -- other stretches in the boundary. After each stretch the boundary follows the cutter's edge to the
--- next stretch, or to the intersection with another edge. Nothing when the boundary encloses an
--- area on the wrong side of the contour.
+-- next stretch, or to the intersection with another edge. Nothing when the boundary does not close,
+-- or when it encloses an area on the wrong side of the contour.
 boundaryFrom :: Side -> Vector Bound -> Int -> Maybe (NonEmpty Segment, [Int])
 boundaryFrom side bounds first =
   follow (4 * count) [] (stretchAt first) first (edges Vector.! first)
@@ -228,9 +231,10 @@ foot elements i p =
   let s = elements Vector.! i in max 0 (min 1 (Segment.fraction s (snd (Distance.nearest p s))))
 
 -- | The stretch of a contour from the position @Position i from@ to the position @Position j to@.
--- @onPaths@ has the segments of the paths by the number of the element along which they run. The
--- result is Nothing when a path touches the stretch, when both positions are one point, or when an
--- open contour ends between them.
+-- @onPaths@ has the segments of the paths, by the number of their element or of the element before
+-- their corner. The result is Nothing when a path touches the stretch, or when an open contour ends
+-- between the positions. It is also Nothing when both positions are one point, or when they are on
+-- one element in the opposite order.
 stretchBetween ::
   IntMap.IntMap [OffsetSegment] ->
   Ends ->

@@ -35,8 +35,9 @@ data Visitor s = Visitor
     touching :: Int -> Int -> Double -> Double -> ST s ()
   }
 
--- | Reports all intersections of two different segments to @visitor@, except the vertex that
--- neighbours share. The number of the first segment is less than that of the second.
+-- | Reports the intersections of two different segments to @visitor@. It leaves out the vertex that
+-- neighbours share, and a second intersection that rounding hides ('isThin'). The number of the
+-- first segment is less than that of the second.
 meet :: Double -> ClosedPolyarcs -> Visitor s -> Int -> Int -> ST s ()
 meet !tolerance !c visitor = pair
   where
@@ -82,8 +83,8 @@ isArc :: ClosedPolyarcs -> Int -> Bool
 isArc c k = indexPrimArray (ClosedPolyarcs.bulges c) k /= 0
 {-# INLINE isArc #-}
 
--- | Reports the intersections of segments @i@ and @j@, if @j@ has the next number after @i@, or if
--- @i@ is the first segment of a polyarc and @j@ the last one, perhaps of another polyarc.
+-- | Reports the intersections of segments @i@ and @j@, which may be neighbours: @j@ is @i + 1@, or
+-- @i@ is the first segment of a polyarc and @j@ the last one of this or another polyarc.
 adjacent :: Double -> ClosedPolyarcs -> Visitor s -> Int -> Int -> ST s ()
 adjacent !tolerance !c visitor !i !j
   | after && before = when (isArc c i || isArc c j) (sharingEnds tolerance c visitor i j)
@@ -91,8 +92,8 @@ adjacent !tolerance !c visitor !i !j
   | before = neighbours tolerance c visitor j i i
   | otherwise = unconnected tolerance c visitor i j
   where
-    -- True when the second segment begins where the first ends. 'before' is True when the second
-    -- segment ends where the first begins.
+    -- True when segment @j@ begins where segment @i@ ends. 'before' is True when segment @j@ ends
+    -- where segment @i@ begins.
     after = j == i + 1
     mark m k = ClosedPolyarcs.hasMark m (indexPrimArray (ClosedPolyarcs.marks c) k)
     before =
@@ -104,8 +105,8 @@ adjacent !tolerance !c visitor !i !j
     at a = indexPrimArray a (j + 1) == indexPrimArray a i
 {-# NOINLINE adjacent #-}
 
--- | Reports the intersections of two segments that are not neighbours. Inlined where @visitor@ is
--- known.
+-- | Reports the intersections of two segments that are not neighbours. It is inlined, so that the
+-- compiler specialises it for each @visitor@.
 unconnected :: Double -> ClosedPolyarcs -> Visitor s -> Int -> Int -> ST s ()
 unconnected !tolerance !c visitor = pair
   where
@@ -130,14 +131,14 @@ lines' !tolerance !c visitor !i !j =
         y i' = indexPrimArray (ClosedPolyarcs.ys c) i'
         !wx = x j - x i
         !wy = y j - y i
-        -- Distances between one line and an end of the other line, multiplied by the line's length.
+        -- Signed distance of each end from the other line, times the length of the other line.
         !startJ = ux * wy - uy * wx
         !den = ux * vy - uy * vx
         !endJ = startJ + den
         !startI = wx * vy - wy * vx
         !endI = startI - den
-        -- If an end is within the tolerance of the other line, its product above is at most this
-        -- bound. The bound is a little too large: |x| + |y| is used as the length of a line.
+        -- Bounds of these products for ends within the tolerance of line @i@, and of line @j@. They
+        -- are a little too large: |x| + |y| is used as the length of a line.
         !nearU = tolerance * (abs ux + abs uy)
         !nearV = tolerance * (abs vx + abs vy)
         areApart a b near = if a > 0 then a > near && b > near else a < -near && b < -near
@@ -214,13 +215,13 @@ isDisjoint !tolerance !c !i !j =
     !wx = x j - x i
     !wy = y j - y i
     !turning = ux * dy - uy * dx
-    -- Twice the signed areas of the triangles between the line and the arc's ends. @rise@ is the
-    -- amount that the height of the apex adds to both areas.
+    -- Twice the signed areas of the triangles that the line forms with each end of the arc. Both
+    -- numbers grow by @rise@ when the chord moves to the arc's apex.
     !arcStart = ux * wy - uy * wx
     !arcEnd = arcStart + turning
     !rise = -0.5 * b * (ux * dx + uy * dy)
-    -- Twice the signed areas in mm² of the triangles between the chord and the line's ends,
-    -- positive on the arc's side. @height@ is the same for the arc's apex.
+    -- Twice the signed areas in mm² of the triangles that the chord forms with each end of the
+    -- line, positive on the arc's side. @height@ is this number for the arc's apex.
     !sign = if b > 0 then 1 else -1
     !lineStart = sign * (dx * wy - dy * wx)
     !lineEnd = lineStart + sign * turning
@@ -232,12 +233,12 @@ isDisjoint !tolerance !c !i !j =
 {-# INLINE isDisjoint #-}
 
 -- | Finds the intersections of line @i@ and arc @j@, which are not neighbours. @report@ gets the
--- position of a crossing along the line, as a fraction. The power of a point on the line is @aa·s²
--- + 2·half·s + c0@, where the fraction @s@ is measured from the foot of the perpendicular from the
--- arc's start. Its two zeros are the intersections with the arc's circle.
+-- position of a crossing along the line, as a fraction. The foot of the perpendicular from the
+-- arc's start has the position @s0@. At the position @s0 + s@ the power is @aa·s² + 2·half·s + c0@;
+-- it is zero at both intersections with the arc's circle.
 --
--- At a crossing angle α the error of the crossing is the tolerance divided by sin α. When a
--- crossing is nearer than this error to an end of a segment, @closely@ examines both crossings.
+-- The error of a crossing at an angle α is about the tolerance divided by sin α. When a crossing is
+-- nearer to an end of a segment than a few such errors, @closely@ examines both crossings.
 lineArc :: Double -> ClosedPolyarcs -> Visitor s -> (Double -> ST s ()) -> Int -> Int -> ST s ()
 lineArc !tolerance !c visitor report !i !j
   | disc < -verge = pure ()
@@ -415,12 +416,11 @@ arcs !tolerance !c visitor report !i !j
         (\_ ay -> ClosedPolyarcs.gradient c j x0 y0 (\_ by -> ay - by))
     !gg = gx * gx + gy * gy
     !dist = 0.5 * sqrt gg
-    -- When the circles overlap by 1 mm more, the square of half their common chord grows by twice
-    -- this number of mm².
+    -- If the circles have a small overlap δ, the square of half their chord is about 2·opening·δ.
     !opening = 0.5 * ClosedPolyarcs.diameter c i * ClosedPolyarcs.diameter c j / (2 * dist)
     !g0 = -(ClosedPolyarcs.power c j x0 y0)
-    -- A point of the radical axis. At the point that is further along the axis by s lengths of the
-    -- gradient, the power with respect to the first circle is gg·s² + 2·half·s + c0.
+    -- (lx, ly) is a point of the radical axis. At the point (lx − s·gy, ly + s·gx) of this axis,
+    -- the power with respect to the circle of arc @i@ is gg·s² + 2·half·s + c0.
     !lx = x0 - g0 * gx / gg
     !ly = y0 - g0 * gy / gg
     !half = ClosedPolyarcs.gradient c i lx ly (\ax ay -> 0.5 * (ay * gx - ax * gy))
@@ -584,8 +584,8 @@ isOnArc c i px py = ClosedPolyarcs.chord c i $ \ux uy ->
    in if abs b > 0.1 then aside * b < 0 else along > 0 && along < square && abs aside < square
 {-# INLINE isOnArc #-}
 
--- | The position of the point (@px@, @py@) along the chord of segment @i@, as a fraction from 0 to
--- 1. It is the position of the foot of the perpendicular from the point, which lies on the segment.
+-- | The position of the point (@px@, @py@) of segment @i@ along the segment's chord, as a fraction
+-- from 0 to 1. It is the position of the foot of the perpendicular from the point to the chord.
 parameter :: ClosedPolyarcs -> Int -> Double -> Double -> Double
 parameter c i px py = ClosedPolyarcs.chord c i $ \ux uy ->
   ( ux * (px - indexPrimArray (ClosedPolyarcs.xs c) i)

@@ -25,17 +25,17 @@ import Geometry.Index.SegmentBoxTree qualified as SegmentBoxTree
 import Offset.SegmentIntersection (Visitor (..))
 import Offset.SegmentIntersection qualified as SegmentIntersection
 
--- | The intersections, numbered from 0. An occurrence is an intersection seen on one of its two
--- segments. Intersection @h@ has occurrence @2h@ on its first segment, and @2h + 1@ on its second
--- one.
+-- | The self-intersections, numbered from 0. An occurrence is an intersection seen on one of its
+-- two segments. Intersection @h@ has occurrence @2h@ on its first segment, and @2h + 1@ on its
+-- second one.
 data SelfIntersections = SelfIntersections
   { -- | number of intersections
     count :: Int,
     -- | four numbers for each intersection: x and y in mm, then its positions along the chords of
     -- its first and its second segment, as fractions from 0 to 1
     reals :: PrimArray Double,
-    -- | for each occurrence twice the number of its segment; plus 1 if, along this segment, the
-    -- winding number on its left decreases at the intersection
+    -- | for each occurrence: twice the number of its segment, plus 1 if the winding number on the
+    -- segment's left decreases at the intersection
     segments :: PrimArray Int32
   }
 
@@ -110,8 +110,9 @@ properCrossing tolerance c boxes = runST $ do
   readMutVar found
 
 -- | Makes room for intersection @k@ in the arrays @rs@ of reals and @ss@ of segments. The first
--- allocation has room for @capacity@ intersections; each later one doubles the room. A large first
--- allocation costs little, since untouched memory is not used; copying costs time.
+-- allocation has room for @capacity@ intersections, but at least 16; each later one quadruples the
+-- room. A large first allocation costs little, since untouched memory is not used; copying costs
+-- time.
 grow ::
   Int ->
   MutVar s (MutablePrimArray s Double) ->

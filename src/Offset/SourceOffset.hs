@@ -1,10 +1,12 @@
 -- | The exact offset of each single element of a contour, and of each of its corners.
 --
 -- A line is moved along its normal. An arc keeps its centre and changes its radius. The cutter's
--- centre rounds an outer corner on an arc about the vertex. All coordinates of a toolpath beside a
--- contour come from here. They depend on the contour alone, so rounding errors do not add up along
--- the path. This module does not decide which parts of an offset the cutter can reach;
--- "Offset.Kernel" does.
+-- centre rounds an outer corner on an arc about the vertex. Each offset is computed from its
+-- element or corner alone, so rounding errors do not add up along a toolpath.
+--
+-- The coordinates of a toolpath beside a contour come from here, except at the intersections of the
+-- offsets of distant elements. This module does not decide which parts of an offset the cutter can
+-- reach; "Offset.Kernel" does.
 --
 -- Elements are numbered from 0. A corner has the number of the element before it.
 module Offset.SourceOffset
@@ -58,8 +60,9 @@ import Offset.Tolerance qualified as Tolerance
 
 -- | The shape of outer corners, and the extra distances from single elements.
 data CornerStyle = CornerStyle
-  { -- | True: two lines to the intersection of both offsets; False: an arc about the vertex.
-    -- Corners that turn by more than 120° get an arc in any case
+  { -- | True: two lines along the tangents of both offsets to their intersection; False: an arc
+    -- about the vertex. A corner gets an arc in any case if it turns by more than 120°, or if its
+    -- elements have different distances
     sharp :: Bool,
     -- | extra distance in mm from an element, by the element's number; not negative
     extra :: Int -> Mm
@@ -98,7 +101,7 @@ fromContour style side radius (Polyarc ends segments) =
                 (Segment.startDirection (elements Vector.! (if i + 1 == count then 0 else i + 1)))
          in angle
 
--- | The number of elements.
+-- | The number of elements of the contour.
 elementCount :: OffsetSource -> Int
 elementCount = Vector.length . elements
 
@@ -217,8 +220,8 @@ cutsAt source i before after = case cornerAt source i of
 
 -- | The lengths to cut off the end of one segment and the start of the next one, so that both meet
 -- at their intersection. For two lines both lengths are @t@ mm. With an arc they are near @t@.
--- Three steps of Newton's method, which replaces the segments by their tangents, leave only the
--- rounding error. When a step leaves the segments, both lengths are @t@.
+-- Newton's method replaces the segments by their tangents; its error after three steps is only
+-- rounding. Both lengths are @t@ if a step leads off a segment, or to a length of @2·t@ or more.
 meeting :: Double -> Segment -> Segment -> Cuts
 meeting t before after = case (before, after) of
   (Straight _ _, Straight _ _) -> Cuts t t
@@ -256,9 +259,10 @@ beside :: OffsetSource -> Int -> Mm -> Vec.Vec -> Point
 beside source i distance direction =
   Carrier.beside (side source) distance direction (Segment.end (elements source Vector.! i))
 
--- | The points at which lines of the offset at the corner after element @i@ can start or end. Four
--- of them lie square to the end of element @i@ or to the start of the next one, at the distance of
--- either element. A sharp corner has its tip as well.
+-- | The points at which lines of the offset at the corner after element @i@ can start or end. Two
+-- of them lie beside the vertex, square to the direction at the end of element @i@, at the
+-- distances of both elements. Two others lie square to the direction at the start of the next
+-- element. A sharp corner has its tip as well.
 cornerPoints :: OffsetSource -> Int -> [Point]
 cornerPoints source i =
   [beside source i r direction | direction <- [before, after], r <- [r1, r2]]

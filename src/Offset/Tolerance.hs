@@ -18,9 +18,9 @@ import Base.Quantity (Mm (..))
 clearance :: Mm
 clearance = Mm 1e-5
 
--- | The length in mm of a path in slots exactly as wide as the cutter. Up to this length, in all of
--- them together, the slots are ignored. The path goes into a slot and out again, so it is twice as
--- long as the slot.
+-- | The limit in mm up to which slots exactly as wide as the cutter are ignored. It applies to the
+-- total length of the paths in all such slots. A path goes into a slot and out again, so it is
+-- twice as long as the slot.
 ignoredSlot :: Mm
 ignoredSlot = Mm 0.01
 

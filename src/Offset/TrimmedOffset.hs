@@ -4,7 +4,9 @@
 -- segments of its loops. This module makes paths of the segments, and decides whether a path leaves
 -- out a part of the contour. A run is one segment of a loop, or several consecutive ones on one
 -- arc; each comes from one element or corner of the contour, its origin. A stretch is a longest
--- sequence of consecutive runs on the cutter's side of an open contour.
+-- sequence of consecutive runs on the cutter's side of an open contour. A shrunk element is one
+-- that the cutter reaches without moving along it: an arc into which the cutter just fits, or an
+-- element of length 0.
 --
 -- As in "Offset.LoopPath", @structure@ is the offset that the kernel computed, and @source@ the one
 -- whose coordinates are wanted. The radius of @source@ may be a little larger. The flat contour is
@@ -46,7 +48,7 @@ import Offset.SourceOffset
 import Offset.SourceOffset qualified as SourceOffset
 import Offset.Tolerance qualified as Tolerance
 
--- | A connected path of the cutter's centre.
+-- | A trimmed offset: a connected path of the cutter's centre.
 data TrimmedOffset = TrimmedOffset
   { -- | the kind of the path: open or closed
     ends :: Ends,
@@ -117,15 +119,16 @@ openPath structure source count (before, runs, after) =
               stopAt (count - 1) after (flat (NonEmpty.last runs) == count - 1)
             )
         }
-    -- At an end of the contour itself, the next run is the arc about this end, which stops nothing.
+    -- At an end of the contour itself, the run next to the stretch is the arc about this end, which
+    -- stops nothing.
     stopAt end other endsThere = case LoopPath.origin other of
       Around _ | flat other == end, endsThere -> Nothing
       o -> Just (numberOf o)
 
 -- | The segments of the offset, when the cutter reaches every element of the contour; else Nothing.
 -- The cutter reaches every element when three conditions are true: there is one path, it leaves out
--- only arcs whose offset is a point, and nothing stops the cutter at the ends of an open contour.
--- Inner corners are not examined. The list is empty when the offset of every element is a point.
+-- only shrunk elements, and no other elements stop the cutter at the ends of an open contour. Inner
+-- corners are not examined. The list is empty when all elements have shrunk.
 whole :: OffsetSource -> OffsetSource -> Maybe [OffsetSegment]
 whole structure source = case LoopPath.region structure of
   Just region -> case pathsIn structure source region of
@@ -144,7 +147,8 @@ whole structure source = case LoopPath.region structure of
     nothingLeft
       | all (hasShrunk structure) [0 .. elementCount structure - 1] = Just []
       | otherwise = Nothing
-    -- True when only elements whose offset is a point stop the cutter at the ends of the path.
+    -- True when only shrunk elements stop the cutter at the ends of the path: elements before its
+    -- first one, or after its last one.
     isOpenAtEnds path =
       maybe True (< firstOf path) (fst (stops path))
         && maybe True (> finalOf path) (snd (stops path))
@@ -162,8 +166,8 @@ isUncut region =
     count = sizeofPrimArray (Loop.raws loops)
     loops = LoopPath.loops region
 
--- | True when @numbers@, the elements along a path in order, do not decrease, and the offset of
--- every element that is not among them is a point.
+-- | True when @numbers@, the elements along a path in order, do not decrease, and every element
+-- that is not among them has shrunk.
 isInOrder :: OffsetSource -> [Int] -> Bool
 isInOrder source numbers =
   and (zipWith (<=) numbers (drop 1 numbers))
@@ -172,7 +176,8 @@ isInOrder source numbers =
     everything = IntSet.fromList [0 .. elementCount source - 1]
     found = IntSet.fromList numbers
 
--- | True of an element whose offset is a point.
+-- | True of a shrunk element. An arc counts as shrunk when its radius is the offset's distance,
+-- within 'Tolerance.clearance'; the side on which its centre lies is not examined.
 hasShrunk :: OffsetSource -> Int -> Bool
 hasShrunk source i = case elements source Vector.! i of
   Straight a b -> Vec.isNear a b
@@ -180,7 +185,8 @@ hasShrunk source i = case elements source Vector.! i of
     let Mm d = minus (Segment.radius centre start) (distanceAt source i)
      in Mm (abs d) <= Tolerance.clearance
 
--- | The whole raw offset, untrimmed. The cutter passes all corners of the contour.
+-- | The raw offset on the cutter's side of the contour, untrimmed, without the connecting lines
+-- ("Offset.LoopPath"). It passes all corners of the contour.
 untrimmed :: OffsetSource -> [OffsetSegment]
 untrimmed source = LoopPath.path source source previous runs
   where

@@ -66,8 +66,9 @@ trim !tolerance !wanted !c !boxes !xs = do
       pure (leftmost, base + a, if single then Just (rightmost, b) else Nothing)
 
 -- | The loops when there are no self-intersections: the polyarcs that have the winding number
--- @wanted@ on their left. @outermost@ has for each polyarc its leftmost point, the winding number
--- on its left there, and perhaps the same for its rightmost point. A single polyarc is not copied.
+-- @wanted@ on their left. @outermost@ has for each polyarc its leftmost point and the winding
+-- number on its left there. A single polyarc also has its rightmost point with the winding number
+-- there; the result is Nothing when both numbers differ. A single polyarc is not copied.
 uncut :: Int -> ClosedPolyarcs -> [(Extreme, Int, Maybe (Extreme, Int))] -> Maybe OffsetLoops
 uncut wanted c outermost
   | any (\(_, left, rightmost) -> maybe False ((/= left) . snd) rightmost) outermost = Nothing
@@ -103,7 +104,7 @@ uncut wanted c outermost
 -- | Sorts the occurrences by segment (counting sort) and by position on the segment (insertion
 -- sort). Fills @order@ with the numbers of the sorted occurrences, and @begins@ with the index in
 -- @order@ of each segment's first occurrence. @begins@ needs two entries more than there are
--- segments.
+-- vertices.
 sortOccurrences ::
   ClosedPolyarcs ->
   SelfIntersections ->
@@ -156,9 +157,8 @@ parameterOf :: SelfIntersections -> Int -> Double
 parameterOf xs o = indexPrimArray (SelfIntersection.reals xs) (2 * o + 2 - (if odd o then 1 else 0))
 {-# INLINE parameterOf #-}
 
--- | The polyarcs, their self-intersections, and two arrays. The fourth field has the numbers of the
--- sorted occurrences. The third field has the index in the fourth one of each segment's first
--- occurrence.
+-- | The polyarcs, their self-intersections, and the arrays @begins@ and @order@ that
+-- 'sortOccurrences' fills.
 data Slices = Slices ClosedPolyarcs SelfIntersections (PrimArray Int32) (PrimArray Int32)
 
 -- | The index of the first occurrence of polyarc @w@ among the sorted ones.
@@ -190,8 +190,8 @@ areDistinct tolerance (Slices c xs begins order) = go 0 1
     n = sizeofPrimArray (ClosedPolyarcs.xs c)
     total = 2 * SelfIntersection.count xs
     at o k = indexPrimArray (SelfIntersection.reals xs) (4 * (fromIntegral o `quot` 2) + k)
-    -- Compares the sorted occurrences at @q − 1@ and @q@. The number @i@ is at most that of the
-    -- segment on which the first of them lies.
+    -- Compares the sorted occurrences at the indices @q − 1@ and @q@ if they are on one segment.
+    -- @i@ is at most the number of the segment on which the occurrence at @q − 1@ lies.
     go !i !q
       | q >= total = True
       | i < n && fromIntegral (indexPrimArray begins (i + 1)) <= q - 1 = go (i + 1) q
@@ -296,7 +296,7 @@ joinSlices !wanted slices@(Slices !c !xs _ !order) lefts outermost = do
     -- The mark of a visited slice, which no winding number equals.
     visited = minBound :: Int32
 
--- | For each occurrence its index among the sorted ones.
+-- | The index of each occurrence among the sorted ones.
 positions :: Slices -> PrimArray Int32
 positions (Slices _ xs _ order) = runPrimArray $ do
   position <- newPrimArray (max 1 total)
@@ -306,7 +306,7 @@ positions (Slices _ xs _ order) = runPrimArray $ do
   where
     total = 2 * SelfIntersection.count xs
 
--- | For each of the sorted occurrences the number of its polyarc.
+-- | The number of the polyarc of each of the sorted occurrences.
 polyarcNumbers :: Slices -> PrimArray Int32
 polyarcNumbers slices@(Slices c xs _ _) = runPrimArray $ do
   numbers <- newPrimArray (max 1 (2 * SelfIntersection.count xs))

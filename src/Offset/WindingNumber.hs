@@ -217,7 +217,7 @@ excessAtVertex sign c w i
     cross = ix * oy - iy * ox
     bend = ClosedPolyarcs.curvature c
     -- The curvature of the outgoing segment less that of the reversed incoming one. At a cusp this
-    -- is positive when the outgoing segment lies to the left of the incoming one.
+    -- is positive when the outgoing segment lies to the left of the reversed incoming one.
     bent = bend previous + bend i
     -- Two segments whose curvatures differ by less than this fraction may be one segment traversed
     -- in both directions.

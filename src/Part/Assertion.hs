@@ -19,7 +19,7 @@ import Part.Value (Value (..))
 
 -- | Evaluates an assertion and fails with a mistake if it does not hold. @at@ is the region of its
 -- statement. In an equality the two numbers may differ by the tolerance that the program gives.
--- Without a tolerance they may differ by 10⁻⁶ of their unit: of a mm, a radian, a minute or a turn.
+-- Without a tolerance they may differ by 10⁻⁶, in mm, radians and minutes or as plain numbers.
 check :: Region -> Environment -> Checked.Assertion -> Eval ()
 check at env assertion = case assertion of
   Checked.Holds e -> do

@@ -150,9 +150,10 @@ ofList region builtin arguments = case (builtin, arguments) of
 points :: Region -> [Point] -> Eval Value
 points region ps = ListValue . Vector.fromList <$> traverse (spatial region . offset) ps
 
--- | Makes a list of @n@ points at equal steps on a circle, counter-clockwise. The first point is at
--- the angle @a@, in radians from the x axis. If there is an angle @b@, the last point is at @b@;
--- the sense then follows from the two angles. Without @b@ the steps divide the whole circle.
+-- | Makes a list of @n@ points at equal steps on a circle. The first point is at the angle @a@, in
+-- radians from the x axis. If there is an angle @b@, the last point is at @b@; the points run
+-- clockwise when @b@ is less than @a@. Without @b@ the steps divide the whole circle, and the
+-- points run counter-clockwise.
 around :: Region -> Circle -> Double -> Double -> Maybe Double -> Eval Value
 around region (Circle c r) n a b = do
   count <- whole region Parameter.PointCount n
@@ -192,8 +193,8 @@ transformation region builtin arguments = case builtin of
       | otherwise = pure (Transformation.scaling k p)
 
 -- | The image of the first argument under a transformation, which @make@ makes from the other
--- arguments. If the first argument is no value to transform, @make@ gets all arguments, and the
--- result is the transformation itself. A number, or the only argument, is no value to transform.
+-- arguments. If the first argument is a number or the only argument, there is no value to
+-- transform: @make@ gets all arguments, and the result is the transformation itself.
 transformed :: Region -> [Argument] -> ([Value] -> Eval Transformation) -> Eval Value
 transformed region arguments make = case [v | Plain v <- arguments] of
   Quantity a : rest -> PlacementValue <$> make (Quantity a : rest)

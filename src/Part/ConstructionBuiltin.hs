@@ -231,9 +231,9 @@ tangency region a b = case (a, b) of
     circleGap (Circle c (Mm r)) (Circle d (Mm s)) =
       let Mm gap = Vec.distance c d in Mm (min (abs (gap - r - s)) (abs (gap - abs (r - s))))
 
--- | The line that begins at figure @a@ and ends at figure @b@. A figure is a point on the line, or
--- a circle to which the line is tangent. The word @left@ or @right@ before a circle says on which
--- side of the line the circle lies. Fails unless there is exactly one such line. For reports,
+-- | The line that begins at figure @a@ and ends at figure @b@. Each of them is a point on the line,
+-- or a circle to which the line is tangent. The word @left@ or @right@ before a circle says on
+-- which side of the line the circle lies. Fails unless there is exactly one such line. For reports,
 -- @sought@ is the kind of result, and @candidate@ converts a line to an entry in the list of
 -- answers.
 tangentLine :: Region -> Sought -> (Line -> Candidate) -> Argument -> Argument -> Eval Line

@@ -1,7 +1,8 @@
 {-# OPTIONS_GHC -O0 #-}
 
--- | Faults of constructions that have no answer, or several answers and no choice among them. The
--- constructions are intersections, tangents, circles of a given radius, and points of a curve.
+-- | Faults of constructions that have no answer, or several answers of which the program does not
+-- choose one. The constructions are intersections, tangents, circles, points of a curve, distances
+-- and directions.
 module Part.ConstructionError
   ( ConstructionFault (..),
     Sought (..),
@@ -38,8 +39,8 @@ data ConstructionFault
     SeveralFit Region Sought [Candidate]
   | -- | a construction without an answer: the reason
     NoAnswer Region NoAnswer
-  | -- | the point of contact of figures that do not touch: the distance by which they miss it,
-    -- which is a gap or an overlap
+  | -- | the point of contact of figures that do not touch: the least distance by which one of them
+    -- would have to move, so that they touch
     NotTouching Region Mm
   | -- | a circle through three points that lie on one line
     OnOneLine Region

@@ -160,8 +160,7 @@ linkedElements at sense v finish link = case (v, sense) of
 -- | The elements that an open contour gives when it is used as an element of another contour: one
 -- for each of its lines, arcs and curves. Links at fixed points, with the region @at@, join these
 -- elements to one another. @link@ joins the last of them to the next element of the other contour.
--- @finish@ is that of the whole used contour; it applies where an element has no modifiers of its
--- own.
+-- @finish@ is that of the whole used contour; 'orElse' combines it with the finish of each element.
 elementsOfContour ::
   Region ->
   Finish ->
@@ -174,8 +173,9 @@ elementsOfContour at finish link segments = case Part.curveRuns segments of
   where
     fixed curve = Just (at, Fixed (Segment.end (Part.segment (NonEmpty.last curve))))
 
--- | One element, made from a run: the segments of one line, arc or curve. @finish@ applies if the
--- segments have no modifiers of their own. @link@ is the link after the element.
+-- | One element, made from a run: the segments of one line, arc or curve. 'orElse' combines the
+-- finish of the run with @finish@, that of the whole used contour. @link@ is the link after the
+-- element.
 elementOfRun ::
   Finish ->
   NonEmpty Part.Element ->
@@ -201,9 +201,9 @@ elementOfRun finish run@(e :| more) link =
     ends' = drop 1 (scanl (+) 0 [l | x <- NonEmpty.toList run, let Mm l = lengthOf' x])
     lengthOf' = Segment.length . Part.segment
 
--- | Combines the modifiers of an element of a used contour, @own@, with the modifiers @whole@ of
--- the whole used contour. A feed in @own@ has precedence, and so has an allowance other than 0. The
--- cutter slows down if either of the two asks for it.
+-- | Combines the finish @own@ of an element of a used contour with the finish @whole@ of the whole
+-- used contour. A feed in @own@ has precedence, and so has an allowance in @own@ other than 0. The
+-- cutter slows down if either finish asks for it.
 orElse :: Finish -> Finish -> Finish
 orElse own whole =
   Finish
@@ -279,8 +279,8 @@ cutNear p s
     t = Segment.fraction s p
     foot = Segment.at t s
 
--- | Cuts the element @e@ in two, whose segments are @a@ and @b@. If the cutter slows down at the
--- end of @e@, it does so only at the end of the second part.
+-- | The two parts of the element @e@, whose segment was cut into the segments @a@ and @b@. If the
+-- cutter slows down at the end of @e@, it slows down at the end of the second part only.
 cutElement :: Part.Element -> Segment.Segment -> Segment.Segment -> (Part.Element, Part.Element)
 cutElement e a b =
   ( e
@@ -300,9 +300,9 @@ cutElement e a b =
     share = if l > 0 then front / l else 0
     bevelAtCut = fmap (\(x, y) -> x + (y - x) * share) (Part.bevel e)
 
--- | Removes the slow-down from the elements at the end of the list that belong to the same curve as
--- the element after the list. The cutter slows down at the end of the whole curve, not where it was
--- cut. @continued@ is true if the element after the list continues the last element of the list.
+-- | Removes the slow-down from the last elements of a list, if they belong to the same curve as the
+-- next element, which is cut. The cutter slows down at the end of the whole curve only. @continued@
+-- is true if the next element continues the last one of the list.
 withoutSlow :: Bool -> [Part.Element] -> [Part.Element]
 withoutSlow continued = reverse . go continued . reverse
   where

@@ -48,9 +48,9 @@ data ContourFault
   | -- | a link that cannot join its neighbours, whatever the other links do: the neighbours, and
     -- the reason. The report points at the link
     NotLinked Neighbours LinkFault
-  | -- | an element that is too short for the links at its two ends: the element, the length that is
-    -- missing, the regions of these links, and the largest fillet radius that fits. The radius is
-    -- 'Nothing' if no link is a fillet or no radius fits
+  | -- | an element that is too short for the links at its two ends: the element, the length by
+    -- which it is too short, the regions of these links, and the largest fillet radius that fits.
+    -- The radius is 'Nothing' if no link is a fillet or no radius fits
     Overrun Region ElementCarrier Mm [Region] (Maybe Mm)
   | -- | a contour that meets itself: the region of its name, the regions of the two elements that
     -- meet, their common point, and true if the contour has fillets. The report points at the first
@@ -68,14 +68,15 @@ data Neighbours = Neighbours
 
 -- | The reason why a link cannot join its neighbours, the elements before and after it.
 data LinkFault
-  = -- | the neighbours do not meet: the gap between them
+  = -- | the neighbours do not meet: the shortest distance between them
     NoMeeting Mm
   | -- | the neighbours are parallel lines: the distance between them
     ParallelLines Mm
   | SameCurve
   | -- | the neighbours meet in these points, and the link does not say which of them it means
     AmbiguousMeeting [Point]
-  | -- | the neighbours of a smooth link do not touch: the gap between them
+  | -- | the neighbours of a smooth link cross or lie apart, but do not touch: the distance by which
+    -- they miss the touch
     NotSmooth Mm
   | -- | the neighbours of a smooth link touch at a corner: the angle between their directions
     Kinked Rad
@@ -85,12 +86,12 @@ data LinkFault
   | ConcentricTangent
   | CoincidentTangent
   | -- | the circles have no common tangent with the senses that the program writes: the pairs of
-    -- senses that would have one
+    -- senses with which they have one
     NoCommonTangent [(Sense, Sense)]
   | -- | a fillet or a chamfer beside an element that is a point
     FilletAtPoint
   | -- | no arc of the given radius touches both neighbours: this radius, and the largest one that
-    -- fits
+    -- fits. The latter is 'Nothing' if no smaller radius fits
     NoFillet Mm (Maybe Mm)
   | -- | two fillet arcs make equally long contours: the centres of both arcs
     AmbiguousFillet [Point]
@@ -158,8 +159,8 @@ toReport fault = case fault of
           ]
       }
 
--- | The report of an element that is too short for the links at its ends. @overlap@ is the length
--- that is missing; @largest@ is the largest fillet radius that fits.
+-- | The report of an element that is too short for the links at its ends. It is too short by
+-- @overlap@. @largest@ is the largest fillet radius that fits, if any fits.
 overrunReport :: Region -> ElementCarrier -> Mm -> [Region] -> Maybe Mm -> Report
 overrunReport region carrier overlap links largest =
   (at region "E0324" title)

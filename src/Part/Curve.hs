@@ -154,8 +154,8 @@ transformed s c = curve (tableColumns c) Nothing (Exact.transformed s (exact c))
 
 -- | The bevels along the polyarc of a curve, from their values in radians at the rows of the
 -- curve's table. A pair of the result is a station (the arc length from the start in mm) and the
--- bevel there in radians. The stations rise. Linear interpolation between them differs from the
--- bevels of the exact curve by at most 'Tolerance.bevel'.
+-- bevel there in radians. The stations rise. They are so close that linear interpolation between
+-- them gives the bevels of the exact curve within 'Tolerance.bevel', at the points that are tested.
 alongPolyarc :: PartCurve -> Vector Double -> [(Double, Double)]
 alongPolyarc c values = (0, angleAt 0) : concat (zipWith sampled stations (drop 1 stations))
   where
@@ -174,8 +174,8 @@ alongPolyarc c values = (0, angleAt 0) : concat (zipWith sampled stations (drop 
        in concat (zipWith (halved (12 :: Int)) (map point marks) (map point (drop 1 marks)))
     point s = (s, angleAt s)
     stride = max 0.1 (total / (8 * fromIntegral (max 1 (Vector.length values))))
-    -- Bisects a step, at most 12 times, until linear interpolation is good enough at its middle and
-    -- at its first quarter.
+    -- Bisects a step, at most 12 times, until linear interpolation is within @slack@ of the bevel
+    -- at two tested points: its middle and its first quarter.
     halved depth (a, x) (b, y)
       | depth <= 0 || abs (z - (x + y) / 2) <= slack && abs (z' - (3 * x + y) / 4) <= slack =
         [(b, y)]

@@ -170,8 +170,8 @@ ofSections region table points sections = do
 -- that @fault@ names.
 faulty :: Region -> PartTable -> Exact.CurveFault -> Eval a
 faulty region table fault = Evaluation.mistake $ case fault of
-  -- The table itself can have @n@ rows or more. Then the curve is closed, and the last row does not
-  -- count because it repeats the first one.
+  -- The curve needs @n@ different points. A table with @n@ rows or more has too few of them only if
+  -- the curve is closed: its last row repeats the first one and does not count.
   Exact.TooFew n
     | count >= n -> badPoints region table Nothing (FewDifferent (count - 1) n)
     | otherwise -> badPoints region table Nothing (FewPoints count n)

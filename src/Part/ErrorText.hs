@@ -83,8 +83,8 @@ listed candidates = case candidates of
 mostCandidates :: Int
 mostCandidates = 8
 
--- | The words " and 3 more", if a report lists @most@ of the given answers and 3 are left. Empty if
--- the report lists all of them.
+-- | The words that end a list of at most @most@ of the given answers: " and 3 more" if the list
+-- leaves out 3 answers. Empty if it leaves out none.
 andMore :: Int -> [a] -> Text
 andMore most answers = case length answers - most of
   n | n > 0 -> " and " <> Decimal.whole n <> " more"

@@ -237,7 +237,7 @@ transformed body placing state =
   where
     inside = foldl step state {operations' = []} body
 
--- Checked values
+-- Values whose type the checker knows
 
 placement :: Value -> Transformation
 placement v = case v of

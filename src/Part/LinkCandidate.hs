@@ -76,7 +76,7 @@ shapes j = (value (before j), value (after j))
 
 -- | The joint at an intersection of two neighbours. Of several intersections it takes the one
 -- nearest to the point @near@. Without @near@ it takes the one that is among the points @own@, the
--- ends of the neighbours.
+-- ends of the neighbours. Between two neighbours that are points it inserts a straight segment.
 meet :: Neighbours -> [Point] -> Maybe Point -> Either ContourFault Joint
 meet j own near = case shapes j of
   (AtPoint p, AtPoint q)
@@ -152,7 +152,9 @@ distanceTo carrier p = case carrier of
 
 -- Smooth transitions
 
--- | The joint of a smooth link: two neighbours touch there and have the same direction.
+-- | The joint of a smooth link, at which the neighbours touch. Circles and curves must have there
+-- the direction of their neighbour. Beside a point, 'meet' makes the joint; no directions are
+-- compared.
 smooth :: Neighbours -> Either ContourFault Joint
 smooth j = case shapes j of
   (OnLine l, OnLine m) -> smoothLines j l m
@@ -168,8 +170,9 @@ smooth j = case shapes j of
     let q = MeasuredPolyarc.start c
      in smoothEnds j (facing a q) (q, MeasuredPolyarc.directionAt c (Mm 0))
 
--- | The joint of a smooth link between two lines. Fails unless they lie on one infinite line and
--- have the same direction.
+-- | The joint of a smooth link between two lines: their intersection, or an end of one of them if
+-- they lie on one infinite line. Fails if they are parallel and apart, or if the angle between
+-- their directions is 90° or more.
 smoothLines :: Neighbours -> Line -> Line -> Either ContourFault Joint
 smoothLines j l m
   | Vec.dot (Carrier.direction l) (Carrier.direction m) <= 0 = Left (NotLinked j TurnsBack)
@@ -233,8 +236,8 @@ smoothCircles j (s, Circle c (Mm r)) (t, Circle d (Mm q))
     innerGap = abs (distance - abs (r - q))
     towards x = Vec.shift (Vec.scale x (Vec.unit (Vec.to c d))) c
 
--- | The joint at the point @p@, at which two neighbours touch. @gap@ is the distance between them
--- there in mm. Fails if it exceeds 'Tolerance.coincident'.
+-- | The joint of a smooth link at the point @p@. The size of @gap@ is the distance in mm by which
+-- the neighbours miss a touch there. Fails if this distance exceeds 'Tolerance.coincident'.
 touching :: Neighbours -> Double -> Point -> Either ContourFault Joint
 touching j gap p
   | abs gap <= tolerance = Right (through p)

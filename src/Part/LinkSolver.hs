@@ -104,9 +104,9 @@ withLargest region ends linked fault = case fault of
     Overrun at shape overlap links (largestFillet region ends linked links)
   _ -> fault
 
--- | The largest fillet radius with which the contour has no fault, for the hint of a report.
--- @links@ are the regions of the fillets to change. First one of these fillets changes, while all
--- others keep their radii. If that never helps, all fillets of the same radius change together.
+-- | The largest fillet radius, below the present one, with which the contour has no fault: the hint
+-- of a report. @links@ are the regions of the fillets to change. Each of them is first changed
+-- alone. If no such change helps, it is changed together with all fillets of the same radius.
 -- 'Nothing' if no radius fits.
 largestFillet :: Region -> Ends -> NonEmpty LinkedElement -> [Region] -> Maybe Mm
 largestFillet region ends linked links =
@@ -249,7 +249,8 @@ closedByShortest linked = do
     list = NonEmpty.toList linked
     first = NonEmpty.head linked
     final = NonEmpty.last linked
-    -- If there are several faults, reports the one with the smallest missing length.
+    -- Orders the faults of several attempts; only the first is reported. Elements that are too
+    -- short are ordered by the length that they lack. All other faults come before them.
     overlapOf fault = case fault of
       Overrun _ _ overlap _ _ -> overlap
       _ -> Mm 0
@@ -345,8 +346,7 @@ withTie stage best others =
   where
     links = zipWith neighboursOf (allElements stage) (drop 1 (allElements stage))
 
--- | The fault that element @w@ is too short for the links at its ends; @overlap@ is the missing
--- length.
+-- | The fault that element @w@ is too short, by the length @overlap@, for the links at its ends.
 overrun :: Stage -> LinkedElement -> Mm -> Maybe LinkedElement -> ContourFault
 overrun stage w overlap next =
   Overrun

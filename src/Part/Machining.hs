@@ -118,8 +118,8 @@ passesOf context at contour settings = do
     env = environment context
     lead (form, x) = (form,) <$> lengthOf env Parameter.Lead x
 
--- | Makes the operation from the evaluated parts of its statement. 'Nothing' if a setting that it
--- needs has no value.
+-- | Makes the milling or turning operation from the evaluated contour and settings @passes@. The
+-- result is 'Nothing' if a setting that the operation needs has no value.
 assembled :: Context -> Work -> Located Side -> Checked.Settings -> Passes -> Maybe Milling
 assembled context work side settings passes = do
   tool <- cutter context
@@ -160,8 +160,9 @@ contourOf v = case v of
   ContourValue c -> c
   _ -> bug "a value that is no contour where one was checked"
 
--- | The contour. If the statement gives a point @near@, the start is moved to the point of the
--- contour that is nearest to @near@; this fails if the contour is open.
+-- | The contour that the cutter follows. If the statement gives a point @near@, the start of the
+-- contour is moved to the contour's nearest point to @near@. Fails if @near@ is given and the
+-- contour is open.
 startedNear :: Environment -> Contour -> Maybe Expr -> Eval Contour
 startedNear env contour near = case near of
   Nothing -> pure contour

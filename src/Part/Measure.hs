@@ -23,9 +23,9 @@ import Part.Parameter (LimitedQuantity, Range (FromTo), WholeNumber)
 import Part.Parameter qualified as Parameter
 import Part.Value qualified as Value
 
--- | Evaluates a quantity whose number must be above 0 and at most that of 'Tolerance.reach',
--- whatever its unit. @parameter@ names the quantity in mistakes, and @make@ turns the number into
--- the result.
+-- | Evaluates a quantity that must be above 0. For every unit, the number of the quantity must not
+-- exceed the number of mm in 'Tolerance.reach'. @parameter@ names the quantity in mistakes, and
+-- @make@ turns the number into the result.
 positive :: Environment -> LimitedQuantity -> (Double -> q) -> Expr -> Eval q
 positive env parameter make e = do
   x <- Expression.number <$> Expression.evaluate env e
@@ -45,7 +45,8 @@ notNegative env parameter e = do
   when (x < 0) (Evaluation.mistake (Negative (region e) parameter x))
   Mm x <$ Value.within (region e) x
 
--- | Evaluates a feed, which must be above 0. The result keeps the region of the expression.
+-- | Evaluates a feed, which must be above 0 and within the limit of 'positive'. The result keeps
+-- the region of the expression.
 feedOf :: Environment -> Expr -> Eval (Located Feed)
 feedOf env e = Located (region e) <$> positive env Parameter.Feed Feed e
 

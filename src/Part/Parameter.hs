@@ -27,9 +27,9 @@ data LimitedQuantity
   | ScalingFactor
   | ClearanceHeight
   | Tolerance
-  | -- | the larger of the two limits of a tolerance that differs inwards and outwards
+  | -- | the larger limit of a tolerance that has one limit inwards and one outwards
     OneSidedTolerance
-  | -- | the largest deviation of a fitted curve from the curve or the points it replaces
+  | -- | the largest deviation of a fitted curve from the points or the curve that the fit replaces
     CurveTolerance
   | CutterDiameter
   | DrillDiameter
@@ -103,7 +103,7 @@ data WholeNumber
     ItemNumber
   | -- | the number of a row of a table, from 1
     TableRowNumber
-  | -- | the number of a point of a list that is used instead of a table, from 1
+  | -- | the number of a point, from 1, in a list of points that takes the place of a table
     ListPointNumber
   deriving stock (Eq, Show)
 
@@ -132,7 +132,8 @@ rangeText range = case range of
   UpTo high -> "up to " <> Decimal.whole high
   FromTo low high -> "from " <> Decimal.whole low <> " to " <> Decimal.whole high
 
--- | A function with an argument outside of its domain. The field of a constructor is this argument.
+-- | A function and an argument outside of its domain. A constructor names the function, and its
+-- field, if there is one, is the argument.
 data Domain
   = -- | the tangent of an angle whose cosine is 0
     TangentAtPole Rad

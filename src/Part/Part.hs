@@ -1,4 +1,5 @@
--- | The evaluated part: contours and operations as exact geometry in mm. Contours, elements and
+-- | The evaluated part: contours and operations in mm. Lines and circles are exact. A curve in a
+-- contour is replaced by arcs and lines within 'Geometry.Tolerance.curve'. Contours, elements and
 -- operations keep the region of the program that they come from.
 --
 -- Nothing here depends on a machine. The next compiler pass makes the toolpath.
@@ -90,8 +91,9 @@ data Contour = Contour
     ends :: Ends,
     -- | the segments of the contour; each begins where the segment before it ends
     elements :: NonEmpty Element,
-    -- | the elements as the program writes them; empty if the contour was transformed or reversed,
-    -- because it then has other elements
+    -- | the elements as the program writes them. The list is empty if they no longer describe the
+    -- contour, because it was transformed, reversed, or given another start. It is also empty in a
+    -- toolpath, to save memory
     writtenElements :: [ContourElement]
   }
   deriving stock (Eq, Show)
@@ -115,12 +117,13 @@ data Element = Element
     -- | the region of this element or link
     origin :: Region,
     finish :: Finish,
-    -- | true if the segment continues the segment before it in the same element, without a corner
+    -- | true if the segment continues the segment before it in the same element, without a corner.
+    -- In a smooth closed curve, the first segment continues the last one
     continues :: Bool,
     -- | true if the segment is one of the arcs and lines that replace a curve
     ofCurve :: Bool,
-    -- | the bevels at the start and at the end of the segment, if its surface has bevels: angles
-    -- between the surface and the tool axis in radians
+    -- | the bevels at the start and at the end of the segment, in radians; absent if the program
+    -- gives the element no bevel. A bevel is the angle between the part's surface and the tool axis
     bevel :: Maybe (Double, Double)
   }
   deriving stock (Eq, Show)
@@ -147,8 +150,8 @@ curveRuns es = case es of
   [] -> []
   e : rest -> let (same, others) = span continues rest in (e :| same) : curveRuns others
 
--- | The contour in the opposite direction. If segment B continued segment A before, A continues B
--- in the result.
+-- | The contour in the opposite direction. If segment B continues segment A in the given contour,
+-- A continues B in the result.
 reversedContour :: Contour -> Contour
 reversedContour c =
   c {elements = NonEmpty.reverse opposite, writtenElements = []}
@@ -160,8 +163,8 @@ reversedContour c =
         e {segment = Segment.reverse (segment e), bevel = fmap swap (bevel e), continues = next}
       )
 
--- | The segments of a contour as a polyarc. A segment is evaluated together with its list cell, so
--- that the cell does not keep the contour's element in memory.
+-- | The segments of a contour as a polyarc. Each list cell of the result is evaluated together with
+-- its segment. Otherwise the unevaluated segment would keep an 'Element' in memory.
 polyarcOf :: Contour -> Polyarc.Polyarc
 polyarcOf contour = Polyarc.Polyarc (ends contour) (segment first :| segmentsOf others)
   where
@@ -198,8 +201,8 @@ data Milling = Milling
     feed :: Located Feed,
     approach :: [Stop],
     retract :: [Stop],
-    -- | the heights of the passes, from the highest to the lowest; empty if the program gives no
-    -- depth and the cutter keeps its height
+    -- | the heights of the passes, from the highest to the lowest. The list is empty if the
+    -- statement gives no depth; the cutter then mills at the height at which the approach ends
     levels :: [Mm],
     -- | the height at which rapid moves pass over everything
     clearance :: Maybe Mm,
@@ -223,9 +226,9 @@ data Milling = Milling
   }
   deriving stock (Eq, Show)
 
--- | The decision on rest material, which this cutter cannot reach. Rest material remains in sharp
--- inner corners, in concave arcs with a radius below the cutter's, and in gaps narrower than the
--- cutter.
+-- | The decision on rest material, which the cutter of the operation cannot reach. Rest material
+-- remains in sharp inner corners, in concave arcs of a radius smaller than that of the cutter, and
+-- in slots narrower than the cutter.
 data RestPolicy
   = -- | rest material is an error, and there is no toolpath
     Refused
@@ -305,15 +308,15 @@ data CutterKind
     ConeCutter
   | -- | a cutter with a conical flank that is widest at the tip
     DovetailCutter
-  | -- | a blade that swivels along the contour; the diameter is that of the wheel that drives the
-    -- swivel
+  | -- | a blade that swivels along the contour. The field is the diameter of the wheel that swivels
+    -- the blade
     BladeCutter Mm
   | DrillingCutter
   | TurningCutter
   deriving stock (Eq, Show)
 
--- | The end of a move without cutting, and the speed of the move. The level is the height of this
--- end. If it is absent, the cutter keeps its height.
+-- | The end of a move without cutting, and the speed of the move. @level@ is the height of the end.
+-- If @level@ is absent, the cutter keeps its height during the move.
 data Stop = Stop {place :: Located Point, level :: Maybe Mm, pace :: Pace}
   deriving stock (Eq, Show)
 

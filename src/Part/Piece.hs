@@ -54,8 +54,8 @@ import Part.Parameter qualified as Parameter
 import Part.Value (Value (..))
 import Part.Value qualified as Value
 
--- | Evaluates the rows of a table. Rows of literals take no evaluation steps, because the length of
--- the program's text limits their number.
+-- | Evaluates the rows of a table. Fails if a coordinate is out of reach. Rows of literals do not
+-- count as evaluation steps, because the length of the program's text limits their number.
 table :: Environment -> Columns -> Eval PartTable
 table env (Columns names written) = do
   parts <- Evaluation.collect (fmap pure . evaluated) written
@@ -73,8 +73,8 @@ table env (Columns names written) = do
       Value.within at (NumberTable.cell rows k 0)
       [] <$ Value.within at (NumberTable.cell rows k 1)
 
--- | Recalculates the curve @base@ by its ciphers in the order of the text, and then joggles it. All
--- shifts go to the same side of the curve's direction.
+-- | Recalculates the curve @base@ by @ciphers@ in their order, and then applies @joggles@ in their
+-- order. All ciphers and joggles shift the curve to the given side, left or right of its direction.
 piece :: Environment -> PartCurve -> [Cipher] -> Located Side -> [Joggle] -> Eval PartCurve
 piece env base ciphers (Located _ side) joggles = do
   ciphered <- foldM (recalculated env base side') (exact base) ciphers
@@ -192,10 +192,12 @@ gapAt whole u = Vec.distance before (Exact.pointFrom Exact.After whole (max 0 u)
 
 -- Joggles
 
--- | The curve @lower@ with a joggle to a side, between its points that have the two given x
--- coordinates. Fails if these are equal, or if one does not belong to exactly one point; the
--- Minsk-22 system stopped here with the code 15074 (Kolsanova). Fails, too, if the radius does not
--- fit; for one that was too large, the code was 14174.
+-- | The curve @lower@ with a joggle to a side. The joggle lies between two points of @lower@, which
+-- are given by their x coordinates.
+--
+-- Fails if both points are the same, or if an x coordinate does not belong to exactly one point of
+-- @lower@. The Minsk-22 system stopped in this case with the code 15074 (Kolsanova). Fails, too, if
+-- the radius does not fit. For a radius that was too large, the code was 14174.
 joggledBy :: Environment -> Carrier.Side -> Exact.Curve -> Joggle -> Eval Exact.Curve
 joggledBy env side lower (Located at (Joggle from to depth radius)) = do
   a <- parameterAtX env lower from
@@ -246,9 +248,10 @@ largestRadius depth@(Mm d) (Mm l) = if over r depth > 0.5 then Just r else Nothi
 
 -- Bevels
 
--- | Evaluates the bevels along an element: pairs of a station (the arc length from its start, in
--- mm) and an angle in radians. If @on@ is a curve, the stations are those of the lines and arcs
--- that approximate it. Without a curve the element is a line or a circle, and has one bevel.
+-- | Evaluates the bevels along an element. A pair of the result is a station (the arc length from
+-- the start of the element, in mm) and the bevel there in radians. If @on@ is a curve, the stations
+-- are measured along the lines and arcs that replace @on@. Without @on@, the element is a line or a
+-- circle and has one bevel.
 bevelled :: Environment -> Maybe PartCurve -> Expr -> Eval [(Double, Double)]
 bevelled env on e = case on of
   Nothing -> do
@@ -257,8 +260,8 @@ bevelled env on e = case on of
     pure [(0, a)]
   Just c -> Curve.alongPolyarc c <$> (alongRows env c e >>= checkedBevels c e)
 
--- | Returns the bevels @values@, in radians, one for each row of the curve's table. Fails if the
--- absolute value of one reaches 'bevelLimit'. @e@ is the expression of the bevels.
+-- | Returns the bevels @values@ unchanged: one for each row of the curve's table, in radians. Fails
+-- if the absolute value of a bevel reaches 'bevelLimit'. @e@ is the expression of the bevels.
 checkedBevels :: PartCurve -> Expr -> Vector Double -> Eval (Vector Double)
 checkedBevels c e values = case find ((>= bevelLimit) . abs . snd) numbered of
   Just (k, a) -> mistake (SteepBevel (region e) (if byRow then Just k else Nothing) (Rad a))

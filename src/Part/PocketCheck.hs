@@ -63,8 +63,8 @@ misplaced outline islands (k, island)
       ]
     encloses n = WindingNumber.encloses (Part.polyarcOf (contour n)) (startOf island)
 
--- | The points in which two contours of the pocket meet, with the numbers of both contours, the
--- lower number first. At most one point is given for two segments.
+-- | The points in which two contours of the pocket cross or touch. A point comes after the numbers
+-- of both contours, the lower number first. Two segments give at most one point.
 crossings :: [(Int, Named)] -> [(Int, Int, Point)]
 crossings numbered =
   [ (i, j, p)

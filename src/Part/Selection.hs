@@ -28,7 +28,7 @@ import Part.Evaluation (Eval)
 import Part.Evaluation qualified as Evaluation
 import Part.Value (Argument (..), Value (..), fromOrigin)
 
--- | The answers to a construction, and the functions that choose among them.
+-- | The answers to a construction, and the functions that measure them for a choice.
 data Answers a = Answers
   { sought :: Sought,
     -- | the form of an answer in a report

@@ -12,8 +12,9 @@ where
 
 import Base.Quantity (Mm (..), Rad (..))
 
--- | Two contours are equally long if their lengths differ by at most this. The shorter of two
--- contours has to be chosen, so two equally long ones are a fault.
+-- | The largest difference between the lengths of two solutions of a contour that count as equally
+-- long. If the links of a contour have several solutions, the shortest one is chosen. Two equally
+-- long shortest solutions are a fault.
 sameLength :: Mm
 sameLength = Mm 1e-6
 
@@ -21,22 +22,22 @@ sameLength = Mm 1e-6
 smallestFillet :: Mm
 smallestFillet = Mm 1e-3
 
--- | Two points are equally near to a third one if their distances from it differ by at most this.
--- The nearer of two points has to be chosen, so two equally near ones are a fault. Points on curves
--- have errors of up to 'Geometry.Tolerance.curve'.
+-- | The largest difference between the distances of two answers from a point that count as equally
+-- near to the point. If the nearest answer has to be chosen, two equally near ones are a fault. The
+-- tolerance allows for points on curves, which have errors of up to 'Geometry.Tolerance.curve'.
 nearTie :: Mm
 nearTie = Mm 1e-4
 
--- | The largest error of linear interpolation between the bevels of two points of an element.
+-- | The largest error of a bevel that is interpolated linearly between two points of an element.
 bevel :: Rad
 bevel = Rad 5e-5
 
--- | The largest gap between the elements of a smooth link. They may be curves through measured
--- points, which do not meet exactly.
+-- | The largest gap between the two elements of a smooth link. The elements may be curves through
+-- measured points, and such curves do not meet exactly.
 smoothGap :: Mm
 smoothGap = Mm 1e-3
 
--- | The largest angle between the elements of a smooth link, 0.1°. They may be curves through
--- measured points, whose directions differ a little.
+-- | The largest angle between the directions of the two elements of a smooth link, 0.1°. Curves
+-- through measured points do not meet with exactly the same direction.
 smoothTurn :: Rad
 smoothTurn = Rad 1.75e-3

@@ -57,8 +57,8 @@ data Argument = Plain Value | Choosing Selector Value | Ranking Rank
 spatial :: Region -> Vec -> Eval Value
 spatial region v = Spatial v <$ within region (Vec.norm v)
 
--- | Makes the value of a point with the height @z@. Fails if the point or the height is further
--- than 'Tolerance.reach' from 0.
+-- | Makes the value of a point with the height @z@. Fails if the distance of the point from (0, 0),
+-- or the absolute value of @z@, exceeds 'Tolerance.reach'.
 lifted :: Region -> Point -> Mm -> Eval Value
 lifted region p z@(Mm h) =
   SpaceValue p z <$ (within region (Vec.norm (offset p)) *> within region h)
@@ -85,8 +85,8 @@ fromOrigin v = Vec.shift v (Vec.point 0 0)
 offset :: Point -> Vec
 offset = Vec.to (Vec.point 0 0)
 
--- | Converts @x@ to a whole number from 1 to 10⁷. A number within 'Tolerance.equal' of a whole
--- number is rounded to it. Fails for any other number. @what@ names the number in mistakes.
+-- | Converts @x@ to a whole number from 1 to 10⁷. If @x@ is within 'Tolerance.equal' of a whole
+-- number, it is rounded. Fails if @x@ is not whole or out of range. @what@ names @x@ in mistakes.
 whole :: Region -> WholeNumber -> Double -> Eval Int
 whole region what x
   | abs (x - fromIntegral n) > Tolerance.equal || n < 1 || x > 1e7 =

@@ -15,8 +15,8 @@ import Data.Text qualified as Text
 import Report.Report (Report (..), ReportPlace (..), report)
 import Report.Report qualified as Report
 
--- | An error of a program as a whole. A region is that of the statement that names the machine. It
--- is absent if the command line names the machine.
+-- | An error of a program as a whole. The region in a constructor is the place where the program
+-- names the machine. It is absent if the command line names the machine.
 data Error
   = -- | neither the program nor the command line names a machine: the names of the built-in
     -- machines
@@ -81,8 +81,9 @@ toReport err = case err of
   where
     wrong = report Report.Error
 
--- | A report on a machine description as one line of text: line, column and title. @file@ and
--- @text@ are the name and the text of the description.
+-- | A report on a machine description as one line of text: line number, column and title, or only
+-- the title if the report has no region. @file@ and @text@ are the name and the text of the
+-- description.
 inOneLine :: Text -> Text -> Report -> Text
 inOneLine file text r = case place r of
   InSource region ->

@@ -1,4 +1,4 @@
--- | A part program with the files that belong to it: the files that it imports, and the machine
+-- | A part program with the files that belong to it: imported files, table files, and the machine
 -- descriptions that it names. An input sheet, a list of numbers for the Minsk-22 system, is
 -- converted to a part program when it is loaded.
 --
@@ -32,7 +32,8 @@ import System.FilePath (takeDirectory, takeExtension)
 
 -- | A part program and its files.
 data LoadedProgram = LoadedProgram
-  { -- | the texts of the program and of its imports, from which reports find lines and columns
+  { -- | the texts of the program, its imports and its table files; reports find the line and the
+    -- column of a region in them
     source :: Source,
     -- | the syntax tree of the program, in which each import is replaced by the imported
     -- definitions, and each name of a table file by the lines of the table
@@ -43,8 +44,9 @@ data LoadedProgram = LoadedProgram
     descriptions :: Descriptions
   }
 
--- | Loads a program or an input sheet with the text @text@. Reports name it by @path@. Imports and
--- machine descriptions are looked for in the folder of @path@.
+-- | Loads a program or an input sheet with the text @text@. Reports name it by @path@. A machine
+-- description is looked for in the folder of @path@. An imported file or a table file is looked for
+-- in the folder of the file that names it.
 load :: Monad m => Surface.Reader m -> FilePath -> Text -> m LoadedProgram
 load reader path text
   | isInputSheet path = pure (fromInputSheet path text)
@@ -80,8 +82,8 @@ describedMachines program =
         Surface.statements program
   ]
 
--- | Loads a program that consists of the text @text@. Reports name it by @path@. An import in it is
--- an error, because there are no other files.
+-- | Loads a program that consists of the text @text@. Reports name it by @path@. The name of
+-- another file in the program, such as an import, is an error, because no other file can be read.
 fromText :: Text -> Text -> LoadedProgram
 fromText path text = runIdentity (load withoutFiles (Text.unpack path) text)
   where

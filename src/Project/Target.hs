@@ -26,8 +26,8 @@ import Report.Report (Report)
 import Toolpath.Toolpath (Toolpath)
 import Toolpath.Toolpath qualified as Toolpath
 
--- | The machines with the given names, set up for the toolpath. If there are no names, it is the
--- machine that the program names. It is an error if the program names none either.
+-- | The machines with the given @names@, prepared by 'setUpFor'. Without names, the only machine is
+-- that of the program's @machine@ statement. Without this statement, the result is an error.
 targets :: Descriptions -> [Text] -> Part -> Toolpath -> Result w Report [Machine]
 targets descriptions names part path =
   Result.mapErrors id Project.toReport $
@@ -60,8 +60,8 @@ machineNamed :: Descriptions -> Text -> Either Error Machine
 machineNamed descriptions name =
   either (Left . missing Nothing name) Right (MachineDescription.find descriptions name)
 
--- | The error for a machine that cannot be used. @region@ is that of the statement that names it,
--- or 'Nothing' if the command line does. @why@ is the reason.
+-- | The error for the machine @name@, which cannot be used because of @why@. @region@ is the region
+-- of the machine's name in the program. It is 'Nothing' if the command line names the machine.
 missing :: Maybe Region -> Text -> Missing -> Error
 missing region name why = case why of
   NoSuchMachine -> UnknownMachine region name builtInNames

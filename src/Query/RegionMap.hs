@@ -18,8 +18,8 @@ import Data.Maybe qualified as Maybe
 import Data.Text (Text)
 import Data.Text qualified as Text
 
--- | The texts are equal from the start to the offset @same@. The old text from the offset @old@ to
--- its end equals the new text from the offset @new@ to its end.
+-- | A map given by three offsets. The old and the new text are equal from the start to the offset
+-- @same@. The old text from @old@ to its end equals the new text from @new@ to its end.
 data RegionMap = RegionMap {same :: Int, old :: Int, new :: Int}
   deriving stock (Eq, Show)
 
@@ -55,7 +55,7 @@ commonSuffix a b = (Text.takeEnd size a, Text.dropEnd size a, Text.dropEnd size 
       length
         (takeWhile id (zipWith (==) (Text.unpack (Text.reverse a)) (Text.unpack (Text.reverse b))))
 
--- | True if a character can be a part of a name or a number.
+-- | True for the characters of which words consist: letters, digits and the underscore.
 isWordPart :: Char -> Bool
 isWordPart c = isAlphaNum c || c == '_'
 

@@ -33,8 +33,9 @@ import Prelude hiding (take)
 -- command line use the same function.
 type Check = LoadedProgram -> Result Report Report Analysis
 
--- | Checks a program with all compiler passes up to the frames for the machine that it names. Each
--- pair in @values@ is the name of a parameter and the text of the value that replaces its own.
+-- | Checks a program with all compiler passes up to the frames. The frames are those for the
+-- machine that the program names. Each pair in @values@ has the name of a parameter and the text of
+-- a value, which replaces the value of the parameter in the program.
 checkWith :: [(Text, Text)] -> Check
 checkWith values loaded = Compile.check (Job.forOwnMachine values loaded) loaded
 
@@ -48,7 +49,8 @@ data Snapshot = Snapshot
     program :: Program,
     -- | the mentions of names in the program, and the values of its definitions
     facts :: Mentions,
-    -- | the regions of the names of imports and of table files, with the paths of these files
+    -- | the file names in imports and table statements: the region of each name, and the path of
+    -- the file
     imports :: [(Region, Text)]
   }
 
@@ -77,9 +79,9 @@ take check loaded =
 isGood :: Snapshot -> Bool
 isGood = not . any Report.isError . reports
 
--- | Finds the file name in the program's own text, after @import@ or in a table statement, through
--- which the compiler reads the file of the given region. Gives the region of this name. 'Nothing'
--- if the given region lies in the program itself.
+-- | The region of a file name in the program's own text, in an import or a table statement. It is
+-- the name through which, directly or through further imports, the compiler reads the file with the
+-- given region. 'Nothing' if the given region lies in the program itself.
 importOf :: Snapshot -> Region -> Maybe Region
 importOf Snapshot {source, imports} = go (length imports)
   where

@@ -29,7 +29,8 @@ data DocumentSymbol = DocumentSymbol
   }
   deriving stock (Eq, Show)
 
--- | The kind of a symbol.
+-- | The kind of statement for which a symbol is made. 'Value' is also the kind of parameters,
+-- tables, curves and pieces. 'Machining' is the kind of all statements that are not definitions.
 data SymbolKind = Part' | Value | Function | Contour' | Machining
   deriving stock (Eq, Show, Enum, Bounded)
 

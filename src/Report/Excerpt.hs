@@ -21,7 +21,8 @@ import Text.DocLayout (realLength)
 data Excerpt = Excerpt
   { -- | position of the region's first character
     place :: Position,
-    -- | text of the line; of a long line only a window, which is a range of its characters
+    -- | text of the line; for a long line, a window (a range of the line's characters) with the
+    -- mark … at each end where characters are left out
     shown :: Text,
     -- | terminal column of the mark, from 0
     indent :: Int,
@@ -58,7 +59,8 @@ excerpt source before region =
     content = Region.lineText source (start region)
     printed = expand 0 (Text.unpack content)
     length' = max 0 (min (end region - start region) (Text.length content - column + 1))
-    -- A window of the previous excerpt that contains the region is used again, to print it once.
+    -- If the window of the previous excerpt contains the region, this excerpt has the same window,
+    -- so that the line is printed only once.
     (skipped, isSame) = case before of
       Just Excerpt {place = Position {file, line}, skipped = front}
         | file == file',
@@ -78,7 +80,7 @@ excerpt source before region =
 longest :: Int
 longest = 120
 
--- | Replaces the control characters of a text by visible ones, but keeps line feeds.
+-- | Replaces the control and format characters of a text by visible ones, but keeps line feeds.
 visible :: Text -> Text
 visible = Text.map sign
   where

@@ -107,10 +107,10 @@ readCode word =
     (letters, digits) = Text.break isDigit (Text.toUpper within)
     isNumber = not (Text.null digits) && Text.all isDigit digits && Text.length letters <= 1
 
--- | Suggests codes in place of @word@, a code that does not exist. If its number exists with the
--- other letter, it suggests that code. Otherwise it suggests at most three codes. First come those
--- that differ from @word@ by an exchange of neighbouring digits, then the nearest numbers with the
--- same first two digits.
+-- | Suggests codes in place of @word@, for which there is no explanation. If the number of @word@
+-- exists with another letter (E or W), the result has the codes with this number. Otherwise it has
+-- at most three codes. First come those that differ from @word@ by an exchange of neighbouring
+-- digits, then the nearest numbers with the same first two digits.
 near :: Text -> [Text]
 near word
   | number == "" = []

@@ -52,8 +52,8 @@ data Layout = Layout
 -- excerpt; the text beside the mark, which may be empty.
 type Marked = (Bool, Excerpt, Text)
 
--- | Renders one report as lines of text. @path@ is the name of the file in a report that has no
--- region in the program; it is empty if the report concerns no file.
+-- | Renders one report as lines of text. @path@ is the file's name, which is printed if the
+-- report's place is not a region of the program. It is empty if the report concerns no file.
 render :: Colour -> Text -> Source -> Report -> Text
 render colour path source given =
   Text.unlines (heading layout : location layout path <> body <> remedies)

@@ -19,8 +19,8 @@ import Report.Report (Label (..), Report (..), ReportCode (..), ReportPlace (..)
 import Report.Report qualified as Report
 
 -- | Renders a report as @file:line:column: error[E0123]: title@ with a line end. A report about a
--- tape has the row of the tape, from 1, in place of the line. @path@ is the name of the file in a
--- report that has no region in the program.
+-- tape has the row of the tape, from 1, in place of the line. @path@ is the file's name, which is
+-- written if the report's place is not a region of the program.
 short :: Text -> Source -> Report -> Text
 short path source r =
   at
@@ -41,8 +41,8 @@ short path source r =
       InFile -> path <> ":1:1"
 
 -- | Renders a report as one JSON object with a line end. Lines count from 1, columns count
--- characters from 1; the field @end@ is the position after the last character. @path@ is the name
--- of the file in a report that has no region in the program.
+-- characters from 1; the field @end@ is the position after the last character. @path@ is the
+-- file's name, which is written if the report's place is not a region of the program.
 json :: Text -> Source -> Report -> Text
 json path source r =
   Encoding.decodeUtf8 (LazyByteString.toStrict (encodingToLazyByteString (pairs fields))) <> "\n"

@@ -30,8 +30,9 @@ import Report.Report (Label (..), Report (..), ReportCode (..), ReportPlace (..)
 import Report.Report qualified as Report
 import Prelude hiding (log)
 
--- | A report with the facts that its rendering needs. @path@ is the name of the file if the report
--- has no region in the program. @source@ is the text to which the regions refer.
+-- | A report with the facts that its rendering needs. @path@ is the file's name, which is
+-- written if the report's place is not a region of the program. @source@ is the text to which the
+-- regions refer.
 data Filed = Filed {path :: Text, source :: Source, report :: Report}
 
 -- | Renders the log of one run of partc. A report code is called a rule in SARIF. The log lists the
@@ -134,5 +135,5 @@ uri path = case Text.stripPrefix "/" path of
       where
         c = chr (fromIntegral w)
     digit = toUpper . intToDigit . fromIntegral
-    -- Viewers compare the reference with paths of a repository, which have no leading dot.
+    -- Drops @./@, because viewers compare the reference with paths that do not begin with it.
     dropHere p = maybe p dropHere (Text.stripPrefix "./" p)

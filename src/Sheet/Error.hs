@@ -49,13 +49,15 @@ data Error
   = -- | The word is not a number, an end mark or a sign; the text is the word.
     NotANumber NumberPosition Text
   | -- | The general data are incomplete: the sheet ends in them, or they contain an end mark or a
-    -- sign. The count is that of the numbers before this position.
+    -- sign. The last field is the count of the numbers that were found.
     GeneralShort NumberPosition Int
   | -- | A number of the general data is wrong.
     GeneralWrong NumberPosition GeneralFault
-  | -- | A number is missing or written twice among the points of the approach.
+  | -- | The points of the approach have a fault. Its usual cause is a number that is missing or
+    -- written twice.
     ApproachShifted NumberPosition ApproachFault
-  | -- | A number is missing or written twice among the points after an array.
+  | -- | The points after an array have a fault. Its usual cause is a number that is missing or
+    -- written twice.
     RetractShifted NumberPosition RetractFault
   | -- | The cipher of a piece is wrong.
     CipherUnknown NumberPosition CipherFault
@@ -65,7 +67,8 @@ data Error
     TooManyArrays NumberPosition
   | -- | The sheet ends too early. The position is that of its last word.
     EndMissing NumberPosition Expected
-  | -- | The word after the end mark of a piece is not the link or the allowance that belongs there.
+  | -- | The word at this position, after the end mark of a piece, is not the link or the allowance
+    -- that belongs there.
     LinkMissing NumberPosition LinkNumber
   | -- | A number follows the end of the program.
     AfterTheEnd NumberPosition
@@ -125,7 +128,8 @@ data CipherFault
     SignInsteadOfCipher
   | -- | a digit other than 1, 2, 4 and 6
     UnknownDigit Char
-  | -- | a minus sign before a cipher, although the sign of the first distance gives the side
+  | -- | a minus sign before a cipher, although the first distance before the points is not 0 and
+    -- its sign already gives the side of the piece
     SignTwice
   deriving stock (Eq, Ord, Show)
 
@@ -149,8 +153,9 @@ data LinkNumber = LinkNumber | AllowanceNumber
 -- | The reason why the numbers of a piece do not fit its cipher.
 data PieceMisfit
   = -- | No whole count of points is possible. The first four fields are the counts of numbers that
-    -- the cipher demands: before all points, with each point, once after all points, and for each
-    -- point after all points. The last field is the count of numbers that the piece has.
+    -- the cipher demands: before the points, for each point, after the points for the whole piece,
+    -- and then again for each point. These counts are without the flag of the feed. The last field
+    -- is the count of all numbers of the piece, with the flag.
     CountOff Int Int Int Int Int
   | -- | fewer than two points
     PointsFew

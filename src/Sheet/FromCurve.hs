@@ -46,8 +46,8 @@ data Shift = Shift
     distance :: Distance
   }
 
--- | The piece for an element of a contour. The arguments are the element's region, at which reports
--- point, its curve, and its finish: feed and allowance.
+-- | Converts the curve of a contour element to a piece of a sheet. The reports point at the region
+-- @at@ of the element. @finish@ gives the flag of the feed and the allowance.
 piece :: Region -> Curve.Curve -> Finish -> Result w Unfit Piece
 piece at curve finish = do
   points <- pointsOf at (Curve.base curve)
@@ -121,8 +121,9 @@ signOfPiece shifts = case listToMaybe [sign s * h | s <- shifts, Just h <- [head
       ShiftDistance.Growing Growth {from = Mm h} -> Just h
       _ -> Nothing
 
--- | Writes the shift @s@ in another way: a positive distance shifts to the side @wanted@ (1 left,
--- -1 right). Distances of a shift to the other side change their sign.
+-- | The shift @s@, expressed so that a positive distance shifts to the side @wanted@ (1 left,
+-- -1 right). If @wanted@ is not the 'sign' of @s@, the distances of @s@ change their sign. A joggle
+-- stays as it is, because 'checkShift' refuses it.
 onSide :: Double -> Shift -> Shift
 onSide wanted s
   | wanted == sign s = s
@@ -137,7 +138,7 @@ onSide wanted s
       ShiftDistance.Square mu inner -> ShiftDistance.Square mu (opposite inner)
       ShiftDistance.Joggled j -> ShiftDistance.Joggled j
     minus (Mm h) = Mm (negate h)
-    -- Leaves the interpolation of the column unchanged, because this module uses only the values.
+    -- Negates only the values of the column: this module does not use the column's interpolation.
     negative c = c {Column.values = Vector.map negate (Column.values c)}
 
 -- | Refuses a shift that the numbers of a sheet cannot express.

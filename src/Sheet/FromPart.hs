@@ -45,9 +45,9 @@ import Sheet.Unsupported
     UnsupportedCipher (..),
   )
 
--- | The sheet of a part, or the reasons why there is no such sheet. The program @written@ gives the
--- dimensions of a conical cutter: the part keeps only the cutter's radius where it touches the
--- contour.
+-- | The sheet of a part, or the reasons why there is no such sheet. The dimensions of a conical
+-- cutter come from the program @written@. The part has only the radius at the height where the
+-- cutter touches the contour.
 fromPart :: Checked.Program -> Part -> Result w Unfit Sheet
 fromPart written part = case (Part.start part, runsOf (Part.operations part)) of
   (_, Left e) -> refused e
@@ -68,8 +68,8 @@ fromPart written part = case (Part.start part, runsOf (Part.operations part)) of
 refused :: Unfit -> Result w Unfit a
 refused e = Result [] [e] Nothing
 
--- | A milled contour: the stops before it, the region of the statement's keyword, and the milling.
--- The milling has the region of the keyword too.
+-- | A milled contour and the stops before it. @keywordRegion@ is the region of the keyword @mill@
+-- or @turn@. @milled@ is the pair of the same region and the milling.
 data Run = Run {stops :: [Part.Stop], keywordRegion :: Region, milled :: (Region, Milling)}
 
 -- | The milled contours of a list of operations, and the stops after the last contour.
@@ -139,10 +139,11 @@ sideOf (Located at side) = case side of
   Part.Outside -> refused (NoNumbers at OutsideOfContour)
   Part.Inside -> refused (NoNumbers at InsideOfContour)
 
--- | Diameter in mm, bevel in degrees and height in mm of the tool. The tool has the radius @radius@
--- at the height where it touches the part. The bevel is the angle between the tool's flank and its
--- axis. If the program's first cone has a bevel and this radius at its upper end, the result is
--- that of the cone. Otherwise it is that of a cylinder, with bevel and height 0.
+-- | Diameter in mm, bevel in degrees and height in mm of the tool. @radius@ is the tool's radius at
+-- the height where it touches the part. The bevel is the angle between the tool's flank and its
+-- axis. The tool is the first cone with literal dimensions in the program, if the cone's bevel is
+-- not 0 and its radius at the upper end is @radius@. Otherwise the tool is a cylinder, with bevel
+-- and height 0.
 toolOf :: Checked.Program -> Mm -> (Double, Double, Double)
 toolOf written (Mm radius) =
   case [ (d, mu, h)
@@ -160,15 +161,15 @@ toolOf written (Mm radius) =
       Checked.Negate inner -> negate <$> literal inner
       _ -> Nothing
 
--- | The number of the program in a part's name, if "Sheet.ToSurface" made the name; 0 for other
--- names.
+-- | The number of the program in a part's name like @program_5@, which "Sheet.ToSurface" makes; 0
+-- for other names.
 numberOf :: Maybe Name -> Double
 numberOf name = fromMaybe 0 $ do
   Name text <- name
   wholeNumber =<< Text.stripPrefix "program_" text
 
--- | The numbers of the product and of the part in a title that "Sheet.ToSurface" made. Nothing for
--- other titles.
+-- | The numbers of the product and of the part in a title like @Product 5, part 6@, which
+-- "Sheet.ToSurface" makes. Nothing for other titles.
 titleNumbers :: Text -> Maybe (Double, Double)
 titleNumbers title = do
   rest <- Text.stripPrefix "Product " title
@@ -332,10 +333,10 @@ pieceOf m element = case Part.elementCurve element of
           Just b <- [Part.bevel e]
       ]
 
--- | Refuses a piece on which the blade does not swivel by the piece's bevel, which is 0 if the
--- piece has none. The last argument has the segments of the element, each with the blade's swivel
--- at its two ends, in radians. Each swivel is compared with the bevel that is interpolated at this
--- end.
+-- | Refuses a piece if the blade's swivel differs from the bevel of the piece. A piece without a
+-- bevel has the bevel 0. @bevels@ has each segment of the element with the blade's swivel at the
+-- segment's start and at its end, in radians. Each swivel is compared with the bevel at the same
+-- point, which is interpolated along the curve.
 checkSwivel ::
   Region ->
   Curve.PartCurve ->

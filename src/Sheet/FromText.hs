@@ -5,8 +5,8 @@
 -- recalculation, which shifts the curve along its normal. The end mark is the word @-0@.
 --
 -- The reader reports all words that are neither numbers nor signs nor end marks. If there are none,
--- it reports only the first mistake: a missing or doubled number shifts the meaning of all numbers
--- after it. The reader is a state monad over the words that are still to be read.
+-- it reports only the first mistake, because a number that is missing or written twice shifts the
+-- meaning of all later numbers. The reader is a state monad over the words still to be read.
 module Sheet.FromText
   ( read,
   )
@@ -152,8 +152,8 @@ generalData = do
   where
     isWhole x = x >= 0 && x < 1e9 && x == fromInteger (round x)
 
--- | Checks three numbers on the tool, which is a cylinder, a cone or a swivelling blade: the
--- diameter of a blade's wheel, and the bevel and the height of a cone.
+-- | Checks the diameter of a swivelling blade's wheel, and the bevel and the height of a cone. The
+-- numbers of another kind of tool must be 0.
 checkTool :: Positioned -> Positioned -> Positioned -> Reader ()
 checkTool gear' bevel' height' = do
   check NegativeGear (>= 0) gear'

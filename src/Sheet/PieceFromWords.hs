@@ -130,8 +130,8 @@ pieceOf opening isNegative digits inside mark = do
       [] -> []
       h : others -> fmap abs h : others
 
--- | The count of points of a piece with @count@ numbers. If this count is not whole or is less than
--- two, the result is the error that @misfit@ makes from the reason.
+-- | The count of points of a piece that has @count@ numbers. If the count of points is not whole or
+-- is less than two, the result is the error that @misfit@ makes from the reason.
 pointCount :: Layout -> Int -> (PieceMisfit -> Either Error Int) -> Either Error Int
 pointCount Layout {before, each, after, again} count misfit
   | remainder /= 0 = misfit (CountOff before each after again count)

@@ -189,7 +189,8 @@ maxArrays = 30
 firstAddress :: Int
 firstAddress = 0o70
 
--- | The count of the general data; they have the addresses 0070 to 0107.
+-- | The count of the numbers of the general data on a sheet. They have the octal addresses 0070 to
+-- 0107. The last seven are unused and 0.
 generalCount :: Int
 generalCount = 16
 

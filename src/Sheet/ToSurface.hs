@@ -58,7 +58,7 @@ partName number = "program_" <> Decimal.exact number
 partTitle :: Double -> Double -> Text
 partTitle product' part' = "Product " <> Decimal.exact product' <> ", part " <> Decimal.exact part'
 
--- | Groups of statements, with an empty line between two of them.
+-- | The statements of a sheet's program in groups. The text has an empty line between two groups.
 paragraphs :: Sheet -> [[Statement]]
 paragraphs sheet =
   [headStatement (general sheet)] : settings sheet : concatMap (arrayStatements sheet) (runs sheet)
@@ -181,7 +181,7 @@ isBlade sheet = value (gear (general sheet)) /= 0
 -- Points
 
 -- | True if the program can give points without heights: all heights of the sheet are 0, and the
--- tool is not a swivelling blade, which changes its height.
+-- tool is not a swivelling blade, which moves in z when it swivels.
 isFlat :: Sheet -> Bool
 isFlat sheet =
   not (isBlade sheet)
@@ -267,8 +267,8 @@ thicknessNames :: Int -> [Text]
 thicknessNames count = if count == 1 then ["t"] else ["t_" <> Decimal.whole k | k <- [1 .. count]]
 
 -- | The ciphers of a piece in the part program, where each recalculation has a cipher of its own: a
--- digit with arguments. If the piece has surfaces, the distances of the digits 1, 2 and 6 are
--- measured square to them. A last argument @mu@ says so.
+-- digit with arguments. If the points of the piece have surfaces, the digits 1, 2 and 6 get a last
+-- argument @mu@. It states that their distances are measured square to the surface.
 ciphers :: Piece -> [Recalculation] -> [Surface.Cipher]
 ciphers piece recalculations =
   go (thicknessNames (length [() | Pointwise _ <- recalculations])) recalculations

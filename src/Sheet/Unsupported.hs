@@ -208,7 +208,7 @@ featureText feature = case feature of
   SharpCorner -> "a sharp corner"
   ControlCompensation -> "a compensation by the control"
 
--- | The subject of the report's title, and the report's hint; no hint if it is empty.
+-- | The subject of the title, and the hint, of the report on a piece. An empty text means no hint.
 pieceTexts :: PieceFault -> (Text, Text)
 pieceTexts fault = case fault of
   NoPoints -> ("a curve of no points", "")
@@ -234,7 +234,7 @@ linkText feature = case feature of
   TangentLink -> "a tangent"
   ChamferLink -> "a chamfer"
 
--- | The end of the report's title, and the report's hint.
+-- | The end of the title, and the hint, of the report on recalculations without a cipher.
 cipherTexts :: UnsupportedCipher -> (Text, Text)
 cipherTexts fault = case fault of
   AllowanceOfFour ->
@@ -263,7 +263,7 @@ cipherTexts fault = case fault of
       "Behind an element with a 4 write: bevel mu; behind another one: bevel 0"
     )
 
--- | The report's title and hint.
+-- | The title and the hint of the report on a feed.
 feedTexts :: FeedFault -> (Text, Text)
 feedTexts fault = case fault of
   LeavingFeed ->
@@ -281,7 +281,7 @@ sharedText setting = case setting of
   SharedTolerance -> "tolerance"
   SharedSide -> "milling side"
 
--- | The position to which the report points, and the report's title.
+-- | The position and the title of the report on a toolpath.
 pathTexts :: PathFault -> (ReportPlace, Text)
 pathTexts fault = case fault of
   NoStart -> (InFile, "the program does not say where the tool stands")

@@ -85,9 +85,9 @@ data Problem
     NoName Text
   | -- | a token after a complete statement on the same line
     TextAfterStatement Token_
-  | -- | a token in a row of a table that begins no cell
+  | -- | a token that begins no cell, in a row of a table
     NotInRow Token_
-  | -- | a token among the headings of a table that begins no heading
+  | -- | a token that begins no heading, among the headings of a table
     NotInHeadings Token_
   | -- | a @piece@ statement that does not say on which side of its curve the piece lies
     NoSide
@@ -113,8 +113,8 @@ data ParserState = ParserState
     hasGivenUp :: Bool
   }
 
--- | A parsed value, the number of its tokens, and the tokens after them. Inside the value the
--- nesting depth grows by at most two, so it is compared with 'maxNesting' only before the value.
+-- | A parsed value, the number of its tokens, and the tokens after them. The nesting depth inside
+-- the value exceeds the depth before it by at most two.
 data Consumed a = Consumed a Int [Token]
 
 -- | The operations from which the grammar is built.
@@ -126,16 +126,16 @@ class MonadParsec Problem TokenStream p => Grammar p where
   -- | Repeats a parser until it fails without consuming a token.
   zeroOrMore :: p a -> p [a]
 
-  -- | Runs a parser. If it fails, the function makes from the failure a parser that runs instead.
-  -- The fast parser ignores the function.
+  -- | Runs a parser. If it fails, runs the parser that the function makes from the failure. The
+  -- fast parser ignores the function.
   onFailure :: (ParseError TokenStream Problem -> p a) -> p a -> p a
 
   -- | The tokens that are not consumed yet.
   remaining :: p [Token]
 
-  -- | Applies a function to the remaining tokens. If the result is 'Nothing', runs the given rule.
-  -- Any other result is used instead, and must have the value that the rule would give. The
-  -- explaining parser ignores the function and runs the rule.
+  -- | Applies a function to the remaining tokens. If it gives a value, this must be the value of
+  -- the given rule. Without a value, or near a limit of tokens or nesting, the rule runs. The
+  -- explaining parser always runs the rule.
   fastPath :: ([Token] -> Maybe (Consumed Expr)) -> p Expr -> p Expr
 
   -- | Tells if the next token is a word, so that a keyword is possible. The explaining parser
@@ -303,8 +303,8 @@ enclosed open close inside = do
 {-# INLINEABLE enclosed #-}
 
 -- | Parses items in braces, each by @one@. Reports name the block by @what@. An item with a mistake
--- is skipped; @broken@ makes the node that replaces it. Its argument is the name that the item was
--- to define, if there is one.
+-- is skipped; @broken@ makes the node that replaces it. The argument of @broken@ is the name that
+-- the item was to define, if there is one.
 block :: Grammar p => Enclosure -> (Maybe (Located Name) -> a) -> p a -> p [Located a]
 block what broken one = do
   opened <- symbol "{"
@@ -467,7 +467,7 @@ skipStatement hasBlock isInBlock open = do
         Parsec.anySingle *> ((t :) <$> skipStatement hasBlock isInBlock (open + braceBalance [t]))
     _ -> pure []
 
--- | Tells if a broken statement ends before the token @t@, which the tokens @others@ follow.
+-- | Tells if a broken statement ends before the token @t@; @others@ are the tokens after @t@.
 -- @hasBlock@ tells if the statement has a block of statements, @isInBlock@ tells if it is inside
 -- one. @open@ is the count of the statement's braces that are still open.
 isStatementEnd :: Bool -> Bool -> Int -> Token -> [Token] -> Bool
@@ -484,8 +484,8 @@ isStatementEnd hasBlock isInBlock open t others =
     isBlockStatement = case shape t of
       Word word -> newLine t && open <= 0 && word `elem` Keyword.blocks
       _ -> False
-    -- True if @t@ and the next token are two words at the start of a line. They begin a misspelt
-    -- statement, unless they are inside braces of the broken statement.
+    -- True if @t@ and the next token are two words at the start of a line outside of the broken
+    -- statement's braces, and @t@ is no keyword. Such a line begins a misspelt statement.
     isMisspeltKeyword = case (shape t, others) of
       (Word word, next : _)
         | Word _ <- shape next ->
@@ -529,9 +529,9 @@ firstRegion ts = case ts of
   [] -> Region 0 0
 
 -- | Skips the rest of a broken item and makes its node by @broken@. @taken@ has the item's tokens
--- up to the mistake. The rest ends at the next line outside of the item's braces, or at the end of
--- its block. A line after a comma or an operator belongs to the item. The argument of @broken@ is
--- the name that a misplaced @let@ was to define.
+-- up to the mistake. The rest ends at the next line outside of the item's braces, at the end of the
+-- block, or at a statement. A line after a comma or an operator belongs to the item. The argument
+-- of @broken@ is the name that a misplaced @let@ was to define.
 brokenItem :: Grammar p => (Maybe (Located Name) -> a) -> [Token] -> p a
 brokenItem broken taken = do
   next <- Parsec.optional (Parsec.lookAhead Parsec.anySingle)
@@ -542,8 +542,8 @@ brokenItem broken taken = do
       _ -> Nothing
 
 -- | Skips the remaining tokens of a broken item. @open@ is the count of the item's braces that are
--- still open. @isContinued@ tells if the last token is a comma, an operator or an opening bracket,
--- so that the next line belongs to the item.
+-- still open. @isContinued@ tells if the last skipped token is a comma, an operator or an opening
+-- bracket, so that the next line belongs to the item.
 skipItem :: Grammar p => Int -> Bool -> p ()
 skipItem open isContinued = do
   next <- Parsec.optional (Parsec.lookAhead Parsec.anySingle)

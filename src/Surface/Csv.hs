@@ -2,12 +2,12 @@
 --
 -- The first line names the columns, each with an optional unit. Every other line has one number for
 -- each column. The separator is the comma, the semicolon or the tab, whichever the first line
--- contains. If it is not the comma, numbers may have a decimal comma. Empty lines are ignored.
+-- contains. If it is not the comma, numbers may have a decimal comma. Blank lines are ignored.
 --
 -- A row is plain if its cells are numbers without spaces, quotation marks, exponents, plus signs
 -- and decimal commas. A run is a sequence of consecutive plain rows; it is read into unboxed
 -- arrays. The other rows are read one by one, with an error for each wrong cell. An offset is the
--- index of a character, from 0.
+-- index of a character, from 0; the count goes on from one file of a program to the next.
 module Surface.Csv
   ( table,
   )
@@ -41,8 +41,8 @@ import Surface.Keyword qualified as Keyword
 import Surface.Syntax (Expr, Expr_ (..), Heading (..), Numeral (..), TableLine, TableLine_ (..))
 import Surface.Token (columnUnits, unitName)
 
--- | Reads a text whose first character has the offset @begin@. Gives the errors and the lines of
--- the table. Each line with errors is a 'BrokenLine'.
+-- | Reads a text of comma-separated values, whose first character has the offset @begin@. Gives the
+-- errors and the lines of the table. Each line with errors is a 'BrokenLine'.
 table :: Int -> Text -> ([Error], [TableLine])
 table begin text = case filter (not . Text.all isSpace . value) (linesOf begin text) of
   [] -> ([EmptyTable (Region begin begin)], [])
@@ -91,13 +91,14 @@ plainRows separator width texts = runST $ do
   where
     initialRoom = 8
 
--- | Growing arrays of plain rows. The first has the offsets of the start and the end of each row,
--- the second the numbers of all rows, one row after the other.
+-- | Two growing arrays for plain rows. The first array has the offsets of the start and the end of
+-- each row. The second array has the numbers of all rows, one row after the other.
 data Rows s = Rows (MutablePrimArray s Int) (MutablePrimArray s Double)
 
 -- | Adds plain rows of @width@ numbers to arrays, up to the first row that is not plain. The third
 -- argument is the count of rows in the arrays, the fourth the count of rows for which they have
--- room; full arrays are doubled. Gives the numbers of the plain rows, and the rows after them.
+-- room. Full arrays get room for twice as many rows. Gives the numbers of the plain rows, and the
+-- rows after them.
 fillRows ::
   Char -> Int -> Int -> Int -> Rows s -> [Located Text] -> ST s (NumberTable, [Located Text])
 fillRows separator width = go
@@ -222,8 +223,8 @@ isColumnName word =
 
 -- Other rows
 
--- | Reads row @k@, counted from 1, cell by cell. If the number of columns is known, every column
--- must have a cell.
+-- | Reads row @k@, counted from 1, cell by cell. The row must have @columns@ cells, or any number
+-- of cells if @columns@ is 'Nothing'.
 fullRow :: Char -> Maybe Int -> Int -> Located Text -> ([Error], TableLine)
 fullRow separator columns k line = case partitionEithers (map (number separator) cells) of
   ([], _)
@@ -236,13 +237,15 @@ fullRow separator columns k line = case partitionEithers (map (number separator)
   (errors, _) -> (errors, Located (region line) BrokenLine)
   where
     cells = withoutLastEmpty (NonEmpty.toList (cellsOf separator line))
-    -- Too many cells that consist of digits may be the halves of numbers with a decimal comma.
+    -- True if the row has more than @n@ cells, all of them integers. The cells may then be the
+    -- halves of numbers with a decimal comma.
     isDecimalComma n =
       separator == ','
         && length cells > n
         && all (Text.all isDigit . Text.dropWhile (`elem` ['-', '+']) . value) cells
 
 -- | The cells of a row without an empty last cell, which a separator at the end of a line makes.
+-- The empty cell is kept if only one cell is before it.
 withoutLastEmpty :: [Located Text] -> [Located Text]
 withoutLastEmpty cells = case reverse cells of
   Located _ "" : rest@(_ : _ : _) -> reverse rest

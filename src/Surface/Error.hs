@@ -47,7 +47,7 @@ data Error
   | -- | a @piece@ statement that does not say on which side of its curve the piece lies; the text
     -- found instead
     NoSide Region FoundText
-  | -- | a statement in the braces of another: its keyword
+  | -- | a statement in the braces of another statement: the keyword of the inner one
     Misplaced Region Text
   | -- | brackets nested deeper than the given limit
     TooDeep Region Int
@@ -72,8 +72,8 @@ data Error
     BadHeading Region Text
   | -- | a text in a file that is not a number
     BadCell Region Text
-  | -- | a row of the wrong length in a file: its number from 1, the number of columns, the number
-    -- of cells. The flag is true if the commas of the row may be decimal commas
+  | -- | a row with too many or too few cells in a table file: the row's index from 1, the count of
+    -- columns, the count of cells. The flag is true if the row's commas may be decimal commas
     CellCount Region Int Int Int Bool
   | -- | a command-line value for an unknown parameter: its name, the names of all parameters
     NoSuchParam Text [Text]
@@ -92,7 +92,7 @@ data FoundText = FoundToken Token_ | FoundEnd
 
 -- | A part of a program between two brackets.
 data Enclosure
-  = -- | an opening parenthesis or square bracket
+  = -- | a part in parentheses or square brackets: the opening bracket
     BracketOf Text
   | -- | the block of the contour with the given name
     ContourBlock Text
@@ -385,7 +385,8 @@ headingAdvice token = case token of
 counted :: Int -> Text -> Text
 counted n thing = Decimal.whole n <> " " <> thing <> (if n == 1 then "" else "s")
 
--- | Tells if exactly one keyword is expected. The report names it, so that 'advice' is left out.
+-- | Tells if exactly one token is expected, and it is a keyword. The report names this keyword and
+-- leaves 'advice' out.
 isWord :: [Text] -> Bool
 isWord expected = case expected of
   [one] -> Text.any isLetter one && Text.isPrefixOf "‘" one

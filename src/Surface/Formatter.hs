@@ -2,9 +2,10 @@
 --
 -- The syntax tree is printed anew and the comments are placed among the printed lines. A comment on
 -- a line of its own stays above the text that it precedes. A trailing comment, which follows other
--- text on its line, stays after that text. A comment inside a text that is now printed on one line
--- goes to the end of that line, or above it if the line ends with a comment already. An offset is
--- the index of a character in the source, from 0.
+-- text on its line, stays after that text. Comments inside a text that is now printed on one line
+-- go above that line. A trailing comment goes to the end of that line instead, if it is the only
+-- comment inside the text and no comment follows on the line. An offset is the index of a character
+-- in the source, from 0.
 module Surface.Formatter
   ( format,
     layout,
@@ -89,7 +90,7 @@ laidOut text program =
 offsetsAtCommas :: [Token] -> [Int] -> [Int]
 offsetsAtCommas = go False
   where
-    -- @isAfterComma@ tells if the last token was a comma.
+    -- @isAfterComma@ tells if the token before those in @tokens@ is a comma.
     go isAfterComma tokens offsets = case (tokens, offsets) of
       (_, []) -> []
       ([], _) -> if isAfterComma then offsets else []
@@ -182,7 +183,8 @@ data Content
 entries :: Source -> [Remark] -> [SourceLine] -> [Entry]
 entries source remarks rows = go (zip rows (extents rows)) remarks []
   where
-    -- The last argument has the comments that go above the next printed line.
+    -- @above@ has the comments that go above the first line of @left@. @rest@ has the comments
+    -- after these.
     go left rest above = case left of
       [] -> map (ownLine 0) (above <> rest)
       (sourceLine, extent) : more ->
@@ -191,7 +193,7 @@ entries source remarks rows = go (zip rows (extents rows)) remarks []
          in rowEntries source sourceLine (fst extent) above shares
               <> go more (later shares) (below shares)
 
--- | The comments that are not placed yet, by their positions relative to one printed line.
+-- | Comments of the source, divided by their positions relative to one printed line.
 data Shares = Shares
   { -- | before the line in the source: printed above it
     early :: [Remark],
@@ -201,7 +203,7 @@ data Shares = Shares
     trailing :: Maybe Remark,
     -- | printed between the line and the next one
     below :: [Remark],
-    -- | after the start of the next line in the source: not placed yet
+    -- | after the start of the next line in the source: left for the next lines
     later :: [Remark]
   }
 
@@ -221,8 +223,8 @@ shareOut (from, finish) next remarks = case (inside, trailingRemark) of
       _ -> (Nothing, after)
 
 -- | The lines of the output for one printed line: the comments above it, then the line itself. In
--- the source the printed line begins at offset @from@. @above@ has the comments between this line
--- and the line before it. The last argument has the comments in and around the printed line.
+-- the source the printed line begins at offset @from@. @above@ has the comments that the line
+-- before left for this position, its 'below'. @shares@ has the comments after these.
 rowEntries :: Source -> SourceLine -> Int -> [Remark] -> Shares -> [Entry]
 rowEntries source sourceLine from above shares =
   [own {hasGap = hasGap own && isStart} | own <- map (ownLine deep) (above <> early shares)]

@@ -196,7 +196,7 @@ lines' =
   (LinesFromFile <$> (keyword "from" *> (text' <?> "the name of a file in quotation marks")))
     <|> (WrittenLines <$> block TableBlock (const BrokenLine) line)
 
--- | A line of a table: its headings, or one cell for each column.
+-- | A line of a table: one or more headings, or one or more cells. Their counts are not compared.
 line :: Parser TableLine_
 line =
   (Header <$> onLine NotInHeadings column)
@@ -236,8 +236,8 @@ piece = do
   side <- located ((LeftSide <$ keyword "left") <|> (RightSide <$ keyword "right") <|> missingSide)
   Piece what base ciphers side <$> zeroOrMore (located joggle)
   where
-    -- Reports a missing side if the statement ends here, or if a joggle or another word for a side
-    -- follows.
+    -- Reports a missing side if the statement ends here, or if the next word is @outside@,
+    -- @inside@, @on@ or @joggle@.
     missingSide = do
       next <- remaining
       case next of
@@ -319,7 +319,7 @@ link =
     <|> (keyword "chamfer" *> (Chamfer <$> expr))
 
 -- | A machining statement after its keyword @word@: a contour, a side, and settings. @make@ makes
--- the statement of these.
+-- the statement from these three.
 machining :: Text -> (Expr -> Located Side -> [Setting] -> Statement_) -> Parser Statement_
 machining word make =
   make <$> expr <*> located (Parsec.choice [s <$ keyword k | (k, s) <- sides]) <*> settings word
@@ -382,7 +382,7 @@ settingForms =
     ("rest", RestAllowed <$ keyword "allowed")
   ]
 
--- | One or more points, each with the pace of the motion to it.
+-- | One or more points. Each may have the pace of the motion to it: @rapid@ or a feed.
 stops :: Parser (NonEmpty Stop)
 stops = stop `sepBy1` ","
   where

@@ -1,7 +1,8 @@
 -- | A program together with the files that it imports.
 --
 -- An import is replaced by the definitions of the imported file and of the files that it imports
--- itself. Settings and motions of an imported file are dropped. Each imported file is read once.
+-- itself. All other statements of an imported file are dropped. Each imported file is read once.
+-- The name of a table file is replaced by the lines of the table.
 module Surface.Import
   ( Reader (..),
     byName,
@@ -58,7 +59,7 @@ data ImportedProgram = ImportedProgram
 data Progress = Progress
   { -- | the texts of the files read
     texts :: Source,
-    -- | the identities of the programs read
+    -- | the identities of the program and of the imported files that are read
     seen :: Set FilePath,
     -- | the mistakes, the newest first
     found :: [Error],
@@ -192,9 +193,9 @@ readProgram reader chain i = do
           Chain {open = (importIdentity i, importPath i) : open chain, file = importPath i}
           (maybe [] statements output)
 
--- | Reads the lines of a table from the file that is named at the region @at@; 'Nothing' if the
--- file has mistakes. A file that several tables name is read for each of them, so that the lines
--- of each table have regions of their own.
+-- | Reads the lines of a table from the file that is named at the region @at@. Records the errors;
+-- 'Nothing' if there are any. A file that several tables name is read for each of them, so that the
+-- lines of each table have regions of their own.
 tableLines ::
   Monad m =>
   Reader m ->
@@ -217,7 +218,7 @@ tableLines reader at path name = do
       pure (if null errors then Just rows else Nothing)
 
 -- | Records an error of an import and gives a broken statement instead of the imported definitions.
--- Checking then does not report the names that the import would have defined.
+-- Checking reports no undefined names in a program with such a statement.
 failed :: Monad m => Region -> Error -> StateT Progress m [Statement]
 failed at e =
   [Located at (Broken (Just "import") Nothing)] <$ modify' (\p -> p {found = e : found p})
@@ -228,7 +229,7 @@ maxDepth :: Int
 maxDepth = 100
 
 -- | Tells if a statement is a definition, which an import keeps. A broken statement counts as one
--- if its name is known, or if it is an import.
+-- if it has the name that it would define, or if it is an import.
 isDefinition :: Statement -> Bool
 isDefinition (Located _ s) = case s of
   LetValue _ _ -> True

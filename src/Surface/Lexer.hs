@@ -31,8 +31,9 @@ data LexerState = LexerState
     isMachineNext :: Bool
   }
 
--- | All tokens and all comments of a text in order. The first character has the offset @begin@. The
--- two lists are read independently, so that neither keeps the other in memory.
+-- | All tokens and all comments of a text in order. The first character has the offset @begin@.
+-- Each of the two lists is made by its own pass over the text, so that neither keeps the other in
+-- memory.
 tokens :: Int -> Text -> ([Token], [Located Text])
 tokens begin text =
   (tokensFrom before text, if "--" `Text.isInfixOf` text then commentsFrom [] before text else [])

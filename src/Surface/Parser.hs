@@ -33,8 +33,8 @@ parse begin text =
     (Result [] [] . Just)
     (FastParser.parse maxTokens begin text)
 
--- | Parses a program by the explaining parser alone. It gives the same result as 'parse'; tests
--- compare the two.
+-- | Parses a program by the explaining parser alone. Gives the same result as 'parse'; tests
+-- compare the two results.
 parseExplained :: Int -> Text -> Result w Error Program
 parseExplained begin text = case drop maxTokens tokens of
   t : _ ->

@@ -25,8 +25,9 @@ data Doc
   | -- | members with a space or a line break between them. Lines after the first are indented by
     -- four characters more than the first
     Series [Member]
-  | -- | an opening bracket, members and a closing bracket. If broken, the members are on lines of
-    -- their own, indented by two characters more than the closing bracket. The flag is true if the
+  | -- | an opening bracket, members and a closing bracket. If broken, lines follow that each have
+    -- as many members as fit, then a line that begins with the closing bracket. The lines of
+    -- members are indented by two characters more than the closing bracket. The flag is true if the
     -- brackets must be broken, even if one line has room for them
     Brackets Bool Text [Member] Text
   deriving stock (Eq, Show)
@@ -78,8 +79,9 @@ put t pen =
 newLine :: Int -> Pen -> Pen
 newLine indent pen = Pen {done = now pen : done pen, now = (indent, []), column = indent}
 
--- | Writes a document. New lines are indented by @indent@ characters. The last line keeps room for
--- @trailing@ characters, which follow the document without a possible line break.
+-- | Writes a document. A new line is indented by @indent@ characters, plus the indentation that
+-- broken series and brackets add. The last line keeps room for @trailing@ characters, which follow
+-- the document without a possible line break.
 write :: Int -> Int -> Doc -> Pen -> Pen
 write indent trailing doc pen
   | fits (maxWidth - column pen - trailing) doc = foldl (flip put) pen (unbroken doc)
@@ -92,8 +94,8 @@ write indent trailing doc pen
       let inside = fill (indent + 2) 0 members (newLine (indent + 2) (put open pen))
        in put close (newLine indent inside)
 
--- | Computes, for each of the documents next to one another, the number of characters from its end
--- to the next possible line break. @trailing@ is this number for the last document.
+-- | Computes, for each document of a 'Beside', the number of characters from the document's end to
+-- the next possible line break. @trailing@ is this number for the last document.
 widthsAfter :: Int -> [Doc] -> [Int]
 widthsAfter trailing = drop 1 . scanr step trailing
   where

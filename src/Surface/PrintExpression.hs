@@ -84,7 +84,7 @@ list comments things = NonEmpty.zipWith piece (NonEmpty.zip before things) comma
 member :: Doc -> Member
 member = Member False
 
--- | Documents with spaces between them on one line.
+-- | Puts a space, but no line break, between documents.
 spaced :: [Doc] -> Doc
 spaced docs = Beside (drop 1 (concatMap (\d -> [Text " ", d]) docs))
 

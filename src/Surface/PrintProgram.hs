@@ -51,9 +51,9 @@ whole indent doc = case PrettyPrinter.render indent doc of
       } :
     map continued more
 
--- | One line with the two cells @first@ and @second@, if both documents fit on it. Its second cell
--- is aligned with those of the same kind @column@ in neighbouring lines. If the documents do not
--- fit on one line, the result is the lines of both, joined without alignment.
+-- | One line with the two cells @first@ and @second@, if both documents fit on it. The second cell
+-- is aligned with the second cells of neighbouring lines that have the same @column@. If the
+-- documents do not fit on one line, the second follows the first on several lines, not aligned.
 cells' :: AlignmentColumn -> Int -> Doc -> Doc -> [AlignedLine]
 cells' column indent first second =
   case (PrettyPrinter.render indent first, PrettyPrinter.render indent second, alone) of
@@ -195,7 +195,7 @@ alignColumns rows' = map (zipWith3 pad fronts widths) rows'
         <> repeat 0
 
 -- | The rows of cells for a line of a table. The 'Numbers' of a file give several rows, any other
--- line gives at most one. Values other than literals are put in parentheses.
+-- line gives at most one. Values other than literals and negated literals are put in parentheses.
 tableCells :: CommentPositions -> TableLine_ -> [[Text]]
 tableCells comments l = case l of
   Header columns ->
@@ -253,7 +253,7 @@ data Choice a = Choice Expr [a] [a]
 data ChoicePrinter a = ChoicePrinter
   { conditionOf :: Expr -> Doc,
     blockOf :: [a] -> [AlignedLine],
-    -- | the choice that a block consists of, if it has no other statement or item
+    -- | the choice in a block that contains this choice and nothing else
     onlyChoice :: [a] -> Maybe (Choice a)
   }
 

@@ -1,8 +1,8 @@
 -- | The tokens of the source text for every line of a printed program.
 --
--- A printed program has the tokens of its source, except for brackets and words that are optional.
--- Each printed token is matched with the next equal token of the source. The formatter places
--- comments and blank lines by these matches.
+-- The printer may add or drop some tokens of the source: parentheses, braces, @else@ and plus
+-- signs. These tokens are called optional. Each printed token is matched with the next equal token
+-- of the source. The formatter places comments and blank lines by these matches.
 module Surface.SourceLine
   ( SourceLine (..),
     withSources,
@@ -17,8 +17,8 @@ import Surface.Alignment qualified as Alignment
 import Surface.Lexer qualified as Lexer
 import Surface.Token (Token (..), Token_ (..))
 
--- | A printed line, its tokens, and for each of them the matching token of the source, 'Nothing' if
--- there is none.
+-- | A printed line, its tokens, and for each token its match in the source: 'Nothing' for a token
+-- without a match.
 data SourceLine = SourceLine {row :: AlignedLine, shapes :: [Token_], sources :: [Maybe Token]}
   deriving stock (Eq, Show)
 
@@ -42,9 +42,9 @@ distribute rows tokens = case (rows, tokens) of
         distribute more others
   _ -> []
 
--- | Matches each printed token with a token of the source. For each printed token the search ends
--- at the first source token that is not optional. So a printed token without a match does not use
--- up the source tokens that later printed tokens match.
+-- | Matches each printed token with a token of the source. The search for a match ends at the first
+-- source token that is not optional. A printed token without a match uses up no source tokens, so
+-- later printed tokens can still match them.
 match :: [Token] -> [Token_] -> [Maybe Token]
 match source printed = case printed of
   [] -> []
@@ -62,10 +62,10 @@ match source printed = case printed of
 isOptional :: Token_ -> Bool
 isOptional token = token `elem` Word "else" : map Symbol ["(", ")", "{", "}", "+"]
 
--- | Tells if a line closes brackets that were opened above it.
+-- | Tells if a printed line begins with a closing bracket.
 isClosing :: SourceLine -> Bool
 isClosing line = take 1 (shapes line) `elem` map (pure . Symbol) [")", "]", "}"]
 
--- | Tells if a line opens a block.
+-- | Tells if a printed line opens a block: it ends with an opening brace.
 isOpening :: SourceLine -> Bool
 isOpening line = drop (length (shapes line) - 1) (shapes line) == [Symbol "{"]

@@ -1,8 +1,11 @@
 -- | The syntax tree of a program as written: names unresolved, units as given, every node with its
 -- region.
 --
--- Statements, items, settings and lines of tables that contain a mistake are kept as broken nodes,
--- so that later compiler passes do not report the names that they would have defined.
+-- Statements, items, settings and lines of tables that contain a mistake are kept as broken nodes.
+-- A broken statement or item keeps the name that it was to define, so that no later compiler pass
+-- reports this name as unknown.
+--
+-- A stop is a point to which the cutter moves. The pace of a motion is rapid or a feed.
 --
 -- A piece is a curve with its recalculations, each of which shifts the curve along its normal. A
 -- cipher names one recalculation by a digit. A joggle is a local step of a piece, blended with a
@@ -68,7 +71,7 @@ data Program = Program {statements :: [Statement], comments :: [Located Text]}
 -- | A statement as the program writes it, with its region.
 type Statement = Located Statement_
 
--- | A statement by its keyword. Each constructor shows an example.
+-- | A statement, with one constructor for each form. The comment on a constructor is an example.
 data Statement_
   = -- | @part flange "title"@
     Part (Located Name) (Maybe (Located Text))
@@ -126,8 +129,8 @@ data Statement_
     When Expr [Statement] [Statement]
   | -- | @with rotated(60 deg) { … }@
     With Expr [Statement]
-  | -- | a statement with a mistake: its keyword, and the name that it was to define, if they are
-    -- known
+  | -- | a statement with a mistake: its keyword, and the name that it was to define; 'Nothing' for
+    -- one that the parser could not find
     Broken (Maybe Text) (Maybe (Located Name))
   deriving stock (Eq, Show)
 
@@ -147,10 +150,10 @@ data Cutter_
   | -- | @turn(nose r)@
     TurningCutter Expr
   | -- | @cone(diameter d, bevel a, height h)@: a conical mill. The arguments are the diameter of
-    -- its tip, the bevel of its flank, and the height of the contour above the tip.
+    -- the tip of the mill, the bevel of its flank, and the height of the contour above the tip.
     ConeCutter Expr Expr Expr
-  | -- | @blade(diameter d, gear e)@: a swivelling blade by its diameter and that of the gear wheel
-    -- that swivels it
+  | -- | @blade(diameter d, gear e)@: a swivelling blade. The arguments are the diameter of the
+    -- blade and the diameter of the gear wheel that swivels the blade.
     BladeCutter Expr Expr
   deriving stock (Eq, Show)
 
@@ -162,8 +165,8 @@ data Accuracy
     Between Expr Expr
   deriving stock (Eq, Show)
 
--- | The pace of a motion to a point for which the program writes no pace: rapid in a @rapid@
--- statement, the feed in force in a @move@ statement.
+-- | The pace of a motion to a stop that is written without a pace: rapid in a @rapid@ statement,
+-- the feed in force in a @move@ statement.
 data DefaultPace = RapidMotion | FeedMotion
   deriving stock (Eq, Show, Enum, Bounded)
 
@@ -171,7 +174,7 @@ data DefaultPace = RapidMotion | FeedMotion
 data Spin = Spinning Sense (Maybe Expr) | SpindleStop
   deriving stock (Eq, Show)
 
--- | The state of the coolant.
+-- | The command to the coolant: on or off.
 data Switch = SwitchOn | SwitchOff
   deriving stock (Eq, Show, Enum, Bounded)
 
@@ -217,8 +220,8 @@ data Operator
   | Or
   deriving stock (Eq, Show, Enum, Bounded)
 
--- | An argument of a call. A word before a value, or a rank, chooses one of several geometric
--- solutions.
+-- | An argument of a call. A selector (a word before a value) or a rank (@first@ or @last@) chooses
+-- one of several geometric solutions.
 data Argument
   = -- | a value alone
     Given {-# UNPACK #-} Expr
@@ -299,7 +302,7 @@ data Item_
     For (Located Name) Expr [Item]
   | -- | @if c { … } else { … }@
     Choose Expr [Item] [Item]
-  | -- | an item with a mistake, and the name that it was to define, if it is known
+  | -- | an item with a mistake: the name that the item was to define; 'Nothing' if there is none
     BrokenItem (Maybe (Located Name))
   deriving stock (Eq, Show)
 
@@ -396,13 +399,14 @@ data CutSense = Climb | Conventional
 data Compensation = ByCompiler | ByController
   deriving stock (Eq, Show, Enum, Bounded)
 
--- | The end point of a motion, and the pace of the motion.
+-- | A stop: the end point of a motion, and the pace of the motion.
 data Stop = Stop {point :: Expr, pace :: Pace}
   deriving stock (Eq, Show)
 
--- | The pace of a motion.
+-- | The pace of the motion to a stop.
 data Pace
-  = -- | the default of the statement: rapid in a @rapid@ statement, else the feed in force
+  = -- | No pace is written. The motion is rapid in a @rapid@ statement; elsewhere it has the feed
+    -- in force.
     Cutting
   | Rapid
   | AtFeed Expr

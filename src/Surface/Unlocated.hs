@@ -1,5 +1,5 @@
--- | Syntax trees without the regions of their nodes: all are replaced by one region. Two texts that
--- differ only in layout have the same tree without regions.
+-- | Syntax trees without regions: the region of every node is replaced by one fixed region. Two
+-- texts that differ only in layout have equal trees without regions.
 module Surface.Unlocated
   ( statements,
     expressionAt,

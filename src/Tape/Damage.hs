@@ -6,7 +6,7 @@
 -- symbols. The leading axis of a frame is the axis with the most pulses. A priority digit before
 -- the number of an axis gives its direction, and says if the axis is the leading one.
 --
--- A damage holds positions and numbers. Only 'toReport' makes a text of them.
+-- A damage holds positions, numbers and symbols. Only 'toReport' makes sentences of them.
 module Tape.Damage
   ( Damage (..),
     Reason (..),
@@ -25,9 +25,10 @@ import Report.Report (Report (..), ReportPlace (..), report)
 import Report.Report qualified as Report
 import Tape.RowMeaning qualified as RowMeaning
 
--- | Damage of a tape: the first wrong row and the number of its frame, both from 1, the content of
--- its word, and the reason. @frame@ is 'Nothing' for a row outside of all frames, and @field@ is
--- 'Nothing' for a row outside of all words.
+-- | Damage of a tape: the first wrong row, the frame and the word that contain this row, and the
+-- reason. @row@ and @frame@ are numbers from 1; @field@ is the 'Content' of the word. @frame@ is
+-- 'Nothing' for a row outside of all frames, and @field@ is 'Nothing' for a row outside of all
+-- words.
 data Damage = Damage {row :: Int, frame :: Maybe Int, field :: Maybe Content, reason :: Reason}
   deriving stock (Eq, Show)
 
@@ -70,7 +71,7 @@ data Reason
     UnexpectedWord Char
   | -- | Digit without the hole in the service track that it has in every frame.
     MarkerMissing
-  | -- | Hole in the service track of a row that must not have one.
+  | -- | Hole in the service track of a row in which this track must be blank.
     ServiceHole
   | -- | Number that lacks its sign.
     NoSign

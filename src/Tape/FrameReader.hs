@@ -1,16 +1,18 @@
 {-# LANGUAGE BangPatterns #-}
 {-# OPTIONS_GHC -O2 #-}
 
--- | Reader of frames: makes a frame of its rows, by the same steps of a layout as the writer.
+-- | Reader of frames: makes a frame out of rows of the tape, by the same steps of a layout as the
+-- writer.
 --
 -- A frame is a block of ISO 6983, and a layout gives its symbols and words in order. A hole in the
 -- service track gives the digit in its row an extra meaning, such as a minus or a bit of a command.
 -- In a layout with a check digit each symbol has a weight. The sum of the weights in a frame, the
--- check sum, has to be a multiple of the modulus.
+-- check sum, has to be a multiple of a number given by the layout, the modulus.
 --
--- The reader reads the words and makes a frame of them. Then it writes this frame again: a row that
--- differs from the tape is a fault. Before this, it tries each frame with "Tape.FrameReader.Fast",
--- which can read the frames with neither an arc nor a command. Indices of rows count from 0.
+-- 'readFrame' first tries "Tape.FrameReader.Fast", which reads only frames with neither an arc nor
+-- a command. 'wordByWord' reads any frame: it reads the words and makes a frame of them. Then it
+-- writes this frame again: a row that differs from the tape is a fault. Indices of rows count
+-- from 0.
 module Tape.FrameReader
   ( RowFault (..),
     readFrame,
@@ -61,19 +63,19 @@ import Tape.RowMeaning qualified as RowMeaning
 import Tape.Symbol (Symbol)
 import Tape.Symbol qualified as Symbol
 
--- | Words of a frame as they are read.
+-- | Part of a frame that has been read so far.
 data Reading = Reading
   { -- | the words in the order of the layout; no two of them have the same content
     readWords :: [ReadWord],
-    -- | numbers of commands, from command words and from bits in the service track; a command with
-    -- several bits has one entry for each bit
+    -- | numbers of commands: one entry for each command word, and one for each hole in the service
+    -- track that is a bit of a command. The entry of bit k has the number 2^k.
     commandNumbers :: [(Machine.CommandName, Int)],
     -- | true if a hole in the service track makes the control brake in this frame
     isBraking :: Bool,
     -- | sum of the weights of the symbols so far; stays 0 in a layout without a check digit
     total :: Int,
-    -- | index of the check digit's row, and the modulus: the sum has to be a multiple of it.
-    -- 'Nothing' until the check digit is read.
+    -- | index of the check digit's row, and the modulus, of which @total@ has to be a multiple;
+    -- 'Nothing' until the check digit is read
     check :: Maybe (Int, Int)
   }
 
@@ -121,8 +123,8 @@ wordByWord layout state rows begin = do
 
 -- Reading the words -------------------------------------------------------------------------------
 
--- | Reads the words of the frame that begins at a row, the last argument. Gives the words and the
--- index of the row after the frame.
+-- | Reads the words of a frame; the last argument is the index of the frame's first row. Gives the
+-- words and the index of the row after the frame.
 readSteps :: PreparedLayout -> ShortByteString -> Int -> Either RowFault (Reading, Int)
 readSteps layout rows = go False (Layout.steps layout) [] (Reading [] [] False 0 Nothing)
   where
@@ -227,9 +229,9 @@ expect layout rows k cs =
   let next = Symbol.rowAfter rows k cs
    in if next >= 0 then Right next else Left (mismatch layout Nothing rows k cs)
 
--- | Fault of the first row from @k@ on that differs from the symbols @cs@, in a word with the
--- content @c@ if there is one. If no row differs, the fault is that the row after the symbols is
--- not blank.
+-- | Fault of the first row from @k@ on that differs from the symbols @cs@. @c@ is the content of
+-- the word to which the rows belong, 'Nothing' outside of words. If no row differs, the fault is
+-- that the row after the symbols is not blank.
 mismatch :: PreparedLayout -> Maybe Content -> ShortByteString -> Int -> [Symbol] -> RowFault
 mismatch layout c rows k cs = case cs of
   [] -> RowFault k c NotBlank
@@ -292,8 +294,8 @@ frameOf layout state begin reading = do
               Positions -> n - ModalState.along a (position state)
 
 -- | Commands of a frame in the order of the layout, each with its number. The number of a command
--- in bits is the sum of the bits. A number 0 that means no command is left out, see
--- 'ModalState.isZeroCommand'.
+-- that is written in bits is the sum of their values. A command with the number 0 is left out if 0
+-- means that the frame has no such command, see 'ModalState.isZeroCommand'.
 commandsOf :: PreparedLayout -> Reading -> [(Machine.CommandName, Int)]
 commandsOf layout reading
   | null (commandNumbers reading) = []
@@ -375,9 +377,9 @@ checkRules layout begin reading f
 
 -- Comparison with the frame as it would be written ------------------------------------------------
 
--- | True if the machine would write the frame @f@ with exactly the words that were read, each with
--- the same count of digits. In a layout that is 'Layout.isPlain' the rows are then equal too, and
--- need no comparison. False in all other layouts.
+-- | True if the layout is plain ('Layout.isPlain'), and the machine would write the frame @f@ with
+-- exactly the words that were read: the same numbers with the same counts of digits. The rows are
+-- then equal too, and need no comparison.
 hasSameWords :: PreparedLayout -> State -> Reading -> Frame -> Bool
 hasSameWords layout state reading f =
   Layout.isPlain layout && go (Layout.wordsFor layout f) (readWords reading)
@@ -424,7 +426,7 @@ compareRows layout rows begin end = go begin (Right ())
     fault k m = RowFault k (wordOf m) (difference layout (Short.index rows k) m)
     meaningOf m = RowMeaning.meaning (RowMeaning.row layout Nothing m)
 
--- | Content of the word that a row belongs to; none for a row outside of words.
+-- | Content of the word that a row belongs to; 'Nothing' for a row outside of words.
 wordOf :: MarkedRow -> Maybe Content
 wordOf m = case kind m of
   InWord c _ _ -> Just c

@@ -170,9 +170,9 @@ foldDigits add layout frame w n start = case service f of
   where
     f = form w
     count = Layout.digitCount f (abs n)
-    -- @track@ describes the service track from one digit on. From it @meaningAt@ gives the meaning
-    -- of a hole at this digit, and the track from the next digit on. The loop is inlined twice, so
-    -- that numbers without a service track are fast.
+    -- @track@ describes the service track from the first digit on. @meaningAt@ splits such a
+    -- description: it gives the meaning of a hole at the first digit, and the rest of the track.
+    -- The loop is inlined twice, so that numbers without a service track are fast.
     digitsFrom meaningAt track = go (count - 1) track (lowestDigits count (abs n)) start
       where
         -- Adds the digits of @left@, from the digit of 10^k down to the last one.
@@ -221,7 +221,7 @@ mostRows layout = sum (map most (steps layout))
     most step = case step of
       FixedStep cs -> length cs
       CheckStep _ -> 1
-      -- Adds two rows: one for a sign, one for a decimal point.
+      -- The 2 counts one row for a sign and one row for a decimal point.
       WordStep w _ address -> extent address + 2 + max Layout.mostDigits (digits (form w))
 
 -- | The last @count@ digits of a number @n@ ≥ 0, as a number.
@@ -239,7 +239,7 @@ checkDigit layout modulus total =
     weightOf = Symbol.digitWeight (symbols layout)
 
 -- | True if @c@ is the content of the leading axis's word. If several axes have the most pulses,
--- the first in the layout leads. True also for words that are not of an axis.
+-- the first in the layout leads. True also if @c@ is no 'Along', say for the centre of an arc.
 isLeading :: PreparedLayout -> Frame -> Content -> Bool
 isLeading layout frame c = case c of
   Along a -> take 1 [b | b <- axisOrder layout, pulses b == most] == [a]

@@ -99,10 +99,10 @@ data PreparedLayout = PreparedLayout
     isFeedModal :: Bool,
     -- | true if frames have a check digit
     hasCheckDigit :: Bool,
-    -- | True if two frames with the same words (the same numbers with the same counts of digits)
-    -- have the same rows. Then the readers compare words, which is faster than comparing rows. It
-    -- is false also in a layout with a check digit, and in one that may end with a word that simple
-    -- frames never have.
+    -- | True in a plain layout: two frames with the same words (the same numbers with the same
+    -- counts of digits) have the same rows. Then the readers compare words, which is faster than
+    -- comparing rows. A layout with a check digit is not plain. A layout in which a frame may end
+    -- with a word that simple frames never have is not plain either.
     isPlain :: Bool
   }
 
@@ -116,8 +116,9 @@ data LayoutStep
   | -- | a check digit, with the modulus: the check sum has to be a multiple of it
     CheckStep Int
 
--- | Symbols before the number of a word, the count of these symbols, and the row of the last one (0
--- if there is none). The reader compares the last row first, because most addresses differ there.
+-- | Symbols before the number of a word, the count of these symbols, and the holes of the last
+-- symbol (0 if there is none). The reader compares the last symbol first, because most addresses
+-- differ there.
 data Address = Address {spelling :: [Symbol], extent :: Int, lastHoles :: Word8}
 
 -- | Compares the rows from index @k@ on with an address. Gives the index of the row after the
@@ -159,9 +160,9 @@ fromMachine machine =
     steps = map (stepOf symbols separator) items
     frameWords = Machine.wordsOf machine
     hasCheckDigit = not (null [() | CheckStep _ <- steps])
-    -- Looks at the words after the last step that gives rows in every frame. True if all of them
-    -- can occur in a simple frame. Any other word at the end of a frame would not be noticed by a
-    -- reader that follows 'simpleSteps'.
+    -- True if every word after the last step that gives rows in every frame can occur in a simple
+    -- frame. A reader that follows 'simpleSteps' would not notice another word at the end of a
+    -- frame.
     endsSurely = all isSimpleStep (takeWhile (not . isAlwaysWritten) (reverse steps))
 
 symbolsOf :: Symbols -> Text -> [Symbol]
@@ -206,7 +207,8 @@ commandsOf w =
     <> [(o, False) | CommandBit o _ <- service (form w)]
 
 -- | True for a form in which the number and its count of digits determine the rows. Such a form has
--- no holes in the service track, no sign in that track, and fewer digits than 'mostDigits'.
+-- no sign or other hole in the service track, no priority digit, and fewer digits than
+-- 'mostDigits'.
 isPlainForm :: NumberForm -> Bool
 isPlainForm f = null (service f) && digits f < mostDigits && isPlainSign (sign f)
   where
@@ -232,7 +234,7 @@ after layout = ModalState.after (axes layout) (frameWords layout)
 data MarkedRow = MarkedRow {holes :: Word8, weight :: Int, kind :: RowKind}
   deriving stock (Eq, Show)
 
--- | Purpose of a row.
+-- | Meaning of a row.
 data RowKind
   = Blank BlankRows
   | -- | symbol between the leader and the first frame
@@ -245,12 +247,12 @@ data RowKind
     Separator Char
   | -- | check digit, 0 to 9
     CheckSymbol Int
-  | -- | row of a word: the content of the word, the number of the word, and the purpose of the row
+  | -- | row of a word: the content of the word, the number of the word, and the meaning of the row
     -- within the word
     InWord Content Int WordRow
   deriving stock (Eq, Show)
 
--- | Purpose of a blank row.
+-- | Meaning of a blank row: its position on the tape.
 data BlankRows
   = -- | before the first frame
     Leader
@@ -262,7 +264,7 @@ data BlankRows
     Trailer
   deriving stock (Eq, Show)
 
--- | Purpose of a row within a word.
+-- | Meaning of a row within a word.
 data WordRow
   = AddressSymbol Char
   | -- | digit, 0 to 9, that gives the direction of an axis and says if the axis is the one with the
@@ -277,11 +279,11 @@ data WordRow
     Digit Int Int Service Bool
   deriving stock (Eq, Show)
 
--- | @n@ blank rows of one purpose.
+-- | Blank rows, @n@ of them, that all have the meaning @purpose@.
 blanks :: BlankRows -> Int -> [MarkedRow]
 blanks purpose n = replicate n (MarkedRow 0 0 (Blank purpose))
 
--- | Row of a symbol. The purpose of the row is @meaning@ applied to the name of the symbol.
+-- | Row of a symbol. The 'kind' of the row is @meaning@ applied to the name of the symbol.
 constant :: (Char -> RowKind) -> Symbol -> MarkedRow
 constant meaning (Symbol.Symbol c h n) = MarkedRow h n (meaning c)
 
@@ -315,6 +317,7 @@ isDigitCount f count n
   where
     least = leastDigits f
 
--- | Least count of digits in a form without padding: all decimals and one digit before the point.
+-- | Least count of digits in a form without padding: all decimals, and one digit before the point
+-- if the form has such digits.
 leastDigits :: NumberForm -> Int
 leastDigits f = min (digits f) (if decimals f > 0 then decimals f + 1 else 1)

@@ -46,8 +46,8 @@ data State = State
     ordinal :: Int,
     -- | position of the cutter in pulses, along the axes of the part
     position :: Pulses3,
-    -- | axes of which the tape has given no position so far. Only tapes with absolute positions use
-    -- this field.
+    -- | axes whose position the tape still has to give: the next frame that moves gives it, changed
+    -- or not. Only tapes with absolute positions use this field.
     unwritten :: [Axis],
     -- | last feed code on the tape; 'Nothing' before the first one
     feed :: Maybe FeedCode
@@ -97,9 +97,9 @@ along a (Pulses3 x y z) = case a of
   Y -> y
   Z -> z
 
--- | Number of a word in a frame: pulses on the machine's axes, a code, or the frame number, by the
--- content of the word. @state@ is the state before the frame. 'Nothing' if the frame is written
--- without this word.
+-- | Number of a word in a frame. The content of the word decides which number it is: pulses on the
+-- machine's axes, a code, the number of a command, or the frame number. 'Nothing' if the frame is
+-- written without this word. @state@ is the modal state before the frame.
 number :: Axes -> State -> Frame -> Word' -> Maybe Int
 number system state frame word = case content word of
   FrameNumber ->

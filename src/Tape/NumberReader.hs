@@ -5,7 +5,8 @@
 --
 -- Rows have indices from 0. A hole in the service track gives the digit in its row an extra
 -- meaning, such as a minus or a bit of a command's number. In a layout with a check digit each
--- symbol has a weight, and the sum of the weights is checked at the end of the frame.
+-- symbol has a weight, and the sum of the weights is checked at the end of the frame. The /content/
+-- of a word is the meaning of its number, such as a motion or a feed ('Content').
 module Tape.NumberReader
   ( RowFault (..),
     TapeNumber (..),
@@ -30,7 +31,7 @@ import Tape.Layout (PreparedLayout)
 import Tape.Layout qualified as Layout
 import Tape.Symbol qualified as Symbol
 
--- | Faulty row: its index from 0, the content of its word if the row is in one, and the reason.
+-- | Faulty row: its index from 0, the content of its word if the row is in a word, and the reason.
 data RowFault = RowFault Int (Maybe Content) Reason
   deriving stock (Eq, Show)
 
@@ -43,8 +44,8 @@ data TapeNumber = TapeNumber
     value :: Int,
     -- | count of digits, decimals included
     places :: Int,
-    -- | command bits in the service track: the command, and the value 2^k of bit k. A command with
-    -- several bits has several entries.
+    -- | one entry for each hole that is a bit of a command's number: the command, and the value 2^k
+    -- of bit k
     bits :: [(CommandName, Int)],
     -- | true if the service track has the hole that makes the control brake in this frame
     brakes :: Bool,
@@ -93,8 +94,9 @@ numeral layout c f rows begin = do
             total = weights ds
           }
   where
-    -- A priority digit (see 'Priority') gives a sign to 0 too, so a minus before 0 is no fault. The
-    -- reader of frames later compares this digit with the one that the machine would write.
+    -- A priority digit before the number gives the sign ('Priority'), also that of 0. So a minus
+    -- before 0 is no fault here. The reader of frames later compares the priority digit with that
+    -- of the machine.
     refusesMinusZero = case sign f of
       Priority {} -> False
       Unsigned -> True
@@ -119,12 +121,12 @@ canBegin layout f rows k =
       MinusSign -> is '-'
       EitherSign -> is '-' || is '+'
 
--- | Sign of a number: the index of the row after the sign, true for a minus, and the weight of the
--- sign in the check sum. Without a sign: the index of the first digit, false and 0.
+-- | Sign before the digits of a number: the index of the row after the sign, true for a minus, and
+-- the weight of the sign in the check sum. Without a sign: index of the first digit, false and 0.
 data SignPart = SignPart Int Bool Int
 
--- | Sign of a number at row @k@. If the form @f@ allows the number to have no sign before its
--- digits, the sign may be absent; else its absence is a fault.
+-- | Sign of the number of the form @f@ that begins at row @k@. The absence of a sign is a fault
+-- only if the form demands a plus, a minus or a priority digit before every number.
 readSign ::
   PreparedLayout ->
   Content ->
@@ -158,7 +160,7 @@ readSign layout c f rows k = case sign f of
     isHere s = k < Short.length rows && Short.index rows k == Symbol.holes s
     afterSymbol s isMinus = SignPart (k + 1) isMinus (Symbol.weight s)
 
--- | State while the digits of a number are read.
+-- | Digits of a number that have been read so far, with the meaning of the holes beside them.
 data Digits = Digits
   { -- | index of the next row to read
     at :: Int,
@@ -166,7 +168,7 @@ data Digits = Digits
     amount :: Int,
     -- | true if a minus has been read
     negative :: Bool,
-    -- | command bits in the service track so far, see 'bits'
+    -- | command bits that have been read so far, as in 'bits'
     commandBits :: [(CommandName, Int)],
     -- | true if the hole for braking has been read
     braking :: Bool,
@@ -177,7 +179,8 @@ data Digits = Digits
   }
 
 -- | Reads from @least@ to @most@ digits of a number, and adds them to @ds@. The result is a fault
--- if there are fewer than @least@ digits, or if a digit has a wrong hole in the service track.
+-- if there are fewer than @least@ digits, or if a digit has a wrong hole in the service track or
+-- lacks one.
 figures ::
   PreparedLayout ->
   Content ->
@@ -253,7 +256,8 @@ serviceDigits layout rows end ds =
               services = track
             }
 
--- | Index of the row after the digits, and the value of all digits so far.
+-- | Index of the row after the last digit that was read, and the value of all digits of the number
+-- up to that row.
 data Figures = Figures Int Int
 
 -- | Reads digits without a hole in the service track, up to row @end@, excluded. The last two
@@ -278,7 +282,7 @@ stopFault layout c rows ds = case (digit layout (Just c) rows (at ds), services 
   (Right _, Marker : _) -> RowFault (at ds) (Just c) MarkerMissing
   (Right _, _) -> RowFault (at ds) (Just c) ServiceHole
 
--- | Reads the decimal point at row @at ds@, and gives the state after it.
+-- | Reads the decimal point at row @at ds@, and adds its row and its weight to @ds@.
 point :: PreparedLayout -> Content -> ShortByteString -> Digits -> Either RowFault Digits
 point layout c rows ds
   | at ds >= Short.length rows = Left (cutOff c rows)

@@ -9,8 +9,10 @@
 --
 -- The leader is the blank rows at the start of the tape, the trailer those at its end. Opening
 -- symbols follow the leader, closing symbols precede the trailer. Blank rows before a frame with an
--- even number are a shift, blank rows after a frame are a gap. The code skips rows that mean
--- nothing, such as erased rows.
+-- even number are a shift, blank rows after a frame are a gap.
+--
+-- Blank rows are 'Counted' or 'Skipped', as the machine description says ('Spare'). If they are
+-- 'Skipped', the reader also skips the rows that the tape code lists, such as erased rows.
 module Tape.Punch
   ( write,
     rows,
@@ -70,8 +72,8 @@ write machine start frames =
     holesOf = ByteString.pack . map holes
 
 -- | Rows of the frames with the blank rows between them, in blocks. All blocks are filled in one
--- buffer, which is copied when it is full, so the memory in use stays small. @state@ is the state
--- before the first frame.
+-- buffer, which is copied when it is full, so the memory in use stays small. @state@ is the modal
+-- state before the first frame.
 frameRows :: PreparedLayout -> State -> [Frame] -> [ByteString]
 frameRows layout state frames =
   runST (Primitive.newPrimArray (blockSize + mostOfFrame) >>= go 0 state frames)
@@ -155,12 +157,12 @@ symbolsOf layout = map (Symbol.symbol (Layout.symbols layout)) . Text.unpack
 -- in pulses.
 --
 -- If blank rows are 'Counted', every row matters, because a blank row may be the digit 0. If they
--- are 'Skipped', the reader first removes the rows that the code skips, and ignores blank rows
+-- are 'Skipped', the reader first removes the rows that the tape code skips, and ignores blank rows
 -- between frames.
 read :: Machine -> Pulses3 -> Tape -> Either Damage [Frame]
 read machine start (Tape raw) = case firstFrameRow source of
   Left fault -> Left (damage source Nothing fault)
-  -- Increments do not depend on the height, so the tape never has to give the height.
+  -- On a tape of increments no word gives an absolute height, so one reading suffices.
   Right begin | not (hasPositions source) -> readFrom source start begin False
   -- The first frame that moves has a word for z if any frame of the tape changes the height. The
   -- reader knows this only after it has read all frames, so it reads them twice: with that word
@@ -246,16 +248,16 @@ data Source = Source
   { layout :: PreparedLayout,
     -- | all rows of the tape
     raw :: ByteString,
-    -- | 'raw' without the rows that the code skips
+    -- | 'raw' without the rows in 'skipped'
     kept :: ByteString,
-    -- | 'kept' in another type, with fast access to single rows
+    -- | the rows of 'kept' in a type with fast access to single rows
     line :: ShortByteString,
-    -- | the rows that the code skips, each once; empty if blank rows are 'Counted'
+    -- | the rows that the tape code skips, each once; empty if blank rows are 'Counted'
     skipped :: ByteString,
-    -- | the medium; if the code skips blank rows, there are none to count, and the medium's counts
-    -- of blank rows (leader, gap, shift) are set to 0
+    -- | medium of the machine. If 'skipped' contains the blank row, 'kept' has no blank rows, and
+    -- the medium's counts of them (leader, gap, shift) are set to 0.
     medium :: Medium,
-    -- | symbols after the last frame
+    -- | closing symbols
     ending :: [Symbol]
   }
 
@@ -294,7 +296,8 @@ tapeIndex source at
         Nothing -> max 0 (ByteString.length (raw source) - 1)
         Just d -> if k <= 0 then from + d else go (k - 1 :: Int) (from + d + 1)
 
--- | Index of the row after the leader, or the fault of a leader that is too short or has holes.
+-- | Index of the row after the leader. The result is a fault if the leader is too short or has
+-- holes, or if no row remains for the opening symbols.
 --
 -- If blank rows are 'Skipped', blank rows between the leader and the opening symbols are ignored.
 -- On a medium without opening symbols, blank rows after the leader are not ignored, because they
@@ -324,21 +327,23 @@ afterLeader source
             (ByteString.takeWhile (`ByteString.elem` skipped source) (raw source))
         else asked
 
--- | Count of blank rows that the medium demands before the first frame, and after the last one.
+-- | Count of blank rows that the medium demands in the leader. The trailer must have as many.
 leaderLength :: Source -> Int
 leaderLength source = leader (Machine.medium (Layout.machine (layout source)))
 
--- | True if the code skips blank rows, so that 'kept' contains none.
+-- | True if the tape code skips blank rows, so that 'kept' contains none.
 skipsBlanks :: Source -> Bool
 skipsBlanks source = ByteString.elem 0 (skipped source)
 
--- | Index in 'kept' of the first row with holes at or after row @at@; the count of rows if there is
--- none.
+-- | Index in 'kept' of the first row with holes at or after row @at@; the count of all rows in
+-- 'kept' if there is none.
 afterBlanks :: Source -> Int -> Int
 afterBlanks source at =
   at + ByteString.length (ByteString.takeWhile (== 0) (ByteString.drop at (kept source)))
 
--- | Frames from a row on as a lazy list. The arguments are the row and the state before its frame.
+-- | Frames from a row on as a lazy list. The arguments are the index of the row, and the modal
+-- state before the frame there.
+--
 -- The list ends with 'Nothing' at the proper end of the tape. Otherwise it ends with the first
 -- fault and the number of the faulty frame; a fault outside of all frames has no number.
 framesFrom :: Source -> Int -> State -> LazyList (Maybe (Maybe Int, RowFault)) Frame
@@ -380,7 +385,7 @@ blankRows source why n at
 
 -- The end of the tape -----------------------------------------------------------------------------
 
--- | State of the tape at a row where a frame can begin.
+-- | Rest of a tape, from a row at which a frame can begin.
 data End
   = -- | closing symbols and trailer follow, and nothing else
     Ended
@@ -406,8 +411,8 @@ endAt source at = case spare (medium source) of
     closer = closing (medium source)
     torn = maybe Continued Torn (tornAt source at)
 
--- | Count of blank rows at the end of the tape. If the code skips blank rows, they are counted in
--- 'raw'; otherwise the result is @found@, their count in 'kept'.
+-- | Count of blank rows at the end of the tape. If the tape code skips blank rows, they are counted
+-- in 'raw'; otherwise the result is @found@, their count in 'kept'.
 trailerLength :: Source -> Int -> Int
 trailerLength source found
   | skipsBlanks source =
@@ -428,8 +433,9 @@ trailerAt source at = case FrameReader.expect (layout source) (line source) firs
       Counted -> at
       Skipped -> if null cs then at else afterBlanks source at
 
--- | Fault of a tape whose frames end before row @at@: a trailer of a wrong length, or missing
--- closing symbols. 'Nothing' if other symbols than the closing ones follow: then a frame is faulty.
+-- | Fault of a tape on which no frame begins at row @at@: a trailer of a wrong length, or missing
+-- closing symbols. 'Nothing' if other symbols than the closing ones follow there. Then the frame at
+-- row @at@ is faulty.
 tornAt :: Source -> Int -> Maybe RowFault
 tornAt source at = case trailerAt source at of
   Just found ->

@@ -42,7 +42,7 @@ data Row = Row
     -- | number of the row's frame, from 1; 'Nothing' for rows before the first frame and after the
     -- last one
     frame :: Maybe Int,
-    -- | symbol that the tape code gives to 'holes'; 'Nothing' if the code has no such symbol
+    -- | symbol that the tape code gives to 'holes'; 'Nothing' if it gives none
     symbol :: Maybe Char,
     -- | purpose of the row
     kind :: RowKind,
@@ -98,8 +98,7 @@ meaningOf layout purpose = case purpose of
     isLeading c d = or [d == a || d == b | Just NumberForm {sign = Priority a b _ _} <- [formOf c]]
 
 -- | Name of the decimal position of digit @k@ (0 is the last digit) in a number of the form @f@,
--- with a space before the name: @" tens"@. Empty for a number of one digit, and if the form is not
--- known.
+-- with a space before the name: @" tens"@. Empty for a form with one digit, and without a form.
 positionText :: Maybe NumberForm -> Int -> Text
 positionText f k = case f of
   Just NumberForm {digits = 1} -> ""
@@ -158,8 +157,8 @@ shown c = case c of
   ' ' -> "space"
   _ -> "‘" <> Text.singleton c <> "’"
 
--- | English text for a word with the content @c@ and the number @n@, which is in units of the last
--- decimal. It explains the words in the picture of a tape that is a text, not a punched tape.
+-- | English text for a word with the content @c@ and the number @n@, in units of the last
+-- decimal. The picture of a tape uses it if the machine reads a text instead of a punched tape.
 wordMeaning :: Machine -> Content -> Int -> Text
 wordMeaning machine c n = case (c, [form w | w <- Machine.wordsOf machine, content w == c]) of
   (Motion codes, _) -> motionText codes n

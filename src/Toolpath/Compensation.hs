@@ -6,8 +6,9 @@
 --
 -- * The first move under compensation is programmed as a straight line. The control moves the
 -- centre to the point where the offsets of that line and of the next element intersect. So the
--- programmed line must be a tangent to the cutter at the cutter's first position on the toolpath.
--- The next element, extended if necessary, begins at its intersection with that tangent.
+-- programmed line must be tangent to the cutter's circle at the end of the approach. The next
+-- element is extended backwards along a straight line, and begins where this meets the programmed
+-- line.
 --
 -- * At outer corners the control moves on arcs. It makes the arc at the last corner of a closed
 -- contour only when another move follows.
@@ -44,7 +45,7 @@ import Toolpath.Tolerance qualified as Tolerance
 import Toolpath.Toolpath (Manner (..), Move (..), Sent (Sent), withoutBraking)
 import Toolpath.Toolpath qualified as Toolpath
 
--- | The moves of the cutter's centre in one pass, in the parts in which they are executed.
+-- | The moves of the cutter's centre in one pass. The fields are in the order of execution.
 data PassMoves = PassMoves
   { -- | the approach
     before :: [Move],
@@ -117,10 +118,10 @@ checkElements keyword requested milling side passMoves =
       mapM_
         (\old -> Left (TightForControl keyword requested (fmap element i) old radius))
         (tooTight radius side s)
-    -- A control ignores a very slight corner. If such a corner before an arc turns away from the
-    -- cutter, the centre begins its own arc too early. This arc then sweeps more than the arc of
-    -- the edge. The control refuses it if the difference is above 'Tolerance.controlTurn'. Rounding
-    -- to pulses turns the segment before the arc a little, which has the same effect.
+    -- A control ignores a very slight corner. If such a corner before an arc of the edge turns away
+    -- from the cutter, the arc of the centre begins too early. It then sweeps more than the arc of
+    -- the edge. The control refuses a difference above 'Tolerance.controlTurn'. Rounding to pulses
+    -- turns the segment before the arc a little, which has the same effect.
     checkArcStart (i, a) (_, b) =
       let Rad deflection = Vec.signedAngle (Segment.endDirection a) (Segment.startDirection b)
           needed = neededBefore (Mm r) side (Rad (max 0 (-(deflection * Carrier.sideSign side)))) b
@@ -173,20 +174,20 @@ isIgnored deflection = abs deflection < least
   where
     Rad least = Tolerance.controlBend
 
--- | The element with a number from 0; the number after the last one is that of the first element.
+-- | The element with the number @i@, from 0. After the last element the first one follows again.
 elementAt :: Milling -> Int -> Element
 elementAt milling i = elements NonEmpty.!! (i `mod` length elements)
   where
     elements = Part.elements (Part.contour milling)
 
--- | The least length of a line, or the least radius of an arc, that a control accepts before the
--- segment @s@ ('referenceLength'). @away@ is the angle by which the contour turns away from the
--- cutter between the two segments; @r@ is the cutter's radius in mm.
+-- | The least 'referenceLength' that a control accepts for the segment before @s@: a least length
+-- for a line, a least radius for an arc. @away@ is the angle by which the contour turns away from
+-- the cutter at the start of @s@; @r@ is the cutter's radius in mm.
 --
--- If @s@ is an arc, the centre's arc may sweep more than @s@. The reasons are the angle @away@, and
--- rounding to pulses, which turns the segment before. Rounding turns a longer segment less. With
--- the least length, the sweeps differ by 'Tolerance.controlTurn'. The result is 0 if @s@ is a line,
--- and infinite if no length suffices.
+-- If @s@ is an arc, the centre's arc may sweep more than @s@. One reason is the angle @away@. The
+-- other is rounding to pulses, which turns the segment before @s@, and turns a longer one less.
+-- With the least length, the two sweeps may differ by up to 'Tolerance.controlTurn'. The result is
+-- 0 if @s@ is a line, and infinite if no length suffices.
 neededBefore :: Mm -> Side -> Rad -> Segment -> Mm
 neededBefore (Mm r) side (Rad away) s = case s of
   Straight _ _ -> Mm 0
@@ -282,10 +283,12 @@ overrun keyword milling first =
 
 -- | The moves before compensation begins, the straight move on which it begins, and the edge from
 -- the end of that move. @passMoves@ are the moves of the approach; the last of them must be
--- straight and level. If this last move is longer than three radii of the cutter, it is divided at
--- two radii from its end. Compensation begins on the second part, whose direction certainly differs
--- from that of the edge. @keyword@ is the region of the statement's first word, @requested@ that of
--- the request for compensation.
+-- straight and level.
+--
+-- If this last move is longer than three radii of the cutter, it is divided at two radii from its
+-- end. Compensation begins on the second part. Its programmed line is then turned by 30° from the
+-- approach, so it makes a clear corner even with an edge that continues the approach. @keyword@ is
+-- the region of the statement's first word, @requested@ that of the request for compensation.
 entering ::
   Region ->
   Region ->

@@ -2,8 +2,8 @@
 -- and the approach and the retract.
 --
 -- The /path/ of a pass is that offset or a part of it, or the contour itself if the cutter's centre
--- moves on the contour. A /blade/ is a tool that swivels along a contour. The machine's z axis
--- turns the blade, and has a height of its own at each point of the path ("Toolpath.Swivel").
+-- moves on the contour. A /blade/ is a tool that swivels along a contour. The machine's z axis does
+-- not lift a blade but turns it, so z changes along the path ("Toolpath.Swivel").
 module Toolpath.CuttingPass
   ( CuttingPass (..),
     block,
@@ -65,7 +65,8 @@ data CuttingPass = CuttingPass
     allowance :: Mm,
     -- | height of the pass; the top of the part is 0
     level :: Mm,
-    -- | parts of the contour that the cutter does not reach
+    -- | parts of the contour that the cutter does not reach; only the first of several paths has
+    -- them, the others have none
     restMaterial :: [Equidistant.UnreachedPart]
   }
 
@@ -100,7 +101,7 @@ pathEnds milling path cut =
     }
 
 -- | The block of a pass. @swivels@ has, for the start and the end of each segment of the path, the
--- height of a blade's axis above its middle position; Nothing without a blade. @cut@ has the moves
+-- height of the z axis above its middle position; Nothing without a blade. @cut@ has the moves
 -- along the contour. The strict @ends@ of the path are computed before the block, so the block
 -- keeps no reference to the path.
 blockOf ::
@@ -129,7 +130,7 @@ blockOf p swivels cut ends@PathEnds {} = do
     passMoves = allMoves p swivels cut ends
 
 -- | All moves of a pass. @swivels@ has, for the start and the end of each segment of the path, the
--- height of a blade's axis above its middle position; Nothing without a blade. @cut@ has the moves
+-- height of the z axis above its middle position; Nothing without a blade. @cut@ has the moves
 -- along the contour, and @ends@ the ends of the path.
 allMoves :: CuttingPass -> Maybe (NonEmpty (Mm, Mm)) -> NonEmpty Move -> PathEnds -> PassMoves
 allMoves p swivels cut ends =
@@ -145,7 +146,8 @@ allMoves p swivels cut ends =
     (leadIn, leadOut) = leads p ends
     begin = Segment.start (maybe (firstSegment ends) Toolpath.segment (listToMaybe leadIn))
     finish = Segment.end (maybe (lastSegment ends) Toolpath.segment (listToMaybe (reverse leadOut)))
-    -- The axis of a blade begins and ends the path at heights of its own.
+    -- The heights at the start and at the end of the path. They may differ if the z axis turns a
+    -- blade.
     (inZ, outZ) = case swivels of
       Nothing -> levels p
       Just hs -> (plus (level p) (fst (NonEmpty.head hs)), plus (level p) (snd (NonEmpty.last hs)))
@@ -175,8 +177,8 @@ visit p =
     }
 
 -- | The moves along the contour, one for each segment of the path. @swivels@ gives, for the start
--- and the end of each segment, the height of a blade's axis above its middle position; Nothing
--- without a blade.
+-- and the end of each segment, the height of the z axis above its middle position; Nothing without
+-- a blade.
 cutMoves ::
   CuttingPass ->
   Maybe (NonEmpty (Mm, Mm)) ->
@@ -221,7 +223,8 @@ cutMoves p swivels path =
         j == i + 1 && Part.continues (numbered p Vector.! j)
       _ -> False
 
--- | The lead-in and the lead-out at the ends of the path.
+-- | The lead-in and the lead-out at the ends of the path. The program may ask for no lead-out; if
+-- 'endsAtCorner' is true, an overrun then takes its place.
 leads :: CuttingPass -> PathEnds -> ([Move], [Move])
 leads p PathEnds {endsAtCorner, firstSegment, lastSegment} = (leadIn, leadOut)
   where

@@ -29,12 +29,14 @@ import Report.Report (Label (..), Report (..))
 import Toolpath.Tolerance qualified as Tolerance
 import Toolpath.WarningReport
 
--- | Reasons why there is no toolpath. The first region is mostly that of the statement's first
--- word. A position is one of the cutter's centre. A largest radius that fits is that of a cutter
--- that would not have this problem; it is Nothing if no cutter would do.
+-- | Reasons why there is no toolpath. Each comment lists the fields of its constructor in order.
+--
+-- In these lists "the statement" is the region of the statement's first word, and "the centre" is
+-- the cutter's centre. "The largest radius that fits" is that of the largest cutter without this
+-- problem; Nothing if there is none. A constructor without a list has the statement only.
 data Error
-  = -- | @outside@ or @inside@ at an open contour: the side as written, the contour's name, the
-    -- contour
+  = -- | @outside@ or @inside@ at an open contour: the region of the side, the side, the contour's
+    -- name, the region of that name
     SideOfOpen Region Side Name Region
   | -- | a concave radius smaller than the cutter's: the statement, the cutter, the arc and its
     -- radius, the largest radius that fits
@@ -46,24 +48,26 @@ data Error
     -- cutter, both elements, the position of the centre, the largest radius that fits
     Collision Region Tool Element Element Point (Maybe Mm)
   | -- | a move that cuts into an element: the region that asks for the move, the move, the element,
-    -- the depth of the cut, its kind, the position of the centre
+    -- the depth of the cut, the kind of intrusion, the position of the centre
     CutsPart Region Segment Element Mm Intrusion Point
   | -- | a hole that cuts into a contour: the region of the hole, its centre, the element, the depth
     -- of the cut
     HoleCuts Region Point Element Mm
-  | -- | milling one contour cuts into another: the statement, the region of the element that is
-    -- milled (in a pocket, of the statement), the element that is cut, the depth of the cut, the
-    -- position of the centre
+  | -- | milling one contour cuts into another: the statement, the region of the element along which
+    -- the cutter moves, the element that is cut, the depth of the cut, the position of the centre.
+    -- In a pocket the second region is that of the statement, too
     MillsAnother Region Region Element Mm Point
   | -- | milling without a depth at a height above the part, where the cutter cuts nothing: the
     -- statement, the height
     CutsAir Region Mm
-  | -- | a closed contour to be turned: the side as written, the contour's name, the contour
+  | -- | a closed contour to be turned: the region of the side, the contour's name, the region of
+    -- that name
     TurnsClosed Region Name Region
   | -- | climb or conventional milling where the cutter's centre moves on the contour: the word in
     -- the program, the statement
     SenseOnContour Region Region
-  | -- | climb or conventional milling that contradicts the side: the word in the program, the side
+  | -- | climb or conventional milling that contradicts the side: the word in the program, the
+    -- region of the side
     SenseAgainstSide Region Region
   | -- | a turned profile that goes below the axis of the spindle: the statement, the element
     BelowAxis Region Element
@@ -91,8 +95,8 @@ data Error
     -- compensation, the element (Nothing for a lead), the radius of the arc, the cutter's radius
     TightForControl Region Region (Maybe Element) Mm Mm
   | -- | an element that is too short for a control: the statement, the region that asks for cutter
-    -- compensation, the element (Nothing for a lead), the length of the line or the radius of the
-    -- arc, the least length or radius
+    -- compensation, the element (Nothing for a lead), its length, the least length. Both are
+    -- radii if the element is an arc that is refused because of the arc after it
     TinyForControl Region Region (Maybe Element) Mm Mm
   | -- | a slight corner that a control ignores: the region that asks for cutter compensation, both
     -- elements, the change of direction, the depth of the control's cut into the part
@@ -114,7 +118,7 @@ data Error
     KeepsMore Region Element
   deriving stock (Eq, Show)
 
--- | The kinds of intrusion of a move.
+-- | The kinds of intrusion: cuts of a move into a contour, or into the allowance on a contour.
 data Intrusion
   = -- | the cutter cuts into the part, and its centre stays on one side of the contour
     CutsContour

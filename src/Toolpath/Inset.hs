@@ -42,9 +42,9 @@ inset contours@(outer :| _) = loopsAt
     walls = map (fst . FlatPolyarc.fromPolyarc) (NonEmpty.toList contours)
     BoundingBox l b r t = boundingBox (Polyarc.segments outer)
     loopsAt distance@(Mm d)
-      -- A circle of the radius @d@ is at least as wide as the outer contour, so it does not fit.
-      -- Without this test the kernel would have to distinguish a cutter that covers the whole
-      -- contour from one that fits.
+      -- Under this condition a circle of the radius @d@ is at least as wide or as high as the outer
+      -- contour, so it does not fit. Without this test the kernel would have to distinguish a
+      -- cutter that covers the whole contour from one that fits.
       | 2 * d >= min (r - l) (t - b) = []
       | otherwise = case Kernel.offset (Kernel.roundOffset Carrier.LeftOf distance) walls of
         Right region -> loopsOf region
@@ -53,9 +53,9 @@ inset contours@(outer :| _) = loopsAt
         Left Kernel.WrongNesting -> []
 
 -- | The loops at @distance@, including loops along slots: narrow passages that are exactly twice as
--- wide as @distance@. @loopsAt@ is 'inset' applied to the contours. It gives no loop in a slot,
--- because the centre can only move on a line there. If there is a slot, all loops of the result are
--- at a distance that is smaller by 'Tolerance.clearance'.
+-- wide as @distance@. @loopsAt@ is 'inset' applied to the contours. @loopsAt distance@ has no loop
+-- in a slot, because the centre can only move on a line there. If there is a slot, all loops of the
+-- result are at a distance that is smaller by 'Tolerance.clearance'.
 insetWithSlots :: (Mm -> [Loop]) -> Mm -> [Loop]
 insetWithSlots loopsAt distance
   | minus (totalLength smaller) (totalLength own) > Tolerance.ignoredSlot = smaller

@@ -1,9 +1,10 @@
 -- | Moves that cut into a machined contour where the program does not allow it.
 --
--- Approaches, retracts and linking moves are checked against all contours. Cuts are checked against
--- the contours of other statements only: "Offset.Equidistant" already ensures that a cut does not
--- gouge its own contour. A move wholly above the top of the part cuts nothing. An /intrusion/ is a
--- cut of a move into a contour, or into the allowance on a contour.
+-- Most moves are checked against all contours: approaches, retracts, drilling, all moves in
+-- pockets, and the moves of the statements @rapid@ and @move@. The cuts along a contour are checked
+-- against the contours of other statements only: "Offset.Equidistant" already ensures that they do
+-- not gouge their own contour. A move wholly above the top of the part cuts nothing. An /intrusion/
+-- is a cut of a move into a contour, or into the allowance on a contour.
 module Toolpath.Intrusion
   ( intrusions,
   )
@@ -42,7 +43,8 @@ import Toolpath.Toolpath (Block (..), Move, Pass (..), Toolpath)
 import Toolpath.Toolpath qualified as Toolpath
 
 -- | One error for each region of the program that asks for moves which cut into a contour deeper
--- than the contour's tolerance. It is the deepest of these cuts.
+-- than the contour's tolerance. It is the deepest intrusion of these moves. Among the cuts of one
+-- pass, only the first that intrudes counts.
 intrusions :: Toolpath -> [Error]
 intrusions path = worst (concatMap (intrusionsOfBlock machined) (Toolpath.blocks path))
   where
@@ -68,7 +70,7 @@ depth e = case e of
 -- | All machined contours of a program.
 data Machined = Machined
   { index :: BoxTree Wall,
-    -- | the largest height at which a tool may cut; the top of the part is 0
+    -- | the height above which a move cuts nothing; the top of the part is 0
     top :: Mm,
     -- | the numbers of all milling and pocket statements that have a contour to machine
     statements :: [Int]
@@ -137,8 +139,9 @@ data Intruder = Intruder
     -- | number of the statement whose contour is not checked, because the moves are cuts along that
     -- contour; Nothing if all contours are checked
     own :: Maybe Int,
-    -- | number of the statement to which linking moves belong, and its smallest allowance, into
-    -- which they must not cut; Nothing if the allowances are not checked
+    -- | for the linking moves of a milling statement: its number, and the smallest of its
+    -- allowances. These moves must keep that allowance from the statement's own contour. Nothing
+    -- for other moves
     leaving :: Maybe (Int, Mm)
   }
 
@@ -244,8 +247,9 @@ hit tool kept milling m element
       | otherwise = CutsAllowance
 
 -- | True if a segment @path@ leads from one side of the segment @wall@ to the other, and gets
--- further than @allowed@ away from it on both sides. The check is for pointed tools: their radius
--- is 0, so no distance from a wall is too small.
+-- further than @allowed@ away from it on both sides. If @wall@ is an arc, the sides are the inside
+-- and the outside of its circle, and @path@ may also enter the circle and leave it again. The check
+-- is for pointed tools: their radius is 0, so no distance from a wall is too small.
 goesThrough :: Mm -> Segment -> Segment -> Bool
 goesThrough allowed path wall = case wall of
   Straight a b ->

@@ -24,9 +24,9 @@ data Which = In | Out
 -- | The lead-in at the start of a path, or the lead-out at its end; empty if the program asks for
 -- none. It is a straight line in the direction of the path, or a quarter of a circle that curves
 -- away from the material. @side@ is the cutter's side of the contour; if it is Nothing, the circle
--- is on the left. @keyword@ is the region of the statement's first word. @p@ is the start of the
--- path for a lead-in and its end for a lead-out; @direction@ is the unit direction of the path at
--- @p@. The heights of the move are 0; the caller sets them.
+-- is on the left of the path. @keyword@ is the region of the statement's first word. @p@ is the
+-- start of the path for a lead-in and its end for a lead-out; @direction@ is the unit direction of
+-- the path at @p@. The heights of the move are 0; the caller sets them.
 lead :: Region -> Milling -> Maybe Carrier.Side -> Which -> Vec.Vec -> Point -> [Move]
 lead keyword milling side which direction p =
   case if which == In then Part.leadIn milling else Part.leadOut milling of

@@ -1,6 +1,6 @@
 -- | Linking moves: those from the current position to the beginning of a pass, and those that leave
--- the end of the pass. A /stop/ is a point to which the program asks the tool to move, with or
--- without a height.
+-- the end of the pass. A pass begins with its lead-in and ends with its lead-out. A /stop/ is a
+-- point to which the program asks the tool to move, with or without a height.
 module Toolpath.LinkingMove
   ( Visit (..),
     withDepth,
@@ -60,7 +60,8 @@ withoutDepth Visit {word, milling, isFirst, isLast, from} z (inZ, outZ) begin fi
         then straightMoves (SpacePoint finish outZ) (upright (Part.retract milling))
         else []
     isOpen = Part.ends (Part.contour milling) == Part.Open
-    -- On the first move of the retract, a blade swivels back to its upright position.
+    -- On the first move of the retract, a blade swivels back to its upright position, unless the
+    -- program gives a height for the end of that move.
     upright stops = case stops of
       s : more
         | Nothing <- Part.level s,
@@ -68,13 +69,13 @@ withoutDepth Visit {word, milling, isFirst, isLast, from} z (inZ, outZ) begin fi
           s {Part.level = Just z} : more
       _ -> stops
 
--- | The linking moves before and after a pass of a statement with a depth. At the clearance height
--- @clear@ the cutter moves to the last approach point, and plunges there. Without approach points
--- it plunges at the beginning of the pass. After the pass it moves to the first retract point and
--- rises there; if that point has a height of its own, the cutter rises at the end of the pass. The
--- other approach points are used before the first pass only, the other retract points after the
--- last pass only. @begin@ and @finish@ are the ends of the pass, @inZ@ and @outZ@ the heights of
--- the z axis at these ends.
+-- | The linking moves before and after a pass of a statement with a depth. The cutter moves to the
+-- last stop of the approach, and plunges there. Without an approach it plunges at the beginning of
+-- the pass. After the pass it moves to the first stop of the retract and rises there. If that stop
+-- has a height, or there is none, the cutter rises at the end of the pass. The other stops of the
+-- approach precede the first pass only, the other stops of the retract follow the last pass only.
+-- Stops without a height are at the clearance height @clear@. @begin@ and @finish@ are the ends of
+-- the pass, @inZ@ and @outZ@ the heights of the z axis at these ends.
 withDepth :: Visit -> Mm -> (Mm, Mm) -> Point -> Point -> ([Move], [Move])
 withDepth Visit {word, milling, isFirst, isLast, from} clear (inZ, outZ) begin finish =
   ( up
@@ -122,7 +123,7 @@ plunge word milling (SpacePoint p z) target =
     feedDown = fromMaybe (feed milling) (Part.plunge milling)
 
 -- | A rapid move straight up to the height @clear@; empty if the cutter is not below that height.
--- @word@ is the region of the program that the move comes from.
+-- @word@ is the region of the program that asks for the move.
 rise :: SpacePoint -> Mm -> Region -> [Move]
 rise (SpacePoint p z) clear word =
   [Move (Straight p p) (Manner (z, clear) Part.Rapid False) word False | z < clear]

@@ -1,6 +1,7 @@
 -- | The side of a contour on which the cutter moves, and the direction of travel.
 --
--- Refuses statements that are impossible on their contour, such as @outside@ on an open one.
+-- The module refuses statements that are impossible on their contour, such as @outside@ on an open
+-- contour.
 module Toolpath.MillingSide
   ( leadingSide,
     possible,

@@ -1,8 +1,9 @@
 -- | The paths of the cutter's centre beside a contour: its offset, or the parts of the offset that
 -- the cutter can follow where rest material is allowed.
 --
--- This is a module of its own, so that each pass of a statement computes the polyarc of the contour
--- anew. A shared polyarc would stay in memory from the first pass to the last one.
+-- Each pass of a statement computes the polyarc of the contour anew. A polyarc that the passes
+-- share would stay in memory from the first pass to the last one. The function is in a module of
+-- its own, so that GHC does not share the polyarc.
 module Toolpath.OffsetPath
   ( paths,
   )
@@ -24,9 +25,10 @@ import Toolpath.OffsetRefusal qualified as OffsetRefusal
 import Toolpath.RestMaterial qualified as RestMaterial
 
 -- | The paths of the cutter's centre on @side@ of a contour, at the cutter's radius plus the
--- allowance; without a side the path is the contour itself. There are several paths only if rest
--- material is allowed and occurs. The second result lists the parts of the contour that the cutter
--- does not reach. @numbered@ are the elements of the contour, by their numbers from 0.
+-- allowance. If @side@ is Nothing, the path is the contour itself. There are several paths only
+-- where rest material is allowed and divides the path. The second result lists the parts of the
+-- contour that the cutter does not reach. @numbered@ has the elements of the contour; the index of
+-- an element is its number. @allowance@ is that of the pass, before any allowance of an element.
 paths ::
   Located Milling ->
   Maybe Carrier.Side ->

@@ -13,8 +13,8 @@
 --
 -- A /loop/ is a closed path of the centre at one distance from the walls. A /detour/ leaves a loop,
 -- clears residue, and returns to the loop. A /section/ is a part of the toolpath: a loop or a part
--- of one, a detour, or a linking move. A /region/ is a connected area that the centre can reach at
--- one distance from the walls ("Toolpath.PocketTree").
+-- of one, a detour, or a linking move. A /region/ is a connected area in which the centre has at
+-- least a given distance from the walls; loops bound it ("Toolpath.PocketTree").
 module Toolpath.Pocket
   ( PocketRoom (..),
     Loop,
@@ -51,8 +51,8 @@ import Toolpath.PocketTree qualified as PocketTree
 data PocketRoom = PocketRoom
   { -- | the outer contour and the islands
     walls :: NonEmpty Segment,
-    -- | the loops that bound the region inside the outer contour and outside the islands, at a
-    -- given distance from all of them; the free space is on the left of each loop
+    -- | the loops at a given distance from the walls, inside the outer contour and outside the
+    -- islands; the free space is on the left of each loop
     offsetBy :: Mm -> [Loop],
     -- | the loops at a given distance to the left of loops that 'offsetBy' gave; Nothing when they
     -- have to be computed from the walls
@@ -148,22 +148,23 @@ linked room = link
 
 -- | The state while the order of the loops is chosen.
 data Progress = Progress
-  { -- | current position of the cutter, if it is known
+  { -- | current position of the cutter; Nothing before the first loop, if no plunge position is
+    -- given
     current :: Maybe Point,
     -- | sections so far, the last one first
     sections :: [PocketMove]
   }
 
--- | The sections of all loops with the linking moves between them, from the plunge position, if it
--- is given.
+-- | The sections of all loops with the linking moves between them. @from@ is the cutter's plunge
+-- position; Nothing if the cutter plunges at the beginning of the first loop.
 along :: PocketRoom -> Maybe Point -> [PocketTree] -> [PocketMove]
 along room from trees = reverse (sections (visitAll Progress {current = from, sections = []} trees))
   where
     link = linked room
     visitAll progress regions = inTurn visit (entrance . innermost) progress regions
     visit progress tree = case (current inside, rings tree) of
-      -- After an inner region, the nearest of the loops around it comes first: no wall lies
-      -- between.
+      -- After the inner regions, the cutter continues on the nearest loop of this region, because
+      -- no wall lies between the cutter and that loop.
       (Just p, rs) ->
         let (r, others) =
               takeOut (distanceFrom p) rs
@@ -179,9 +180,9 @@ along room from trees = reverse (sections (visitAll Progress {current = from, se
               sections = reverse (linking <> roundOf (isReversed room) r') <> sections progress
             }
 
--- | Visits items one after the other, always the one whose @position@ is nearest to the cutter.
--- While more than @many@ items remain, they are visited in the order of the list, which is that of
--- the walls. @visit@ makes the state after an item from the state before it.
+-- | Visits items one after the other, always the one whose @position@ is nearest to the cutter. The
+-- first item of the list comes next while more than @many@ items remain, or while the cutter has no
+-- position. @visit@ makes the progress after an item from the progress before it.
 inTurn :: (Progress -> a -> Progress) -> (a -> Point) -> Progress -> [a] -> Progress
 inTurn visit position progress things = case (things, current progress) of
   ([], _) -> progress
@@ -207,7 +208,8 @@ takeOut measure things = (chosen, [a | (i, a) <- numbered, i /= number])
 
 -- Loops
 
--- | The loop that is cut first in a region.
+-- | The loop whose beginning stands for the position of a region: follows the first inner region
+-- inwards as far as possible, and takes the first loop there.
 innermost :: PocketTree -> Ring
 innermost tree = case inner tree of
   [] -> NonEmpty.head (rings tree)

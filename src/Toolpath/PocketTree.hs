@@ -1,7 +1,8 @@
--- | The passes of a pocket as a tree. A node is a connected region that the cutter's centre can
--- reach at one distance from the walls. The children of a node are the regions inside that region
--- at the next distance. A /detour/ is a path from a loop and back to it, which clears residue
--- between two loops ("Toolpath.StepoverResidue").
+-- | The loops of a pocket as a tree. A node is a /region/: a connected area in which the cutter's
+-- centre has at least a given distance from the walls. The children of a node are the regions
+-- inside that region, at the next larger distance. Here a /pass/ consists of all loops at one
+-- distance. A /detour/ is a path from a loop and back to it, which clears residue between two
+-- passes ("Toolpath.StepoverResidue").
 module Toolpath.PocketTree
   ( Loop,
     PocketTree (..),
@@ -36,11 +37,12 @@ import Toolpath.StepoverResidue qualified as StepoverResidue
 -- | A closed chain of segments with the free space on their left.
 type Loop = NonEmpty Segment
 
--- | One connected region that the cutter's centre can reach at some distance from the walls.
+-- | One region of a pocket, with the regions inside it.
 data PocketTree = PocketTree
   { -- | loops that bound the region: the outer one, and those round islands
     rings :: NonEmpty Ring,
-    -- | regions inside this region, at the next distance from the walls
+    -- | regions inside this region, at the next larger distance from the walls. Residue that
+    -- no detour clears has a loop, and so a region, of its own
     inner :: [PocketTree]
   }
 
@@ -50,10 +52,10 @@ data Ring = Ring {wallDistance :: Mm, ringSegments :: NonEmpty RingSegment}
 -- | A segment of a loop, and the detours that begin and end at the end of the segment.
 data RingSegment = RingSegment {segment :: Segment, detours :: [NonEmpty Segment]}
 
--- | The passes at the increasing @distances@ from the walls, up to the first distance without
--- loops. @offsetBy@ gives the loops at a distance from the walls. @further@ gives the loops at a
--- distance inside other loops, or Nothing when they have to be computed from the walls. Where two
--- distances differ by more than the cutter's @radius@, detours clear the residue between the
+-- | The trees of the passes at the increasing @distances@ from the walls, up to the first distance
+-- without loops. @offsetBy@ gives the loops at a distance from the walls. @further@ gives the loops
+-- at a distance inside other loops, or Nothing when they have to be computed from the walls. Where
+-- two distances differ by more than the cutter's @radius@, detours clear the residue between the
 -- passes. Inside the pass at the last distance of the list, nothing is cleared.
 passTrees :: (Mm -> [Loop]) -> ([Loop] -> Mm -> Maybe [Loop]) -> Mm -> [Mm] -> [PocketTree]
 passTrees offsetBy further radius distances = case distances of
@@ -80,8 +82,9 @@ passTrees offsetBy further radius distances = case distances of
         StepoverResidue.between radius (minus (minus next c) radius) (inwards c loops radius) loops'
     leaf c loop = PocketTree {rings = ring c Map.empty (0, loop) :| [], inner = []}
 
--- | The ring of the loop with the number @n@, from 0. The keys of @trips@ are the number of a loop
--- and the number of the segment, from 0, at whose end the detours begin.
+-- | The ring of @loop@, which has the number @n@ among the loops of its pass, from 0. @trips@ has
+-- the detours of the pass. Their key is the number of a loop and, from 0, the number of the segment
+-- at whose end the detours begin.
 ring :: Mm -> Map (Int, Int) [NonEmpty Segment] -> (Int, Loop) -> Ring
 ring wallDistance trips (n, loop) =
   Ring
@@ -95,8 +98,7 @@ ring wallDistance trips (n, loop) =
 
 -- | The regions at one distance @c@ from the walls. The @loops@ at that distance are grouped by the
 -- regions that they bound. The regions @inside@, at the next distance, become children of the
--- regions that contain them. @trips@ has the detours, by the number of a loop and the number of the
--- segment at whose end they begin.
+-- regions that contain them. @trips@ has the detours from the @loops@, with the keys as in 'ring'.
 grouped :: Mm -> [Loop] -> Map (Int, Int) [NonEmpty Segment] -> [PocketTree] -> [PocketTree]
 grouped c loops trips inside = mapMaybe part (Map.toList members)
   where
@@ -106,10 +108,10 @@ grouped c loops trips inside = mapMaybe part (Map.toList members)
         (BoundingBox.ofSegment . snd)
         [(n, s) | (n, loop) <- numbered, s <- NonEmpty.toList loop]
     (outers, holes) = partition (isOuter . snd) numbered
-    -- The outer loop of the region that each loop bounds, both by their numbers. Take a horizontal
-    -- ray to the right from the rightmost point of a loop round an island. The ray crosses the
-    -- region, and then meets another loop that bounds the region. The other loop extends further
-    -- to the right, so it was processed earlier: loops are processed from right to left.
+    -- For the number of each loop, the number of the outer loop of the same region. Take a
+    -- horizontal ray to the right from the rightmost point of a loop round an island. The ray
+    -- crosses the region, and then meets another loop that bounds the region. That loop extends
+    -- further to the right, so it was processed earlier: loops are processed from right to left.
     outer =
       foldl
         around

@@ -1,12 +1,13 @@
 -- | Residue between passes whose distance exceeds the cutter's radius, and the detours that clear
 -- it.
 --
--- Let @r@ be the cutter's radius. Let passes run at the distances @c@ and @c + s@ from the walls,
--- with @r < s ≤ 2·r@. Between them, at @c + r@, lies the /edge/: the border of the area that the
--- outer pass sweeps. A point between the edge and the inner pass has a distance of at most
--- @s − r ≤ r@ from the edge. Where the inner pass is parallel to the edge at the distance @s − r@,
--- the cutter sweeps all points between the two. Elsewhere the edge has a corner or a narrow part
--- that the inner pass does not enter. There the cutter makes a /detour/ along the edge itself.
+-- A /pass/ consists of all loops of the centre at one distance from the walls. Let @r@ be the
+-- cutter's radius. Let passes run at the distances @c@ and @c + s@, with @r < s ≤ 2·r@. Between
+-- them, at @c + r@, lies the /edge/: the border of the area that the outer pass sweeps. A point
+-- between the edge and the inner pass has a distance of at most @s − r ≤ r@ from the edge. Where
+-- the inner pass is parallel to the edge at the distance @s − r@, the cutter sweeps all points
+-- between the two. Elsewhere the edge has a corner or a narrow part that the inner pass does not
+-- enter. There the cutter makes a /detour/ along the edge itself.
 module Toolpath.StepoverResidue
   ( Residue (..),
     none,
@@ -37,17 +38,17 @@ data Residue = Residue
   { -- | detours from the inner pass; the key is the number of a loop of that pass, and of the
     -- segment at whose end the detour begins and ends, both from 0
     detours :: Map (Int, Int) [NonEmpty Segment],
-    -- | loops of the edge that no inner pass reaches
+    -- | loops of the edge beside which the inner pass runs nowhere
     isolated :: [NonEmpty Segment]
   }
 
--- | No residue.
+-- | The value for passes without residue.
 none :: Residue
 none = Residue Map.empty []
 
--- | The residue between the edge, whose loops are @edges@, and the inner pass, whose loops are
--- @passes@. The inner pass is at the distance @apart@ from the edge, at most the cutter's radius.
--- All loops have the free space on their left.
+-- | The paths that clear the residue between the edge, whose loops are @edges@, and the inner pass,
+-- whose loops are @passes@. @apart@ is the distance of the inner pass from the edge. It is at most
+-- the cutter's @radius@. All loops have the free space on their left.
 between :: Mm -> Mm -> [NonEmpty Segment] -> [NonEmpty Segment] -> Residue
 between radius apart edges passes = foldr (gather . gapsOf) none edges
   where
@@ -78,17 +79,17 @@ between radius apart edges passes = foldr (gather . gapsOf) none edges
 -- | The count of a loop's segments, and the end point of each segment by its number, from 0.
 data Ends = Ends Int (Map Int Point)
 
--- | A part of the edge. It runs beside a segment of an inner pass, which is given by the numbers of
--- the loop and of the segment, or it is free: no inner pass runs beside it.
+-- | A part of the edge. The inner pass runs beside it, on the segment with these numbers of loop
+-- and segment; or the part is /free/: the inner pass does not run beside it.
 data EdgePart = Beside (Int, Int) | Free Segment
 
--- | Consecutive free parts of the edge. The first pair names the segment of an inner pass beside
--- which the edge runs before these parts, by the numbers of loop and segment. The second pair names
--- the segment after them.
+-- | Consecutive free parts of the edge, between two parts beside which the inner pass runs. Each
+-- pair has the numbers of loop and segment of the inner pass: the first pair beside the part of the
+-- edge before the gap, the second beside the part after it.
 data Gap = Gap (Int, Int) (NonEmpty Segment) (Int, Int)
 
--- | The gaps in the loop @edge@ of the edge; @marks@ are the parts of that loop in order. Nothing
--- when there are no gaps. 'Left' with the whole loop when no inner pass runs beside it.
+-- | The gaps in a loop of the edge. @marks@ are the parts of the loop in order. Nothing when there
+-- are no gaps. 'Left' with the whole loop @edge@ when the inner pass runs beside no part of it.
 gapsIn :: NonEmpty Segment -> [EdgePart] -> Maybe (Either (NonEmpty Segment) [Gap])
 gapsIn edge marks = case break isBeside marks of
   (_, []) -> Just (Left edge)
@@ -108,11 +109,11 @@ gapsIn edge marks = case break isBeside marks of
       | total (map Segment.length ss) <= Tolerance.clearance = Nothing
       | otherwise = NonEmpty.nonEmpty (filter ((> Tolerance.coincident) . Segment.length) ss)
 
--- | The detour along a gap: from the end of the inner pass's segment before the gap, along the gap,
--- and back to that end. It comes with the numbers of that segment's loop and of the segment. If the
--- segments before and after the gap are neighbours, they meet at a corner of the inner pass. Then
--- the result is Nothing when the whole gap lies within the cutter's radius of that corner, because
--- the inner pass clears the gap.
+-- | The detour along a gap. It leaves the inner pass at the end of the segment that the first pair
+-- of the gap names, follows the gap, and returns to that end. The result has this pair and the
+-- detour. If the pairs of the gap name neighbouring segments, these meet at a corner of the inner
+-- pass. When the whole gap then lies within the cutter's radius of the corner, the inner pass
+-- clears the gap, and the result is Nothing.
 detourAlong :: Mm -> Map Int Ends -> Gap -> Maybe ((Int, Int), NonEmpty Segment)
 detourAlong radius ends (Gap owner@(loop, i) free next) = do
   Ends count corners <- Map.lookup loop ends
@@ -128,7 +129,7 @@ detourAlong radius ends (Gap owner@(loop, i) free next) = do
       (owner,)
         <$> NonEmpty.nonEmpty (filter ((> Tolerance.coincident) . Segment.length) (out <> back))
 
--- | The distance from the point @p@ to that point of the segment @s@ which is furthest from @p@.
+-- | The largest distance of the point @p@ from a point of the segment @s@.
 furthest :: Point -> Segment -> Mm
 furthest p s = case s of
   Straight a b -> max (Vec.distance p a) (Vec.distance p b)
@@ -142,10 +143,10 @@ furthest p s = case s of
     where
       opposite = Vec.shift (Vec.to p centre) centre
 
--- | Divides the segment @s@ of the edge into the parts beside segments of inner passes and the free
--- parts between them. @index@ contains the segments of the inner passes, each offset so far that it
--- lies on the edge where the pass is parallel to the edge. The pair before a segment has the
--- numbers of its loop and of the segment, from 0.
+-- | Divides the segment @s@ of the edge into the parts beside segments of the inner pass and the
+-- free parts between them. @index@ contains the offsets of the segments of the inner pass, at the
+-- distance between the inner pass and the edge. Where the two are parallel, such an offset lies on
+-- the edge. Each offset comes with the numbers, from 0, of loop and segment.
 divided :: BoxTree ((Int, Int), Segment) -> Segment -> [EdgePart]
 divided index s =
   partsFrom

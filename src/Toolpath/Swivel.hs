@@ -31,8 +31,9 @@ import Toolpath.Error (Error (..))
 
 -- | The heights of the axis above its middle position, at the beginning and at the end of every
 -- segment of an offset. Nothing for a tool that does not swivel. Refuses a contour on which no
--- element has a bevel, a blade without a side, and a jump of the bevel. @region@ is the region of
--- the statement's first word. @side@ is the blade's side of the contour; Nothing on the contour.
+-- element has a bevel, a blade that moves on the contour, and a jump of the bevel ('checkJoints').
+-- @region@ is the region of the statement's first word. @side@ is the blade's side of the contour;
+-- Nothing if the blade moves on the contour.
 axis ::
   Region ->
   Milling ->

@@ -21,7 +21,7 @@ where
 
 import Base.Quantity (Mm (..), Rad (..))
 
--- | The smallest radius of a cutter. A report does not suggest a smaller one.
+-- | The smallest radius of a cutter that a report suggests.
 smallestCutter :: Mm
 smallestCutter = Mm 0.05
 
@@ -46,13 +46,14 @@ controlTurn = Rad 0.0254
 controlRounding :: Mm
 controlRounding = Mm 1.5e-3
 
--- | The smallest length of an element of a contour for which the control does the compensation.
+-- | The smallest length that an element may have if the control does the cutter compensation.
 -- Rounding to pulses may rotate a shorter element so much that a corner towards the cutter arises.
 controlLength :: Mm
 controlLength = Mm 0.05
 
 -- | The change of direction below which LinuxCNC ignores a corner and joins the offsets directly.
--- From the approach to the edge the direction must change by at least twice this angle.
+-- Between the approach and the first segment of the edge, the direction must change by at least
+-- twice this angle.
 controlBend :: Rad
 controlBend = Rad 0.05
 

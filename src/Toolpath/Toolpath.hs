@@ -47,8 +47,8 @@ data Toolpath = Toolpath
 data Block
   = -- | moves from point to point, as the program lists them, with a tool of this radius
     Travelling Mm [Move]
-  | -- | one pass along a contour; where the cutter does not reach all of the contour, each of the
-    -- paths beside it is a block
+  | -- | one pass along a contour. If the pass has several paths, because the cutter does not reach
+    -- all of the contour, each path is a block
     Cutting
       { job :: Located Milling,
         pass :: Pass,
@@ -68,7 +68,7 @@ data Block
       { pocket :: Located Pocketing,
         pass :: Pass,
         approach :: [Move],
-        -- | moves along loops, and from each loop to the next
+        -- | moves along loops and detours, and from each loop to the next
         cleared :: NonEmpty Move,
         retract :: [Move],
         -- | parts of the walls that the cutter does not reach; their element numbers count the
@@ -95,20 +95,23 @@ data Pass = Pass
   }
   deriving stock (Eq, Show)
 
--- | The input for a control that does the cutter compensation. The control computes the moves of
--- the pass from the edge of the part. Each move that it computes ends where the corresponding move
--- of the toolpath ends. Only the move on which compensation begins may end elsewhere.
+-- | The input for a control that does the cutter compensation. The /edge/ is the contour of the
+-- part, with the leads. From the edge the control computes the moves of the cutter's centre. Each
+-- computed move ends where the corresponding move of the toolpath ends. Only the move on which
+-- compensation begins may end elsewhere.
 data Sent = Sent
   { -- | moves of the cutter's centre until compensation begins
     before :: [Move],
     -- | side of the edge, in the direction of travel, on which the cutter moves
     side :: Side,
-    -- | straight move from the current centre to the beginning of the edge
+    -- | straight move on which compensation begins: from the end of @before@, a position of the
+    -- centre, to the beginning of the edge
     entry :: Move,
     -- | moves along the edge in the direction of travel: the lead-in, the elements of the contour,
     -- the lead-out. The arcs round outer corners are missing, because the control inserts them
     edge :: NonEmpty Move,
-    -- | straight move from the end of the edge to the centre's position without compensation
+    -- | straight move on which compensation ends: from the end of the edge to a position of the
+    -- centre
     exit :: Move,
     -- | moves of the centre after the exit
     behind :: [Move]
@@ -127,7 +130,7 @@ data Move = Move
   }
   deriving stock (Eq, Show)
 
--- | Heights, pace and braking of a move. Most moves along a contour share one value.
+-- | Heights, pace and braking of a move. Most moves along a contour share one 'Manner' in memory.
 data Manner = Manner
   { -- | the heights at the beginning and at the end of the move
     between :: (Mm, Mm),
@@ -166,13 +169,13 @@ moves block = case block of
   Holing _ ms -> ms
   Commanding _ -> []
 
--- | The count of passes before each block; at the end of the list, the count of all passes. A pass
--- is one along a contour or one in a pocket.
+-- | The count of passes before each block; at the end of the list, the count of all passes. Each
+-- 'Cutting' block and each 'Clearing' block counts as a pass.
 passNumbers :: [Block] -> [Int]
 passNumbers = go 0
   where
-    -- Examines a block before its number is returned. Until the next number is demanded, the list
-    -- then has no reference to the block, and the block can be freed.
+    -- The block @b@ is examined before its count @n@ is returned. So the rest of the list, while it
+    -- is not yet computed, has no reference to @b@, and @b@ can be freed.
     go :: Int -> [Block] -> [Int]
     go n bs = case bs of
       [] -> [n]

@@ -82,8 +82,8 @@ throughPart path =
       Clearing {pass} -> [Toolpath.number pass]
       _ -> []
 
--- | The closed contours of a pass, if it is known on which side of them the material lies; Nothing
--- if there is no such contour.
+-- | The bodies at which a pass cuts: for a pass along a contour those of 'bodyOf', for a pocket its
+-- outer contour and its islands. Nothing if there are none.
 bodiesOf :: Block -> Maybe (NonEmpty.NonEmpty Body)
 bodiesOf b = case b of
   Cutting {job = Located _ milling} -> NonEmpty.nonEmpty (bodyOf milling)
@@ -99,9 +99,9 @@ bodiesOf b = case b of
           )
   _ -> Nothing
 
--- | The contour of a milling statement with the side of its material. Empty if the cutter's centre
--- moves on the contour, and for an open contour. The one exception is a profile turned outside: it
--- is open, but the axis of the spindle closes it.
+-- | The body of a milling statement's contour. Empty if the cutter's centre moves on the contour,
+-- and for an open contour. The one exception is a profile turned outside: it is open, but the axis
+-- of the spindle closes it.
 bodyOf :: Milling -> [Body]
 bodyOf milling = case (Part.ends contour, value (Part.side milling)) of
   (Part.Closed, Outside) -> [whole True]
@@ -136,9 +136,9 @@ bodyOf milling = case (Part.ends contour, value (Part.side milling)) of
     onAxis = Vec.point (Vec.x end) 0
     before = Vec.point (Vec.x begin) 0
 
--- | Warnings about tool changes that stop a turning spindle, if the cutter then cuts although the
--- program has not started the spindle again. There are none on a lathe, where the part keeps
--- turning.
+-- | Warnings about tool changes that stop a turning spindle, if the tool then cuts or drills
+-- although the program has not started the spindle again. A toolpath for a lathe has no such
+-- warnings, because the part keeps turning.
 stoppedSpindles :: Toolpath -> [Warning]
 stoppedSpindles path = if Toolpath.isTurned path then [] else go Resting (Toolpath.blocks path)
   where
@@ -156,7 +156,7 @@ stoppedSpindles path = if Toolpath.isTurned path then [] else go Resting (Toolpa
 
 -- | The state of the spindle while the blocks are executed.
 data Spindle
-  = -- | switched off, or never switched on by the program; needs no warning
+  = -- | switched off, never switched on by the program, or already warned about; needs no warning
     Resting
   | Turning
   | -- | stopped by the tool change in this region

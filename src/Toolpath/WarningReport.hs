@@ -178,7 +178,7 @@ shape element = case segment element of
 at :: Region -> ReportCode -> Text -> Report
 at region code = report Report.Error code (InSource region)
 
--- | The text for an angle given in radians.
+-- | The text, in degrees, for an angle in radians.
 inDegrees :: Double -> Text
 inDegrees a = Decimal.short 3 (degrees (Rad a)) <> " deg"
 

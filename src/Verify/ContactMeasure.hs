@@ -3,10 +3,11 @@
 -- the contour that is nearest to the cutter's centre. A /job/ is a cut along a contour as the part
 -- demands it ("Verify.MillingJob").
 --
--- Rounding and chords move the centre by up to the allowed deviation of the job. They also move the
--- contact point, and by much more if an arc's radius is hardly larger than the cutter's. Then a
--- cutter that goes forward may seem to go back. The /uncertainty/ is the largest such error of the
--- progress, in mm. If it is as large as an arc, the contact points do not show the progress at all.
+-- Rounding and chords move the centre by up to the allowed deviation of the job. The contact point
+-- moves with the centre. On the inside of an arc whose radius is hardly larger than the cutter's,
+-- it moves much further. Then a cutter that goes forward may seem to go back. The /uncertainty/ is
+-- the largest such error of the progress, in mm. If the uncertainty on an arc is as large as the
+-- arc's length, the contact points do not show the progress at all.
 --
 -- A /run/ is a sequence of elements that replace one curve of the part; a line or an arc of the
 -- drawing is a run of its own.
@@ -46,7 +47,7 @@ data Measure = Measure
     isResolved :: Bool
   }
 
--- | Lengths by which the progress along the contour of a job is judged.
+-- | Measure of the contour of a job.
 measureOf :: MillingJob -> Measure
 measureOf job =
   Measure
@@ -89,7 +90,7 @@ uncertaintyOf job
       Straight _ _ -> False
 
 -- | Runs of the contour's elements, in order. On a closed contour a run may extend across the
--- start. It begins with the last elements of the contour, and is the last run of the list.
+-- start. Such a run begins with the last elements of the contour. It is the last run of the list.
 runsOf :: MillingJob -> [NonEmpty Segment]
 runsOf job = case (elements, runs elements) of
   (e : _, first : more)
@@ -102,7 +103,7 @@ runsOf job = case (elements, runs elements) of
     elements = MillingJob.elementsOf job
     runs es = case es of
       [] -> []
-      -- Most elements are runs of one element.
+      -- Shortcut for a run of one element, because most runs have only one.
       e : rest@(next : _) | not (Part.continues next) -> (Part.segment e :| []) : runs rest
       e : rest ->
         let (along, others) = span Part.continues rest
@@ -116,8 +117,8 @@ uncertaintyOfRun job run = case run of
   _ -> Mm (max (longest id) (longest Vector.reverse))
   where
     lengths = Vector.fromList [l | s <- NonEmpty.toList run, let Mm l = Segment.length s]
-    -- Length of the centre's path along each segment, in mm; on the inside of an arc, half of it,
-    -- because 'uncertaintyOn' is doubled there.
+    -- Lower bound, for each segment, of the length in mm of the centre's path along it. On the
+    -- inside of an arc the bound is half of that length, because of the margin in 'uncertaintyOn'.
     moved =
       Vector.zipWith
         (\l u -> l * 2 * a / u)
@@ -150,9 +151,8 @@ largestGrowth window firsts seconds = go 0 0 0
             * (firsts ! from + window - firsts ! step) / (firsts ! (step + 1) - firsts ! step)
 
 -- | Uncertainty on one segment, in mm: twice the allowed deviation. On the inside of an arc of
--- radius @R@, the contact point moves by @R / |R − r|@ times as much as the centre; @r@ is the
--- distance of the centre from the contour. There the uncertainty is multiplied by this factor, and
--- doubled as a margin.
+-- radius @R@, the contact point moves @R / |R − r|@ times as far as the centre; @r@ is the reach of
+-- the job. There the uncertainty is multiplied by this factor, and by 2 as a margin.
 uncertaintyOn :: MillingJob -> Segment -> Double
 uncertaintyOn job s = case s of
   Arc {start, centre, sweep = Rad angle}

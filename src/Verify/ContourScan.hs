@@ -109,8 +109,9 @@ deeperGouge job keepOut View {motion, close, bounding} best
           (BoundingBox.inflate (searchRadius keepOut) (Motion.box motion))
           (edges job)
 
--- | Result after a motion along the contour, from the @result@ before that motion. @strayJob@ is
--- @job@ with other distances: those beyond which a motion is too far from the contour.
+-- | Scan after a motion along the contour; @result@ is the scan before that motion. @strayJob@ is
+-- @job@ with another reach and allowance. A motion is too far from the contour if its distance is
+-- larger than the sum of these two.
 followed :: MillingJob -> MillingJob -> View -> Scan -> Scan
 followed job strayJob View {motion, close, bounding} result
   | Motion.isVertical motion = result {latest = []}
@@ -123,13 +124,13 @@ followed job strayJob View {motion, close, bounding} result
   where
     stray = Excess.strayOf strayJob motion close bounding
 
--- | Lower the bound of an element to its distance from a motion, if the motion is surely on the
--- required side of the element. @bounds@ has the bound of each element in mm. @before@ are the
--- bounding paths of the motion before.
+-- | Replace the bound of the element @e@ by that of 'boundFrom' if the latter is smaller. The bound
+-- is not changed if the motion is not surely on the required side of the element. @bounds@ has the
+-- bound of each element in mm. @before@ are the bounding paths of the motion before.
 improveBound :: MillingJob -> MutablePrimArray s Double -> [Segment] -> View -> Edge -> ST s ()
 improveBound job bounds before View {motion, bounding} e = do
   known <- PrimArray.readPrimArray bounds (rank e)
-  -- A bound below the cutter's distance already shows that the element has no excess.
+  -- A bound below the reach of the job already shows that the element has no excess.
   when (known > enough) $ do
     let far = boundFrom job known before motion bounding e
     when
@@ -138,9 +139,9 @@ improveBound job bounds before View {motion, bounding} e = do
   where
     enough = let Mm r = reach job in r - 2 * FastDistance.unsure
 
--- | Upper bound in mm of the distance of an element's points from a motion or the motion before it;
--- ∞ if there is none. @known@ is the bound so far; @before@ and @bounding@ are the bounding paths
--- of the motion before and of the motion itself.
+-- | Upper bound in mm: each point of an element has a motion or the motion before it within this
+-- distance. It is ∞ if no bound is found. @known@ is the bound so far; @before@ and @bounding@ are
+-- the bounding paths of the motion before and of the motion itself.
 --
 -- If the motion alone gives no bound, and @known@ is above 'MillingJob.contactLimit', the element
 -- is divided at its point nearest to the start of the motion. The first part is compared with the

@@ -1,7 +1,8 @@
 -- | Directed Hausdorff distance from one segment to a set of /members/. The segment is an element
--- and the members are motions, or the other way round. The distance is that of the segment's point
--- which is furthest from all members. It is exact over the whole segment, to
--- 'Tolerance.resolution', and its computation is fast if the set has many short members.
+-- and the members are motions, or the other way round. Each point of the segment has a distance
+-- from its nearest member; the Hausdorff distance is the largest of these distances. It is exact
+-- over the whole segment, to 'Tolerance.resolution'. The computation is fast even for a set of many
+-- short members.
 --
 -- A segment is covered at a distance if each of its points has a member within that distance. The
 -- Hausdorff distance is the smallest distance at which the segment is covered; bisection finds it.
@@ -51,10 +52,9 @@ data DistanceBounds = DistanceBounds {atLeast :: Mm, atMost :: Mm}
 -- | Size of a gap in mm, the point of the segment with this gap, and the members near the segment.
 data Gap a = Gap {size :: Mm, location :: Point, members :: [a]}
 
--- | Gap of a segment, which is that of its point furthest from all members. Nothing if it is not
--- larger than @least@, or if there are no members near the segment. A gap that is larger than
--- 'unlimited' gets the size 'unlimited'. @known@ are bounds of the Hausdorff distance; they save
--- exact comparisons.
+-- | Gap of a segment. Nothing if the gap is not larger than @least@, or if no member is near the
+-- segment. A gap that is larger than 'unlimited' gets the size 'unlimited'. @known@ are bounds of
+-- the Hausdorff distance; they save exact comparisons.
 largestGap :: Cover a -> Maybe DistanceBounds -> Mm -> Segment -> Maybe (Gap a)
 largestGap cover known least segment
   | isClosedBy least = Nothing
@@ -84,11 +84,11 @@ gapOf cover segment size = case membersNear cover (plus (reach cover) size) segm
       (a, b) : _ -> Segment.at ((a + b) / 2) segment
       [] -> Segment.start segment
 
--- | Largest size of a gap; it means that no motion comes near the segment at all.
+-- | Largest size of a gap; it means that no member comes near the segment at all.
 unlimited :: Mm
 unlimited = Mm 1e7
 
--- | Uncertainty of a distance: two circles that miss one another by no more may count as touching.
+-- | Uncertainty of a distance. Two circles may count as touching if their gap is at most this wide.
 touching :: Mm
 touching = times 3 Tolerance.coincident
 

@@ -46,11 +46,12 @@ import Verify.Proof qualified as Proof
 import Verify.Reachability (KeptDistance (KeptDistance))
 import Verify.Reachability qualified as Reachability
 
--- | Cut along a contour, and its motions on the tape. A cut is one trip along the contour; a pass
--- around rest material has several cuts.
+-- | Pass along a contour, or one of its cuts, with its motions on the tape. A pass around rest
+-- material may have several cuts, each along a part of the contour. Any other pass is a single cut.
 data MillingPass = MillingPass
   { job :: MillingJob,
-    -- | number of the statement's execution, from 0: the passes of one execution share it
+    -- | number of the execution of the milling statement, from 0; all passes of one execution have
+    -- the same number
     passNumber :: Int,
     -- | height of the cut; the top of the part is 0
     level :: Mm,
@@ -60,9 +61,9 @@ data MillingPass = MillingPass
 -- | Allowed deviations into the part and away from it. Each is a chord error plus one pulse.
 data Allowed = Allowed {allowedGouge :: Mm, allowedExcess :: Mm}
 
--- | Compare the motions of a tape with a pass along a contour. If @isFirst@ is true, it is the
--- first pass of its statement, and all motions near the contour are examined for gouges. Otherwise
--- only those of the pass are.
+-- | Compare the motions of a tape with a pass along a contour. @isFirst@ is true of the first cut
+-- of a statement's execution. Then all motions near the contour are examined for gouges, otherwise
+-- only the motions of the pass.
 examine :: MotionSet -> Bool -> MillingPass -> (ContourProof, [Finding])
 examine set isFirst pass = (contourProof, if null findings then orderFindings pass else findings)
   where
@@ -100,8 +101,8 @@ examine set isFirst pass = (contourProof, if null findings then orderFindings pa
         <> excessFindings allowedExcess tooMuch largest
         <> maybeToList (wrongSide scan)
 
--- | Finding for the gouges that are deeper than @allowed@; empty if there are none. The finding
--- names the first of them in the list, and the deepest one.
+-- | Finding for the @gouges@ that are deeper than @allowed@; empty if there are none. The finding
+-- names the first such gouge of the list, and @deepest@.
 gougeFindings :: Mm -> [Witness] -> Maybe Witness -> [Finding]
 gougeFindings allowed gouges deepest =
   [ Gouge first worst allowed
@@ -111,7 +112,7 @@ gougeFindings allowed gouges deepest =
   ]
 
 -- | Finding for an excess that is larger than @allowed@; empty if there is none. @tooMuch@ lists
--- each such excess. The finding names the first of the list, and the largest one.
+-- each such excess. The finding names the first excess of this list, and @largest@.
 excessFindings :: Mm -> [Witness] -> Maybe Witness -> [Finding]
 excessFindings allowed tooMuch largest =
   [Excess first (fromMaybe first largest) allowed | first : _ <- [tooMuch]]
@@ -163,9 +164,9 @@ allowsRest job = Part.rest (milling job) == Part.Allowed
 
 -- Gouge -------------------------------------------------------------------------------------------
 
--- | Motions that are examined for gouges. In the first pass of a statement they are all motions
--- near the contour, otherwise the motions @along@ it; motions above the top of the part are left
--- out. There are none if the cutter runs on the contour.
+-- | Motions that are examined for gouges. If @isFirst@ is true, they are all motions near the
+-- contour, otherwise the motions @along@ it. Motions above the top of the part are left out. The
+-- list is empty if the cutter runs on the contour.
 motionsKeepingOut :: MotionSet -> Bool -> MillingJob -> [CutterMotion] -> [CutterMotion]
 motionsKeepingOut set isFirst job along
   | isNothing (side job) = []
@@ -182,8 +183,8 @@ boxOf milling =
     (fmap (BoundingBox.ofSegment . Part.segment) (Part.elements (Part.contour milling)))
 
 -- | Distance that a motion has to keep from the elements. The motions @along@ the contour keep the
--- distance of the pass plus the allowances of the elements. Any other motion keeps the radius of
--- its cutter.
+-- reach of the job plus the allowances of the elements. Any other motion keeps the radius of its
+-- cutter.
 keepOutOf :: MotionSet -> MillingJob -> [CutterMotion] -> CutterMotion -> KeepOut
 keepOutOf set job along = \m ->
   let tool = MotionSet.toolOf set m
@@ -223,10 +224,10 @@ piercedBy job allowed motions =
 
 -- Excess ------------------------------------------------------------------------------------------
 
--- | Excess on the elements of a contour; @allowed@ is the largest allowed one. If rest material is
--- allowed, the elements are compared with all motions at the height of the pass. Only the first cut
--- of the statement's execution is then examined. @bounds@ has for each element, by its number from
--- 0, an upper bound in mm of the distance of its points from the motions along the contour.
+-- | Excess on the elements of a contour; @allowed@ is the largest allowed excess. If rest material
+-- is allowed, the elements are compared with all motions at the height of the pass. Then the result
+-- is empty unless @isFirst@ is true. @bounds@ has for each element, by its number from 0, an upper
+-- bound in mm of the distance of its points from the motions along the contour.
 missedOn :: MotionSet -> Bool -> MillingPass -> Mm -> PrimArray Double -> [Witness]
 missedOn set isFirst MillingPass {job, level, found} allowed bounds
   | allowsRest job && not isFirst = []

@@ -1,5 +1,5 @@
--- | Elements of a contour that a tape is compared with, in a bounding-box tree. Each is stored with
--- the numbers that every comparison needs.
+-- | Elements of a contour, in a bounding-box tree, for the comparison with a tape. Each element is
+-- stored with the numbers that every comparison needs.
 module Verify.Edge
   ( Edge (..),
     edgesOf,
@@ -71,7 +71,8 @@ edgesOf contour =
                 }
          in edge `seq` endsAt `seq` (edge : go (rank + 1) endsAt more)
 
--- | Test that a contour has curves: that an element continues the curve of the element before it.
+-- | Test that a contour has curves. It has one if an element and the element before it replace the
+-- same curve.
 isCurved :: BoxTree Edge -> Bool
 isCurved = BoxTree.foldl' (\is e -> is || continues e) False
 
@@ -79,10 +80,9 @@ isCurved = BoxTree.foldl' (\is e -> is || continues e) False
 largestAllowance :: BoxTree Edge -> Mm
 largestAllowance = BoxTree.foldl' (\most e -> max most (ownAllowance e)) (Mm (-1 / 0))
 
--- | Least value over the elements @near@ of this difference, in mm: the element's distance from the
--- point @p@, minus the element's allowance. It is @limit@ if no element has a smaller value.
--- @allowanceOf@ gives the allowance of an element. A cutter with its centre at @p@ touches the
--- elements that come near to the least value.
+-- | Least excess distance in mm of the elements @near@, but at most @limit@. The excess distance of
+-- an element is its distance from the point @p@ minus its allowance, which @allowanceOf@ gives. A
+-- cutter with its centre at @p@ touches the elements whose excess distance is about the least one.
 leastExcess :: (Edge -> Mm) -> Double -> [Edge] -> Point -> Double
 leastExcess allowanceOf limit near p = foldl' lesser limit near
   where

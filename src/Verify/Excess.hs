@@ -90,9 +90,9 @@ isSurelyCovered job bounds index least e =
     far@(Mm d) = plus (reach job) least
     near = BoxTree.within (BoundingBox.inflate far (FastDistance.box (shape e))) index
 
--- | Bounds of the directed Hausdorff distance from an element to the motions on the cutter's side:
--- the largest distance of a point of the element from the motion nearest to that point. They are
--- computed from the motions within reach plus allowance of the element.
+-- | Bounds of the directed Hausdorff distance from an element to the motions on the cutter's side.
+-- This is the largest distance of a point of the element from the motion nearest to that point. The
+-- bounds are computed from the motions near the element: within about the reach plus the allowance.
 distanceBounds :: MillingJob -> BoxTree CutterMotion -> Edge -> Coverage.DistanceBounds
 distanceBounds job index e =
   Coverage.DistanceBounds {Coverage.atLeast = Mm (min d low), Coverage.atMost = Mm high}
@@ -121,8 +121,8 @@ isSurelyOnSide job e path = case side job of
   Just Carrier.RightOf -> FastDistance.isRightOf path e
 
 -- | Test that a path is on the cutter's side of an element at the point where it is nearest to the
--- element. From the other side, the cutter would reach the element through the part. A path within
--- the allowance of the element counts as well.
+-- element. From the other side, the cutter would reach the element through the part. A path
+-- whose distance from the element is at most the allowance of the job counts as well.
 isOnSide :: MillingJob -> Segment -> Segment -> Bool
 isOnSide job element path = case side job of
   Nothing -> True

@@ -56,8 +56,8 @@ alongContour machine job =
 
 -- | Findings for motions with a wrong feed. Allowed are @demanded@, the feed of the statement, and
 -- the feeds of single elements, which are in @finishes@. If the cutter has to slow down at the end
--- of any element, the lowest feed of the machine is allowed too. A braking frame may also be slower
--- than the allowed feeds.
+-- of any element, the lowest feed of the machine is allowed too. A braking frame may have any feed
+-- up to the highest allowed one.
 atFeed :: Machine -> Located Feed -> [Part.Finish] -> [Motion] -> [Finding]
 atFeed machine demanded finishes = mapMaybe wrongFeed
   where
@@ -121,7 +121,8 @@ intoSolid lowest motions = case motions of
 
 -- | Code for a feed of @v@ mm/min along the path of a motion. Nothing if the machine has no such
 -- feed. On some machines a code means the pulse frequency of the leading axis. That frequency is
--- @v/60·n/L@ pulses per second, if the motion has a path of @L@ mm and its leading axis @n@ pulses.
+-- @v/60·n/L@ pulses per second. Here @L@ is the length of the path in mm, and @n@ is the number of
+-- pulses that the leading axis moves.
 codeFor :: Machine -> Motion -> Feed -> Maybe FeedCode
 codeFor machine m (Feed v) = case Machine.choose machine inMeasure of
   Machine.Given c _ -> Just c
@@ -142,7 +143,8 @@ leading m = fromIntegral n
 travelOf :: Machine -> Motion -> Double
 travelOf machine m = let Mm l = Control.travel machine m in l
 
--- | Speed along the path in a motion, in mm/s. A code without a meaning counts as the highest feed.
+-- | Speed along the path of a motion, in mm/s. A code that the machine lacks counts as the highest
+-- feed.
 speedAlong :: Machine -> Motion -> Double
 speedAlong machine m = case Machine.feedMeasure (Machine.feeds machine) of
   AlongPath -> ofCode / 60
@@ -157,8 +159,8 @@ speedAlong machine m = case Machine.feedMeasure (Machine.feeds machine) of
 -- Braking -----------------------------------------------------------------------------------------
 
 -- | Findings for frames at whose end the cutter is too fast to slow down to a later, lower speed
--- @v@. Where the cutter still has to travel the length @s@ to the position of that speed, its speed
--- may be @√(v² + 2·a·s)@ at most; @a@ is the deceleration of the machine (Kolsanova; the law is
+-- @v@. At a path length @s@ before the position at which @v@ has to be reached, the speed may be
+-- @√(v² + 2·a·s)@ at most; @a@ is the deceleration of the machine (Kolsanova; the law is
 -- reconstructed). Empty if the machine does not use braking frames. @start@ is the position before
 -- the first frame. The model of the speeds:
 --
@@ -188,8 +190,8 @@ tooFast machine start frames = case Machine.brakingForm (Machine.braking machine
 -- @begin@ and @end@ are the path lengths in mm from the start of the tape to both ends of @m@;
 -- @next@ is the motion after it, if there is one. @least@ is the least value of @v² + 2·a·p@ over
 -- all later speeds @v@ in mm/s; @a@ is the deceleration, and @p@ is the path length from the start
--- of the tape to the position of that speed. @found@ are the findings for later motions. The result
--- has @least@ and @found@ with @m@ included.
+-- of the tape to the position at which @v@ has to be reached. @found@ are the findings for later
+-- motions. The result has @least@ and @found@ with @m@ included.
 tooFastIn ::
   Machine ->
   ((Double, Double), Motion, Maybe Motion) ->
@@ -211,7 +213,7 @@ tooFastIn machine ((begin, end), m, next) (least, found)
     rounding = 1e-9 * max 1 (v * v)
     Mm pulse = Machine.planeResolution machine
 
--- | Largest change, by rounding, of the distance between two positions. It is counted in pulses:
--- one pulse for each position.
+-- | Largest change, by rounding, of the distance between two positions, in pulses. Rounding moves
+-- each position by at most one pulse.
 pulsesRounded :: Double
 pulsesRounded = 2

@@ -72,7 +72,7 @@ largestTolerance path =
         ]
     )
 
--- | Milling of a block along a contour or in a pocket; empty for any other block.
+-- | Milling of a block that cuts along a contour or clears a pocket; empty for any other block.
 millingOf :: Block -> [Milling]
 millingOf block = case block of
   Toolpath.Cutting {Toolpath.job = Located _ m} -> [m]

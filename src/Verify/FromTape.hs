@@ -223,7 +223,8 @@ motionSetOf subject passes =
       | isAskedOnce = motions subject
       | otherwise = BoxTree.within (BoundingBox.inflate largestTool box) (motionIndex subject)
     isAskedOnce = null (drop 1 queries)
-    -- 'MotionSet.nearby' is asked by the first pass along each contour, and by each pocket.
+    -- Calls of 'MotionSet.nearby': one for the first cut of each statement's execution, and one for
+    -- each pocket.
     queries = [() | True <- PassLocation.areFirst passes] <> map (const ()) (pockets subject)
     largestTool = foldl' (\most m -> max most (toolOf m)) (Mm 0) (motions subject)
 
@@ -305,7 +306,7 @@ motionsByPocket subject = foldr insert IntMap.empty (motions subject)
   where
     insert m known =
       maybe known (\k -> IntMap.insertWith (<>) k [m] known) (pocketAt (number m))
-    -- Number of the pocket that contains the frame @n@.
+    -- Number of the pocket in whose planned frames the frame @n@ is.
     pocketAt n = case IntMap.lookupLE n pocketFrames of
       Just (_, (b, k)) | n <= b -> Just k
       _ -> Nothing
@@ -352,16 +353,16 @@ pocketFeeds subject (pocket, pass, ms) =
       not (Motion.isVertical m)
         && not (any (isAlong (machine subject) (segment m)) (Pocket.linkingMoves pass))
 
--- | Test that both ends of the segment @s@ are within two pulses of the move.
+-- | Test that both ends of the segment @s@ are within two pulses of the linking move @move@.
 isAlong :: Machine -> Segment -> Segment -> Bool
 isAlong machine s move =
   all
     (\p -> Distance.toPoint p move <= times 2 (Machine.planeResolution machine))
     [Segment.start s, Segment.end s]
 
--- | Motions as the frames program them, before cutter compensation, in the frames of some motions
--- of the cutter. The frames are executed again instead of being stored, because few tapes need
--- this.
+-- | Programmed motions, which are those before cutter compensation. They are the motions of the
+-- frames to which the cutter's motions @ms@ belong. The frames are executed again instead of being
+-- stored as motions, because few tapes need this.
 programmed :: Subject -> [CutterMotion] -> [Control.Motion]
 programmed subject ms =
   filter

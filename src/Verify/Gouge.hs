@@ -34,7 +34,7 @@ data KeepOut = KeepOut
     required :: Element -> Point -> Mm
   }
 
--- | The distance @d@ from all elements, at all points of the motion.
+-- | Keep-out distance that is @d@ from all elements, at all points of the motion.
 constantKeepOut :: Mm -> KeepOut
 constantKeepOut d = KeepOut {searchRadius = d, largest = d, required = \_ _ -> d}
 
@@ -61,11 +61,12 @@ gougeOf KeepOut {searchRadius, required} edges m = Proof.deepest gouges
         && BoundingBox.lowerBound (`Distance.toPoint` path) b <= searchRadius
 
 -- | Allowance that a motion has to leave on the element @e@ while the centre is at the point @p@.
--- Usually it is the allowance of @e@. The exception concerns other elements near the foot, which is
--- the point of @e@ nearest to @p@. If some are within @pulse@ of the foot, the length of a pulse,
--- the smallest allowance of @e@ and these elements counts. The reason is that the position at which
--- the allowance changes is rounded to pulses. If one of these elements is nearer to @p@ than @e@
--- is, and @e@ has an allowance, the result is 0: there the allowance of the nearer element decides.
+-- Usually it is the allowance of @e@. It may be smaller near another element. The foot is the point
+-- of @e@ nearest to @p@; the other elements that matter are those within @pulse@, the length of a
+-- pulse, of the foot. The result is the smallest allowance of @e@ and these elements, because the
+-- position at which the allowance changes is rounded to pulses. If one of them is nearer to @p@
+-- than @e@ is, the result is 0, because the nearer element is examined with its own allowance. If
+-- the allowance of @e@ is not positive, it is the result in every case.
 allowanceAt :: Mm -> BoxTree Edge -> Element -> Point -> Mm
 allowanceAt pulse edges e p
   | own <= Mm 0 = own

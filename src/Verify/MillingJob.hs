@@ -116,15 +116,14 @@ contacts job near p =
     contactOn e = FastDistance.footOn (shape e) (Vec.x p) (Vec.y p)
     touch = touchAt job near p
 
--- | Lengths in mm that decide which elements a cutter touches from one position of its centre.
+-- | Lengths in mm that decide which elements a cutter touches from one position of its centre. The
+-- /excess distance/ of an element is its distance from the centre minus its own allowance.
 data Touch = Touch
   { -- | 'contactLimit' of the job
     limit :: Double,
-    -- | an element's distance from the centre, minus the element's allowance: the least of these
-    -- values over all elements near the centre
+    -- | least excess distance of the elements near the centre
     leastExcess :: Double,
-    -- | largest amount by which this value of an element may exceed 'leastExcess' if the cutter
-    -- touches the element
+    -- | largest difference between the excess distance of a touched element and 'leastExcess'
     spread :: Double
   }
 

@@ -67,11 +67,11 @@ motionsOf machine moved later = go 0 (Compensation.centrePath moved)
           toHeight = end
         }
 
--- | Heights at the start and at the end, in mm.
+-- | Heights of a motion at its start and at its end, in mm.
 heights :: CutterMotion -> (Mm, Mm)
 heights m = (fromHeight m, toHeight m)
 
--- | Position and height, in mm, at the end.
+-- | Position and height at the end of a motion, in mm.
 endPosition :: CutterMotion -> (Point, Mm)
 endPosition m = (Segment.end (segment m), toHeight m)
 
@@ -80,7 +80,8 @@ endPosition m = (Segment.end (segment m), toHeight m)
 paths :: CutterMotion -> NonEmpty Segment
 paths = Control.boundingPaths . segment
 
--- | Bounding paths as a list; cheap for a line, which is most motions.
+-- | Bounding paths of a motion as a list. The function is fast for a line, and most motions are
+-- lines.
 pathList :: CutterMotion -> [Segment]
 pathList m
   | FastDistance.isLine (segment m) = [segment m]
@@ -96,8 +97,8 @@ connectors m
 box :: CutterMotion -> BoundingBox
 box m = case FastDistance.uneven (segment m) of
   0 -> FastDistance.box (segment m)
-  -- The difference is that of the radii at the arc's two ends. The ends and the sagittas of the two
-  -- bounding arcs differ by at most twice as much.
+  -- The difference is that between the arc's radii at its start and its end. The two bounding arcs
+  -- have ends and sagittas that differ by at most twice this difference.
   difference -> BoundingBox.inflate (Mm (2 * difference)) (FastDistance.box (segment m))
 
 -- | Test that two motions are the same part of the same frame.

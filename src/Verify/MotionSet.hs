@@ -30,8 +30,8 @@ data MotionSet = MotionSet
     nearby :: BoundingBox -> [CutterMotion]
   }
 
--- | Motions at the height @level@, in the order of the tape; all motions if heights are not
--- compared.
+-- | Motions of a set that are at the height @level@ ('isAtHeight'), in the order of the tape. All
+-- motions if 'isFlat' is true.
 atHeight :: MotionSet -> Mm -> [CutterMotion]
 atHeight set level
   | isFlat set = motions set

@@ -13,8 +13,8 @@ import Data.IntMap.Strict qualified as IntMap
 import Frame.Frame (FrameProgram)
 import Frame.Frame qualified as Frame
 
--- | The frames of a pass that the proof examines: the numbers of the first and of the last one,
--- counted from 1.
+-- | Range of the planned frames of a pass: the numbers of its first and of its last frame, counted
+-- from 1.
 data FrameRange = FrameRange Int Int
 
 -- | Test that the frame with the number @n@ is in a range.

@@ -4,7 +4,7 @@
 -- The toolpath says which passes there are, at which height, with which allowance, and where their
 -- cuts start and end. The side of the cutter and its distance from the contour come from the part.
 -- A cut is one trip along a contour. A pass has several cuts if the cutter does not reach all of
--- the contour. In the numbers of passes, each of these cuts counts as a pass of its own.
+-- the contour. Each of these cuts counts as a pass when passes are numbered.
 module Verify.PassLocation
   ( Guide (..),
     locate,
@@ -42,7 +42,7 @@ import Verify.PassFrames (FrameRange (..))
 import Verify.PassSearch qualified as PassSearch
 import Verify.Requirement qualified as Requirement
 
--- | Facts that guide the search.
+-- | Facts about the machine, the toolpath and the planned frames that guide the search for passes.
 data Guide = Guide
   { machine :: Machine,
     -- | true if the whole toolpath is at the height of its start; heights are then not compared
@@ -50,8 +50,9 @@ data Guide = Guide
     -- | number of the last planned frame of a pass, by the number of the pass from 0; Nothing if
     -- the tape does not have as many frames as planned
     lastFrameOf :: Int -> Maybe Int,
-    -- | planned frames of a cut, by the number of its pass from 0; Nothing if they are not known or
-    -- not needed. They decide between cuts that lie within the tolerance of one another
+    -- | planned frames of a cut, by the number of its pass from 0. Only these frames, and the one
+    -- before them, are then searched: another cut may lie within the tolerance of this one. Nothing
+    -- if the tape differs from the plan, or if the toolpath has a single cut
     cutFramesOf :: Int -> Maybe FrameRange
   }
 
@@ -63,7 +64,7 @@ data SearchState = SearchState
     lastPass :: Maybe MillingPass
   }
 
--- | Cut of the toolpath along a contour. A pass around rest material has several.
+-- | Cut of the toolpath along a contour. A pass that leaves rest material may have several cuts.
 data Cut = Cut
   { -- | number among all passes of the toolpath, from 0; each cut counts as a pass
     passIndex :: Int,
@@ -103,7 +104,8 @@ locate guide begin motions blocks =
           | Just final <- lastFrameOf guide passIndex -> go (afterFrame final state) more
         _ -> go state more
 
--- | State after the located pass: after its last motion, or unchanged if it has no motions.
+-- | State of the search after a located pass. The search continues after the last motion of the
+-- pass; if the pass has no motions, it continues where it was.
 afterPass :: MillingPass -> SearchState -> SearchState
 afterPass pass state = case lastOf (PassSearch.motionsOf (found pass)) of
   Nothing -> state {lastPass = Just pass}
@@ -114,7 +116,8 @@ afterPass pass state = case lastOf (PassSearch.motionsOf (found pass)) of
         lastPass = Just pass
       }
 
--- | State after the frame with the number @final@.
+-- | State of the search after the frame with the number @final@: the motions up to this frame are
+-- skipped.
 afterFrame :: Int -> SearchState -> SearchState
 afterFrame final state =
   state {at = maybe (at state) Motion.endPosition (lastOf done), remaining = later}
@@ -145,7 +148,7 @@ locateCut guide state cut =
       Just (FrameRange a b) ->
         takeWhile ((<= b) . number) (dropWhile ((< a - 1) . number) (remaining state))
 
--- | Requirements of the part for a cut.
+-- | Milling job of a cut: what the part demands of it. @edges@ are the elements of the contour.
 jobOf :: Machine -> Region -> Milling -> Cut -> BoxTree Edge -> MillingJob
 jobOf machine statement milling cut edges =
   MillingJob
@@ -192,10 +195,11 @@ arePartial blocks =
             Just (number, left, atHeight)
       _ -> Nothing
 
--- | Position of the centre at the end of a contour if the control does the cutter compensation:
--- beside the end of the last element, on its normal there. Nothing without compensation. The end of
--- the toolpath does not serve: on a closed contour, the control may or may not treat the joint with
--- the first element as a corner.
+-- | Position of the cutter's centre at the end of a contour if the control does the cutter
+-- compensation: on the normal at the end of the last element, at the distance @reach@. Nothing if
+-- the control does not compensate, or if @side@ is Nothing. With compensation, the end of the
+-- toolpath may be another point: on a closed contour, the control may or may not treat the joint
+-- with the first element as a corner.
 exitByControl :: Milling -> Maybe Side -> Mm -> Maybe Point
 exitByControl milling side reach = case (Part.controlCompensation milling, side) of
   (Just _, Just s) ->
@@ -215,9 +219,9 @@ exitUncertainty machine milling reach = case Part.controlCompensation milling of
     Mm pulse = Machine.planeResolution machine
     Mm shortest = Tolerance.controlLength
 
--- | Largest distance of the centre from a contour. @allowance@ is the largest allowance of the
--- contour's elements, @reach@ the distance of the pass. At a sharp corner the toolpath goes up to
--- twice as far from the contour.
+-- | Largest distance of the centre from a contour in a pass. @reach@ is the distance that the pass
+-- keeps from an element without an allowance of its own. @allowance@ is the largest allowance of an
+-- element. At a sharp corner the toolpath goes up to twice as far from the contour.
 largestReach :: Milling -> Mm -> Mm -> Mm
 largestReach milling allowance reach
   | Part.corners milling == Part.Sharp = times 2 (plus reach allowance)

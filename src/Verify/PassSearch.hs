@@ -37,9 +37,10 @@ import Verify.Motion qualified as Motion
 data FoundPass
   = -- | The motion that arrives at the start, if it is known, and the motions along the contour.
     Complete [CutterMotion] [CutterMotion]
-  | -- | The start is reached, but the motions leave the contour before its end. The first list has
-    -- the motion that arrives at the start, if it is known. The second has the motions after it, up
-    -- to the first one whose end position is the end of the cut.
+  | -- | The start is reached, but no motions are known to follow the contour from there to its end.
+    -- This is the result for every partial cut. The first list has the motion that arrives at the
+    -- start, if it is known. The second has the motions after it, up to the end of the cut; all of
+    -- them if none ends there.
     Incomplete [CutterMotion] [CutterMotion]
   | -- | The start is not reached.
     Missing
@@ -57,7 +58,9 @@ type Arrival = ([CutterMotion], [CutterMotion])
 
 -- | Find a cut among the motions at its height. @at@ is the position of the cutter's centre before
 -- the first motion; Nothing if the cutter is not yet at that height. The contact points of a
--- partial cut are not followed, because partial cuts that almost touch look like a single one.
+-- partial cut are not followed: if two partial cuts almost touch, contact points do not show where
+-- one ends. A partial cut begins at the first arrival after which the cutter stays beside the
+-- contour, or at the first arrival if there is no such one.
 find :: MillingJob -> Maybe Point -> [CutterMotion] -> FoundPass
 find job at motions = case (complete, filter (staysBeside job . snd) arrivals <> arrivals) of
   (found : _, _) -> found
@@ -175,8 +178,8 @@ data Progress = Progress
     latest :: [CutterMotion]
   }
 
--- | Count of the first motions, those that follow the contour to its end. Nothing if the motions
--- leave the contour, reverse on it, or stop before its end.
+-- | Number of motions, from the beginning of the list, that follow the contour to its end. Nothing
+-- if the motions leave the contour, reverse on it, or stop before its end.
 countFollowing :: MillingJob -> Measure -> [CutterMotion] -> Maybe Int
 countFollowing job measure motions =
   follow job measure (Progress 0 0 (entry job) []) motions (MillingJob.edgesNearEach job motions)
@@ -187,8 +190,8 @@ countFollowing job measure motions =
 follow :: MillingJob -> Measure -> Progress -> [CutterMotion] -> [[Edge]] -> Maybe Int
 follow job measure progress motions near
   | hasArrived =
-    -- If contacts lie on elements that are not neighbours, the contour may only pass close to its
-    -- own end here. Then the search goes on, and ends here only if that fails.
+    -- Contacts on elements that are not neighbours may mean that an earlier part of the contour
+    -- comes close to its end. The search then goes on. Only if it fails does the cut end here.
     if areNeighbours job ahead then ended else onwards <|> ended
   | otherwise = onwards
   where
@@ -232,8 +235,9 @@ afterMotion job measure near m = go . Sample 1
         step = smallestStep job measure near arcLength (Segment.at (fraction k) (segment m))
     fraction k = fromIntegral k / fromIntegral count
 
--- | Number of a sample point of a motion, from 1, and the contact point of the sample point before:
--- its arc length from the start of the contour, in mm.
+-- | Sample point of a motion by its number, from 1. The second component belongs to the sample
+-- point before it: the arc length in mm from the start of the contour to that point's contact
+-- point.
 data Sample = Sample Int Double
 
 -- | Signed step in mm along the contour, from @arcLength@ to a contact point of a cutter with its

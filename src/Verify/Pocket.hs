@@ -1,6 +1,7 @@
 -- | Pockets of a toolpath as the part demands them, with the passes that clear them. The /walls/ of
--- a pocket are the elements of its outline and of its islands. The /rim/ is the border of the
--- region that the cutter's centre may enter in the final pass.
+-- a pocket are the elements of its outline and of its islands. The /free side/ of a wall is the
+-- side on which the pocket lies. The /rim/ is the border of the region that the cutter's centre may
+-- enter in the final pass, moved away from the walls by 'spareRoom'.
 module Verify.Pocket
   ( Pocket (..),
     ClearingPass (..),
@@ -58,7 +59,8 @@ data Pocket = Pocket
     bounds :: BoundingBox,
     -- | segments of the rim, each with the wall to which it runs parallel
     rim :: [(Element, Segment)],
-    -- | distance of the rim from the walls
+    -- | distance of the rim from the walls: that of the cutter's centre in the final pass, plus
+    -- 'spareRoom'
     rimDistance :: Mm,
     passes :: NonEmpty ClearingPass
   }
@@ -182,9 +184,8 @@ nearestWall walls p =
     p
     walls
 
--- | Test that the point @p@ lies on the side of the wall @e@ on which the pocket is. @e@ has to be
--- the wall nearest to @p@. If the nearest point of @e@ is a corner, both walls of the corner
--- decide.
+-- | Test that the point @p@ lies on the free side of the wall @e@. @e@ has to be the wall nearest
+-- to @p@. If the nearest point of @e@ is a corner, both walls of the corner decide.
 isOnFreeSide :: Side -> BoxTree Edge -> Point -> Edge -> Bool
 isOnFreeSide side walls p e = (Edge.leftwardness walls foot p > 0) == (side == LeftOf)
   where

@@ -1,14 +1,15 @@
 -- | Comparison of a tape with one pass of a pocket, by distances alone. It shows that no motion
 -- cuts into the walls, and that no material remains that the cutter can reach.
 --
--- Let A be the set of all positions of the cutter's centre that keep the cutter's radius and the
--- allowance from the walls. The cutter can reach all points within its radius of A. Two things are
--- shown at each depth:
+-- Let A be the set of all positions of the cutter's centre whose distance from the walls is at
+-- least the cutter's radius plus the allowance. The cutter reaches a point if A has a position
+-- within the radius of that point. Two facts are shown about the final pass at each depth:
 --
--- * Rim: each point of the border of A has a motion within the allowed excess. So the walls are cut
---   wherever a cutter touches them. A reachable point outside of A is within the radius of the
---   border, so it is cleared as well; this includes the corners.
--- * Floor: each point of A is within the radius of a motion; see "Verify.PocketFloor".
+-- * Rim: each point of the border of A is within the allowed excess of a motion. So the walls are
+--   cut wherever the cutter can touch them. A point outside of A that the cutter reaches is within
+--   the radius of the border, so it is cleared as well. This includes the corners.
+-- * Floor: each point of A is within the radius, plus the allowed excess, of a motion; see
+--   "Verify.PocketFloor".
 module Verify.PocketDeviation
   ( examine,
   )
@@ -45,9 +46,9 @@ import Verify.PocketFloor qualified as PocketFloor
 import Verify.Proof (ContourProof (ContourProof), Finding (NotCleared), Witness (Witness))
 import Verify.Proof qualified as Proof
 
--- | Compare the tape with one pass of a pocket. @isInPass@ is true of the motions of this pass. If
--- @isFirst@ is true, it is the first pass of the pocket, and all motions near the pocket are
--- examined for gouges. Otherwise only the motions of the pass are.
+-- | Compare the tape with the pass @pass@ of a pocket. @isInPass@ is true of the motions of @pass@.
+-- @isFirst@ is true if @pass@ is the first pass of the pocket. Then all motions near the pocket are
+-- examined for gouges, otherwise only those of @pass@.
 examine ::
   MotionSet ->
   (CutterMotion -> Bool) ->
@@ -102,8 +103,9 @@ floorFindings pocket pass allowedExcess clearing =
           )
   ]
 
--- | Allowed gouge and allowed excess of a pocket: the tolerance plus one pulse. The allowed excess
--- also includes 'Pocket.spareRoom', the extra distance of the rim from the walls.
+-- | Allowed gouge and allowed excess of a pocket. The gouge is limited to the allowed chord error
+-- into the part, the excess to the larger of both chord errors; one pulse is added to each. The
+-- allowed excess also includes 'Pocket.spareRoom', the extra distance of the rim from the walls.
 allowedIn :: MotionSet -> Pocket -> (Mm, Mm)
 allowedIn set pocket =
   (plus inside pulse, plus (plus (max inside outside) pulse) Pocket.spareRoom)
@@ -113,9 +115,9 @@ allowedIn set pocket =
     isCurved = any Part.continues (Part.elements (Part.contour (milling pocket)))
 
 -- | Motions that clear the floor in a pass: the motions at the height of the pass, with a cutter at
--- least as large as that of the pocket. Suppose that one of them starts in the bounding box of the
--- pocket. Then it is nearer to any point in the box than a motion whose distance from the box
--- exceeds the box's diagonal; motions that are so far away are left out.
+-- least as large as that of the pocket. If one of them starts in the bounding box of the pocket,
+-- the motions whose distance from the box exceeds the box's diagonal are left out. The motion in
+-- the box is nearer than they are to each point of the box.
 clearingMotions :: MotionSet -> Pocket -> ClearingPass -> [CutterMotion]
 clearingMotions set pocket pass
   | any (startsInBounds . segment) around = around

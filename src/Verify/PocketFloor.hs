@@ -1,5 +1,6 @@
 -- | Search for material that a tape leaves on the floor of a pocket: a position that the cutter's
--- centre may take, but that is further than the cutter's radius from every motion.
+-- centre may take, but that is too far from every motion. A motion clears all positions within the
+-- cutter's radius, to which the allowed excess is added.
 --
 -- The search starts with a square around the pocket. A square needs no division in three cases: one
 -- motion clears all of it, two motions clear it together, or the centre may take no position in it.
@@ -28,8 +29,8 @@ import Verify.Pocket qualified as Pocket
 -- | Square by its centre and half of its side, in mm.
 data Square = Square {centreX :: Double, centreY :: Double, half :: Double}
 
--- | Floor of a pocket, the radius in mm within which a motion clears it, and the motions at its
--- height.
+-- | Floor of a pocket at one height, with the motions at that height. A motion clears the floor
+-- within @radius@, in mm.
 data Floor = Floor {pocket :: Pocket, radius :: Double, motions :: BoxTree CutterMotion}
 
 -- | Position that the cutter's centre may take, but that is further than @radius@ from every
@@ -131,8 +132,8 @@ nearestMotion floor' x y =
 rangeOf :: Double -> Double -> [Segment] -> Double
 rangeOf x y = foldl' (\d path -> max d (FastDistance.distance path x y)) 0
 
--- | Distance from the centre to the corners of a square, below which a square is not divided any
--- more. A position that is further from the motions than the radius by this distance still counts
--- as cleared.
+-- | Distance from the centre to the corners of the smallest squares, which are not divided any
+-- more. A position may count as cleared although its distance from every motion exceeds the radius,
+-- by up to this distance.
 floorResolution :: Mm
 floorResolution = Mm 0.02

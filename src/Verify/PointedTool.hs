@@ -105,9 +105,9 @@ normals contour = case Part.ends contour of
        in Straight (Vec.shift (Vec.negate n) p) (Vec.shift n p)
 
 -- | Parts of the segment @s@, each with the side of the contour on which it lies. @s@ is a part of
--- a motion and does not cross the contour. If the middle of @s@ has a side, the result is @s@ as a
--- whole with this side. Otherwise @s@ is divided into eight, and those eighths are listed whose
--- middles have a side.
+-- a motion and does not cross the contour. If 'sideOf' knows the side of the middle of @s@, the
+-- result is @s@ as a whole with this side. Otherwise @s@ is divided into eight, and those eighths
+-- are listed for whose middles 'sideOf' knows the side.
 sided :: Contour -> BoxTree Edge -> Segment -> [(Side, Segment)]
 sided contour edges s = case sideOf contour edges (Segment.at 0.5 s) of
   Just side -> [(side, s)]

@@ -34,45 +34,48 @@ import Machine.Machine qualified as Machine
 import Report.Report (Report (label, message), ReportPlace (..), report)
 import Report.Report qualified as Report
 
--- | One deviation from the part: how large it is, and where.
+-- | Witness of a deviation from the part: how large the deviation is, and where.
 data Witness = Witness
   { -- | size of the deviation, in mm
     amount :: Mm,
-    -- | number of the frame, from 1; for excess on an element, that of the frame whose motion is
-    -- nearest to 'location'
+    -- | number of the frame, from 1; if 'location' is a point of an element or of a rim, the number
+    -- of the frame whose motion is nearest to it
     frame :: Int,
     -- | region of the contour element in the part program
     element :: Region,
-    -- | position of the cutter's centre; for excess on an element, a point of the element
+    -- | position of the cutter's centre; for excess on an element, a point of the element; for
+    -- excess in a pocket, a point of the pocket's rim ("Verify.Pocket")
     location :: Point
   }
   deriving stock (Eq, Show)
 
--- | Larger of two deviations; the first one if they are equal. If the first one is Nothing, the
--- result is the second one.
+-- | Witness of the larger of two deviations; the first one if they are equal. If the first one is
+-- Nothing, the result is the second one.
 deeper :: Maybe Witness -> Witness -> Witness
 deeper best w = case best of
   Just b | amount b >= amount w -> b
   _ -> w
 
--- | Largest deviation, and of several equal ones the first; Nothing for an empty list.
+-- | Witness of the largest deviation, and of several equal ones the first; Nothing for an empty
+-- list.
 deepest :: [Witness] -> Maybe Witness
 deepest = foldl' (\best w -> Just (deeper best w)) Nothing
 
 -- | Deviations of one contour in one pass.
 data ContourProof = ContourProof
   { contour :: Located Name,
-    -- | deepest gouge; nothing if the cutter keeps its distance everywhere
+    -- | deepest gouge; Nothing if the cutter keeps its distance everywhere
     gouge :: Maybe Witness,
-    -- | largest excess; nothing if no material remains
+    -- | largest excess; Nothing if no material remains
     excess :: Maybe Witness,
-    -- | allowed deviations into the part and away from it: the tolerance plus one pulse each
+    -- | allowed deviations into the part and away from it: the tolerance plus one pulse each; the
+    -- allowed excess in a pocket is a little larger ("Verify.PocketDeviation")
     allowedGouge :: Mm,
     allowedExcess :: Mm
   }
   deriving stock (Eq, Show)
 
--- | Proof of a tape.
+-- | Proof of a tape: the result of its comparison with the part.
 data Proof = Proof
   { -- | number of frames on the tape
     frames :: Int,
@@ -112,13 +115,13 @@ data Finding
     OffPlane Int
   | -- | A hole is not drilled to its depth: the region of the hole, its centre.
     HoleMissing Region Point
-  | -- | A frame cuts below the top of the part where the program does not, or deeper: the frame,
-    -- the position of the cutter's centre.
+  | -- | A frame cuts below the top of the part where the program does not cut, or deeper than the
+    -- program does: the frame, the position of the cutter's centre.
     CutsElsewhere Int Point
   | -- | Wrong feed: the frame, its speed, the demanded speed, the region that demands it.
     WrongFeed Int Speed Speed Region
-  | -- | Wrong command: the frame, the command, its number on the tape, the number in the program;
-    -- nothing if the command is not given.
+  | -- | Wrong command: the frame, the command, its number on the tape, its number in the program.
+    -- A number is Nothing if the command is not given there.
     WrongCommand Int CommandName (Maybe Int) (Maybe Int)
   | -- | The control refuses a frame.
     Refused Refusal

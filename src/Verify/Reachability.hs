@@ -1,10 +1,10 @@
--- | Parts of a contour that a cutter can touch at all. The proof needs them for a program that
--- allows rest material.
+-- | Parts of a contour that a cutter can touch at all, and the rim of a pocket. The proof needs the
+-- parts for a program that allows rest material.
 --
--- A cutter can touch a point of an element if no other element is nearer to the centre than the
--- cutter's radius; the centre is then on the normal of that point, at the radius from it. The test
--- looks at one element and its surroundings at a time, by distances. It is independent of the
--- trimming that made the toolpath.
+-- A cutter touches a point of an element if its centre is on the normal at that point, at the
+-- cutter's radius from it. The cutter can touch the point if no other element is then nearer to the
+-- centre than the radius. The test looks at one element and its surroundings at a time, by
+-- distances. It is independent of the trimming that made the toolpath.
 module Verify.Reachability
   ( KeptDistance (..),
     parts,
@@ -26,8 +26,8 @@ import Geometry.Tolerance qualified as Tolerance
 import Geometry.Vec qualified as Vec
 import Offset.Tolerance qualified as Tolerance
 
--- | Segments of a contour with equal allowance. The centre keeps the same distance from all of
--- them: the cutter's radius plus this allowance.
+-- | Segments of a contour with equal allowance. The centre keeps the distance @distanceKept@ from
+-- all of them: the cutter's radius plus the allowances of the pass and of these segments.
 data KeptDistance = KeptDistance {distanceKept :: Mm, segments :: BoxTree Segment}
 
 -- | Interval of a segment: its beginning and end as fractions of the segment's length, from 0 to 1.
@@ -36,10 +36,10 @@ type Interval = (Double, Double)
 -- Elements ----------------------------------------------------------------------------------------
 
 -- | Parts of an element that a cutter can touch with its centre on @side@ of the element, at
--- @distance@ from it. @others@ are all segments of the contour, grouped by the distance kept from
--- them. A distance larger than @distance@ has to be kept from a segment of @others@ only where the
--- centre is on a normal of this segment. Beyond its ends, the toolpath steps back to the smaller
--- distance.
+-- @distance@ from it. @others@ are all segments of the contour, grouped by the distance that the
+-- centre keeps from them. Some segments may have a larger distance than @distance@. It counts only
+-- where the centre is on a normal of such a segment. Where it is not, @distance@ suffices, because
+-- the toolpath steps back to the smaller distance there.
 parts :: Side -> Mm -> [KeptDistance] -> Segment -> [Segment]
 parts side distance others element = case Segment.offset side distance element of
   Nothing -> []
@@ -72,7 +72,8 @@ roomy :: Mm -> Mm
 roomy d = minus d (times 0.5 Tolerance.clearance)
 
 -- | Parts of an interval in which none of the segments @near@ lies between the element and the path
--- @centres@. Only segments with a smaller kept distance can lie there.
+-- @centres@. The centre keeps a smaller distance from @near@ than from the element; only such
+-- segments can lie there.
 onThisSide :: Segment -> Segment -> [Segment] -> Interval -> [Interval]
 onThisSide element centres near (a, b) =
   [ (from, to)
@@ -95,8 +96,8 @@ onThisSide element centres near (a, b) =
             (Distance.intersections (Straight foot (Segment.at t centres)) s)
 
 -- | Parts of an interval in which each centre keeps the distance @kept@ from all segments on whose
--- normals it lies. @near@ are segments with this distance, which is larger than that of the
--- element.
+-- normals it lies. @near@ are the segments from which the centre keeps the distance @kept@. It is
+-- larger than the distance that the centre keeps from the element.
 withoutNormals :: Side -> Mm -> [Segment] -> Segment -> Interval -> [Interval]
 withoutNormals side kept near centres (a, b) =
   [ (from, to)
@@ -129,11 +130,11 @@ dividedAt marks (a, b) = zip (a : inside) (inside <> [b])
 
 -- Pockets -----------------------------------------------------------------------------------------
 
--- | Border of the region of all centres on @side@ of closed contours that have at least @distance@
--- from them. It consists of offsets of the segments and of arcs round outer corners, without the
--- parts that are too near to a segment. Each curve of the border comes with the number of the
--- segment to which it belongs, counted from 0 over all contours. @segments@ is a tree of all
--- segments of the contours.
+-- | Rim of a pocket with the closed contours @contours@: the border of the region in which centres
+-- lie on @side@ of the contours, at least @distance@ away from them. The rim consists of offsets of
+-- the segments and of arcs round outer corners, without the parts that are too near to a segment.
+-- Each curve of the rim comes with the number of the segment to which it belongs, counted from 0
+-- over all contours. @segments@ is a tree of all segments of the contours.
 rim :: Side -> Mm -> BoxTree Segment -> [[Segment]] -> [(Int, Segment)]
 rim side distance segments contours =
   concatMap free (concat (zipWith around firstNumbers contours))

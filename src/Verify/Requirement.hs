@@ -30,9 +30,10 @@ import Part.Part qualified as Part
 -- Side and distance -------------------------------------------------------------------------------
 
 -- | Side of the contour on which the cutter has to be, in the direction of travel. Nothing if the
--- cutter runs on the contour, or if the program says inside or outside of an open contour. Only a
--- turned profile has these sides though it is open: the axis of the spindle, @y = 0@, is inside. So
--- a tool outside of the profile is on the left if the profile leads to larger x.
+-- cutter runs on the contour. A milled open contour has no inside and no outside, so the result for
+-- these words is Nothing as well. An open turned profile has both: inside is the axis of the
+-- spindle, @y = 0@. So a tool outside of the profile is on the left if the profile leads to larger
+-- x.
 cutterSide :: Milling -> Maybe Carrier.Side
 cutterSide milling = case value (Part.side milling) of
   Part.On -> Nothing
@@ -93,7 +94,7 @@ bevels contour
     bevelOf i element = fromMaybe (bevelAt i i, bevelAt i (i + 1)) (Part.bevel element)
     bevelAt i mark = at i (marks Vector.! mark)
     at i = interpolated (earlier Vector.! i) (later Vector.! i)
-    -- Positions of the starts of all elements, and the length of the contour.
+    -- Arc lengths at the starts of all elements; the last member is the length of the contour.
     marks = Vector.scanl' (+) 0 (fmap lengthOf elements)
     lengthOf e = let Mm l = Segment.length (Part.segment e) in l
     starts = Vector.imap (\i e -> Known (marks Vector.! i) . fst <$> Part.bevel e) elements

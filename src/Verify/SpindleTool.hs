@@ -28,16 +28,16 @@ plannedTools program =
 toolCount :: Tools -> Int
 toolCount = Vector.length
 
--- | Radius of the cutter in the planned frame with a number, counted from 1; 0 if there is no such
--- frame.
+-- | Radius of the cutter in the planned frame with the number @n@, counted from 1; 0 if there is no
+-- such frame.
 toolInFrame :: Tools -> Int -> Mm
 toolInFrame tools n = maybe (Mm 0) Mm (tools Vector.!? (n - 1))
 
 -- | Use of a cutter in a pass on the tape: the numbers of the first and the last frame, the radius.
 data Use = Use Int Int Mm
 
--- | Radius of the cutter in frame @n@ of a tape whose frames are not the planned ones. @uses@ are
--- the passes that were found, in the order of the tape. A frame in a pass has the cutter of the
+-- | Radius of the cutter in frame @n@ of a tape that has more or fewer frames than planned. @uses@
+-- are the passes that were found, in the order of the tape. A frame in a pass has the cutter of the
 -- pass. A frame between two passes has the smaller cutter of the two. A frame before the first pass
 -- or after the last one has the cutter of that pass. If no pass was found, the result is
 -- @otherwiseRadius@.

@@ -61,9 +61,9 @@ data BladePass = BladePass
     axisHeights :: Vector (Mm, Mm)
   }
 
--- | Pass of a blade. The axis turns the blade by a wheel of diameter @D2@. For a bevel of @μ°@ the
--- axis is above the height of the pass by @z = ∓π·μ°·D2/360@. The sign is minus on the right of the
--- contour and plus on the left (Kolsanova, section 3).
+-- | Facts about a pass with a blade. The axis turns the blade by a wheel of diameter @D2@. For a
+-- bevel of @μ°@ the axis is above the height of the pass by @z = ∓π·μ°·D2/360@. The sign is minus
+-- on the right of the contour and plus on the left (Kolsanova, section 3).
 bladePass :: Milling -> Toolpath.Pass -> BladePass
 bladePass milling Toolpath.Pass {Toolpath.left, Toolpath.atHeight} =
   BladePass
@@ -98,10 +98,10 @@ levelledIn machine pass m
       isRightHeight machine pass (Segment.at k (segment m)) (plus low (times k (minus high low)))
     (low, high) = Motion.heights m
     sampled = case segment m of
-      -- At an outer corner the blade may have any bevel between those of the two elements. So the
-      -- middle of the line is sampled as well.
+      -- At an outer corner the blade may have any bevel between those of the two elements. The ends
+      -- of a line at a corner therefore prove little, and its middle is sampled as well.
       Straight _ _ -> [0.5, 1]
-      -- The axis keeps its height on an arc, whatever the contour demands between its ends.
+      -- The axis may stand still during an arc although the contour demands that it moves.
       Arc {} -> Motion.samples m
 
 -- | Test that @z@ is the height of the axis that the nearest element demands, while the centre is
@@ -134,9 +134,10 @@ isRightHeight machine pass p z = case demanded of
     slack =
       times 1.5 (max (Machine.planeResolution machine) (Machine.resolutionOf machine Machine.Z))
 
--- | Uncertainty of the right axis height while the centre is at @p@, beside the element @s@ with
--- the number @i@. The reason is that @p@ is rounded to pulses. Inside an arc the contact point
--- moves further than the centre, in proportion to their distances from the arc's centre.
+-- | Uncertainty in mm of the height that the axis has to have while the centre is at @p@, beside
+-- the element @s@ with the number @i@. The reason is that @p@ is rounded to pulses. Inside an arc
+-- the contact point moves further than the centre, in proportion to their distances from the arc's
+-- centre.
 heightUncertainty :: Machine -> BladePass -> Int -> Segment -> Point -> Mm
 heightUncertainty machine pass i s p = case axisHeights pass Vector.!? i of
   Just (from, to)
@@ -154,9 +155,9 @@ heightUncertainty machine pass i s p = case axisHeights pass Vector.!? i of
           max 1 (r / own)
       _ -> 1
 
--- | Right height of the axis while the centre is at @p@, beside the element @s@ with the number
--- @i@. It is linear in arc length, and constant beyond the ends of the element. Nothing if the
--- contour has no bevels.
+-- | Height that the axis has to have while the centre is at @p@, beside the element @s@ with the
+-- number @i@. This height is linear in the arc length along @s@, and constant beyond the ends of
+-- @s@. Nothing if the contour has no bevels.
 axisAt :: BladePass -> Int -> Segment -> Point -> Maybe Mm
 axisAt pass i s p =
   (\(from, to) -> plus from (times (Distance.nearestFraction p s) (minus to from)))

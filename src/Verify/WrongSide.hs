@@ -26,10 +26,10 @@ import Verify.Motion (CutterMotion (number, segment))
 import Verify.Motion qualified as Motion
 import Verify.Proof (Finding (WrongSide))
 
--- | Finding for a motion that runs beside an element on the wrong side of the element. Nothing if
--- there is none, or if the cutter runs on the contour. A line is sampled at its middle, an arc in
--- the middle between each two points of 'Motion.samples'. @close@ are the elements that the cutter
--- may touch during the motion.
+-- | Finding for the motion @m@ if it runs beside an element on the wrong side of the element.
+-- Nothing if it does not, or if the job has no side because the cutter runs on the contour. A line
+-- is tested at its middle. An arc is tested midway between neighbouring points; these are its start
+-- and 'Motion.samples'. @close@ are the elements that the cutter may touch during the motion.
 wrongSide :: MillingJob -> CutterMotion -> [Edge] -> Maybe Finding
 wrongSide job m close = do
   demanded <- side job
@@ -42,11 +42,11 @@ wrongSide job m close = do
       | FastDistance.isLine (segment m) = [0.5]
       | otherwise = let ks = Motion.samples m in zipWith (\a b -> (a + b) / 2) (0 : ks) ks
 
--- | False only if the point @p@ is surely not on the wrong side of the element nearest to it; fast
--- bounds decide this. True means that 'wrongAt' has to decide. @demanded@ is the side on which the
--- cutter has to be. The elements @close@, which the cutter may touch, are examined if one of them
--- is surely within 'MillingJob.contactLimit' of @p@. Otherwise the elements @around@ are examined:
--- all whose bounding boxes are near the motion.
+-- | Fast test by bounds for the point @p@ of a motion. True if @p@ may be on the wrong side of the
+-- nearest element; 'wrongAt' then decides. False means that 'wrongAt' would surely give Nothing.
+-- @demanded@ is the side on which the cutter has to be. The elements @close@, which the cutter may
+-- touch, are examined if one of them is surely within 'MillingJob.contactLimit' of @p@. Otherwise
+-- the elements @around@ are examined: all whose bounding boxes are near the motion.
 mayBeWrong :: MillingJob -> Side -> [Edge] -> [Edge] -> Point -> Bool
 mayBeWrong job demanded close around p =
   least > a - FastDistance.unsure && any isWrong near

@@ -31,7 +31,7 @@ solveArithmetic a = do
     (Subtract, _, _) -> sumOrDifference a l r
     (Multiply, _, _) -> product' a l r
     (Divide, _, _) -> quotient a l r
-    -- Comparisons are handled above. The operands of ‘and’ and ‘or’ are checked where they occur.
+    -- Only ‘and’ and ‘or’ remain, and "Checked.Expression" checks these without a constraint.
     _ -> solvedAs a Boolean
 
 isComparison :: Operator -> Bool

@@ -62,10 +62,11 @@ data FastCall = FastCall
     checkedCall :: Deferred Checked.Expr
   }
 
--- | Checks a call of a built-in function on literals and pairs. They must fit exactly one form
--- (list of parameters) of the function. No parameter of this form may have a label, which is a word
--- such as @near@, and all its types must be known. Otherwise the result is 'Nothing', and the
--- caller uses full inference. @expect@ checks pairs that contain other terms than literals.
+-- | Checks a call of a built-in function on literals and pairs. These arguments must fit exactly
+-- one form (list of parameters) of the function. The form must not have labels, which are words
+-- such as @near@, and its types must not contain unknowns. Otherwise the result is 'Nothing', and
+-- the caller uses full inference. @expect@ checks the arguments if one of them is a pair with other
+-- terms than literals.
 call ::
   (Type -> Surface.Expr -> Infer (Deferred Checked.Expr)) ->
   Surface.Expr ->
@@ -106,8 +107,8 @@ call expect (Located at e) = case e of
       Surface.Chosen _ _ -> Nothing
       Surface.Ranked _ -> Nothing
 
--- | Checks the arguments @es@ against a form, and lets @build@ make the call from them. If all
--- arguments are literals, the call is made at once. @expect@ checks the other arguments.
+-- | Checks the arguments @es@ against a form, and lets @build@ make the call from them. If
+-- 'literal' accepts all arguments, the call is made at once. Otherwise @expect@ checks all of them.
 onForm ::
   (Type -> Surface.Expr -> Infer (Deferred Checked.Expr)) ->
   ([Checked.Argument] -> Checked.Expr) ->

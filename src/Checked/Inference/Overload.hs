@@ -101,15 +101,15 @@ parameterTypes form = map Builtin.type' (filter ((/= Rank) . label) (Builtin.par
 formsByLabels :: OverloadedCall -> [Form]
 formsByLabels call = Builtin.labelled plainUnknowns (builtin call) (labels call)
 
--- | Replacements for the unknowns of forms that are only shown or compared: the dimension of plain
--- numbers, and the type 'Wrong', which fits every type.
+-- | Replacements for the unknowns of forms, for reports: the dimension of plain numbers, and the
+-- type 'Wrong', which fits every type.
 plainUnknowns :: Fresh
 plainUnknowns = Fresh {dimension = Dimension.none, anything = Wrong}
 
--- | The forms that fit a call, as far as its types are known. First the types of the arguments
--- select forms. Among these, the type that the use of the result requires selects again. If no form
--- would then remain, this type is ignored. Otherwise a wrong use of the result would be reported as
--- a wrong argument.
+-- | The forms that fit a call, as far as its types are known. The types of the arguments select
+-- forms. Then the type that the context requires of the call selects among these. If this type
+-- would leave no form, it is ignored. A wrong use of the call is thus not reported as a wrong
+-- argument.
 fittingForms :: OverloadedCall -> Infer [Form]
 fittingForms call = do
   types <- traverse (resolved . snd) (arguments call)

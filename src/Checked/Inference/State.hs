@@ -84,11 +84,11 @@ data InferenceState = InferenceState
     nextUnknown :: Int,
     -- | the values of the decided unknowns, by their numbers
     decisions :: IntMap Decision,
-    -- | the number of the first unknown of the present function; unknowns with smaller numbers
-    -- belong to definitions outside of it
+    -- | the number of the first unknown of the function whose definition is being checked; unknowns
+    -- with smaller numbers belong to outer definitions. It is 0 outside of functions
     firstOwn :: Int,
-    -- | the numbers of the unknowns of the present function that have the same value in all its
-    -- uses; 'Checked.Inference.generalise' must not make them variables of the function's type
+    -- | the numbers of the shared unknowns, which have the same value in all calls of a function;
+    -- 'Checked.Inference.generalise' must not make them variables of the function's type
     shared :: IntSet,
     -- | constraints that are not solved yet, the newest first
     pending :: [DeferredConstraint],
@@ -222,8 +222,8 @@ freshType = Variable <$> freshNumber
 freshDimension :: Infer Dimension
 freshDimension = Dimension.atom . Dimension.Unknown <$> freshNumber
 
--- | A new unknown whose value is already known: the type @t@, decided at @region@. It keeps this
--- region for the reports of later mistakes.
+-- | A new unknown that is decided at once: its value is the type @t@. Reports of later mistakes can
+-- point at @region@ as the region that decided this type.
 freshDecided :: Region -> Type -> Infer Type
 freshDecided region t = do
   n <- freshNumber
@@ -233,8 +233,8 @@ freshDecided region t = do
 decideAs :: Int -> Decision -> Infer ()
 decideAs n decision = modify' (\s -> s {decisions = IntMap.insert n decision (decisions s)})
 
--- | Forbids generalisation over the unknowns of a dimension. They then have the same value in all
--- uses of the present function.
+-- | Makes the unknowns of a dimension 'shared': generalisation does not make them variables of a
+-- function's type, so that they have the same value in all calls.
 monomorphic :: Dimension -> Infer ()
 monomorphic d =
   modify' (\s -> s {shared = IntSet.union (IntSet.fromList (Dimension.unknowns d)) (shared s)})
@@ -260,9 +260,9 @@ resolveDimension decided d =
     replacements ->
       resolveDimension decided (foldl (\d' (n, b) -> Dimension.substitute n b d') d replacements)
 
--- | The region at which the first of a type's decided unknowns was decided. The type must not be
--- resolved, because a resolved type no longer contains decided unknowns. 'Nothing' if no unknown of
--- the type is decided.
+-- | The region that decided the first decided unknown in the type @t@. 'Nothing' if @t@ contains no
+-- decided unknown, or is not a quantity, a point, a vector or an unknown. @t@ must not be resolved,
+-- because a resolved type no longer contains decided unknowns.
 decidedAt :: Type -> Infer (Maybe Region)
 decidedAt t = gets (\s -> listToMaybe (ofType (decisions s) t))
   where
@@ -283,9 +283,9 @@ decidedAt t = gets (\s -> listToMaybe (ofType (decisions s) t))
           | n <- Dimension.unknowns d
         ]
 
--- | The regions at which the types of some terms were decided, each with the resolved type. Regions
--- of the terms themselves are left out. A report also points at these regions. A term is given by
--- its region, its type before it is resolved, and its resolved type.
+-- | The regions at which the types of some terms were decided, each with the resolved type. A
+-- report points at them in addition to the terms. A region that is the term's own is therefore left
+-- out. A term is given by its region, its type before it is resolved, and its resolved type.
 decidedElsewhere :: [(Region, Type, Type)] -> Infer [(Region, Type)]
 decidedElsewhere terms = concat <$> traverse ofTerm terms
   where

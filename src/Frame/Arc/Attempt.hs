@@ -1,5 +1,5 @@
 {-# LANGUAGE BangPatterns #-}
--- The loops carry more than ten numbers; this option keeps them unboxed.
+-- The loops carry more than ten numbers. The option -fmax-worker-args keeps these unboxed.
 {-# OPTIONS_GHC -O2 -fmax-worker-args=40 #-}
 
 -- | Rounded arcs about given grid points, and the choice of the best grid point. A grid point is a
@@ -51,14 +51,14 @@ data Attempt = Attempt {steps :: [ArcStep], deviation :: Double}
 -- points that are tried. Of two equally good attempts the one of lower rank wins.
 data Ranked = Ranked {rank :: Int, attempted :: Attempt}
 
--- | Steps of an arc about the best of some grid points. Nothing when all of them exceed the
--- tolerance.
+-- | Steps of an arc about the best of some grid points. Nothing when no 'attempt' about them
+-- succeeds.
 --
 -- Grid points about which the whole arc is one frame have priority. The one with the least
 -- deviation is chosen, and the first of several equal ones. The grid point with the least estimated
--- deviation is attempted first. Another one is attempted only if 'isBetter' finds that its
--- deviation is below the least one so far. When no single frame is within the tolerance, the
--- attempt with the fewest steps is chosen, and among these the one with the least deviation.
+-- deviation is attempted first. Another grid point is attempted only if 'isBetter' finds it better
+-- than the best so far. When no single frame is within the tolerance, the attempt with the fewest
+-- steps is chosen. If several have the fewest, the one with the least deviation is chosen.
 bestAbout :: ArcContext -> RoundedArc -> [Pulses2] -> Maybe [ArcStep]
 bestAbout context arc centres
   | Just ends <- Estimate.endsOf (grid context) arc,
@@ -98,9 +98,9 @@ likeliest ends = go 0 None (1 / 0)
         | None <- best -> go (k + 1) (Likeliest k c) least more
         | otherwise -> go (k + 1) best least more
 
--- | Attempt with the least deviation about some grid points; Nothing when all of them exceed the
--- tolerance. The last argument is the attempt about the likeliest grid point; Nothing when this
--- attempt exceeds the tolerance.
+-- | Attempt with the least deviation about some grid points; Nothing when no 'attempt' about them
+-- succeeds. The last argument is the attempt about the likeliest grid point; Nothing when this
+-- attempt did not succeed.
 leastDeviation ::
   ArcContext -> RoundedArc -> ArcEnds -> [Pulses2] -> Maybe Ranked -> Maybe Ranked
 leastDeviation context arc ends = go 0
@@ -114,7 +114,7 @@ leastDeviation context arc ends = go 0
         | isBetter context arc ends b k c, Just a <- ranked context arc k c -> Just a
         | otherwise -> best
 
--- | Attempt about the grid point @c@ with the rank @k@; Nothing when it exceeds the tolerance.
+-- | Attempt about the grid point @c@ with the rank @k@; Nothing when 'attempt' does not succeed.
 ranked :: ArcContext -> RoundedArc -> Int -> Pulses2 -> Maybe Ranked
 ranked context arc k c = Ranked k <$> attempt context arc c
 
@@ -149,8 +149,8 @@ samples = [4 / 8, 2 / 8, 6 / 8, 1 / 8, 7 / 8, 3 / 8, 5 / 8]
 -- replaces this arc.
 data Leg = Leg {from :: Pulses2, to :: Pulses2, arcAlong :: Segment, isStraight :: Bool}
 
--- | Attempt about the grid point @c@. Nothing if the machine cannot run the arc about it within the
--- tolerance.
+-- | Attempt about the grid point @c@. It succeeds if the machine can run the arc about @c@ within
+-- the tolerance; otherwise Nothing.
 attempt :: ArcContext -> RoundedArc -> Pulses2 -> Maybe Attempt
 attempt context arc c
   | null ends || isClosed && length ends == 1 && not isFullCircle = Nothing
@@ -176,9 +176,9 @@ attempt context arc c
     deviations = map (Deviation.deviationOf (tolerance context) (exact arc) . arcAlong) legs
     isNear leg d = isStraight leg || isWithinTolerance (tolerance context) d
     Mm r = radius arc
-    -- Largest difference in radians between the sweep of the attempt and that of the exact arc. The
-    -- ends and the centre are rounded, so it is the angle of four pulses along the arc, but at most
-    -- a quarter turn.
+    -- Largest allowed difference in radians between the sweep of the attempt and that of the exact
+    -- arc. It allows for the rounding of the ends and the centre: it is the angle of four pulses
+    -- along the arc, but at most a quarter turn.
     sweepSlack = min (pi / 2) (4 * pulse (grid context) / r)
 
 -- | True when one frame of the machine can hold a full circle.
@@ -195,7 +195,8 @@ isWithinTolerance allowed d =
     && Mm (outward d) <= outwards allowed
 
 -- | Step between the grid points @from@ and @to@ about the grid point @c@; a full circle if @from@
--- and @to@ are equal. When a cut at an axis has left a nearly straight arc, the step is a line.
+-- and @to@ are equal. The step is a line if its arc is nearly straight and the line keeps the
+-- tolerance. A cut at an axis can leave such an arc.
 legBetween :: ArcContext -> RoundedArc -> Pulses2 -> Pulses2 -> Pulses2 -> Leg
 legBetween context arc c from to =
   Leg
@@ -271,7 +272,7 @@ isStraightEnough context exact stops = case exact of
   Segment.Arc {Segment.start = begin, Segment.centre = middle}
     -- The line from a to b replaces the arc. The arc is at most its sagitta away from its own
     -- chord. The chord is at most as far from the line as its ends are from a and b. If both
-    -- distances together are small, the whole arc lies near the line.
+    -- distances together are at most @most@, no point of the arc is further from the line.
     | [a, b] <- points,
       plus
         (Segment.sagitta exact)
@@ -280,8 +281,9 @@ isStraightEnough context exact stops = case exact of
       isWithin
         (Distance.toPoint middle (Straight a b))
         (max (Vec.distance middle a) (Vec.distance middle b))
-    -- The distances of the lines from the centre are not enough: lines that do not follow the arc
-    -- could have them too. So the distances of nine points of the arc from the lines are tested.
+    -- To test the distances of the lines from the centre is not enough: lines that do not follow
+    -- the arc could pass this test. So the distances of nine points of the arc from the lines are
+    -- tested too.
     | otherwise ->
       isWithin
         (minimum (map (Distance.toPoint middle) lines'))

@@ -54,15 +54,17 @@ square most = [Pulses2 di dj | di <- [-most .. most], dj <- [-most .. most]]
 isWithin :: Pulses -> Pulses2 -> Pulses2 -> Bool
 isWithin most (Pulses2 i j) (Pulses2 k l) = abs (i - k) <= most && abs (j - l) <= most
 
--- | Grid points further from the exact centre than 'nearCentres'. About each of them the whole arc
--- is one frame, and the middle of this frame's arc is within the tolerance of the exact arc. They
--- are tried when the arc exceeds the tolerance about every one of 'nearCentres'.
+-- | Grid points that are tried when none of 'nearCentres' gives steps within the tolerance. In x or
+-- in y they are more than 'nearReach' pulses away from the grid point nearest to the exact centre.
+-- About each of them the whole arc is one frame, and the middle of this frame's arc is within the
+-- tolerance of the exact arc.
 --
--- Consider an arc of the sweep 2h about a centre that is displaced by n towards the arc's middle
--- and by t across. This displaces the middle of the arc by @(1 − cos h)·n + sin h·t@ and its end by
--- @2·sin h·t@. The deviation at each of these points is the displacement plus the rounding of the
--- start. So for a deviation within the tolerance, each displacement is at most the sum of the
--- tolerance and the rounding of the start. Therefore @(1 − cos h)·n@ is at most 3/2 of this sum.
+-- Consider an arc of the sweep 2h with a fixed start. Its centre is displaced by n towards the
+-- middle of the arc, and by t at right angles to n, towards its end. This displaces the middle
+-- outwards by @(1 − cos h)·n + sin h·t@ and its end by @2·sin h·t@. The deviation at each of these
+-- points is the displacement plus the rounding of the start. So for a deviation within the
+-- tolerance, each displacement is at most the sum of the tolerance and the rounding of the start.
+-- Therefore @(1 − cos h)·n@ is at most 3/2 of this sum.
 remoteCentres :: ArcContext -> RoundedArc -> [Pulses2]
 remoteCentres context arc
   | begin arc == finish arc = []

@@ -50,8 +50,8 @@ gridPoint grid (Pulses2 (Pulses x) (Pulses y)) =
   Vec.point (fromIntegral x * pulseX grid) (fromIntegral y * pulseY grid)
 
 -- | Largest allowed distances in mm of the steps of an arc from the exact arc, rounding included.
--- The radii at the beginning and at the end of a step may differ. It depends on the control which
--- of them it uses at a point between.
+-- A step that is an arc may have different radii at its beginning and at its end. The radius
+-- between them depends on the control.
 data ArcTolerance = ArcTolerance
   { -- | largest radial distance of a step that is an arc, if the control keeps the radius of the
     -- beginning, or changes it linearly to that of the end

@@ -1,11 +1,12 @@
--- The loops carry more than ten numbers; this option keeps them unboxed.
+-- The loops carry more than ten numbers. The option -fmax-worker-args keeps these unboxed.
 {-# OPTIONS_GHC -O2 -fmax-worker-args=40 #-}
 
 -- | Radial deviation of the arc in a frame from the exact arc.
 --
 -- The rounded ends of an arc usually have different distances from the rounded centre. So the
--- radius at the end differs from that at the beginning. A control changes the radius along the arc
--- from one to the other: linearly at best, in one jump at worst. Both cases are measured.
+-- radius at the end differs from that at the beginning. A control keeps the radius of the
+-- beginning, changes it linearly to that of the end, or at worst jumps to it at any point. All
+-- three cases are measured.
 module Frame.Arc.Deviation
   ( FrameArc (..),
     ArcDeviation (..),
@@ -91,9 +92,9 @@ deviationOf tolerance exact ofFrame =
 -- | Deviation at the ends of an arc, if it is provably the largest deviation of the whole arc and
 -- less than both tolerances 'inwards' and 'outwards'. Otherwise Nothing.
 --
--- For a centre that is off by v and a sweep φ, the deviation between the ends differs from linear
--- interpolation by up to @φ²·v/8@. The bound used here is twice as large, to cover the terms of
--- second order in v.
+-- The centre of the frame's arc is off from the exact centre by v, and the sweep is φ. Between the
+-- ends, the deviation differs by up to @φ²·v/8@ from the linear interpolation of the deviations at
+-- both ends. The bound used here is twice as large, to cover the terms of second order in v.
 deviationAtEnds :: ArcTolerance -> FrameArc -> Maybe ArcDeviation
 deviationAtEnds tolerance arc
   | abs (turned arc) < 1

@@ -1,10 +1,11 @@
--- The loops carry more than ten numbers; this option keeps them unboxed.
+-- The loops carry more than ten numbers. The option -fmax-worker-args keeps these unboxed.
 {-# OPTIONS_GHC -O2 -fmax-worker-args=40 #-}
 
 -- | Quick estimates of the deviation of an arc about a grid point, so that most grid points are
 -- rejected without the exact computation in "Frame.Arc.Deviation". The deviation is the distance of
 -- the rounded arc from the exact circle. A rounded arc has different radii at its beginning and at
--- its end. A control keeps the radius of the beginning, or changes it linearly to that of the end.
+-- its end. The estimates are for controls that keep the radius of the beginning, or change it
+-- linearly to that of the end; a jump of the radius is not estimated.
 module Frame.Arc.Estimate
   ( ArcEnds,
     endsOf,
@@ -44,11 +45,12 @@ data ArcEnds = ArcEnds
     -- | distances of the rounded ends from the exact circle, positive outside
     beginError :: Double,
     finishError :: Double,
-    -- | unit vector from the exact centre to the arc's middle less the unit vector to the arc's
-    -- start
+    -- | difference of two unit vectors from the exact centre: to the arc's middle, minus to the
+    -- rounded start
     halfX :: Double,
     halfY :: Double,
-    -- | unit vector from the exact centre to the arc's end less the unit vector to the arc's start
+    -- | difference of two unit vectors from the exact centre: to the rounded end, minus to the
+    -- rounded start
     wholeX :: Double,
     wholeY :: Double
   }

@@ -5,9 +5,9 @@
 -- below 1, a point is at most @|F|·(1 + |k·F|)@ away from the circle. The largest value of |F|
 -- along a curve therefore bounds the distance from the curve to the arc.
 --
--- A foot of a point is the point of the arc that is nearest to it. A curve runs forwards if its
--- direction makes less than a quarter turn with the directions of both ends of the arc. Then the
--- feet of its points cover the arc without a gap, and the same bound holds from the arc to the
+-- The foot of a point is the point of the arc that is nearest to it. A curve runs forwards if its
+-- direction makes an angle of less than a quarter turn with the arc's directions at both ends. Then
+-- the feet of the curve's points cover the whole arc, and the same bound holds from the arc to the
 -- curve. A pose is a position in mm with a direction of length 1.
 module Geometry.ArcFitting.ArcDistance
   ( -- * Arcs
@@ -62,8 +62,8 @@ beyond :: FastArc -> Double -> Double -> Double
 beyond f x y = (x - px (limit f)) * dx (limit f) + (y - py (limit f)) * dy (limit f)
 {-# INLINE beyond #-}
 
--- | True if a curve with the direction of pose @p@ runs forwards, that is, makes less than a
--- quarter turn with the directions of both ends of arc @f@.
+-- | True if a curve with the direction of pose @p@ runs forwards, that is, if this direction makes
+-- an angle of less than a quarter turn with the directions of arc @f@ at both ends.
 runsForwards :: FastArc -> Pose -> Bool
 runsForwards f p =
   isForwardsBy
@@ -72,9 +72,9 @@ runsForwards f p =
     (dy p * dx (origin f) - dx p * dy (origin f))
 {-# INLINE runsForwards #-}
 
--- | True if a direction makes less than a quarter turn with the directions of both ends of an arc.
--- @along@ is the component of the direction along the direction of the arc's start, @across@ the
--- component to the left of it.
+-- | True if a direction makes an angle of less than a quarter turn with an arc's directions at both
+-- ends. The direction is given by its component @along@ the arc's direction at the start, and by
+-- its component @across@, to the left of the former.
 isForwardsBy :: FastArc -> Double -> Double -> Bool
 isForwardsBy f along across = along > 0 && along * cosine f + across * sine f > 0
 {-# INLINE isForwardsBy #-}

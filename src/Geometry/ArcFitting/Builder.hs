@@ -22,7 +22,7 @@ newtype Vertices s = Vertices (STRef s (Buffer s))
 -- | Count of vertices, and the array with x (mm), y (mm) and bulge of one vertex after the other.
 data Buffer s = Buffer Int (MutablePrimArray s Double)
 
--- | Empty array.
+-- | Array without vertices.
 new :: ST s (Vertices s)
 new = do
   array <- PrimArray.newPrimArray (3 * 16)

@@ -5,10 +5,10 @@
 --
 -- The bound and the arcs are those of "Geometry.ArcFitting.ArcDistance". The function F of a
 -- position is 0 on the circle of an arc, and the largest |F| along a curve gives a bound of its
--- distance from the arc. The bound holds only if the curve runs forwards: its direction makes less
--- than a quarter turn with the directions of both ends of the arc. On a cubic, F is a polynomial of
--- degree 6. Chebyshev economization reduces it to degree 3, plus a small remainder; the maximum of
--- a cubic is known in closed form.
+-- distance from the arc. The bound holds only if the curve runs forwards: its direction makes an
+-- angle of less than a quarter turn with the arc's directions at both ends. On a cubic, F is a
+-- polynomial of degree 6. Chebyshev economization reduces it to degree 3, plus a small remainder;
+-- the maximum of a cubic is known in closed form.
 --
 -- The parameter of a curve rises by 1 over each span; the local parameter of a span goes from 0 to
 -- 1. A stretch is the part between two corners, given by the index @from@ of its first span and the
@@ -74,7 +74,8 @@ stretchSpans tolerance xs ys from to =
       triesLonger = False
     }
   where
-    -- This fit's cost grows with the count of spans, so it gets the current one and the next 63.
+    -- The cost of "Geometry.ArcFitting.ParametricFit" grows with the count of spans. Therefore it
+    -- gets only the span that contains @u@ and the next 63 spans.
     generalFit u =
       let i = max 0 (min (to - 1) (truncate u))
           end = min to (i + 64)
@@ -141,8 +142,8 @@ biarcDistances xs ys largest first u from _ v to pair
     !one = fastArc from (bend1 pair) (if single pair then to else joint pair)
     !two = fastArc (joint pair) (bend2 pair) to
 
--- | Position on the curve, by the index of its span and its local parameter, and a bound in mm. The
--- bound is that of the distance between an arc and the curve up to this position.
+-- | Position on the curve: the index of its span, and its local parameter there. The third argument
+-- is a bound in mm of the distance between an arc and the curve up to this position.
 data Reached = Reached Int Double Double
 
 -- | Advances on the curve along one arc, and bounds the distance between curve and arc. The result

@@ -46,8 +46,8 @@ data ArcDistances = ArcDistances Double Double
 -- | Curve of consecutive spans, given by functions. A parameter at which two spans meet belongs to
 -- the later span.
 data Spans = Spans
-  { -- | index, from 0, of the span that contains a parameter; the first argument is an index that
-    -- is not larger, at which the search begins
+  { -- | index, from 0, of the span that contains a parameter. The first argument is the index at
+    -- which the search begins; it is at most the result
     seek :: Int -> Double -> Int,
     -- | pose at a parameter, given the index of its span; where spans meet, the direction is the
     -- mean of both
@@ -69,17 +69,18 @@ data Spans = Spans
     -- succeeds. The arguments are the parameter at the start, the position and direction there, and
     -- the first step
     fallback :: Double -> (Point, Vec) -> Double -> FitStep,
-    -- | True if no biarc between two positions can be within a distance, so that the caller tries
-    -- none. The arguments are the distance in mm, then span, parameter and pose of both positions
+    -- | True only if no biarc between two positions can be within a distance; the caller then tries
+    -- none. A function that is always False is valid too. The arguments are the distance in mm,
+    -- then span, parameter and pose of both positions
     isHopeless :: Double -> Int -> Double -> Pose -> Int -> Double -> Pose -> Bool,
     -- | True to try longer biarcs with other chord ratios where the curvature changes unevenly. On
     -- curves of few spans the result then has a tenth fewer biarcs
     triesLonger :: Bool
   }
 
--- | Runs an action for each stretch of a curve with @count@ spans. @isCornerAt@ is True for a span,
--- by its index from 0, at whose start there is a corner. The action receives the index of the
--- stretch's first span and the index after its last span.
+-- | Runs an action for each stretch of a curve with @count@ spans. Spans are counted from 0.
+-- @isCornerAt i@ is True if the curve has a corner at the start of span @i@. The action receives
+-- the index of the stretch's first span and the index after its last span.
 forStretches :: Int -> (Int -> Bool) -> (Int -> Int -> ST s ()) -> ST s ()
 forStretches count isCornerAt action = when (count > 0) (go 0 1)
   where
@@ -151,8 +152,9 @@ along
           ArcDistances d1 d2 = arcDistances (1e6 * aim) i u from j v to pair
           d = if d1 > d2 then d1 else d2
           isKnown = d < 1e5 * aim
-          -- Ratio of both deviations. Its cube root is the factor for the chord ratio that shortens
-          -- the arc with the larger deviation.
+          -- Deviation of the first arc divided by that of the second; 1 if one of them is unknown
+          -- or very small. The chord ratio times the cube root of this number shortens the arc with
+          -- the larger deviation.
           imbalance = if isKnown && d1 > 0.01 * d && d2 > 0.01 * d then d1 / d2 else 1
           balanced = max 0.4 (min 2.5 (r * cubeRoot imbalance))
           expected = if imbalance > 1 then d / sqrt imbalance else d * sqrt imbalance
@@ -235,8 +237,9 @@ along
 -- default one.
 data Success = Success {reach :: Double, chords :: Double}
 
--- | Previous biarc: its step, and the difference of curvature (1/mm) between its two arcs, divided
--- by the step.
+-- | Facts from the previous biarc. 'lastStep' is the step that its deviation suggests for the next
+-- biarc. 'lastRate' is the curvature (1/mm) of its second arc less that of its first arc, divided
+-- by its own step.
 data Previous = Previous {lastStep :: Double, lastRate :: Double}
 
 -- | Largest relative change of 'lastRate' from one biarc to the next for which the curvature is
@@ -258,7 +261,8 @@ longEnough = 0.9
 narrowBracket :: Double
 narrowBracket = 0.03
 
--- | Cube root of a positive number, to a few percent between 1/1000 and 1000, by two Halley steps.
+-- | Cube root of a positive number, with an error below 0.3 %. The number is first scaled by powers
+-- of 8 to between 1/8 and 8; two Halley steps follow.
 cubeRoot :: Double -> Double
 cubeRoot a
   | a > 8 = 2 * cubeRoot (a / 8)

@@ -34,7 +34,8 @@ import Geometry.Vec qualified as Vec
 data ParametricCurve = ParametricCurve
   { -- | point at a parameter
     place :: Double -> Point,
-    -- | unit direction at a parameter, before or after it; the two differ only where spans meet
+    -- | unit direction in which the curve arrives at a parameter or leaves it; the two differ only
+    -- where spans meet
     direction :: OneSided -> Double -> Vec,
     -- | parameter at the start of the curve
     begin :: Double,
@@ -56,9 +57,10 @@ type Stretch = NonEmpty (Double, Double)
 --
 -- The ends of the biarcs lie on the curve and have the curve's direction. Where two spans meet with
 -- directions that differ too little for a corner, the end of a biarc has their mean direction.
--- Where no biarc succeeds, a line is used instead, over the share 'Tolerance.finestStep' of a span.
--- For each biarc some dozens of curve points are computed, and a few more for each span that it
--- passes.
+-- Where no biarc succeeds, a very short line between two points of the curve takes its place. Its
+-- step is the share 'Tolerance.finestStep' of the span's parameter interval, and the direction may
+-- change at its ends. For each biarc some dozens of curve points are computed, and a few more for
+-- each span that the biarc passes.
 approximate :: Mm -> ParametricCurve -> NonEmpty (NonEmpty Segment)
 approximate (Mm tolerance) curve =
   case concatMap (long . follow curve tolerance) (NonEmpty.toList (stretches curve)) of
@@ -149,7 +151,9 @@ oneBiarc (Mm tolerance) curve final at pose step = FitStep reached biarc
     ahead = takeWhile ((< final) . fst) (dropWhile ((<= at) . snd) (zip (begin curve : ends) ends))
     ends = NonEmpty.toList (breaks curve)
 
--- | Unit direction of the curve at parameter @u@; where spans meet, the mean of both sides.
+-- | Unit direction in which a biarc ends at parameter @u@: that of the curve. Where spans meet
+-- inside of the stretch, it is the mean of the arriving and the leaving direction. At the end of
+-- the stretch it is the arriving one.
 heading :: FitState -> Double -> Vec
 heading w u
   | u >= final w = arriving
@@ -185,10 +189,11 @@ longestBiarc w first = tryLonger (search w 24 Nothing Nothing first)
           [] -> best
           t : _ -> search w 8 (Just t) Nothing (1.1 * (reached t - u))
 
--- | Bracketing search for the longest biarc. @step@ is tried next, and at most @remaining@ trials
--- follow it. If all of them fail, the search goes on until one succeeds or the step is the smallest
--- one. @success@ is the longest trial within the tolerance so far, and @failure@ the least
--- parameter whose trial failed. Each is Nothing if there is none.
+-- | Bracketing search for the longest biarc. @step@ is tried next. @success@ is the longest trial
+-- within the tolerance so far, and @failure@ the least parameter whose trial failed. Each is
+-- Nothing if there is none. Once there is a success, the search ends after at most @remaining@
+-- further trials. Until then it goes on beyond this count with smaller steps. It falls back to a
+-- line when it comes to the smallest one.
 search :: FitState -> Int -> Maybe Trial -> Maybe Double -> Double -> Trial
 search w remaining success failure step
   | step <= leastStep w = fromMaybe (fallbackLine w) success
@@ -209,7 +214,8 @@ search w remaining success failure step
     shorter = case success of
       Just best -> within best (reached found) (step * growth)
       Nothing -> step * max 0.1 (min 0.9 growth)
-    -- Factor by which the step can grow.
+    -- Factor of the step for which the deviation should be 0.97 of the tolerance; below 1 after a
+    -- failure.
     growth = if distance found > 0 then (0.97 * aim w / distance found) ** (1 / 3) else 4
     isNarrow best failed = failed - reached best <= 0.02 * (reached best - u)
     -- Clamps a step to the interior of the bracket.
@@ -218,13 +224,15 @@ search w remaining success failure step
           gap = limit - reached best
        in max (a + 0.15 * gap) (min (a + 0.85 * gap) s)
 
--- | Smallest step for which a biarc is tried.
+-- | Smallest step of the fit, a fixed share of the current span. Only a line covers so small a
+-- step; biarcs are tried over longer ones.
 leastStep :: FitState -> Double
 leastStep w = case ahead w of
   (lo, hi) : _ -> (hi - lo) * Tolerance.finestStep
   [] -> final w - at w
 
--- | Line over the smallest step, for positions from which no biarc succeeds.
+-- | Line over the smallest step, for positions from which no biarc succeeds. Its deviation is not
+-- measured and counts as 0.
 fallbackLine :: FitState -> Trial
 fallbackLine w = Trial v (Straight (fst (pose w)) (place (curve w) v) :| []) 0
   where
@@ -266,10 +274,11 @@ type Attempt = (Double, Double, NonEmpty Segment)
 least :: [Attempt] -> Attempt
 least = minimumBy (comparing (\(d, _, _) -> d))
 
--- | Refines the chord ratio of the attempt @best@, unless it meets the tolerance @aim@ (mm) or is
--- too far from it. Each round tries the ratio multiplied and divided by the square root of
--- @factor@, which is the factor of the next round. At most @remaining@ rounds follow. @tried@ makes
--- attempts with given ratios.
+-- | Refines the chord ratio of the attempt @best@. The result is @best@ itself if its distance is
+-- within the tolerance @aim@ (mm) or above four times @aim@. Otherwise the ratio is multiplied and
+-- divided by the square root of @factor@, and the best attempt is refined again. This root is the
+-- @factor@ of the next round. There are at most @remaining@ rounds. @tried@ makes attempts with
+-- given ratios.
 refineRatio :: Double -> ([Double] -> [Attempt]) -> Int -> Double -> Attempt -> Attempt
 refineRatio aim tried remaining factor best@(d, r, _)
   | remaining <= 0 || d <= aim || d > 4 * aim = best
@@ -281,10 +290,10 @@ refineRatio aim tried remaining factor best@(d, r, _)
       (sqrt factor)
       (least (best : tried [r / sqrt factor, r * sqrt factor]))
 
--- | Chord ratios for biarcs between two points of a curve; the joint is then near a point at which
--- two of the @parts@ meet. A part is a span, or the rest of one, by its first and last parameter.
--- Such ratios help on chains of lines and arcs. More than nine parts are not taken for such a
--- chain; the list is then empty.
+-- | Chord ratios for biarcs between two points of a curve. Each ratio puts the joint near a point
+-- at which two of the @parts@ meet. A part is a span, or the rest of one, by its first and last
+-- parameter. Such ratios help where the curve is a chain of lines and arcs. A curve with more than
+-- nine parts is not taken for such a chain, and the list is empty.
 ratiosAtSpans :: ParametricCurve -> Point -> Point -> [(Double, Double)] -> [Double]
 ratiosAtSpans curve p q parts = case drop 1 parts of
   inner
@@ -323,8 +332,8 @@ measured w v stations segments
 
 -- | Counts of sample points for the parts of spans between the current parameter and @v@, each with
 -- its part. A part is given by its first and last parameter. A single part has 8 points. Of several
--- parts, each has 8 times its share of the parameter range or of the length, whichever is larger,
--- but at least 3.
+-- parts, each has a share of 8 points, rounded up, but at least 3. This is the part's share of the
+-- parameter range or of the sum of all parts' chords, whichever is larger.
 sampleCounts :: FitState -> Double -> [(Double, Double)] -> [(Int, (Double, Double))]
 sampleCounts w v parts = case parts of
   [one] -> [(8, one)]
@@ -337,9 +346,9 @@ sampleCounts w v parts = case parts of
       [let Mm d = Vec.distance (place (curve w) a) (place (curve w) b) in d | (a, b) <- parts]
     whole = sum chords
 
--- | Sample points on part of a span, with their parameters. There are @n@ points between the
--- parameters @a@ and @b@, shifted back by the share @back@ of their spacing. The spacing is uneven,
--- so that the samples cannot all fall on the zeros of a periodic deviation.
+-- | Sample points on part of a span, each with its parameter. Point @k@, from 1 to @n@, lies at the
+-- fraction @(k − back)/n@ of the interval from the parameter @a@ to @b@. These even fractions are
+-- then made uneven, so that the samples cannot all fall on the zeros of a periodic deviation.
 samplePoints :: (Double -> Point) -> Double -> (Int, (Double, Double)) -> [(Double, Point)]
 samplePoints point back (n, (a, b)) =
   [ let u =

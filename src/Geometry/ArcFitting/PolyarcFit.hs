@@ -5,13 +5,15 @@
 -- | Arc fitting of polyarcs by biarcs, with an error bound in closed form.
 --
 -- The bound and the arcs are those of "Geometry.ArcFitting.ArcDistance". The function F of a
--- position is 0 on the circle of an arc, and the largest |F| along a curve gives a bound of its
+-- position is 0 on the circle of an arc. The largest |F| along a curve gives a bound of the curve's
 -- distance from the arc. The bound holds only if the curve runs forwards: its direction makes less
--- than a quarter turn with the directions of both ends of the arc. Along a segment that sweeps less
--- than a quarter turn, F has at most one extremum. It lies where the slope @F′ = d_y − k·(x·d_x +
--- y·d_y)@ is 0. Here k is the arc's curvature; (x, y) is the position on the segment and d the
--- direction, in coordinates with the origin at the arc's start and x along the arc. This slope is
--- nearly linear from one end of the segment to the other.
+-- than a quarter turn with the directions of both ends of the arc.
+--
+-- Along a segment that sweeps less than a quarter turn, F has at most one extremum. It lies where
+-- the slope @F′ = d_y − k·(x·d_x + y·d_y)@ is 0. Here k is the arc's curvature, (x, y) the position
+-- on the segment, and d the segment's direction there. The coordinates have their origin at the
+-- arc's start and the x axis in the arc's direction at its start. The slope is nearly linear from
+-- one end of the segment to the other.
 --
 -- A polyarc is a chain of lines and arcs. Its parameter is the arc length in mm. Segments are
 -- counted from 0. A stretch is the part between two corners, given by the index @from@ of its first
@@ -54,7 +56,7 @@ data SegmentTable = SegmentTable {stations :: Vector Double, entries :: Vector D
 
 -- | Arcs and lines within a tolerance of a polyarc. The tolerance holds from the polyarc to the
 -- result and from the result to the polyarc. The fit is greedy: each biarc is as long as possible.
--- Corners are kept. Every segment of the input must have a length.
+-- Corners are kept. Every segment of the input must be longer than 0.
 approximate :: Mm -> NonEmpty Segment -> FlatPolyarc
 approximate (Mm tolerance) segments = runST $ do
   vertices <- Builder.new
@@ -71,7 +73,8 @@ approximate (Mm tolerance) segments = runST $ do
     n = Unboxed.length (stations chain) - 1
     end = Segment.end (NonEmpty.last segments)
 
--- | Arc lengths of the segments @from@ to @to − 1@. A biarc along all of them is tried first.
+-- | Parameter range of the segments @from@ to @to − 1@, in arc length. The step that is tried first
+-- is the whole range.
 stretchRange :: SegmentTable -> Int -> Int -> ParameterRange
 stretchRange chain from to = ParameterRange {inSpan = from, begin, final, step = final - begin}
   where
@@ -91,7 +94,8 @@ stretchSpans tolerance chain from to =
     }
   where
     n = Unboxed.length (stations chain) - 1
-    -- This fit's cost grows with the count of segments, so it gets the current one and the next 63.
+    -- The cost of the fit by "Geometry.ArcFitting.ParametricFit" grows with the count of segments.
+    -- Therefore it gets only the current segment and the next 63.
     generalFit u =
       let i = min (to - 1) (BinarySearch.lastAtMost n u (stations chain))
           end = min to (i + 64)
@@ -358,8 +362,8 @@ testedVertices = 8
 slack :: Double
 slack = 0.05
 
--- | Position on the polyarc, by its segment, its arc length (mm) and its pose, and a bound in mm.
--- The bound is that of the distance between an arc and the polyarc up to this position.
+-- | Position on the polyarc, by its segment, its arc length (mm) and its pose. The last number is a
+-- bound, in mm, of the distance between an arc and the polyarc up to this position.
 data Reached = Reached Int Double Pose Double
 
 -- | Advances on the polyarc along one arc, and bounds the distance between polyarc and arc. The

@@ -1,7 +1,7 @@
 -- | Fillets: arcs of a given radius and sense (clockwise or counter-clockwise) that lead from one
 -- element's carrier to another. A carrier is the line, the circle, the curve or the point on which
--- an element lies, with a direction of travel. At both ends a fillet has the carrier's direction of
--- travel.
+-- an element lies, with a direction of travel. At each end, a fillet has the direction of travel of
+-- the carrier that it touches there.
 module Geometry.Construction.Fillet
   ( Fillet (..),
     between,
@@ -108,9 +108,9 @@ touch radius sense carrier c = case carrier of
   OnCircle t (Circle o rc@(Mm r)) ->
     Just (Vec.shift (Vec.scale (side * r) (Vec.unit (Vec.to o c))) o)
     where
-      -- With equal senses, the smaller circle lies inside the larger one. If the fillet is the
-      -- larger one, the point of contact and the fillet's centre are on opposite sides of the
-      -- circle's centre.
+      -- With equal senses, either the fillet's circle lies inside the carrier's circle or the
+      -- reverse. If the fillet is larger, the carrier's centre @o@ lies between the fillet's centre
+      -- and the point of contact.
       side = if t == sense && radius > rc then -1 else 1
   OnCurve _ -> Nothing
   AtPoint _ -> Nothing

@@ -32,7 +32,8 @@ data Intersection
     Same
   deriving stock (Eq, Show)
 
--- | The common points. For 'Same', where all points are common, the list is empty.
+-- | The common points that an intersection has. For 'Same', where all points are common, the list
+-- is empty.
 points :: Intersection -> [Point]
 points intersection = case intersection of
   Apart _ -> []

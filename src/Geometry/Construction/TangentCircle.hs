@@ -60,8 +60,8 @@ circles r a b =
       c <- Intersection.common locusA locusB
   ]
 
--- | The line or circle on which the centres of all circles lie that have the radius @r@ and meet a
--- condition. Nothing for 'InsideOf' a circle of the same radius.
+-- | The locus of the centres of all circles that have the radius @r@ and meet a condition. The
+-- locus is a line or a circle. Nothing for 'InsideOf' a circle of the same radius.
 locus :: Mm -> Touched -> Maybe Carrier
 locus r@(Mm radius) touched = case touched of
   Through p -> Just (CircleCarrier (Circle p r))

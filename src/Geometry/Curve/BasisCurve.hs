@@ -2,9 +2,9 @@
 --
 -- The parameter runs from 0 to the count of spans, by 1 over each span; it has no unit. The local
 -- parameter of a span runs from 0 to 1. A shift moves the points of a curve along its normals; a
--- base is a curve without shifts. It keeps the rows of the table from which it was made. A row is a
--- point of the table with its parameter on the curve. A column gives a number for each row and is
--- interpolated between the rows ("Geometry.Curve.Column").
+-- base is a curve without shifts. A base keeps the rows of the table from which it was made. A row
+-- is a point of the table with its parameter on the curve. A column gives a number for each row and
+-- is interpolated between the rows ("Geometry.Curve.Column").
 module Geometry.Curve.BasisCurve
   ( BasisCurve (..),
     SpanList (..),
@@ -69,7 +69,7 @@ data BasisCurve = BasisCurve
     spanList :: SpanList,
     -- | True if the base ends where it begins
     closed :: Bool,
-    -- | arc length along the base; read through 'arcLength'
+    -- | arc length along the base as a function of its parameter; read through 'arcLength'
     lengthTable :: ~ArcLength
   }
   deriving stock (Eq, Show)
@@ -124,8 +124,8 @@ data CurveFault
     NoLength Int
   | -- | the span with this number does not end where the next one begins
     Disjoint Int
-  | -- | the row with this number does not lie before the next one along the curve, or lies
-    -- outside of the curve
+  | -- | the row with this number; its parameter is not below that of the next row, or is not
+    -- between 0 and the count of spans
     Disordered Int
   | -- | the radius of a joggle is not above half of its depth
     DeepJoggle
@@ -158,7 +158,7 @@ speedAt base i t = case spanList base of
      in sqrt (a * a + b * b)
   Mixed parts -> Vec.norm (TaylorExpansion.velocity (Span.expansion 1 (parts Vector.! i) t))
 
--- | Spans as a vector.
+-- | Spans of a base as a vector.
 spans :: BasisCurve -> Vector Span
 spans base = case spanList base of
   Cubical xs ys ->
@@ -208,10 +208,10 @@ polyline points = do
         (\i -> Spline.line (part (points Vector.! i)) (part (points Vector.! (i + 1))))
     {-# INLINE lineCubics #-}
 
--- | Cubic spline through the points. Its second derivatives with respect to the accumulated chord
--- length, the sum of the distances between consecutive points, are continuous. At clamped ends, the
--- first derivative with respect to this length is the given direction. The last point of a periodic
--- spline may repeat the first one or not.
+-- | Cubic spline through the points. It has continuous second derivatives with respect to the
+-- accumulated chord length, which is the sum of the distances between consecutive points. At a
+-- clamped end, the first derivative with respect to this length is the unit vector of the given
+-- direction. The last point of a periodic spline may repeat the first one or not.
 spline :: EndCondition -> Vector Point -> Either CurveFault BasisCurve
 spline ends points = case ends of
   Natural -> do
@@ -309,7 +309,8 @@ parabola points
   where
     x i = Vec.x (points Vector.! i)
     sense = signum (x 1 - x 0)
-    -- Points with equal x do not lie on one parabola y(x), even if they are far apart in y.
+    -- Step in x from @p@ to @q@, positive in the sense of the first step, less the tolerance. It
+    -- must be above 0: points with equal x do not lie on one parabola y(x), however far apart in y.
     advance p q = sense * (Vec.x q - Vec.x p) - (let Mm d = Tolerance.coincident in d)
     middle i = (x (2 * i + 1) - x (2 * i)) / (x (2 * i + 2) - x (2 * i))
 
@@ -323,8 +324,9 @@ fromShapes = ofSpans . vector Span.fromShape
 fromSegmentsAt :: NonEmpty Segment -> Vector Double -> Either CurveFault BasisCurve
 fromSegmentsAt = ofSpans . vector Span.fromSegment
 
--- | Base of consecutive spans. @parameters@ are those of the rows. It is a fault if they are not
--- strictly ascending or lie outside of the curve, or if two consecutive spans do not join.
+-- | Base of consecutive spans. The rows have the given @parameters@. It is a fault if these are not
+-- strictly ascending or lie outside of the curve. It is also a fault if a span has no length, or if
+-- two consecutive spans do not join.
 ofSpans :: Vector Span -> Vector Double -> Either CurveFault BasisCurve
 ofSpans parts parameters = do
   checkJoined parts
@@ -429,12 +431,12 @@ count base = case spanList base of
   Cubical xs _ -> Spline.count xs
   Mixed parts -> Vector.length parts
 
--- | Arc length along the base.
+-- | Arc length along the base as a function of its parameter.
 arcLength :: BasisCurve -> ArcLength
 arcLength = lengthTable
 
--- | Position on a curve. @parameter@ is that of the whole curve. @number@ is the index, from 0, of
--- the span in which the position lies; @local@ is the parameter in this span, from 0 to 1.
+-- | Position on a curve, at @parameter@ on the whole curve. @number@ is the index, from 0, of the
+-- span in which the position lies; @local@ is its parameter within this span, from 0 to 1.
 -- @approach@ is the side from which the position is approached: from smaller parameters ('Before')
 -- or from larger ones ('After').
 data SpanPoint = SpanPoint
@@ -458,7 +460,8 @@ spanPoint approach u base =
       After -> min (n - 1) (truncate parameter)
       Before -> max 0 (ceiling parameter - 1)
 
--- | Taylor expansion of the point, in mm, about a position, up to the power @n@ of the parameter.
+-- | Taylor expansion of the point of a base, in mm, about the position @s@, up to the power @n@ of
+-- the parameter.
 expansion :: Int -> BasisCurve -> SpanPoint -> TaylorExpansion
 expansion n base s = case spanList base of
   Cubical xs ys ->

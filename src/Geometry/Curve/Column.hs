@@ -2,9 +2,9 @@
 -- interpolation is that of the points: linear on a polyline, by parabolas on a chain of parabolas,
 -- by a spline on a spline.
 --
--- The base is the unshifted curve to which the table belongs. If its spans were given one by one,
--- the speed, in mm per unit of the parameter, jumps from span to span. In this case the column is a
--- cubic spline by arc length: a natural one, or a periodic one on a closed base.
+-- The base is the unshifted curve to which the table belongs. If the spans of the base were given
+-- one by one, its speed, in mm per unit of the parameter, jumps from span to span. In this case the
+-- column is a cubic spline by arc length.
 module Geometry.Curve.Column
   ( Column (..),
     Interpolation (..),
@@ -40,7 +40,8 @@ data Interpolation
   = -- | a cubic for every span of the base, over the span's local parameter from 0 to 1
     BySpan Cubics
   | -- | the arc lengths (mm) at the rows, in ascending order; and a cubic for each interval between
-    -- neighbouring rows, over a local parameter from 0 to 1
+    -- neighbouring rows, over a local parameter from 0 to 1. On a closed base whose last row does
+    -- not repeat the start, the end of the base counts as another row.
     ByLength (Unboxed.Vector Double) Cubics
   deriving stock (Eq, Show)
 
@@ -79,8 +80,10 @@ column base values
       Parabola -> BySpan (Spline.parabolas (BasisCurve.fractions base) flat)
       Joined -> byLength base values
 
--- | Interpolation of the values by a spline in arc length along the base. A single value gives a
--- constant; an empty vector gives 0.
+-- | Interpolation of the values by a spline in arc length along the base. The spline is periodic if
+-- the base is closed, has a row at its start, and has at least three different rows. It is natural
+-- on any other base, and if the last row repeats the start with another value. A single value gives
+-- a constant; an empty vector gives 0.
 byLength :: BasisCurve -> Vector Double -> Interpolation
 byLength base values = case Vector.toList values of
   [] -> BySpan (Spline.generate (BasisCurve.count base) (const (Cubic 0 0 0 0)))
@@ -146,9 +149,9 @@ series n base c spanPoint = case interpolation c of
             (TaylorExpansion.speed (BasisCurve.expansion n base spanPoint))
       fraction = PowerSeries.scale (1 / width) (PowerSeries.plusConstant (-from) lengthSeries)
 
--- | Parameters, in ascending order, at which one cubic of a spline by arc length follows another:
--- those of the rows. The list is empty for a column by spans, whose cubics change only at the ends
--- of the base's spans.
+-- | Parameters of the rows, in ascending order, if the column is a spline by arc length: at the
+-- rows, one cubic follows another. For any other column the list is empty, because its cubics
+-- change only at the ends of the base's spans.
 knots :: BasisCurve -> Column -> [Double]
 knots base c = case interpolation c of
   BySpan _ -> []

@@ -2,9 +2,10 @@
 -- Cubics have an error bound in closed form when arcs are fitted to them.
 --
 -- The approximation consists of Hermite cubics: each has the points and the derivatives of the
--- curve at both ends of an interval. At the fraction t of the interval it differs from a smooth
--- curve by t²(1−t)²·(c + d(t−½) + …). At the middle, the points differ by c/16 and the derivatives
--- by d/16. Halving an interval divides c by 16 and d by 32.
+-- curve at both ends of an interval. Let t be the fraction of the interval, from 0 to 1. Where the
+-- curve is smooth, the Hermite cubic differs from it by t²(1−t)²·(c + d(t−½) + …) with constants c
+-- and d. At the middle, the points differ by c/16 and the derivatives by d/16. Halving an interval
+-- divides c by 16 and d by 32.
 module Geometry.Curve.CubicSpans
   ( along,
   )
@@ -101,11 +102,11 @@ hermiteSpan Interval {begin, end, first = Node px py vx vy, final = Node qx qy w
     h = end - begin
     hermite p q v w = Cubic p v (3 * (q - p) - 2 * v - w) (2 * (p - q) + v + w)
 
--- | True if the Hermite cubics of both halves of an interval are within @tolerance@ (mm), so that
--- neither half is halved again. Two tests use the differences at the middle of an interval, those
--- of the points and those of the derivatives. First, the differences of the whole interval must be
--- so small that those of its halves can be expected to be at most half of the tolerance. Second,
--- the measured differences of each half must be within the tolerance.
+-- | True if the Hermite cubics of both halves of an interval are within @tolerance@ (mm) of the
+-- curve, so that neither half is halved again. 'difference' gives two numbers for an interval, one
+-- for the points and one for the derivatives. Both numbers of the whole interval must be so small
+-- that those of its halves are expected to be at most half of the tolerance. Then the error of each
+-- half, computed from its own two numbers, must be at most the tolerance.
 areHalvesNear :: Double -> Interval -> Interval -> Interval -> Bool
 areHalvesNear tolerance interval firstHalf secondHalf =
   points <= 8 * tolerance && derivatives <= 16 * tolerance && all isNear [firstHalf, secondHalf]

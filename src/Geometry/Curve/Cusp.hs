@@ -83,7 +83,8 @@ cuspOfLayer top lower whole
         )
     -- Candidates for the maximum of @d·κ@ on a stretch: the samples, the maxima between them, and
     -- the minima of the speed of @lower@, near which the curvature is large. Each has the stretch,
-    -- the parameter, and the value of @d·κ@ at this parameter.
+    -- the parameter, and the value of @d·κ@ at this parameter. The value is infinite where that
+    -- speed is 0, unless d is 0 there.
     candidates s =
       [ (s, u, shareAt s u)
         | u <- PointSearch.samples s <> maxima s <> speedMinima lower whole s

@@ -1,10 +1,10 @@
 -- | Refinement of intersections of curves, lines and circles from a nearby starting point.
 --
 -- The starting point is an intersection of the polyarcs that approximate the curves to
--- 'Tolerance.curve'. A polyarc is a chain of lines and arcs. Newton's method leads from the
--- starting point to the exact intersection of the curves. The foot of a point P on a curve is the
--- point at which the perpendicular from P meets the curve. Each step goes to the intersection of
--- the tangents at both feet of the current point.
+-- 'Tolerance.curve'. A polyarc is a chain of lines and arcs. The foot of a point P on a curve is
+-- the point at which the perpendicular from P meets the curve. Newton's method leads from the
+-- starting point to the exact intersection of the curves. Each of its steps takes the feet of the
+-- current point on both curves, and goes to the intersection of the tangents at these feet.
 module Geometry.Curve.Intersection
   ( Foot,
     onLine,
@@ -27,23 +27,25 @@ import Geometry.Vec qualified as Vec
 -- foot.
 type Foot = Point -> (Point, Vec)
 
--- | Foot of a point on a line, for an intersection with a curve.
+-- | Foot function of a line, for its intersection with a curve.
 onLine :: Line -> Foot
 onLine l p = (Carrier.foot l p, Carrier.direction l)
 
--- | Foot of a point on a circle, for an intersection with a curve.
+-- | Foot function of a circle, for its intersection with a curve.
 onCircle :: Circle -> Foot
 onCircle (Circle c (Mm r)) p = (Vec.shift (Vec.scale r out) c, Vec.left out)
   where
     out = Vec.unit (Vec.to c p)
 
--- | Foot of a point on a curve: the nearest point of the curve, which may be an end.
+-- | Foot function of a curve. It takes the nearest point of the curve, which may be an end, as the
+-- foot.
 onCurve :: Curve -> Foot
 onCurve c p = let u = Curve.nearest p c in (Curve.at c u, Curve.tangent c u)
 
--- | Intersection of two curves, given by their feet, near a point that is within 'Tolerance.curve'
--- of both. The point is returned unchanged if there is no intersection nearby, for example because
--- a curve ends, or if the curves are nearly parallel.
+-- | Intersection of two curves with the foot functions @footA@ and @footB@. It is near the point
+-- @initial@, which is within 'Tolerance.curve' of both curves. The point is returned unchanged if
+-- there is no intersection nearby, for example because a curve ends, or if the curves are nearly
+-- parallel.
 refine :: Foot -> Foot -> Point -> Point
 refine footA footB initial = newton (8 :: Int) initial
   where

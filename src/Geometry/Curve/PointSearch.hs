@@ -55,8 +55,8 @@ sampleSteps = 8
 positionWithin :: (Double, Double) -> Curve -> Double -> SpanPoint
 positionWithin (_, b) curve u = ShiftedCurve.spanPoint (if u >= b then Before else After) u curve
 
--- | Parameter of the curve's point that is nearest to point @p@; the smallest parameter if several
--- points are equally near.
+-- | Parameter of the curve's point that is nearest to point @p@. If several points are equally
+-- near, samples are preferred to other points, then smaller parameters to larger ones.
 nearest :: Point -> Curve -> Double
 nearest p curve =
   fst
@@ -119,12 +119,13 @@ refineSamples sample = go
         abs change > largestChange =
         let m = sample ((u + w) / 2) in between (n - 1) a m <> [m] <> between (n - 1) m b
       | otherwise = []
-    -- Largest change of direction between samples, in radians, and most halvings of one step.
+    -- Largest change of direction between neighbouring samples, in radians. The interval between
+    -- two neighbours of the given list is halved at most @halvings@ times.
     largestChange = 0.3
     halvings = 6 :: Int
 
--- | Parameters, in ascending order, at which the curve's x is @abscissa@ (mm). A stretch on which x
--- is constantly @abscissa@ contributes its two ends.
+-- | Parameters, in ascending order, at which the curve's x is @abscissa@ (mm). A part of the curve
+-- on which x is constantly @abscissa@ contributes its two ends, even if it has several stretches.
 atX :: Double -> Curve -> [Double]
 atX abscissa curve = distinct (concatMap found (stretches curve))
   where
@@ -208,10 +209,10 @@ unitTangentAcrossSeam approach curve u
     unitTangent After curve 0
   | otherwise = unitTangent approach curve u
 
--- | Unit tangent just before or just after parameter @u@. The start and the end of the curve have
--- only one tangent, which is the result for both approaches. Where the speed is 0, the tangent is
--- the limit from the given side. Where a shift has collapsed a stretch to a point, it is the
--- tangent of the curve below the shift.
+-- | Unit tangent just before or just after parameter @u@. The curve counts as continued beyond its
+-- ends, so that there is a tangent before the start and after the end. Where the speed is 0, the
+-- tangent is the limit from the given side. Where a shift has collapsed a stretch to a point, the
+-- result is the tangent of the curve below the shift.
 unitTangent :: Approach -> Curve -> Double -> Vec
 unitTangent approach curve u = case TaylorExpansion.direction approach (expansion 1) of
   Just d -> d

@@ -1,10 +1,12 @@
 -- | Sections: lines, parabolas and circular arcs y(x) through two rows of a table.
 --
--- The parabolas through two given rows form a family with one parameter t, and so do the arcs. At
--- every x between the two rows, y rises with t (arcs) or falls with t (parabolas). The deviation of
--- a row is y of the section minus y of the row. Therefore the largest absolute deviation is least
--- for the t at which two rows deviate equally to opposite sides, or for a t at a limit of its
--- range.
+-- The deviation of a row is y of the section minus y of the row. The parabolas through two given
+-- rows form a family with one parameter t, and so do the arcs; t is the number in 'SectionShape'.
+-- At every x between the two rows, y rises with t (arcs) or falls with t (parabolas). Therefore the
+-- largest absolute deviation is least for the t at which two rows deviate equally to opposite
+-- sides. An arc y(x) has no vertical tangent between its ends, so its angle t has a largest
+-- absolute value. If no allowed angle makes two rows deviate equally, one of the two extreme angles
+-- is best.
 module Geometry.Curve.Section
   ( -- * Tables
     PointTable,
@@ -100,8 +102,8 @@ data Section = Section
 -- | Shape of a section between its ends.
 data SectionShape
   = Line
-  | -- | the coefficient a, in 1/mm, of @y = chord + a·(x − x₁)·(x − x₂)@; x₁ and x₂ are the ends,
-    -- and chord is the y of the chord at x
+  | -- | the coefficient a, in 1/mm, of @y = c + a·(x − x₁)·(x − x₂)@; the ends lie at x₁ and x₂,
+    -- and c is the y, at x, of the chord between them
     Parabola Double
   | -- | the angle between chord and arc at the ends, half of the sweep; positive for an arc above
     -- its chord
@@ -207,8 +209,9 @@ rise chord@(Chord w h) c x = case c of
 
 -- | y of an arc minus y of its first end, in mm. @x@ is measured from the first end, in mm and with
 -- its sign. @tangent@ is the tangent of the angle between chord and arc. The circles through (0, 0)
--- and (w, h) are @μ·(x·(x − w) + y·(y − h)) + x·h − y·w = 0@, where μ has the absolute value of
--- @tangent@. The arc is the solution y that tends to the chord for μ → 0.
+-- and (w, h) are @μ·(x·(x − w) + y·(y − h)) + x·h − y·w = 0@, where μ is @−tangent@ if w is
+-- positive and @tangent@ if w is negative. The arc is the solution y that tends to the chord as μ
+-- tends to 0.
 arcRise :: Chord -> Double -> Double -> Double
 arcRise (Chord w h) tangent x = 2 * q / (p + signum w * sqrt (max 0 (p * p - 4 * mu * q)))
   where
@@ -228,9 +231,9 @@ best t k i j = let (worst, c, _) = bestWithin (1 / 0) Nothing t k i j in (worst,
 -- determines the deviation. The pair has no meaning if there are no rows between.
 --
 -- The search ends once the deviation is known to exceed @limit@ (mm). Then the first result is a
--- lower bound of the deviation, also above the limit. The search starts with the rows
--- @initialPair@, if they are given. The pair that was found for a slightly shorter section saves
--- most of the work.
+-- lower bound of the deviation, and this bound exceeds the limit as well. The search starts with
+-- the rows @initialPair@, if they are given. The pair that was found for a slightly shorter section
+-- saves most of the work.
 bestWithin ::
   Double ->
   Maybe (Int, Int) ->

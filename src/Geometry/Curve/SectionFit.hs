@@ -128,7 +128,7 @@ layers t kinds tolerance = go (IntMap.singleton 0 ()) (IntMap.singleton 0 ())
       | otherwise =
         [(k, d, most) | (k, before) <- ks, let (d, _, most) = bestWithin within before t k i j]
 
--- | Least possible value, over all fits through the layers, of a fit's largest deviation in mm.
+-- | Least of the largest deviations (mm) that the fits through the layers have.
 bottleneck :: Layers -> Double
 bottleneck steps = minimum (IntMap.elems (foldl advance (IntMap.singleton 0 0) steps))
   where

@@ -1,5 +1,5 @@
--- | Distances of shifts along a curve. A cipher is the digit that names a kind of distance on the
--- input sheet of the Minsk-22 system (Kolsanova, section 5).
+-- | Distances by which shifts move the points of a curve along its normals. A cipher is the digit
+-- that names a kind of distance on the input sheet of the Minsk-22 system (Kolsanova, section 5).
 --
 -- A distance belongs to the curve that it shifts and may depend on that curve's arc length. It is
 -- in mm, and positive towards the side of the shift. A position on a curve is a parameter together
@@ -63,13 +63,14 @@ data Growth = Growth {from :: Mm, to :: Mm, between :: Maybe (Double, Double)}
 data Joggle = Joggle {begins :: Double, ends :: Double, depth :: Mm, radius :: Mm}
   deriving stock (Eq, Show)
 
--- | Length in mm of a joggle's ramp, @√(d·(4r − d))@ with the depth d and the radius r.
+-- | Length in mm of a joggle's ramp, @√(d·(4r − d))@ with the absolute value d of the depth, and
+-- the radius r.
 ramp :: Joggle -> Mm
 ramp Joggle {depth = Mm d, radius = Mm r} = Mm (sqrt (max 0 (abs d * (4 * r - abs d))))
 
--- | The part of the curve on which a distance changes. It has the parameters at which the
--- distance's formula changes, and the arc lengths @first@ and @final@ from the curve's start to the
--- beginning and to the end of this part.
+-- | Interval of a shift: the part of the curve on which the distance changes. @marks@ are the
+-- parameters at which the formula of the distance changes. @first@ and @final@ are the arc lengths,
+-- from the curve's start, at the beginning and at the end of the interval.
 data ShiftInterval = ShiftInterval
   { -- | parameters in ascending order; empty if one formula holds for the whole curve
     marks :: [Double],
@@ -85,9 +86,9 @@ instance Eq ShiftInterval where
 instance Show ShiftInterval where
   show _ = "ShiftInterval"
 
--- | The part of a curve on which a distance changes. For a joggle, and for a distance that grows
--- from one parameter to another, it is the part between the two parameters; otherwise the whole
--- curve. The first argument is the arc length of this curve as a function of its parameter.
+-- | Interval on which @distance@ changes. For a joggle, and for a distance that grows from one
+-- parameter to another, it lies between the two parameters; otherwise it is the whole curve.
+-- @arcLength@ is the arc length of the curve as a function of its parameter.
 intervalOf :: ArcLength -> Distance -> ShiftInterval
 intervalOf arcLength distance = case distance of
   Constant _ -> wholeCurve
@@ -140,7 +141,7 @@ vanishes distance position = case distance of
 data CurveBelow = CurveBelow {under :: BasisCurve, along :: ~ArcLength, near :: TaylorExpansion}
 
 -- | Power series of the distance in mm about a position, up to the power @n@ of the parameter. The
--- expansion in @below@ must go to the power @n + 1@.
+-- expansion in @below@ must go at least to the power @n@.
 series :: Int -> CurveBelow -> ShiftInterval -> Distance -> SpanPoint -> PowerSeries
 series n below interval distance position = case distance of
   Constant (Mm h) -> PowerSeries.constant n h
@@ -159,9 +160,9 @@ series n below interval distance position = case distance of
       (PowerSeries.cosine (Column.series n (under below) mu position))
   Joggled joggle -> joggleSeries n below interval joggle position
 
--- | Power series of the distance of a growth, up to the power @n@. Let s be the arc length from the
--- start of the growth, and S the arc length of the whole growth. The distance is
--- @h₁ + (h₂ − h₁)·s/S@ (Kolsanova, cipher 1).
+-- | Power series of the distance of a growth from h₁ to h₂, up to the power @n@. Let s be the arc
+-- length from the start of the growth, and S the arc length of the whole growth. Within the growth,
+-- the distance is @h₁ + (h₂ − h₁)·s/S@ (Kolsanova, cipher 1).
 growthSeries :: Int -> CurveBelow -> ShiftInterval -> Growth -> SpanPoint -> PowerSeries
 growthSeries n below interval Growth {from = Mm h1, to = Mm h2, between} position = case between of
   Nothing -> inside
@@ -182,9 +183,10 @@ growthSeries n below interval Growth {from = Mm h1, to = Mm h2, between} positio
           )
       | otherwise = PowerSeries.constant n h1
 
--- | Power series of the distance of a joggle with the depth d and the radius r, up to the power
--- @n@. Let t be the arc length from the outer end of a ramp of length ℓ. The distance is
--- @r − √(r² − t²)@ up to the middle of the ramp, then @d − (r − √(r² − (ℓ − t)²))@.
+-- | Power series of the distance of a joggle with the radius r, up to the power @n@. Let d be the
+-- absolute value of the depth, and t the arc length from the outer end of a ramp of length ℓ. The
+-- distance is @r − √(r² − t²)@ up to the middle of the ramp, then @d − (r − √(r² − (ℓ − t)²))@. It
+-- is d between the ramps. For a negative depth, it has the opposite sign.
 joggleSeries :: Int -> CurveBelow -> ShiftInterval -> Joggle -> SpanPoint -> PowerSeries
 joggleSeries n below interval joggle@Joggle {depth = Mm depth, radius = Mm r} position =
   PowerSeries.scale (signum depth) $
@@ -233,8 +235,8 @@ lengthSeries n below position = case n of
 marksBefore :: SpanPoint -> [Double] -> Int
 marksBefore position = length . filter (position `isPast`)
 
--- | True if the parameter @mark@ is smaller than that of a position. A position with the parameter
--- @mark@ is past it only if it is approached from larger parameters.
+-- | True if the position is past the parameter @mark@. A position at @mark@ itself counts as past
+-- if it is approached from larger parameters, otherwise as not past.
 isPast :: SpanPoint -> Double -> Bool
 isPast position mark = case approach position of
   After -> mark <= parameter position

@@ -117,9 +117,9 @@ arcLength curve = case curve of
 spanPoint :: Approach -> Double -> Curve -> SpanPoint
 spanPoint approach u curve = BasisCurve.spanPoint approach u (base curve)
 
--- | Taylor expansion of the point, in mm, about a position, up to the power @n@ of the parameter.
--- To evaluate a shift, the curve below is expanded to one power more, except where the shift's
--- distance is identically 0.
+-- | Taylor expansion of the curve's point, in mm, about the position @s@, up to the power @n@ of
+-- the parameter. To evaluate a shift, the curve below is expanded to one power more, except where
+-- the shift's distance is identically 0.
 expansionAt :: Int -> Curve -> SpanPoint -> TaylorExpansion
 expansionAt n curve s = case curve of
   Unshifted b -> BasisCurve.expansion n b s

@@ -33,7 +33,7 @@ import Linear.V2 (V2 (..))
 data Span
   = -- | a cubic in x and one in y, in mm
     Polynomial Cubic Cubic
-  | -- | an arc at constant speed
+  | -- | an arc, along which the parameter is proportional to the length
     Round Segment
   deriving stock (Eq, Show)
 
@@ -41,8 +41,8 @@ data Span
 data SpanShape
   = -- | a straight line from one point to another
     Line Point Point
-  | -- | @y = a·x² + b·x + c@ with a (1/mm), b and c (mm), from one x to another (mm); the fields
-    -- are in this order
+  | -- | the parabola @y = a·x² + b·x + c@ from one x to another; the fields are a in 1/mm, b
+    -- without unit, c in mm, the first x in mm and the last x in mm
     Quadratic Double Double Double Double Double
   | -- | an arc
     Circular Segment
@@ -81,14 +81,16 @@ segment s = case s of
   Polynomial _ _ -> Nothing
   Round g -> Just g
 
--- | True if a span has no length, so that a curve cannot contain it. A full circle ends where it
--- begins, but has a length.
+-- | True if a span counts as a point, so that a curve cannot contain it. A span of cubics counts as
+-- a point if its ends coincide, an arc if its length is at most 'Tolerance.coincident'. So a full
+-- circle is not a point.
 isPoint :: Span -> Bool
 isPoint s = case s of
   Polynomial _ _ -> let (p, q) = ends s in Vec.isNear p q
   Round g -> Segment.length g <= Tolerance.coincident
 
--- | Taylor expansion of the point, in mm, about the local parameter @t@, up to the power @n@.
+-- | Taylor expansion of the point of a span, in mm, about the local parameter @t@, up to the power
+-- @n@.
 expansion :: Int -> Span -> Double -> TaylorExpansion
 expansion n s t = case s of
   Polynomial x y -> V2 (Spline.series n x t) (Spline.series n y t)
@@ -116,7 +118,8 @@ reversed s = case s of
   Polynomial x y -> Polynomial (Spline.reversed x) (Spline.reversed y)
   Round g -> Round (Segment.reverse g)
 
--- | Image of a span under a similarity. For a cubic, the coefficients are mapped.
+-- | Image of a span under a similarity. For cubics, the constant coefficients are mapped as a point
+-- and the coefficients of each higher power as a displacement.
 transformed :: Transformation -> Span -> Span
 transformed s g = case g of
   Polynomial (Cubic x0 x1 x2 x3) (Cubic y0 y1 y2 y3) ->

@@ -37,23 +37,23 @@ import Geometry.Numeric.PowerSeries qualified as PowerSeries
 data Cubic = Cubic Double Double Double Double
   deriving stock (Eq, Show)
 
--- | The four coefficients in the order of ascending powers.
+-- | The four coefficients of a cubic in the order of ascending powers.
 coefficients :: Cubic -> [Double]
 coefficients (Cubic a b c d) = [a, b, c, d]
 
--- | Linear function with the value @p@ at 0 and @q@ at 1.
+-- | Cubic that is a linear function with the value @p@ at 0 and @q@ at 1.
 line :: Double -> Double -> Cubic
 line p q = Cubic p (q - p) 0 0
 
--- | Value at the local parameter @t@.
+-- | Value of a cubic at the local parameter @t@.
 value :: Cubic -> Double -> Double
 value (Cubic a b c d) t = a + t * (b + t * (c + t * d))
 
--- | First derivative at the local parameter @t@.
+-- | First derivative of a cubic at the local parameter @t@.
 rate :: Cubic -> Double -> Double
 rate (Cubic _ b c d) t = b + t * (2 * c + 3 * t * d)
 
--- | Power series about the local parameter @t@, up to the power @n@.
+-- | Power series of a cubic about the local parameter @t@, up to the power @n@.
 series :: Int -> Cubic -> Double -> PowerSeries
 series n (Cubic a b c d) t =
   PowerSeries.cubic
@@ -88,7 +88,7 @@ generate n cubic = Cubics $
     go 0
 {-# INLINE generate #-}
 
--- | Count of cubics.
+-- | Count of cubics in a vector.
 count :: Cubics -> Int
 count (Cubics array) = Unboxed.length array `div` 4
 
@@ -103,20 +103,22 @@ at (Cubics array) i = Cubic (coefficient 0) (coefficient 1) (coefficient 2) (coe
 data Boundary
   = -- | zero second derivatives at both ends
     Natural
-  | -- | the given first derivatives, by the spline's parameter: at the start, then at the end
+  | -- | the given first derivatives with respect to the spline's parameter, at the start and at the
+    -- end
     Clamped Double Double
-  | -- | the end continues into the beginning; the last value equals the first
+  | -- | the same first and second derivatives at both ends; the last value must equal the first
     Periodic
   deriving stock (Eq, Show)
 
--- | Spline through @values@, whose parameters differ by @steps@. There is one step fewer than
--- values, and all steps are above 0. A periodic spline needs at least three steps, any other at
--- least one. The result has a cubic for each step, with a local parameter from 0 to 1.
+-- | Spline through @values@. @steps@ are the differences between the parameters of consecutive
+-- values: one fewer than the values, and all above 0. A periodic spline needs at least three steps,
+-- any other at least one. The result has a cubic for each step, with a local parameter from 0 to 1.
 interpolate :: Boundary -> Unboxed.Vector Double -> Unboxed.Vector Double -> Cubics
 interpolate boundary steps values = generate (Unboxed.length steps) cubic
   where
     second = secondDerivatives boundary steps values
-    -- The step h, the values p and q at its ends, and the second derivatives m and m' there.
+    -- The names are h for the step, p and q for the values at its ends, and m and m' for the second
+    -- derivatives at its ends.
     cubic i = Cubic p (q - p - h * h * (2 * m + m') / 6) (h * h * m / 2) (h * h * (m' - m) / 6)
       where
         h = Unboxed.unsafeIndex steps i

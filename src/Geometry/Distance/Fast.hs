@@ -5,9 +5,11 @@
 -- counterpart of "Geometry.Distance".
 --
 -- The proof of a tape compares motions with elements of the part. For nearly every pair a bound
--- shows that the two are near enough or far enough apart. Some comments say that a predicate is
--- true only if a fact is certain: it allows for the rounding error 'unsure'. If such a predicate is
--- false, nothing is known, and the caller compares exactly by "Geometry.Distance".
+-- shows that the two are near enough or far enough apart.
+--
+-- A comment "True only if" means that a result True is certain, in spite of rounding errors. A
+-- result False then proves nothing, and the caller compares exactly by "Geometry.Distance". "False
+-- only if" has the opposite meaning.
 --
 -- The foot of a point on a segment is where the perpendicular from the point meets the segment's
 -- carrier.
@@ -44,9 +46,9 @@ import Geometry.Segment (Segment)
 import Geometry.Segment.Fast
 
 -- | Upper bound, in mm, of the distances of all points of the segment @e@ from every one of the
--- segments @ts@. It is infinite if an end of @e@ is further than @most@ from one of these. Once a
--- bound is at most @most@, no smaller bound is sought, since the caller only compares it with
--- @most@.
+-- segments @ts@. It is infinite if an end of @e@ is further than @most@ from one of @ts@. For each
+-- of @ts@, 'beside' gives a first bound. The bound by 'furthest' takes more time and is computed
+-- only if the first bound exceeds @most@.
 furthestFrom :: Double -> Segment -> [Segment] -> Double
 furthestFrom most e ts
   | all endsNear ts = foldl' (\far t -> max far (enough t)) 0 ts
@@ -80,13 +82,13 @@ isCovered reach segmentsOf counts others e =
 -- | True only if every point of the segment @t@ lies within @most@, in mm, of one of the segments
 -- @others@. Always false for an arc with a sweep above 'largestSweep'.
 --
--- Consecutive segments of @others@, each of which begins where the one before ends, form one curve.
--- The curve must begin before the start of @t@ and end after the end of @t@, or the reverse. For a
--- line @t@, before and after are meant along the line; for an arc, by the angle at its centre. Such
--- a curve crosses the normal of @t@ at every point of @t@. The distance from the point to this
--- crossing is the distance of the crossing from the carrier of @t@. No point of the curve may be
--- further than @most@ from this carrier. For an arc, the curve must also be too short to go around
--- the far side of the centre.
+-- The result is true if @others@ contains a suitable run. A run consists of consecutive segments,
+-- each of which begins where the one before ends. It must lead from before the start of @t@ to
+-- after its end, or in the opposite direction. For a line @t@, before and after are meant along the
+-- line; for an arc, by the angle at its centre. Such a run crosses the normal of @t@ at every point
+-- of @t@. The distance from the point to this crossing is that of the crossing from the carrier of
+-- @t@. So no point of the run may be further than @most@ from this carrier. For an arc, the run
+-- must also be too short to go around the far side of the centre.
 isAccompanied :: Double -> [Segment] -> Segment -> Bool
 isAccompanied most others t
   | isLine t = lineIsAccompanied (most - 2 * unsure) others t
@@ -146,9 +148,9 @@ chain positionOf spanOf fits = start
     start es = case es of
       [] -> False
       e : _ -> let (x, y) = begin e in go (positionOf x y) never (negate never) 0 x y es
-    -- The arguments are the position of the run's last joint that lies past an end of t, or
-    -- 'Between' if there is none; the range of distances and the length since that joint; and x and
-    -- y of the point at which the next segment must begin.
+    -- @from@ is the position of the run's last joint that lies past an end of t, or 'Between' if
+    -- there is none. @low@ and @high@ are the range of distances since that joint, and @long@ is
+    -- the length since then. The next segment must begin at the point (@x@, @y@).
     go :: Position -> Double -> Double -> Double -> Double -> Double -> [Segment] -> Bool
     go from !low !high !long !x !y es = case es of
       [] -> False
@@ -168,8 +170,8 @@ chain positionOf spanOf fits = start
             long' = long + lengthOf e
 {-# INLINE chain #-}
 
--- | Position of a point relative to the two ends of a segment: before the start, between both, or
--- after the end.
+-- | Position of a point relative to the two ends of a segment: before the start, between the ends,
+-- or after the end.
 data Position = Before | Between | After
   deriving stock (Eq)
 

@@ -58,8 +58,8 @@ meets :: BoundingBox -> BoundingBox -> Bool
 meets (BoundingBox l b r t) (BoundingBox l' b' r' t') = l <= r' && l' <= r && b <= t' && b' <= t
 
 -- | A lower bound of @distanceTo@ over all points of a box, by which a search decides to skip the
--- box. @distanceTo@ gives the distance of a point from some fixed figure. The bound is its value at
--- the box's middle less half of the box's diagonal; it may be negative.
+-- box. @distanceTo@ gives the distance of a point from some fixed figure. The bound is the value of
+-- @distanceTo@ at the box's middle, less half of the box's diagonal. The bound may be negative.
 lowerBound :: (Point -> Mm) -> BoundingBox -> Mm
 lowerBound distanceTo (BoundingBox l b r t) =
   minus

@@ -61,24 +61,25 @@ data BoundingBoxCache s = BoundingBoxCache
     margin :: Double,
     grid :: Grid,
     slots :: Slots s,
-    -- | for each slot, the run whose boxes it contains, or −1
+    -- | for each slot, the run whose boxes it contains, or −1 if it is empty
     held :: MutablePrimArray s Int
   }
 
--- | A grid with 2²⁹ steps over the longer side of the box of all segments. The coordinates x and y
--- in mm are @2·(halfSteps·x + addX)@ and @2·(halfSteps·y + addY)@ in steps; neither is negative.
--- The fields are halves because 'fill' adds the terms in brackets of a segment's two ends. The sums
--- are the coordinates of the midpoint between the ends, in steps.
+-- | A grid with 2²⁹ steps over the longer side of the box of all segments. A point with x and y in
+-- mm has the coordinates @2·(halfSteps·x + addX)@ and @2·(halfSteps·y + addY)@ in steps, which are
+-- never negative. The fields are halves of the scale and of the shift, for the use in 'fill'. It
+-- adds @halfSteps·x + addX@ for both ends of a segment. This sum is the coordinate of their
+-- midpoint.
 --
--- A corner of a box is one machine word that contains both coordinates in steps. Above each
--- coordinate is one further bit, which is set in upper corners only. A comparison subtracts a lower
--- corner from an upper one. The further bit of a coordinate remains set exactly if the lower
--- corner's coordinate is at most the upper one's.
+-- A corner of a box is one machine word: x in steps in the lower half, y in steps in the upper
+-- half. The highest bit of each half is set in upper corners only. 'touches' compares two corners
+-- by subtracting the lower one from the upper one. The highest bit of a half remains set exactly if
+-- the coordinate of the lower corner is at most that of the upper corner.
 data Grid = Grid {halfSteps :: Double, addX :: Double, addY :: Double}
 
--- | The lower corners of all boxes in the slots, and the upper corners, by the index of the box.
--- The first array has one more element, after the lower corners: the answer of the last query, a
--- set of boxes or pairs as bits.
+-- | Two arrays: the lower corners of all boxes in the cache, and their upper corners. A box has the
+-- same index in both. The first array has one more element, after the lower corners: the answer of
+-- the last query, a set of boxes or pairs as bits.
 data Slots s = Slots (MutablePrimArray s Int) (MutablePrimArray s Int)
 
 -- | An empty cache for the segments of @c@, whose boxes are enlarged by the margin @m@ in mm. The
@@ -162,8 +163,8 @@ fill c m Grid {halfSteps, addX, addY} (Slots !lows !highs) !s !r =
           then put k (lowerCorner (cx - wx) (cy - wy)) (upperCorner (cx + wx) (cy + wy))
           else none k
         go (k + 1) (i + 1) x' y'
-    -- Fills the slot from box @k@ on with boxes that overlap no other box. This concerns the last
-    -- run, which may have fewer than eight segments. No segment starts at the last of all vertices.
+    -- Fills the slot from box @k@ on with boxes that overlap no other box. Only the last run needs
+    -- this. It may have fewer than eight segments, since none starts at the last of all vertices.
     rest !k
       | k >= runLength * s + runLength = pure ()
       | otherwise = none k >> rest (k + 1)

@@ -79,8 +79,8 @@ indexFirst count box list = indexed box (Vector.fromListN count list)
 
 -- | Build a tree of things whose neighbours in the list are not close in space. An example is the
 -- loops of a pocket, each of which surrounds the next. The things are sorted by sort-tile-recursive
--- packing: by x of their boxes' middles into columns, and each column by y. There are about as many
--- columns as there are groups of eight things in a column. The time is @n·log n@ for n things.
+-- packing: by x of their boxes' middles into columns, and each column by y. For n things there are
+-- about @√(n/8)@ columns, each of about as many groups of eight things. The time is @n·log n@.
 sortedIndex :: (a -> BoundingBox) -> [a] -> BoxTree a
 sortedIndex box list =
   index box (concatMap (sortOn (middleY . box)) (columns (sortOn (middleX . box) list)))
@@ -145,21 +145,22 @@ boxAt level i = BoundingBox (at 0) (at 1) (at 2) (at 3)
 
 -- Contents ----------------------------------------------------------------------------------
 
--- | All things in order.
+-- | All things of a tree in order.
 toList :: BoxTree a -> [a]
 toList = Vector.toList . things
 
--- | A strict left fold over all things in order, with the function @with@ and the initial value
--- @b@.
+-- | A strict left fold over all things of a tree in order, with the function @with@ and the initial
+-- value @b@.
 foldl' :: (b -> a -> b) -> b -> BoxTree a -> b
 foldl' with b = Vector.foldl' with b . things
 {-# INLINE foldl' #-}
 
--- | The number of things.
+-- | The number of things in a tree.
 size :: BoxTree a -> Int
 size = Vector.length . things
 
--- | The box around all things. The box of an empty tree is inverted, so that it meets no other box.
+-- | The box around all things of a tree. The box of an empty tree is inverted, so that it meets no
+-- other box.
 boundingBox :: BoxTree a -> BoundingBox
 boundingBox tree = case levels tree of
   top : _ | boxCount top > 0 -> boxAt top 0
@@ -193,7 +194,7 @@ selectWith make holds tree = case levels tree of
   top : below -> go top below 0 (boxCount top - 1) []
   where
     -- Puts the results for the boxes of @level@ from @i@ down to @first@ in front of @rest@. The
-    -- list is built from its end, so no part of it remains unevaluated.
+    -- search inside a box of a higher level waits until the list is read as far as its results.
     go level below first i rest
       | i < first = rest
       | holds (boxAt level i) = case below of
@@ -212,7 +213,8 @@ selectWith make holds tree = case levels tree of
 --
 -- Consecutive elements whose boxes are close form a group, which shares one descent of the tree.
 -- The descent finds the things that meet the box around the whole group. These things are then
--- tested for each element of the group.
+-- tested for each element of the group. If they are more than 'groupLimit', the tree is searched
+-- for each element instead.
 each :: (b -> BoundingBox) -> (b -> a -> Bool) -> BoxTree a -> [b] -> [[a]]
 each boxOf holds tree = start
   where
@@ -246,8 +248,7 @@ answers query boxes members rest = case (boxes, members) of
   _ -> rest
 {-# INLINEABLE answers #-}
 
--- | Things out of those with the given indices: the ones whose boxes meet @box@ and which satisfy
--- @holds@.
+-- | The things with the given indices, in order, that satisfy @holds@ and whose boxes meet @box@.
 among :: BoxTree a -> (a -> Bool) -> BoundingBox -> [Int] -> [a]
 among tree holds box = go
   where
@@ -265,17 +266,17 @@ among tree holds box = go
 halfPerimeter :: BoundingBox -> Double
 halfPerimeter (BoundingBox l b r t) = (r - l) + (t - b)
 
--- | The largest number of boxes in a group of 'each'.
+-- | The largest number of elements in a group of 'each'.
 groupSize :: Int
 groupSize = 8
 
--- | A bound on the size of a group of 'each'. It limits the half perimeter of the box around the
--- group, divided by the least half perimeter of a box in it.
+-- | The largest extent of a group of 'each': the half perimeter of the box around the group,
+-- divided by the least half perimeter of an element's box.
 groupExtent :: Double
 groupExtent = 8
 
--- | The largest number of things found for a group of 'each' that are tested one by one for each
--- member. With more of them, the tree is searched for each member.
+-- | The largest number of things that 'each' tests one by one for every element of a group. If the
+-- box around the group meets more things, the tree is searched for every element.
 groupLimit :: Int
 groupLimit = 128
 
@@ -336,7 +337,8 @@ nodeBox node = case node of
   Branch box _ -> box
 
 -- | The result of @measure@ for the two things, one of each tree, that have the least distance from
--- each other; any of these results if several distances are equal. Nothing if a tree is empty.
+-- each other. If several pairs have this distance, it is the result for one of them. Nothing if a
+-- tree is empty.
 -- @distanceOf@ reads the distance from a result of @measure@. Because of rounding, this distance
 -- may be less than that of the things' boxes, by at most 'Tolerance.coincident'.
 --

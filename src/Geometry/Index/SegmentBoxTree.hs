@@ -11,10 +11,12 @@
 -- are close in space, so nothing is sorted. Boxes of single segments are computed when needed,
 -- which costs less than storing them.
 --
--- A chain whose segments all advance in one direction does not meet itself. For each box the tree
--- stores in which of eight directions (those of the axes and of the diagonals) all of its segments
--- advance. The search for pairs skips the inside of a box with such a direction, and two
--- neighbouring boxes with a direction in common.
+-- A segment advances in a direction if every point of it is further in this direction than the
+-- points before. A chain whose segments all advance in one direction does not meet itself. For each
+-- box the tree stores in which of eight directions (those of the axes and of the diagonals) all of
+-- its segments advance. The search for pairs skips the pairs inside a box that has such a
+-- direction. It also skips the pairs between two neighbouring boxes that have a direction in
+-- common.
 --
 -- A box is given by its least x, least y, largest x and largest y, in mm and in this order.
 -- Functions pass a box to a continuation, a function that is their last argument, so that it is not
@@ -66,7 +68,8 @@ data SegmentBoxTree = SegmentBoxTree
     highest :: Int
   }
 
--- | The number of segments in a box of the lowest level, and of lower boxes in any other box.
+-- | The number of segments in a box of the lowest level. Any other box contains as many boxes of
+-- the next lower level.
 fan :: Int
 fan = BoundingBoxCache.runLength
 
@@ -105,8 +108,8 @@ reaches :: Double -> Double -> Int
 reaches (D# a) (D# b) = I# (a >=## b)
 {-# INLINE reaches #-}
 
--- | The stored box of the run to which the segment with the index @i@ belongs, passed to a
--- continuation.
+-- | The box, with the tree's margin, of the run to which the segment with the index @i@ belongs. It
+-- is passed to a continuation.
 runBoxOf :: SegmentBoxTree -> Int -> (Double -> Double -> Double -> Double -> r) -> r
 runBoxOf bs i = boxAt (sides bs) (i `shiftR` 3)
 {-# INLINE runBoxOf #-}
@@ -116,12 +119,12 @@ nextRun :: Int -> Int
 nextRun i = (i `shiftR` 3 + 1) `shiftL` 3
 {-# INLINE nextRun #-}
 
--- | The box around all segments, passed to a continuation.
+-- | The box, with the margin, around all segments of a tree, passed to a continuation.
 boundingBox :: SegmentBoxTree -> (Double -> Double -> Double -> Double -> r) -> r
 boundingBox bs = boxAt (sides bs) (indexPrimArray (begins bs) (highest bs))
 
--- | The box with the index @k@ in the array @a@ of a tree's sides, passed to the continuation
--- @next@.
+-- | The box with the index @k@ in the array @a@, passed to the continuation @next@. @a@ is the
+-- array 'sides' of a tree.
 boxAt :: PrimArray Double -> Int -> (Double -> Double -> Double -> Double -> r) -> r
 boxAt a k next =
   next
@@ -221,8 +224,8 @@ writeLevels out@(Boxes sides directions) !start !count
           (most hy hy')
           (w .&. fromIntegral w')
 
--- | A number in mm that is larger than any coordinate. A box of which it is the least x and y, and
--- −far the largest x and y, contains nothing.
+-- | A number in mm that is larger than any coordinate. A box with @far@ as least x and least y, and
+-- @−far@ as largest x and largest y, contains nothing.
 far :: Double
 far = 1e300
 
@@ -264,9 +267,9 @@ runBox c a e lx0 ly0 hx0 hy0 k = go a lx0 ly0 hx0 hy0
 
 -- | The set, as bits, of those of the eight directions in which all segments from @a@ to @e − 1@
 -- advance. Only two are tested: the axis and the diagonal that are nearest to the direction from
--- the first vertex to the last. A segment advances in a direction only if it extends along this
--- direction by more than 32 times the margin @m@. So the segments before it and those after it do
--- not meet, even with the margin.
+-- vertex @a@ to vertex @e@. A segment counts as advancing only if it advances by more than ten
+-- times the margin @m@. So the segments before it and those after it do not meet, even with the
+-- margin.
 headings :: Double -> ClosedPolyarcs -> Int -> Int -> Int
 headings !m !c !a !e = go a (2 * enough) (2 * enough)
   where
@@ -291,8 +294,9 @@ headings !m !c !a !e = go a (2 * enough) (2 * enough)
         ClosedPolyarcs.chord c i $ \dx dy ->
           go (i + 1) (least axis (ax * dx + ay * dy)) (least diagonal (sx * dx + sy * dy))
       | otherwise = ClosedPolyarcs.chord c i $ \dx dy ->
-        -- An arc advances by the lesser extent of its tangents at both ends. They are vectors of
-        -- @1 + b²@ times the chord's length.
+        -- The advance of an arc is estimated from its tangents at both ends, as the lesser of
+        -- their two components in the direction. Each tangent is a vector of @1 + b²@ times the
+        -- chord's length.
         let co = 1 - b * b
             si = 2 * b
             forward px py = co * (px * dx + py * dy) - abs (si * (px * dy - py * dx))
@@ -402,8 +406,8 @@ runPairs SegmentBoxTree {sides, directions, begins, counts, highest} continues i
     direction k = indexPrimArray directions k
 {-# INLINE runPairs #-}
 
--- | True when the box with the index @k@ in the array @a@ of a tree's sides overlaps the box given
--- by the other numbers. The comparison has no branch before its result.
+-- | True when the box with the index @k@ in the array @a@, the array 'sides' of a tree, overlaps
+-- the box given by the other arguments. The four comparisons are combined without a branch.
 overlaps :: PrimArray Double -> Int -> Double -> Double -> Double -> Double -> Bool
 overlaps a k lx ly hx hy =
   boxAt

@@ -1,11 +1,11 @@
 -- | Arc length as a function of a curve's parameter: the integral of the speed, as a table. The
 -- speed is the length of the curve's derivative, in mm per unit of the parameter.
 --
--- The intervals between parameters at which the speed may jump are bisected into panels. On each
--- panel the speed is interpolated by a polynomial of degree 7 at the eight Gauss–Legendre nodes;
--- bisection ends when the estimated error is at most 'Tolerance.arcLength'. The table contains the
--- Legendre coefficients of these polynomials. The integral over a whole panel is Gauss–Legendre
--- quadrature. Up to a parameter within a panel, the polynomial is integrated by a closed formula.
+-- The speed may jump at certain parameters. Each interval between two of these is bisected into
+-- panels until the estimated error is small enough. On each panel a polynomial of degree 7
+-- interpolates the speed at the eight Gauss–Legendre nodes. The table contains the Legendre
+-- coefficients of these polynomials. The integral over a whole panel is Gauss–Legendre quadrature.
+-- Up to a parameter within a panel, the polynomial is integrated by a closed formula.
 --
 -- Panels have indices from 0. The position within a panel is a number from −1 at its start to 1 at
 -- its end.
@@ -61,8 +61,12 @@ fromSpeed speed breaks = ArcLength {starts, lengths, speeds}
     speeds = Unboxed.concat [cs | Panel _ _ cs <- panels]
 
 -- | The panels between the parameters @a@ and @b@. @depth@ is the count of bisections that have led
--- to this interval. The bisection ends when the estimated error is small enough. It also ends where
--- the speed is infinite or NaN, and at a depth of 16.
+-- to this interval.
+--
+-- The estimated error is the sum of the absolute values of the last two Legendre coefficients of
+-- the speed. The bisection ends when it is at most 'Tolerance.arcLength', or at most the share
+-- 'Tolerance.arcLengthShare' of the mean speed on the interval. It also ends where the speed is
+-- infinite or NaN, and at a depth of 16.
 measuredBetween :: (Double -> Double) -> Int -> Double -> Double -> [Panel]
 measuredBetween speed depth a b
   | b <= a = []
@@ -85,7 +89,7 @@ measuredBetween speed depth a b
     allowed = max finest (Tolerance.arcLengthShare * Unboxed.head cs)
     deepest = 16 :: Int
 
--- | The length of the whole curve.
+-- | The arc length of the whole curve.
 total :: ArcLength -> Mm
 total table = Mm (Unboxed.last (lengths table))
 

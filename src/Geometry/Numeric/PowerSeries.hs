@@ -104,8 +104,8 @@ divide (PowerSeries a) (PowerSeries b) = PowerSeries (Unboxed.constructN n next)
     next q =
       let k = Unboxed.length q in (at a k - summed 1 k (\j -> at b j * at q (k - j))) / at b 0
 
--- | The power with the real exponent @alpha@ of a series w with a positive value. From
--- @w·p′ = α·w′·p@ for @p = w^α@: @p_k = Σ_{j≥1} (α·j − (k − j))·w_j·p_{k−j} / (k·w_0)@.
+-- | The power @p = w^α@ of a series w whose value is positive; @alpha@ is the real exponent α. The
+-- equation @w·p′ = α·w′·p@ gives @p_k = Σ_{j≥1} (α·j − (k − j))·w_j·p_{k−j} / (k·w_0)@.
 power :: Double -> PowerSeries -> PowerSeries
 power alpha (PowerSeries w) = PowerSeries (Unboxed.constructN (Unboxed.length w) next)
   where
@@ -146,8 +146,8 @@ circular (PowerSeries a) = (PowerSeries (Unboxed.map fst both), PowerSeries (Unb
                 / fromIntegral k
          in (weighted snd, negate (weighted fst))
 
--- | The derivative. Its order is lower by one. The derivative of a series of order 0 is unknown; it
--- counts as 0.
+-- | The derivative of a series, of one order less. A series of order 0 does not determine its
+-- derivative; the result is then 0.
 derivative :: PowerSeries -> PowerSeries
 derivative (PowerSeries a)
   | Unboxed.length a <= 1 = PowerSeries (Unboxed.singleton 0)

@@ -8,13 +8,14 @@ where
 
 import Geometry.Tolerance qualified as Tolerance
 
--- | A root of the function @f@ between the parameters @from@ and @to@. The values of @f@ at these
--- two parameters have different signs.
+-- | A root of the function @f@ between the parameter @from@ and the larger parameter @to@. The
+-- values of @f@ at these two parameters have different signs.
 --
--- This is Newton's method safeguarded by bisection: instead of a step that leaves the bracket (the
--- interval that contains the root), the midpoint of the bracket is taken. The iteration ends when
--- the step or the bracket is at most 'Tolerance.parameter'; if the parameter's absolute value is
--- above 1, this limit is multiplied by it.
+-- This is Newton's method safeguarded by bisection. The bracket is the interval that contains the
+-- root. A step that leaves the bracket is replaced by the step to its midpoint. The iteration ends
+-- when the step or the length of the bracket is at most 'Tolerance.parameter'. Where the
+-- parameter's absolute value is above 1, that tolerance is multiplied by this value. The iteration
+-- also ends after 200 steps.
 zero :: (Double -> (Double, Double)) -> Double -> Double -> Double
 zero f from to = go steps from to (0.5 * (from + to))
   where

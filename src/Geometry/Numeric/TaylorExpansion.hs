@@ -1,5 +1,6 @@
 -- | Taylor expansions of a point that moves with a parameter: a vector of two power series, of x
--- and of y. The velocity is the first derivative of the point by the parameter.
+-- and of y. The point is expanded about the value u₀ of the parameter. The velocity is the first
+-- derivative of the point by the parameter.
 module Geometry.Numeric.TaylorExpansion
   ( TaylorExpansion,
     position,
@@ -30,20 +31,20 @@ type TaylorExpansion = V2 PowerSeries
 data Approach = Before | After
   deriving stock (Eq, Show, Enum, Bounded)
 
--- | The point at the parameter of the expansion.
+-- | The point at u₀.
 position :: TaylorExpansion -> Point
 position expansion = Vec.point x y
   where
     V2 x y = fmap PowerSeries.value expansion
 
--- | The first derivative of the point, in mm per unit of the parameter.
+-- | The velocity at u₀, in mm per unit of the parameter.
 velocity :: TaylorExpansion -> Vec
 velocity expansion = Vec.vec x y
   where
     V2 x y = fmap (PowerSeries.coefficient 1) expansion
 
--- | The length of the velocity as a series, of one order less than the expansion. The velocity must
--- not be 0.
+-- | The speed, which is the length of the velocity, as a power series. It has one order less than
+-- the expansion. The velocity at u₀ must not be 0.
 speed :: TaylorExpansion -> PowerSeries
 speed expansion = PowerSeries.power 0.5 (squared (fmap PowerSeries.derivative expansion))
 
@@ -60,9 +61,12 @@ cross :: V2 PowerSeries -> V2 PowerSeries -> PowerSeries
 cross (V2 x y) (V2 x' y') =
   PowerSeries.subtract (PowerSeries.multiply x y') (PowerSeries.multiply y x')
 
--- | The expansion of a point C moved along its left normal by the distance @d@ in mm, or to the
--- right when @d@ is negative: @C + d·N@ with @N = (−y′, x′)/√(x′² + y′²)@. The result has one order
--- less than the expansion of C. The velocity must not be 0.
+-- | The expansion of a moving point C, offset by the distance @d@ in mm to the left of its
+-- direction of travel, or to the right when @d@ is negative. The distance may change with the
+-- parameter, so it is a power series too.
+--
+-- The result is @C + d·N@ with @N = (−y′, x′)/√(x′² + y′²)@. It has one order less than the
+-- expansion of C, or the order of @d@ if this is still lower. The velocity at u₀ must not be 0.
 offset :: PowerSeries -> TaylorExpansion -> TaylorExpansion
 offset d expansion@(V2 x y) =
   V2
@@ -72,10 +76,10 @@ offset d expansion@(V2 x y) =
     velocities@(V2 x' y') = fmap PowerSeries.derivative expansion
     share = PowerSeries.multiply d (PowerSeries.power (-0.5) (squared velocities))
 
--- | The direction of travel, of length 1. Where the velocity is 0, it is the limit from the given
--- approach, which follows from the lowest derivative that is not 0. A derivative counts as 0 if the
--- length of its coefficient in the expansion is at most 'Tolerance.stationary'. Nothing if all
--- derivatives in the expansion count as 0.
+-- | The direction of travel at u₀, of length 1. If the velocity is 0, the result is the limit of
+-- the direction on the side @approach@ of u₀. This limit follows from the lowest derivative that is
+-- not 0. A derivative counts as 0 if the length of its coefficient in the expansion is at most
+-- 'Tolerance.stationary'. Nothing if all derivatives in the expansion count as 0.
 direction :: Approach -> TaylorExpansion -> Maybe Vec
 direction approach expansion = case find moves (zip [1 :: Int ..] derivatives) of
   Just (k, v) -> Just (Vec.unit (if even k && approach == Before then Vec.negate v else v))
@@ -85,8 +89,8 @@ direction approach expansion = case find moves (zip [1 :: Int ..] derivatives) o
     V2 xs ys = fmap PowerSeries.coefficients expansion
     moves (_, v) = Mm (Vec.norm v) > Tolerance.stationary
 
--- | The curvature in 1/mm, positive where the curve bends to the left. The order of the expansion
--- must be at least 2.
+-- | The curvature at u₀ in 1/mm, positive where the curve bends to the left. The order of the
+-- expansion must be at least 2, and the velocity must not be 0.
 curvature :: TaylorExpansion -> Double
 curvature expansion = 2 * (x' * y'' - y' * x'') / (w * sqrt w)
   where
@@ -95,7 +99,7 @@ curvature expansion = 2 * (x' * y'' - y' * x'') / (w * sqrt w)
     w = x' * x' + y' * y'
 
 -- | The curvature @(x′·y″ − y′·x″) / (x′² + y′²)^(3/2)@ as a power series, in 1/mm. It has two
--- orders less than the expansion. The velocity must not be 0.
+-- orders less than the expansion. The velocity at u₀ must not be 0.
 curvatureSeries :: TaylorExpansion -> PowerSeries
 curvatureSeries expansion =
   PowerSeries.multiply

@@ -2,8 +2,8 @@
 {-# OPTIONS_GHC -O2 #-}
 
 -- | Elementary operations on segments, computed on unpacked coordinates, for loops over many
--- segments. Their results are those of "Geometry.Segment", but no intermediate points and vectors
--- are built.
+-- segments. Their results are those of "Geometry.Segment", but for rounding errors. No intermediate
+-- points and vectors are built.
 --
 -- A point is given by the numbers x and y in mm. The foot of a point on a segment is where the
 -- perpendicular from the point meets the segment's line or circle. The sector of an arc is the
@@ -52,7 +52,7 @@ coordinates s = case s of
     ArcAt ax ay bx by cx cy (hypotenuse (cx - ax) (cy - ay)) angle
 {-# INLINE coordinates #-}
 
--- | Segment without length at the point (@x@, @y@).
+-- | Segment of length 0 at the point (@x@, @y@).
 spot :: Double -> Double -> Segment
 spot x y = Straight (Point x y) (Point x y)
 
@@ -104,15 +104,19 @@ hypotenuse :: Double -> Double -> Double
 hypotenuse a b = sqrt (a * a + b * b)
 {-# INLINE hypotenuse #-}
 
--- | Position of a point relative to the two rays from an arc's centre through its ends: three
--- numbers in mm², passed to the continuation @k@, a function that is the last argument. Each number
--- is a length times the arc's radius. The first length is the distance from the ray through the
--- start, positive past the start in the arc's sense. The second is the distance from the ray
--- through the end, positive before the end. The third is measured from the centre along the ray
--- through the start, to the foot of the perpendicular from the point.
+-- | Position of the point (@px@, @py@) relative to the sector of an arc. The arc has the start
+-- (@ax@, @ay@), the end (@bx@, @by@) and the centre (@cx@, @cy@) in mm, and the sweep @s@ in
+-- radians. The result is passed to the continuation @k@, a function of three numbers. Each number
+-- is a length times the arc's radius, in mm²:
 --
--- The arc is given by its start (@ax@, @ay@), its end (@bx@, @by@) and its centre (@cx@, @cy@) in
--- mm, and by its sweep @s@ in radians. The point is (@px@, @py@).
+-- 1. the distance of the point from the line through the centre and the start; it is positive past
+--    the start in the arc's sense
+--
+-- 2. the distance of the point from the line through the centre and the end; it is positive before
+--    the end in the arc's sense
+--
+-- 3. the distance from the centre to the foot of the point on the first line; it is positive on the
+--    side of the start
 bearing ::
   Double ->
   Double ->

@@ -49,8 +49,8 @@ data FastState = FastState
   }
 
 -- | A parser with continuations for success and failure. The failure continuation gets the 'room'
--- at the mistake. If this number is equal to the room before the parser, no token was consumed, and
--- an alternative is tried.
+-- at the mistake. If the parser began with the same room, it consumed no token, and an alternative
+-- is tried.
 newtype FastParser a = FastParser (forall r. FastState -> (a -> FastState -> r) -> (Int -> r) -> r)
 
 -- | Runs a parser on at most @limit@ tokens. 'Nothing' if there are more tokens, or if the parser
@@ -62,8 +62,8 @@ run limit (FastParser p) ts =
     (\a _ -> Just a)
     (const Nothing)
 
--- | The argument of the failure continuation that forbids alternatives. It differs from every
--- 'room', so that no parser takes it for a failure without a consumed token.
+-- | A number that a failure continuation gets instead of the 'room' to forbid alternatives. It
+-- differs from every room, so that no parser takes it for a failure without a consumed token.
 final :: Int
 final = minBound
 

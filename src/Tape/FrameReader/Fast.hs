@@ -5,9 +5,9 @@
 -- tape are simple. A frame is a block of ISO 6983; its layout gives its symbols and words in order.
 --
 -- If this reader gives a frame, 'Tape.FrameReader.wordByWord' gives the same frame. The reader
--- gives 'NotSimple' if the frame is not simple, or if a row differs from the one that the machine
--- would write. Then 'Tape.FrameReader.wordByWord' reads the frame, or reports the fault. Rows have
--- indices from 0.
+-- gives 'NotSimple' for every other frame: one that is not simple, one with a fault, and one that
+-- it cannot read, such as every frame of a layout that is not plain ('Layout.isPlain'). Then
+-- 'Tape.FrameReader.wordByWord' reads the frame, or reports the fault. Rows have indices from 0.
 module Tape.FrameReader.Fast
   ( Read (..),
     readFrame,
@@ -47,7 +47,7 @@ import Prelude hiding (Read)
 data Read
   = -- | the frame and the index of the row after it
     Read Frame Int
-  | -- | The frame is not simple, or a row differs from the one that the machine would write.
+  | -- | The frame is not simple, or has a fault, or this reader cannot read it.
     NotSimple
 
 -- | Reads the frame that begins at row @begin@. @state@ is the modal state before the frame.

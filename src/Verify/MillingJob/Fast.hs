@@ -44,9 +44,8 @@ foldContacts job near p with = go near
 leastDistance :: Double -> [Edge] -> Double -> Double -> Double
 leastDistance = leastExcess (const (Mm 0))
 
--- | Least value over the elements @near@ of this difference, in mm: the element's distance from the
--- point @(x, y)@, minus the element's allowance, which @allowanceOf@ gives. It is @limit@ if no
--- element has a smaller value.
+-- | Least excess distance in mm of the elements @near@, but at most @limit@. The excess distance of
+-- an element is its distance from the point @(x, y)@ minus its allowance, given by @allowanceOf@.
 leastExcess :: (Edge -> Mm) -> Double -> [Edge] -> Double -> Double -> Double
 leastExcess allowanceOf limit near !x !y = go limit near
   where

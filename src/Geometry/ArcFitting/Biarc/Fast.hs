@@ -1,8 +1,8 @@
--- | Biarcs computed on unpacked coordinates and without angles, for loops that try many of them.
+-- | Biarcs computed on unpacked coordinates and without angles, for searches that try many biarcs.
 -- They equal those of "Geometry.ArcFitting.Biarc" where both end directions make an angle of less
--- than a quarter turn with the chord. Only where an arc is nearly straight, their chord ratio can
--- differ; see 'chordRatio'. A pose is a position with a direction. A chord ratio is the length of
--- the second arc's chord divided by that of the first.
+-- than a quarter turn with the chord. The only exceptions are biarcs with a nearly straight arc:
+-- their chord ratio can differ, see 'chordRatio'. A pose is a position with a direction. A chord
+-- ratio is the length of the second arc's chord divided by that of the first.
 --
 -- The formulas are those in the header of "Geometry.ArcFitting.Biarc", with the same letters. The
 -- sines and cosines of the half angles α/2 and β/2 are computed by square roots. @e^{iγ/2}@ is the
@@ -57,8 +57,9 @@ data FastBiarc = FastBiarc
   }
 
 -- | Biarc from one pose to another. Its chord ratio is that of 'Geometry.ArcFitting.Biarc.join'
--- times the factor @times@. Curvatures and bulges are NaN if an end direction makes a quarter turn
--- or more with the chord, or if the ends coincide. A caller's test of the deviation then fails.
+-- times the factor @times@. Curvatures and bulges are NaN if an end direction makes an angle of a
+-- quarter turn or more with the chord, or if the ends coincide. A caller's test of the deviation
+-- then fails.
 biarc :: Double -> Pose -> Pose -> FastBiarc
 biarc times from end = withRatio times (between from end)
 {-# INLINE biarc #-}
@@ -89,8 +90,8 @@ data Biarcs
       }
 
 -- | The biarcs from one pose to another, one for each chord ratio. If a single line or arc joins
--- the poses, it takes the place of all of them. If an end direction makes a quarter turn or more
--- with the chord, or if the ends coincide, curvatures and bulges are NaN.
+-- the poses, it takes the place of all of them. If an end direction makes an angle of a quarter
+-- turn or more with the chord, or if the ends coincide, curvatures and bulges are NaN.
 between :: Pose -> Pose -> Biarcs
 between (Pose x0 y0 sx sy) final@(Pose x1 y1 ex ey)
   | not (l > coincident && cosA > 0 && cosB > 0) =

@@ -3,9 +3,11 @@
 
 -- | Distances of two segments and bounds of these, computed on unpacked coordinates.
 --
--- Some comments say that a predicate is true only if a fact is certain: it allows for the rounding
--- error 'unsure'. If such a predicate is false, nothing is known, and the caller compares exactly by
--- "Geometry.Distance". "Geometry.Distance.Fast" adds the distance of a segment from several others.
+-- "Geometry.Distance.Fast" adds the distance of a segment from several others.
+--
+-- A comment "True only if" means that a result True is certain, in spite of rounding errors. A
+-- result False then proves nothing, and the caller compares exactly by "Geometry.Distance". "False
+-- only if" has the opposite meaning.
 --
 -- A point is given by the numbers x and y in mm. The foot of a point on a segment is where the
 -- perpendicular from the point meets the segment's carrier.
@@ -41,13 +43,13 @@ import Geometry.Segment (Segment (..))
 import Geometry.Segment.Fast
 import Geometry.Vec (Point (Point))
 
--- | Allowance for rounding errors in the decisions of this module, in mm. Rounding errors in
--- products of coordinates are less than a hundredth of it.
+-- | Allowance for rounding errors in comparisons of distances, in mm. In a part 20 m long, rounding
+-- changes a distance by less than a hundredth of this allowance.
 unsure :: Double
 unsure = 1e-8
 
--- | Infinite distance, in mm, in place of a distance from a point that does not exist, or of a
--- bound that was not found.
+-- | Infinite distance, in mm. It replaces a distance from a point that does not exist, or a bound
+-- that was not found.
 never :: Double
 never = 1 / 0
 
@@ -109,8 +111,8 @@ mayComeWithin most long e t = case coordinates t of
     (x, y) = begin e
 {-# INLINE mayComeWithin #-}
 
--- | Least distance, in mm, between two segments; 0 if they intersect. The result is exact, or
--- smaller by a rounding error.
+-- | Least distance, in mm, between two segments, exact but for rounding errors; 0 if they
+-- intersect.
 apart :: Segment -> Segment -> Double
 apart a b
   | cross a b = 0
@@ -155,9 +157,9 @@ cross a b = case (coordinates a, coordinates b) of
            in inSector a x y && inSector b x y
      in e > 0 && abs along <= r && (meets 1 || meets (-1))
 
--- | Distance, in mm, of two segments along a normal of the segment @a@ that passes through the
--- centre of the arc @b@; the smaller one if there are two such normals. Infinite if there is none
--- or if @b@ is a line.
+-- | Distance, in mm, of the segment @b@ from a point of @a@ at which the normal of @a@ passes
+-- through the centre of @b@. If there are two such points, it is the smaller distance. It is
+-- infinite if there is no such point, or if @b@ is a line.
 normals :: Segment -> Segment -> Double
 normals a b = case (coordinates a, coordinates b) of
   (LineAt ax ay bx by, ArcAt _ _ _ _ cx cy _ _) ->
@@ -192,8 +194,8 @@ apartAtLeast t e = case coordinates t of
       | otherwise -> 0
 
 -- | Upper bound, in mm, of the distance of any point of the segment @e@ from the segment @t@. It is
--- exact if every point of @e@ has its foot on @t@. It is also exact if the same end of @t@ is
--- nearest to all points of @e@.
+-- exact if the same end of @t@ is nearest to all points of @e@. It is also exact if every point of
+-- @e@ has its foot on @t@, unless @t@ is an arc of more than half a turn and not a full circle.
 furthest :: Segment -> Segment -> Double
 furthest e t =
   min
@@ -207,6 +209,7 @@ furthest e t =
     fromEnds ax ay bx by = min (fromPoint e ax ay) (fromPoint e bx by)
 
 -- | True only if every point of the segment @e@ lies within @most@, in mm, of the segment @t@. The
+-- caller must first reduce @most@ by an allowance for rounding errors, such as @2·unsure@. The
 -- start of @e@ is tested before everything else, since it decides most cases.
 isWithin :: Double -> Segment -> Segment -> Bool
 isWithin most e t = atBegin && (beside e t <= most || fromEnds)
@@ -233,8 +236,9 @@ fromPoint e px py = case coordinates e of
               else max ends r
 
 -- | Upper bound, in mm, of the distance of any point of the segment @e@ from the segment @t@. For
--- two lines it is exact. Otherwise it may be infinite. It is always infinite if a point of @e@ lies
--- past an end of @t@ by more than 'overlap'.
+-- two lines it is exact. For other segments it is infinite if a point of @e@ lies past an end of
+-- @t@ by more than 'overlap', or if @t@ is an arc of more than half a turn and not a full circle.
+-- It may also be infinite if a point of @e@ lies past an end of an arc @t@ by less.
 beside :: Segment -> Segment -> Double
 beside e t = case (e, t) of
   (Straight (Point ax ay) (Point bx by), Straight {}) -> max (distance t ax ay) (distance t bx by)
@@ -308,9 +312,9 @@ arcBesideArc e t = case (coordinates e, coordinates t) of
           farPoint = if hasFarPoint then off + r else never
           nearPoint = if hasNearPoint then abs (off - r) else never
           near = min (min (away ax ay) (away bx by)) (min farPoint nearPoint)
-          -- The point of the arc @e@ that is furthest past an end of the arc @t@ may be an end of
-          -- @e@. Otherwise, the line to it from the centre of @e@ is perpendicular to the line from
-          -- the centre of @t@ to that end of @t@.
+          -- Let P be the point of the arc @e@ that is furthest past the end Q of the arc @t@. Then
+          -- P is an end of @e@, or the radius of @e@ to P is perpendicular to the radius of @t@ to
+          -- Q.
           squarePast x y sense =
             let f = sense * r / q
                 u = cx - f * (y - dy)
@@ -332,7 +336,8 @@ arcBesideArc e t = case (coordinates e, coordinates t) of
 -- | Upper bound, in mm, of the distances of several points from a segment. It follows from four
 -- lengths in mm. @high@ is the points' largest distance from the segment's carrier. @past@ is their
 -- largest distance past an end. For an arc, @near@ is their least distance from its centre and @r@
--- its radius; for a line, @r@ is 0. The bound is infinite if @past@ is too large.
+-- its radius; for a line, @r@ is 0. The bound is infinite if @past@ exceeds 'overlap' or, for an
+-- arc, if @past@ is at least a hundredth of @near@.
 --
 -- Let a point have the distance ρ from the centre of an arc with the radius r, and lie past its end
 -- by the angle φ. The square of its distance from the end is @(ρ − r)² + 4·ρ·r·sin²(φ/2)@. If
@@ -350,10 +355,11 @@ aside high past near r
 overlap :: Double
 overlap = 0.1
 
--- | Distance, in mm, of the point (@px@, @py@) past the nearer end of an arc: its distance from the
--- ray from the centre through that end. It is 0 in the sector between the rays through both ends.
--- It is infinite on the side of the centre opposite to an arc of at most a quarter turn. The arc
--- must sweep at most half a turn, or be a full circle. The result is infinite for a line.
+-- | Distance, in mm, of the point (@px@, @py@) past an end of an arc: its distance from the line
+-- through the arc's centre and this end. If the point lies past both ends, it is the larger of both
+-- distances; if the point lies in the arc's sector, it is 0. The arc must sweep at most half a
+-- turn, or be a full circle. For an arc of at most a quarter turn, the distance is infinite if the
+-- angle at the centre between the point and the arc's start is obtuse. It is infinite for a line.
 pastArc :: Segment -> Double -> Double -> Double
 pastArc t !px !py = case coordinates t of
   LineAt {} -> never
