@@ -40,8 +40,8 @@ import Prelude hiding (lookup)
 -- | A form: the parameters of a call, and the type of its result.
 data Form = Form {parameters :: [Parameter], result :: Type}
 
--- | A parameter of a form: its label, its name for reports, and its type. A parameter with the
--- label 'Rank' has no value, so its name and type are meaningless.
+-- | A parameter of a form: its label, its name for reports, and its type. The label 'Rank' is the
+-- word @first@ or @last@ itself, without a value; name and type are then meaningless.
 data Parameter = Parameter {label :: ArgumentLabel, title :: Text, type' :: Type}
 
 -- | The label of an argument: none, or a word before its value, such as @near@. A rank is the word

@@ -97,9 +97,9 @@ candidates PointLabel {caption, anchor, outward, distances} = [at d a | d <- dis
 angles :: [Rad]
 angles = map radians [0, 30, -30, 60, -60, 90, -90, 180, 150, -150]
 
--- | True if a label may have the bounding box @box@. The box must lie in the area. The text must be
--- more than 0.5 mm away from every segment, and the box more than 0.6 mm away from the boxes in
--- @taken@.
+-- | True if a label may have the bounding box @box@. The box must lie in the area, more than 0.6 mm
+-- away from the boxes in @taken@. The text is the box with rounded ends; it must be more than
+-- 0.5 mm away from every segment.
 free :: Area -> BoxTree Segment -> Taken -> BoundingBox -> Bool
 free area drawn taken box@BoundingBox {left, bottom, right, top} =
   all (holds area) [Vec.point left bottom, Vec.point right top]

@@ -201,7 +201,7 @@ data Making = Making
     here :: Region,
     -- | commands that no frame holds yet
     pending :: Maybe Pending,
-    -- | frames of the current instruction, the latest first
+    -- | frames of the run or command that is being converted, the latest first
     latest :: [PlannedFrame],
     -- | words and reports of all commands so far, the latest first
     translations :: [Translation],

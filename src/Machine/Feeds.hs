@@ -92,8 +92,8 @@ data BrakingForm
   | -- | The program slows down, in a frame at the lowest feed.
     SlowFrames
   | -- | The control slows down in frames that the program marks with a
-    -- 'Machine.FrameLayout.BrakingHole'. The program marks the frames before every lower feed. It
-    -- also marks the last frames of the program, and of each element with braking; in these the
-    -- control slows down to the given feed.
+    -- 'Machine.FrameLayout.BrakingHole': the last frames before a lower feed, before the end of the
+    -- program, and before the end of an element with braking. At both ends it slows down to the
+    -- feed in this field.
     BrakedFrames Feed
   deriving stock (Eq, Show)

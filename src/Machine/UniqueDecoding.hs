@@ -150,9 +150,9 @@ commonPrefix literalRegion wordRegion ofWord ofLiteral
     [NotDecodable wordRegion (Prefix ofLiteral ofWord literalRegion)]
   | otherwise = []
 
--- | True if the reader could take @rest@ for the number of the word @w@, or for symbols that begin
--- with this number or with a part of it. @rest@ is what follows the address of @w@. True also if
--- @w@ has no number.
+-- | The address of the word @w@ is the beginning of a longer text, and @rest@ is the remainder of
+-- this text. True if a number of @w@ may begin with @rest@, or @rest@ with a number of @w@: then
+-- the reader could take the text for @w@. True also if @w@ has no number.
 numberMayBegin :: Word' -> Text -> Bool
 numberMayBegin w rest = case content w of
   Motion m -> any (\t -> rest `Text.isPrefixOf` t || t `Text.isPrefixOf` rest) (numbersOf m)
@@ -192,7 +192,8 @@ successors items' =
       i : rest | isOptional (snd (successor i)) -> i : upToFixed rest
       _ -> take 1 is
 
--- | True if the item is a word whose number has digits, but no fixed length.
+-- | True if the item is a word with a number that has no fixed length. Some words have no number,
+-- which is the same as a number without digits.
 hasOpenEnd :: LayoutItem -> Bool
 hasOpenEnd i = case i of
   AWord w -> not (padded (form w)) && digits (form w) > 0

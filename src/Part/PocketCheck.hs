@@ -27,7 +27,7 @@ import Part.Part (Contour (..), Ends (..))
 import Part.Part qualified as Part
 import Part.PocketError (PocketMisfit (..))
 
--- | A contour, and the region of the pocket statement that names it.
+-- | A contour, and the region of its name in the pocket statement.
 data Named = Named {mention :: Region, contour :: Contour}
 
 -- | The faults of a pocket's contours. If some of them are open, only these are reported. Otherwise

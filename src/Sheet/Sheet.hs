@@ -94,7 +94,7 @@ data LinkedPiece = LinkedPiece Piece (Located Link)
 
 -- | A curve through points of the theoretical contour, and its recalculations. The theoretical
 -- contour is the given curve from which the contours of the part are recalculated. If the cipher
--- has a digit 4, every point has a surface; otherwise no point has one.
+-- has a digit 4, every point comes with a 'Surface': the bevel and the height of the flange there.
 data Piece = Piece
   { -- | the side to which a positive distance shifts the curve
     shiftSide :: Located Side,

@@ -408,9 +408,9 @@ maxNesting = 500
 
 -- Recovery
 
--- | Runs the parser @p@. If it fails, records the failure, and gives the tokens that @p@ consumed,
--- at least one, to @repair@. The parser that @repair@ makes skips further tokens and gives a
--- replacement for the result of @p@.
+-- | Runs the parser @p@. If it fails, records the failure, and gives the tokens that @p@ consumed
+-- to @repair@; if there are none, the next token. The parser that @repair@ makes skips further
+-- tokens and gives a replacement for the result of @p@.
 recovering :: Grammar p => ([Token] -> p a) -> p a -> p a
 recovering repair p = do
   begin <- Parsec.getOffset

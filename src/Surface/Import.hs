@@ -228,8 +228,9 @@ failed at e =
 maxDepth :: Int
 maxDepth = 100
 
--- | Tells if a statement is a definition, which an import keeps. A broken statement counts as one
--- if it has the name that it would define, or if it is an import.
+-- | Tells if a statement is a definition, which an import keeps. A broken statement, that is one
+-- with a mistake, counts as a definition in two cases: if the parser could read the name that it
+-- was to define, and if it is an import.
 isDefinition :: Statement -> Bool
 isDefinition (Located _ s) = case s of
   LetValue _ _ -> True

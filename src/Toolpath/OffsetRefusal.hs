@@ -1,6 +1,7 @@
 -- | Reasons why a cutter cannot follow contours, expressed in elements of the part program.
 --
--- An /obstacle/ is such a reason as "Offset.Equidistant" gives it. It names elements by numbers.
+-- An /obstacle/ is such a reason in the form that "Offset.Equidistant" gives: it names elements by
+-- numbers.
 module Toolpath.OffsetRefusal
   ( refusal,
     restPositions,

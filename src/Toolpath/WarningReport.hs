@@ -38,8 +38,8 @@ data Tool = Tool {work :: Work, radius :: Mm, leaves :: Mm}
 data Warning
   = -- | rest material on a contour: the statement, the cutter, the unreached parts
     LeavesRestMaterial Region Tool [RestPosition]
-  | -- | a rapid move through the part, below its top: the region that asks for the move, the move,
-    -- the name of the contour around it
+  | -- | a rapid move through the part, below its top: the region of the program that asks for the
+    -- move, the move, the name of the contour inside which the move is
     RapidThroughPart Region Segment (Located Name)
   | -- | a tool change after which the program does not start the spindle
     SpindleAtRest Region

@@ -52,9 +52,10 @@ data DistanceBounds = DistanceBounds {atLeast :: Mm, atMost :: Mm}
 -- | Size of a gap in mm, the point of the segment with this gap, and the members near the segment.
 data Gap a = Gap {size :: Mm, location :: Point, members :: [a]}
 
--- | Gap of a segment. Nothing if the gap is not larger than @least@, or if no member is near the
--- segment. A gap that is larger than 'unlimited' gets the size 'unlimited'. @known@ are bounds of
--- the Hausdorff distance; they save exact comparisons.
+-- | Gap of a segment, if it is larger than @least@; otherwise Nothing. Nothing also if no member
+-- lies within the reach plus 'unlimited', because the result has to name a member. A gap that is
+-- larger than 'unlimited' gets the size 'unlimited'. @known@ are bounds of the Hausdorff distance;
+-- they save exact comparisons.
 largestGap :: Cover a -> Maybe DistanceBounds -> Mm -> Segment -> Maybe (Gap a)
 largestGap cover known least segment
   | isClosedBy least = Nothing

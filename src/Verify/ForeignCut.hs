@@ -1,5 +1,5 @@
--- | Cuts below the top of the part where the planned frames do not cut, or deeper than the planned
--- frames cut. Planned frames are those that the compiler made for the program.
+-- | Cuts, below the top of the part, at positions where the planned frames do not cut, or deeper
+-- than the planned frames cut. Planned frames are those that the compiler made for the program.
 module Verify.ForeignCut
   ( foreignCuts,
   )

@@ -11,7 +11,9 @@
 -- @8·s + i@ in the cache.
 --
 -- The coordinates of boxes are whole steps of a grid, so that integer operations without a branch
--- compare two boxes. A query finds the overlapping boxes of one or two slots, as a set of bits.
+-- compare two boxes. A /corner word/ is one integer that holds x and y of a corner; each box has
+-- two, for its lower and its upper corner. A query finds the overlapping boxes of one or two slots,
+-- as a set of bits.
 module Geometry.Index.BoundingBoxCache
   ( runLength,
     isSegment,
