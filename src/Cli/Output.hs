@@ -40,12 +40,15 @@ import System.Environment (lookupEnv)
 import System.FilePath (takeDirectory, takeFileName)
 import System.IO
   ( Handle,
+    IOMode (ReadMode),
     hClose,
     hFlush,
     hIsTerminalDevice,
     openBinaryTempFileWithDefaultPermissions,
     stderr,
+    stdin,
     stdout,
+    withBinaryFile,
   )
 import System.IO.Error
   ( ioeGetErrorString,
@@ -199,11 +202,31 @@ resultBytes bytes = either judge Right <$> try (ByteString.hPut stdout bytes *> 
       | otherwise = Left (ioProblem e)
     Errno pipe = ePIPE
 
--- | The bytes of a file, or of standard input for @-@; or the reason why they cannot be read.
+-- | The bytes of a file, or of standard input for @-@; or the reason why they cannot be read. A
+-- file of more than 'mostBytes' is refused, also one without an end, such as a device.
 readBytes :: FilePath -> IO (Either Text ByteString)
-readBytes file =
-  either (Left . ioProblem) Right
-    <$> try (if file == "-" then ByteString.getContents else ByteString.readFile file)
+readBytes file = either (Left . ioProblem) id <$> try contents
+  where
+    contents
+      | file == "-" = readAtMost mostBytes stdin
+      | otherwise = withBinaryFile file ReadMode (readAtMost mostBytes)
+
+-- | Reads to the end of the input, or gives a reason if there are more than @most@ bytes.
+readAtMost :: Int -> Handle -> IO (Either Text ByteString)
+readAtMost most handle = go [] 0
+  where
+    go chunks size
+      | size > most = pure (Left "it has more than 256 MB, or no end")
+      | otherwise = do
+        chunk <- ByteString.hGetSome handle chunkSize
+        if ByteString.null chunk
+          then pure (Right (ByteString.concat (reverse chunks)))
+          else go (chunk : chunks) (size + ByteString.length chunk)
+    chunkSize = 1048576
+
+-- | The largest input, 256 MB. A program of a million rows has some 30 MB.
+mostBytes :: Int
+mostBytes = 268435456
 
 -- | Writes a file under a temporary name and renames it, so the old file stays until the new one is
 -- complete. The new file has the permissions of the old one. A device or a pipe is written

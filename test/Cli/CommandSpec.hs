@@ -65,6 +65,13 @@ spec = do
         (code, out) `shouldBe` (ExitFailure 1, "")
         err `shouldSatisfy` isInfixOf "error[E0105]"
         readFile (folder </> "x.tape") `shouldReturn` "keep"
+    it "reports a file without an end, as a program and as a tape" $
+      inFolder $ \folder -> do
+        copyFlange folder
+        (code, _, err) <- partc ["check", "/dev/zero"]
+        (code, "error[E0801]" `isInfixOf` err) `shouldBe` (ExitFailure 1, True)
+        (code', _, err') <- partc ["verify", folder </> "flange.part", "/dev/zero"]
+        (code', "error[E0801]" `isInfixOf` err') `shouldBe` (ExitFailure 1, True)
     it "leaves a write-protected file unchanged" $
       inFolder $ \folder -> do
         copyFlange folder
