@@ -7,17 +7,21 @@ where
 
 import Base.Quantity (Mm (..))
 import Base.Region (Located (..), Region)
-import Data.List (minimumBy)
+import Data.List (minimumBy, sortOn)
 import Data.List.NonEmpty qualified as NonEmpty
+import Data.Map.Strict (Map)
 import Data.Map.Strict qualified as Map
 import Data.Maybe (mapMaybe)
 import Data.Ord (comparing)
+import Geometry.Index.BoundingBox (BoundingBox)
 import Geometry.Index.BoundingBox qualified as BoundingBox
+import Geometry.Index.BoxTree (BoxTree)
 import Geometry.Index.BoxTree qualified as BoxTree
 import Geometry.Polyarc qualified as Polyarc
 import Geometry.Segment (Segment (Straight))
 import Geometry.Segment qualified as Segment
 import Geometry.Tolerance qualified as Tolerance
+import Geometry.Vec (Point)
 import Geometry.Vec qualified as Vec
 import Geometry.WindingNumber qualified as WindingNumber
 import Part.Part (Milling, Pace (..), Side (..), Work (..))
@@ -26,10 +30,10 @@ import Toolpath.Error (Warning (..))
 import Toolpath.Toolpath (Block (..), Toolpath)
 import Toolpath.Toolpath qualified as Toolpath
 
--- | All warnings about a toolpath: first rapid moves through the part, then tool changes after
--- which the spindle is not started again.
+-- | All warnings about a toolpath: first rapid moves through the part, then rapid moves into
+-- material that is not cleared yet, then tool changes after which the spindle is not started again.
 warnings :: Toolpath -> [Warning]
-warnings path = throughPart path <> stoppedSpindles path
+warnings path = throughPart path <> intoContent path <> stoppedSpindles path
 
 -- | A closed contour. @isMaterial@ is true if the part is inside it, and false if the part is
 -- outside.
@@ -64,19 +68,95 @@ throughPart path =
     linkingMoves b = case b of
       Cutting {approach, retract} -> approach <> retract
       _ -> Toolpath.moves b
-    index = BoxTree.index boxOf (concatMap NonEmpty.toList (mapMaybe bodiesOf firsts))
-    boxOf body =
-      foldr1 BoundingBox.union (fmap BoundingBox.ofSegment (Polyarc.segments (outline body)))
-    -- All passes of one statement have the same contours.
-    firsts =
-      Map.elems
-        (Map.fromListWith (\_ first -> first) [(n, b) | b <- Toolpath.blocks path, n <- numberOf b])
+    index =
+      BoxTree.index boxOf (concatMap NonEmpty.toList (mapMaybe (bodiesOf . snd) (firstPasses path)))
     innermost p =
       case filter
         ((`WindingNumber.encloses` p) . outline)
         (BoxTree.within (BoundingBox.ofPoints p []) index) of
         [] -> Nothing
         found -> Just (minimumBy (comparing (abs . Polyarc.signedArea . outline)) found)
+
+-- | Warnings about rapid moves into the content of a pocket or of a window before it is cleared; at
+-- most one for each region of the program that asks for such moves. A /window/ is a closed contour
+-- that is milled from its inside. Its content counts as cleared down to the height of each pass
+-- that is done. Moves that only rise are left out, and so are holes. If the whole toolpath has one
+-- height, it is not known where the cutter may enter, and there are no warnings.
+intoContent :: Toolpath -> [Warning]
+intoContent path
+  | Toolpath.isFlat path = []
+  | otherwise =
+    Map.elems (Map.fromListWith (\_ first -> first) (go Map.empty (Toolpath.blocks path)))
+  where
+    go cleared blocks = case blocks of
+      [] -> []
+      b : more -> case b of
+        Travelling _ ms -> found cleared ms <> go cleared more
+        Cutting {pass, approach, retract} -> around cleared pass approach retract more
+        Clearing {pass, approach, retract} -> around cleared pass approach retract more
+        Holing _ _ -> go cleared more
+        Commanding _ -> go cleared more
+    around cleared pass approach retract more =
+      let after = Map.insertWith min (Toolpath.number pass) (Toolpath.atHeight pass) cleared
+       in found cleared approach <> found after retract <> go after more
+    found cleared ms =
+      [ (Toolpath.origin m, RapidIntoContent (Toolpath.origin m) p z (Part.contourName contour))
+        | m <- ms,
+          Toolpath.pace m == Rapid,
+          Just (p, z) <- [lowestOf m],
+          Just contour <- [holder bodies cleared p z]
+      ]
+    bodies =
+      BoxTree.index
+        (boxOf . snd)
+        [ (n, body)
+          | (n, b) <- firstPasses path,
+            Just ofPass <- [bodiesOf b],
+            body <- NonEmpty.toList ofPass
+        ]
+
+-- | The contour that still holds material at the point @p@ and the height @z@: the innermost one
+-- around the point, if it is a window, and no window around the point is cleared to the height.
+-- @bodies@ are all bodies with the numbers of their statements; @cleared@ has the height down to
+-- which each statement has cleared, by its number.
+holder :: BoxTree (Int, Body) -> Map Int Mm -> Point -> Mm -> Maybe Part.Contour
+holder bodies cleared p z = case sortOn (area . snd) enclosing of
+  (_, innermost) : _
+    | not (isMaterial innermost) && all (isHeld . fst) windows -> Just (named innermost)
+  _ -> Nothing
+  where
+    enclosing =
+      filter
+        ((`WindingNumber.encloses` p) . outline . snd)
+        (BoxTree.within (BoundingBox.ofPoints p []) bodies)
+    windows = filter (not . isMaterial . snd) enclosing
+    isHeld n = z < Map.findWithDefault (Mm 0) n cleared
+    area = abs . Polyarc.signedArea . outline
+
+-- | The lowest position of a move below the top of the part: its middle if it is level, else its
+-- lower end. Nothing for a move that rises vertically, and for one that is not below the top.
+lowestOf :: Toolpath.Move -> Maybe (Point, Mm)
+lowestOf m
+  | min from to >= Mm 0 = Nothing
+  | from == to = Just (Segment.at 0.5 s, to)
+  | from > to = Just (Segment.end s, to)
+  | Segment.length s > Tolerance.coincident = Just (Segment.start s, from)
+  | otherwise = Nothing
+  where
+    s = Toolpath.segment m
+    (from, to) = Toolpath.heights m
+
+-- | The bounding box of a body.
+boxOf :: Body -> BoundingBox
+boxOf body = foldr1 BoundingBox.union (fmap BoundingBox.ofSegment (Polyarc.segments (outline body)))
+
+-- | The first pass of each milling or pocket statement, with the number of the statement. All
+-- passes of one statement have the same contours.
+firstPasses :: Toolpath -> [(Int, Block)]
+firstPasses path =
+  Map.toList
+    (Map.fromListWith (\_ first -> first) [(n, b) | b <- Toolpath.blocks path, n <- numberOf b])
+  where
     numberOf b = case b of
       Cutting {pass} -> [Toolpath.number pass]
       Clearing {pass} -> [Toolpath.number pass]

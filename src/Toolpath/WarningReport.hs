@@ -41,6 +41,9 @@ data Warning
   | -- | a rapid move through the part, below its top: the region of the program that asks for the
     -- move, the move, the name of the contour inside which the move is
     RapidThroughPart Region Segment (Located Name)
+  | -- | a rapid move into material that a pocket or a window still holds: the region of the program
+    -- that asks for the move, the lowest point of the move, its height, the contour's name
+    RapidIntoContent Region Point Mm (Located Name)
   | -- | a tool change after which the program does not start the spindle
     SpindleAtRest Region
   deriving stock (Eq, Show)
@@ -88,6 +91,20 @@ warningReport warning = case warning of
               <> ", not above the top of the part. That it was cleared there is not known."
           ],
         hints = ["Lift the cutter first: a third coordinate is a height."]
+      }
+  RapidIntoContent region p (Mm z) (Located named contour) ->
+    (report Report.Warning "W0402" (InSource region) "this rapid move goes into material")
+      { others = [Label named "not cleared yet inside this contour"],
+        message =
+          [ "At "
+              <> Vec.toText 3 p
+              <> " it is at the height "
+              <> Decimal.mm (Mm z)
+              <> ". The inside of "
+              <> text contour
+              <> " is not cleared down to there before."
+          ],
+        hints = ["Stop above the material, and let the cutter plunge at its feed."]
       }
   SpindleAtRest region ->
     ( report
