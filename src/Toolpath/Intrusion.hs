@@ -139,9 +139,8 @@ data Intruder = Intruder
     -- | number of the statement whose contour is not checked, because the moves are cuts along that
     -- contour; Nothing if all contours are checked
     own :: Maybe Int,
-    -- | for the linking moves of a milling statement: its number, and the smallest of its
-    -- allowances. These moves must keep that allowance from the statement's own contour. Nothing
-    -- for other moves
+    -- | number of the statement to which linking moves belong, and the allowance that it leaves at
+    -- last, into which they must not cut; Nothing if the allowances are not checked
     leaving :: Maybe (Int, Mm)
   }
 
@@ -163,9 +162,10 @@ intrusionsOfBlock machined b = case b of
                 (map (asMilling (keyword at)) . found cutting)
                 (if isAlone (number pass) then [] else NonEmpty.toList cut)
             )
-  Clearing {pocket = Located at p, approach, cleared, retract} ->
+  Clearing {pocket = Located at p, pass, approach, cleared, retract} ->
     let clearing = Intruder (radius (Part.wall p)) Nothing Nothing
-     in concatMap (found clearing) (approach <> retract)
+        left = Just (number pass, NonEmpty.last (Part.allowances (Part.wall p)))
+     in concatMap (found clearing {leaving = left}) (approach <> retract)
           <> take
             1
             ( concatMap

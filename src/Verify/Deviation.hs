@@ -45,6 +45,7 @@ import Verify.Proof (ContourProof (ContourProof), Finding (Excess, Gouge, NotFol
 import Verify.Proof qualified as Proof
 import Verify.Reachability (KeptDistance (KeptDistance))
 import Verify.Reachability qualified as Reachability
+import Verify.WrongSide qualified as WrongSide
 
 -- | Pass along a contour, or one of its cuts, with its motions on the tape. A pass around rest
 -- material may have several cuts, each along a part of the contour. Any other pass is a single cut.
@@ -61,11 +62,13 @@ data MillingPass = MillingPass
 -- | Allowed deviations into the part and away from it. Each is a chord error plus one pulse.
 data Allowed = Allowed {allowedGouge :: Mm, allowedExcess :: Mm}
 
--- | Compare the motions of a tape with a pass along a contour. @isFirst@ is true of the first cut
--- of a statement's execution. Then all motions near the contour are examined for gouges, otherwise
--- only the motions of the pass.
-examine :: MotionSet -> Bool -> MillingPass -> (ContourProof, [Finding])
-examine set isFirst pass = (contourProof, if null findings then orderFindings pass else findings)
+-- | Compare the motions of a tape with a cut along a contour. If @isFirst@ is true, the cut is the
+-- first one of its statement. Then all motions near the contour are examined for gouges; otherwise
+-- only those of the cut. The cuts of a pass are examined together for excess, with the first one;
+-- @onPass@ are then the motions of the tape from the first cut of the pass to the next pass.
+examine :: MotionSet -> Bool -> Maybe [CutterMotion] -> MillingPass -> (ContourProof, [Finding])
+examine set isFirst onPass pass =
+  (contourProof, if null findings then orderFindings set pass else findings)
   where
     MillingPass {job, found} = pass
     Allowed {allowedGouge, allowedExcess} = allowedOf set job
@@ -79,7 +82,7 @@ examine set isFirst pass = (contourProof, if null findings then orderFindings pa
     deepest = foldl (\best w -> Just (Proof.deeper best w)) (gouge scan) pierced
     -- Excess
     strayed = reverse (strays scan)
-    missed = missedOn set isFirst pass allowedExcess bounds
+    missed = missedOn set onPass pass allowedExcess bounds
     largest = Proof.deepest (missed <> strayed)
     isTooMuch w = Proof.amount w > allowedExcess
     tooMuch
@@ -146,17 +149,22 @@ allowedDeviation isCurved milling
     (inside, outside) = Part.deviationLimits (Part.tolerance milling)
     less d = max (Mm 0) (minus d Tolerance.curve)
 
--- | Finding for a contour that is not followed from its start to its end.
-orderFindings :: MillingPass -> [Finding]
-orderFindings MillingPass {job, found} = case found of
-  Complete {} -> []
-  -- If rest material is allowed, a cut need not go along the whole contour.
-  Incomplete {} ->
-    [ NotFollowed (statement job)
-      | ContactMeasure.isMeasurable job,
-        not (allowsRest job)
-    ]
+-- | Finding for a contour that is not followed from its start to its end, in the direction of
+-- travel. The contact point does not move while the cutter goes round an outer corner, so single
+-- motions against the direction of travel are looked for as well. The planned frames have none.
+orderFindings :: MotionSet -> MillingPass -> [Finding]
+orderFindings set MillingPass {job, found} = case found of
+  Complete _ along -> if MotionSet.isPlanned set then [] else backward along
+  Incomplete _ along
+    -- If rest material is allowed, a cut need not go along the whole contour.
+    | allowsRest job || not (ContactMeasure.isMeasurable job) -> backward along
+    | otherwise -> [NotFollowed (statement job)]
   Missing -> [Proof.NeverBegun (statement job)]
+  where
+    backward along =
+      [ NotFollowed (statement job)
+        | any (WrongSide.runsBack (MotionSet.machine set) job) along
+      ]
 
 -- | Test that the statement allows rest material.
 allowsRest :: MillingJob -> Bool
@@ -224,13 +232,14 @@ piercedBy job allowed motions =
 
 -- Excess ------------------------------------------------------------------------------------------
 
--- | Excess on the elements of a contour; @allowed@ is the largest allowed excess. If rest material
--- is allowed, the elements are compared with all motions at the height of the pass. Then the result
--- is empty unless @isFirst@ is true. @bounds@ has for each element, by its number from 0, an upper
--- bound in mm of the distance of its points from the motions along the contour.
-missedOn :: MotionSet -> Bool -> MillingPass -> Mm -> PrimArray Double -> [Witness]
-missedOn set isFirst MillingPass {job, level, found} allowed bounds
-  | allowsRest job && not isFirst = []
+-- | Excess on the elements of a contour; @allowed@ is the largest allowed one. If rest material is
+-- allowed, the elements are compared with all motions of the pass at its height, @onPass@. It is
+-- Nothing for the later cuts of a pass: these are examined with the first one. @bounds@ is the
+-- array that 'ContourScan.scan' returns: for each element, by its number from 0, an upper bound in
+-- mm of the distance of its points from the motions along the contour.
+missedOn :: MotionSet -> Maybe [CutterMotion] -> MillingPass -> Mm -> PrimArray Double -> [Witness]
+missedOn set onPass MillingPass {job, level, found} allowed bounds
+  | allowsRest job && isNothing onPass = []
   | otherwise =
     concat
       [ Excess.excesses
@@ -251,9 +260,10 @@ missedOn set isFirst MillingPass {job, level, found} allowed bounds
         | (own, es) <- groups
       ]
     index = BoxTree.indexFirst (length cutting) Motion.box cutting
-    cutting = case found of
-      Complete {} | not (allowsRest job) -> PassSearch.motionsOf found
-      _ -> MotionSet.atHeight set level
+    cutting = case (found, onPass) of
+      (Complete {}, _) | not (allowsRest job) -> PassSearch.motionsOf found
+      (_, Just ms) -> MotionSet.atHeight set {MotionSet.motions = ms} level
+      (_, Nothing) -> MotionSet.atHeight set level
 
 -- | Parts of an element that the cutter can touch while its centre is at @distance@ from them; the
 -- whole element if rest material is not allowed. @kept@ has all elements of the contour, grouped by

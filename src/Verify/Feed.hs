@@ -7,6 +7,7 @@ module Verify.Feed
   ( asPlanned,
     alongContour,
     atFeed,
+    atPace,
     downwards,
     tooFast,
   )
@@ -14,16 +15,17 @@ where
 
 import Base.PulseVector (Pulses3 (..))
 import Base.Quantity (Feed (..), Mm (..), Pulses (..))
-import Base.Region (Located (..))
+import Base.Region (Located (..), Region)
 import Control.Motion (Motion (..))
 import Control.Motion qualified as Control
 import Data.List (nub)
 import Data.Map.Strict qualified as Map
-import Data.Maybe (fromMaybe, mapMaybe)
+import Data.Maybe (fromMaybe, listToMaybe, mapMaybe)
 import Frame.Frame (Frame, FrameMotion (..), FrameProgram)
 import Frame.Frame qualified as Frame
-import Machine.Machine (BrakingForm (..), FeedCode, FeedMeasure (..), Machine)
+import Machine.Machine (BrakingForm (..), FeedCode (..), FeedMeasure (..), Machine)
 import Machine.Machine qualified as Machine
+import Part.Part (Pace)
 import Part.Part qualified as Part
 import Verify.MillingJob (MillingJob (..), elementsOf)
 import Verify.Proof (Finding (..), Speed (..))
@@ -80,6 +82,23 @@ atFeed machine demanded finishes = mapMaybe wrongFeed
           (<= maximum (map feedOf allowed))
           (Machine.valueOf machine (code found))
     feedOf = fromMaybe 0 . Machine.valueOf machine
+
+-- | Finding for a motion whose speed is not that of the @pace@ in the program; @asked@ is the
+-- region that asks for it. A braking frame may be slower. If the cutter may slow down at the end of
+-- the move, the lowest feed of the machine is allowed too.
+atPace :: Machine -> Pace -> Bool -> Region -> Motion -> Maybe Finding
+atPace machine pace slows asked m = case pace of
+  Part.At demanded ->
+    listToMaybe (atFeed machine demanded [Part.plainFinish {Part.slow = slows}] [m])
+  Part.Rapid
+    | isRapid || braking found -> Nothing
+    | otherwise -> Just (WrongFeed (number m) found expected asked)
+  where
+    found = speedOf (frame m)
+    expected = Speed {rapidly = hasRapid, code = rapidCode, braking = False}
+    hasRapid = Machine.hasRapidMotion machine
+    rapidCode = if hasRapid then FeedCode 0 else Machine.rapidCode machine
+    isRapid = rapidly found == hasRapid && code found == rapidCode
 
 -- | Findings for vertical motions into solid material with a speed that no planned motion into
 -- solid material has. If the planned frames contain no such motion, there is nothing to compare

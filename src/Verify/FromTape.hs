@@ -54,6 +54,7 @@ import Verify.HoleCheck qualified as HoleCheck
 import Verify.MillingJob (MillingJob (milling))
 import Verify.Motion (CutterMotion (number, segment))
 import Verify.Motion qualified as Motion
+import Verify.MotionMatch qualified as MotionMatch
 import Verify.MotionSet (MotionSet (MotionSet))
 import Verify.MotionSet qualified as MotionSet
 import Verify.PassFrames (FrameRange (..))
@@ -66,6 +67,7 @@ import Verify.Pocket qualified as Pocket
 import Verify.PocketDeviation qualified as PocketDeviation
 import Verify.Proof (Finding (..), Proof (Proof), Refusal (NotCompensated))
 import Verify.Proof qualified as Proof
+import Verify.RequiredMove qualified as RequiredMove
 import Verify.SpindleTool (Tools, Use (..))
 import Verify.SpindleTool qualified as SpindleTool
 import Verify.Swivel qualified as Swivel
@@ -92,7 +94,9 @@ data Subject = Subject
     compensationErrors :: ~[Compensation.CompensationError],
     pockets :: ~[Pocket],
     -- | numbers of the planned frames of each pass, by the number of the pass, from 0
-    passFrames :: ~(IntMap FrameRange)
+    passFrames :: ~(IntMap FrameRange),
+    -- | the same without the frames of linking moves
+    cutFrames :: ~(IntMap FrameRange)
   }
 
 -- | Compare the frames of a tape with the part. The toolpath @path@ contains the part; @program@
@@ -108,17 +112,32 @@ prove machine path program frames =
       Proof.findings =
         sortOn
           Proof.tapeOrder
-          (deviations <> otherFindings subject passes <> notClosed closure deviations)
+          (found <> unmatched <> notClosed closure deviations)
     }
   where
+    found = deviations <> otherFindings subject passes
+    -- A tape with another fault would also have motions that nobody asks for.
+    unmatched = if null found then unmatchedMotions subject passes else []
     subject = subjectOf machine path program frames
     passes = locatedPasses subject
     set = motionSetOf subject passes
     (contourProofs, contourFindings) =
-      unzip (zipWith (Deviation.examine set) (PassLocation.areFirst passes) passes)
+      unzip
+        ( zipWith3
+            (Deviation.examine set)
+            (PassLocation.areFirst passes)
+            (PassLocation.motionsOfPasses (motions subject) passes)
+            passes
+        )
     (pocketProofs, pocketFindings) =
       unzip
-        [ PocketDeviation.examine set (isInPass subject pass) pocket isFirst pass
+        [ PocketDeviation.examine
+            set
+            (isInFrames subject (passFrames subject) pass)
+            (isInFrames subject (cutFrames subject) pass)
+            pocket
+            isFirst
+            pass
           | pocket <- pockets subject,
             (isFirst, pass) <- zip (True : repeat False) (NonEmpty.toList (Pocket.passes pocket))
         ]
@@ -143,7 +162,8 @@ subjectOf machine path program frames =
       motionIndex = BoxTree.index Motion.box motions,
       compensationErrors,
       pockets = Pocket.pocketsOf (Toolpath.blocks path),
-      passFrames = PassFrames.framesOfPasses program
+      passFrames = PassFrames.framesOfPasses program,
+      cutFrames = PassFrames.framesOfCuts program
     }
   where
     tools = SpindleTool.plannedTools program
@@ -184,7 +204,7 @@ locatedPasses subject@Subject {machine, path, program} =
         PassLocation.cutFramesOf =
           if isSingle || isDifferent subject
             then const Nothing
-            else (`IntMap.lookup` cutFrames)
+            else (`IntMap.lookup` cutFrames subject)
       }
     (Frame.position machine begin, Frame.height machine begin)
     (motions subject)
@@ -192,19 +212,19 @@ locatedPasses subject@Subject {machine, path, program} =
   where
     begin = Frame.start program
     lastFrame n = (\(FrameRange _ b) -> b) <$> IntMap.lookup n (passFrames subject)
-    cutFrames = PassFrames.framesOfCuts program
     -- A single cut cannot be mistaken for another cut, so its planned frames are not needed.
     isSingle = null (drop 1 [() | Toolpath.Cutting {} <- Toolpath.blocks path])
 
--- | Test that a motion is in the frames of a pass of a pocket. False if the tape does not have as
--- many frames as planned: then the frames of the pass are unknown.
-isInPass :: Subject -> ClearingPass -> CutterMotion -> Bool
-isInPass subject pass m =
+-- | Test that a motion is in those of the planned frames, @framesOf@, that belong to a pass of a
+-- pocket. False if the tape does not have as many frames as planned: then the frames of the pass
+-- are unknown.
+isInFrames :: Subject -> IntMap FrameRange -> ClearingPass -> CutterMotion -> Bool
+isInFrames subject framesOf pass m =
   hasSameCount subject
     && maybe
       False
       (`PassFrames.includes` number m)
-      (IntMap.lookup (Pocket.passIndex pass) (passFrames subject))
+      (IntMap.lookup (Pocket.passIndex pass) framesOf)
 
 -- | Motions of the tape for the comparisons. If only one contour or pocket is compared,
 -- 'MotionSet.nearby' returns all motions: a bounding-box tree would cost more time than it saves.
@@ -213,6 +233,7 @@ motionSetOf subject passes =
   MotionSet
     { MotionSet.machine = machine subject,
       MotionSet.isFlat = isFlat subject,
+      MotionSet.isPlanned = not (isDifferent subject),
       MotionSet.toolOf,
       MotionSet.motions = motions subject,
       MotionSet.nearby
@@ -285,6 +306,25 @@ otherFindings subject@Subject {machine, path, program, frames} passes =
     foreign'
       | isFlat subject || not (isDifferent subject) = []
       | otherwise = ForeignCut.foreignCuts machine path (plannedMotions subject) (motions subject)
+
+-- | Finding for the first motion that the program does not ask for at its place in the order, or
+-- for the first move that is missing.
+unmatchedMotions :: Subject -> [MillingPass] -> [Finding]
+unmatchedMotions subject@Subject {machine, path, program, frames} passes =
+  MotionMatch.mismatches
+    machine
+    (not (hasSameCount subject))
+    begin
+    ( RequiredMove.itemsOf
+        machine
+        (isFlat subject)
+        passes
+        (pockets subject)
+        path
+    )
+    (Control.run begin frames)
+  where
+    begin = Frame.start program
 
 -- | Findings for pockets whose depths are not cut in order.
 pocketOrder :: Subject -> [Finding]

@@ -21,6 +21,8 @@ data MotionSet = MotionSet
   { machine :: Machine,
     -- | true if the whole toolpath is at the height of its start; heights are then not compared
     isFlat :: Bool,
+    -- | true if the tape has exactly the planned frames, those that the compiler made
+    isPlanned :: Bool,
     -- | radius of the cutter in a motion, in mm
     toolOf :: CutterMotion -> Mm,
     -- | all motions, in the order of the tape

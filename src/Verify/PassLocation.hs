@@ -9,6 +9,7 @@ module Verify.PassLocation
   ( Guide (..),
     locate,
     areFirst,
+    motionsOfPasses,
   )
 where
 
@@ -231,6 +232,26 @@ largestReach milling allowance reach
 areFirst :: [MillingPass] -> [Bool]
 areFirst passes =
   zipWith (/=) (map (Just . passNumber) passes) (Nothing : map (Just . passNumber) passes)
+
+-- | For the first cut of each pass, the motions of the tape from there up to the first cut of the
+-- next pass; Nothing for the later cuts of a pass. A pass is one allowance at one height. The
+-- motions before the first pass belong to it, too.
+motionsOfPasses :: [CutterMotion] -> [MillingPass] -> [Maybe [CutterMotion]]
+motionsOfPasses motions passes = go motions (zip areNew passes)
+  where
+    areNew = zipWith (/=) (map Just keys) (Nothing : map Just keys)
+    keys = map (\MillingPass {job, passNumber, level} -> (passNumber, level, reach job)) passes
+    go left numbered = case numbered of
+      [] -> []
+      (False, _) : more -> Nothing : go left more
+      (True, _) : more ->
+        let (own, others) = maybe (left, []) (\n -> span ((< n) . number) left) (nextBegin more)
+         in Just own : go others more
+    -- Number of the first motion of the next pass that the tape has.
+    nextBegin numbered = case numbered of
+      [] -> Nothing
+      (True, pass) : _ | m : _ <- PassSearch.motionsOf (found pass) -> Just (number m)
+      _ : more -> nextBegin more
 
 -- | Last element of a list, if there is one.
 lastOf :: [a] -> Maybe a

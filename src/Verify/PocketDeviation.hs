@@ -15,7 +15,7 @@ module Verify.PocketDeviation
   )
 where
 
-import Base.Quantity (Mm (..), plus)
+import Base.Quantity (Mm (..), minus, plus)
 import Data.List (foldl', minimumBy, sortOn)
 import Data.Maybe (mapMaybe, maybeToList)
 import Data.Ord (comparing)
@@ -46,17 +46,19 @@ import Verify.PocketFloor qualified as PocketFloor
 import Verify.Proof (ContourProof (ContourProof), Finding (NotCleared), Witness (Witness))
 import Verify.Proof qualified as Proof
 
--- | Compare the tape with the pass @pass@ of a pocket. @isInPass@ is true of the motions of @pass@.
--- @isFirst@ is true if @pass@ is the first pass of the pocket. Then all motions near the pocket are
--- examined for gouges, otherwise only those of @pass@.
+-- | Compare the tape with one pass of a pocket. @isInPass@ is true of the motions of this pass,
+-- with its approach and its retract; @isClearing@ is true of those that clear the floor. If
+-- @isFirst@ is true, it is the first pass of the pocket, and all motions near the pocket are
+-- examined for gouges. Otherwise only the motions of the pass are.
 examine ::
   MotionSet ->
+  (CutterMotion -> Bool) ->
   (CutterMotion -> Bool) ->
   Pocket ->
   Bool ->
   ClearingPass ->
   (ContourProof, [Finding])
-examine set isInPass pocket isFirst pass = (contourProof, findings)
+examine set isInPass isClearing pocket isFirst pass = (contourProof, findings)
   where
     (allowedGouge, allowedExcess) = allowedIn set pocket
     -- Gouges
@@ -64,7 +66,11 @@ examine set isInPass pocket isFirst pass = (contourProof, findings)
       filter
         (\m -> MotionSet.isBelowTop m && (isFirst || isInPass m))
         (MotionSet.nearby set (BoundingBox.inflate (reach pass) (bounds pocket)))
-    keepOut m = Gouge.constantKeepOut (if isInPass m then reach pass else MotionSet.toolOf set m)
+    -- Linking moves keep the allowance that the statement leaves at last.
+    keepOut m
+      | isClearing m = Gouge.constantKeepOut (reach pass)
+      | isInPass m = Gouge.constantKeepOut (minus (rimDistance pocket) Pocket.spareRoom)
+      | otherwise = Gouge.constantKeepOut (MotionSet.toolOf set m)
     gouges = mapMaybe (\m -> Gouge.gougeOf (keepOut m) (walls pocket) m) examined
     deepest = deepestGouge keepOut pocket examined
     -- Excess

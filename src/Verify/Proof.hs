@@ -118,6 +118,11 @@ data Finding
   | -- | A frame cuts below the top of the part where the program does not cut, or deeper than the
     -- program does: the frame, the position of the cutter's centre.
     CutsElsewhere Int Point
+  | -- | A frame runs along none of the moves that the program asks for at this place in the order:
+    -- the frame, the position of the cutter's centre at its end.
+    NotAsked Int Point
+  | -- | The tape lacks a move: the region that asks for it, its end.
+    MoveMissing Region Point
   | -- | Wrong feed: the frame, its speed, the demanded speed, the region that demands it.
     WrongFeed Int Speed Speed Region
   | -- | Wrong command: the frame, the command, its number on the tape, its number in the program.
@@ -146,6 +151,8 @@ tapeOrder finding = case finding of
   OffPlane n -> (n, 4)
   HoleMissing _ _ -> (0, 4)
   CutsElsewhere n _ -> (n, 4)
+  NotAsked n _ -> (n, 4)
+  MoveMissing _ _ -> (0, 4)
   WrongFeed n _ _ _ -> (n, 5)
   TooFast n _ _ -> (n, 6)
   WrongCommand n _ _ _ -> (n, 7)
@@ -166,6 +173,8 @@ isOffContour finding = case finding of
   OffPlane {} -> False
   HoleMissing {} -> False
   CutsElsewhere {} -> False
+  NotAsked {} -> False
+  MoveMissing {} -> False
   WrongFeed {} -> False
   WrongCommand {} -> False
   TooFast {} -> False
@@ -288,6 +297,19 @@ toReport machine finding = case finding of
     )
       { message = ["The cutter's centre is then at " <> Vec.toText 3 p <> "."]
       }
+  NotAsked n p ->
+    ( wrong
+        "E0716"
+        InFile
+        (frameWord n <> " is none of the moves that the program asks for at this point of the tape")
+    )
+      { message = ["It moves the cutter's centre to " <> Vec.toText 3 p <> "."]
+      }
+  MoveMissing region p ->
+    wrong
+      "E0717"
+      (InSource region)
+      ("the tape does not make this move, which ends at " <> Vec.toText 3 p)
   WrongFeed n found wanted region ->
     ( wrong
         "E0706"

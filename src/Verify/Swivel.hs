@@ -12,7 +12,7 @@ where
 import Base.Quantity (Mm (..), minus, plus, times)
 import Base.Region (Located (..))
 import Data.List.NonEmpty qualified as NonEmpty
-import Data.Maybe (fromMaybe)
+import Data.Maybe (fromMaybe, listToMaybe, mapMaybe)
 import Data.Vector (Vector)
 import Data.Vector qualified as Vector
 import Geometry.Carrier qualified as Carrier
@@ -34,11 +34,14 @@ import Verify.Motion (CutterMotion (..))
 import Verify.Motion qualified as Motion
 import Verify.Requirement qualified as Requirement
 
--- | Bring the motions along contours that are cut with a blade to the heights of their passes.
--- Other motions stay as they are.
+-- | Bring the motions along contours that are cut with a blade to the heights of their passes. If a
+-- motion fits several passes, it gets the height of the first one. Other motions stay as they are.
 levelled :: Machine -> Toolpath -> [CutterMotion] -> [CutterMotion]
-levelled machine path = foldr (\pass next -> map (levelledIn machine pass) . next) id passes
+levelled machine path
+  | null passes = id
+  | otherwise = map toFirst
   where
+    toFirst m = fromMaybe m (listToMaybe (mapMaybe (\pass -> levelledIn machine pass m) passes))
     passes =
       [ bladePass milling pass
         | Toolpath.Cutting {Toolpath.job = Located _ milling, Toolpath.pass} <-
@@ -87,12 +90,12 @@ bladePass milling Toolpath.Pass {Toolpath.left, Toolpath.atHeight} =
     height bevel = plus atHeight (times (sign * bevel / 2) (fromMaybe (Mm 0) (Part.gear milling)))
     sign = maybe 1 Carrier.sideSign (Requirement.cutterSide milling)
 
--- | Bring the motion @m@ to the height of a pass, if the axis has the right height at all sample
--- points of @m@.
-levelledIn :: Machine -> BladePass -> CutterMotion -> CutterMotion
+-- | The motion @m@ at the height of a pass. Nothing if the axis does not have the right height at
+-- all sample points of @m@.
+levelledIn :: Machine -> BladePass -> CutterMotion -> Maybe CutterMotion
 levelledIn machine pass m
-  | all hasRightHeight (0 : sampled) = m {fromHeight = level pass, toHeight = level pass}
-  | otherwise = m
+  | all hasRightHeight (0 : sampled) = Just m {fromHeight = level pass, toHeight = level pass}
+  | otherwise = Nothing
   where
     hasRightHeight k =
       isRightHeight machine pass (Segment.at k (segment m)) (plus low (times k (minus high low)))

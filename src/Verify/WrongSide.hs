@@ -1,11 +1,12 @@
--- | Motions along a contour on the wrong side of it. A /job/ is a cut along a contour as the part
--- demands it ("Verify.MillingJob").
+-- | Motions along a contour on the wrong side of it, or against the direction of travel. A /job/ is
+-- a cut along a contour as the part demands it ("Verify.MillingJob").
 module Verify.WrongSide
   ( wrongSide,
+    runsBack,
   )
 where
 
-import Base.Quantity (Mm (..))
+import Base.Quantity (Mm (..), times)
 import Data.List (minimumBy)
 import Data.Maybe (listToMaybe, mapMaybe)
 import Data.Ord (comparing)
@@ -13,10 +14,12 @@ import Geometry.Carrier (Side)
 import Geometry.Carrier qualified as Carrier
 import Geometry.Distance qualified as Distance
 import Geometry.Distance.Fast qualified as FastDistance
-import Geometry.Segment (Segment)
+import Geometry.Segment (Segment (..))
 import Geometry.Segment qualified as Segment
-import Geometry.Vec (Point)
+import Geometry.Vec (Point, Vec)
 import Geometry.Vec qualified as Vec
+import Machine.Machine (Machine)
+import Machine.Machine qualified as Machine
 import Part.Part qualified as Part
 import Verify.Edge (Edge (element, long, shape))
 import Verify.MillingJob (MillingJob (..))
@@ -93,3 +96,39 @@ sideOf p s
   where
     foot = Segment.at (Segment.fraction s p) s
     ahead = Segment.directionAt (Segment.fraction s p) s
+
+-- | Test that a motion runs against the direction of travel beside every element that the cutter
+-- touches at its middle. An arc is tested between each two of its sample points. False if the
+-- cutter touches no element, and for a motion so short that rounding decides its direction.
+runsBack :: Machine -> MillingJob -> CutterMotion -> Bool
+runsBack machine job m =
+  Segment.length (segment m) > times 4 (Machine.planeResolution machine) && any isBack fractions
+  where
+    fractions = case segment m of
+      Straight _ _ -> [0.5]
+      Arc {} -> let ks = Motion.samples m in zipWith (\a b -> (a + b) / 2) (0 : ks) ks
+    around = MillingJob.edgesInBox job m
+    isBack k = not (null touched) && all (isAgainst job ahead p) touched
+      where
+        p = Segment.at k (segment m)
+        ahead = Segment.directionAt k (segment m)
+        touched = filter (isTouched p) around
+    isTouched p e = Distance.toPoint p (shape e) <= MillingJob.contactLimit job
+
+-- | Test that the unit direction @ahead@ at the centre @p@ leads against the direction of travel of
+-- an element. A centre beside the element has to move so that the element stays on the other side.
+-- A centre on the element has to move in the direction of the element.
+isAgainst :: MillingJob -> Vec -> Point -> Edge -> Bool
+isAgainst job ahead p e = case side job of
+  Just demanded
+    | d > allowance job ->
+      Carrier.sideSign demanded * Vec.cross ahead (Vec.unit (Vec.to foot p)) < negate clearly
+  _ -> Vec.dot ahead (Segment.directionAt share (shape e)) < negate clearly
+  where
+    share = Distance.nearestFraction p (shape e)
+    (d, foot) = Distance.nearest p (shape e)
+
+-- | Sine of the angle by which a direction has to differ from the opposite one, so that rounding
+-- does not decide.
+clearly :: Double
+clearly = 0.5

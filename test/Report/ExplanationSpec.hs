@@ -80,7 +80,9 @@ raisedElsewhere =
         "E0712",
         "E0713",
         "E0714",
-        "E0715"
+        "E0715",
+        "E0716",
+        "E0717"
       ]
     ),
     ( "files and the command line",

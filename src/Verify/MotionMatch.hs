@@ -1,0 +1,207 @@
+-- | Comparison of all motions of a tape with the moves that the program asks for, in order.
+--
+-- The program asks for single moves and for /groups/ of motions. A single move is an approach, a
+-- retract, a lead, a peck or a programmed move; it has an exact line or arc. A group is a pass
+-- along a contour or one clearing of a pocket; other comparisons examine its motions. Moves and
+-- groups together, in the order of the program, are called /items/.
+--
+-- Each motion of the tape has to match an item: it runs along a single move, in its direction, or
+-- it belongs to a group. A motion that does neither is a finding, and so is a move that no motion
+-- makes. A move may be divided into several motions. At the end of a move, which is rounded to
+-- pulses, a motion may match two neighbouring items. So the comparison keeps all items that the
+-- last motion may match, as in the simulation of a nondeterministic automaton (Aho et al.,
+-- Compilers, section 3.7).
+module Verify.MotionMatch
+  ( mismatches,
+  )
+where
+
+import Base.PulseVector (Pulses3)
+import Base.Quantity (Mm (..), Rad (..), minus, plus, times)
+import Control.Monad (foldM)
+import Control.Motion (Motion (..))
+import Control.Motion qualified as Control
+import Data.IntMap.Strict (IntMap)
+import Data.IntMap.Strict qualified as IntMap
+import Data.List (minimumBy)
+import Data.Maybe (isJust, maybeToList)
+import Data.Ord (comparing)
+import Data.Vector (Vector)
+import Data.Vector qualified as Vector
+import Frame.Frame qualified as Frame
+import Geometry.Segment (Segment (..))
+import Geometry.Segment qualified as Segment
+import Geometry.Vec (Point)
+import Geometry.Vec qualified as Vec
+import Machine.Machine (Axis (Z), Machine)
+import Machine.Machine qualified as Machine
+import Verify.Feed qualified as Feed
+import Verify.Proof (Finding (MoveMissing, NotAsked))
+import Verify.RequiredMove (MotionGroup (..), RequiredItem (..), RequiredMove (..))
+
+-- | Position of the cutter: the point in the plane, and the height.
+data Position = Position Point Mm
+
+-- | Items that the last motion may match, by their indices from 0. The index of the last item plus
+-- one means that all items are done. The value is the fraction of a single move that is made, from
+-- 0 to 1; for a group it is 0.
+type States = IntMap Double
+
+-- | Findings for the first motion of a tape that matches no item, or else for the first move that
+-- no motion makes. Empty if all motions match and all moves are made. @begin@ is the position
+-- before the first frame, in pulses. If
+-- @comparesFeeds@ is true, each motion along a single move also needs the speed of the move.
+mismatches :: Machine -> Bool -> Pulses3 -> [RequiredItem] -> [Motion] -> [Finding]
+mismatches machine comparesFeeds begin list = go begin (IntMap.singleton 0 0)
+  where
+    items = Vector.fromList list
+    go at states motions = case motions of
+      []
+        | IntMap.member (Vector.length items) final -> []
+        | otherwise -> take 1 (missingFrom items final)
+        where
+          final = withSkipped machine items (positionOf machine at) maxBound states
+      m : more
+        | IntMap.null states' -> [NotAsked (number m) (Frame.position machine (to m))]
+        | comparesFeeds, wrong : _ <- wrongFeeds states' m -> [wrong]
+        | otherwise -> go (to m) states' more
+        where
+          states' = statesAfter machine items m states
+    -- A motion at the joint of two moves may have the feed of either.
+    wrongFeeds states m = case [items Vector.! i | i <- IntMap.keys states] of
+      matched
+        | moves@(_ : _) <- [r | Single r <- matched],
+          length moves == length matched,
+          faults@(fault : _) <-
+            [Feed.atPace machine (pace r) (slows r) (origin r) m | r <- moves],
+          all isJust faults ->
+          maybeToList fault
+      _ -> []
+
+-- | Findings for the moves that are not made, from the last item on that the motions match.
+missingFrom :: Vector RequiredItem -> States -> [Finding]
+missingFrom items states =
+  [ MoveMissing (origin r) (Segment.end (path r))
+    | Just (reached, _) <- [IntMap.lookupMax states],
+      Single r <- Vector.toList (Vector.drop reached items)
+  ]
+
+-- | States after the motion @m@, from those before it; empty if the motion matches no item.
+statesAfter :: Machine -> Vector RequiredItem -> Motion -> States -> States
+statesAfter machine items m states =
+  IntMap.fromListWith
+    max
+    [ (i, made')
+      | (i, made) <- IntMap.toList (withSkipped machine items at (number m) states),
+        Just made' <- [madeAfter i made =<< items Vector.!? i]
+    ]
+  where
+    at = positionOf machine (from m)
+    madeAfter i made item = case item of
+      Single r -> fractionAfter machine r m made
+      Several g
+        | includes g m && (IntMap.member i states || number m <= latestBegin g) -> Just 0
+        | otherwise -> Nothing
+
+-- | Position in mm, from a position in pulses.
+positionOf :: Machine -> Pulses3 -> Position
+positionOf machine p = Position (Frame.position machine p) (Frame.height machine p)
+
+-- | Adds to the states each item that the cutter may begin at the position @at@, because the items
+-- before it are done. @next@ is the number of the frame that comes next.
+withSkipped :: Machine -> Vector RequiredItem -> Position -> Int -> States -> States
+withSkipped machine items at next states =
+  IntMap.unionWith max states (IntMap.fromList (concatMap later (IntMap.toList states)))
+  where
+    later (i, made) = case items Vector.!? i of
+      Just item | isDone item made -> (i + 1, 0) : later (i + 1, 0)
+      _ -> []
+    isDone item made = case item of
+      Single r -> isMade machine r at made
+      Several g -> next >= earliestEnd g
+
+-- Single moves ------------------------------------------------------------------------------------
+
+-- | Test that a move is made at a position, to the slack. @made@ is the fraction that is made. A
+-- move so short that rounding may leave nothing of it counts as made.
+isMade :: Machine -> RequiredMove -> Position -> Double -> Bool
+isMade machine r (Position p z) made =
+  Vec.distance p (Segment.end (path r)) <= slack r
+    && isSameHeight machine z (snd (between r))
+    && (times (1 - made) long <= largest || long <= times 2 largest)
+  where
+    long = lengthOf r
+    largest = plus (slack r) (Machine.resolutionOf machine Z)
+
+-- | Test that two heights in mm differ by no more than a pulse of the axis z.
+isSameHeight :: Machine -> Mm -> Mm -> Bool
+isSameHeight machine (Mm z) (Mm h) = abs (z - h) <= pulse
+  where
+    Mm pulse = Machine.resolutionOf machine Z
+
+-- | Fraction of a move that is made after the motion @m@, if it was @made@ before. Nothing if the
+-- motion does not run along the move in its direction. A step back by no more than the slack may be
+-- due to rounding.
+fractionAfter :: Machine -> RequiredMove -> Motion -> Double -> Maybe Double
+fractionAfter machine r m made = foldM further made (samplesOf machine m)
+  where
+    further before at@(Position p z)
+      | Vec.distance p (Segment.at t (path r)) <= sideways
+          && isSameHeight machine z (heightAt r t)
+          && times (before - t) (lengthOf r) <= slack r =
+        Just t
+      | otherwise = Nothing
+      where
+        t = fractionAt r before at
+    -- On a rising move, a height that is rounded to pulses is further from the path in the plane.
+    sideways
+      | uncurry (==) (between r) = slack r
+      | otherwise = plus (slack r) (Machine.resolutionOf machine Z)
+
+-- | Positions on a motion at which it is compared with a move: the ends and the middle of a line,
+-- nine positions on an arc.
+samplesOf :: Machine -> Motion -> [Position]
+samplesOf machine m =
+  [ Position (Segment.at k s) (plus low (times k (minus high low)))
+    | k <- map (/ count) [0 .. count]
+  ]
+  where
+    s = Control.segment machine m
+    (low, high) = Control.height machine m
+    count = case s of
+      Straight _ _ -> 2
+      Arc {} -> 8
+
+-- | Fraction of a move, from 0 to 1, at which it is nearest to a position. If a position on an arc
+-- has several fractions, because the arc is nearly closed, that one counts which is nearest to the
+-- fraction @before@.
+fractionAt :: RequiredMove -> Double -> Position -> Double
+fractionAt r before (Position p (Mm z)) = max 0 (min 1 fraction)
+  where
+    fraction = case path r of
+      Straight a b
+        | square > 0 -> (Vec.dot along (Vec.to a p) + rise * (z - low)) / square
+        | otherwise -> 1
+        where
+          along = Vec.to a b
+          square = Vec.dot along along + rise * rise
+      Arc {sweep = Rad sweep} -> minimumBy (comparing (\t -> abs (t - before))) (turned sweep)
+    turned sweep =
+      let once = Segment.fraction (path r) p
+          period = 2 * pi / abs sweep
+       in [once - period, once, once + period]
+    (Mm low, Mm high) = between r
+    rise = high - low
+
+-- | Height of a move at a fraction of its length.
+heightAt :: RequiredMove -> Double -> Mm
+heightAt r t = plus low (times t (minus high low))
+  where
+    (low, high) = between r
+
+-- | Length of a move in space.
+lengthOf :: RequiredMove -> Mm
+lengthOf r = Mm (sqrt (l * l + h * h))
+  where
+    Mm l = Segment.length (path r)
+    Mm h = uncurry minus (between r)

@@ -1,0 +1,136 @@
+-- | Tapes of parts with several operations: right ones are proven, and damaged ones are not.
+module Verify.MotionMatchSpec (spec) where
+
+import Base.PulseVector (Pulses3 (..))
+import Base.Quantity (Mm (..), Pulses (..))
+import Base.Region (Located (..))
+import Base.Result (Result (..))
+import Base.Result qualified as Result
+import Data.Maybe (fromMaybe)
+import Frame.Frame (Frame, FrameMotion (..), FrameProgram)
+import Frame.Frame qualified as Frame
+import Frame.FromToolpath qualified as FromToolpath
+import Generate.Operations qualified as Operations
+import Generate.WrongTape qualified as WrongTape
+import Geometry.Carrier (Sense)
+import Machine.Machine (Machine, MachineName (..))
+import Machine.Machine qualified as Machine
+import Machines qualified
+import Part.Part (Part)
+import Part.Part qualified as Part
+import System.Environment (lookupEnv)
+import Test.Hspec
+import Test.QuickCheck
+import Text.Read (readMaybe)
+import Toolpath.FromPart qualified as Toolpath
+import Toolpath.Toolpath (Toolpath)
+import Toolpath.Toolpath qualified as Toolpath
+import Verify.FromTape qualified as Verify
+import Verify.Proof qualified as Proof
+
+-- | PARTC_TAPES sets another number of damaged tapes.
+spec :: Spec
+spec = do
+  tapes <- runIO (fromMaybe 2000 . (>>= readMaybe) <$> lookupEnv "PARTC_TAPES")
+  it "parts with several operations are proven on every machine" $
+    withMaxSuccess (max 200 (tapes `div` 10)) $
+      forAllBlind operated $ \Operated {machine, path, program} ->
+        counterexample (show (Machine.name machine)) $
+          map show (Proof.findings (Verify.prove machine path program (own program))) === []
+  it "a tape with damage by more than the proof allows is not proven" $
+    withMaxSuccess tapes $
+      forAllBlind operated $ \o@Operated {machine, path, program} ->
+        forAllBlind (WrongTape.damaged machine (`elem` clearingPasses path) program) $
+          \(damage, frames) ->
+            isWrong o frames
+              ==> tabulate "damage" [damage]
+              $ counterexample (damage <> " on " <> show (Machine.name machine)) $
+                not (Proof.isProven (Verify.prove machine path program frames))
+
+-- | A random part with its tape for a machine.
+data Operated = Operated
+  {part :: Part, machine :: Machine, path :: Toolpath, program :: FrameProgram}
+
+operated :: Gen Operated
+operated = do
+  part <- Operations.part
+  machine <- elements [m | m <- Machines.known, Machine.name m /= MachineName "kontur-2p"]
+  case Toolpath.toToolpath part of
+    Result _ [] (Just path)
+      | Just program <- Result.ifSound (FromToolpath.quantise machine path),
+        length (Frame.plannedFrames program) < 2000 ->
+        pure Operated {part, machine, path, program}
+    _ -> operated
+
+own :: FrameProgram -> [Frame]
+own = map Frame.frame . Frame.plannedFrames
+
+-- | Test that a tape surely differs from its program by more than the proof allows: in its speeds
+-- alone, or in its path. How a pocket is cleared is free.
+isWrong :: Operated -> [Frame] -> Bool
+isWrong o@Operated {machine, path, program} frames
+  | map shape frames == map shape (own program) = frames /= own program
+  | otherwise = away > slack && not (isInPocket path program frames)
+  where
+    shape f = (Frame.increment f, Frame.centre f, senseOf f)
+    senseOf :: Frame -> Maybe Sense
+    senseOf f = case Frame.motion f of
+      Circular sense -> Just sense
+      _ -> Nothing
+    slack = slackOf o
+    Mm zPulse = Machine.resolutionOf machine Machine.Z
+    -- A height may differ by one pulse of the axis z.
+    away =
+      WrongTape.difference
+        machine
+        (slack / (2.1 * zPulse))
+        (Frame.start program)
+        (own program)
+        frames
+
+-- | Distance in mm by which a tape surely differs from what the proof allows. Both tapes may
+-- deviate by the tolerance and one pulse.
+slackOf :: Operated -> Double
+slackOf Operated {part, machine} = 3 * (largest + pulse)
+  where
+    Mm pulse = Machine.planeResolution machine
+    Mm largest =
+      maximum
+        ( Mm 0 :
+            [ uncurry max (Part.deviationLimits (Part.tolerance m))
+              | m <- concatMap millingOf (Part.operations part)
+            ]
+        )
+    millingOf o = case o of
+      Part.Mill (Located _ m) -> [m]
+      Part.Pocket (Located _ p) -> [Part.wall p]
+      _ -> []
+
+-- | Test that a tape differs from its program only in motions that clear a pocket.
+isInPocket :: Toolpath -> FrameProgram -> [Frame] -> Bool
+isInPocket path program frames =
+  all (isClearing . Frame.role) changed && all ((== Pulses 0) . rise) (window frames)
+  where
+    planned = Frame.plannedFrames program
+    same = length (takeWhile id (zipWith (==) (own program) frames))
+    sameEnd =
+      min
+        (min (length planned) (length frames) - same)
+        (length (takeWhile id (zipWith (==) (reverse (own program)) (reverse frames))))
+    window :: [a] -> [a]
+    window fs = take (length fs - same - sameEnd) (drop same fs)
+    -- An insertion belongs to the frame before it.
+    changed = case window planned of
+      [] -> take 1 (drop (same - 1) planned)
+      some -> some
+    rise f = let Pulses3 _ _ z = Frame.increment f in z
+    isClearing role = case role of
+      Frame.Cutting n -> n `elem` clearingPasses path
+      _ -> False
+
+-- | The numbers of the passes that clear pockets.
+clearingPasses :: Toolpath -> [Int]
+clearingPasses path =
+  [n | (n, Toolpath.Clearing {}) <- zip (Toolpath.passNumbers blocks) blocks]
+  where
+    blocks = Toolpath.blocks path
