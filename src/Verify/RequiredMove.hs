@@ -207,7 +207,7 @@ inPocket machine isFlat pocket pass =
     plungeFeed = Part.At (fromMaybe (Part.feed milling) (Part.plunge milling))
     includes m
       | isVertical = isInside && any isBetween clear && hasPace verticalPace
-      | isFlat || isAt level from && isAt level to = isInside
+      | isFlat || isAt level from && isAt level to = isInside && not isRapid
       | otherwise = any (\z -> isAt z from && isAt z to) clear && hasPace Part.Rapid
       where
         s = Control.segment machine m
@@ -216,4 +216,5 @@ inPocket machine isFlat pocket pass =
         isInside = Pocket.contains pocket (Segment.at 0.5 s)
         isBetween z = minus level pulse <= min from to && max from to <= plus z pulse
         verticalPace = if from < to then Part.Rapid else plungeFeed
+        isRapid = hasPace Part.Rapid && not (hasPace (Part.At (Part.feed milling)))
         hasPace pace = isNothing (Feed.atPace machine pace False (Pocket.statement pocket) m)

@@ -6,7 +6,7 @@ module Verify.WrongSide
   )
 where
 
-import Base.Quantity (Mm (..), times)
+import Base.Quantity (Mm (..), minus, plus, times)
 import Data.List (minimumBy)
 import Data.Maybe (listToMaybe, mapMaybe)
 import Data.Ord (comparing)
@@ -21,7 +21,7 @@ import Geometry.Vec qualified as Vec
 import Machine.Machine (Machine)
 import Machine.Machine qualified as Machine
 import Part.Part qualified as Part
-import Verify.Edge (Edge (element, long, shape))
+import Verify.Edge (Edge (element, long, ownAllowance, shape))
 import Verify.MillingJob (MillingJob (..))
 import Verify.MillingJob qualified as MillingJob
 import Verify.MillingJob.Fast qualified as FastContact
@@ -97,9 +97,10 @@ sideOf p s
     foot = Segment.at (Segment.fraction s p) s
     ahead = Segment.directionAt (Segment.fraction s p) s
 
--- | Test that a motion runs against the direction of travel beside every element that the cutter
--- touches at its middle. An arc is tested between each two of its sample points. False if the
--- cutter touches no element, and for a motion so short that rounding decides its direction.
+-- | Test that a motion runs against the direction of travel beside every element that is nearest to
+-- the cutter at the middle of the motion, within the allowed deviation. An arc is tested between
+-- each two of its sample points. False if the cutter touches no element, and for a motion so short
+-- that rounding decides its direction.
 runsBack :: Machine -> MillingJob -> CutterMotion -> Bool
 runsBack machine job m =
   Segment.length (segment m) > times 4 (Machine.planeResolution machine) && any isBack fractions
@@ -108,12 +109,19 @@ runsBack machine job m =
       Straight _ _ -> [0.5]
       Arc {} -> let ks = Motion.samples m in zipWith (\a b -> (a + b) / 2) (0 : ks) ks
     around = MillingJob.edgesInBox job m
-    isBack k = not (null touched) && all (isAgainst job ahead p) touched
+    isBack k = not (null touched) && all (isAgainst job ahead p . snd) nearest
       where
         p = Segment.at k (segment m)
         ahead = Segment.directionAt k (segment m)
-        touched = filter (isTouched p) around
-    isTouched p e = Distance.toPoint p (shape e) <= MillingJob.contactLimit job
+        -- Elements that the cutter touches, each with its distance without its own allowance.
+        touched =
+          [ (minus d (ownAllowance e), e)
+            | e <- around,
+              let d = Distance.toPoint p (shape e),
+              d <= MillingJob.contactLimit job
+          ]
+        least = minimum (map fst touched)
+        nearest = filter ((<= plus least (allowance job)) . fst) touched
 
 -- | Test that the unit direction @ahead@ at the centre @p@ leads against the direction of travel of
 -- an element. A centre beside the element has to move so that the element stays on the other side.

@@ -79,7 +79,9 @@ damages isClearing =
     Damage "a plunge or peck left out" (onSome isPlunge (\_ a _ b -> pure (a <> b))),
     Damage "a linking move left out" (onSome isLink (\_ a _ b -> pure (a <> b))),
     Damage "two motions left out" (onMoving (\_ a _ b -> pure (a <> drop 1 b))),
-    Damage "a motion made, undone and made again" (onMoving doubledBack),
+    Damage
+      "a motion made, undone and made again"
+      (onSome (\_ s -> not (any (isClearing . fst) (passOf s))) doubledBack),
     Damage "two neighbouring motions exchanged" (onMoving exchanged),
     Damage "a run of motions reversed" reversedRun,
     Damage "a height that comes one motion late" (onMoving lateHeight),
@@ -366,7 +368,8 @@ leftOutGroup key stations = case keyed key groups of
 -- discrete Fréchet distance of samples, minus the distance between neighbouring samples. A
 -- difference of height counts by this factor.
 difference :: Machine -> Double -> Pulses3 -> [Frame] -> [Frame] -> Double
-difference machine zFactor begin one other = max 0 (frechet (sampled a) (sampled b) - spacing)
+difference machine zFactor begin one other =
+  max 0 (frechet (sampled a) (sampled b) - spacing * max 1 zFactor)
   where
     ones = Control.run begin one
     others = Control.run begin other

@@ -106,7 +106,8 @@ slackOf Operated {part, machine} = 3 * (largest + pulse)
       Part.Pocket (Located _ p) -> [Part.wall p]
       _ -> []
 
--- | Test that a tape differs from its program only in motions that clear a pocket.
+-- | Test that a tape differs from its program only in level motions of a pass that clears a pocket,
+-- with its approach and its retract.
 isInPocket :: Toolpath -> FrameProgram -> [Frame] -> Bool
 isInPocket path program frames =
   all (isClearing . Frame.role) changed && all ((== Pulses 0) . rise) (window frames)
@@ -124,9 +125,7 @@ isInPocket path program frames =
       [] -> take 1 (drop (same - 1) planned)
       some -> some
     rise f = let Pulses3 _ _ z = Frame.increment f in z
-    isClearing role = case role of
-      Frame.Cutting n -> n `elem` clearingPasses path
-      _ -> False
+    isClearing = maybe False (`elem` clearingPasses path) . Frame.passNumber
 
 -- | The numbers of the passes that clear pockets.
 clearingPasses :: Toolpath -> [Int]
