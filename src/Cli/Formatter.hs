@@ -50,8 +50,8 @@ replaceText reporter checkOnly file name text formatted
     Output.writeFileWhole file (Encoding.encodeUtf8 formatted)
       >>= exitAfterWriting reporter "" name
 
--- | Reports the syntax errors of a program that cannot be formatted. The texts are the file's name
--- in reports and the program. The result is true if there is an error.
+-- | Reports the syntax errors of a program, and returns True if there are any. @name@ is the name
+-- of the file in reports, @text@ the program.
 reportMistakes :: Reporter -> Text -> Text -> IO Bool
 reportMistakes reporter name text =
   Output.showReports reporter name source (map Surface.toReport (errors parsed))

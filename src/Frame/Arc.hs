@@ -100,7 +100,7 @@ asArcs context arc =
     )
 
 -- | True for an arc whose centre fits its field in a frame, measured from the rounded start of the
--- arc and from any point of its circle. Any other arc becomes chords, even if parts of it fit.
+-- arc and from every point of its circle. Any other arc becomes chords, even if parts of it fit.
 -- @centre@ and @r@ are the exact centre and radius in mm. The second argument is the rounded start.
 isCentreFitting :: ArcContext -> Pulses3 -> Point -> Mm -> Bool
 isCentreFitting context (Pulses3 x y _) centre (Mm r) =

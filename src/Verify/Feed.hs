@@ -202,7 +202,8 @@ tooFast machine start frames = case Machine.brakingForm (Machine.braking machine
     motions = Control.run start frames
     a = Machine.deceleration (Machine.braking machine)
     lengths = map (travelOf machine) motions
-    -- Path lengths in mm from the start of the tape to the start of each motion, and to its end.
+    -- Path lengths in mm from the start of the tape to the start of each motion, and last to the
+    -- end of the tape.
     starts = scanl (+) 0 lengths
 
 -- | Step of 'tooFast' for the motion @m@; the steps are done from the end of the tape to its start.
