@@ -36,6 +36,7 @@ import Geometry.Vec qualified as Vec
 import Machine.Machine (Axis (Z), Machine)
 import Machine.Machine qualified as Machine
 import Verify.Feed qualified as Feed
+import Verify.MotionSet qualified as MotionSet
 import Verify.Proof (Finding (MoveMissing, NotAsked))
 import Verify.RequiredMove (MotionGroup (..), RequiredItem (..), RequiredMove (..))
 
@@ -49,8 +50,8 @@ type States = IntMap Double
 
 -- | Findings for the first motion of a tape that matches no item, or else for the first move that
 -- no motion makes. Empty if all motions match and all moves are made. @begin@ is the position
--- before the first frame, in pulses. If
--- @comparesFeeds@ is true, each motion along a single move also needs the speed of the move.
+-- before the first frame, in pulses. If @comparesFeeds@ is true, each motion along a single move
+-- also needs the speed of the move.
 mismatches :: Machine -> Bool -> Pulses3 -> [RequiredItem] -> [Motion] -> [Finding]
 mismatches machine comparesFeeds begin list = go begin (IntMap.singleton 0 0)
   where
@@ -127,17 +128,11 @@ withSkipped machine items at next states =
 isMade :: Machine -> RequiredMove -> Position -> Double -> Bool
 isMade machine r (Position p z) made =
   Vec.distance p (Segment.end (path r)) <= slack r
-    && isSameHeight machine z (snd (between r))
+    && MotionSet.isSameHeight machine z (snd (between r))
     && (times (1 - made) long <= largest || long <= times 2 largest)
   where
     long = lengthOf r
     largest = plus (slack r) (Machine.resolutionOf machine Z)
-
--- | Test that two heights in mm differ by no more than a pulse of the axis z.
-isSameHeight :: Machine -> Mm -> Mm -> Bool
-isSameHeight machine (Mm z) (Mm h) = abs (z - h) <= pulse
-  where
-    Mm pulse = Machine.resolutionOf machine Z
 
 -- | Fraction of a move that is made after the motion @m@, if it was @made@ before. Nothing if the
 -- motion does not run along the move in its direction. A step back by no more than the slack may be
@@ -147,7 +142,7 @@ fractionAfter machine r m made = foldM further made (samplesOf machine m)
   where
     further before at@(Position p z)
       | Vec.distance p (Segment.at t (path r)) <= sideways
-          && isSameHeight machine z (heightAt r t)
+          && MotionSet.isSameHeight machine z (heightAt r t)
           && times (before - t) (lengthOf r) <= slack r =
         Just t
       | otherwise = Nothing
