@@ -150,8 +150,8 @@ wallsOf elements =
 
 -- | Rim of a pocket at a distance from its walls. @contours@ has the elements of the outline and
 -- those of each island. Each segment of the rim comes with the wall to which it runs parallel.
--- Where two walls almost touch, a segment beside one of them may lie outside of the pocket, beyond
--- the other wall; such a segment is left out.
+-- If two walls almost touch, a segment beside one of them may lie outside of the pocket, beyond the
+-- other wall; such a segment is left out.
 rimOf :: Side -> Mm -> BoxTree Edge -> [[Element]] -> [(Element, Segment)]
 rimOf side distance walls contours =
   [ (elements Vector.! i, s)

@@ -57,7 +57,7 @@ type Stretch = NonEmpty (Double, Double)
 --
 -- The ends of the biarcs lie on the curve and have the curve's direction. Where two spans meet with
 -- directions that differ too little for a corner, the end of a biarc has their mean direction.
--- Where no biarc succeeds, a very short line between two points of the curve takes its place. Its
+-- If no biarc succeeds, a very short line between two points of the curve takes its place. Its
 -- step is the share 'Tolerance.finestStep' of the span's parameter interval, and the direction may
 -- change at its ends. For each biarc some dozens of curve points are computed, and a few more for
 -- each span that the biarc passes.
