@@ -313,7 +313,7 @@ exchangedRuns = onMoving $ \_ a s b -> do
 
 -- Groups ------------------------------------------------------------------------------------------
 
--- | What the stations of a group have in common; nothing for a station of no group.
+-- | The key that the stations of a group have in common; nothing for a station of no group.
 type Key = Station -> Maybe (Int, Int)
 
 -- | The pass of a station, from its role.
@@ -347,18 +347,16 @@ exchangedGroups key stations = case keyed key groups of
   _ -> discard
   where
     groups = groupsBy key stations
-repeatedGroup key stations = case keyed key groups of
+repeatedGroup = changedGroup (\g -> g <> g)
+leftOutGroup = changedGroup (const [])
+
+-- | Stations in which one group with a key is changed.
+changedGroup :: ([Station] -> [Station]) -> Key -> [Station] -> Gen [Station]
+changedGroup changed key stations = case keyed key groups of
   [] -> discard
   ks -> do
     i <- elements ks
-    pure (concat [if k == i then g <> g else g | (k, g) <- zip [0 ..] groups])
-  where
-    groups = groupsBy key stations
-leftOutGroup key stations = case keyed key groups of
-  [] -> discard
-  ks -> do
-    i <- elements ks
-    pure (concat [g | (k, g) <- zip [0 ..] groups, k /= i])
+    pure (concat [if k == i then changed g else g | (k, g) <- zip [0 ..] groups])
   where
     groups = groupsBy key stations
 
