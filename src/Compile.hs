@@ -82,7 +82,7 @@ data Analysis = Analysis {mentions :: [Checked.Mention], part :: Part, path :: T
 analyse :: [(Text, Text)] -> LoadedProgram -> Result Report Report Analysis
 analyse values loaded = do
   (checked, part) <- evaluate values loaded
-  -- Evaluated now, so that the checked program is freed before the toolpath is computed.
+  -- @mentions@ is evaluated now. So the checked program is freed before the toolpath is computed.
   mentions <- pure $! Checked.mentions checked
   path <- mapErrors Toolpath.warningReport Toolpath.toReport (Toolpath.toToolpath part)
   pure Analysis {mentions, part, path}
@@ -104,7 +104,7 @@ makeTapes verification path machines = case machines of
 -- | A tape for one machine. Its proof is present if the job asks for verification.
 data Compiled = Compiled
   { machine :: Machine,
-    -- | the toolpath as 'withoutCuts' reduces it; 'prove' does not need the moves that are missing
+    -- | the toolpath without the moves that 'withoutCuts' leaves out, which 'prove' does not need
     toolpath :: Toolpath,
     punched :: Punched,
     proof :: Maybe Proof
@@ -114,7 +114,8 @@ data Compiled = Compiled
 -- reads the tape back and proves it (Control → Verify).
 makeTape :: Verification -> Toolpath -> Machine -> Result Report Report Compiled
 makeTape verification path machine =
-  -- Evaluated now, so that each cutting move is freed as soon as its frames are made.
+  -- @toolpath@ is evaluated before the frames are made. Unevaluated, it would keep all cutting
+  -- moves in memory; now each of them is freed as soon as its frames are made.
   toolpath `seq` do
     punched@Punched {program, tape} <- punch machine path
     let punchedFrames = map Frame.frame (Frame.plannedFrames program)

@@ -1,5 +1,5 @@
--- | Decimal numbers: writing them as text, and parsing them. Zero is written without a minus sign,
--- and numbers of the size of a part's dimensions have no exponent.
+-- | Decimal numbers: writing them as text, and parsing them. Zero is written without a minus sign.
+-- A number with an absolute value below 10¹⁵ is written without an exponent.
 module Base.Decimal
   ( fixed,
     short,
@@ -102,8 +102,8 @@ leading text = case digits 0 text of
          in longer before (Text.drop 1 rest)
 
 -- | The result of 'digits': the number with the digits appended, the count of the appended digits,
--- and the text after them. If the number has more than 'fewDigits' digits, it may have overflowed.
--- It is then not used.
+-- and the text after them. A number of more than 'fewDigits' digits may have overflowed; 'leading'
+-- then does not use it.
 data Digits = Digits Int Int {-# UNPACK #-} Text
 
 -- | Appends the decimal digits at the start of a text to the digits of a number: 12 and the text

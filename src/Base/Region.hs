@@ -62,7 +62,7 @@ offsets (Halves both) =
   (fromIntegral (both `shiftR` half), fromIntegral (both .&. (1 `shiftL` half - 1)))
 {-# INLINE offsets #-}
 
--- | The count of bits that one of a region's two offsets takes: half of a word.
+-- | The count of bits for one of the two offsets in a region: half of a 64-bit word.
 half :: Int
 half = 32
 

@@ -1,8 +1,9 @@
 -- | The built-in functions and constants of the language, with their types.
 --
 -- A function may have several forms. A form is one list of parameters with the type of the result.
--- A call chooses a form by the number, the labels and the types of its arguments. An unknown is a
--- type or a dimension that type inference has yet to find; it has a number.
+-- A call chooses a form by the number, the labels and the types of its arguments. The types of a
+-- form may contain unknowns. An unknown is a type or a dimension that type inference has yet to
+-- find; it is identified by a number.
 module Checked.Builtin
   ( Form (..),
     Parameter (..),
@@ -289,19 +290,22 @@ forms Fresh {dimension = d, anything} builtin = case builtin of
     points = ListOf Type.aPoint
     word t = Text.unwords (drop 1 (Text.words (Type.describe t)))
     sided title t = [Parameter (Word side) title t | side <- [ToLeft, ToRight]]
-    -- The labelled parameters whose arguments choose one of several answers.
+    -- The labelled parameters of a construction that may have several solutions. The argument of
+    -- such a parameter chooses one of them.
     chosen =
       [Parameter (Word Near) "point" Type.aPoint]
         <> sided "line" Line
         <> [Parameter (Word side) "circle" Circle | side <- [ToInside, ToOutside]]
-    -- The parameters for what a circle of a given radius passes through or touches: a point, a line
-    -- or a circle. The label of a line or circle, if it has one, chooses a side of it.
+    -- The possible parameters for one condition on a circle of a given radius. The circle passes
+    -- through the point, or touches the line or the circle that is given. A label chooses the side
+    -- of this line or circle.
     touched =
       [point, line, circle]
         <> sided "line" Line
         <> [Parameter (Word side) "circle" Circle | side <- [ToInside, ToOutside]]
-    -- The forms of a transformation. A call without a value to transform yields the transformation
-    -- itself.
+    -- The forms of a function such as @rotated@. Its first parameter is the value to transform.
+    -- Each item of @extra@ is a possible list of the other parameters. A call without a value to
+    -- transform yields the transformation itself.
     transforming extra =
       concat
         [ Form more Transformation :
@@ -338,8 +342,8 @@ labelled Fresh {dimension, anything} builtin labels =
         (Dimension.substitute anyUnknown dimension)
         (\n -> if n == anyUnknown then anything else Variable n)
 
--- | All forms of each function by the labels of their parameters. 'anyUnknown' represents every
--- unknown in their types.
+-- | The forms of each function, grouped by the labels of their parameters. In the types of the
+-- forms, 'anyUnknown' represents every unknown.
 byLabels :: Lazy.Map Builtin (Map [ArgumentLabel] [Form])
 byLabels =
   Lazy.fromList
@@ -381,8 +385,8 @@ byCount =
 isOverloaded :: Builtin -> Bool
 isOverloaded builtin = not (null (drop 1 (forms unknownTemplate builtin)))
 
--- | The number that represents every unknown in 'byLabels'. Type inference does not use it for an
--- unknown: it numbers them from 0.
+-- | The number that represents every unknown in 'byLabels'. No unknown of type inference has this
+-- number, because inference numbers its unknowns from 0.
 anyUnknown :: Int
 anyUnknown = -1
 

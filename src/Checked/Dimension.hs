@@ -1,5 +1,5 @@
 -- | Dimensions of quantities: products of powers of length, angle, time and unknowns. An unknown is
--- a dimension that type inference has yet to find; it has a number.
+-- a dimension that type inference has yet to find; it is identified by a number.
 --
 -- Dimensions form a free commutative group. Equations between them are solved as linear equations
 -- over the integers (Kennedy, Programming Languages and Dimensions, 1996).
@@ -66,12 +66,13 @@ unknowns (Dimension m) = [n | Unknown n <- Map.keys m]
 isKnown :: Dimension -> Bool
 isKnown = null . unknowns
 
--- | True if a dimension contains unknowns and all its exponents are even. It is then a square,
--- whatever the unknowns are.
+-- | True if a dimension contains unknowns and all its exponents are even. It is then a square for
+-- all values of the unknowns.
 isUnknownSquare :: Dimension -> Bool
 isUnknownSquare d@(Dimension m) = not (isKnown d) && all even (Map.elems m)
 
--- | The result of 'solve', which makes one step towards the solution of an equation.
+-- | The result of 'solve', which makes one step towards the solution of an equation: the equation
+-- holds already, or it has no solution, or an unknown is replaced.
 data UnificationStep
   = Solved
   | Impossible
@@ -82,9 +83,11 @@ data UnificationStep
 -- | Makes one step towards the solution of an equation. The equation says that a dimension is equal
 -- to 'none'. @fresh@ is the number of an unknown that does not occur anywhere yet.
 --
--- The step eliminates the unknown whose exponent has the smallest absolute value. If this exponent
--- does not divide the other exponents, the quotients are rounded down. The unknown @fresh@ then
--- represents the remainders.
+-- The step replaces the unknown whose exponent @e@ has the smallest absolute value. Its value is
+-- the product of the other factors; a factor with the exponent @k@ gets the exponent @-k/e@. If @e@
+-- does not divide every @k@, the quotients @k/e@ are rounded down, and the value has the unknown
+-- @fresh@ as a further factor. The equation for @fresh@ then has the remainders as exponents.
+-- Further steps solve it.
 solve :: Int -> Dimension -> UnificationStep
 solve fresh (Dimension m) = case pivot of
   Nothing -> if Map.null m then Solved else Impossible

@@ -449,8 +449,8 @@ at region code = report Error code (InSource region)
 arguments :: Int -> Text
 arguments n = if n == 1 then "1 argument" else Decimal.whole n <> " arguments"
 
--- | The labels of a report at the other regions that decided its types. A pair contains such a
--- region, and the type that the use of a term decided there.
+-- | The labels of a report on types that do not fit. They are at other regions than the report, at
+-- which the use of a term decided one of these types. A pair contains such a region and the type.
 decidedLabels :: [(Region, Type)] -> [Label]
 decidedLabels elsewhere =
   [Label r (Type.describe t <> ", since it is used as one here") | (r, t) <- elsewhere]

@@ -237,10 +237,10 @@ binary env at op l r
     pure (result, \sol -> Located at (Checked.Binary op (l' sol) (r' sol)))
 
 -- | Decides that an operand of a product or a quotient is a plain number, if it consists of
--- literals without units and the other operand does not. The dimension of the other operand must be
--- known and not that of a plain number: twice an angle is an angle. For a divisor, the dimension of
--- the dividend does not matter. Beside a plain number the literals may have any dimension: @20 * k@
--- can be a length.
+-- literals without units and the other operand does not. A divisor of this kind is always a plain
+-- number. A factor or a dividend is decided only if the other operand has a known dimension and is
+-- not a plain number. So the 2 in @2 * a@ is a plain number if @a@ is an angle. But if @k@ is a
+-- plain number, the 20 in @20 * k@ may have any dimension, for example that of a length.
 plainFactor :: Surface.Operator -> (Surface.Expr, Type) -> (Surface.Expr, Type) -> Infer ()
 plainFactor op (l, lt) (r, rt) = do
   lt' <- Inference.resolved lt
@@ -291,8 +291,8 @@ range env at low high step = do
       \sol -> Located at (Checked.Range (low' sol) (high' sol) (($ sol) <$> step'))
     )
 
--- | Checks the variable and the list of a repetition. The result is the type of the variable, with
--- the list as the term.
+-- | Checks the variable and the list of a repetition. The result is the type of the variable, and
+-- the checked list.
 repetition :: TypingEnvironment -> Located Name -> Surface.Expr -> Infer Typed
 repetition env counter@(Located _ (Name text)) list = do
   when (isBuiltin text) (Inference.mistake (NameTaken (region counter) (value counter)))

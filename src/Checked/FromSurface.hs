@@ -411,7 +411,8 @@ assertion env e within = case (value e, within) of
     (t, l', r') <- compared Surface.Equal l r
     kind <- Inference.resolved t
     -- If the left operand is not a quantity, 'compared' has reported it, unless its type is still
-    -- unknown. The type 'Wrong' then accepts every tolerance, so that no report on it follows.
+    -- unknown. In both cases the tolerance is checked against the type 'Wrong'. This type accepts
+    -- every tolerance, so that there is no report on the tolerance.
     let toleranceType = case kind of
           Type.Quantity _ -> t
           _ -> Type.Wrong

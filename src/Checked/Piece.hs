@@ -115,8 +115,9 @@ typeOfTable columns =
 isExtra :: Column -> Bool
 isExtra = not . isCoordinate . value . heading
 
--- | The columns besides x and y with their dimensions, and the rows, which are in reverse order in
--- @rows@. The cells of a row are put into the order x, y, other columns.
+-- | The columns besides x and y with their dimensions, and the rows in the order of the text. The
+-- argument @rows@ has them in reverse order. The cells of a row are put into the order x, y, other
+-- columns.
 columnsAndRows :: [Column] -> [Row] -> Deferred Columns
 columnsAndRows columns rows sol =
   Columns

@@ -71,8 +71,8 @@ step seen (isInBlock, Located at s) = (seen', misplaced <> missing <> repeated)
     now = [(setting, Nothing) | setting <- needed] <> [(setting, Just at) | Just setting <- [given]]
     seen' = Map.unionWith (<|>) seen (Map.fromList now)
 
--- | Does a statement change the tool? A program may do this several times, although it has only
--- one @tool@ statement.
+-- | Is a statement a @change@, which sets another tool? A program may have several @change@
+-- statements, but only one @tool@ statement.
 isChange :: Surface.Statement_ -> Bool
 isChange s = case s of
   Surface.Change _ _ -> True

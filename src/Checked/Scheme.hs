@@ -1,5 +1,5 @@
 -- | The meanings of names during type inference, and the constraints that it cannot solve yet. An
--- unknown is a type or a dimension that inference has yet to find; it has a number.
+-- unknown is a type or a dimension that inference has yet to find; it is identified by a number.
 module Checked.Scheme
   ( Binding (..),
     Scheme (..),

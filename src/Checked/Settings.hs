@@ -26,8 +26,8 @@ import Surface.Keyword qualified as Keyword
 import Surface.Syntax qualified as Surface
 
 -- | Checks the settings in the block of a statement; @statement@ is the keyword of this statement.
--- Each setting is allowed once. Only @approach@ and @retract@ may be repeated: the stops of all of
--- them are joined in their order.
+-- Each setting is allowed once, except @approach@ and @retract@. The stops of all @approach@
+-- settings are joined in the order of the text, and so are those of all @retract@ settings.
 check :: TypingEnvironment -> Text -> [Surface.Setting] -> Infer (Deferred Settings)
 check env statement written = do
   mapM_ reportRepeated (zip (drop 1 (scanl (flip (:)) [] written)) written)

@@ -143,7 +143,7 @@ type Cipher = Located Cipher_
 -- 6 may name columns of the table; they then vary along the curve.
 data Cipher_
   = -- | cipher 1: the distance at the start and at the end, the bevel, and two points of the curve.
-    -- The distance grows uniformly between these points; without points, along the whole curve
+    -- The distance changes evenly with the arc length; if points are given, only between them
     Growing Expr Expr (Maybe Expr) (Maybe (Expr, Expr))
   | -- | cipher 2: the distance, which is the same along the whole curve, and the bevel
     Constant Expr (Maybe Expr)

@@ -1,5 +1,5 @@
 -- | The types of the part language. An unknown is a type or a dimension that type inference has yet
--- to find; it has a number.
+-- to find; it is identified by a number.
 module Checked.Type
   ( Type (..),
     number,
@@ -146,8 +146,8 @@ plural t = case Text.words (describe t) of
   article : rest | article `elem` ["a", "an"] -> Text.unwords rest <> "s"
   phrase -> Text.unwords phrase
 
--- | True if a type is a quantity whose dimension is a square, whatever its unknowns are. False if
--- the dimension contains no unknowns.
+-- | True if a type is a quantity whose dimension contains unknowns and is a square for all values
+-- of these unknowns. A known dimension gives False, even that of an area.
 isSquare :: Type -> Bool
 isSquare t = case t of
   Quantity d -> Dimension.isUnknownSquare d

@@ -198,8 +198,10 @@ gridRows m =
                 <> replicate (digits (form w) - length (service (form w))) ""
         ]
 
--- | The table of a frame with words. Each row has the address of a word, the quantity that the word
--- contains, its digits, its sign, and the frames in which it occurs.
+-- | The table of a frame with words. The row of a word has its address, the quantity that it
+-- contains, the count of its digits, the form of its sign, and the frames in which it occurs. Other
+-- rows are for fixed symbols, the check digit, and the symbols between words. The last row says how
+-- the words give the motion of an axis.
 wordRows :: Machine -> [[Text]]
 wordRows m =
   ["address", "holds", "digits", "sign", "stands"] :

@@ -74,8 +74,8 @@ clearingsOf path =
 
 -- Passes ------------------------------------------------------------------------------------------
 
--- | The table of one pass along a contour: its nodes, beginning where the cutter enters, with
--- length and time.
+-- | The table of one pass along a contour, one row for each section, beginning where the cutter
+-- enters. The length and the time of the whole pass follow.
 contourTable :: Maybe Machine -> Located Milling -> Pass -> [Move] -> Text
 contourTable machine job pass cut =
   "Contour "
@@ -206,8 +206,8 @@ holeTable drillings =
     | not (null drillings)
   ]
 
--- | The length of all linking moves, the length and the time of the whole toolpath, and the size of
--- the tape. Moves for the drilling of holes count as linking moves.
+-- | The length of all linking moves, the length and the time of the whole toolpath, the count of
+-- frames, and the size of the tape. Moves for the drilling of holes count as linking moves.
 summary :: Maybe (Machine, Punched) -> Toolpath -> Text
 summary punched path =
   Table.columns

@@ -68,8 +68,8 @@ import System.Posix.Files
     setFileMode,
   )
 
--- | The form of reports: excerpts for a person, one line each, one JSON object each, or one SARIF
--- log.
+-- | The form of reports: excerpts for a person, one line for each report, one JSON object for each
+-- report, or one SARIF log of all reports.
 data Format = HumanFormat | ShortFormat | JsonFormat | SarifFormat
   deriving stock (Eq, Show)
 
@@ -160,8 +160,8 @@ showReports Reporter {settings, collected} path source reports = do
       Report.sorted
         (if quiet settings && not (werror settings) then filter Report.isError reports else reports)
 
--- | The greatest count of reports that are shown in 'HumanFormat'. If there are more, a line says
--- how many are left out.
+-- | The greatest count of reports about one file that are shown in 'HumanFormat'. If there are
+-- more, a line says how many are left out.
 mostReports :: Int
 mostReports = 50
 

@@ -18,9 +18,9 @@ import Machine.Machine qualified as Machine
 import Verify.Proof (ContourProof (..), Proof, Witness (..))
 import Verify.Proof qualified as Proof
 
--- | The proof as text. A table has for each contour the largest gouge and the largest excess in mm,
--- the allowed values, and the frames where they occur. Facts about the whole tape and the verdict
--- follow.
+-- | The proof as text. A table has two rows for each contour: one for the largest gouge, one for
+-- the largest excess. A row has this value in mm, the allowed value, and the number of the frame
+-- where the value occurs. Facts about the whole tape and the verdict follow.
 proof :: Machine -> Proof -> Text
 proof machine p =
   Table.columns

@@ -27,10 +27,10 @@ import Toolpath.Toolpath (Toolpath)
 -- material. It has a position in mm, the area in mm², the size of the largest cutter that would
 -- reach the region, and the reason why the cutter of the program does not.
 --
--- The position is the vertex of an inner corner in which the material remains. If the material does
--- not remain in a corner, it is the cutter's centre where the cutter goes no further. The area is
--- empty if the boundary of the region is not known, or if another row has the area of this region.
--- The size is empty for an inner corner, because no round cutter reaches the vertex.
+-- If the material remains in an inner corner, the position is the vertex of the corner. Otherwise
+-- it is the point at which the cutter's centre has to stop. The area is empty if the boundary of
+-- the region is not known, or if another row has the area of this region. The size is empty for an
+-- inner corner, because no round cutter reaches the vertex.
 tables :: Toolpath -> [Text]
 tables path = map table (RestMaterial.ofPath path)
 

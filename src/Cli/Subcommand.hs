@@ -256,7 +256,8 @@ decode reporter target tapeFile =
     printResult reporter (FrameTable.decoded machine read')
 
 -- | Prints a picture of those rows of a tape that are in @range@: their holes and their meaning. If
--- the tape is a text without holes, prints its lines. A range outside of the tape is an error.
+-- the tape is a text without holes, prints its lines. The rows are made again from the frames that
+-- were read. A range outside of the tape is an error.
 drawTape :: Reporter -> Maybe Text -> TapeRows.RowRange -> FilePath -> IO Exit
 drawTape reporter target range tapeFile = withTape reporter target tapeFile $ \machine read' -> do
   let rows = Tape.rows machine 0 read'

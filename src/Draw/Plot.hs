@@ -163,8 +163,8 @@ axisHeads px py right top =
     Svg.text LineStyle.small Centred (Vec.point (px + 2.4) (top + 1)) "y"
   ]
 
--- | Length in mm of the part of which the round coordinates in 'axes' are multiples. On paper this
--- length is 3.2 to 8 mm.
+-- | Step of the round coordinates in 'axes', in mm of the part: these coordinates are multiples of
+-- the step. On paper the step is 3.2 to 8 mm long.
 gridOf :: Page -> Double
 gridOf page = Page.round125 (8 / Page.onPaper page (Mm 1))
 

@@ -174,8 +174,9 @@ millingOf operation = case operation of
   Command _ -> []
 
 -- | Outlines of rest material, in mm of the part. If the boundary of some rest material was not
--- found, its outline is a circle about the cutter's centre at that material. The radius of this
--- circle is a quarter of the cutter centre's distance from the contour in the last pass.
+-- found, a circle is drawn instead. Its centre is the point at which the cutter's centre has to
+-- stop before this material. Its radius is a quarter of the distance between the cutter's centre
+-- and the contour in the last pass.
 restMaterialOf :: Toolpath -> [[Segment]]
 restMaterialOf path = nubOrd (concatMap drawn (RestMaterial.ofPath path))
   where
@@ -238,8 +239,8 @@ cutterBox block = case block of
         (BoundingBox.ofPoints (Segment.start (Toolpath.segment (NonEmpty.head ms))) [])
 
 -- | Converts a contour to paper. @millings@ gives for each point the millings of all contours that
--- begin at this point. The material of the contour lies on the side opposite to the cutter. This
--- side is taken from the contour's first milling in which the cutter runs beside the contour.
+-- begin at this point. The material of the contour lies on the side opposite to the cutter. The
+-- cutter's side is that of the first milling of this contour in which the cutter runs beside it.
 shapeOf :: Page -> Map Point [Milling] -> Part.Contour -> Shape
 shapeOf page millings c =
   Shape

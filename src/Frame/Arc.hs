@@ -3,11 +3,11 @@
 -- A grid point is a position in whole pulses. A step is a line or an arc that becomes one frame.
 -- The ends of an arc are rounded to the nearest grid points. Its centre becomes the grid point
 -- about which the rounded arc deviates least from the exact one. Candidates are the grid points
--- near the exact centre, and those near a second point. This is the nearest point to the exact
--- centre that is equally far from both rounded ends. If these candidates do not suffice, more
--- remote grid points are tried. When no candidate gives frames within the tolerance, the arc is
--- halved. When halving does not help, or the centre does not fit its field, the arc is divided into
--- chords.
+-- near the exact centre, and those near a second point. The second point is equally far from both
+-- rounded ends, and of all such points it is nearest to the exact centre. If these candidates do
+-- not suffice, more remote grid points are tried. When no candidate gives frames within the
+-- tolerance, the arc is halved. When halving does not help, or the centre does not fit its field,
+-- the arc is divided into chords.
 --
 -- Read "Frame.Arc.Context" first. "Frame.Arc.Centre" lists the grid points, "Frame.Arc.Attempt"
 -- chooses among them. "Frame.Arc.Deviation" measures how far the rounded arc is from the exact one.

@@ -81,14 +81,18 @@ divisions machine bounds run
     -- is too large for a line in its place.
     isRemoteBend s =
       isRemote s == Just True && Segment.sagitta s >= times 0.5 (Machine.planeResolution machine)
-    -- True when chords for the whole run may need fewer frames than the first division. Compares a
-    -- lower bound of the number of these chords with an estimate of the number of frames of the
-    -- first division. The curve along a chord lies in a strip whose width is the sum of both
-    -- bounds. The fitted arc lies in a strip that is wider by 'fitTolerance' on each side; this
-    -- width bounds the sagitta. A chord across the joint of two arcs is counted for both arcs.
-    -- Therefore one chord for each arc is subtracted. The estimate has two frames for each fitted
-    -- arc or line. A remote bend becomes chords; for it the estimate has twice the least number of
-    -- chords with a chord error of 0.3 pulses.
+    -- True when chords for the whole run may need fewer frames than the first division: a lower
+    -- bound of the number of these chords is less than an estimated number of frames of the first
+    -- division.
+    --
+    -- The lower bound: the curve along a chord lies in a strip whose width is the sum of the left
+    -- and the right bound. The fitted arc lies in a strip that is wider by 'fitTolerance' on each
+    -- side. Its width @band@ is the largest sagitta that the arc can have along one chord. A chord
+    -- across the joint of two arcs is counted for both arcs. Therefore one chord for each arc is
+    -- subtracted.
+    --
+    -- The estimate: each fitted arc or line needs two frames. But a remote bend becomes chords. It
+    -- needs twice the least number of chords with a chord error of 0.3 pulses.
     mayNeedFewerChords =
       sum (fmap (leastChords band) fitted) - length fitted
         < sum
@@ -105,8 +109,8 @@ divisions machine bounds run
 mostTried :: Int
 mostTried = 1000
 
--- | Least number of chords of a segment with a chord error of at most @sagitta@ mm (y). A chord of
--- an arc of radius r spans at most @2·arccos(1 − y/r)@.
+-- | Least number of chords of a segment with a chord error of at most @sagitta@ mm. A chord of an
+-- arc of radius r spans at most the angle @2·arccos(1 − sagitta/r)@.
 leastChords :: Double -> Segment -> Int
 leastChords sagitta s = case s of
   Straight _ _ -> 1
@@ -115,7 +119,7 @@ leastChords sagitta s = case s of
      in max 1 (ceiling (abs a / (2 * acos (max (-1) (1 - sagitta / r)))))
 
 -- | Arcs and lines from the start of the run to its end, whose distance from the run is at most
--- @tolerance@ mm. The run has at least as many moves as the result has arcs and lines.
+-- @tolerance@ mm. The number of arcs and lines is at most the number of moves of the run.
 arcs :: Mm -> NonEmpty Move -> NonEmpty Segment
 arcs tolerance run =
   case NonEmpty.nonEmpty (filter ((> Mm 0) . Segment.length) (map segment (NonEmpty.toList run))) of

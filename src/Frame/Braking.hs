@@ -105,8 +105,9 @@ data FeedLimit = FeedLimit
     section :: Int
   }
 
--- | Part of a braking section within one move: its length in mm at the end of the move, or 0 for no
--- braking; the feed in mm/s at the end of the section; the number of the section.
+-- | The part of a braking section that lies in one move, at the end of the move. @brakingLength@ is
+-- the length of this part in mm, or 0 if the move does not brake. @to@ is the feed in mm/s at the
+-- end of the section, and @within@ is the number of the section.
 data BrakingEnd = BrakingEnd {brakingLength :: Double, to :: Double, within :: Int}
 
 -- | Instructions with a braking section divided off before every lower feed. At the end of an

@@ -63,21 +63,21 @@ chordTolerance machine job = \run ->
     onCurve = OnCurve (curveBounds machine side job)
 
 -- | Chord error in mm that @tolerance@ allows when the ends of the chords are rounded to whole
--- pulses. Rounding moves an end by up to half the diagonal of a square of one pulse, so this amount
--- is subtracted; the result is at least 0. It is reduced by the share 'Tolerance.equal' for the
--- rounding of doubles.
+-- pulses; at least 0. Rounding moves an end by up to half the diagonal of a square with sides of
+-- one pulse, so this amount is subtracted from @tolerance@. The difference is multiplied by
+-- @1 − 'Tolerance.equal'@, to allow for the rounding of doubles.
 remainder :: Machine -> Mm -> Mm
 remainder machine tolerance =
   times
     (1 - Tolerance.equal)
     (max (Mm 0) (minus tolerance (times (sqrt 0.5) (Machine.planeResolution machine))))
 
--- | Bounds for the chords of a curve. @side@ is the side of the curve on which the cutter moves;
--- Nothing when it is unknown. A chord that lies inside of the material has the curve on the side of
--- the cutter. Therefore the tolerance into the material is the bound on this side. The moves of a
--- curve are approximations themselves, so 'Tolerance.curve' is subtracted from the tolerance. The
--- bound for heights is the smaller one of the bounds to the left and to the right, but at least a
--- pulse.
+-- | Bounds for the chords of a curve of the toolpath. @side@ is the side of the contour on which
+-- the cutter moves; Nothing when the cutter's centre moves on the contour. A chord that lies nearer
+-- to the material than the curve has the curve on this side. Therefore the tolerance towards the
+-- material is the bound on this side. The moves of a curve are approximations themselves, so
+-- 'Tolerance.curve' is subtracted from the tolerance. The bound for heights is the smaller one of
+-- the bounds to the left and to the right, but at least a pulse.
 curveBounds :: Machine -> Maybe Carrier.Side -> Milling -> Chording.Bounds
 curveBounds machine side job =
   Chording.Bounds
@@ -95,9 +95,10 @@ curveBounds machine side job =
       (Part.Band a b, Nothing) -> let d = sideless a b in (less d, less d)
     less d = max (Mm 0) (minus d Tolerance.curve)
 
--- | Allowed chord error of the segment @s@. @leading@ is the cutter's side; Nothing when it is
--- unknown. A band has different tolerances into the material and out of it. The cutter's side
--- decides which of the two is towards the centre of an arc.
+-- | Allowed chord error of the segment @s@. @leading@ is the side of the contour on which the
+-- cutter moves; Nothing when the cutter's centre moves on the contour. A band has a tolerance
+-- towards the material and another one away from it. The cutter's side decides which of the two is
+-- towards the centre of an arc.
 segmentTolerance :: Maybe Carrier.Side -> Milling -> Segment -> ChordTolerance
 segmentTolerance leading job s = case (Part.tolerance job, s) of
   (Part.OnPath d, _) -> Sagitta d
@@ -110,8 +111,8 @@ segmentTolerance leading job s = case (Part.tolerance job, s) of
       | otherwise -> ArcBand a b
     Nothing -> Sagitta (sideless a b)
 
--- | Tolerance in mm where the side of the cutter is unknown. It is the smaller one of a band's two
--- tolerances, or the larger one if the smaller one is 0.
+-- | Tolerance in mm where the cutter's centre moves on the contour, so that the cutter has no side.
+-- It is the smaller one of a band's two tolerances, or the larger one if the smaller one is 0.
 sideless :: Mm -> Mm -> Mm
 sideless a b = if a > Mm 0 && b > Mm 0 then min a b else max a b
 
@@ -160,7 +161,9 @@ chords machine sagitta segment =
 -- | Ends of the chords of the segment @s@ within a band. The band has the width @toward@ (δ₁, in
 -- mm) towards the centre of the arc, and @away@ (δ₂) away from it. The chain of chords begins at
 -- the start of the arc and ends at its end. The corners of the chain lie on the outer edge of the
--- band, @ρ = R + δ₂@, and the chords touch its inner edge: @cos(Δφ/2) = (R − δ₁)/ρ@.
+-- band, a circle of the radius @ρ = R + δ₂@. A chord may reach to the inner edge. So it spans at
+-- most the angle Δφ with @cos(Δφ/2) = (R − δ₁)/ρ@, and at most a quarter turn. But a chord of about
+-- one pulse is always allowed.
 bandChords :: Machine -> Mm -> Mm -> Segment -> [Point]
 bandChords machine toward away s = case s of
   Straight _ b -> [b]

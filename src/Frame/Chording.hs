@@ -3,10 +3,11 @@
 -- the bounds allow, across any number of arcs.
 --
 -- The method is known from polyline simplification as cone intersection (Sklansky and Gonzalez,
--- 1980). The start of a chord is called its viewpoint. A chord has to pass every point of the run
--- within the bounds, so each point leaves a sector of directions for the chord. The chord can be
--- lengthened as long as the intersection of these sectors is not empty. An arc narrows the sector
--- at its end and where its tangent is parallel to an edge of the sector; no points are sampled.
+-- 1980). The start of a chord is called its viewpoint. A chord has to pass every point of its part
+-- of the run within the bounds, so each of these points leaves a sector of directions. The chord
+-- can be lengthened as long as the intersection of these sectors is not empty. An arc narrows the
+-- intersection by the sector of its end, and by the sector of the point at which its tangent is
+-- parallel to an edge of this sector. No points are sampled.
 --
 -- If the bounds on the two sides differ, chords may also meet beside the run, in the middle between
 -- the bounds, where that gives fewer chords. The first and the last end always lie on the run.
@@ -288,8 +289,8 @@ data Sector = Sector
     -- heights within the limits
     leastSlope :: Double,
     mostSlope :: Double,
-    -- | direction of the run at this point, and the least and the largest direction of the run from
-    -- the viewpoint to this point
+    -- | direction of the run at this point, and the least and the largest direction that the run
+    -- has between the viewpoint and this point
     heading :: Double,
     leastHeading :: Double,
     mostHeading :: Double,
@@ -489,9 +490,10 @@ turnLimit limits before move = case segment move of
       | signum s * (heading before + s * (1 - from move) - end) <= Tolerance.equal = 1
       | otherwise = max (from move) (from move + (end - heading before) / s)
 
--- | Directions of lines from the viewpoint, in radians from 'forward'. The furthest point of an arc
--- from such a line is exactly at the allowed distance. It lies to the left of the line in 'onLeft',
--- and to its right in 'onRight'. At this point the arc is parallel to the line.
+-- | Directions of lines from the viewpoint, in radians from 'forward'. The point of an arc that is
+-- furthest from such a line has exactly the allowed distance from it. At this point the arc is
+-- parallel to the line. The point lies to the left of a line in 'onLeft', and to the right of a
+-- line in 'onRight'.
 data Tangents = Tangents {onLeft :: [Double], onRight :: [Double]}
 
 -- | 'Tangents' of a move, as seen from the viewpoint; none for a straight move.

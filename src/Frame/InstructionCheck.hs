@@ -1,7 +1,7 @@
 -- | Checks of instructions before their frames are made: feeds without a code, points out of reach,
--- too many frames, moves in z on a machine that may not move in z. Instructions are checked one by
--- one, in order. An instruction is a run or the words of a command. A run is a sequence of moves
--- along one line, arc or curve.
+-- too many frames, moves in z where it is uncertain whether the machine can move in z. Instructions
+-- are checked one by one, in order. An instruction is a run or the words of a command. A run is a
+-- sequence of moves along one line, arc or curve.
 module Frame.InstructionCheck
   ( InstructionContext,
     contextOf,
@@ -79,7 +79,7 @@ data InstructionFindings = InstructionFindings
     count :: Int,
     -- | error for the run with which the number of frames exceeds 'mostFrames'
     tooMany :: Maybe Error,
-    -- | warning about the first move in z, on a machine that may not move in z
+    -- | warning about the first move in z, if it is uncertain whether the machine can move in z
     uncertainHeight :: Maybe Warning
   }
 
@@ -109,7 +109,8 @@ feedErrors = reverse . withoutCode
 boundErrors :: InstructionFindings -> [Error]
 boundErrors findings = reverse (outOfReach findings) <> maybeToList (tooMany findings)
 
--- | Warning about moves in z on a machine that may not move in z; empty if there are no such moves.
+-- | Warning about moves in z, if it is uncertain whether the machine can move in z; empty if there
+-- are no such moves.
 heightWarnings :: InstructionFindings -> [Warning]
 heightWarnings = maybeToList . uncertainHeight
 

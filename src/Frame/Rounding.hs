@@ -95,9 +95,9 @@ split machine begin ((a, za), (b, zb)) = case Machine.measure (Machine.layout ma
       x : _ -> x
       [] -> [finish]
 
--- | Largest count of parts that 'split' adds to the fewest parts, one at a time, until all parts
--- fit their fields. Rounding makes a part at most one pulse too long. In a field for up to c
--- pulses, the added parts always suffice if the fewest parts number at most @1000·(c − 1)@.
+-- | Largest number of parts that 'split' tries beyond @fewest@. It adds one part at a time, until
+-- all parts fit their fields. Rounding makes a part at most one pulse too long. If a field holds up
+-- to c pulses, and @fewest@ is at most @1000·(c − 1)@, then 1000 additional parts always suffice.
 spareParts :: Int
 spareParts = 1000
 

@@ -57,7 +57,7 @@ import Prelude hiding (length)
 
 -- | A chain of at least one segment, each of which starts where the previous one ends; and a table
 -- of stations in mm. The table contains the stations at which the segments start, then the station
--- of the polyarc's end. It is computed when it is first needed.
+-- of the polyarc's end. The table is computed when it is first needed.
 data MeasuredPolyarc = MeasuredPolyarc {chain :: Vector Segment, table :: ~(Unboxed.Vector Double)}
   deriving stock (Eq, Show)
 
@@ -172,7 +172,7 @@ segmentsBetween p a b =
 -- result is then the point of @a@ that is nearest to @b@.
 --
 -- Two successive crossings less than 0.5 mm apart may be one touch of the curves. The point of @a@
--- midway between the two along @a@ replaces them, if its distance from @b@ is at most twice
+-- midway between these crossings along @a@ replaces them, if its distance from @b@ is at most twice
 -- 'Tolerance.curve'.
 intersections :: NonEmpty Segment -> NonEmpty Segment -> [Point]
 intersections a b = case mergeTouching (crossings a b) of

@@ -1,4 +1,5 @@
--- | The self-intersections of a polyarc of the part: a report for the user names the first one.
+-- | Finds the first self-intersection of a polyarc, such as a contour of the part. A contour that
+-- intersects itself is a mistake of the user, and the report names this point.
 --
 -- Neighbours are two consecutive segments, which join at a common end, their joint. For segments
 -- that are not neighbours, the bounding-box tree of the offset kernel finds the pairs that may
@@ -68,8 +69,9 @@ count = Vector.length . segments
 isClosingPair :: Chain -> Int -> Int -> Bool
 isClosingPair chain i j = ends chain == Closed && i == 0 && j == count chain - 1
 
--- | The indices of neighbouring segments that may meet elsewhere than at their joint. A quick test
--- excludes most pairs that meet only there, so that the slower 'crossingsOf' need not examine them.
+-- | The pairs of indices of neighbouring segments that may meet elsewhere than at their joint. A
+-- quick test excludes most pairs that meet only at their joint. So the slower 'crossingsOf' need
+-- not examine these pairs.
 neighbours :: Chain -> [(Int, Int)]
 neighbours chain = go 0
   where

@@ -66,8 +66,8 @@ negligibleShare = 1e-9
 smoothAngle :: Rad
 smoothAngle = Rad 1e-7
 
--- | The largest sine of the angle between lines that count as parallel. A vector of at most this
--- length counts as having no direction.
+-- | The largest sine of the angle between lines that count as parallel. Also the largest length, in
+-- the unit of the vector, of a vector that counts as having no direction.
 parallel :: Double
 parallel = 1e-12
 
@@ -125,8 +125,8 @@ oneArc = Rad 1e-9
 halfTurn :: Rad
 halfTurn = Rad (pi + 1e-9)
 
--- | The share of a tolerance that is reserved where a deviation is measured at sample points, since
--- it may be larger between them.
+-- | The share of a tolerance that is reserved where a deviation is measured at sample points. The
+-- deviation may be larger between these points.
 deviationShare :: Double
 deviationShare = 0.02
 

@@ -167,8 +167,8 @@ leaving session = case phase session of
   Waiting -> Abrupt
   Running _ -> Abrupt
 
--- | Handles an event in whose handling an exception was raised; @why@ is its text. A request is
--- refused. For any other message of the client, the editor's log gets @why@. For 'Due', each
+-- | Handles an event if its ordinary handling has raised an exception. The text of the exception is
+-- @why@. A request is refused. For any other message, the editor's log gets @why@. For 'Due', each
 -- document whose diagnostics were due gets one diagnostic with @why@ instead.
 failed :: Milliseconds -> Text -> Event -> Session -> (Session, [Effect])
 failed now why event session = case event of

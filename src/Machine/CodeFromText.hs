@@ -3,7 +3,7 @@
 -- A row is the holes across the tape at one position; a symbol is a character that a row means. A
 -- description gives a row as a pattern of holes: digits 0 and 1, the highest track first. The
 -- parity track makes the number of holes in every row even. In the row of a digit, a hole in the
--- service track is a sign or a mark.
+-- service track has a meaning of its own, such as the sign of a number or a bit of a command.
 module Machine.CodeFromText
   ( code,
     check,
@@ -108,8 +108,8 @@ charOf s = case value (key s) of
       [c] -> Just c
       _ -> Nothing
 
--- | Reports each symbol that an earlier line gives too. The report names it by @title@, such as
--- ‘the weight of’, and the symbol.
+-- | Reports each symbol that an earlier line gives too. The report contains @title@, such as ‘the
+-- weight of’, and after it the symbol.
 repetitions :: Text -> [(Char, Region)] -> [Error]
 repetitions title given =
   [ Twice r (title <> "‘" <> Text.singleton c <> "’") first

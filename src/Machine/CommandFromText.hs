@@ -124,8 +124,8 @@ eventFrom word s = do
   ((), section) <- withBlock [word <> " { set M 8 }"] ("‘" <> word <> "’") noArguments s
   NonEmpty.toList <$> wordsFrom section
 
--- | Reads the lines such as @set M 8@ of a section, which needs at least one. Reports a second
--- number with the same name.
+-- | Reads the lines of a section, such as @set M 8@. Reports a section without such a line, and a
+-- second line with the same name, here @M@.
 wordsFrom :: DescriptionSection -> Result w Error (NonEmpty (Located CommandWord))
 wordsFrom section = do
   found <-

@@ -37,9 +37,10 @@ check machine locatedAxes arcsRegion feedsRegion locatedItems =
   where
     locatedWords = [(r, w) | (r, AWord w) <- locatedItems]
 
--- | Reports the mistakes in one word. The word of an axis or centre needs an axis that the machine
--- has, and a sign. If it has decimals, one unit of the last decimal has to be one pulse. No centre
--- is along z. The codes of a motion word differ, and fit its digits.
+-- | Reports the mistakes in one word. The rules: the word of an axis or of a centre is for an axis
+-- that the machine has, and its number has a sign. If this number has decimals, one unit of the
+-- last decimal is one pulse. No word of a centre is for z. The codes of a motion word differ from
+-- each other, and fit its digits.
 wordFaults :: Machine -> (Region, Word') -> [Error]
 wordFaults machine (r, w) = case content w of
   Along a -> axisFaults a
@@ -110,10 +111,10 @@ data LocatedBit = LocatedBit
     isOptional :: Bool
   }
 
--- | Checks the holes in the service track. Each bit of a command occurs once, in a word that every
--- frame contains. The bits of a command have all numbers from 0 to the highest one. A command with
--- bits has no word of its own. At most one hole is a 'BrakingHole', which makes the machine slow
--- down.
+-- | Checks the holes in the service track. The rules: each bit of a command occurs once, in a word
+-- that every frame contains. The bits of a command have all numbers from 0 to the highest one. A
+-- command with bits has no word of its own. At most one hole is a 'BrakingHole', which makes the
+-- machine slow down.
 bitFaults :: [(Region, Word')] -> [Error]
 bitFaults locatedWords =
   concat

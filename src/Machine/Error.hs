@@ -78,7 +78,7 @@ data HoleFault
     InServiceTrack Int
   | -- | same holes as another symbol: that symbol and its region
     SameHoles Text Region
-  | -- | row to skip that is also this symbol
+  | -- | row that a tape reader skips, although it is the row of this symbol
     SkippedSymbol Text
   | -- | one track for both service and parity
     SharedTrack
@@ -118,13 +118,14 @@ data DecodingFault
 data ServiceFault
   = -- | holes, although the code has no service track
     NoTrack
-  | -- | number of holes that differs from the number of digits: holes, digits
+  | -- | count of holes that differs from the count of digits: these two counts, in this order
     WrongCount Int Int
-  | -- | holes of a number without fixed length
+  | -- | holes beside the digits of a number without fixed length
     AnyLength
-  | -- | meaning of a hole that another hole has too: its name
+  | -- | two holes with the same meaning: the name of the meaning
     SameMeaning Text
-  | -- | bits of a command that are not 0, 1, … up to the highest: the name of the command
+  | -- | gap in the bits of a command, since a bit below the highest one is missing: the name of the
+    -- command
     BitGap Text
   | -- | bits of a command in a word that not every frame contains: the name of the command
     OptionalBits Text

@@ -108,9 +108,9 @@ word hasService e = do
       Located _ (Quoted a) : rest -> (\c -> pure (a, c)) <$> contentFrom rest
       _ -> (\c -> pure ("", c)) <$> contentFrom args
 
--- | Reads the content of a word from the arguments of its line; 'Nothing' if they are no content.
--- The result is @Just Nothing@ for a word with the kind of motion, because the codes of the motions
--- are in the block of the word.
+-- | Reads the content of a word from the arguments of its line; 'Nothing' if they name no content.
+-- The result is @Just Nothing@ for a word that contains the kind of motion. The codes of the kinds
+-- are in the block of the word, so they are not yet known.
 contentFrom :: [Argument] -> Maybe (Maybe Content)
 contentFrom args = case map value args of
   [Word "frame-number"] -> Just (Just FrameNumber)

@@ -27,7 +27,8 @@ import Machine.Axis (Axis, axisName)
 data Layout = Layout
   { items :: NonEmpty LayoutItem,
     measure :: AxisMeasure,
-    -- | symbols between two words of a frame that follow each other directly
+    -- | symbols between two words of a frame, if no literal symbol and no check digit is between
+    -- them
     separator :: Text
   }
   deriving stock (Eq, Show)
@@ -92,9 +93,9 @@ data NumberForm = NumberForm
     -- | number of digits after the decimal point; 0 if there is no point
     decimals :: Int,
     sign :: Sign,
-    -- | meaning of a hole in the service track beside each digit, from the first digit on; empty
-    -- without a service track, or if the number is not padded. The service track of a tape has
-    -- signs and marks beside the digits
+    -- | for each digit, from the first one on, the meaning of a hole in the service track beside
+    -- it; empty without a service track, or if the number is not padded. The service track is the
+    -- track for such holes
     service :: [Service]
   }
   deriving stock (Eq, Show)
@@ -110,10 +111,10 @@ data Sign
   | -- | plus or minus before every number
     EitherSign
   | -- | One of four digits before the number. The digit gives the sign of the number, and tells the
-    -- leading axis, which is the one with most pulses in the frame, from the others. The digits are
-    -- for: leading and positive, leading and negative, not leading and positive, not leading and
-    -- negative. If several axes have most pulses, the first one in the layout leads. The word of a
-    -- centre always has a digit for leading.
+    -- leading axis, which is the one with most pulses in the frame, from the others. The arguments
+    -- are the digits for: leading and positive, leading and negative, not leading and positive, not
+    -- leading and negative. If several axes have most pulses, the first one in the layout leads.
+    -- The word of a centre always has a digit of the leading axis.
     Priority Int Int Int Int
   deriving stock (Eq, Show)
 

@@ -57,8 +57,8 @@ machineFrom text ss = marked *> machine
     markOfMachine = case heading of
       s : _ -> mark s
       [] -> Nothing
-    -- A machine line that could not be read may have a mark for all values, so no missing mark is
-    -- reported.
+    -- If the line @machine@ could not be read, it may have had a mark for all values. So missing
+    -- marks are not reported then.
     marked =
       Result.failing (if any broken heading then [] else Provenance.unmarked markOfMachine body) ()
     machine =

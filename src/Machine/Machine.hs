@@ -1,10 +1,9 @@
--- | A controller and its tape, as data. No module contains the name of a machine; machines are
--- described in text files.
+-- | A controller and its tape, as data. Machines are described in text files. No module depends on
+-- the name of a machine, except @Sheet.ToSurface@: input sheets are compiled for one of them.
 --
 -- A tape is a sequence of rows; a 'TapeCode' gives the symbol of each row. A frame is a sequence of
--- symbols; a 'Layout' divides it into words, literal symbols and a check digit. One machine has
--- fixed fields on a tape of five tracks, another one words in ASCII; they differ in these data
--- only.
+-- symbols; a 'Layout' divides it into words, literal symbols and a check digit. Machines differ in
+-- these data only: one has fixed fields on a tape of five tracks, another one words in ASCII.
 --
 -- This module defines the record 'Machine' and the queries over it. The types of its parts are
 -- defined in the modules that it re-exports.
@@ -255,9 +254,9 @@ commandDecimals :: Machine -> CommandName -> Int
 commandDecimals machine command =
   maximum (0 : [decimals (form w) | w <- wordsOf machine, content w == Command command])
 
--- | True if a frame can give the command @command@ with the number @v@. In a word or in bits that
--- every frame contains, 0 means that there is no command. Therefore a command with the number 0
--- needs a word of its own, which only frames with this command contain.
+-- | True if a frame can give the command @command@ with the number @v@. Bits, and a word that is
+-- also in frames without the command, are 0 if there is no command. Therefore a command with the
+-- number 0 needs a word of its own, which only frames with this command contain.
 canEncode :: Machine -> CommandName -> Int -> Bool
 canEncode machine command v = case commandCapacity machine command of
   Nothing -> False
@@ -332,7 +331,7 @@ feedRange machine = case codes (feeds machine) of
     vs -> (minimum vs, maximum vs)
 
 -- | Feed code of rapid moves. If the machine has a motion code for rapid moves, their frames do not
--- contain this feed code. Its value is then only their speed.
+-- contain this feed code. It then serves only to find their speed, which is its value.
 rapidCode :: Machine -> FeedCode
 rapidCode machine = case rapidFeed (feeds machine) of
   ByCode c -> c

@@ -162,7 +162,8 @@ formulaOf ts = case ts of
 -- | Parser that returns a value and the remaining tokens.
 type Reader a = [Token] -> Either Error (a, [Token])
 
--- Precedence climbing: sums of products of powers.
+-- Parses a formula by precedence climbing: a sum consists of products, a product of powers, and a
+-- power of factors.
 sums, products, powers, factor :: Reader Formula
 sums ts = products ts >>= uncurry (chain products [("+", Add), ("-", Subtract)])
 products ts = powers ts >>= uncurry (chain powers [("*", Multiply), ("/", Divide)])
@@ -205,8 +206,8 @@ chain next operators a ts = case ts of
     chain next operators (Binary o a b) after
   _ -> Right (a, ts)
 
--- | Parses the mark of provenance at the end of a line, with the text that says where the source
--- prints the value. 'Nothing' if the next token is no mark.
+-- | Parses the mark of provenance at the end of a line. A text may follow the mark; it says where
+-- the source prints the value. 'Nothing' if the next token is no mark.
 markOf :: [Token] -> (Maybe (Located Mark), [Token])
 markOf ts = case ts of
   Located r (Name w) : Located r' (Text s) : rest

@@ -1,7 +1,7 @@
 -- | The provenance of each value of a description: how the value is known. A mark says the
 -- provenance: @sourced@, @corrected@ or @reconstructed@. It is written on the line of a value, on
--- the line that opens a block around the value, or on the line of the machine. The innermost mark
--- is valid.
+-- the line that opens a block around the value, or on the line of the machine. If several marks
+-- apply to a value, the innermost one gives its provenance.
 module Machine.Provenance
   ( describedValues,
     unmarked,
@@ -17,10 +17,10 @@ import Machine.Error (Error (..))
 import Machine.Machine (DescribedValue (..), Provenance)
 import Machine.Syntax
 
--- | Lists the values of a description, one for each line that describes a value and has a
--- provenance. Each value is a sentence: the lines that open the blocks around the line, the line
--- itself, and the text of its mark, which says where the source prints the value. The arguments are
--- the text of the description, the mark of the machine and the statements.
+-- | Lists the values of a description with their provenance, one for each line that describes a
+-- value and has a provenance. Each value is given as a text. The text consists of the lines that
+-- open the blocks around the line, the line itself, and the text of the line's mark. The arguments
+-- are the text of the description, the mark on the line of the machine, and the statements.
 describedValues :: Text -> Maybe (Located Mark) -> [Statement] -> [DescribedValue]
 describedValues text ofMachine = concatMap (valuesIn [] (provenanceOf =<< ofMachine))
   where
@@ -49,9 +49,12 @@ unmarked ofMachine sections = case ofMachine of
       | isJust (mark s) || broken s = []
       | otherwise = [extent s | isDescriptive s] <> concatMap unmarkedLines (inner s)
 
--- | True if the line itself describes a value. A line with a block does not, with three exceptions.
--- They are a word of the frame, because its line says at which position the frame contains it; the
--- number of a command; and a line with a mark.
+-- | True if the line itself describes a value. Every line without a block does. A line with a block
+-- does so in three cases only:
+--
+-- * its key is @word@: its position among the lines gives the position of the word in the frame;
+-- * its key is @set@: it gives the number of a command;
+-- * it has a mark.
 isDescriptive :: Statement -> Bool
 isDescriptive s =
   isNothing (block s) || keyWord s `elem` [Just "word", Just "set"] || isJust (mark s)

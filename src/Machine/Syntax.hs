@@ -59,8 +59,8 @@ data Argument_
 data Mark = Mark Provenance (Maybe Text)
   deriving stock (Eq, Show)
 
--- | Formula in the variable @n@. A constant has its digits as written and its value, because the
--- digits may be a pattern of holes.
+-- | Formula in the variable @n@. A constant consists of its digits as they are written, and of its
+-- value. The digits are needed where they are a pattern of holes, with a 0 or 1 for each track.
 data Formula
   = Constant Text Double
   | Variable

@@ -41,23 +41,24 @@ data Spare
   = -- | The reader counts the blank rows, and skips no rows. The blank rows must be exactly as many
     -- as 'Medium' gives.
     Counted
-  | -- | The reader skips further blank rows. Anywhere on the tape it skips the rows in 'skips'. The
-    -- blank rows must be at least as many as 'Medium' gives. If 'skips' contains the blank row,
-    -- this minimum applies to the leader and the trailer only.
+  | -- | The blank rows must be at least as many as 'Medium' gives. The reader skips any blank rows
+    -- beyond this number. Anywhere on the tape it also skips the rows in 'skips'. If 'skips'
+    -- contains the blank row, the minimum applies to the leader and the trailer only.
     Skipped
   deriving stock (Eq, Show)
 
 -- | Tape code: the row of holes for each symbol.
 data TapeCode = TapeCode
   { codeName :: Text,
-    -- | holes of each symbol, without the hole in the parity track. A digit, sign or point has no
-    -- hole in the service track here. No two symbols have the same holes.
+    -- | holes of each symbol, without the hole in the parity track. The holes of a digit, a sign or
+    -- a point contain none in the service track. No two symbols have the same holes.
     symbols :: Map Char Word8,
     -- | contribution of a symbol to the check sum of a frame; 0 for symbols that are not listed
     weights :: Map Char Int,
     -- | number of the parity track, which makes the number of holes in every row even
     evenTrack :: Maybe Int,
-    -- | number of the track that contains signs and marks beside the digits
+    -- | number of the service track. In the row of a digit, a hole in this track is a sign or a
+    -- mark ('Machine.FrameLayout.Service')
     serviceTrack :: Maybe Int,
     -- | rows that a tape reader skips if 'spare' is 'Skipped'; for example erased rows, which have
     -- a hole in every track

@@ -1,12 +1,12 @@
 -- | Checks that the frames of a layout can be decoded uniquely, symbol by symbol. The items of a
 -- layout are words, literal symbols and check digits. An optional item is a word that some frames
--- lack.
+-- lack. The separator is the text between two words of a frame that follow each other directly.
 --
 -- The reader tries the items of the layout in their order. The conditions on the layout are:
 --
 -- * The code has a row for every symbol.
 -- * Every optional word has an address. No two addresses are equal.
--- * No address and no separator begins like a number.
+-- * No address and no separator begins like a number: with a digit, a sign or a point.
 -- * If one address is a prefix of another, the word with the longer address comes first, and the
 --   rest of the longer address cannot be the number of the other word.
 -- * The address of an optional word is no prefix of a literal symbol, and no literal symbol is a
@@ -150,9 +150,10 @@ commonPrefix literalRegion wordRegion ofWord ofLiteral
     [NotDecodable wordRegion (Prefix ofLiteral ofWord literalRegion)]
   | otherwise = []
 
--- | The address of the word @w@ is the beginning of a longer text, and @rest@ is the remainder of
--- this text. True if a number of @w@ may begin with @rest@, or @rest@ with a number of @w@: then
--- the reader could take the text for @w@. True also if @w@ has no number.
+-- | True if the reader could take the longer address of another word for the word @w@. That address
+-- consists of the address of @w@ and the text @rest@. For a motion code, the result is True
+-- if one of its codes is a prefix of @rest@, or @rest@ a prefix of one of its codes. For any other
+-- word it is True if @rest@ begins like a number, or if @w@ has no number.
 numberMayBegin :: Word' -> Text -> Bool
 numberMayBegin w rest = case content w of
   Motion m -> any (\t -> rest `Text.isPrefixOf` t || t `Text.isPrefixOf` rest) (numbersOf m)
@@ -192,8 +193,8 @@ successors items' =
       i : rest | isOptional (snd (successor i)) -> i : upToFixed rest
       _ -> take 1 is
 
--- | True if the item is a word with a number that has no fixed length. Some words have no number,
--- which is the same as a number without digits.
+-- | True if the item is a word whose number has no fixed length. False for a word without a number,
+-- which has 0 digits.
 hasOpenEnd :: LayoutItem -> Bool
 hasOpenEnd i = case i of
   AWord w -> not (padded (form w)) && digits (form w) > 0

@@ -57,7 +57,7 @@ data Edge = Edge
     times :: Int,
     -- | @tan(sweep/4)@, 0 for a line
     bulge :: Double,
-    -- | the number of the first segment of the polyarcs that runs along the edge in this direction
+    -- | the least number of the segments of the polyarcs that run along the edge in its direction
     segment :: Int
   }
 
@@ -79,9 +79,9 @@ data Arrangement = Arrangement
     proper :: [(Int, Int)]
   }
 
--- | Builds the arrangement of the polyarcs @c@. @boxes@ is the bounding-box tree of their segments,
--- inflated by at least the tolerance (mm). Points whose coordinates differ by at most four
--- tolerances become one node. The result is Nothing when the winding numbers contradict each other.
+-- | Builds the arrangement of the polyarcs @c@. @boxes@ is the tree of their segments' bounding
+-- boxes, each enlarged by at least the tolerance (mm). Points whose coordinates differ by at most
+-- four tolerances become one node. Nothing when the winding numbers contradict each other.
 arrange :: Double -> ClosedPolyarcs -> SegmentBoxTree -> Maybe Arrangement
 arrange tolerance c boxes
   | isConsistent arrangement = Just arrangement
@@ -395,8 +395,8 @@ propagated coordinates es ordered =
     outside = outsideNumber coordinates es (componentsOf es ordered)
 
 -- | The winding number at a node, counting all components except the node's own. @components@ has
--- the component of every node. The result is a function of the node. All calls of this function
--- share one bounding-box tree of the edges.
+-- the component of every node, and the last argument is the node's number. The first three
+-- arguments are applied once, so that all nodes share one bounding-box tree of the edges.
 outsideNumber :: Vector (Double, Double) -> Vector Edge -> IntMap Int -> Int -> Int
 outsideNumber coordinates es components =
   \k ->
@@ -418,8 +418,8 @@ outsideNumber coordinates es components =
     tree = SegmentBoxTree.build 0 edgePolyarcs
 
 -- | Adds to @known@ the winding number on the left of every edge that is connected with the
--- half-edges @todo@. Each of these comes with the winding number on its right as it leaves its
--- node. Known edges are not visited again.
+-- half-edges in @todo@. Each pair in @todo@ is a half-edge and the winding number on its right,
+-- seen in the direction in which it leaves its node. Edges in @known@ are not visited again.
 spread :: Vector Edge -> IntMap (Vector Int) -> IntMap Int -> [(Int, Int)] -> IntMap Int
 spread es ordered known todo = case todo of
   [] -> known

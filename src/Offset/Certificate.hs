@@ -25,7 +25,7 @@ import Offset.Loop qualified as Loop
 
 -- | The distances that the cutter's centre has to keep from the source. All are in mm.
 data Clearance = Clearance
-  { -- | error by which a distance may be too small
+  { -- | rounding error that each comparison of distances allows
     slack :: Double,
     -- | distance required from every segment of the source; no result of 'distance' is smaller
     leastDistance :: Double,

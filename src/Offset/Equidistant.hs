@@ -124,9 +124,9 @@ pointed source = concatMap along [0 .. elementCount source - 1]
     cutsAfter i =
       SourceOffset.cutsAt source i (movedElement source i) (movedElement source (next source i))
 
--- | The path without segments of length 0, and with exact joints. A cutter that just fits into an
--- arc does not move there, so the segment is left out. Beside a contour of such arcs alone the path
--- is one segment of length 0.
+-- | The path without segments of length 0. Each segment of the result begins exactly where the one
+-- before it ends. A cutter that just fits into an arc does not move there, so the segment is left
+-- out. Beside a contour that consists of such arcs only, the path is one segment of length 0.
 connected :: OffsetSource -> [OffsetSegment] -> NonEmpty OffsetSegment
 connected source =
   maybe
@@ -210,9 +210,9 @@ sharpened source =
       _ -> p :| []
 
 -- | The results of 'reachable', but the cutter also enters slots exactly as wide as itself. In such
--- a slot its centre can only move along a line, and the kernel finds no region. When the paths in
--- such slots are longer than 'Tolerance.ignoredSlot', the results are those of a cutter whose
--- radius is smaller by 'Tolerance.clearance'.
+-- a slot its centre can only move along a line, and the kernel finds no region. A cutter whose
+-- radius is smaller by 'Tolerance.clearance' can enter them. When its paths are longer in total, by
+-- more than 'Tolerance.ignoredSlot', the results are those of this smaller cutter.
 reachableFitting :: CornerStyle -> Side -> Mm -> Polyarc -> ([TrimmedOffset], [UnreachedPart])
 reachableFitting style side radius contour
   | less > Mm 0 && minus (lengthOf smaller) (lengthOf own) > Tolerance.ignoredSlot = smaller
@@ -349,11 +349,11 @@ largestPast source causes =
 -- | A step of the bisection between two radii, as a lazy tree that all causes share, so that each
 -- radius is examined at most once.
 data Halving = Halving
-  { -- | the middle of both radii, in mm
+  { -- | the mean of both radii, in mm
     middling :: Mm,
     -- | the numbers of the causes that do not stop a cutter of the radius 'middling'
     passed :: ~IntSet,
-    -- | the next steps: between the smaller radius and the middle, and between the middle and the
+    -- | the next steps: between the smaller radius and 'middling', and between 'middling' and the
     -- larger radius
     below, above :: ~Halving
   }

@@ -13,9 +13,10 @@
 -- it can have the winding number of the reachable positions. The kernel discards such positions.
 --
 -- When the segments of the raw offset only cross each other between their ends (general position),
--- "Offset.Trimming" finds the region in a single traversal. Where segments touch or coincide,
--- "Offset.Arrangement" first cuts all of them. Every loop must pass the check of
--- "Offset.Certificate" before it is returned; otherwise the kernel answers 'Uncertain'.
+-- "Offset.Trimming" finds the region in a single traversal. If any segments touch or coincide,
+-- "Offset.Arrangement" finds it: it first cuts all segments at the points that they have in common.
+-- Every loop must pass the check of "Offset.Certificate" before it is returned; otherwise the
+-- kernel answers 'Uncertain'.
 module Offset.Kernel
   ( Corners (..),
     OffsetRequest (..),
@@ -272,8 +273,8 @@ regionOf problem wanted (untrimmed, source) sourceBoxes =
         isSound = Certificate.isClear measure source sourceBoxes found
         isCovering = Certificate.coversSource measure source found
 
--- | True for a tiny loop of few segments, which may be an artefact of rounding. @k@ is the number
--- of the loop in @answer@; the tolerance is in mm.
+-- | True for a loop that may be an artefact of rounding: it has at most four segments, and its area
+-- is at most the square of the tolerance (mm). @k@ is the number of the loop in @answer@.
 isArtefact :: Double -> OffsetLoops -> Int -> Bool
 isArtefact tolerance answer k =
   Loop.size answer k <= 4

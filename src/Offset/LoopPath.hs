@@ -342,11 +342,11 @@ jointBetween structure source p run = case (p, origin run) of
         -- end of the first element's offset.
         distance = Vec.distance (from run) (Segment.end (movedElement structure i))
 
--- | The segment of a run, with the coordinates of @source@. The exact segment is the whole offset
--- of the run's origin. @before@ has the lengths to cut off at the joint with the segment before,
--- and @after@ those at the joint with the segment after. If @before@ is Nothing, the result has the
--- start of the exact segment when the run has it too, and else the start of the run. The same is
--- true of @after@ and the end.
+-- | The segment of a run, with the coordinates of @source@. @before@ has the lengths to cut off at
+-- the joint with the segment before, and @after@ those at the joint with the segment after. If
+-- @before@ is Nothing, the result begins where the run begins, with one exception. If this is where
+-- the whole offset of the origin begins in @structure@, the result begins where the whole offset
+-- begins in @source@. The same is true of @after@ and the end.
 exactSegment :: OffsetSource -> OffsetSource -> Maybe Cuts -> Run -> Maybe Cuts -> OffsetSegment
 exactSegment structure source before run after =
   OffsetSegment (origin run) $ case origin run of

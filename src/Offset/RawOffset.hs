@@ -212,10 +212,11 @@ offsetPolyarc
                      && abs (cr * d) * (abs cr + abs (bulge i) + abs (bulge j)) <= tolerance
                ) =
           k (if di == dj then Smooth else Step) 0 0
-        -- The direction reverses here: a cusp. With different distances a cusp that is open towards
-        -- the cutter is an inner corner, because the cutter cannot enter the cusp. With one common
-        -- distance every cusp can be treated as an outer corner: an arc about the tip of an open
-        -- cusp lies in the unreachable region, so trimming removes this arc.
+        -- The direction reverses here: a cusp. If the distances of the segments differ (@uneven@),
+        -- a cusp that is open towards the cutter is an inner corner, because the cutter cannot
+        -- enter the cusp. If all distances are equal, every cusp can be treated as an outer corner:
+        -- an arc about the tip of an open cusp lies in the unreachable region, so trimming removes
+        -- this arc.
         | dt < 0 && abs (cr * d) <= tolerance =
           k
             ( if uneven
@@ -236,9 +237,10 @@ offsetPolyarc
           cr = ax * by - ay * bx
           dt = ax * bx + ay * by
           cut = abs (d * cr / (1 + dt))
-          -- The least length in mm that both lines must have to be cut. With different distances
-          -- the part that is cut off from each line has to lie beside the other line. With one
-          -- common distance the cutter's centre cannot reach any point of that part anyway.
+          -- The least length in mm that each of the two lines must have to be cut. If the distances
+          -- of the segments differ (@uneven@), the part that is cut off from each line has to lie
+          -- beside the other line. If all distances are equal, this is not required, because the
+          -- cutter's centre cannot reach any point of that part.
           needed
             | uneven = max cut (if dt > 0 then abs (d * cr) else abs d)
             | otherwise = cut
@@ -291,8 +293,9 @@ offsetPolyarc
           Smooth -> next k1 endMark
           Step -> put k1 fx fy 0 ClosedPolyarcs.aroundMark i >> next (k1 + 1) 0
           Trimmed -> next k1 0
-          -- With different distances a straight line could run through the material to the
-          -- material's opposite side. Two lines through the vertex cannot.
+          -- If the distances of the segments differ, a straight line from segment to segment could
+          -- cross the material and come out on its other side. Two lines that meet at the vertex
+          -- cannot.
           Over
             | uneven ->
               put k1 fx fy 0 ClosedPolyarcs.connectingMark i

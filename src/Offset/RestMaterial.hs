@@ -78,7 +78,7 @@ restMaterials side contour paths gaps =
         | (k, g) <- zip [0 ..] gaps,
           let at = centreAt g
       ]
-    -- The material at the gaps where its boundary is one stretch and the cutter's edge at the gap.
+    -- The material at those gaps where one stretch and the cutter's edge at the gap enclose it.
     alone =
       IntMap.fromList
         [ found

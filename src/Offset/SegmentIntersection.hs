@@ -68,7 +68,7 @@ meetsOnlyAtJoint tolerance c i j
 {-# INLINE meetsOnlyAtJoint #-}
 
 -- | True when the chord (@vx@, @vy@) folds back onto the chord (@ux@, @uy@) that precedes it: the
--- end of the shorter one lies on the longer one, within the tolerance (mm).
+-- far end of the shorter chord lies on the longer one, within the tolerance (mm).
 foldsBack :: Double -> Double -> Double -> Double -> Double -> Bool
 foldsBack tolerance ux uy vx vy =
   ux * vx + uy * vy < 0 && cross * cross <= tolerance * tolerance * (if uu > vv then uu else vv)
@@ -416,7 +416,7 @@ arcs !tolerance !c visitor report !i !j
         (\_ ay -> ClosedPolyarcs.gradient c j x0 y0 (\_ by -> ay - by))
     !gg = gx * gx + gy * gy
     !dist = 0.5 * sqrt gg
-    -- If the circles have a small overlap δ, the square of half their chord is about 2·opening·δ.
+    -- If the circles overlap by a small δ, half their common chord squared is about 2·opening·δ.
     !opening = 0.5 * ClosedPolyarcs.diameter c i * ClosedPolyarcs.diameter c j / (2 * dist)
     !g0 = -(ClosedPolyarcs.power c j x0 y0)
     -- (lx, ly) is a point of the radical axis. At the point (lx − s·gy, ly + s·gx) of this axis,

@@ -43,8 +43,8 @@ data SelfIntersections = SelfIntersections
 data SearchResult
   = -- | all intersections
     SearchResult SelfIntersections
-  | -- | not in general position: a segment ends on another one or touches it, or is so near to this
-    -- that rounding hides the difference
+  | -- | not in general position: a segment ends on another one or touches it. This is also the
+    -- result when rounding hides whether a segment does so
     NotGeneral
 
 -- | Finds all self-intersections of the polyarcs @c@. @tolerance@ (mm) covers rounding; the boxes

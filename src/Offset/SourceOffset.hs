@@ -219,9 +219,10 @@ cutsAt source i before after = case cornerAt source i of
   NoCorner -> noCuts
 
 -- | The lengths to cut off the end of one segment and the start of the next one, so that both meet
--- at their intersection. For two lines both lengths are @t@ mm. With an arc they are near @t@.
--- Newton's method replaces the segments by their tangents; its error after three steps is only
--- rounding. Both lengths are @t@ if a step leads off a segment, or to a length of @2·t@ or more.
+-- at their intersection. For two lines both lengths are @t@ mm, the number of the 'Slight' corner.
+-- If a segment is an arc, Newton's method finds the lengths to rounding, in three steps from @t@.
+-- Each step replaces the segments by their tangents. Both lengths are @t@ if a step gives a length
+-- that is not between 0 and @2·t@, or not less than the length of the segment.
 meeting :: Double -> Segment -> Segment -> Cuts
 meeting t before after = case (before, after) of
   (Straight _ _, Straight _ _) -> Cuts t t

@@ -13,8 +13,8 @@ import Base.Quantity (Mm (..))
 
 -- | The amount in mm by which rounding may bring the cutter's centre closer to the part than the
 -- cutter's radius. Two elements that join at an angle of 'Geometry.Tolerance.smoothAngle' have
--- offsets with a gap between them. The amount is larger than this gap for a cutter with a radius of
--- 50 mm, a large one.
+-- offsets with a gap between them, which grows with the radius. The amount is chosen so that it
+-- exceeds this gap for every cutter with a radius of up to 50 mm.
 clearance :: Mm
 clearance = Mm 1e-5
 

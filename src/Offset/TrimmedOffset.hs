@@ -3,10 +3,10 @@
 -- "Offset.Kernel" finds the parts of an offset that can be reached, and "Offset.LoopPath" makes
 -- segments of its loops. This module makes paths of the segments, and decides whether a path leaves
 -- out a part of the contour. A run is one segment of a loop, or several consecutive ones on one
--- arc; each comes from one element or corner of the contour, its origin. A stretch is a longest
--- sequence of consecutive runs on the cutter's side of an open contour. A shrunk element is one
--- that the cutter reaches without moving along it: an arc into which the cutter just fits, or an
--- element of length 0.
+-- arc; each comes from one element or corner of the contour, its origin. A stretch is a sequence of
+-- consecutive runs on the cutter's side of an open contour. The runs before and after a stretch are
+-- not on that side. A shrunk element is one that the cutter reaches without moving along it: an arc
+-- into which the cutter just fits, or an element of length 0.
 --
 -- As in "Offset.LoopPath", @structure@ is the offset that the kernel computed, and @source@ the one
 -- whose coordinates are wanted. The radius of @source@ may be a little larger. The flat contour is

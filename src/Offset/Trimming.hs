@@ -242,10 +242,10 @@ propagate slices@(Slices _ xs begins order) lefts (w, (leftmost, left, rightmost
 
 -- | Joins slices with the winding number @wanted@ on their left into loops. A slice runs from one
 -- occurrence to the next along its polyarc. @lefts@ has the winding number on the left of each
--- slice, in the order of the sorted occurrences at which the slices begin. In it the slices are
--- then marked as visited. @outermost@ has for each polyarc its leftmost point, the winding number
--- on its left there, and perhaps the same for its rightmost point. The result is Nothing when a
--- kept slice leads to a slice with another winding number.
+-- slice, in the order of the sorted occurrences at which the slices begin. The function replaces
+-- the numbers of the slices that it has visited by a mark. @outermost@ has for each polyarc its
+-- leftmost point, the winding number on its left there, and perhaps the same for its rightmost
+-- point. The result is Nothing when a kept slice leads to a slice with another winding number.
 joinSlices ::
   Int ->
   Slices ->

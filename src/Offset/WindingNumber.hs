@@ -31,9 +31,11 @@ at :: ClosedPolyarcs -> SegmentBoxTree -> Double -> Double -> Int
 at c boxes px py =
   SegmentBoxTree.around boxes (-1e300) py px py 0 (\total i -> total + contribution c px py i)
 
--- | The contribution of segment @i@ to the winding number around the point (@px@, @py@). It is the
--- sum of two parts: ±1 when the segment's chord crosses the ray from the point to the left, else 0;
--- and ±1 when the point lies between an arc and its chord, else 0.
+-- | The contribution of segment @i@ to the winding number around the point (@px@, @py@): the sum of
+-- two numbers. The first is for the segment's chord: −1 when it crosses the ray from the point to
+-- the left upwards, 1 when it crosses this ray downwards, else 0. The second is for a point between
+-- an arc and its chord: 1 when the arc is counter-clockwise, −1 when it is clockwise. It is 0 for
+-- every other point, and for a line.
 contribution :: ClosedPolyarcs -> Double -> Double -> Int -> Int
 contribution c px py i = crossed + between
   where

@@ -19,7 +19,8 @@ import Part.Value (Value (..))
 
 -- | Evaluates an assertion and fails with a mistake if it does not hold. @at@ is the region of its
 -- statement. In an equality the two numbers may differ by the tolerance that the program gives.
--- Without a tolerance they may differ by 10⁻⁶, in mm, radians and minutes or as plain numbers.
+-- Without a tolerance they may differ by 10⁻⁶. They are compared in mm, radians and minutes, or as
+-- plain numbers.
 check :: Region -> Environment -> Checked.Assertion -> Eval ()
 check at env assertion = case assertion of
   Checked.Holds e -> do

@@ -131,9 +131,9 @@ circleFunction region builtin arguments = case (builtin, arguments) of
       | r <= 0 = Evaluation.mistake (RadiusNotPositive region (Mm r))
       | otherwise = CircleValue (Circle c (Mm r)) <$ within region r
 
--- | All circles of radius @r@ that touch both figures @a@ and @b@, with the functions that choose
--- one of them. The word @left@, @right@, @inside@ or @outside@ before a figure restricts the side
--- on which the circle touches it.
+-- | All circles of radius @r@ that touch both figures @a@ and @b@. One of them is chosen by the
+-- position of its centre. The word @left@, @right@, @inside@ or @outside@ before a figure restricts
+-- the side on which the circle touches it.
 touchingCircles :: Mm -> Argument -> Argument -> Answers Circle
 touchingCircles r a b =
   Answers

@@ -158,7 +158,7 @@ linkedElements at sense v finish link = case (v, sense) of
        in w `seq` pure [w]
 
 -- | The elements that an open contour gives when it is used as an element of another contour: one
--- for each of its lines, arcs and curves. Links at fixed points, with the region @at@, join these
+-- for each of its lines, arcs and curves. 'Fixed' links, which have the region @at@, join these
 -- elements to one another. @link@ joins the last of them to the next element of the other contour.
 -- @finish@ is that of the whole used contour; 'orElse' combines it with the finish of each element.
 elementsOfContour ::

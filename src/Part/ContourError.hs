@@ -76,7 +76,7 @@ data LinkFault
   | -- | the neighbours meet in these points, and the link does not say which of them it means
     AmbiguousMeeting [Point]
   | -- | the neighbours of a smooth link cross or lie apart, but do not touch: the distance by which
-    -- they miss the touch
+    -- one of them would have to move to touch the other
     NotSmooth Mm
   | -- | the neighbours of a smooth link touch at a corner: the angle between their directions
     Kinked Rad

@@ -154,14 +154,16 @@ transformed s c = curve (tableColumns c) Nothing (Exact.transformed s (exact c))
 
 -- | The bevels along the polyarc of a curve, from their values in radians at the rows of the
 -- curve's table. A pair of the result is a station (the arc length from the start in mm) and the
--- bevel there in radians. The stations rise. They are so close that linear interpolation between
--- them gives the bevels of the exact curve within 'Tolerance.bevel', at the points that are tested.
+-- bevel there in radians. The stations rise. Between two stations the bevel is interpolated
+-- linearly. Bisection makes the stations so close that the interpolated bevel is within
+-- 'Tolerance.bevel' of the bevel of the exact curve. It compares both at two points of each step.
 alongPolyarc :: PartCurve -> Vector Double -> [(Double, Double)]
 alongPolyarc c values = (0, angleAt 0) : concat (zipWith sampled stations (drop 1 stations))
   where
     stations = MeasuredPolyarc.stations (approximation c)
     column = Exact.column (exact c) values
-    -- Scales a station on the polyarc, because the exact curve is a little longer or shorter.
+    -- The bevel at the station @s@ of the polyarc. The station is scaled by the ratio of both
+    -- lengths, because the exact curve is a little longer or shorter than the polyarc.
     angleAt s =
       Exact.columnAt (exact c) column (Exact.parameterAtLength (exact c) (Mm (s * whole / total)))
     Mm whole = Exact.length (exact c)
@@ -175,7 +177,8 @@ alongPolyarc c values = (0, angleAt 0) : concat (zipWith sampled stations (drop 
     point s = (s, angleAt s)
     stride = max 0.1 (total / (8 * fromIntegral (max 1 (Vector.length values))))
     -- Bisects a step, at most 12 times, until linear interpolation is within @slack@ of the bevel
-    -- at two tested points: its middle and its first quarter.
+    -- at two tested points: the middle of the step, and the point a quarter of the step from its
+    -- start.
     halved depth (a, x) (b, y)
       | depth <= 0 || abs (z - (x + y) / 2) <= slack && abs (z' - (3 * x + y) / 4) <= slack =
         [(b, y)]

@@ -170,8 +170,8 @@ ofSections region table points sections = do
 -- that @fault@ names.
 faulty :: Region -> PartTable -> Exact.CurveFault -> Eval a
 faulty region table fault = Evaluation.mistake $ case fault of
-  -- The curve needs @n@ different points. A table with @n@ rows or more has too few of them only if
-  -- the curve is closed: its last row repeats the first one and does not count.
+  -- The curve needs @n@ different points. A table with @n@ rows or more can lack them only if the
+  -- curve is closed. Then the table's last row repeats the first row, and does not count.
   Exact.TooFew n
     | count >= n -> badPoints region table Nothing (FewDifferent (count - 1) n)
     | otherwise -> badPoints region table Nothing (FewPoints count n)
@@ -197,8 +197,8 @@ ordered region table = either (Evaluation.mistake . fact) pure
       Section.TooFewRows n -> badPoints region table Nothing (FewPoints n 2)
       Section.OutOfOrder k -> badPoints region table (rowAt table k) (Unordered k)
 
--- | Returns the result in 'Right'. For a fault in 'Left' it fails with a mistake: the rows of the
--- sections do not cover the table in order.
+-- | Returns the result in 'Right'. For a fault in 'Left' it fails with a mistake: the sections that
+-- the program lists do not cover the rows of the table, one section after the other.
 fitted :: Region -> PartTable -> Either SectionFit.SectionFault a -> Eval a
 fitted region table = either (Evaluation.mistake . fact) pure
   where

@@ -42,16 +42,17 @@ data CurveMistake
   | -- | a bevel of 90° or more, or of −90° or less: the number, from 1, of its row in a table, and
     -- the bevel. There is no number if the bevel is the same in all rows
     SteepBevel Region (Maybe Int) Rad
-  | -- | a cipher 1, by which the distance of the shift changes between two given points: the second
-    -- point does not lie after the first one in the direction of the curve
+  | -- | a cipher 1 whose second point does not lie after its first point in the direction of the
+    -- curve. Between these two points the distance of the shift changes
     GrowthEnds Region
   | -- | an x coordinate of a joggle that does not belong to exactly one point of the piece: this x,
     -- the points that have it, and the least and the greatest x of the piece
     JoggleCoordinate Region Mm [Point] (Mm, Mm)
   | -- | a joggle whose two x coordinates are equal
     JoggleNowhere Region
-  | -- | a joggle whose two ramps are longer than the curve between its ends: its radius, the length
-    -- of the curve there, and the largest radius that fits, or 'Nothing' if no radius fits
+  | -- | a joggle whose two ramps together are longer than the curve between the joggle's ends: the
+    -- joggle's radius, the length of the curve between the ends, and the largest radius that fits.
+    -- The last is 'Nothing' if no radius fits
     JoggleRadius Region Mm Mm (Maybe Mm)
   | -- | a joggle whose radius is too small for its depth: the radius, and the limit it must exceed
     JoggleDepth Region Mm Mm

@@ -1,6 +1,6 @@
 -- | The phrases that all reports on a part share. They name elements and the answers of
--- constructions, round limits, and quote the control stops of the Minsk-22 system. A control stop
--- is a numbered halt of that system at a wrong input.
+-- constructions, and give limits rounded to three decimals. They also quote the control stops of
+-- the Minsk-22 system. A control stop is a numbered halt of that system at a wrong input.
 module Part.ErrorText
   ( at,
     describe,

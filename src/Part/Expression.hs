@@ -125,8 +125,8 @@ call env region arguments (definitionLocals, parameters, body) = do
   let given = Map.fromList (zip (NonEmpty.toList parameters) (NonEmpty.toList vs))
   Evaluation.inCall region (evaluate env {locals = Map.union given definitionLocals} body)
 
--- | The number of a coordinate, in mm. Most coordinates are literals, for which a call of
--- 'evaluate' would be slow.
+-- | The number of a coordinate, in mm. Most coordinates are literals. The number of a literal is
+-- taken directly, because a call of 'evaluate' is slower.
 coordinate :: Environment -> Expr -> Eval Double
 coordinate env x = case x of
   Located at (Number c) -> c <$ Evaluation.spend at 1

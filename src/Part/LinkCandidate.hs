@@ -152,9 +152,9 @@ distanceTo carrier p = case carrier of
 
 -- Smooth transitions
 
--- | The joint of a smooth link, at which the neighbours touch. Circles and curves must have there
--- the direction of their neighbour. Beside a point, 'meet' makes the joint; no directions are
--- compared.
+-- | The joint of a smooth link, at which the neighbours touch. If one of them is a circle or a
+-- curve, both must have the same direction there. If one of them is a point, 'meet' makes the
+-- joint, and no directions are compared.
 smooth :: Neighbours -> Either ContourFault Joint
 smooth j = case shapes j of
   (OnLine l, OnLine m) -> smoothLines j l m
@@ -237,7 +237,8 @@ smoothCircles j (s, Circle c (Mm r)) (t, Circle d (Mm q))
     towards x = Vec.shift (Vec.scale x (Vec.unit (Vec.to c d))) c
 
 -- | The joint of a smooth link at the point @p@. The size of @gap@ is the distance in mm by which
--- the neighbours miss a touch there. Fails if this distance exceeds 'Tolerance.coincident'.
+-- one neighbour would have to move to touch the other. Fails if this distance exceeds
+-- 'Tolerance.coincident'.
 touching :: Neighbours -> Double -> Point -> Either ContourFault Joint
 touching j gap p
   | abs gap <= tolerance = Right (through p)

@@ -104,10 +104,10 @@ withLargest region ends linked fault = case fault of
     Overrun at shape overlap links (largestFillet region ends linked links)
   _ -> fault
 
--- | The largest fillet radius, below the present one, with which the contour has no fault: the hint
--- of a report. @links@ are the regions of the fillets to change. Each of them is first changed
--- alone. If no such change helps, it is changed together with all fillets of the same radius.
--- 'Nothing' if no radius fits.
+-- | The largest fillet radius, below the one that the program gives, with which the contour has no
+-- fault. A report gives it as a hint. @links@ are the regions of the fillets to change. Each of
+-- them is first changed alone. If no such change helps, it is changed together with all fillets of
+-- the same radius. 'Nothing' if no radius fits.
 largestFillet :: Region -> Ends -> NonEmpty LinkedElement -> [Region] -> Maybe Mm
 largestFillet region ends linked links =
   listToMaybe (mapMaybe (uncurry bisected) (map alone given <> map together given))
@@ -494,7 +494,8 @@ marked LinkedElement {elementRegion, carrier, finish, bevel} (Mm from) whole = c
       OnLine _ -> (False, Nothing)
       OnCircle _ _ -> (False, Nothing)
       AtPoint _ -> (False, Nothing)
-    -- Repeats the bevels of a closed curve once, because stations on it may exceed its length.
+    -- The bevels by station. On a closed curve each bevel is repeated at a station larger by the
+    -- curve's length, because the stations of its segments may exceed this length.
     angles =
       Map.fromList (bevel <> [(s + l, a) | Just (Mm l) <- [closedLength], (s, a) <- drop 1 bevel])
     cuts =

@@ -183,7 +183,7 @@ data Operation
   = Mill (Located Milling)
   | Pocket (Located Pocketing)
   | Drill (Located Drilling)
-  | -- | moves without cutting, by their ends in order
+  | -- | moves without cutting, given by their ends in order
     Travel (NonEmpty Stop)
   | Command (Located Command)
   deriving stock (Eq, Show)

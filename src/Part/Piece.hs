@@ -54,8 +54,9 @@ import Part.Parameter qualified as Parameter
 import Part.Value (Value (..))
 import Part.Value qualified as Value
 
--- | Evaluates the rows of a table. Fails if a coordinate is out of reach. Rows of literals do not
--- count as evaluation steps, because the length of the program's text limits their number.
+-- | Evaluates the rows of a table. Fails if the absolute value of a coordinate, in the first two
+-- columns, exceeds 'Tolerance.reach'. The count of evaluation steps is limited, but rows of numbers
+-- take no steps: the length of the text already limits the count of such rows.
 table :: Environment -> Columns -> Eval PartTable
 table env (Columns names written) = do
   parts <- Evaluation.collect (fmap pure . evaluated) written
@@ -91,8 +92,8 @@ piece env base ciphers (Located _ side) joggles = do
 -- Ciphers
 
 -- | Shifts the curve @lower@ to a side by one cipher. @lower@ is the result of the ciphers before
--- this one, and @base@ is the curve before all ciphers. Every row of the table has the same
--- parameter on both curves, so that columns of the table apply to @lower@, too.
+-- this one, and @base@ is the curve before all ciphers. A row of the curve's table has the same
+-- parameter on both curves. So the columns of the table can be used for @lower@, too.
 recalculated ::
   Environment ->
   PartCurve ->
@@ -183,8 +184,8 @@ shiftedBy at side distance lower = do
           Rad a = Vec.signedAngle before after
        in Rad (abs a)
 
--- | The gap between two spans of a curve that should meet at the parameter @u@. If @u@ is 0 or
--- less, the result is the gap between the curve's end and its start.
+-- | The distance between the end of one span of a curve and the start of the next one, at the
+-- parameter @u@. If @u@ is 0 or less, the distance between the curve's end and its start.
 gapAt :: Exact.Curve -> Double -> Mm
 gapAt whole u = Vec.distance before (Exact.pointFrom Exact.After whole (max 0 u))
   where
@@ -196,8 +197,9 @@ gapAt whole u = Vec.distance before (Exact.pointFrom Exact.After whole (max 0 u)
 -- are given by their x coordinates.
 --
 -- Fails if both points are the same, or if an x coordinate does not belong to exactly one point of
--- @lower@. The Minsk-22 system stopped in this case with the code 15074 (Kolsanova). Fails, too, if
--- the radius does not fit. For a radius that was too large, the code was 14174.
+-- @lower@. For a wrong coordinate the Minsk-22 system stopped with the code 15074 (Kolsanova).
+-- Fails, too, if the radius is too small for the depth, or so large that the two ramps do not fit
+-- between the points. For a radius that was too large, the code was 14174.
 joggledBy :: Environment -> Carrier.Side -> Exact.Curve -> Joggle -> Eval Exact.Curve
 joggledBy env side lower (Located at (Joggle from to depth radius)) = do
   a <- parameterAtX env lower from
@@ -238,9 +240,9 @@ joggleMeasure env e = do
   when (x <= 0) (Evaluation.mistake (NotPositive (region e) Parameter.JoggleMeasure x))
   Mm x <$ Value.within (region e) x
 
--- | The largest radius r of a joggle of depth d that fits into the length l, for the hint of a
--- report. The joggle then consists of two ramps of the length √(d·(4r − d)) each, which fill l.
--- 'Nothing' if r would be at most half of the depth.
+-- | The largest radius r with which a joggle of depth d fits into the length l. A report suggests
+-- it. A joggle has two ramps, each √(d·(4r − d)) long. With the largest radius both ramps together
+-- are as long as l. 'Nothing' if r would be at most d/2, which is too small for the depth.
 largestRadius :: Mm -> Mm -> Maybe Mm
 largestRadius depth@(Mm d) (Mm l) = if over r depth > 0.5 then Just r else Nothing
   where
@@ -250,8 +252,8 @@ largestRadius depth@(Mm d) (Mm l) = if over r depth > 0.5 then Just r else Nothi
 
 -- | Evaluates the bevels along an element. A pair of the result is a station (the arc length from
 -- the start of the element, in mm) and the bevel there in radians. If @on@ is a curve, the stations
--- are measured along the lines and arcs that replace @on@. Without @on@, the element is a line or a
--- circle and has one bevel.
+-- are measured along the lines and arcs that replace @on@. If @on@ is 'Nothing', the element is a
+-- line or a circle and has one bevel.
 bevelled :: Environment -> Maybe PartCurve -> Expr -> Eval [(Double, Double)]
 bevelled env on e = case on of
   Nothing -> do

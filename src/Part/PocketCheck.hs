@@ -63,8 +63,9 @@ misplaced outline islands (k, island)
       ]
     encloses n = WindingNumber.encloses (Part.polyarcOf (contour n)) (startOf island)
 
--- | The points in which two contours of the pocket cross or touch. A point comes after the numbers
--- of both contours, the lower number first. Two segments give at most one point.
+-- | The points in which two contours of the pocket cross or touch. Each result consists of the
+-- lower number of the two contours, the higher number, and the point. Each pair of segments gives
+-- at most one point.
 crossings :: [(Int, Named)] -> [(Int, Int, Point)]
 crossings numbered =
   [ (i, j, p)
@@ -88,7 +89,7 @@ boxOf n = foldl BoundingBox.union first others
     first :| others = fmap BoundingBox.ofSegment (Polyarc.segments (Part.polyarcOf (contour n)))
 
 -- | Half of the shorter side of a contour's bounding box. No point inside the contour is further
--- from the contour than this, which limits the number of passes.
+-- from the contour than this. Divided by the stepover, it estimates the largest count of passes.
 halfWidth :: Named -> Mm
 halfWidth n = let BoundingBox.BoundingBox l b r t = boxOf n in Mm (min (r - l) (t - b) / 2)
 

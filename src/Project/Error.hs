@@ -15,8 +15,8 @@ import Data.Text qualified as Text
 import Report.Report (Report (..), ReportPlace (..), report)
 import Report.Report qualified as Report
 
--- | An error of a program as a whole. The region in a constructor is the place where the program
--- names the machine. It is absent if the command line names the machine.
+-- | An error of a program as a whole. The region in a constructor is that of the machine's name in
+-- the program. It is 'Nothing' if the command line names the machine.
 data Error
   = -- | neither the program nor the command line names a machine: the names of the built-in
     -- machines

@@ -93,6 +93,7 @@ fromText path text = runIdentity (load withoutFiles (Text.unpack path) text)
 isInputSheet :: FilePath -> Bool
 isInputSheet = (== ".sheet") . takeExtension
 
--- | Drops the syntax tree to free memory, for callers that need only reports and file names.
+-- | Drops the syntax tree, and the reports of its mistakes, to free memory. All other fields are
+-- kept.
 withoutSurface :: LoadedProgram -> LoadedProgram
 withoutSurface loaded = loaded {surface = Result [] [] Nothing}

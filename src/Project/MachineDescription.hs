@@ -2,7 +2,7 @@
 -- users describe in files.
 --
 -- 'load' reads a description file, by a function that the caller supplies. The functions that find
--- a machine read nothing; they search the loaded files.
+-- a machine read no files. They search the built-in machines and the descriptions already loaded.
 module Project.MachineDescription
   ( Descriptions,
     load,

@@ -26,8 +26,9 @@ import Report.Report (Report)
 import Toolpath.Toolpath (Toolpath)
 import Toolpath.Toolpath qualified as Toolpath
 
--- | The machines with the given @names@, prepared by 'setUpFor'. Without names, the only machine is
--- that of the program's @machine@ statement. Without this statement, the result is an error.
+-- | The machines with the given @names@, prepared by 'setUpFor'. If there are no names, the only
+-- machine is that of the program's @machine@ statement. If there is no such statement either, the
+-- result is an error.
 targets :: Descriptions -> [Text] -> Part -> Toolpath -> Result w Report [Machine]
 targets descriptions names part path =
   Result.mapErrors id Project.toReport $

@@ -2,8 +2,8 @@
 -- shown in the new text.
 --
 -- The changed region of each text lies between the common prefix and the common suffix of both
--- texts. A region before or after the change is mapped; a region that overlaps the change is not.
--- An offset is the number of characters before a position.
+-- texts. It is widened to whole words. A region before or after the change is mapped; a region that
+-- overlaps the change is not. An offset is the number of characters before a position.
 module Query.RegionMap
   ( RegionMap,
     between,
@@ -23,8 +23,8 @@ import Data.Text qualified as Text
 data RegionMap = RegionMap {same :: Int, old :: Int, new :: Int}
   deriving stock (Eq, Show)
 
--- | The map from the old text @before@ to the new text @after@. A word that the change touches
--- counts as changed.
+-- | The map from the old text @before@ to the new text @after@. The change is widened to whole
+-- words, so that no word is mapped in part.
 between :: Text -> Text -> RegionMap
 between before after =
   RegionMap

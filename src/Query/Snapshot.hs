@@ -79,9 +79,10 @@ take check loaded =
 isGood :: Snapshot -> Bool
 isGood = not . any Report.isError . reports
 
--- | The region of a file name in the program's own text, in an import or a table statement. It is
--- the name through which, directly or through further imports, the compiler reads the file with the
--- given region. 'Nothing' if the given region lies in the program itself.
+-- | Maps a region of an imported file or of a table file to the program's own text. The result is
+-- the region of the file name in an import or a table statement of the program. This statement
+-- reads the file that contains the given region, directly or through further imports. 'Nothing' if
+-- the given region lies in the program itself.
 importOf :: Snapshot -> Region -> Maybe Region
 importOf Snapshot {source, imports} = go (length imports)
   where

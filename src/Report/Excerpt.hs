@@ -21,8 +21,8 @@ import Text.DocLayout (realLength)
 data Excerpt = Excerpt
   { -- | position of the region's first character
     place :: Position,
-    -- | text of the line; for a long line, a window (a range of the line's characters) with the
-    -- mark … at each end where characters are left out
+    -- | text of the line; of a long line only a window, which is a range of the line's characters.
+    -- The character … replaces what is left out before or after the window
     shown :: Text,
     -- | terminal column of the mark, from 0
     indent :: Int,
@@ -42,8 +42,8 @@ excerpts :: Source -> [Region] -> [Excerpt]
 excerpts source =
   snd . mapAccumL (\before region -> let e = excerpt source before region in (Just e, e)) Nothing
 
--- | Makes the excerpt of a region. @before@ is the previous excerpt, nothing for the first. A line
--- of more than 'longest' characters is cut to a window around the region.
+-- | Makes the excerpt of a region. @before@ is the previous excerpt; it is 'Nothing' for the first
+-- region. A line of more than 'longest' characters is cut to a window around the region.
 excerpt :: Source -> Maybe Excerpt -> Region -> Excerpt
 excerpt source before region =
   Excerpt

@@ -8,9 +8,10 @@
 -- next point. The mark @-0@ ends the approach, the numbers of each piece, and the points between
 -- two arrays.
 --
--- A piece is a curve through points of the drawing, with a number, its cipher. Each digit of the
--- cipher names a recalculation, which shifts the curve along its normal. After the end mark of a
--- piece come its link to the next piece, and its allowance, the material left on it.
+-- A piece is a curve through points of the drawing. The first number of a piece is its cipher. Each
+-- digit of the cipher names a recalculation, which shifts the curve along its normal. Two words
+-- come after the end mark of a piece: its link to the next piece, and its allowance. The allowance
+-- is the thickness of the material that is left on the piece.
 module Sheet.Error
   ( Error (..),
     NumberPosition (..),
@@ -153,9 +154,9 @@ data LinkNumber = LinkNumber | AllowanceNumber
 -- | The reason why the numbers of a piece do not fit its cipher.
 data PieceMisfit
   = -- | No whole count of points is possible. The first four fields are the counts of numbers that
-    -- the cipher demands: before the points, for each point, after the points for the whole piece,
-    -- and then again for each point. These counts are without the flag of the feed. The last field
-    -- is the count of all numbers of the piece, with the flag.
+    -- the cipher demands, without the flag of the feed: before all points; for each point; after
+    -- all points, for the whole piece; at the end, again for each point. The last field is the
+    -- count of all numbers of the piece, with the flag.
     CountOff Int Int Int Int Int
   | -- | fewer than two points
     PointsFew
@@ -366,7 +367,8 @@ counted position =
     <> address (number position)
     <> "."
 
--- | The sentence on the control stop, by whose @code@ the Minsk-22 system reported the mistake.
+-- | The sentence that gives the control stop: the number @code@ with which the Minsk-22 system
+-- stopped at the mistake.
 stop :: Text -> Text
 stop code = "The Minsk-22 system stopped here with " <> code <> "."
 

@@ -35,7 +35,7 @@ import Sheet.Sheet
 import Sheet.Unsupported (PieceFault (..), Unfit (..), UnsupportedCipher (..))
 import Text.Read (readMaybe)
 
--- | One shift of a curve, with the distance and the bevel that a sheet has for it.
+-- | One shift of a curve, divided into the numbers that a sheet has for it.
 data Shift = Shift
   { -- | the side to which a positive distance shifts: 1 left of the curve's direction, -1 right of
     -- it

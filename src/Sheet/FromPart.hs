@@ -1,7 +1,8 @@
 -- | Conversion of an evaluated part to an input sheet. Every milled contour becomes an array of
--- pieces, and every stop between contours a point. A stop is a point to which a statement moves the
--- tool. A piece is a curve with a cipher, whose digits express the shifts of the curve. The
--- conversion refuses a part that the numbers of a sheet cannot express.
+-- pieces. Every stop before, between and after the contours becomes a point of the sheet. A stop is
+-- a point to which a statement moves the tool. A piece is a curve with a cipher, whose digits
+-- express the shifts of the curve. The conversion refuses a part that the numbers of a sheet cannot
+-- express.
 module Sheet.FromPart
   ( fromPart,
   )
@@ -72,7 +73,8 @@ refused e = Result [] [e] Nothing
 -- or @turn@. @milled@ is the pair of the same region and the milling.
 data Run = Run {stops :: [Part.Stop], keywordRegion :: Region, milled :: (Region, Milling)}
 
--- | The milled contours of a list of operations, and the stops after the last contour.
+-- | The milled contours of a list of operations, and the stops after the last contour. 'Left' if an
+-- operation is neither a milled contour nor a move to stops.
 runsOf :: [Part.Operation] -> Either Unfit ([Run], [Part.Stop])
 runsOf = go []
   where
@@ -139,11 +141,13 @@ sideOf (Located at side) = case side of
   Part.Outside -> refused (NoNumbers at OutsideOfContour)
   Part.Inside -> refused (NoNumbers at InsideOfContour)
 
--- | Diameter in mm, bevel in degrees and height in mm of the tool. @radius@ is the tool's radius at
--- the height where it touches the part. The bevel is the angle between the tool's flank and its
--- axis. The tool is the first cone with literal dimensions in the program, if the cone's bevel is
--- not 0 and its radius at the upper end is @radius@. Otherwise the tool is a cylinder, with bevel
--- and height 0.
+-- | Diameter in mm, bevel in degrees and height in mm of the tool. The bevel is the angle between
+-- the tool's flank and its axis. @radius@ is the tool's radius at the height where it touches the
+-- part.
+--
+-- The tool is the program's first cone with literal dimensions if the cone's bevel is not 0 and its
+-- radius at its height is exactly @radius@. Otherwise the tool is a cylinder, with bevel 0 and
+-- height 0.
 toolOf :: Checked.Program -> Mm -> (Double, Double, Double)
 toolOf written (Mm radius) =
   case [ (d, mu, h)
@@ -208,8 +212,9 @@ pathOf startPoint runs final = do
         (NonEmpty.nonEmpty retracts)
     _ -> refused (NoPath NothingMilled)
 
--- | Refuses stops without a height after the first contour of a swivelling blade. The blade changes
--- its height along a contour, so the height before the contour does not hold after it.
+-- | Refuses every stop without a height after the first contour, if the tool is a swivelling blade.
+-- The blade changes its height along a contour, so the height before the contour does not hold
+-- after it.
 checkHeights :: [Run] -> [Part.Stop] -> Result w Unfit ()
 checkHeights runs final = case runs of
   Run {milled = (_, Part.Milling {Part.gear = Just _})} : others' ->
@@ -271,8 +276,8 @@ paced s = case Part.pace s of
 feedOfRun :: Run -> Result w Unfit Double
 feedOfRun = belowRapid . Part.feed . snd . milled
 
--- | A feed in mm\/min. Refuses 'rapidFeed' and higher feeds, because a sheet takes them for rapid
--- moves.
+-- | A feed in mm\/min. Refuses 'rapidFeed', which means a rapid move on a sheet, and all higher
+-- feeds.
 belowRapid :: Located Feed -> Result w Unfit Double
 belowRapid (Located at (Feed f))
   | f >= rapidFeed = refused (NoFeed at FeedTooHigh)

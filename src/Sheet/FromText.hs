@@ -1,8 +1,9 @@
 -- | Reader of input sheets: makes a sheet from its text.
 --
--- A sheet has the general data, the points of the approach, and arrays of pieces, each with points
--- after it. A piece is a curve with a number, its cipher. Each digit of the cipher names a
--- recalculation, which shifts the curve along its normal. The end mark is the word @-0@.
+-- A sheet has the general data, the points of the approach, and arrays of pieces. After each array
+-- come points to which the tool moves. A piece is a curve with a cipher, which is a number. Each
+-- digit of the cipher names a recalculation, which shifts the curve along its normal. The end mark
+-- is the word @-0@.
 --
 -- The reader reports all words that are neither numbers nor signs nor end marks. If there are none,
 -- it reports only the first mistake, because a number that is missing or written twice shifts the
@@ -153,7 +154,9 @@ generalData = do
     isWhole x = x >= 0 && x < 1e9 && x == fromInteger (round x)
 
 -- | Checks the diameter of a swivelling blade's wheel, and the bevel and the height of a cone. The
--- numbers of another kind of tool must be 0.
+-- diameter and the height must not be negative. If the diameter is not 0, the tool is a blade, so
+-- the bevel and the height must be 0. If the bevel is 0, the tool is no cone, so the height must
+-- be 0.
 checkTool :: Positioned -> Positioned -> Positioned -> Reader ()
 checkTool gear' bevel' height' = do
   check NegativeGear (>= 0) gear'

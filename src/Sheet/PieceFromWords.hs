@@ -1,6 +1,7 @@
--- | The meaning of the words of one piece of an input sheet. A piece is a curve with a number, its
--- cipher. Each digit of the cipher names a recalculation, which shifts the curve along its normal.
--- The digits determine the count and the order of the numbers of the piece:
+-- | The meaning of the words of one piece of an input sheet. A piece is a curve with a cipher,
+-- which is a number. Each digit of the cipher names a recalculation, which shifts the curve along
+-- its normal. The numbers of the piece follow the cipher. The digits determine their count and
+-- order:
 --
 -- * for each digit 1 and each digit 2, a distance;
 -- * for each point, x and y; if there is a digit 4, also the bevel and the height of the flange;

@@ -6,7 +6,7 @@
 -- linked pieces with the points after them.
 --
 -- Numbers have the units of the sheet: mm, degrees and mm\/min. Every number keeps its region in
--- the text, so that reports can point at it. A position of a word on the sheet is counted from 1.
+-- the text, so that reports can point at it. The words of a sheet are numbered from 1.
 module Sheet.Sheet
   ( Sheet (..),
     General (..),
@@ -180,8 +180,8 @@ hasSurface piece = isJust (surface (NonEmpty.head (rows piece)))
 rapidFeed :: Double
 rapidFeed = 9999
 
--- | The largest count of arrays on a sheet. The Minsk-22 system stopped at more with the code
--- 10746.
+-- | The largest count of arrays on a sheet. If there were more, the Minsk-22 system stopped with
+-- the code 10746.
 maxArrays :: Int
 maxArrays = 30
 

@@ -198,8 +198,8 @@ pointOf isFlat' Waypoint {x, y, z}
 
 -- | Converts waypoints to stops, the points of an approach or a retract in a part program. A
 -- waypoint has the feed of the move that starts there, a stop the feed of the move to it. @isFlat'@
--- is the result of 'isFlat'. @working@ is the feed of the pieces, which a stop need not name.
--- @leaving@ is the feed of the move to the first waypoint.
+-- is the result of 'isFlat'. @working@ is the feed of the pieces; a stop with this feed is written
+-- without a feed. @leaving@ is the feed of the move to the first waypoint.
 stops :: Bool -> Number -> Number -> [Waypoint] -> [Stop]
 stops isFlat' working leaving list = case list of
   [] -> []

@@ -22,7 +22,8 @@ import Data.Text (Text)
 import Report.Report (Report (..), ReportCode, ReportPlace (..), Severity (..), report)
 import Sheet.Sheet (maxArrays)
 
--- | The reason why a part cannot become a sheet. The region is that of the program's text at fault.
+-- | The reason why a part cannot become a sheet. The region is the part of the program's text that
+-- is at fault.
 data Unfit
   = -- | A sheet has no numbers for this statement or for one of its settings.
     NoNumbers Region Feature
@@ -37,7 +38,7 @@ data Unfit
   | -- | A sheet has this setting only once, but the contour's value differs from that of the first
     -- contour.
     TwoOfOne Region SharedSetting
-  | -- | The toolpath does not begin or end as that of a sheet does.
+  | -- | A sheet cannot express the toolpath of the program.
     NoPath PathFault
   | -- | The contour at this region is one more than 'maxArrays' allows.
     ManyArrays Region

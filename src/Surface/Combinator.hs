@@ -9,10 +9,10 @@
 -- from them. The fast parser of "Surface.Combinator.Fast" stops at the first mistake.
 --
 -- An enclosure is a part of a program between two brackets. A statement or an item that contains a
--- mistake is called broken. Recovery puts a broken node of the syntax tree in its position and
--- continues after it. The nesting depth of a token is the number of 'nested' parsers around it:
--- one for each bracket, for example, and one for the operand of a minus. The offset of a failure is
--- the index of a token, all other offsets are indices of characters; both count from 0.
+-- mistake is called broken. Recovery replaces it by a broken node of the syntax tree and continues
+-- after it. The nesting depth of a token is the number of 'nested' parsers around it: one for each
+-- pair of brackets, for example, and one for the operand of a minus. The offset of a failure is the
+-- index of a token, all other offsets are indices of characters; both count from 0.
 module Surface.Combinator
   ( Parser,
     Explaining,
@@ -113,8 +113,8 @@ data ParserState = ParserState
     hasGivenUp :: Bool
   }
 
--- | A parsed value, the number of its tokens, and the tokens after them. The nesting depth inside
--- the value exceeds the depth before it by at most two.
+-- | A parsed value, the number of its tokens, and the tokens after them. The value may have at most
+-- two levels of 'nested' parsers, because 'fastPath' relies on this.
 data Consumed a = Consumed a Int [Token]
 
 -- | The operations from which the grammar is built.
@@ -123,7 +123,7 @@ class MonadParsec Problem TokenStream p => Grammar p where
   -- The text describes the expected token in reports.
   token :: Text -> (Token -> Maybe a) -> p a
 
-  -- | Repeats a parser until it fails without consuming a token.
+  -- | Repeats a parser until it fails without consuming a token, and gives all results.
   zeroOrMore :: p a -> p [a]
 
   -- | Runs a parser. If it fails, runs the parser that the function makes from the failure. The
@@ -133,9 +133,9 @@ class MonadParsec Problem TokenStream p => Grammar p where
   -- | The tokens that are not consumed yet.
   remaining :: p [Token]
 
-  -- | Applies a function to the remaining tokens. If it gives a value, this must be the value of
-  -- the given rule. Without a value, or near a limit of tokens or nesting, the rule runs. The
-  -- explaining parser always runs the rule.
+  -- | A faster way to run a rule: applies a function to the remaining tokens. A value of this
+  -- function must be the one that the rule would give. The rule itself runs if there is no value or
+  -- if a limit of tokens or nesting may be exceeded. The explaining parser always runs the rule.
   fastPath :: ([Token] -> Maybe (Consumed Expr)) -> p Expr -> p Expr
 
   -- | Tells if the next token is a word, so that a keyword is possible. The explaining parser
@@ -322,7 +322,7 @@ block what broken one = do
         t : _ | shape t == Symbol "}" -> Parsec.empty
         t : _ | beginsStatement t && not (closesBlock rest) -> Parsec.empty
         _ -> pure ()
-    -- Fails at a statement before the closing brace.
+    -- Fails with 'Misplaced' if a statement begins where an item is expected.
     strayStatement = do
       next <- remaining
       case next of
@@ -408,9 +408,9 @@ maxNesting = 500
 
 -- Recovery
 
--- | Runs the parser @p@. If it fails, records the failure, and gives the tokens that @p@ consumed
--- to @repair@; if there are none, the next token. The parser that @repair@ makes skips further
--- tokens and gives a replacement for the result of @p@.
+-- | Runs the parser @p@. If it fails, records the failure and calls @repair@ with the tokens that
+-- @p@ consumed. If @p@ consumed none, the next token is skipped and given to @repair@. The parser
+-- that @repair@ makes skips further tokens and gives a replacement for the result of @p@.
 recovering :: Grammar p => ([Token] -> p a) -> p a -> p a
 recovering repair p = do
   begin <- Parsec.getOffset
@@ -557,7 +557,7 @@ skipItem open isContinued = do
   where
     isUnfinished t = shape t `elem` map Symbol [",", "(", "[", "{", "=", "+", "-", "*", "/"]
 
--- | Tells if a token begins a statement: a keyword of statements that is the first on its line.
+-- | Tells if a token is one of 'Keyword.statements' and the first token on its line.
 beginsStatement :: Token -> Bool
 beginsStatement t = case shape t of
   Word word -> newLine t && word `elem` Keyword.statements

@@ -40,18 +40,18 @@ data Error
     Reserved Region Text
   | -- | a token after a complete statement on the same line
     Trailing Region Token_ Neighbours
-  | -- | a token in a row of a table that begins no cell
+  | -- | a token that begins no cell, in a row of a table
     NotInRow Region Token_ Neighbours
-  | -- | a token among the headings of a table that begins no heading
+  | -- | a token that begins no heading, among the headings of a table
     NotInHeadings Region Token_ Neighbours
   | -- | a @piece@ statement that does not say on which side of its curve the piece lies; the text
     -- found instead
     NoSide Region FoundText
   | -- | a statement in the braces of another statement: the keyword of the inner one
     Misplaced Region Text
-  | -- | brackets nested deeper than the given limit
+  | -- | brackets nested too deep: the limit
     TooDeep Region Int
-  | -- | a program with more tokens than the given limit
+  | -- | a program with too many tokens: the limit
     TooLong Region Int
   | -- | parentheses with more than three values
     ManyCoordinates Region
@@ -68,9 +68,9 @@ data Error
     ImportCycle Region [Text]
   | -- | an empty table file
     EmptyTable Region
-  | -- | a text in a file that cannot name a column
+  | -- | a heading of a table file that is not the name of a column with an optional unit: its text
     BadHeading Region Text
-  | -- | a text in a file that is not a number
+  | -- | a cell of a table file that is not a number: its text
     BadCell Region Text
   | -- | a row with too many or too few cells in a table file: the row's index from 1, the count of
     -- columns, the count of cells. The flag is true if the row's commas may be decimal commas

@@ -2,10 +2,13 @@
 --
 -- The syntax tree is printed anew and the comments are placed among the printed lines. A comment on
 -- a line of its own stays above the text that it precedes. A trailing comment, which follows other
--- text on its line, stays after that text. Comments inside a text that is now printed on one line
--- go above that line. A trailing comment goes to the end of that line instead, if it is the only
--- comment inside the text and no comment follows on the line. An offset is the index of a character
--- in the source, from 0.
+-- text on its line, stays after that text.
+--
+-- The source may have a text on several lines, with comments between them, that is now printed on
+-- one line. These comments go above the printed line. There is one exception: a single trailing
+-- comment goes to the end of the printed line, if that line has no other trailing comment.
+--
+-- An offset is the index of a character in the source, from 0.
 module Surface.Formatter
   ( format,
     layout,
@@ -203,7 +206,7 @@ data Shares = Shares
     trailing :: Maybe Remark,
     -- | printed between the line and the next one
     below :: [Remark],
-    -- | after the start of the next line in the source: left for the next lines
+    -- | after the start of the next printed line in the source: belong to the later lines
     later :: [Remark]
   }
 
@@ -223,8 +226,9 @@ shareOut (from, finish) next remarks = case (inside, trailingRemark) of
       _ -> (Nothing, after)
 
 -- | The lines of the output for one printed line: the comments above it, then the line itself. In
--- the source the printed line begins at offset @from@. @above@ has the comments that the line
--- before left for this position, its 'below'. @shares@ has the comments after these.
+-- the source the printed line begins at offset @from@. @above@ is the 'below' of the previous
+-- printed line: comments that are printed between the two lines. @shares@ has the comments after
+-- these.
 rowEntries :: Source -> SourceLine -> Int -> [Remark] -> Shares -> [Entry]
 rowEntries source sourceLine from above shares =
   [own {hasGap = hasGap own && isStart} | own <- map (ownLine deep) (above <> early shares)]
@@ -253,8 +257,8 @@ ownLine :: Int -> Remark -> Entry
 ownLine deep r = Entry {hasGap = isApart r, line = Own deep (text r)}
 
 -- | The offsets at which each printed line begins and ends in the source. A line without tokens in
--- the source begins and ends where the line before it ends. A comma at the end of a line does not
--- count, so that a comment before the comma is a trailing one.
+-- the source begins and ends where the line before it ends. A line ends before a comma that is its
+-- last token, so that a comment before this comma is a trailing one.
 extents :: [SourceLine] -> [(Int, Int)]
 extents = go 0
   where

@@ -3,8 +3,8 @@
 -- | The grammar of programs, by recursive descent with one token of lookahead.
 --
 -- A mistake ends the statement, or the item of a block, in which it occurs. Parsing continues at
--- the next one, so that all mistakes are reported at once. The rules serve two parsers. The
--- explaining parser of "Surface.Combinator" reports mistakes. The fast parser of
+-- the next statement or item, so that all mistakes are reported at once. Two parsers use the rules.
+-- The explaining parser of "Surface.Combinator" reports mistakes. The fast parser of
 -- "Surface.Combinator.Fast" only accepts programs without a mistake. Each rule parses the construct
 -- that its comment names.
 module Surface.Grammar

@@ -59,7 +59,7 @@ data ImportedProgram = ImportedProgram
 data Progress = Progress
   { -- | the texts of the files read
     texts :: Source,
-    -- | the identities of the program and of the imported files that are read
+    -- | the identities of the program and of the imported files read so far
     seen :: Set FilePath,
     -- | the mistakes, the newest first
     found :: [Error],
@@ -102,7 +102,8 @@ load reader path text = do
 -- | The file whose statements are being read, and the files through which the program imports it.
 -- An import of a file that is in this chain already is an import cycle.
 data Chain = Chain
-  { -- | the identity and the path of each file, the file being read first, the program last
+  { -- | the identity and the path of each file: the file being read is the first of the list, the
+    -- program the last
     open :: [(FilePath, FilePath)],
     -- | the path of the file being read
     file :: FilePath
@@ -153,8 +154,9 @@ namedPath chain at name = do
   modify' (\p -> p {named = (at, Text.pack path) : named p})
   pure path
 
--- | The definitions of an imported file. If the file is already read, the list is empty. If it
--- cannot be imported, the list has one broken statement, and the error is recorded.
+-- | The definitions of an imported file. The list is empty if another import has already read the
+-- file. If the file cannot be imported, the list has one broken statement, and the error is
+-- recorded.
 importFile :: Monad m => Reader m -> Chain -> ImportedFile -> StateT Progress m [Statement]
 importFile reader chain i
   | Just firstPath <- lookup (importIdentity i) (open chain) =
@@ -244,8 +246,8 @@ isDefinition (Located _ s) = case s of
   Broken (Just "import") _ -> True
   _ -> False
 
--- | A path without @.@, and without @..@ after the name of a folder, so that different spellings of
--- a path become equal.
+-- | Removes from a path each @.@, and each name of a folder together with a @..@ after it. So
+-- different spellings of a path become equal.
 simplified :: FilePath -> FilePath
 simplified path = if null parts then "." else joinPath parts
   where

@@ -122,8 +122,9 @@ fill indent trailing members = case members of
 fits :: Int -> Doc -> Bool
 fits room doc = maybe False (>= 0) (roomAfter doc room)
 
--- | The number of characters, out of @room@, that remain after an unbroken document. If the room is
--- exceeded, the result is negative or 'Nothing'. It is 'Nothing' if a break is forced.
+-- | The number of characters, out of @room@, that remain if the document is printed on one line. If
+-- the document needs more room, the result is negative or 'Nothing'. The result is also 'Nothing'
+-- if the document must be broken.
 roomAfter :: Doc -> Int -> Maybe Int
 roomAfter doc room
   | room < 0 = Nothing

@@ -54,7 +54,7 @@ data Precedence
   | Primary
   deriving stock (Eq, Ord)
 
--- | The document of an expression that is no operand, so that it needs no parentheses.
+-- | The document of an expression that is not an operand of an operator. It needs no parentheses.
 value :: CommentPositions -> Expr -> Doc
 value comments = operand comments Loose
 
@@ -68,7 +68,7 @@ element comments e = if isContinuation (PrettyPrinter.firstText doc) then bracke
       "-" `Text.isPrefixOf` text || Text.takeWhile (\c -> isAlphaNum c || c == '_') text == "by"
 
 -- | Puts commas between documents, each of which is given with its region in the source. A document
--- begins a new line if the source has a comment next to the comma before it.
+-- begins a new line if the source has a comment next to the comma that precedes the document.
 list :: CommentPositions -> NonEmpty (Region, Doc) -> NonEmpty Member
 list comments things = NonEmpty.zipWith piece (NonEmpty.zip before things) commas
   where

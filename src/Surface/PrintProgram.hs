@@ -253,7 +253,7 @@ data Choice a = Choice Expr [a] [a]
 data ChoicePrinter a = ChoicePrinter
   { conditionOf :: Expr -> Doc,
     blockOf :: [a] -> [AlignedLine],
-    -- | the choice in a block that contains this choice and nothing else
+    -- | the choice in a block that contains one choice and nothing else; 'Nothing' for other blocks
     onlyChoice :: [a] -> Maybe (Choice a)
   }
 

@@ -42,9 +42,9 @@ distribute rows tokens = case (rows, tokens) of
         distribute more others
   _ -> []
 
--- | Matches each printed token with a token of the source. The search for a match ends at the first
--- source token that is not optional. A printed token without a match uses up no source tokens, so
--- later printed tokens can still match them.
+-- | Matches each printed token with a token of the source. The search begins after the last matched
+-- token of the source and ends at the first token that is not optional. A printed token without a
+-- match uses up no source tokens, so later printed tokens can still match them.
 match :: [Token] -> [Token_] -> [Maybe Token]
 match source printed = case printed of
   [] -> []

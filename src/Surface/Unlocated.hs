@@ -79,7 +79,7 @@ line (Located _ l) = map (Located nowhere) $ case l of
     ]
   BrokenLine -> [BrokenLine]
 
--- | The literal of a number; a negative one is a negated literal.
+-- | A number as an expression: a literal, or for a negative number a negated literal.
 literal :: Double -> Expr
 literal x
   | x < 0 = Located nowhere (Negate (literal (negate x)))

@@ -128,8 +128,8 @@ wordByWord layout state rows begin = do
 readSteps :: PreparedLayout -> ShortByteString -> Int -> Either RowFault (Reading, Int)
 readSteps layout rows = go False (Layout.steps layout) [] (Reading [] [] False 0 Nothing)
   where
-    -- @done@ has the words so far, the last one first. They are kept apart from @now@, so that
-    -- @now@ is copied only when one of its other fields changes.
+    -- @done@ has the words that have been read so far, the last one first. @now@ has everything
+    -- else. So @now@ is not copied for every word.
     go followsWord todo done !now !k = case skipAbsent layout rows followsWord todo k of
       [] -> Right (now {readWords = reverse done}, k)
       FixedStep cs : more
@@ -160,8 +160,8 @@ readWordOf w n =
     }
 
 -- | True if the frame contains the word @w@ at the row to be read. @begin@ is the index of the row
--- after the address @cs@ of the word, or −1 if the rows are not this address. An optional word
--- without an address is present if a number of its form can begin at row @begin@.
+-- after the address @cs@ of the word, or −1 if the rows to be read are not this address. An
+-- optional word without an address is present if a number of its form can begin at row @begin@.
 isPresent :: PreparedLayout -> ShortByteString -> Word' -> Address -> Int -> Bool
 isPresent layout rows w cs begin =
   begin >= 0
@@ -378,8 +378,8 @@ checkRules layout begin reading f
 -- Comparison with the frame as it would be written ------------------------------------------------
 
 -- | True if the layout is plain ('Layout.isPlain'), and the machine would write the frame @f@ with
--- exactly the words that were read: the same numbers with the same counts of digits. The rows are
--- then equal too, and need no comparison.
+-- exactly the words that were read: the same numbers with the same counts of digits. Then the
+-- machine would also write the rows that were read, so the rows need no comparison.
 hasSameWords :: PreparedLayout -> State -> Reading -> Frame -> Bool
 hasSameWords layout state reading f =
   Layout.isPlain layout && go (Layout.wordsFor layout f) (readWords reading)
@@ -403,12 +403,12 @@ hasSameRows :: PreparedLayout -> State -> ShortByteString -> Int -> Int -> Frame
 hasSameRows layout state rows begin end f =
   runIdentity (FrameWriter.foldRows same layout state f begin) == end
   where
-    -- The index becomes −1 at the first row that differs.
+    -- The index @k@ becomes −1 at the first row that differs, and then stays −1.
     same k h _ _ = pure (if k >= 0 && k < end && Short.index rows k == h then k + 1 else -1)
 
--- | Compares the rows from @begin@ up to @end@, excluded, with the rows that the machine would
--- write, and gives the fault of the first difference. A wrong check digit is reported only if no
--- other row is wrong, because every other wrong row makes the check digit wrong too.
+-- | Compares the rows from @begin@ up to @end@, excluded, with the last argument, the rows that the
+-- machine would write. Gives the fault of the first row that differs. A wrong check digit is
+-- reported only if no other row is wrong, because other wrong rows make the check digit wrong too.
 compareRows :: PreparedLayout -> ShortByteString -> Int -> Int -> [MarkedRow] -> Either RowFault ()
 compareRows layout rows begin end = go begin (Right ())
   where

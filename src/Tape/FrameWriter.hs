@@ -54,7 +54,7 @@ frameRows layout state frame =
 type AddRow m r = r -> Word8 -> Int -> RowKind -> m r
 
 -- | Monadic left fold over the rows of a frame, from the first row to the last. @state@ is the
--- state before the frame; the last argument is the first accumulator.
+-- state before the frame; the last argument is the initial value of the accumulator.
 foldRows ::
   Monad m =>
   AddRow m r ->
@@ -171,8 +171,8 @@ foldDigits add layout frame w n start = case service f of
     f = form w
     count = Layout.digitCount f (abs n)
     -- @track@ describes the service track from the first digit on. @meaningAt@ splits such a
-    -- description: it gives the meaning of a hole at the first digit, and the rest of the track.
-    -- The loop is inlined twice, so that numbers without a service track are fast.
+    -- description: it gives the meaning of a hole at the first digit, and the description from the
+    -- second digit on. Inlining gives numbers without a service track a faster loop of their own.
     digitsFrom meaningAt track = go (count - 1) track (lowestDigits count (abs n)) start
       where
         -- Adds the digits of @left@, from the digit of 10^k down to the last one.

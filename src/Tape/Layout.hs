@@ -160,9 +160,9 @@ fromMachine machine =
     steps = map (stepOf symbols separator) items
     frameWords = Machine.wordsOf machine
     hasCheckDigit = not (null [() | CheckStep _ <- steps])
-    -- True if every word after the last step that gives rows in every frame can occur in a simple
-    -- frame. A reader that follows 'simpleSteps' would not notice another word at the end of a
-    -- frame.
+    -- Looks at the words after the last step that gives rows in every frame. True if all of them
+    -- can occur in a simple frame. A reader that follows 'simpleSteps' would not notice any other
+    -- word at the end of a frame, and would take the frame for complete.
     endsSurely = all isSimpleStep (takeWhile (not . isAlwaysWritten) (reverse steps))
 
 symbolsOf :: Symbols -> Text -> [Symbol]

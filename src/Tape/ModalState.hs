@@ -46,8 +46,8 @@ data State = State
     ordinal :: Int,
     -- | position of the cutter in pulses, along the axes of the part
     position :: Pulses3,
-    -- | axes whose position the tape still has to give: the next frame that moves gives it, changed
-    -- or not. Only tapes with absolute positions use this field.
+    -- | axes whose position the tape still has to give: the next frame that moves gives it, even if
+    -- it is unchanged. Only tapes with absolute positions use this field.
     unwritten :: [Axis],
     -- | last feed code on the tape; 'Nothing' before the first one
     feed :: Maybe FeedCode
@@ -57,8 +57,9 @@ data State = State
 -- | State before the first frame. @changesZ@ is true if some frame of the tape changes the height;
 -- @start@ is the position of the cutter in pulses.
 --
--- On a tape with absolute positions the first frame that moves gives x and y, changed or not. It
--- also gives z if some frame changes the height. Otherwise the operator sets the height by hand.
+-- On a tape with absolute positions the first frame that moves gives x and y, even if they are
+-- unchanged. It also gives z if some frame changes the height. If no frame does, the operator sets
+-- the height by hand.
 initial :: Bool -> Pulses3 -> State
 initial changesZ start =
   State {ordinal = 1, position = start, unwritten = [X, Y] <> [Z | changesZ], feed = Nothing}
@@ -71,8 +72,8 @@ changesHeight = any (\f -> let Pulses3 _ _ z = increment f in z /= 0)
 data Axes = Axes
   { -- | meaning of the axis words: increments or absolute positions
     measure :: AxisMeasure,
-    -- | factor from the part's axes to the machine's: 1 for an axis that has the same direction on
-    -- both, −1 for an axis that is reversed
+    -- | for each axis, the factor from the part's axis to the machine's: 1 if both have the same
+    -- direction, −1 if the machine's axis is reversed
     signs :: Pulses3,
     -- | true if clockwise arcs of the part are counter-clockwise on the machine
     isMirrored :: Bool

@@ -95,8 +95,8 @@ numeral layout c f rows begin = do
           }
   where
     -- A priority digit before the number gives the sign ('Priority'), also that of 0. So a minus
-    -- before 0 is no fault here. The reader of frames later compares the priority digit with that
-    -- of the machine.
+    -- before 0 is no fault here. The reader of frames later compares the priority digit with the
+    -- one that the machine would write.
     refusesMinusZero = case sign f of
       Priority {} -> False
       Unsigned -> True

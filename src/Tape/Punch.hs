@@ -162,7 +162,7 @@ symbolsOf layout = map (Symbol.symbol (Layout.symbols layout)) . Text.unpack
 read :: Machine -> Pulses3 -> Tape -> Either Damage [Frame]
 read machine start (Tape raw) = case firstFrameRow source of
   Left fault -> Left (damage source Nothing fault)
-  -- On a tape of increments no word gives an absolute height, so one reading suffices.
+  -- On a tape of increments no word gives an absolute height, so the tape is read only once.
   Right begin | not (hasPositions source) -> readFrom source start begin False
   -- The first frame that moves has a word for z if any frame of the tape changes the height. The
   -- reader knows this only after it has read all frames, so it reads them twice: with that word
@@ -296,12 +296,11 @@ tapeIndex source at
         Nothing -> max 0 (ByteString.length (raw source) - 1)
         Just d -> if k <= 0 then from + d else go (k - 1 :: Int) (from + d + 1)
 
--- | Index of the row after the leader. The result is a fault if the leader is too short or has
--- holes, or if no row remains for the opening symbols.
+-- | Index in 'kept' of the row after the leader. The result is a fault if the leader is too short
+-- or has holes, or if no row remains for the opening symbols.
 --
--- If blank rows are 'Skipped', blank rows between the leader and the opening symbols are ignored.
--- On a medium without opening symbols, blank rows after the leader are not ignored, because they
--- could be the trailer.
+-- If blank rows are 'Skipped', additional blank rows before the opening symbols are ignored too.
+-- Without opening symbols they are not ignored, because they could be the trailer.
 afterLeader :: Source -> Either RowFault Int
 afterLeader source
   | ByteString.null (kept source)

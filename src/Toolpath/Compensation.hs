@@ -5,13 +5,13 @@
 -- 2.9:
 --
 -- * The first move under compensation is programmed as a straight line. The control moves the
--- centre to the point where the offsets of that line and of the next element intersect. So the
--- programmed line must be tangent to the cutter's circle at the end of the approach. The next
--- element is extended backwards along a straight line, and begins where this meets the programmed
--- line.
+-- centre to the point where the offsets of that line and of the next element intersect. This point
+-- has to be the end of the approach in the toolpath. So the line is programmed tangent to the
+-- cutter's circle about that end. The first element of the edge is extended backwards, along its
+-- tangent at its start, until it meets the programmed line.
 --
 -- * At outer corners the control moves on arcs. It makes the arc at the last corner of a closed
--- contour only when another move follows.
+-- contour only when another move under compensation follows.
 --
 -- * After the end of the contour the control moves straight from the end of the offset to the next
 -- programmed point.
@@ -83,8 +83,9 @@ compensationInput keyword milling side passMoves = case Part.controlCompensation
             }
       )
 
--- | Refuses requests that the edge of the part cannot express: a blade, sharp corners, allowances.
--- @requested@ is the region of the program's request for compensation by the control.
+-- | Refuses a blade, sharp corners, and allowances. The control receives only the edge of the part,
+-- and that edge cannot express them. @requested@ is the region of the program's request for
+-- compensation by the control.
 checkRequest :: Region -> Milling -> Either Error ()
 checkRequest requested milling
   | Just _ <- Part.gear milling = refused Swivelling
@@ -118,10 +119,11 @@ checkElements keyword requested milling side passMoves =
       mapM_
         (\old -> Left (TightForControl keyword requested (fmap element i) old radius))
         (tooTight radius side s)
-    -- A control ignores a very slight corner. If such a corner before an arc of the edge turns away
-    -- from the cutter, the arc of the centre begins too early. It then sweeps more than the arc of
-    -- the edge. The control refuses a difference above 'Tolerance.controlTurn'. Rounding to pulses
-    -- turns the segment before the arc a little, which has the same effect.
+    -- Refuses the arc @b@ if the control would refuse it after the segment @a@. A control ignores a
+    -- very slight corner between them. If this corner turns away from the cutter, the arc of the
+    -- centre begins too early, and sweeps more than @b@. Rounding to pulses turns @a@ a little,
+    -- which has the same effect. The control refuses @b@ if the two sweeps differ by more than
+    -- 'Tolerance.controlTurn'.
     checkArcStart (i, a) (_, b) =
       let Rad deflection = Vec.signedAngle (Segment.endDirection a) (Segment.startDirection b)
           needed = neededBefore (Mm r) side (Rad (max 0 (-(deflection * Carrier.sideSign side)))) b
@@ -185,9 +187,9 @@ elementAt milling i = elements NonEmpty.!! (i `mod` length elements)
 -- the cutter at the start of @s@; @r@ is the cutter's radius in mm.
 --
 -- If @s@ is an arc, the centre's arc may sweep more than @s@. One reason is the angle @away@. The
--- other is rounding to pulses, which turns the segment before @s@, and turns a longer one less.
--- With the least length, the two sweeps may differ by up to 'Tolerance.controlTurn'. The result is
--- 0 if @s@ is a line, and infinite if no length suffices.
+-- other is rounding to pulses, which turns the segment before @s@, and turns a longer one less. If
+-- that segment has at least the length of the result, the two sweeps differ by at most
+-- 'Tolerance.controlTurn'. The result is 0 if @s@ is a line, and infinite if no length suffices.
 neededBefore :: Mm -> Side -> Rad -> Segment -> Mm
 neededBefore (Mm r) side (Rad away) s = case s of
   Straight _ _ -> Mm 0
@@ -208,8 +210,9 @@ referenceLength s = case s of
   Straight a b -> Vec.distance a b
   Arc {start, centre} -> Segment.radius centre start
 
--- | The radius of a concave arc that is too small for a cutter of the given radius: less than the
--- cutter's radius plus 'Tolerance.controlArc'. Nothing for any other segment.
+-- | The radius of the segment @s@, if @s@ is a concave arc that is too small for the cutter: its
+-- radius is less than the cutter's @radius@ plus 'Tolerance.controlArc'. Nothing for any other
+-- segment.
 tooTight :: Mm -> Side -> Segment -> Maybe Mm
 tooTight radius side s = case s of
   Straight _ _ -> Nothing
@@ -286,9 +289,10 @@ overrun keyword milling first =
 -- straight and level.
 --
 -- If this last move is longer than three radii of the cutter, it is divided at two radii from its
--- end. Compensation begins on the second part. Its programmed line is then turned by 30° from the
--- approach, so it makes a clear corner even with an edge that continues the approach. @keyword@ is
--- the region of the statement's first word, @requested@ that of the request for compensation.
+-- end. Compensation begins on the second part. The programmed line is the tangent from there to the
+-- cutter, which is turned by 30° from the approach. So even if the edge continues the direction of
+-- the approach, there is a corner that a control does not ignore. @keyword@ is the region of the
+-- statement's first word, @requested@ that of the request for compensation.
 entering ::
   Region ->
   Region ->
@@ -342,9 +346,10 @@ entryPoint requested milling side approach first = do
     l = Vec.distance on begin
     tooShort distance = Left (ShortForControl (origin approach) requested True distance radius)
 
--- | The least change of direction, in radians, from the approach onto the first element. It is 0
--- for a first element that is straight. Before an arc the edge gets an additional line, which is
--- too short for a control if the change of direction is smaller.
+-- | The least allowed change of direction, in radians, from the programmed line of the approach to
+-- the @first@ element of the edge. It is 0 if @first@ is a line. Before an arc the edge gets an
+-- additional line ('beginningAt'). With a smaller change of direction, this line would be too short
+-- for a control.
 leastOntoArc :: Mm -> Side -> Segment -> Double
 leastOntoArc radius@(Mm r) side first = case first of
   Straight _ _ -> 0
@@ -360,8 +365,8 @@ beginningAt begin (first :| others) = case segment first of
   Arc {start} ->
     (withoutBraking first) {segment = Straight begin start, continues = False} :| first : others
 
--- | The largest change of direction from the approach to the first element: 175°. At this angle
--- the first element is extended backwards by 23 radii.
+-- | The largest allowed change of direction from the approach to the first element: 175°. At this
+-- angle the first element is extended backwards by 23 radii of the cutter.
 furthestTurn :: Double
 furthestTurn = 35 / 36 * pi
 

@@ -82,8 +82,8 @@ block p path = do
     milling = value (milled p)
     word = wordOf p
 
--- | The ends of the path of a pass. The fields are strict: to compute the last segment is to make
--- all moves along the path. After that, the path itself is not needed any more.
+-- | The ends of the path of a pass. The fields are strict. Computing @lastSegment@ makes all moves
+-- along the path. After that, the path itself is not needed any more.
 data PathEnds = PathEnds
   { -- | true when the control does the compensation and the path ends with the arc round a corner
     endsAtCorner :: Bool,
@@ -242,8 +242,8 @@ leads p PathEnds {endsAtCorner, firstSegment, lastSegment} = (leadIn, leadOut)
       (Segment.end lastSegment) of
       [] | endsAtCorner -> Compensation.overrun (wordOf p) milling firstSegment
       moves -> moves
-    -- In a concave arc of the cutter's radius the centre does not move, and the segment has no
-    -- length. Then the contour gives the direction.
+    -- In a concave arc of the cutter's radius the centre does not move, and the segment @s@ has no
+    -- length. Then the result is the direction of the element @e@.
     directionOf :: (Segment -> Vec.Vec) -> Segment -> Part.Element -> Vec.Vec
     directionOf direction s e =
       direction (if Segment.length s > Tolerance.coincident then s else Part.segment e)

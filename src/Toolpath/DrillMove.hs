@@ -42,8 +42,8 @@ moves at (Located region d) =
     depths = depthsOf d
 
 -- | The heights at which the pecks of a hole end, in order. All pecks have equal depths, at most
--- the depth that the program gives, unless this would need more than 10000 pecks. Without pecking
--- the only height is that of the hole's bottom.
+-- the depth that the program gives. If this would need more than 10000 pecks, there are 10000
+-- deeper ones. Without pecking the only height is that of the hole's bottom.
 depthsOf :: Drilling -> [Mm]
 depthsOf d = case Part.peckDepth d of
   Nothing -> [Part.bottom d]

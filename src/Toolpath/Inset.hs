@@ -34,8 +34,8 @@ oriented outer islands = orient (> 0) outer :| map (orient (< 0)) islands
 
 -- | The loops at a distance to the left of an outer contour and islands. Each contour must have the
 -- free space on its left, and must not intersect itself. There are no loops when the contours
--- intersect each other. The partial application to the contours converts them once for all
--- distances.
+-- intersect each other. To get loops at several distances, apply the function to the contours only
+-- once: then they are converted only once.
 inset :: NonEmpty Polyarc -> Mm -> [Loop]
 inset contours@(outer :| _) = loopsAt
   where
@@ -78,7 +78,8 @@ insetOfLoops loops distance@(Mm d)
       Right region -> Just (loopsOf region)
       Left _ -> Nothing
   where
-    -- The bounding box of all loops. A circle at least as wide as the box fits into no loop.
+    -- The bounding box of all loops. A circle that is at least as wide or as high as the box fits
+    -- into no loop.
     BoundingBox l b r t =
       maybe
         (BoundingBox 0 0 0 0)

@@ -42,9 +42,9 @@ import Toolpath.Swivel qualified as Swivel
 import Toolpath.Toolpath (Block (..), Move, Pass (..), Toolpath)
 import Toolpath.Toolpath qualified as Toolpath
 
--- | One error for each region of the program that asks for moves which cut into a contour deeper
--- than the contour's tolerance. It is the deepest intrusion of these moves. Among the cuts of one
--- pass, only the first that intrudes counts.
+-- | The intrusions of a toolpath that are deeper than the tolerance of the statement that machines
+-- the contour. A region of the program may ask for several moves that intrude; it gets one error,
+-- for the deepest intrusion. Of the cuts in one pass, only the first one that intrudes counts.
 intrusions :: Toolpath -> [Error]
 intrusions path = worst (concatMap (intrusionsOfBlock machined) (Toolpath.blocks path))
   where
@@ -97,7 +97,8 @@ machinedOf :: [Block] -> Machined
 machinedOf blocks =
   Machined
     { index = BoxTree.index (BoxTree.boundingBox . groups) walls,
-      -- The axis of a blade may be above the top of the part, at 0, while the blade cuts.
+      -- The top of the part is at the height 0. While a blade cuts, its z axis may be above that
+      -- height.
       top = maximum (Mm 0 : [Swivel.highest milling | Wall {milling} <- walls]),
       statements = map statement walls
     }
@@ -139,8 +140,8 @@ data Intruder = Intruder
     -- | number of the statement whose contour is not checked, because the moves are cuts along that
     -- contour; Nothing if all contours are checked
     own :: Maybe Int,
-    -- | number of the statement to which linking moves belong, and the allowance that it leaves at
-    -- last, into which they must not cut; Nothing if the allowances are not checked
+    -- | for linking moves: the number of their statement, and the allowance that remains after its
+    -- last pass. The moves must not cut into this allowance. Nothing if no allowance is checked
     leaving :: Maybe (Int, Mm)
   }
 
@@ -246,10 +247,10 @@ hit tool kept milling m element
       | plus d allowed < tool = CutsContour
       | otherwise = CutsAllowance
 
--- | True if a segment @path@ leads from one side of the segment @wall@ to the other, and gets
--- further than @allowed@ away from it on both sides. If @wall@ is an arc, the sides are the inside
--- and the outside of its circle, and @path@ may also enter the circle and leave it again. The check
--- is for pointed tools: their radius is 0, so no distance from a wall is too small.
+-- | True if the ends of @path@ lie on opposite sides of @wall@, both at a distance of more than
+-- @allowed@. The sides of an arc are the inside and the outside of its circle. True also if @path@
+-- enters this circle from the outside, deeper than @allowed@, and leaves it again. The check is for
+-- pointed tools: their radius is 0, so no distance from a wall is too small.
 goesThrough :: Mm -> Segment -> Segment -> Bool
 goesThrough allowed path wall = case wall of
   Straight a b ->

@@ -72,10 +72,10 @@ withoutDepth Visit {word, milling, isFirst, isLast, from} z (inZ, outZ) begin fi
 -- | The linking moves before and after a pass of a statement with a depth. The cutter moves to the
 -- last stop of the approach, and plunges there. Without an approach it plunges at the beginning of
 -- the pass. After the pass it moves to the first stop of the retract and rises there. If that stop
--- has a height, or there is none, the cutter rises at the end of the pass. The other stops of the
--- approach precede the first pass only, the other stops of the retract follow the last pass only.
--- Stops without a height are at the clearance height @clear@. @begin@ and @finish@ are the ends of
--- the pass, @inZ@ and @outZ@ the heights of the z axis at these ends.
+-- has a height, or the retract has no stop, the cutter rises at the end of the pass. The remaining
+-- stops of the approach precede the first pass only, those of the retract follow the last pass
+-- only. Stops without a height are at the clearance height @clear@. @begin@ and @finish@ are the
+-- ends of the pass, @inZ@ and @outZ@ the heights of the z axis at these ends.
 withDepth :: Visit -> Mm -> (Mm, Mm) -> Point -> Point -> ([Move], [Move])
 withDepth Visit {word, milling, isFirst, isLast, from} clear (inZ, outZ) begin finish =
   ( up

@@ -47,8 +47,8 @@ restPositions tool elements = fmap restPosition
       InnerCorner i j p -> InCorner (elements ! i) (elements ! j) p
       Concave i old -> InConcaveArc (elements ! i) old (largest' rest)
       Collision i j _ -> case onlyCorner i j of
-        -- A corner lies between the elements @i@ and @j@. No round cutter reaches into the corner,
-        -- so the report gives no largest cutter.
+        -- Here a corner lies between the elements @i@ and @j@. No round cutter reaches into the
+        -- corner, so the report names no largest cutter.
         Just (a, b) | isCorner rest a b -> InCorner a b (Segment.start (Part.segment b))
         _ -> Between (elements ! i) (elements ! j) (Equidistant.cutterCentre rest) (largest' rest)
     largest' rest = fitting tool (largest (Equidistant.stop rest))

@@ -180,9 +180,9 @@ along room from trees = reverse (sections (visitAll Progress {current = from, se
               sections = reverse (linking <> roundOf (isReversed room) r') <> sections progress
             }
 
--- | Visits items one after the other, always the one whose @position@ is nearest to the cutter. The
--- first item of the list comes next while more than @many@ items remain, or while the cutter has no
--- position. @visit@ makes the progress after an item from the progress before it.
+-- | Visits items one after the other. The next item is the one whose @position@ is nearest to the
+-- cutter. But while more than @many@ items remain, or while the cutter has no position, it is the
+-- first item of the list. @visit@ makes the progress after an item from the progress before it.
 inTurn :: (Progress -> a -> Progress) -> (a -> Point) -> Progress -> [a] -> Progress
 inTurn visit position progress things = case (things, current progress) of
   ([], _) -> progress
@@ -208,8 +208,9 @@ takeOut measure things = (chosen, [a | (i, a) <- numbered, i /= number])
 
 -- Loops
 
--- | The loop whose beginning stands for the position of a region: follows the first inner region
--- inwards as far as possible, and takes the first loop there.
+-- | The loop whose beginning is used as the position of a region when the next region is chosen. It
+-- is the first loop of the innermost region that is found by taking the first inner region again
+-- and again.
 innermost :: PocketTree -> Ring
 innermost tree = case inner tree of
   [] -> NonEmpty.head (rings tree)

@@ -236,7 +236,7 @@ sectionsFor pocket =
     contours =
       Inset.oriented (Part.polyarcOf (contour (wall pocket))) (map Part.polyarcOf (islands pocket))
     inset = Inset.inset contours
-    -- The passes along the walls also enter passages of exactly the cutter's width.
+    -- Only the loops nearest to the walls also enter passages of exactly the cutter's width.
     insetFrom nearest d = if d == nearest then Inset.insetWithSlots inset d else inset d
     room leaves =
       PocketRoom
@@ -248,8 +248,8 @@ sectionsFor pocket =
           isReversed = hasSpaceOnRight pocket
         }
 
--- | True when the free space lies on the right of the direction of travel. A clockwise spindle
--- mills climb with the material on its right and the free space on its left.
+-- | True when the free space lies on the right of the direction of travel. With a clockwise
+-- spindle, climb milling has the material on the right and the free space on the left.
 hasSpaceOnRight :: Pocketing -> Bool
 hasSpaceOnRight pocket = climbs /= (Part.spindleSense (wall pocket) == Part.Clockwise)
   where

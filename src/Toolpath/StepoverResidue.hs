@@ -38,7 +38,7 @@ data Residue = Residue
   { -- | detours from the inner pass; the key is the number of a loop of that pass, and of the
     -- segment at whose end the detour begins and ends, both from 0
     detours :: Map (Int, Int) [NonEmpty Segment],
-    -- | loops of the edge beside which the inner pass runs nowhere
+    -- | loops of the edge. The inner pass runs beside no part of these loops
     isolated :: [NonEmpty Segment]
   }
 
@@ -79,8 +79,8 @@ between radius apart edges passes = foldr (gather . gapsOf) none edges
 -- | The count of a loop's segments, and the end point of each segment by its number, from 0.
 data Ends = Ends Int (Map Int Point)
 
--- | A part of the edge. The inner pass runs beside it, on the segment with these numbers of loop
--- and segment; or the part is /free/: the inner pass does not run beside it.
+-- | A part of the edge. 'Beside': the inner pass runs beside the part, on the segment with these
+-- numbers of loop and segment. 'Free': the inner pass does not run beside the part.
 data EdgePart = Beside (Int, Int) | Free Segment
 
 -- | Consecutive free parts of the edge, between two parts beside which the inner pass runs. Each

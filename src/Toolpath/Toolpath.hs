@@ -97,8 +97,8 @@ data Pass = Pass
 
 -- | The input for a control that does the cutter compensation. The /edge/ is the contour of the
 -- part, with the leads. From the edge the control computes the moves of the cutter's centre. Each
--- computed move ends where the corresponding move of the toolpath ends. Only the move on which
--- compensation begins may end elsewhere.
+-- computed move ends where the corresponding move of the toolpath ends. The one exception is the
+-- move on which compensation begins: its end depends on the kind of control.
 data Sent = Sent
   { -- | moves of the cutter's centre until compensation begins
     before :: [Move],

@@ -39,11 +39,12 @@ warnings path = throughPart path <> intoContent path <> stoppedSpindles path
 -- outside.
 data Body = Body {named :: Part.Contour, outline :: Polyarc.Polyarc, isMaterial :: Bool}
 
--- | Warnings about rapid moves through the part; at most one for each region of the program that
--- asks for such moves. Vertical moves are left out. A move goes through the part if it goes below
--- the top of the part, and the innermost contour around it contains material. When the whole
--- toolpath has one height, that height counts as below the top. A move that crosses a contour is an
--- error ("Toolpath.Intrusion"). So a move lies inside a contour if its midpoint does.
+-- | Warnings about rapid moves through the part. A move goes through the part if it goes below the
+-- top of the part, and the innermost contour around it contains material. When the whole toolpath
+-- has one height, that height counts as below the top. A move that crosses a contour is an error
+-- ("Toolpath.Intrusion"). So a move lies inside a contour if its midpoint does. Vertical moves are
+-- left out. Of the moves that one region of the program asks for, only the first rapid one below
+-- the top is examined.
 throughPart :: Toolpath -> [Warning]
 throughPart path =
   [ RapidThroughPart region (Toolpath.segment m) (Part.contourName (named body))
@@ -80,8 +81,9 @@ throughPart path =
 -- | Warnings about rapid moves into the content of a pocket or of a window before it is cleared; at
 -- most one for each region of the program that asks for such moves. A /window/ is a closed contour
 -- that is milled from its inside. Its content counts as cleared down to the height of each pass
--- that is done. Moves that only rise are left out, and so are holes. If the whole toolpath has one
--- height, it is not known where the cutter may enter, and there are no warnings.
+-- that is done. Vertical moves upwards and the moves of drilling statements are left out. If the
+-- whole toolpath has one height, it is not known where the cutter may enter, and there are no
+-- warnings.
 intoContent :: Toolpath -> [Warning]
 intoContent path
   | Toolpath.isFlat path = []

@@ -151,8 +151,9 @@ largestGrowth window firsts seconds = go 0 0 0
             * (firsts ! from + window - firsts ! step) / (firsts ! (step + 1) - firsts ! step)
 
 -- | Uncertainty on one segment, in mm: twice the allowed deviation. On the inside of an arc of
--- radius @R@, the contact point moves @R / |R − r|@ times as far as the centre; @r@ is the reach of
--- the job. There the uncertainty is multiplied by this factor, and by 2 as a margin.
+-- radius @R@, the contact point moves @R / |R − r|@ times as far as the centre. Here @r@ is the
+-- reach of the job, the required distance of the centre from the contour. On such an arc the
+-- uncertainty is multiplied by this factor, and by 2 as a margin.
 uncertaintyOn :: MillingJob -> Segment -> Double
 uncertaintyOn job s = case s of
   Arc {start, centre, sweep = Rad angle}

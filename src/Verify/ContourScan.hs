@@ -139,9 +139,10 @@ improveBound job bounds before View {motion, bounding} e = do
   where
     enough = let Mm r = reach job in r - 2 * FastDistance.unsure
 
--- | Upper bound in mm: each point of an element has a motion or the motion before it within this
--- distance. It is ∞ if no bound is found. @known@ is the bound so far; @before@ and @bounding@ are
--- the bounding paths of the motion before and of the motion itself.
+-- | Upper bound, in mm, of the distance from the points of the element @e@ to a motion and the one
+-- before it: within this distance, each point has at least one of the two motions. It is ∞ if no
+-- bound is found. @known@ is the bound so far; @before@ and @bounding@ are the bounding paths of
+-- the motion before and of the motion itself.
 --
 -- If the motion alone gives no bound, and @known@ is above 'MillingJob.contactLimit', the element
 -- is divided at its point nearest to the start of the motion. The first part is compared with the

@@ -85,7 +85,7 @@ gapOf cover segment size = case membersNear cover (plus (reach cover) size) segm
       (a, b) : _ -> Segment.at ((a + b) / 2) segment
       [] -> Segment.start segment
 
--- | Largest size of a gap; it means that no member comes near the segment at all.
+-- | Largest size of a gap. A gap that is larger gets this size.
 unlimited :: Mm
 unlimited = Mm 1e7
 

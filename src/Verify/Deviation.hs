@@ -64,8 +64,9 @@ data Allowed = Allowed {allowedGouge :: Mm, allowedExcess :: Mm}
 
 -- | Compare the motions of a tape with a cut along a contour. If @isFirst@ is true, the cut is the
 -- first one of its statement. Then all motions near the contour are examined for gouges; otherwise
--- only those of the cut. The cuts of a pass are examined together for excess, with the first one;
--- @onPass@ are then the motions of the tape from the first cut of the pass to the next pass.
+-- only those of the cut. Excess on the elements is examined once for all cuts of a pass, with the
+-- first cut. For that cut, @onPass@ has the motions of the tape from there to the next pass. For
+-- later cuts it is Nothing.
 examine :: MotionSet -> Bool -> Maybe [CutterMotion] -> MillingPass -> (ContourProof, [Finding])
 examine set isFirst onPass pass =
   (contourProof, if null findings then orderFindings set pass else findings)
@@ -150,8 +151,10 @@ allowedDeviation isCurved milling
     less d = max (Mm 0) (minus d Tolerance.curve)
 
 -- | Finding for a contour that is not followed from its start to its end, in the direction of
--- travel. The contact point does not move while the cutter goes round an outer corner, so single
--- motions against the direction of travel are looked for as well. The planned frames have none.
+-- travel. While the cutter goes round an outer corner, the contact point does not move, and does
+-- not show motions backwards. So single motions against the direction of travel are looked for as
+-- well. This is not necessary if the tape has exactly the planned frames, those that the compiler
+-- made, and they follow the whole contour.
 orderFindings :: MotionSet -> MillingPass -> [Finding]
 orderFindings set MillingPass {job, found} = case found of
   Complete _ along -> if MotionSet.isPlanned set then [] else backward along

@@ -185,7 +185,7 @@ speedAlong machine m = case Machine.feedMeasure (Machine.feeds machine) of
 --
 -- * a frame without braking has its speed from its start to its end;
 -- * a braking frame slows down to its speed, which it has at its end; of successive braking frames
---   with the same speed, only the last one has reached it;
+--   with the same speed, only the last one has this speed at its end;
 -- * at the end of the tape the cutter has the final braking feed.
 tooFast :: Machine -> Pulses3 -> [Frame] -> [Finding]
 tooFast machine start frames = case Machine.brakingForm (Machine.braking machine) of
@@ -202,8 +202,8 @@ tooFast machine start frames = case Machine.brakingForm (Machine.braking machine
     motions = Control.run start frames
     a = Machine.deceleration (Machine.braking machine)
     lengths = map (travelOf machine) motions
-    -- Path lengths in mm from the start of the tape to the start of each motion, and last to the
-    -- end of the tape.
+    -- Path lengths in mm from the start of the tape to the start of each motion. The last number of
+    -- the list is the path length to the end of the tape.
     starts = scanl (+) 0 lengths
 
 -- | Step of 'tooFast' for the motion @m@; the steps are done from the end of the tape to its start.

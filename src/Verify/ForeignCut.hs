@@ -22,11 +22,11 @@ import Verify.Motion (CutterMotion (number, segment))
 import Verify.Motion qualified as Motion
 import Verify.Proof (Finding (CutsElsewhere))
 
--- | Findings for @motions@ of a tape that cut elsewhere or deeper than the @planned@ motions. Those
--- sample points of a motion are compared that lie more than a pulse below the top of the part. Each
--- needs a planned motion near it that is as deep, to a pulse, or deeper. Near means within two
--- pulses plus twice 'largestTolerance', because two tapes with different chords may deviate to
--- opposite sides.
+-- | Findings for @motions@ of a tape that cut elsewhere or deeper than the @planned@ motions. The
+-- comparison uses the sample points of a motion that lie more than a pulse below the top of the
+-- part. Each of them needs a planned motion near it that is at least as deep; a pulse less is
+-- allowed. Near means within two pulses plus twice 'largestTolerance', because two tapes with
+-- different chords may deviate to opposite sides.
 foreignCuts :: Machine -> Toolpath -> [CutterMotion] -> [CutterMotion] -> [Finding]
 foreignCuts machine path planned motions =
   [ CutsElsewhere (number m) p

@@ -49,8 +49,8 @@ refusals machine n at f =
     Linear -> []
 
 -- | Reasons to refuse the arc of frame @n@, which starts at the position @at@. Its radii at start
--- and end may differ by two pulses at most. Its end must not be the centre. If the end lies in the
--- direction of the start from the centre, the end has to be the start: then it is a full circle.
+-- and end may differ by two pulses at most. Its end must not be the centre. If start and end lie in
+-- the same direction from the centre, they have to be the same point; the arc is a full circle.
 impossibleArc :: Machine -> Int -> Pulses3 -> Frame -> [Refusal]
 impossibleArc machine n at f =
   [ UnequalRadii n (minus b a)

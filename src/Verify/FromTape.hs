@@ -116,7 +116,8 @@ prove machine path program frames =
     }
   where
     found = deviations <> otherFindings subject passes
-    -- A tape with another fault would also have motions that nobody asks for.
+    -- A tape with another fault often has motions that the program does not ask for, too. So these
+    -- are reported only if there is no other finding.
     unmatched = if null found then unmatchedMotions subject passes else []
     subject = subjectOf machine path program frames
     passes = locatedPasses subject
@@ -145,8 +146,8 @@ prove machine path program frames =
     closure = closureOf subject
 
 -- | Subject of a proof. The frames are executed lazily, so the list of the controller model's
--- motions is never in memory as a whole. The list of the cutter's motions is kept in memory; these
--- are much smaller.
+-- motions is never in memory as a whole. Only the list of 'CutterMotion' stays in memory. A
+-- 'CutterMotion' is much smaller than a motion of the model.
 subjectOf :: Machine -> Toolpath -> FrameProgram -> [Frame] -> Subject
 subjectOf machine path program frames =
   Subject
@@ -215,9 +216,9 @@ locatedPasses subject@Subject {machine, path, program} =
     -- A single cut cannot be mistaken for another cut, so its planned frames are not needed.
     isSingle = null (drop 1 [() | Toolpath.Cutting {} <- Toolpath.blocks path])
 
--- | Test that a motion is in those of the planned frames, @framesOf@, that belong to a pass of a
--- pocket. False if the tape does not have as many frames as planned: then the frames of the pass
--- are unknown.
+-- | Test that a motion is in the planned frames of a pass of a pocket. @framesOf@ has the ranges of
+-- planned frames, by the number of the pass. False if the tape does not have as many frames as
+-- planned: then the frames of the pass are unknown.
 isInFrames :: Subject -> IntMap FrameRange -> ClearingPass -> CutterMotion -> Bool
 isInFrames subject framesOf pass m =
   hasSameCount subject

@@ -61,12 +61,12 @@ gougeOf KeepOut {searchRadius, required} edges m = Proof.deepest gouges
         && BoundingBox.lowerBound (`Distance.toPoint` path) b <= searchRadius
 
 -- | Allowance that a motion has to leave on the element @e@ while the centre is at the point @p@.
--- Usually it is the allowance of @e@. It may be smaller near another element. The foot is the point
--- of @e@ nearest to @p@; the other elements that matter are those within @pulse@, the length of a
--- pulse, of the foot. The result is the smallest allowance of @e@ and these elements, because the
--- position at which the allowance changes is rounded to pulses. If one of them is nearer to @p@
--- than @e@ is, the result is 0, because the nearer element is examined with its own allowance. If
--- the allowance of @e@ is not positive, it is the result in every case.
+-- Usually it is the allowance of @e@. It may be smaller near another element. Take the point of @e@
+-- nearest to @p@, and the other elements within @pulse@, the length of a pulse, of that point. The
+-- result is the smallest allowance of @e@ and these elements, because the position at which the
+-- allowance changes is rounded to pulses. If one of these elements is nearer to @p@ than @e@ is,
+-- the result is 0, because that element is examined with its own allowance. If the allowance of @e@
+-- is not positive, it is the result in every case.
 allowanceAt :: Mm -> BoxTree Edge -> Element -> Point -> Mm
 allowanceAt pulse edges e p
   | own <= Mm 0 = own

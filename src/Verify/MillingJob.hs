@@ -39,7 +39,8 @@ data MillingJob = MillingJob
   { milling :: Milling,
     -- | region of the statement in the part program
     statement :: Region,
-    -- | side of the cutter in the direction of travel; nothing if it runs on the contour
+    -- | side of the contour, in the direction of travel, on which the cutter moves; Nothing if its
+    -- centre moves on the contour
     side :: Maybe Carrier.Side,
     -- | positions of the cutter's centre at the start and at the end of the cut
     entry :: Point,
@@ -52,7 +53,7 @@ data MillingJob = MillingJob
     -- | allowed deviation (not material that is left): the larger of the allowed chord errors into
     -- the part and away from it, plus one pulse
     allowance :: Mm,
-    -- | largest distance of the centre from 'exit' at the end of the cut
+    -- | largest distance from 'exit' that the centre may have at the end of the cut
     exitTolerance :: Mm,
     -- | true of one of several cuts in a pass, none of which goes along the whole contour
     isPartialCut :: Bool,

@@ -79,7 +79,8 @@ mismatches machine comparesFeeds begin list = go begin (IntMap.singleton 0 0)
           maybeToList fault
       _ -> []
 
--- | Findings for the moves that are not made, from the last item on that the motions match.
+-- | Findings for the moves that remain at the end of the tape: from the last item that the motions
+-- match, this item included, to the last item of the program.
 missingFrom :: Vector RequiredItem -> States -> [Finding]
 missingFrom items states =
   [ MoveMissing (origin r) (Segment.end (path r))
@@ -123,8 +124,9 @@ withSkipped machine items at next states =
 
 -- Single moves ------------------------------------------------------------------------------------
 
--- | Test that a move is made at a position, to the slack. @made@ is the fraction that is made. A
--- move so short that rounding may leave nothing of it counts as made.
+-- | Test that the move @r@ is completely made when the cutter is at a position. The 'slack' of the
+-- move and one pulse in height are allowed. @made@ is the fraction of the move that is made. A move
+-- so short that rounding may leave nothing of it counts as made once the cutter is at its end.
 isMade :: Machine -> RequiredMove -> Position -> Double -> Bool
 isMade machine r (Position p z) made =
   Vec.distance p (Segment.end (path r)) <= slack r
@@ -135,8 +137,8 @@ isMade machine r (Position p z) made =
     largest = plus (slack r) (Machine.resolutionOf machine Z)
 
 -- | Fraction of a move that is made after the motion @m@, if it was @made@ before. Nothing if the
--- motion does not run along the move in its direction. A step back by no more than the slack may be
--- due to rounding.
+-- motion does not run along the move in its direction. A step back by no more than the 'slack' of
+-- the move is allowed, because it may be due to rounding.
 fractionAfter :: Machine -> RequiredMove -> Motion -> Double -> Maybe Double
 fractionAfter machine r m made = foldM further made (samplesOf machine m)
   where
@@ -148,7 +150,8 @@ fractionAfter machine r m made = foldM further made (samplesOf machine m)
       | otherwise = Nothing
       where
         t = fractionAt r before at
-    -- On a rising move, a height that is rounded to pulses is further from the path in the plane.
+    -- On a move that changes the height, the fraction @t@ also depends on the height. Rounding the
+    -- height to pulses changes @t@, so the point of the path at @t@ may be further from @p@.
     sideways
       | uncurry (==) (between r) = slack r
       | otherwise = plus (slack r) (Machine.resolutionOf machine Z)
@@ -167,9 +170,9 @@ samplesOf machine m =
       Straight _ _ -> 2
       Arc {} -> 8
 
--- | Fraction of a move, from 0 to 1, at which it is nearest to a position. If a position on an arc
--- has several fractions, because the arc is nearly closed, that one counts which is nearest to the
--- fraction @before@.
+-- | Fraction of a move, from 0 to 1, at which it is nearest to a position. If the arc is nearly
+-- closed, a position may have several fractions. Then the result is the fraction nearest to
+-- @before@.
 fractionAt :: RequiredMove -> Double -> Position -> Double
 fractionAt r before (Position p (Mm z)) = max 0 (min 1 fraction)
   where

@@ -52,8 +52,9 @@ data Guide = Guide
     -- the tape does not have as many frames as planned
     lastFrameOf :: Int -> Maybe Int,
     -- | planned frames of a cut, by the number of its pass from 0. Only these frames, and the one
-    -- before them, are then searched: another cut may lie within the tolerance of this one. Nothing
-    -- if the tape differs from the plan, or if the toolpath has a single cut
+    -- before them, are searched, because another cut may lie within the tolerance of this one, and
+    -- could be taken for it. Nothing if the frames of the tape differ from the planned ones, or if
+    -- the toolpath has a single cut; then all frames after the previous cut are searched
     cutFramesOf :: Int -> Maybe FrameRange
   }
 
@@ -235,7 +236,7 @@ areFirst passes =
 
 -- | For the first cut of each pass, the motions of the tape from there up to the first cut of the
 -- next pass; Nothing for the later cuts of a pass. A pass is one allowance at one height. The
--- motions before the first pass belong to it, too.
+-- motions before the first pass are listed with that pass.
 motionsOfPasses :: [CutterMotion] -> [MillingPass] -> [Maybe [CutterMotion]]
 motionsOfPasses motions passes = go motions (zip areNew passes)
   where
@@ -247,7 +248,8 @@ motionsOfPasses motions passes = go motions (zip areNew passes)
       (True, _) : more ->
         let (own, others) = maybe (left, []) (\n -> span ((< n) . number) left) (nextBegin more)
          in Just own : go others more
-    -- Number of the first motion of the next pass that the tape has.
+    -- Frame number of the first motion of the next pass. A pass without motions on the tape is
+    -- skipped.
     nextBegin numbered = case numbered of
       [] -> Nothing
       (True, pass) : _ | m : _ <- PassSearch.motionsOf (found pass) -> Just (number m)

@@ -4,9 +4,9 @@
 -- An /arrival/ is a motion that ends at the start of the cut. From each arrival the search follows
 -- the contact point along the contour; this is the point nearest to the cutter's centre. The cut
 -- begins at the first arrival from which the contact point comes to the end of the contour. The
--- /slack/ is the uncertainty of the contact point's arc length: a step back that is not larger may
--- be due to rounding ("Verify.ContactMeasure"). A /partial cut/ is one of several cuts of a pass,
--- none of which goes along the whole contour.
+-- /slack/ is the uncertainty of the contact point's arc length ("Verify.ContactMeasure"): a step
+-- back by at most the slack may be due to rounding. A /partial cut/ is one of several cuts of a
+-- pass, none of which goes along the whole contour.
 module Verify.PassSearch
   ( FoundPass (..),
     motionsOf,
@@ -52,8 +52,8 @@ motionsOf found = case found of
   Incomplete arrival along -> arrival <> along
   Missing -> []
 
--- | Motion that arrives at the start of the cut, in a list that is empty if it is unknown; and all
--- later motions.
+-- | Arrival at the start of a cut. The first list contains the motion that arrives there, or
+-- nothing if this motion is unknown. The second list contains all later motions.
 type Arrival = ([CutterMotion], [CutterMotion])
 
 -- | Find a cut among the motions at its height. @at@ is the position of the cutter's centre before
@@ -98,8 +98,8 @@ arrivalsIn job at = go Nothing
       Arc {} -> False
 
 -- | Test that the cutter touches the contour in all motions up to the end of the cut. @rest@ are
--- the motions after an arrival. False if the arrival was the end of another contour, from which the
--- cutter moves away.
+-- the motions after an arrival. False, for example, if the cutter arrived here at the end of
+-- another cut and now moves away.
 staysBeside :: MillingJob -> [CutterMotion] -> Bool
 staysBeside job rest =
   not (null along) && and (zipWith touches along (MillingJob.edgesNearEach job along))
@@ -235,9 +235,9 @@ afterMotion job measure near m = go . Sample 1
         step = smallestStep job measure near arcLength (Segment.at (fraction k) (segment m))
     fraction k = fromIntegral k / fromIntegral count
 
--- | Sample point of a motion by its number, from 1. The second component belongs to the sample
--- point before it: the arc length in mm from the start of the contour to that point's contact
--- point.
+-- | Sample point that is examined next. The first component is its number in the motion, from 1.
+-- The second component is the arc length in mm, from the start of the contour, of the contact point
+-- at the sample point before it.
 data Sample = Sample Int Double
 
 -- | Signed step in mm along the contour, from @arcLength@ to a contact point of a cutter with its
@@ -250,9 +250,9 @@ smallestStep job measure near arcLength p = FastContact.foldContacts job near p 
       let d = stepTo measure arcLength s
        in if d >= negate (slack measure) && abs d < abs least then d else least
 
--- | Contact points at the present position, without those that are back by more than the slack.
--- Each is given by its signed step in mm from the arc length so far, and by the number of its
--- element, from 0. The list is sorted by the step.
+-- | Contact points at the present position. Each is given by the signed step in mm along the
+-- contour that leads to it from the contact point so far, and by the number of its element, from 0.
+-- Steps back by more than the slack are left out. The list is sorted by the step.
 contactsAhead :: MillingJob -> Measure -> Progress -> [(Double, Int)]
 contactsAhead job measure progress =
   sortOn
@@ -276,8 +276,8 @@ areNeighbours job found =
         (drop 1 found)
     )
 
--- | Signed step between two arc lengths, in mm. On a closed contour it is measured in that
--- direction in which it is shorter.
+-- | Signed step between two arc lengths, in mm. On a closed contour there are two steps, one in
+-- each direction; the result is the shorter one.
 stepTo :: Measure -> Double -> Double -> Double
 stepTo measure from to
   | isClosed measure =

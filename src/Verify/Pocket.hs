@@ -79,8 +79,8 @@ data ClearingPass = ClearingPass
     linkingMoves :: [Segment]
   }
 
--- | Clearing block of a toolpath: its number among all passes from 0, the statement, the pass, and
--- the linking moves.
+-- | Block of a toolpath that clears a pocket in one pass. The fields are the number of the pass
+-- among all passes of the toolpath, from 0, the statement, the pass, and its linking moves.
 data Clearing = Clearing Int (Located Pocketing) Toolpath.Pass [Segment]
 
 -- | Pockets of the blocks of a toolpath. A statement that is executed twice makes two pockets.

@@ -1,13 +1,15 @@
 -- | Comparison of a tape with one pass of a pocket, by distances alone. It shows that no motion
 -- cuts into the walls, and that no material remains that the cutter can reach.
 --
--- Let A be the set of all positions of the cutter's centre whose distance from the walls is at
--- least the cutter's radius plus the allowance. The cutter reaches a point if A has a position
--- within the radius of that point. Two facts are shown about the final pass at each depth:
+-- Let A be the set of all positions of the cutter's centre in the pocket whose distance from the
+-- walls is at least the cutter's radius plus the allowance that the final pass leaves. The cutter
+-- reaches a point if A has a position within the radius of that point. Two facts are shown about
+-- the final pass at each depth:
 --
 -- * Rim: each point of the border of A is within the allowed excess of a motion. So the walls are
---   cut wherever the cutter can touch them. A point outside of A that the cutter reaches is within
---   the radius of the border, so it is cleared as well. This includes the corners.
+--   cut wherever the cutter can touch them. A point outside of A that the cutter reaches, for
+--   example near a corner, is at most the cutter's radius away from a point of this border. So it
+--   is cleared as well.
 -- * Floor: each point of A is within the radius, plus the allowed excess, of a motion; see
 --   "Verify.PocketFloor".
 module Verify.PocketDeviation
@@ -66,7 +68,7 @@ examine set isInPass isClearing pocket isFirst pass = (contourProof, findings)
       filter
         (\m -> MotionSet.isBelowTop m && (isFirst || isInPass m))
         (MotionSet.nearby set (BoundingBox.inflate (reach pass) (bounds pocket)))
-    -- Linking moves keep the allowance that the statement leaves at last.
+    -- Linking moves only have to keep the distance of the final pass from the walls.
     keepOut m
       | isClearing m = Gouge.constantKeepOut (reach pass)
       | isInPass m = Gouge.constantKeepOut (minus (rimDistance pocket) Pocket.spareRoom)
@@ -109,9 +111,10 @@ floorFindings pocket pass allowedExcess clearing =
           )
   ]
 
--- | Allowed gouge and allowed excess of a pocket. The gouge is limited to the allowed chord error
--- into the part, the excess to the larger of both chord errors; one pulse is added to each. The
--- allowed excess also includes 'Pocket.spareRoom', the extra distance of the rim from the walls.
+-- | Allowed gouge and allowed excess of a pocket. The allowed gouge is the allowed chord error into
+-- the part plus one pulse. The allowed excess is one pulse plus the larger of the two allowed chord
+-- errors, into the part and away from it. It also includes 'Pocket.spareRoom', the extra distance
+-- of the rim from the walls.
 allowedIn :: MotionSet -> Pocket -> (Mm, Mm)
 allowedIn set pocket =
   (plus inside pulse, plus (plus (max inside outside) pulse) Pocket.spareRoom)

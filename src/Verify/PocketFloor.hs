@@ -29,13 +29,14 @@ import Verify.Pocket qualified as Pocket
 -- | Square by its centre and half of its side, in mm.
 data Square = Square {centreX :: Double, centreY :: Double, half :: Double}
 
--- | Floor of a pocket at one height, with the motions at that height. A motion clears the floor
--- within @radius@, in mm.
+-- | Floor of a pocket at one height, with the motions at that height. A motion clears all positions
+-- whose distance from its path is at most @radius@, in mm.
 data Floor = Floor {pocket :: Pocket, radius :: Double, motions :: BoxTree CutterMotion}
 
 -- | Position that the cutter's centre may take, but that is further than @radius@ from every
--- motion; Nothing if there is none. A position that is further by less than 'floorResolution' may
--- be missed.
+-- motion; Nothing if there is none. A position whose distance exceeds @radius@ by less than
+-- 'floorResolution' may be missed. So may a position in a square of the smallest size, if the
+-- cutter's centre may not take the middle of this square.
 unclearedPoint :: Pocket -> Mm -> BoxTree CutterMotion -> Maybe Point
 unclearedPoint pocket (Mm radius) motions =
   listToMaybe
@@ -133,7 +134,7 @@ rangeOf :: Double -> Double -> [Segment] -> Double
 rangeOf x y = foldl' (\d path -> max d (FastDistance.distance path x y)) 0
 
 -- | Distance from the centre to the corners of the smallest squares, which are not divided any
--- more. A position may count as cleared although its distance from every motion exceeds the radius,
--- by up to this distance.
+-- more. A position may also count as cleared if its distance from the nearest motion exceeds the
+-- radius by no more than this length.
 floorResolution :: Mm
 floorResolution = Mm 0.02

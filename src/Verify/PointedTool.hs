@@ -38,8 +38,8 @@ import Verify.Proof (Witness (Witness))
 import Verify.Proof qualified as Proof
 
 -- | Deepest gouge of the motion @m@ into the material beside a contour; Nothing if there is none.
--- The tool has to stay on @side@ of the contour. @allowance@ is the first depth that the search for
--- the deepest gouge tries; usually no gouge is deeper.
+-- The tool has to stay on @side@ of the contour. @allowance@ is the allowed depth in mm. The search
+-- for the deepest gouge begins with this depth, because usually no gouge is deeper.
 gougeOf :: Side -> Contour -> BoxTree Edge -> Mm -> CutterMotion -> Maybe Witness
 gougeOf side contour edges allowance m =
   Proof.deepest (concatMap onPath (NonEmpty.toList (Motion.paths m)))
@@ -106,8 +106,8 @@ normals contour = case Part.ends contour of
 
 -- | Parts of the segment @s@, each with the side of the contour on which it lies. @s@ is a part of
 -- a motion and does not cross the contour. If 'sideOf' knows the side of the middle of @s@, the
--- result is @s@ as a whole with this side. Otherwise @s@ is divided into eight, and those eighths
--- are listed for whose middles 'sideOf' knows the side.
+-- result is @s@ as a whole with this side. Otherwise @s@ is divided into eight parts. An eighth is
+-- listed with its side if 'sideOf' knows the side of its middle, and is left out if not.
 sided :: Contour -> BoxTree Edge -> Segment -> [(Side, Segment)]
 sided contour edges s = case sideOf contour edges (Segment.at 0.5 s) of
   Just side -> [(side, s)]

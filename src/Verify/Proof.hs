@@ -94,11 +94,11 @@ data Proof = Proof
 
 -- | Fault of a tape. An 'Int' is the number of a frame, from 1, unless the comment says otherwise.
 data Finding
-  = -- | Gouge: the deviation in the first frame that cuts too deep, the deepest one, the allowed
-    -- depth.
+  = -- | Gouge: the deviation in the first frame that cuts too deep, the deepest deviation, the
+    -- allowed depth.
     Gouge Witness Witness Mm
-  | -- | Excess: the deviation in the first frame that leaves too much, the largest one, the allowed
-    -- excess.
+  | -- | Excess: the deviation in the first frame that leaves too much, the largest deviation, the
+    -- allowed excess.
     Excess Witness Witness Mm
   | -- | The cutter runs along an element on its wrong side: the frame, the element.
     WrongSide Int Region
@@ -192,8 +192,8 @@ data Refusal
     ByRule Violation
   | -- | The radii of an arc differ: the number of the frame, the end radius minus the start radius.
     UnequalRadii Int Mm
-  | -- | An arc has no sweep; the number of its frame. Its end lies at its centre, or, as seen from
-    -- the centre, in the direction of its start but at another distance.
+  | -- | An arc has no sweep: the number of its frame. The end of such an arc lies at its centre,
+    -- or, as seen from the centre, in the direction of its start but at another distance.
     NoSweep Int
   | -- | Cutter compensation fails.
     NotCompensated CompensationError

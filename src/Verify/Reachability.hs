@@ -37,9 +37,9 @@ type Interval = (Double, Double)
 
 -- | Parts of an element that a cutter can touch with its centre on @side@ of the element, at
 -- @distance@ from it. @others@ are all segments of the contour, grouped by the distance that the
--- centre keeps from them. Some segments may have a larger distance than @distance@. It counts only
--- where the centre is on a normal of such a segment. Where it is not, @distance@ suffices, because
--- the toolpath steps back to the smaller distance there.
+-- centre keeps from them. If this distance is larger than @distance@, the centre has to keep it
+-- only where it lies on a normal of such a segment. Elsewhere @distance@ is enough, because the
+-- toolpath steps back to the smaller distance there.
 parts :: Side -> Mm -> [KeptDistance] -> Segment -> [Segment]
 parts side distance others element = case Segment.offset side distance element of
   Nothing -> []
@@ -66,8 +66,8 @@ freeOf side distance element centres free (KeptDistance kept others) =
     common xs ys = [(max a c, min b d) | (a, b) <- xs, (c, d) <- ys, max a c < min b d]
 
 -- | Distance below which a centre counts as too near to a segment from which it has to keep the
--- distance @d@. It is smaller than @d@ by half of 'Tolerance.clearance', so that rounding decides
--- nothing where the cutter just fits.
+-- distance @d@. It is smaller than @d@ by half of 'Tolerance.clearance'. So a cutter that just fits
+-- is not rejected because of rounding.
 roomy :: Mm -> Mm
 roomy d = minus d (times 0.5 Tolerance.clearance)
 
@@ -96,8 +96,8 @@ onThisSide element centres near (a, b) =
             (Distance.intersections (Straight foot (Segment.at t centres)) s)
 
 -- | Parts of an interval in which each centre keeps the distance @kept@ from all segments on whose
--- normals it lies. @near@ are the segments from which the centre keeps the distance @kept@. It is
--- larger than the distance that the centre keeps from the element.
+-- normals it lies. @near@ are the segments from which the centre keeps the distance @kept@. @kept@
+-- is larger than the distance that the centre keeps from the element.
 withoutNormals :: Side -> Mm -> [Segment] -> Segment -> Interval -> [Interval]
 withoutNormals side kept near centres (a, b) =
   [ (from, to)

@@ -46,7 +46,7 @@ data RequiredMove = RequiredMove
     between :: (Mm, Mm),
     -- | largest distance of a motion from the path, in the plane
     slack :: Mm,
-    -- | speed, and true if the cutter may slow down at the end
+    -- | @pace@ is the speed; @slows@ is true if the cutter may slow down at the end of the move
     pace :: Pace,
     slows :: Bool,
     -- | region of the program that asks for the move
@@ -68,9 +68,11 @@ data RequiredItem
   = Single RequiredMove
   | Several MotionGroup
 
--- | Items of a toolpath. @passes@ are the passes along contours as they were found on the tape, one
--- for each block that cuts; @pockets@ are the pockets of the blocks. The moves of a hole come from
--- the drilling statement, all other single moves from the toolpath.
+-- | Items of a toolpath. @isFlat@ is true if the whole toolpath is at the height of its start; the
+-- heights in pockets are then not compared. @passes@ are the passes along contours as they were
+-- found on the tape, one for each block that cuts a contour; @pockets@ are the pockets of the
+-- blocks. The moves of a hole come from the drilling statement, all other single moves from the
+-- toolpath.
 itemsOf :: Machine -> Bool -> [MillingPass] -> [Pocket] -> Toolpath -> [RequiredItem]
 itemsOf machine isFlat passes pockets toolpath =
   concat
@@ -111,7 +113,8 @@ beginnings toolpath = scanl after (value (Toolpath.start toolpath)) (Toolpath.bl
 -- drill goes from hole to hole in rapid at the clearance height. In a hole it goes down at the feed
 -- of the statement, and rises in rapid to the clearance height. With pecks it goes down in equal
 -- steps, none deeper than the peck. It returns in rapid to 0.5 mm above the end of the step before,
--- but not above the clearance height. @slack@ is the slack in the plane.
+-- but not above the clearance height. @begin@ is the drill's position before the statement. @slack@
+-- is the largest distance in mm of a motion from its move, in the plane.
 holeMoves :: Mm -> SpacePoint -> Located Drilling -> [RequiredMove]
 holeMoves slack begin (Located statement drilling) =
   [vertical statement at (height begin, clear) Part.Rapid | height begin < clear]
@@ -151,7 +154,8 @@ edgeMoves s =
       Toolpath.behind s
     ]
 
--- | Items of single moves, with their slack in the plane.
+-- | Items of single moves. @slack@ is the largest distance in mm of a motion from its move, in the
+-- plane.
 singles :: Mm -> [Move] -> [RequiredItem]
 singles slack = map single
   where
@@ -166,15 +170,17 @@ singles slack = map single
             origin = Toolpath.origin m
           }
 
--- | Slack of the linking moves of a milling: the tolerance plus one pulse.
+-- | Largest distance in mm, in the plane, of a motion from a linking move of a milling: the
+-- tolerance plus one pulse.
 slackOf :: Machine -> Milling -> Mm
 slackOf machine milling =
   plus
     (uncurry max (Part.deviationLimits (Part.tolerance milling)))
     (Machine.planeResolution machine)
 
--- | Group of the motions along a contour. Motions at the beginning of the contour, before the first
--- one that leaves it, may also belong to the linking moves, and so may those at its end.
+-- | Group of the motions along a contour. The first motions may also belong to the approach, as
+-- long as they stay at the start of the cut. The last motions may also belong to the retract if
+-- they stay at the end of the cut.
 alongContour :: MillingPass -> MotionGroup
 alongContour MillingPass {job, found} =
   MotionGroup

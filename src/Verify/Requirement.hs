@@ -30,10 +30,10 @@ import Part.Part qualified as Part
 -- Side and distance -------------------------------------------------------------------------------
 
 -- | Side of the contour on which the cutter has to be, in the direction of travel. Nothing if the
--- cutter runs on the contour. A milled open contour has no inside and no outside, so the result for
--- these words is Nothing as well. An open turned profile has both: inside is the axis of the
--- spindle, @y = 0@. So a tool outside of the profile is on the left if the profile leads to larger
--- x.
+-- cutter runs on the contour. Nothing also if the program says inside or outside of a milled open
+-- contour, which has neither. An open turned profile has both: its inside is the side towards the
+-- axis of the spindle, @y = 0@. So a tool outside of the profile is on the left if the profile
+-- leads to larger x.
 cutterSide :: Milling -> Maybe Carrier.Side
 cutterSide milling = case value (Part.side milling) of
   Part.On -> Nothing
@@ -61,7 +61,8 @@ isCounterClockwise contour = Polyarc.areaOf Part.segment (Part.elements contour)
 isOnContour :: Milling -> Bool
 isOnContour milling = value (Part.side milling) == Part.On
 
--- | Distance of the cutter's centre from the contour in a pass that leaves the allowance.
+-- | Distance of the cutter's centre from the contour in a pass that leaves @allowance@. If the
+-- cutter runs on the contour, this is @allowance@ alone.
 centreDistance :: Milling -> Mm -> Mm
 centreDistance milling allowance
   | isOnContour milling = allowance
@@ -82,9 +83,9 @@ facingTheRoom outline islands = outline : map facing islands
 data Known = Known Double Double
 
 -- | Bevels at the start and at the end of each element, in radians; Nothing if no element has a
--- bevel. Between two elements with a bevel, the bevel changes linearly with arc length; on a closed
--- contour also across the start. On an open contour, it is constant before the first element with a
--- bevel and after the last one.
+-- bevel. Between two elements with a bevel, the bevel changes linearly with arc length. On a closed
+-- contour it also does so between the last such element and the first one. On an open contour it is
+-- constant before the first such element and after the last one.
 bevels :: Contour -> Maybe (Vector (Double, Double))
 bevels contour
   | Vector.all (isNothing . Part.bevel) elements = Nothing
@@ -110,7 +111,8 @@ bevels contour
     firstOf = Vector.foldr (<|>) Nothing
 
 -- | Bevel in radians at the arc length @x@ in mm, interpolated linearly between the known bevels
--- before and after it. If only one of them is known, it is that one; if none is known, it is 0.
+-- before and after it. If only one of them is known, the result is that bevel; if none is known, it
+-- is 0.
 interpolated :: Maybe Known -> Maybe Known -> Double -> Double
 interpolated before after x = case (before, after) of
   (Just (Known p a), Just (Known q b))

@@ -104,7 +104,8 @@ levelledIn machine pass m
       -- At an outer corner the blade may have any bevel between those of the two elements. The ends
       -- of a line at a corner therefore prove little, and its middle is sampled as well.
       Straight _ _ -> [0.5, 1]
-      -- The axis may stand still during an arc although the contour demands that it moves.
+      -- The axis may have the right height at both ends of an arc and a wrong one between them. So
+      -- sample points inside of the arc are tested as well.
       Arc {} -> Motion.samples m
 
 -- | Test that @z@ is the height of the axis that the nearest element demands, while the centre is

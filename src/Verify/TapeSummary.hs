@@ -24,8 +24,8 @@ data TapeSummary = TapeSummary
     -- | number of the first frame that ends at another height than the start position; Nothing if
     -- the tape stays at that height
     firstRisen :: Maybe Int,
-    -- | number of the first frame that differs from the planned frame with its number, or that only
-    -- the tape or only the plan has; Nothing if there is no difference
+    -- | number of the first frame that differs from the planned frame of the same number, or that
+    -- exists only on the tape or only in the plan; Nothing if there is no difference
     firstDifference :: Maybe Int
   }
 
@@ -39,7 +39,8 @@ summarize begin@(Pulses3 _ _ startHeight) planned frames = case missing of
     Comparison summary missing = foldl' (withFrame startHeight) (Comparison empty planned) frames
     empty = TapeSummary 0 begin 0 Nothing Nothing
 
--- | Summary of the frames of a tape that are already compared, and the planned frames that are not.
+-- | Summary of the frames of a tape that are already compared, and the planned frames that are not
+-- yet compared.
 data Comparison = Comparison TapeSummary [PlannedFrame]
 
 -- | Comparison after the next frame @f@ of the tape. @startHeight@ is the height of the start

@@ -97,10 +97,11 @@ sideOf p s
     foot = Segment.at (Segment.fraction s p) s
     ahead = Segment.directionAt (Segment.fraction s p) s
 
--- | Test that a motion runs against the direction of travel beside every element that is nearest to
--- the cutter at the middle of the motion, within the allowed deviation. An arc is tested between
--- each two of its sample points. False if the cutter touches no element, and for a motion so short
--- that rounding decides its direction.
+-- | Test that a motion runs against the direction of travel at one of its test points. The test
+-- point of a line is its middle. The test points of an arc lie midway between neighbouring sample
+-- points. At a test point the motion has to run against all elements that the cutter touches there
+-- and that are nearest within the allowed deviation; there has to be at least one. False for a
+-- motion so short that rounding decides its direction.
 runsBack :: Machine -> MillingJob -> CutterMotion -> Bool
 runsBack machine job m =
   Segment.length (segment m) > times 4 (Machine.planeResolution machine) && any isBack fractions
@@ -113,7 +114,8 @@ runsBack machine job m =
       where
         p = Segment.at k (segment m)
         ahead = Segment.directionAt k (segment m)
-        -- Elements that the cutter touches, each with its distance without its own allowance.
+        -- Elements that the cutter touches, each with its distance less the element's own
+        -- allowance.
         touched =
           [ (minus d (ownAllowance e), e)
             | e <- around,
@@ -124,8 +126,9 @@ runsBack machine job m =
         nearest = filter ((<= plus least (allowance job)) . fst) touched
 
 -- | Test that the unit direction @ahead@ at the centre @p@ leads against the direction of travel of
--- an element. A centre beside the element has to move so that the element stays on the other side.
--- A centre on the element has to move in the direction of the element.
+-- an element. A centre beside the element has to move so that it keeps the element on the side
+-- opposite to the demanded one. A centre on the element has to move in the direction of the
+-- element.
 isAgainst :: MillingJob -> Vec -> Point -> Edge -> Bool
 isAgainst job ahead p e = case side job of
   Just demanded
@@ -136,7 +139,7 @@ isAgainst job ahead p e = case side job of
     share = Distance.nearestFraction p (shape e)
     (d, foot) = Distance.nearest p (shape e)
 
--- | Sine of the angle by which a direction has to differ from the opposite one, so that rounding
--- does not decide.
+-- | Least component, against the direction of travel, of the unit direction of a motion that counts
+-- as running back. A smaller component may be due to rounding.
 clearly :: Double
 clearly = 0.5

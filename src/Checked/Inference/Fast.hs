@@ -1,9 +1,9 @@
 -- | A fast version of type inference for literals and for calls whose arguments are literals.
 --
 -- Most terms of a large program are numbers, points and calls on them. Their types are visible from
--- their syntax, so this module checks them without unknowns: types or dimensions that inference has
--- yet to find. It gives the same terms, types and errors as "Checked.Expression" would by full
--- inference. All other terms are left to that module.
+-- their syntax, so this module checks them without unknowns. (An unknown is a type or a dimension
+-- that inference has yet to find.) It gives the same terms, types and errors as
+-- "Checked.Expression" would by full inference. All other terms are left to that module.
 module Checked.Inference.Fast
   ( literal,
     FastCall (..),

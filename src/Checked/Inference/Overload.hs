@@ -49,9 +49,9 @@ chooseForm call form = do
   mapM_ (\((region, t), p) -> equate region p t) (zip (arguments call) (parameterTypes form))
   equate (callRegion call) (callType call) (Builtin.result form)
 
--- | Reports a call that fits no form; @types@ are the resolved types of its arguments. If
--- 'oneMisfit' finds a single wrong argument for a form, the report points at this argument.
--- Otherwise it points at the whole call.
+-- | Reports a call that fits no form; @types@ are the resolved types of its arguments. The report
+-- points at the argument that 'oneMisfit' finds for the first form for which it finds one. If it
+-- finds none for any form, the report points at the whole call.
 reportMisfit :: OverloadedCall -> [Type] -> Infer ()
 reportMisfit call types = case mapMaybe (oneMisfit call types) (formsByLabels call) of
   (region, wanted, written, found) : _ -> do

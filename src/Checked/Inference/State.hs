@@ -1,7 +1,7 @@
 -- | The state of type inference: unknowns and decisions about them, names in scope, and errors. An
--- unknown is a type or a dimension that inference has yet to find; it has a number. An unknown is
--- decided when it gets a value. A type is resolved when its decided unknowns are replaced by their
--- values.
+-- unknown is a type or a dimension that inference has yet to find; it is identified by a number. An
+-- unknown is decided when it gets a value. A type is resolved when its decided unknowns are
+-- replaced by their values.
 --
 -- Types are unified as in Hindley–Milner inference. Dimensions are unified as elements of a
 -- commutative group ("Checked.Dimension"). This module solves equations only. "Checked.Inference"

@@ -54,11 +54,12 @@ data Ranked = Ranked {rank :: Int, attempted :: Attempt}
 -- | Steps of an arc about the best of some grid points. Nothing when no 'attempt' about them
 -- succeeds.
 --
--- Grid points about which the whole arc is one frame have priority. The one with the least
--- deviation is chosen, and the first of several equal ones. The grid point with the least estimated
--- deviation is attempted first. Another grid point is attempted only if 'isBetter' finds it better
--- than the best so far. When no single frame is within the tolerance, the attempt with the fewest
--- steps is chosen. If several have the fewest, the one with the least deviation is chosen.
+-- Grid points about which the whole arc is one frame have priority. Of these, the one with the
+-- least deviation is chosen, and the first of several equal ones. The grid point with the least
+-- estimated deviation is attempted first. Another grid point is attempted only if 'isBetter' finds
+-- it better than the best so far. When no single frame is within the tolerance, all grid points are
+-- attempted, and the attempt with the fewest steps is chosen. If several have the fewest, the one
+-- with the least deviation is chosen.
 bestAbout :: ArcContext -> RoundedArc -> [Pulses2] -> Maybe [ArcStep]
 bestAbout context arc centres
   | Just ends <- Estimate.endsOf (grid context) arc,
@@ -264,8 +265,8 @@ isNearlyStraight :: ArcContext -> Segment -> Bool
 isNearlyStraight context s = Segment.sagitta s < Mm (0.5 * pulse (grid context))
 
 -- | True when straight steps through the grid points @stops@ stay within the tolerance of the arc
--- @exact@. Even for a nearly straight arc this has to be tested: its sagitta of up to half a pulse,
--- together with the rounding of the ends, can exceed a pulse.
+-- @exact@. Even for a nearly straight arc this has to be tested. Its sagitta of up to half a pulse
+-- and the rounding of the ends can together exceed a tolerance of one pulse.
 isStraightEnough :: ArcContext -> Segment -> [Pulses2] -> Bool
 isStraightEnough context exact stops = case exact of
   Straight _ _ -> True

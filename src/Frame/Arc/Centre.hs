@@ -19,8 +19,9 @@ import Geometry.Vec qualified as Vec
 import Machine.Machine (Arcs (..))
 import Machine.Machine qualified as Machine
 
--- | Grid points near the exact centre of the arc, and near a second point: the nearest point to the
--- exact centre that is equally far from both rounded ends. A full circle has no second point.
+-- | Grid points near the exact centre of the arc, and near a second point. The second point is
+-- equally far from both rounded ends, and of all such points it is nearest to the exact centre. A
+-- full circle has no second point.
 nearCentres :: ArcContext -> RoundedArc -> [Pulses2]
 nearCentres context arc
   | begin arc == finish arc = around (nearest (centre arc))
@@ -59,12 +60,13 @@ isWithin most (Pulses2 i j) (Pulses2 k l) = abs (i - k) <= most && abs (j - l) <
 -- About each of them the whole arc is one frame, and the middle of this frame's arc is within the
 -- tolerance of the exact arc.
 --
--- Consider an arc of the sweep 2h with a fixed start. Its centre is displaced by n towards the
--- middle of the arc, and by t at right angles to n, towards its end. This displaces the middle
--- outwards by @(1 − cos h)·n + sin h·t@ and its end by @2·sin h·t@. The deviation at each of these
--- points is the displacement plus the rounding of the start. So for a deviation within the
--- tolerance, each displacement is at most the sum of the tolerance and the rounding of the start.
--- Therefore @(1 − cos h)·n@ is at most 3/2 of this sum.
+-- The following bound limits the search. Consider an arc of the sweep 2h with a fixed start. Its
+-- centre is displaced by n towards the middle of the arc, and by t at right angles to n, towards
+-- its end. This displaces the middle outwards by @(1 − cos h)·n + sin h·t@ and the end by
+-- @2·sin h·t@. The deviation at each of these points is the displacement plus the rounding of the
+-- start. So for a deviation within the tolerance, each displacement is at most the sum of the
+-- tolerance and the rounding of the start. For the end this means that @sin h·t@ is at most half of
+-- this sum in size. So for the middle, @(1 − cos h)·n@ is at most 3/2 of the sum.
 remoteCentres :: ArcContext -> RoundedArc -> [Pulses2]
 remoteCentres context arc
   | begin arc == finish arc = []

@@ -92,9 +92,10 @@ deviationOf tolerance exact ofFrame =
 -- | Deviation at the ends of an arc, if it is provably the largest deviation of the whole arc and
 -- less than both tolerances 'inwards' and 'outwards'. Otherwise Nothing.
 --
--- The centre of the frame's arc is off from the exact centre by v, and the sweep is φ. Between the
--- ends, the deviation differs by up to @φ²·v/8@ from the linear interpolation of the deviations at
--- both ends. The bound used here is twice as large, to cover the terms of second order in v.
+-- The centre of the frame's arc lies at the distance v from the exact centre, and the sweep is φ.
+-- Between the ends, the deviation differs by up to @φ²·v/8@ from the linear interpolation of the
+-- deviations at both ends. The bound used here is twice as large, to cover the terms of second
+-- order in v.
 deviationAtEnds :: ArcTolerance -> FrameArc -> Maybe ArcDeviation
 deviationAtEnds tolerance arc
   | abs (turned arc) < 1
@@ -113,19 +114,21 @@ deviationAtEnds tolerance arc
     off = abs asideX + abs asideY
     interpolationError = turned arc * turned arc * off / 4 + roundingError
     Mm smaller = min (inwards tolerance) (outwards tolerance)
-    -- Cross product of the radius at the fraction @t@ of the sweep and the vector between both
-    -- centres. Where the radial deviation is extreme, the two are parallel and the product changes
-    -- its sign.
+    -- Cross product of two vectors: from the centre of the frame's arc to its point at the fraction
+    -- @t@ of the sweep, and from the exact centre to the centre of the frame's arc. Where the
+    -- radial deviation is extreme, both vectors are parallel and the product changes its sign. So
+    -- equal signs at both ends mean that there is no extreme between them.
     perpendicular t =
       let (c, s) = (cos (t * turned arc), sin (t * turned arc))
        in (c * startX arc - s * startY arc) * asideY - (c * startY arc + s * startX arc) * asideX
 
--- | Largest rounding error of the double arithmetic, in mm.
+-- | Upper bound in mm for the error that the rounding of doubles causes in a computed deviation.
 roundingError :: Double
 roundingError = 1e-9
 
--- | Largest deviation at every eighth of the sweep, and at the points of the arc that are nearest
--- to and furthest from the exact centre.
+-- | Largest one of the deviations at certain points of the arc, field by field. These are the
+-- beginning, every eighth of the sweep, and the points that are nearest to and furthest from the
+-- exact centre.
 sampledDeviation :: FrameArc -> ArcDeviation
 sampledDeviation arc =
   foldl'

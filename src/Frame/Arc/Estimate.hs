@@ -45,12 +45,12 @@ data ArcEnds = ArcEnds
     -- | distances of the rounded ends from the exact circle, positive outside
     beginError :: Double,
     finishError :: Double,
-    -- | difference of two unit vectors from the exact centre: to the arc's middle, minus to the
-    -- rounded start
+    -- | the vector @u − u₀@ of 'estimate' for the middle of the arc: the unit vector from the exact
+    -- centre to this middle, minus the unit vector from the exact centre to the rounded start
     halfX :: Double,
     halfY :: Double,
-    -- | difference of two unit vectors from the exact centre: to the rounded end, minus to the
-    -- rounded start
+    -- | the vector @u − u₀@ of 'estimate' for the end of the arc: the unit vector from the exact
+    -- centre to the rounded end, minus the unit vector from the exact centre to the rounded start
     wholeX :: Double,
     wholeY :: Double
   }
@@ -106,7 +106,8 @@ estimate
       y = fromIntegral j * stepY - exactY
       half = beginError + x * halfX + y * halfY
       whole = beginError + x * wholeX + y * wholeY
-      -- A linear change of the radius adds half the difference of both radii at the middle.
+      -- If the radius changes linearly, the radius at the middle is larger than at the beginning by
+      -- half the difference between the radii at the end and at the beginning.
       between = abs (half + 0.5 * (finishError - whole))
       larger a b = if a > b then a else b
 {-# INLINE estimate #-}
@@ -169,9 +170,9 @@ frameArcAbout
 
 -- | Exact deviation in mm in the middle of an arc about a grid point. It is the larger one of two
 -- deviations: for a control that keeps the radius of the beginning, and for a control that changes
--- it linearly. No trigonometry is needed, because the direction to the middle is square to the
--- difference of the unit directions to the ends. Apply the first two arguments once, and the result
--- to many grid points.
+-- it linearly. No trigonometry is needed: seen from the grid point, the direction to the middle is
+-- square to the difference of the unit directions to the two ends. Apply the first two arguments
+-- once, and the result to many grid points.
 errorInMiddle :: Grid -> RoundedArc -> Pulses2 -> Double
 errorInMiddle grid arc =
   let a = Context.gridPoint grid (xy (begin arc))

@@ -94,7 +94,8 @@ above k from p = uy * dx from - ux * dy from - 0.5 * k * (ux * ux + uy * uy)
     uy = py p - py from
 {-# INLINE above #-}
 
--- | Derivative of F by arc length, for a curve that passes pose @p@ in its direction.
+-- | Derivative at pose @p@ of the function F of arc @f@, by the arc length of a curve that passes
+-- this pose in its direction.
 slope :: FastArc -> Pose -> Double
 slope f p =
   (dy p * dx (origin f) - dx p * dy (origin f))

@@ -69,9 +69,9 @@ data Spans = Spans
     -- succeeds. The arguments are the parameter at the start, the position and direction there, and
     -- the first step
     fallback :: Double -> (Point, Vec) -> Double -> FitStep,
-    -- | True only if no biarc between two positions can be within a distance; the caller then tries
-    -- none. A function that is always False is valid too. The arguments are the distance in mm,
-    -- then span, parameter and pose of both positions
+    -- | True only if every biarc between two positions of the curve is farther from the curve than
+    -- a given distance; the caller then tries none. A function that is always False is valid too.
+    -- The arguments are the distance in mm, then span, parameter and pose of both positions
     isHopeless :: Double -> Int -> Double -> Pose -> Int -> Double -> Pose -> Bool,
     -- | True to try longer biarcs with other chord ratios where the curvature changes unevenly. On
     -- curves of few spans the result then has a tenth fewer biarcs

@@ -30,7 +30,8 @@ import Geometry.Tolerance qualified as Tolerance
 import Geometry.Vec (Point, Vec)
 import Geometry.Vec qualified as Vec
 
--- | Curve given by functions of a parameter that increases from its start to its end.
+-- | Curve given by functions of a parameter. The parameter increases from the start of the curve to
+-- its end.
 data ParametricCurve = ParametricCurve
   { -- | point at a parameter
     place :: Double -> Point,
@@ -192,8 +193,8 @@ longestBiarc w first = tryLonger (search w 24 Nothing Nothing first)
 -- | Bracketing search for the longest biarc. @step@ is tried next. @success@ is the longest trial
 -- within the tolerance so far, and @failure@ the least parameter whose trial failed. Each is
 -- Nothing if there is none. Once there is a success, the search ends after at most @remaining@
--- further trials. Until then it goes on beyond this count with smaller steps. It falls back to a
--- line when it comes to the smallest one.
+-- further trials. As long as there is none, the search goes on beyond this count with smaller
+-- steps. If no step above 'leastStep' succeeds, the result is the 'fallbackLine'.
 search :: FitState -> Int -> Maybe Trial -> Maybe Double -> Double -> Trial
 search w remaining success failure step
   | step <= leastStep w = fromMaybe (fallbackLine w) success
@@ -276,9 +277,9 @@ least = minimumBy (comparing (\(d, _, _) -> d))
 
 -- | Refines the chord ratio of the attempt @best@. The result is @best@ itself if its distance is
 -- within the tolerance @aim@ (mm) or above four times @aim@. Otherwise the ratio is multiplied and
--- divided by the square root of @factor@, and the best attempt is refined again. This root is the
--- @factor@ of the next round. There are at most @remaining@ rounds. @tried@ makes attempts with
--- given ratios.
+-- divided by the square root of @factor@, and the best of the three attempts is refined again. This
+-- root is the @factor@ of the next round. There are at most @remaining@ rounds. @tried@ makes
+-- attempts with given ratios.
 refineRatio :: Double -> ([Double] -> [Attempt]) -> Int -> Double -> Attempt -> Attempt
 refineRatio aim tried remaining factor best@(d, r, _)
   | remaining <= 0 || d <= aim || d > 4 * aim = best
@@ -332,8 +333,8 @@ measured w v stations segments
 
 -- | Counts of sample points for the parts of spans between the current parameter and @v@, each with
 -- its part. A part is given by its first and last parameter. A single part has 8 points. Of several
--- parts, each has a share of 8 points, rounded up, but at least 3. This is the part's share of the
--- parameter range or of the sum of all parts' chords, whichever is larger.
+-- parts, each has 8 points times its share, rounded up, but at least 3. Its share is that of the
+-- parameter range or that of the sum of all parts' chords, whichever is larger.
 sampleCounts :: FitState -> Double -> [(Double, Double)] -> [(Int, (Double, Double))]
 sampleCounts w v parts = case parts of
   [one] -> [(8, one)]
@@ -367,7 +368,7 @@ distanceTo segments p = let Mm d = minimum (fmap (Distance.toPoint p) segments) 
 -- @aim@ (mm). The curve is given by the function @point@ of the parameter and by the samples
 -- @points@ in order. The distance is measured at the samples, near the joint of the segments, and
 -- at every maximum between samples. The result is infinite if the feet of the samples on the
--- segments jump or reverse: some point of the segments may be far from the curve.
+-- segments jump or reverse, because then some point of the segments may be far from the curve.
 deviation :: (Double -> Point) -> Double -> NonEmpty Segment -> [(Double, Point)] -> Double
 deviation point aim segments points
   | largest > aim || isCovered point aim segments feet = largest

@@ -6,8 +6,8 @@
 --
 -- The bound and the arcs are those of "Geometry.ArcFitting.ArcDistance". The function F of a
 -- position is 0 on the circle of an arc. The largest |F| along a curve gives a bound of the curve's
--- distance from the arc. The bound holds only if the curve runs forwards: its direction makes less
--- than a quarter turn with the directions of both ends of the arc.
+-- distance from the arc. The bound holds only if the curve runs forwards: its direction makes an
+-- angle of less than a quarter turn with the arc's directions at both ends.
 --
 -- Along a segment that sweeps less than a quarter turn, F has at most one extremum. It lies where
 -- the slope @F′ = d_y − k·(x·d_x + y·d_y)@ is 0. Here k is the arc's curvature, (x, y) the position
@@ -102,10 +102,10 @@ stretchSpans tolerance chain from to =
        in ParametricFit.oneBiarc (Mm tolerance) (parametricCurve chain i end) (station chain end) u
 {-# INLINE stretchSpans #-}
 
--- | Polyarc within a tolerance of a given one, without kinks except at corners. A kink is a change
--- of direction above 'Tolerance.smoothAngle', a corner one above 'Tolerance.kink'. A stretch
--- without a kink is kept, but neighbouring arcs on one circle are merged. A stretch with kinks is
--- replaced by the result of 'approximate'.
+-- | Polyarc within a tolerance of a given one, without kinks except at corners. A kink is a joint
+-- at which the direction changes by more than 'Tolerance.smoothAngle'. A corner is a kink at which
+-- it changes by more than 'Tolerance.kink'. A stretch without a kink is kept, but neighbouring arcs
+-- on one circle are merged. A stretch with kinks is replaced by the result of 'approximate'.
 smoothed :: Mm -> NonEmpty Segment -> NonEmpty Segment
 smoothed tolerance (first :| others) = groups (first :| []) first False others
   where
@@ -131,8 +131,8 @@ smoothed tolerance (first :| others) = groups (first :| []) first False others
           (MeasuredPolyarc.fromFlatPolyarc (approximate tolerance (NonEmpty.reverse before)))
       | otherwise = NonEmpty.reverse before
 
--- | One arc of at most half a turn in place of two consecutive arcs. Nothing if they do not lie on
--- one circle, up to rounding.
+-- | One arc in place of two consecutive arcs. Nothing if they do not lie on one circle, up to
+-- rounding, if their senses differ, or if they sweep more than half a turn together.
 mergedArc :: Segment -> Segment -> Maybe Segment
 mergedArc s next = case (s, next) of
   (Arc {start, centre, sweep = Rad a}, Arc {end, sweep = Rad b})

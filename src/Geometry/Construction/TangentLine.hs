@@ -34,8 +34,8 @@ directed (sense1, Circle c1 (Mm r1)) (sense2, Circle c2 (Mm r2))
     u = Vec.add (Vec.scale (len / d) e) (Vec.scale ((rho1 - rho2) / d) (Vec.left e))
     touch c rho = Vec.shift (Vec.scale (-rho) (Vec.left u)) c
 
--- | All common tangents from the circle @a@ to the circle @b@, at most four. Each comes after the
--- senses of @a@ and @b@ for which 'directed' gives it.
+-- | All common tangents from the circle @a@ to the circle @b@, at most four. Each entry has the
+-- senses of @a@ and of @b@, and the line that 'directed' gives for these senses.
 all :: Circle -> Circle -> [(Sense, Sense, Line)]
 all a b =
   [ (sense1, sense2, line)

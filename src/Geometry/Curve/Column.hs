@@ -149,9 +149,9 @@ series n base c spanPoint = case interpolation c of
             (TaylorExpansion.speed (BasisCurve.expansion n base spanPoint))
       fraction = PowerSeries.scale (1 / width) (PowerSeries.plusConstant (-from) lengthSeries)
 
--- | Parameters of the rows, in ascending order, if the column is a spline by arc length: at the
--- rows, one cubic follows another. For any other column the list is empty, because its cubics
--- change only at the ends of the base's spans.
+-- | Parameters of the rows, in ascending order, if the column is a spline by arc length: there the
+-- column changes from one cubic to the next. For any other column the list is empty, because its
+-- cubics change only at the ends of the base's spans.
 knots :: BasisCurve -> Column -> [Double]
 knots base c = case interpolation c of
   BySpan _ -> []

@@ -3,10 +3,10 @@
 -- The deviation of a row is y of the section minus y of the row. The parabolas through two given
 -- rows form a family with one parameter t, and so do the arcs; t is the number in 'SectionShape'.
 -- At every x between the two rows, y rises with t (arcs) or falls with t (parabolas). Therefore the
--- largest absolute deviation is least for the t at which two rows deviate equally to opposite
--- sides. An arc y(x) has no vertical tangent between its ends, so its angle t has a largest
--- absolute value. If no allowed angle makes two rows deviate equally, one of the two extreme angles
--- is best.
+-- largest absolute deviation is least for a certain t: the lowest and the highest deviation are
+-- then equal in size and have opposite signs. An arc y(x) has no vertical tangent between its ends,
+-- so its angle t has a largest absolute value. If no allowed angle makes both deviations equal in
+-- size, one of the two extreme angles is best.
 module Geometry.Curve.Section
   ( -- * Tables
     PointTable,

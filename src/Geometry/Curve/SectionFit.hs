@@ -105,9 +105,10 @@ layers t kinds tolerance = go (IntMap.singleton 0 ()) (IntMap.singleton 0 ())
         ( NonEmpty.nonEmpty
             [(k, d) | (k, d, _) <- deviationsOf [(k, Nothing) | k <- kinds] i final, d <= within]
         )
-    -- Sections from row @i@ to @j@ and later rows, of each candidate kind. Drops the kinds that can
-    -- no longer come within the tolerance. Keeps with each kind the two rows of its largest
-    -- deviations. Skips rows that were reached by fewer sections.
+    -- Sections that begin at row @i@ and end at row @j@ or a later row, of each candidate kind.
+    -- Drops the kinds that can no longer come within the tolerance. Keeps with each kind the pair
+    -- of rows that 'bestWithin' found, for the search to the next row. Skips rows that were reached
+    -- by fewer sections.
     lengthen reached i j candidates
       | j > final || null candidates = []
       | reached j = lengthen reached i (j + 1) candidates
@@ -128,7 +129,7 @@ layers t kinds tolerance = go (IntMap.singleton 0 ()) (IntMap.singleton 0 ())
       | otherwise =
         [(k, d, most) | (k, before) <- ks, let (d, _, most) = bestWithin within before t k i j]
 
--- | Least of the largest deviations (mm) that the fits through the layers have.
+-- | Largest deviation (mm) of the fit in which it is least, among all fits through the layers.
 bottleneck :: Layers -> Double
 bottleneck steps = minimum (IntMap.elems (foldl advance (IntMap.singleton 0 0) steps))
   where

@@ -2,8 +2,8 @@
 -- that names a kind of distance on the input sheet of the Minsk-22 system (Kolsanova, section 5).
 --
 -- A distance belongs to the curve that it shifts and may depend on that curve's arc length. It is
--- in mm, and positive towards the side of the shift. A position on a curve is a parameter together
--- with the side from which it is approached.
+-- in mm, and positive towards the side of the shift. A position on a curve is a parameter, and the
+-- direction from which it is approached: from smaller or from larger parameters.
 module Geometry.Curve.ShiftDistance
   ( Distance (..),
     Growth (..),
@@ -37,7 +37,8 @@ import Geometry.Numeric.TaylorExpansion qualified as TaylorExpansion
 data Distance
   = -- | constant (cipher 2)
     Constant Mm
-  | -- | the distances in mm at the rows of the table, interpolated between them (cipher 6)
+  | -- | the distances in mm at the rows of the curve's point table, interpolated between the rows
+    -- (cipher 6)
     Pointwise Column
   | -- | @H·tan μ + δ@ for a bevel μ (radians), a flange height H (mm) and an allowance δ (cipher 4)
     Bevelled Column Column Mm
@@ -87,8 +88,9 @@ instance Show ShiftInterval where
   show _ = "ShiftInterval"
 
 -- | Interval on which @distance@ changes. For a joggle, and for a distance that grows from one
--- parameter to another, it lies between the two parameters; otherwise it is the whole curve.
--- @arcLength@ is the arc length of the curve as a function of its parameter.
+-- parameter to another, it lies between the two parameters. For a 'Square' distance it is that of
+-- the distance inside. Otherwise it is the whole curve. @arcLength@ is the arc length of the curve
+-- as a function of its parameter.
 intervalOf :: ArcLength -> Distance -> ShiftInterval
 intervalOf arcLength distance = case distance of
   Constant _ -> wholeCurve
@@ -222,7 +224,8 @@ joggleSeries n below interval joggle@Joggle {depth = Mm depth, radius = Mm r} po
         d
         (PowerSeries.scale (-1) (arcRise (PowerSeries.plusConstant (-l) t)))
 
--- | Power series of the arc length in mm from the start to the position, up to the power @n@.
+-- | Power series about the position, up to the power @n@. It gives the arc length in mm from the
+-- start of the curve below to a point near the position.
 lengthSeries :: Int -> CurveBelow -> SpanPoint -> PowerSeries
 lengthSeries n below position = case n of
   0 -> PowerSeries.constant 0 runLength

@@ -1,6 +1,6 @@
 -- | Curves: a base curve with any number of shifts, each of which is a layer on top of the curve
--- below. They are evaluated by power series through all layers. The parameter of a curve rises by 1
--- over each span of the base, a part on which one formula gives the points.
+-- below. They are evaluated by power series through all layers. A span is a part of the base on
+-- which one formula gives the points. The parameter of a curve rises by 1 over each span.
 module Geometry.Curve.ShiftedCurve
   ( Curve (..),
     Layer (..),

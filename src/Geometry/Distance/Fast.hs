@@ -4,12 +4,12 @@
 -- | Distances of segments and bounds of them, computed on unpacked coordinates: a faster
 -- counterpart of "Geometry.Distance".
 --
--- The proof of a tape compares motions with elements of the part. For nearly every pair a bound
--- shows that the two are near enough or far enough apart.
+-- The proof of a tape compares motions with elements of the part: some must be near enough to each
+-- other, some far enough apart. For nearly every pair a bound decides this.
 --
 -- A comment "True only if" means that a result True is certain, in spite of rounding errors. A
 -- result False then proves nothing, and the caller compares exactly by "Geometry.Distance". "False
--- only if" has the opposite meaning.
+-- only if" means that a result False is certain. Then a result True proves nothing.
 --
 -- The foot of a point on a segment is where the perpendicular from the point meets the segment's
 -- carrier.
@@ -83,12 +83,12 @@ isCovered reach segmentsOf counts others e =
 -- @others@. Always false for an arc with a sweep above 'largestSweep'.
 --
 -- The result is true if @others@ contains a suitable run. A run consists of consecutive segments,
--- each of which begins where the one before ends. It must lead from before the start of @t@ to
--- after its end, or in the opposite direction. For a line @t@, before and after are meant along the
--- line; for an arc, by the angle at its centre. Such a run crosses the normal of @t@ at every point
--- of @t@. The distance from the point to this crossing is that of the crossing from the carrier of
--- @t@. So no point of the run may be further than @most@ from this carrier. For an arc, the run
--- must also be too short to go around the far side of the centre.
+-- each of which begins where the one before ends. One end of the run must lie before the start of
+-- @t@, and the other after the end of @t@. Positions are compared along the line @t@, or by the
+-- angle at the centre of the arc @t@. Such a run crosses the normal at every point of @t@. This
+-- point of @t@ is as far from the crossing as the crossing is from the carrier of @t@. So no point
+-- of the run may be further than @most@ from this carrier. For an arc, the run must also be too
+-- short to go around the far side of the centre.
 isAccompanied :: Double -> [Segment] -> Segment -> Bool
 isAccompanied most others t
   | isLine t = lineIsAccompanied (most - 2 * unsure) others t
@@ -131,12 +131,13 @@ arcIsAccompanied most others t = case coordinates t of
             others
   _ -> False
 
--- | True if a list contains a run that leads from before the start of a segment t to after its end,
--- or in the opposite direction, and that satisfies the condition @fits@. A run consists of
--- consecutive segments, each of which begins where the one before ends. @positionOf@ gives the
--- position of a point (x, y) relative to the ends of t. @spanOf@ gives the range of a segment's
--- distances: from the carrier of a line t, with a sign; or from the centre of an arc t. @fits@ has
--- two arguments: the range of these distances for the whole run, and the run's length in mm.
+-- | True if a list contains a run that passes along a whole segment t and satisfies the condition
+-- @fits@. A run consists of consecutive segments, each of which begins where the one before ends.
+-- One end of the run must lie before the start of t, the other after the end of t. @positionOf@
+-- gives the position of a point (x, y) relative to the ends of t. @spanOf@ gives the range of a
+-- segment's distances: from the carrier of a line t, with a sign; or from the centre of an arc t.
+-- @fits@ has two arguments: the range of these distances for the whole run, and the run's length in
+-- mm.
 chain ::
   (Double -> Double -> Position) ->
   (Segment -> DistanceRange) ->

@@ -74,9 +74,9 @@ data BoundingBoxCache s = BoundingBoxCache
 -- midpoint.
 --
 -- A corner of a box is one machine word: x in steps in the lower half, y in steps in the upper
--- half. The highest bit of each half is set in upper corners only. 'touches' compares two corners
--- by subtracting the lower one from the upper one. The highest bit of a half remains set exactly if
--- the coordinate of the lower corner is at most that of the upper corner.
+-- half. The highest bit of each half is set in upper corners only. 'touches' subtracts the lower
+-- corner of one box from the upper corner of another. The highest bit of a half remains set exactly
+-- if the coordinate of the lower corner is at most that of the upper corner.
 data Grid = Grid {halfSteps :: Double, addX :: Double, addY :: Double}
 
 -- | Two arrays: the lower corners of all boxes in the cache, and their upper corners. A box has the
@@ -85,8 +85,8 @@ data Grid = Grid {halfSteps :: Double, addX :: Double, addY :: Double}
 data Slots s = Slots (MutablePrimArray s Int) (MutablePrimArray s Int)
 
 -- | An empty cache for the segments of @c@, whose boxes are enlarged by the margin @m@ in mm. The
--- box around all segments has the least x and y @lx@ and @ly@ and the largest x and y @hx@ and
--- @hy@, in mm.
+-- box around all segments has its lower left corner at (@lx@, @ly@) and its upper right corner at
+-- (@hx@, @hy@), in mm.
 new :: ClosedPolyarcs -> Double -> Double -> Double -> Double -> Double -> ST s (BoundingBoxCache s)
 new c m lx ly hx hy = do
   slots <- Slots <$> newPrimArray (answer + 1) <*> newPrimArray answer
@@ -118,9 +118,9 @@ load BoundingBoxCache {chain, margin, grid, slots, held} !s !r = do
     fill chain margin grid slots s r
 {-# INLINE load #-}
 
--- | The grid over the box with the least x and y @lx@ and @ly@ and the largest x and y @hx@ and
--- @hy@, in mm. Its coordinates are far above 0, so that rounding does not make any coordinate
--- negative.
+-- | The grid over the box with the lower left corner (@lx@, @ly@) and the upper right corner
+-- (@hx@, @hy@), in mm. The coordinates of this box in steps are far above 0, so that rounding does
+-- not make any coordinate negative.
 gridOf :: Double -> Double -> Double -> Double -> Grid
 gridOf lx ly hx hy = Grid {halfSteps, addX = addend lx, addY = addend ly}
   where
@@ -166,7 +166,8 @@ fill c m Grid {halfSteps, addX, addY} (Slots !lows !highs) !s !r =
           else none k
         go (k + 1) (i + 1) x' y'
     -- Fills the slot from box @k@ on with boxes that overlap no other box. Only the last run needs
-    -- this. It may have fewer than eight segments, since none starts at the last of all vertices.
+    -- this, since it may have fewer than eight vertices. The last vertex of all is not counted,
+    -- because no segment starts there.
     rest !k
       | k >= runLength * s + runLength = pure ()
       | otherwise = none k >> rest (k + 1)
@@ -178,8 +179,9 @@ fill c m Grid {halfSteps, addX, addY} (Slots !lows !highs) !s !r =
 
 -- Queries -----------------------------------------------------------------------------------
 
--- | The set of the boxes of slot @s@ that overlap a given box. The given box has the least x and y
--- @lx@ and @ly@ and the largest x and y @hx@ and @hy@, in mm. Bit @i@ means box @i@ of the slot.
+-- | The set of the boxes of slot @s@ that overlap a given box. The given box has the lower left
+-- corner (@lx@, @ly@) and the upper right corner (@hx@, @hy@), in mm. Bit @i@ means box @i@ of the
+-- slot.
 overlappingBox :: BoundingBoxCache s -> Int -> Double -> Double -> Double -> Double -> ST s Int
 overlappingBox BoundingBoxCache {grid, slots} !s !lx !ly !hx !hy = do
   against slots s (lowerCorner (stepX lx) (stepY ly)) (upperCorner (stepX hx) (stepY hy))
@@ -263,7 +265,7 @@ shiftRL (I# a) (I# k) = I# (uncheckedIShiftRL# a k)
 {-# INLINE shiftRL #-}
 
 -- | Compute the answer of 'overlappingBox' for slot @s@ and the box with the corner words @low@ and
--- @high@, and write it after the lower corners.
+-- @high@. Write it into the array of lower corners, at the index 'answer'.
 against :: Slots s -> Int -> Int -> Int -> ST s ()
 against (Slots !lows !highs) !s !low !high = go (begin + runLength - 1) 0
   where
@@ -275,7 +277,8 @@ against (Slots !lows !highs) !s !low !high = go (begin + runLength - 1) 0
         go (k - 1) (set + set + hit)
 {-# NOINLINE against #-}
 
--- | Compute the answer of 'overlappingPairs' for slot @s@ and write it after the lower corners.
+-- | Compute the answer of 'overlappingPairs' for slot @s@. Write it into the array of lower
+-- corners, at the index 'answer'.
 amongThem :: Slots s -> Int -> ST s ()
 amongThem (Slots !lows !highs) !s = first (runLength * s + runLength - 2) 0
   where
@@ -297,8 +300,8 @@ amongThem (Slots !lows !highs) !s = first (runLength * s + runLength - 2) 0
       second (k .|. (runLength - 1)) 0
 {-# NOINLINE amongThem #-}
 
--- | Compute the answer of 'overlappingBetween' for its slots @s@ and @other@ and its set @some@,
--- and write it after the lower corners.
+-- | Compute the answer of 'overlappingBetween' for the slots @s@ and @other@, and for the boxes of
+-- slot @s@ in the set @some@. Write it into the array of lower corners, at the index 'answer'.
 between :: Slots s -> Int -> Int -> Int -> ST s ()
 between (Slots !lows !highs) !s !some !other = first some 0
   where

@@ -3,14 +3,14 @@
 -- | A bounding-box tree: an index of things by their bounding boxes.
 --
 -- It is a packed R-tree in flat arrays. One array, the lowest level, contains the boxes of the
--- things. The next level has a box around each eight of these, and so on up to a single box. Only
--- 'sortedIndex' sorts the things: they usually come in the order of a contour or toolpath, where
--- neighbours are close in space.
+-- things. The next level has a box around each eight of these, and so on up to a single box. The
+-- things usually come in the order of a contour or toolpath, where neighbours are close in space.
+-- So they are not sorted, except by 'sortedIndex'.
 --
 -- This is the tree for things of any type. "Geometry.Index.SegmentBoxTree" is the one for the
--- segments of 'Geometry.ClosedPolyarcs.ClosedPolyarcs'. It computes the boxes of single segments
--- when they are needed. It skips consecutive segments that all advance in one direction, since such
--- segments do not meet except at their joints.
+-- segments of 'Geometry.ClosedPolyarcs.ClosedPolyarcs'. That tree computes the boxes of single
+-- segments when they are needed. It skips consecutive segments that all advance in one direction,
+-- since such segments do not meet except at their joints.
 --
 -- Things and the boxes of a level have indices from 0. Two boxes meet when they have a point in
 -- common.
@@ -79,8 +79,9 @@ indexFirst count box list = indexed box (Vector.fromListN count list)
 
 -- | Build a tree of things whose neighbours in the list are not close in space. An example is the
 -- loops of a pocket, each of which surrounds the next. The things are sorted by sort-tile-recursive
--- packing: by x of their boxes' middles into columns, and each column by y. For n things there are
--- about @√(n/8)@ columns, each of about as many groups of eight things. The time is @n·log n@.
+-- packing: they are sorted by x of their boxes' middles and divided into columns, and each column
+-- is sorted by y. For n things there are about @√(n/8)@ columns. Each has about @√(n/8)@ groups of
+-- eight things. The time is proportional to @n·log n@.
 sortedIndex :: (a -> BoundingBox) -> [a] -> BoxTree a
 sortedIndex box list =
   index box (concatMap (sortOn (middleY . box)) (columns (sortOn (middleX . box) list)))
@@ -213,8 +214,8 @@ selectWith make holds tree = case levels tree of
 --
 -- Consecutive elements whose boxes are close form a group, which shares one descent of the tree.
 -- The descent finds the things that meet the box around the whole group. These things are then
--- tested for each element of the group. If they are more than 'groupLimit', the tree is searched
--- for each element instead.
+-- tested for each element of the group. If there are more than 'groupLimit' of them, the tree is
+-- searched for each element instead.
 each :: (b -> BoundingBox) -> (b -> a -> Bool) -> BoxTree a -> [b] -> [[a]]
 each boxOf holds tree = start
   where
@@ -319,7 +320,7 @@ closest distanceTo p tree = case levels tree of
 -- | A subtree: its box, and either the one thing in it or its own subtrees.
 data Node a = Leaf BoundingBox a | Branch BoundingBox ~[Node a]
 
--- | The topmost node of a tree, or an empty list if the tree is empty.
+-- | A list with the topmost node of a tree as its only element. It is empty if the tree is empty.
 roots :: BoxTree a -> [Node a]
 roots tree = case levels tree of
   [] -> []

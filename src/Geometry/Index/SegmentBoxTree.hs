@@ -14,13 +14,13 @@
 -- A segment advances in a direction if every point of it is further in this direction than the
 -- points before. A chain whose segments all advance in one direction does not meet itself. For each
 -- box the tree stores in which of eight directions (those of the axes and of the diagonals) all of
--- its segments advance. The search for pairs skips the pairs inside a box that has such a
--- direction. It also skips the pairs between two neighbouring boxes that have a direction in
--- common.
+-- its segments advance. The search for pairs of segments that meet skips the pairs inside a box
+-- that has such a direction. It also skips the pairs between two neighbouring boxes that have a
+-- direction in common.
 --
--- A box is given by its least x, least y, largest x and largest y, in mm and in this order.
--- Functions pass a box to a continuation, a function that is their last argument, so that it is not
--- built in memory.
+-- A box is given by its least x, least y, largest x and largest y, in mm and in this order. A
+-- function whose result is a box passes these numbers to a continuation. A continuation is a
+-- function, given as the last argument. So the box is never built in memory.
 --
 -- "Geometry.Index.BoxTree" is the tree for things of any type. It stores the boxes of single things
 -- and no directions.
@@ -237,8 +237,8 @@ most a b = if a > b then a else b
 {-# INLINE most #-}
 
 -- | The smallest box that contains a given box and the boxes of the segments from @a@ to @e − 1@,
--- passed to the continuation @k@. The given box has the least x and y @lx0@ and @ly0@ and the
--- largest x and y @hx0@ and @hy0@.
+-- passed to the continuation @k@. The given box has the lower left corner (@lx0@, @ly0@) and the
+-- upper right corner (@hx0@, @hy0@).
 runBox ::
   ClosedPolyarcs ->
   Int ->
@@ -268,8 +268,7 @@ runBox c a e lx0 ly0 hx0 hy0 k = go a lx0 ly0 hx0 hy0
 -- | The set, as bits, of those of the eight directions in which all segments from @a@ to @e − 1@
 -- advance. Only two are tested: the axis and the diagonal that are nearest to the direction from
 -- vertex @a@ to vertex @e@. A segment counts as advancing only if it advances by more than ten
--- times the margin @m@. So the segments before it and those after it do not meet, even with the
--- margin.
+-- times the margin @m@. So the segments before it are further than this from the segments after it.
 headings :: Double -> ClosedPolyarcs -> Int -> Int -> Int
 headings !m !c !a !e = go a (2 * enough) (2 * enough)
   where
@@ -357,9 +356,9 @@ pairs bs@SegmentBoxTree {chain = c, margin = m, sides} continues visit = do
 {-# INLINE pairs #-}
 
 -- | Run the action @inRun@ for the index of each run that may contain two segments that meet. Run
--- the action @betweenRuns@ for each two runs whose boxes overlap and whose segments may meet, the
--- earlier run first. The action @continues@ is run before a box above the lowest level is entered.
--- If it returns false, the runs inside this box are skipped.
+-- the action @betweenRuns@ for each pair of runs whose boxes overlap and whose segments may meet;
+-- its first argument is the earlier run. The action @continues@ is run before a box above the
+-- lowest level is entered. If it returns false, the runs inside this box are skipped.
 runPairs ::
   SegmentBoxTree -> ST s Bool -> (Int -> ST s ()) -> (Int -> Int -> ST s ()) -> ST s ()
 runPairs SegmentBoxTree {sides, directions, begins, counts, highest} continues inRun betweenRuns =
@@ -418,9 +417,9 @@ overlaps a k lx ly hx hy =
 
 -- Segments in a box -------------------------------------------------------------------------
 
--- | A strict left fold with the function @f@ over the indices of the segments whose enlarged boxes
--- overlap a given box, in order. The given box has the least x and y @lx@ and @ly@ and the largest
--- x and y @hx@ and @hy@. The fold begins with the value @start@.
+-- | A strict left fold with the function @f@ over the indices, in ascending order, of the segments
+-- whose enlarged boxes overlap a given box. The given box has the lower left corner (@lx@, @ly@)
+-- and the upper right corner (@hx@, @hy@). The fold begins with the value @start@.
 around :: SegmentBoxTree -> Double -> Double -> Double -> Double -> a -> (a -> Int -> a) -> a
 around SegmentBoxTree {chain = c, margin = m, sides, begins, counts, highest} lx ly hx hy start f =
   go highest 0 start

@@ -64,9 +64,9 @@ fromSpeed speed breaks = ArcLength {starts, lengths, speeds}
 -- to this interval.
 --
 -- The estimated error is the sum of the absolute values of the last two Legendre coefficients of
--- the speed. The bisection ends when it is at most 'Tolerance.arcLength', or at most the share
--- 'Tolerance.arcLengthShare' of the mean speed on the interval. It also ends where the speed is
--- infinite or NaN, and at a depth of 16.
+-- the speed. The bisection ends when this error is at most 'Tolerance.arcLength', or at most the
+-- share 'Tolerance.arcLengthShare' of the mean speed on the interval. It also ends if the estimated
+-- error is infinite or NaN, and at a depth of 16.
 measuredBetween :: (Double -> Double) -> Int -> Double -> Double -> [Panel]
 measuredBetween speed depth a b
   | b <= a = []
@@ -105,8 +105,8 @@ lengthAt table u
     (from, width) = extent table p
     (run, _) = within table p (2 * (u - from) / width - 1)
 
--- | The parameter at which the arc length from the curve's start is @s@. A value outside of the
--- curve gives the nearer end.
+-- | The parameter at which the arc length from the curve's start is @s@. For a negative @s@ it is
+-- the parameter of the start; for an @s@ above the length of the curve, that of the end.
 parameterAt :: ArcLength -> Mm -> Double
 parameterAt table (Mm s)
   | Unboxed.null (speeds table) || s <= 0 = Unboxed.head (starts table)

@@ -154,9 +154,9 @@ inSector segment !px !py = case coordinates segment of
 isWhole :: Double -> Bool
 isWhole s = abs s >= 2 * pi
 
--- | Box that contains a segment. For an arc that sweeps less than a half circle it is the box of
--- its ends, inflated by a bound of the sagitta. With the sweep φ this bound follows from
--- @r·(1 − cos(φ/2)) ≤ r·φ²/8@. For other arcs it is the box of the full circle.
+-- | Box that contains a segment. For an arc of radius r with a sweep φ of less than a half circle,
+-- it is the box of the arc's ends, inflated by @r·φ²/8@. This is an upper bound of the sagitta
+-- @r·(1 − cos(φ/2))@. For other arcs it is the box of the full circle.
 box :: Segment -> BoundingBox
 box segment = case coordinates segment of
   LineAt ax ay bx by -> BoundingBox (min ax bx) (min ay by) (max ax bx) (max ay by)

@@ -67,6 +67,7 @@ biarc times from end = withRatio times (between from end)
 -- | All biarcs from one pose to another, one for each chord ratio.
 data Biarcs
   = -- | the same line or arc for every ratio, or numbers that are NaN
+    -- (curvatures and bulges) if there is no biarc
     Only FastBiarc
   | -- | numbers that do not depend on the chord ratio: the start in mm; the chord as a vector in
     -- mm, its length and its direction; cosine and sine of half the angle from the chord to the

@@ -3,11 +3,11 @@
 
 -- | Distances of two segments and bounds of these, computed on unpacked coordinates.
 --
--- "Geometry.Distance.Fast" adds the distance of a segment from several others.
+-- "Geometry.Distance.Fast" uses them to compare one segment with several others.
 --
 -- A comment "True only if" means that a result True is certain, in spite of rounding errors. A
 -- result False then proves nothing, and the caller compares exactly by "Geometry.Distance". "False
--- only if" has the opposite meaning.
+-- only if" means that a result False is certain. Then a result True proves nothing.
 --
 -- A point is given by the numbers x and y in mm. The foot of a point on a segment is where the
 -- perpendicular from the point meets the segment's carrier.
@@ -386,8 +386,8 @@ isRightOf t e = case coordinates e of
   ArcAt _ _ _ _ cx cy r s ->
     if s > 0 then isOutside cx cy (r + unsure) t else isInside cx cy (r - unsure) t
 
--- | True if all points of the segment @t@ lie inside a circle, or outside of it. The circle has the
--- centre (@cx@, @cy@) and the radius @r@, in mm.
+-- | 'isInside' is true if all points of the segment @t@ lie inside a circle, 'isOutside' if all lie
+-- outside of it. The circle has the centre (@cx@, @cy@) and the radius @r@, in mm.
 isInside, isOutside :: Double -> Double -> Double -> Segment -> Bool
 isInside cx cy r t = case spanFrom cx cy t of DistanceRange _ high -> high < r
 isOutside cx cy r t = case spanFrom cx cy t of DistanceRange low _ -> low > r
