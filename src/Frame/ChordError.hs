@@ -163,15 +163,21 @@ chords machine sagitta segment =
 -- the start of the arc and ends at its end. The corners of the chain lie on the outer edge of the
 -- band, a circle of the radius @ρ = R + δ₂@. A chord may reach to the inner edge. So it spans at
 -- most the angle Δφ with @cos(Δφ/2) = (R − δ₁)/ρ@, and at most a quarter turn. But a chord of about
--- one pulse is always allowed.
+-- one pulse is always allowed. A chain with one corner only keeps this corner as near to the arc as
+-- the inner edge permits: both chords touch that edge.
 bandChords :: Machine -> Mm -> Mm -> Segment -> [Point]
 bandChords machine toward away s = case s of
   Straight _ b -> [b]
   Arc {start = p, centre, sweep = Rad angle}
     | away <= Mm 0 -> chords machine toward s
     | 2 * toInnerEdge >= abs angle && abs angle <= pi / 2 -> [Segment.end s]
+    | count == 0 ->
+      [ cornerAt (min outer (inner / cos (abs angle / 2 - toInnerEdge))) (abs angle / 2),
+        Segment.end s
+      ]
     | otherwise ->
-      [corner (first + fromIntegral k * step) | k <- [0 .. count]] <> [Segment.end s]
+      [cornerAt outer (toFirstCorner + fromIntegral k * step) | k <- [0 .. count]]
+        <> [Segment.end s]
     where
       Mm r = Segment.radius centre p
       inner = max 0 (let Mm d = toward in r - d)
@@ -185,11 +191,10 @@ bandChords machine toward away s = case s of
           (2 * asin (min 1 (let Mm pulse = Machine.planeResolution machine in pulse / (2 * r))))
           (min (pi / 2) (2 * acos (inner / outer)))
       count = max 0 (ceiling ((abs angle - 2 * toFirstCorner) / widest - countSlack)) :: Int
-      first = if count == 0 then abs angle / 2 else toFirstCorner
-      step = if count == 0 then 0 else (abs angle - 2 * first) / fromIntegral count
-      corner a =
+      step = (abs angle - 2 * toFirstCorner) / fromIntegral count
+      cornerAt radius a =
         Vec.shift
-          (Vec.scale (outer / r) (Vec.rotate (Rad (signum angle * a)) (Vec.to centre p)))
+          (Vec.scale (radius / r) (Vec.rotate (Rad (signum angle * a)) (Vec.to centre p)))
           centre
 
 -- | Number of frames for a run, to reject a program with too many frames before they are made. Each

@@ -30,6 +30,7 @@ module Geometry.Segment
     endDirection,
     directionAt,
     hasFootOf,
+    isBehind,
     fraction,
 
     -- * Changed segments
@@ -184,6 +185,16 @@ tangent (Rad s) out = Vec.unit (Vec.scale (signum s) (Vec.left out))
 -- On an arc, this means that @p@ lies in the arc's sector.
 hasFootOf :: Segment -> Point -> Bool
 hasFootOf segment p = let t = fraction segment p in t >= 0 && t <= 1
+
+-- | True when the point @p@ is beside the segment, that is, on one of its normals, and on the side
+-- opposite to @side@.
+isBehind :: Side -> Segment -> Point -> Bool
+isBehind side segment p =
+  t >= 0
+    && t <= 1
+    && Carrier.sideSign side * Vec.cross (directionAt t segment) (Vec.to (at t segment) p) < 0
+  where
+    t = fraction segment p
 
 -- | The foot of the point @p@ as a fraction of the segment's length from its start. For a line it
 -- is negative before the start and above 1 after the end; for an arc of sweep φ it lies in

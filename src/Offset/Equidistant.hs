@@ -95,21 +95,19 @@ attempt source = case Obstacle.localCauses source of
     fitting = if radius smaller > Mm 0 then TrimmedOffset.whole smaller source else Nothing
 
 -- | The crevices beside a path, as reasons why the cutter does not fit. A cusp is a point at which
--- the contour turns back. A crevice is a cusp that the cutter cannot enter. At a crevice the path
--- goes directly from one element to the next, without an arc about the vertex.
+-- the contour turns back. A crevice is a cusp that the cutter cannot enter. There the path has no
+-- arc about the vertex.
 crevices :: OffsetSource -> [OffsetSegment] -> [Cause]
-crevices source path
+crevices source path = case filter (SourceOffset.isCusp source) [0 .. elementCount source - 1] of
   -- The path of a contour without cusps is not examined here, so it is never in memory as a whole.
-  | any (SourceOffset.isCusp source) [0 .. elementCount source - 1] =
-    [ InnerCorner i j (Segment.end (elements source Vector.! i))
-      | (p, q) <- zip path (drop 1 path <> around),
-        (Along i, Along j) <- [(origin p, origin q)],
-        j == next source i,
-        SourceOffset.isCusp source i
+  [] -> []
+  cusps ->
+    [ InnerCorner i (next source i) (Segment.end (elements source Vector.! i))
+      | i <- cusps,
+        IntSet.notMember i rounded
     ]
-  | otherwise = []
   where
-    around = if SourceOffset.ends source == Closed then take 1 path else []
+    rounded = IntSet.fromList [i | OffsetSegment {origin = Around i} <- path]
 
 -- | The path of a cutter with radius 0: the elements at their extra distances. Straight lines join
 -- the elements where the distance changes.

@@ -22,12 +22,14 @@ module Offset.RawOffset
   )
 where
 
+import Base.Quantity (Rad (..))
 import Control.Monad.ST (ST, runST)
 import Data.Int (Int32)
 import Data.Primitive.PrimArray
 import Data.Word (Word8)
 import Geometry.ClosedPolyarcs (ClosedPolyarcs (ClosedPolyarcs))
 import Geometry.ClosedPolyarcs qualified as ClosedPolyarcs
+import Offset.Tolerance qualified as Tolerance
 
 -- | The form of outer corners: an arc about the vertex, or two lines. A corner that turns by more
 -- than 120° is always round.
@@ -217,14 +219,14 @@ offsetPolyarc
         -- enter the cusp. If all distances are equal, every cusp can be treated as an outer corner:
         -- an arc about the tip of an open cusp lies in the unreachable region, so trimming removes
         -- this arc.
-        | dt < 0 && abs (cr * d) <= tolerance =
+        | dt < 0 && abs cr <= cuspSine =
           k
             ( if uneven
-                && d * (ClosedPolyarcs.curvature c i + ClosedPolyarcs.curvature c j) > smoothness
+                && d * (Tolerance.cuspDepth / 2 * (curvature i + curvature j) - cr) > 0
                 then Over
                 else Outer
             )
-            (signum d)
+            (signum d * (if cr * d > 0 then reversing else 1 / reversing))
             0
         | cr * d > 0 = k Outer (cr / (1 + dt + sqrt ((1 + dt) * (1 + dt) + cr * cr))) 0
         | bulge i == 0 && bulge j == 0 && di == dj && needed <= restI && needed <= restJ =
@@ -236,6 +238,9 @@ offsetPolyarc
           d = if abs di > abs dj then di else dj
           cr = ax * by - ay * bx
           dt = ax * bx + ay * by
+          curvature = ClosedPolyarcs.curvature c
+          -- tan(θ/4) for the angle θ between both directions, at a cusp.
+          reversing = tan ((pi - asin (abs cr)) / 4)
           cut = abs (d * cr / (1 + dt))
           -- The least length in mm that each of the two lines must have to be cut. If the distances
           -- of the segments differ (@uneven@), the part that is cut off from each line has to lie
@@ -335,6 +340,10 @@ offsetPolyarc
                 next (k3 + 1) 0
       {-# INLINE segment #-}
 {-# INLINE offsetPolyarc #-}
+
+-- | The largest sine of the angle between the two segments at a cusp.
+cuspSine :: Double
+cuspSine = let Rad angle = Tolerance.cuspAngle in sin angle
 
 -- | Passes five numbers to the continuation @k@: the direction at the start of segment @i@, x and
 -- y; the direction at its end, x and y; and the length of its chord in mm. The directions have the

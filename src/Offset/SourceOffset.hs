@@ -193,13 +193,12 @@ cornerAt source i
             then Just (r * tan (abs turned / 2))
             else Nothing
 
--- | True when the contour turns back after element @i@: its direction changes by half a turn. The
--- vertex is either the tip of a thin part of the material, which the cutter goes round, or the end
--- of a crevice that the cutter cannot enter. Only the kernel's loop shows which of the two it is.
+-- | True when the contour turns back after element @i@: its direction changes by half a turn, to
+-- 'Tolerance.cuspAngle'. The vertex is either the tip of a thin part of the material, which the
+-- cutter goes round, or the end of a crevice that the cutter cannot enter. Only the kernel's loop
+-- shows which of the two it is.
 isCusp :: OffsetSource -> Int -> Bool
-isCusp source i = pi - abs (indexPrimArray (turnings source) i) <= smooth
-  where
-    Rad smooth = Tolerance.smoothAngle
+isCusp source i = Rad (pi - abs (indexPrimArray (turnings source) i)) <= Tolerance.cuspAngle
 
 -- | Lengths in mm by which the segment before a corner is shortened at its end, and the segment
 -- after it at its start.

@@ -137,7 +137,7 @@ whole structure source = case LoopPath.region structure of
     path : _ | isUncut region -> Just (NonEmpty.toList (pieces path))
     [path]
       | SourceOffset.ends source == ends path,
-        isInOrder structure (map (numberOf . origin) (NonEmpty.toList (pieces path))),
+        isInOrder structure (map origin (NonEmpty.toList (pieces path))),
         isOpenAtEnds path ->
         Just (NonEmpty.toList (pieces path))
     [] -> nothingLeft
@@ -166,15 +166,16 @@ isUncut region =
     count = sizeofPrimArray (Loop.raws loops)
     loops = LoopPath.loops region
 
--- | True when @numbers@, the elements along a path in order, do not decrease, and every element
--- that is not among them has shrunk.
-isInOrder :: OffsetSource -> [Int] -> Bool
-isInOrder source numbers =
+-- | True when the numbers of @origins@, which a path has in order, do not decrease, and every
+-- element along which the path does not run has shrunk.
+isInOrder :: OffsetSource -> [Origin] -> Bool
+isInOrder source origins =
   and (zipWith (<=) numbers (drop 1 numbers))
     && all (hasShrunk source) (IntSet.toList (IntSet.difference everything found))
   where
+    numbers = map numberOf origins
     everything = IntSet.fromList [0 .. elementCount source - 1]
-    found = IntSet.fromList numbers
+    found = IntSet.fromList [i | Along i <- origins]
 
 -- | True of a shrunk element. An arc counts as shrunk when its radius is the offset's distance,
 -- within 'Tolerance.clearance'; the side on which its centre lies is not examined.

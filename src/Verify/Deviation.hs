@@ -34,6 +34,7 @@ import Verify.Excess qualified as Excess
 import Verify.Gouge (KeepOut (..))
 import Verify.Gouge qualified as Gouge
 import Verify.MillingJob (MillingJob (..))
+import Verify.MillingJob qualified as MillingJob
 import Verify.Motion (CutterMotion (number))
 import Verify.Motion qualified as Motion
 import Verify.MotionSet (MotionSet)
@@ -205,7 +206,7 @@ keepOutOf set job along = \m ->
           KeepOut
             { searchRadius,
               largest = plus (reach job) largestAllowance,
-              required = \e p -> plus (reach job) (Gouge.allowanceAt pulse (edges job) e p)
+              required = \e p -> plus (reach job) (Gouge.allowanceAt (side job) pulse (edges job) e p)
             }
         else (Gouge.constantKeepOut tool) {searchRadius}
   where
@@ -255,13 +256,24 @@ missedOn set onPass MillingPass {job, level, found} allowed bounds
       ]
   where
     groups = byAllowance (BoxTree.toList (edges job))
-    -- Elements of each group, with the distance that the centre keeps from them.
+    -- Elements of each group and the corners beside them, with the distance that the centre keeps.
     kept =
       [ KeptDistance
           (plus (reach job) own)
-          (BoxTree.index BoundingBox.ofSegment (map (Part.segment . element) es))
+          ( BoxTree.index
+              BoundingBox.ofSegment
+              (map (Part.segment . element) es <> [fan | (d, fan) <- fans, d == own])
+          )
         | (own, es) <- groups
       ]
+    fans = case side job of
+      Just demanded | length groups > 1 -> Reachability.cornerFans demanded inOrder following
+      _ -> []
+    inOrder =
+      [(Part.allowance (Part.finish e), Part.segment e) | e <- MillingJob.elementsOf job]
+    following = case Part.ends (Part.contour (milling job)) of
+      Part.Closed -> drop 1 inOrder <> take 1 inOrder
+      Part.Open -> drop 1 inOrder
     index = BoxTree.indexFirst (length cutting) Motion.box cutting
     cutting = case (found, onPass) of
       (Complete {}, _) | not (allowsRest job) -> PassSearch.motionsOf found

@@ -11,10 +11,12 @@ where
 
 import Base.Quantity (Mm (..), minus, plus)
 import Data.List.NonEmpty qualified as NonEmpty
+import Geometry.Carrier (Side)
 import Geometry.Distance qualified as Distance
 import Geometry.Index.BoundingBox qualified as BoundingBox
 import Geometry.Index.BoxTree (BoxTree)
 import Geometry.Index.BoxTree qualified as BoxTree
+import Geometry.Segment qualified as Segment
 import Geometry.Vec (Point)
 import Offset.Tolerance qualified as Tolerance
 import Part.Part (Element)
@@ -65,11 +67,13 @@ gougeOf KeepOut {searchRadius, required} edges m = Proof.deepest gouges
 -- nearest to @p@, and the other elements within @pulse@, the length of a pulse, of that point. The
 -- result is the smallest allowance of @e@ and these elements, because the position at which the
 -- allowance changes is rounded to pulses. If one of these elements is nearer to @p@ than @e@ is,
--- the result is 0, because that element is examined with its own allowance. If the allowance of @e@
--- is not positive, it is the result in every case.
-allowanceAt :: Mm -> BoxTree Edge -> Element -> Point -> Mm
-allowanceAt pulse edges e p
+-- the result is 0, because that element is examined with its own allowance. It is 0, too, if @p@
+-- lies beside @e@ on the side opposite to @side@, that of the cutter: beyond a thin wall nothing is
+-- left on @e@. If the allowance of @e@ is not positive, it is the result in every case.
+allowanceAt :: Maybe Side -> Mm -> BoxTree Edge -> Element -> Point -> Mm
+allowanceAt side pulse edges e p
   | own <= Mm 0 = own
+  | any (\s -> Segment.isBehind s (Part.segment e) p) side = Mm 0
   | any (\other -> plus (Distance.toPoint p (Part.segment other)) Tolerance.resolution < d) joined =
     Mm 0
   | otherwise = minimum (own : map allowanceOf joined)

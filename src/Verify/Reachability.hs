@@ -7,13 +7,14 @@
 -- distances. It is independent of the trimming that made the toolpath.
 module Verify.Reachability
   ( KeptDistance (..),
+    cornerFans,
     parts,
     rim,
   )
 where
 
 import Base.Quantity (Mm (..), Rad (..), minus, times)
-import Data.List (foldl', sort)
+import Data.List (foldl', sort, sortOn)
 import Geometry.Carrier (Side)
 import Geometry.Carrier qualified as Carrier
 import Geometry.Distance qualified as Distance
@@ -23,8 +24,10 @@ import Geometry.Index.BoxTree qualified as BoxTree
 import Geometry.Segment (Segment (..))
 import Geometry.Segment qualified as Segment
 import Geometry.Tolerance qualified as Tolerance
+import Geometry.Vec (Point)
 import Geometry.Vec qualified as Vec
 import Offset.Tolerance qualified as Tolerance
+import Verify.Edge qualified as Edge
 
 -- | Segments of a contour with equal allowance. The centre keeps the distance @distanceKept@ from
 -- all of them: the cutter's radius plus the allowances of the pass and of these segments.
@@ -46,8 +49,26 @@ parts side distance others element = case Segment.offset side distance element o
   Just centres ->
     [ part element a b
       | (a, b) <- foldl' (freeOf side distance element centres) [(0, 1)] others,
-        b - a > Tolerance.negligibleShare
+        b - a > Tolerance.negligibleShare,
+        not (isInMaterial side distance others (Segment.at ((a + b) / 2) centres))
     ]
+
+-- | Test that a centre @p@ lies in the material: the segment nearest to it has @p@ on the side
+-- opposite to @side@, and is clearly nearer than @distance@. In the tip of a cusp the test by
+-- distances alone ('roomy') takes such centres for possible ones.
+isInMaterial :: Side -> Mm -> [KeptDistance] -> Point -> Bool
+isInMaterial side distance others p =
+  or [Segment.isBehind side s p | (d, s) <- take 1 (sortOn fst near), d < minus distance clearlyNearer]
+  where
+    near =
+      [ (Distance.toPoint p s, s)
+        | KeptDistance _ tree <- others,
+          s <- BoxTree.within (BoundingBox.inflate distance (BoundingBox.ofPoints p [])) tree
+      ]
+
+-- | The least difference between two distances from a centre that is not due to rounding.
+clearlyNearer :: Mm
+clearlyNearer = times 0.01 Tolerance.clearance
 
 -- | Parts of the intervals @free@ in which the centre of the cutter is not too near to the segments
 -- @others@. @kept@ is the distance that the centre keeps from them. @centres@ is the path of the
@@ -128,6 +149,25 @@ dividedAt marks (a, b) = zip (a : inside) (inside <> [b])
   where
     inside = sort [t | t <- marks, t > a, t < b]
 
+-- | Corners at which the centre keeps the larger one of two distances, each with that distance. The
+-- elements come in the order of the contour, with the distance that the centre keeps from each; the
+-- list of neighbours begins with the second element. An outer corner is represented by an arc about
+-- the vertex, of the radius 'fanRadius': its normals fill the space between the normals of both
+-- elements. Corners between equal distances are not listed, because there the distance from the
+-- vertex decides.
+cornerFans :: Side -> [(Mm, Segment)] -> [(Mm, Segment)] -> [(Mm, Segment)]
+cornerFans side elements neighbours =
+  [ (max d d', fan)
+    | ((d, s), (d', s')) <- zip elements neighbours,
+      d /= d',
+      Just fan <- [outerCorner side fanRadius s s']
+  ]
+
+-- | The radius of the arcs that represent corners. It is negligible, and large enough for the
+-- directions of points on the arc to be exact.
+fanRadius :: Mm
+fanRadius = times 0.1 Tolerance.clearance
+
 -- Pockets -----------------------------------------------------------------------------------------
 
 -- | Rim of a pocket with the closed contours @contours@: the border of the region in which centres
@@ -185,6 +225,6 @@ outerCorner side distance s next
         }
   | otherwise = Nothing
   where
-    turned@(Rad t) = Vec.signedAngle (Segment.endDirection s) (Segment.startDirection next)
+    turned@(Rad t) = Edge.turning s next
     centre = Segment.end s
     off direction = Carrier.beside side distance (Vec.unit direction) centre

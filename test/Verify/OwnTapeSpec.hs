@@ -1,0 +1,37 @@
+-- | Tapes of random program texts: whatever passes the compiler's passes is proven.
+module Verify.OwnTapeSpec (spec) where
+
+import Base.Result qualified as Result
+import Compile qualified
+import Data.Maybe (fromMaybe)
+import Data.Text qualified as Text
+import Generate.MachinedText qualified as MachinedText
+import Machines qualified
+import Project.LoadedProgram qualified as LoadedProgram
+import Report.Report qualified as Report
+import System.Environment (lookupEnv)
+import Test.Hspec
+import Test.QuickCheck
+import Text.Read (readMaybe)
+import Verify.Proof qualified as Proof
+
+-- | PARTC_PROGRAMS sets another number of programs.
+spec :: Spec
+spec = do
+  programs <- runIO (fromMaybe 300 . (>>= readMaybe) <$> lookupEnv "PARTC_PROGRAMS")
+  it "a program that the compiler's passes accept is not refused by its own proof" $
+    withMaxSuccess programs $
+      forAllBlind (elements Machines.known) $ \machine ->
+        forAllBlind (MachinedText.program machine) $ \text ->
+          let result =
+                Compile.compile
+                  (Machines.jobFor machine [])
+                  (LoadedProgram.fromText "p.part" text)
+           in counterexample (Text.unpack text) $
+                label (outcome result) $
+                  maybe [] (concatMap findings) (Result.output result) === []
+  where
+    outcome result = case Result.errors result of
+      [] -> "taped"
+      e : _ -> "refused: " <> show (Report.code e)
+    findings = maybe [] (map show . Proof.findings) . Compile.proof
