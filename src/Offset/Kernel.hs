@@ -139,7 +139,8 @@ problemOf request contours = (problem, chain)
   where
     Mm d = distance request
     segmentCount = sum (map FlatPolyarc.size contours)
-    more = additional request (isOpen contours) segmentCount
+    original = originalNumber contours
+    more = additional request original
     largest = case extra request of
       Nothing -> d
       Just _ -> d + maximum (0 : map more [0 .. segmentCount - 1])
@@ -157,30 +158,27 @@ problemOf request contours = (problem, chain)
           distances = \i -> d + more i,
           rawOf = if largest == 0 then unmoved else raw
         }
-    raw = rawWith request tolerance more
+    raw = rawWith request tolerance original
     -- At the distance 0 the raw offset is the contours themselves, with their smooth joints marked.
     unmoved c = let (_, marked) = raw c in (marked, marked)
 
 -- | The extra distance in mm of a segment for which 'ClosedPolyarcs.sources' has the number @i@.
--- @open@ is True when the contours have an open one; @count@ is the number of their segments. An
--- open contour is traversed forwards and then backwards. The extra distance applies to the cutter's
--- side only, so there is none on the way back.
-additional :: OffsetRequest -> Bool -> Int -> Int -> Double
-additional request open count i = case extra request of
-  Just f
-    | not (open && i >= count) -> let Mm e = f i in e
-  _ -> 0
+-- @original@ turns this number into the segment's number in the given contours.
+additional :: OffsetRequest -> (Int -> Int) -> Int -> Double
+additional request original i = case extra request of
+  Nothing -> 0
+  Just f -> let Mm e = f (original i) in e
 
 -- | The raw offset of the contours @c@ in flat arrays, and @c@ itself with its smooth joints
--- marked. @tolerance@ (mm) covers rounding. @more@ is the extra distance in mm of a segment, by the
--- number that 'ClosedPolyarcs.sources' has for it.
+-- marked. @tolerance@ (mm) covers rounding. @original@ turns a number of 'ClosedPolyarcs.sources'
+-- into the segment's number in the given contours.
 rawWith ::
   OffsetRequest ->
   Double ->
-  (Int -> Double) ->
+  (Int -> Int) ->
   ClosedPolyarcs ->
   (ClosedPolyarcs, ClosedPolyarcs)
-rawWith request tolerance more c = case extra request of
+rawWith request tolerance original c = case extra request of
   Nothing -> rawAt False (const (signed * d)) (const (signed * d))
   Just _ -> rawAt True (\i -> signed * limited i) (\i -> signed * requested i)
   where
@@ -197,7 +195,8 @@ rawWith request tolerance more c = case extra request of
       | otherwise = requestedDistance
       where
         requestedDistance = requested i
-    requested i = d + more (fromIntegral (indexPrimArray (ClosedPolyarcs.sources c) i))
+    requested i =
+      d + additional request original (fromIntegral (indexPrimArray (ClosedPolyarcs.sources c) i))
 
 -- | The parameters that all contours of a request share. Distances are in mm.
 data Problem = Problem

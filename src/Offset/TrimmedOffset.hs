@@ -28,6 +28,9 @@ import Data.Maybe (mapMaybe)
 import Data.Primitive.PrimArray (indexPrimArray, sizeofPrimArray)
 import Data.Vector qualified as Vector
 import Geometry.ClosedPolyarcs qualified as ClosedPolyarcs
+import Geometry.Distance qualified as Distance
+import Geometry.Index.BoundingBox qualified as BoundingBox
+import Geometry.Index.BoxTree qualified as BoxTree
 import Geometry.Polyarc (Ends (..))
 import Geometry.Polyarc qualified as Polyarc
 import Geometry.Segment (Segment (..))
@@ -75,7 +78,7 @@ pathsIn structure source region =
     open = openPath structure source (LoopPath.flatCount region)
     inLoop (Circuit before runs) = case runs of
       r : rest
-        | not (isBeside r) -> mapMaybe open (stretches r rest)
+        | not (isBeside r) -> filter (not . isScreened source) (mapMaybe open (stretches r rest))
       _ ->
         [ TrimmedOffset {ends = Closed, pieces = ps, stops = (Nothing, Nothing)}
           | Just ps <- [NonEmpty.nonEmpty (LoopPath.path structure source (Just before) runs)]
@@ -124,6 +127,28 @@ openPath structure source count (before, runs, after) =
     stopAt end other endsThere = case LoopPath.origin other of
       Around _ | flat other == end, endsThere -> Nothing
       o -> Just (numberOf o)
+
+-- | True for a path on the far side of the contour. The offset of an element with an extra distance
+-- may extend beyond another element, behind the contour. The cutter cannot touch the element there,
+-- because the other one lies between. This occurs with different distances only. Connecting lines
+-- of such a path may lie behind their own element.
+isScreened :: OffsetSource -> TrimmedOffset -> Bool
+isScreened source path = isUneven && not (null middles) && all isBehindAnother middles
+  where
+    isUneven = any ((/= distanceAt source 0) . distanceAt source) [1 .. elementCount source - 1]
+    middles = [(i, Segment.at 0.5 s) | OffsetSegment (Along i) s <- NonEmpty.toList (pieces path)]
+    isBehindAnother (i, p) =
+      let foot = snd (Distance.nearest p (elements source Vector.! i))
+       in Segment.isBehind (SourceOffset.side source) (elements source Vector.! i) p
+            || any
+              (\q -> Vec.distance foot q > Tolerance.clearance)
+              (concatMap (Distance.intersections (Straight foot p)) (othersNear i foot p))
+    othersNear i foot p =
+      [ s
+        | (j, s) <- BoxTree.within (BoundingBox.ofSegment (Straight foot p)) index,
+          i /= j
+      ]
+    index = BoxTree.index (BoundingBox.ofSegment . snd) (zip [0 ..] (Vector.toList (elements source)))
 
 -- | The segments of the offset, when the cutter reaches every element of the contour; else Nothing.
 -- The cutter reaches every element when three conditions are true: there is one path, it leaves out

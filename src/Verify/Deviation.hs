@@ -44,7 +44,6 @@ import Verify.PassSearch qualified as PassSearch
 import Verify.PointedTool qualified as PointedTool
 import Verify.Proof (ContourProof (ContourProof), Finding (Excess, Gouge, NotFollowed), Witness)
 import Verify.Proof qualified as Proof
-import Verify.Reachability (KeptDistance (KeptDistance))
 import Verify.Reachability qualified as Reachability
 import Verify.WrongSide qualified as WrongSide
 
@@ -250,46 +249,33 @@ missedOn set onPass MillingPass {job, level, found} allowed bounds
           job {reach = distance, allowance = allowed}
           bounds
           index
-          (if allowsRest job then concatMap (touchableParts job kept distance) es else es)
+          (if allowsRest job then concatMap (touchable distance) es else es)
         | (own, es) <- groups,
           let distance = plus (reach job) own
       ]
   where
     groups = byAllowance (BoxTree.toList (edges job))
-    -- Elements of each group and the corners beside them, with the distance that the centre keeps.
-    kept =
-      [ KeptDistance
-          (plus (reach job) own)
-          ( BoxTree.index
-              BoundingBox.ofSegment
-              (map (Part.segment . element) es <> [fan | (d, fan) <- fans, d == own])
-          )
-        | (own, es) <- groups
-      ]
-    fans = case side job of
-      Just demanded | length groups > 1 -> Reachability.cornerFans demanded inOrder following
-      _ -> []
-    inOrder =
-      [(Part.allowance (Part.finish e), Part.segment e) | e <- MillingJob.elementsOf job]
-    following = case Part.ends (Part.contour (milling job)) of
-      Part.Closed -> drop 1 inOrder <> take 1 inOrder
-      Part.Open -> drop 1 inOrder
+    around demanded =
+      Reachability.surroundings
+        (Part.ends (Part.contour (milling job)))
+        demanded
+        [ (plus (reach job) (Part.allowance (Part.finish e)), Part.segment e)
+          | e <- MillingJob.elementsOf job
+        ]
+    -- Parts that the cutter can touch with its centre at this distance from the element.
+    touchable = case side job of
+      Just demanded ->
+        let surroundings = around demanded
+         in \distance e ->
+              [ e {element = (element e) {Part.segment = s}, shape = s}
+                | s <- Reachability.parts demanded distance surroundings (Part.segment (element e))
+              ]
+      Nothing -> \_ e -> [e]
     index = BoxTree.indexFirst (length cutting) Motion.box cutting
     cutting = case (found, onPass) of
       (Complete {}, _) | not (allowsRest job) -> PassSearch.motionsOf found
       (_, Just ms) -> MotionSet.atHeight set {MotionSet.motions = ms} level
       (_, Nothing) -> MotionSet.atHeight set level
-
--- | Parts of an element that the cutter can touch while its centre is at @distance@ from them; the
--- whole element if rest material is not allowed. @kept@ has all elements of the contour, grouped by
--- the distance that the centre keeps from them.
-touchableParts :: MillingJob -> [KeptDistance] -> Mm -> Edge -> [Edge]
-touchableParts job kept distance e = case (Part.rest (milling job), side job) of
-  (Part.Allowed, Just demanded) ->
-    [ e {element = (element e) {Part.segment = s}, shape = s}
-      | s <- Reachability.parts demanded distance kept (Part.segment (element e))
-    ]
-  _ -> [e]
 
 -- | Elements in groups of equal allowance, each with that allowance.
 byAllowance :: [Edge] -> [(Mm, [Edge])]

@@ -7,6 +7,7 @@ module Verify.Edge
     largestAllowance,
     leastExcess,
     leftwardness,
+    isCusp,
     turning,
   )
 where
@@ -103,11 +104,13 @@ leastExcess allowanceOf limit near p = foldl' lesser limit near
 leftwardness :: BoxTree Edge -> Point -> Point -> Double
 leftwardness edges foot p = case touching of
   [a, b]
-    | isCusp before after -> let Rad angle = turning before after in -angle
-    where
-      (before, after) = if Vec.isNear foot (Segment.end a) then (a, b) else (b, a)
+    | Vec.distance foot (Segment.end a) < Vec.distance foot (Segment.end b),
+      isCusp a b ->
+      besideCusp a b
+    | isCusp b a -> besideCusp b a
   _ -> sum (map crossProduct touching)
   where
+    besideCusp before after = let Rad angle = turning before after in -angle
     crossProduct s = Vec.cross (directionAt foot s) (Vec.to foot p)
     touching =
       filter
@@ -123,7 +126,10 @@ leftwardness edges foot p = case touching of
 -- | Test that the contour turns back between two elements: its direction changes by half a turn, to
 -- 'Tolerance.cuspAngle'.
 isCusp :: Segment -> Segment -> Bool
-isCusp before after = Vec.dot v w < 0 && Rad (abs (Vec.cross v w)) <= Tolerance.cuspAngle
+isCusp before after =
+  Vec.isNear (Segment.end before) (Segment.start after)
+    && Vec.dot v w < 0
+    && Rad (abs (Vec.cross v w)) <= Tolerance.cuspAngle
   where
     v = Segment.endDirection before
     w = Segment.startDirection after

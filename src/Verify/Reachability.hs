@@ -6,14 +6,15 @@
 -- centre than the radius. The test looks at one element and its surroundings at a time, by
 -- distances. It is independent of the trimming that made the toolpath.
 module Verify.Reachability
-  ( KeptDistance (..),
-    cornerFans,
+  ( Surroundings,
+    surroundings,
     parts,
     rim,
   )
 where
 
 import Base.Quantity (Mm (..), Rad (..), minus, times)
+import Data.Containers.ListUtils (nubOrd)
 import Data.List (foldl', sort, sortOn)
 import Geometry.Carrier (Side)
 import Geometry.Carrier qualified as Carrier
@@ -21,6 +22,7 @@ import Geometry.Distance qualified as Distance
 import Geometry.Index.BoundingBox qualified as BoundingBox
 import Geometry.Index.BoxTree (BoxTree)
 import Geometry.Index.BoxTree qualified as BoxTree
+import Geometry.Polyarc (Ends (..))
 import Geometry.Segment (Segment (..))
 import Geometry.Segment qualified as Segment
 import Geometry.Tolerance qualified as Tolerance
@@ -29,8 +31,19 @@ import Geometry.Vec qualified as Vec
 import Offset.Tolerance qualified as Tolerance
 import Verify.Edge qualified as Edge
 
--- | Segments of a contour with equal allowance. The centre keeps the distance @distanceKept@ from
--- all of them: the cutter's radius plus the allowances of the pass and of these segments.
+-- | A contour as a cutter meets it.
+data Surroundings = Surroundings
+  { -- | segments of the contour, grouped by the distance that the centre keeps from them
+    kept :: [KeptDistance],
+    -- | the segments of an open contour in the opposite direction, in the same groups. The
+    -- toolpath keeps the allowance of an element of an open contour on both of its sides
+    back :: [KeptDistance],
+    -- | tips of the cusps that are open towards the cutter. The cutter cannot enter them
+    crevices :: [Point]
+  }
+
+-- | Segments from which the centre keeps the distance @distanceKept@: the cutter's radius plus the
+-- allowances of the pass and of these segments.
 data KeptDistance = KeptDistance {distanceKept :: Mm, segments :: BoxTree Segment}
 
 -- | Interval of a segment: its beginning and end as fractions of the segment's length, from 0 to 1.
@@ -38,20 +51,67 @@ type Interval = (Double, Double)
 
 -- Elements ----------------------------------------------------------------------------------------
 
+-- | The surroundings of a cutter on @side@ of a contour. The segments come in the order of the
+-- contour, with the distance that the centre keeps from each.
+surroundings :: Ends -> Side -> [(Mm, Segment)] -> Surroundings
+surroundings ends side elements =
+  Surroundings
+    { kept = grouped (elements <> cornerFans side corners),
+      back = case ends of
+        Closed -> []
+        Open -> grouped (map (fmap Segment.reverse) elements),
+      crevices =
+        [ Segment.end s
+          | ((_, s), (_, s')) <- corners,
+            Edge.isCusp s s',
+            let Rad turned = Edge.turning s s',
+            Carrier.sideSign side * turned > 0
+        ]
+    }
+  where
+    grouped list =
+      [ KeptDistance d (BoxTree.index BoundingBox.ofSegment [s | (d', s) <- list, d' == d])
+        | d <- nubOrd (map fst elements)
+      ]
+    corners = zip elements $ case ends of
+      Closed -> drop 1 elements <> take 1 elements
+      Open -> drop 1 elements
+
+-- | Corners at which the centre keeps the larger one of two distances, each with that distance. An
+-- outer corner is represented by an arc about the vertex, of the radius 'fanRadius': its normals
+-- fill the space between the normals of both elements. Corners between equal distances are not
+-- listed, because there the distance from the vertex decides.
+cornerFans :: Side -> [((Mm, Segment), (Mm, Segment))] -> [(Mm, Segment)]
+cornerFans side corners =
+  [ (max d d', fan)
+    | ((d, s), (d', s')) <- corners,
+      d /= d',
+      Just fan <- [outerCorner side fanRadius s s']
+  ]
+
+-- | The radius of the arcs that represent corners. It is negligible, and large enough for the
+-- directions of points on the arc to be exact.
+fanRadius :: Mm
+fanRadius = times 0.1 Tolerance.clearance
+
 -- | Parts of an element that a cutter can touch with its centre on @side@ of the element, at
--- @distance@ from it. @others@ are all segments of the contour, grouped by the distance that the
--- centre keeps from them. If this distance is larger than @distance@, the centre has to keep it
--- only where it lies on a normal of such a segment. Elsewhere @distance@ is enough, because the
--- toolpath steps back to the smaller distance there.
-parts :: Side -> Mm -> [KeptDistance] -> Segment -> [Segment]
-parts side distance others element = case Segment.offset side distance element of
-  Nothing -> []
-  Just centres ->
-    [ part element a b
-      | (a, b) <- foldl' (freeOf side distance element centres) [(0, 1)] others,
-        b - a > Tolerance.negligibleShare,
-        not (isInMaterial side distance others (Segment.at ((a + b) / 2) centres))
-    ]
+-- @distance@ from it. Where the distance kept from another segment is larger than @distance@, the
+-- centre has to keep it only where it lies on a normal of such a segment. Elsewhere @distance@ is
+-- enough, because the toolpath steps back to the smaller distance there.
+parts :: Side -> Mm -> Surroundings -> Segment -> [Segment]
+parts side distance Surroundings {kept, back, crevices} element =
+  case Segment.offset side distance element of
+    Nothing -> []
+    Just centres ->
+      [ part element a b
+        | (a, b) <- foldl' (freeOf side distance element centres) [(0, 1)] (kept <> back),
+          b - a > Tolerance.negligibleShare,
+          let middle = (a + b) / 2,
+          not (any (isTipNear (Segment.at middle element)) crevices),
+          not (isInMaterial side distance kept (Segment.at middle centres))
+      ]
+  where
+    isTipNear p tip = Vec.distance p tip <= Mm Tolerance.cuspDepth
 
 -- | Test that a centre @p@ lies in the material: the segment nearest to it has @p@ on the side
 -- opposite to @side@, and is clearly nearer than @distance@. In the tip of a cusp the test by
@@ -148,25 +208,6 @@ dividedAt :: [Double] -> Interval -> [Interval]
 dividedAt marks (a, b) = zip (a : inside) (inside <> [b])
   where
     inside = sort [t | t <- marks, t > a, t < b]
-
--- | Corners at which the centre keeps the larger one of two distances, each with that distance. The
--- elements come in the order of the contour, with the distance that the centre keeps from each; the
--- list of neighbours begins with the second element. An outer corner is represented by an arc about
--- the vertex, of the radius 'fanRadius': its normals fill the space between the normals of both
--- elements. Corners between equal distances are not listed, because there the distance from the
--- vertex decides.
-cornerFans :: Side -> [(Mm, Segment)] -> [(Mm, Segment)] -> [(Mm, Segment)]
-cornerFans side elements neighbours =
-  [ (max d d', fan)
-    | ((d, s), (d', s')) <- zip elements neighbours,
-      d /= d',
-      Just fan <- [outerCorner side fanRadius s s']
-  ]
-
--- | The radius of the arcs that represent corners. It is negligible, and large enough for the
--- directions of points on the arc to be exact.
-fanRadius :: Mm
-fanRadius = times 0.1 Tolerance.clearance
 
 -- Pockets -----------------------------------------------------------------------------------------
 

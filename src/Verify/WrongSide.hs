@@ -22,6 +22,7 @@ import Machine.Machine (Machine)
 import Machine.Machine qualified as Machine
 import Part.Part qualified as Part
 import Verify.Edge (Edge (element, long, ownAllowance, shape))
+import Verify.Edge qualified as Edge
 import Verify.MillingJob (MillingJob (..))
 import Verify.MillingJob qualified as MillingJob
 import Verify.MillingJob.Fast qualified as FastContact
@@ -80,7 +81,7 @@ wrongAt job demanded m around p = case [(Distance.toPoint p (segmentOf e), e) | 
   distances
     | d > allowance job
         && Segment.hasFootOf (segmentOf nearest) p
-        && sideOf p (segmentOf nearest) /= demanded ->
+        && sideOf job p (segmentOf nearest) /= demanded ->
       Just (WrongSide (number m) (Part.origin (element nearest)))
     | otherwise -> Nothing
     where
@@ -88,14 +89,12 @@ wrongAt job demanded m around p = case [(Distance.toPoint p (segmentOf e), e) | 
   where
     segmentOf = Part.segment . element
 
--- | Side of a segment on which a point lies.
-sideOf :: Point -> Segment -> Side
-sideOf p s
-  | Vec.cross ahead (Vec.to foot p) > 0 = Carrier.LeftOf
+-- | Side of the contour on which the point @p@ lies. @s@ is the element nearest to @p@. If its
+-- nearest point is a corner, both elements of the corner decide.
+sideOf :: MillingJob -> Point -> Segment -> Side
+sideOf job p s
+  | Edge.leftwardness (edges job) (snd (Distance.nearest p s)) p > 0 = Carrier.LeftOf
   | otherwise = Carrier.RightOf
-  where
-    foot = Segment.at (Segment.fraction s p) s
-    ahead = Segment.directionAt (Segment.fraction s p) s
 
 -- | Test that a motion runs against the direction of travel at one of its test points. The test
 -- point of a line is its middle. The test points of an arc lie midway between neighbouring sample
@@ -104,26 +103,40 @@ sideOf p s
 -- motion so short that rounding decides its direction.
 runsBack :: Machine -> MillingJob -> CutterMotion -> Bool
 runsBack machine job m =
-  Segment.length (segment m) > times 4 (Machine.planeResolution machine) && any isBack fractions
+  Segment.length (segment m) > times 4 pulse && any isBack fractions
   where
+    pulse = Machine.planeResolution machine
     fractions = case segment m of
       Straight _ _ -> [0.5]
       Arc {} -> let ks = Motion.samples m in zipWith (\a b -> (a + b) / 2) (0 : ks) ks
     around = MillingJob.edgesInBox job m
-    isBack k = not (null touched) && all (isAgainst job ahead p . snd) nearest
+    isBack k = not (null touched) && all (isAgainst job ahead p . snd) nearest && not isStep
       where
         p = Segment.at k (segment m)
         ahead = Segment.directionAt k (segment m)
-        -- Elements that the cutter touches, each with its distance less the element's own
-        -- allowance.
+        -- Elements that the cutter touches, each with its distance less its own allowance. An
+        -- element is further away or nearer where its allowance is not in force, beyond its ends.
         touched =
-          [ (minus d (ownAllowance e), e)
+          [ (d, e)
             | e <- around,
-              let d = Distance.toPoint p (shape e),
-              d <= MillingJob.contactLimit job
+              let d = minus (Distance.toPoint p (shape e)) (ownAllowance e),
+              d <= plus (reach job) (allowance job),
+              d >= minus (reach job) (allowance job)
           ]
         least = minimum (map fst touched)
         nearest = filter ((<= plus least (allowance job)) . fst) touched
+        -- Where the allowance changes, the cutter moves square to the contour, and may touch another
+        -- element meanwhile.
+        isStep =
+          or
+            [ Mm (abs (Vec.cross ahead (Vec.to p vertex))) <= allowance job
+              | e <- around,
+                e' <- around,
+                ownAllowance e /= ownAllowance e',
+                let vertex = Segment.end (shape e),
+                Vec.isNear vertex (Segment.start (shape e')),
+                Vec.distance p vertex <= MillingJob.contactLimit job
+            ]
 
 -- | Test that the unit direction @ahead@ at the centre @p@ leads against the direction of travel of
 -- an element. A centre beside the element has to move so that it keeps the element on the side
