@@ -17,6 +17,8 @@ module Geometry.Tolerance
     smoothAngle,
     parallel,
     kink,
+    cuspAngle,
+    cuspDepth,
 
     -- * Constructions
     sameFillet,
@@ -75,6 +77,18 @@ parallel = 1e-12
 -- one is a corner.
 kink :: Rad
 kink = Rad 1e-3
+
+-- | The largest angle between the two elements at a cusp. Where it is so small, rounding of the
+-- vertex and the curvature of the elements may give it either sign, so the sign does not show on
+-- which side the contour turns back.
+cuspAngle :: Rad
+cuspAngle = Rad 1e-3
+
+-- | The distance in mm from the vertex of a cusp at which both elements are compared, to find the
+-- side on which the contour turns back. It is so small that both are near the vertex, and so large
+-- that rounding of the vertex does not decide.
+cuspDepth :: Double
+cuspDepth = 0.01
 
 -- | The largest distance between the centres of fillets that count as one. A fillet that touches a
 -- curve at a joint of two segments is found twice, once from each segment.

@@ -29,7 +29,7 @@ import Data.Primitive.PrimArray
 import Data.Word (Word8)
 import Geometry.ClosedPolyarcs (ClosedPolyarcs (ClosedPolyarcs))
 import Geometry.ClosedPolyarcs qualified as ClosedPolyarcs
-import Offset.Tolerance qualified as Tolerance
+import Geometry.Tolerance qualified as Tolerance
 
 -- | The form of outer corners: an arc about the vertex, or two lines. A corner that turns by more
 -- than 120° is always round.

@@ -6,12 +6,10 @@ module Offset.Tolerance
     resolution,
     rounding,
     tangential,
-    cuspAngle,
-    cuspDepth,
   )
 where
 
-import Base.Quantity (Mm (..), Rad (..))
+import Base.Quantity (Mm (..))
 
 -- | The amount in mm by which rounding may bring the cutter's centre closer to the part than the
 -- cutter's radius. Two elements that join at an angle of 'Geometry.Tolerance.smoothAngle' have
@@ -45,15 +43,3 @@ rounding = 1e-14
 -- This moves offset points by at most the product of the sine and the offset's distance.
 tangential :: Double
 tangential = 1e-9
-
--- | The largest angle between the two elements at a cusp. Where it is so small, rounding of the
--- vertex and the curvature of the elements may give it either sign, so the sign does not show on
--- which side the contour turns back.
-cuspAngle :: Rad
-cuspAngle = Rad 1e-3
-
--- | The distance in mm from the vertex of a cusp at which both elements are compared, to find the
--- side on which the contour turns back. It is so small that both are near the vertex, and so large
--- that rounding of the vertex does not decide.
-cuspDepth :: Double
-cuspDepth = 0.01

@@ -37,7 +37,9 @@ import Part.Part
 import Part.Part qualified as Part
 import Toolpath.Error (Error (..), Intrusion (..))
 import Toolpath.LinkingMove qualified as LinkingMove
-import Toolpath.MillingSide (keyword)
+import Toolpath.MillingSide (keyword, leadingSide)
+import Toolpath.PointedIntrusion (PointedIntrusion (PointedIntrusion))
+import Toolpath.PointedIntrusion qualified as PointedIntrusion
 import Toolpath.Swivel qualified as Swivel
 import Toolpath.Toolpath (Block (..), Move, Pass (..), Toolpath)
 import Toolpath.Toolpath qualified as Toolpath
@@ -157,6 +159,7 @@ intrusionsOfBlock machined b = case b of
         linking = Intruder {tool = radius milling, own = Nothing, leaving = left}
         cutting = Intruder {tool = radius milling, own = Just (number pass), leaving = Nothing}
      in concatMap (found linking) (approach <> retract)
+          <> mapMaybe (throughProfile milling) (approach <> retract)
           <> take
             1
             ( concatMap
@@ -184,6 +187,24 @@ intrusionsOfBlock machined b = case b of
     asHole e = case e of
       CutsPart at move element deep _ _ -> HoleCuts at (Segment.end move) element deep
       _ -> e
+
+-- | The intrusion of a linking move of a pointed tool into the material behind its own profile;
+-- Nothing for other tools, and when the tool moves on the profile.
+throughProfile :: Milling -> Move -> Maybe Error
+throughProfile milling m
+  | radius milling <= Mm 0,
+    Right (Just side') <- leadingSide milling,
+    Just (PointedIntrusion element deep p) <-
+      PointedIntrusion.deepest side' (allowedDepth milling) (contour milling) path =
+    Just (CutsPart (Toolpath.origin m) path element deep CutsContour p)
+  | otherwise = Nothing
+  where
+    path = Toolpath.segment m
+
+-- | The depth in mm to which a move may cut into a contour: the tolerance, and rounding.
+allowedDepth :: Milling -> Mm
+allowedDepth milling =
+  plus (fst (Part.deviationLimits (Part.tolerance milling))) Tolerance.clearance
 
 -- | The deepest intrusion of a move into the contours of each statement. If several of these are at
 -- one point, only the first is listed, because the statements then mill the same contour.
@@ -241,7 +262,7 @@ hit tool kept milling m element
     path = Toolpath.segment m
     wall = Part.segment element
     ClosestPoint d p = Distance.segments path wall
-    allowed = plus (fst (Part.deviationLimits (Part.tolerance milling))) Tolerance.clearance
+    allowed = allowedDepth milling
     how
       | d <= Tolerance.coincident = Crossing
       | plus d allowed < tool = CutsContour

@@ -14,6 +14,7 @@ module Verify.MillingJob
     edgesNearEach,
     edgesInBox,
     contacts,
+    allowanceTowards,
   )
 where
 
@@ -25,6 +26,7 @@ import Geometry.Distance.Fast qualified as FastDistance
 import Geometry.Index.BoundingBox qualified as BoundingBox
 import Geometry.Index.BoxTree (BoxTree)
 import Geometry.Index.BoxTree qualified as BoxTree
+import Geometry.Segment qualified as Segment
 import Geometry.Vec (Point)
 import Geometry.Vec qualified as Vec
 import Part.Part (Element, Milling)
@@ -111,7 +113,7 @@ contacts :: MillingJob -> [Edge] -> Point -> [(Int, Double)]
 contacts job near p =
   [ (rank e, startsAt e + contactOn e * long e)
     | e <- near,
-      FastDistance.distance (shape e) (Vec.x p) (Vec.y p) <= farthestContact touch e
+      FastDistance.distance (shape e) (Vec.x p) (Vec.y p) <= farthestContact touch (allowanceTowards job p e)
   ]
   where
     contactOn e = FastDistance.footOn (shape e) (Vec.x p) (Vec.y p)
@@ -131,14 +133,25 @@ data Touch = Touch
 -- | 'Touch' of a cutter with its centre at @p@. @near@ are the elements near @p@.
 touchAt :: MillingJob -> [Edge] -> Point -> Touch
 touchAt job near p =
-  Touch {limit, leastExcess = Edge.leastExcess ownAllowance limit near p, spread = 2 * deviation}
+  Touch
+    { limit,
+      leastExcess = Edge.leastExcess (allowanceTowards job p) limit near p,
+      spread = 2 * deviation
+    }
   where
     Mm limit = contactLimit job
     Mm deviation = allowance job
 
--- | Largest distance in mm from the element @e@ to the centre of a cutter that touches it. The
--- allowance of the element is included.
-farthestContact :: Touch -> Edge -> Double
-farthestContact touch e = min (limit touch) (leastExcess touch + own + spread touch)
+-- | Allowance of an element towards a centre at @p@: its own allowance, or 0 if @p@ lies behind the
+-- element.
+allowanceTowards :: MillingJob -> Point -> Edge -> Mm
+allowanceTowards job p e
+  | own > Mm 0 && any (\s -> Segment.isBehind s (shape e) p) (side job) = Mm 0
+  | otherwise = own
   where
-    Mm own = ownAllowance e
+    own = ownAllowance e
+
+-- | Largest distance in mm from an element with the allowance @own@ to the centre of a cutter that
+-- touches it. The allowance of the element is included.
+farthestContact :: Touch -> Mm -> Double
+farthestContact touch (Mm own) = min (limit touch) (leastExcess touch + own + spread touch)

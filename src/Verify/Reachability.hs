@@ -18,6 +18,7 @@ import Data.Containers.ListUtils (nubOrd)
 import Data.List (foldl', sort, sortOn)
 import Geometry.Carrier (Side)
 import Geometry.Carrier qualified as Carrier
+import Geometry.Corner qualified as Corner
 import Geometry.Distance qualified as Distance
 import Geometry.Index.BoundingBox qualified as BoundingBox
 import Geometry.Index.BoxTree (BoxTree)
@@ -29,7 +30,6 @@ import Geometry.Tolerance qualified as Tolerance
 import Geometry.Vec (Point)
 import Geometry.Vec qualified as Vec
 import Offset.Tolerance qualified as Tolerance
-import Verify.Edge qualified as Edge
 
 -- | A contour as a cutter meets it.
 data Surroundings = Surroundings
@@ -42,9 +42,9 @@ data Surroundings = Surroundings
     crevices :: [Point]
   }
 
--- | Segments from which the centre keeps the distance @distanceKept@: the cutter's radius plus the
+-- | A distance, and the segments from which the centre keeps it: the cutter's radius plus the
 -- allowances of the pass and of these segments.
-data KeptDistance = KeptDistance {distanceKept :: Mm, segments :: BoxTree Segment}
+data KeptDistance = KeptDistance Mm (BoxTree Segment)
 
 -- | Interval of a segment: its beginning and end as fractions of the segment's length, from 0 to 1.
 type Interval = (Double, Double)
@@ -63,8 +63,8 @@ surroundings ends side elements =
       crevices =
         [ Segment.end s
           | ((_, s), (_, s')) <- corners,
-            Edge.isCusp s s',
-            let Rad turned = Edge.turning s s',
+            Corner.isCusp s s',
+            let Rad turned = Corner.turning s s',
             Carrier.sideSign side * turned > 0
         ]
     }
@@ -266,6 +266,6 @@ outerCorner side distance s next
         }
   | otherwise = Nothing
   where
-    turned@(Rad t) = Edge.turning s next
+    turned@(Rad t) = Corner.turning s next
     centre = Segment.end s
     off direction = Carrier.beside side distance (Vec.unit direction) centre

@@ -35,8 +35,9 @@ foldContacts job near p with = go near
     !y = Vec.y p
     !(Mm limit) = MillingJob.contactLimit job
     !(Mm deviation) = allowance job
-    !least = leastExcess ownAllowance limit near x y
-    farthest e = let Mm own = ownAllowance e in min limit (least + own + 2 * deviation)
+    !least = leastExcess (MillingJob.allowanceTowards job p) limit near x y
+    farthest e =
+      let Mm own = MillingJob.allowanceTowards job p e in min limit (least + own + 2 * deviation)
 {-# INLINE foldContacts #-}
 
 -- | Distance in mm from a point to the nearest of some elements, or the limit in mm if no element
