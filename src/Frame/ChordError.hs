@@ -21,6 +21,7 @@ import Base.Quantity (Mm (..), Pulses (..), Rad (..), minus, times)
 import Data.Either (fromRight)
 import Data.List.NonEmpty (NonEmpty)
 import Data.List.NonEmpty qualified as NonEmpty
+import Data.Maybe (isJust)
 import Frame.Chording qualified as Chording
 import Frame.Rounding (PathPosition)
 import Frame.Rounding qualified as Rounding
@@ -90,6 +91,7 @@ curveBounds machine side job =
     pulse = Machine.planeResolution machine
     (l, r) = case (Part.tolerance job, side) of
       (Part.OnPath d, _) -> (less d, less d)
+      (Part.Band a b, Just _) | isPointed job -> let d = min a b in (less d, less d)
       (Part.Band a b, Just Carrier.LeftOf) -> (less a, less b)
       (Part.Band a b, Just Carrier.RightOf) -> (less b, less a)
       (Part.Band a b, Nothing) -> let d = sideless a b in (less d, less d)
@@ -103,6 +105,7 @@ segmentTolerance :: Maybe Carrier.Side -> Milling -> Segment -> ChordTolerance
 segmentTolerance leading job s = case (Part.tolerance job, s) of
   (Part.OnPath d, _) -> Sagitta d
   (Part.Band a b, Straight _ _) -> Sagitta (max a b)
+  (Part.Band a b, Arc {}) | isPointed job, isJust leading -> Sagitta (min a b)
   (Part.Band a b, Arc {sweep = Rad angle}) -> case leading of
     -- The centre of a counter-clockwise arc lies on its left. The material lies on the side
     -- opposite to the cutter.
@@ -110,6 +113,11 @@ segmentTolerance leading job s = case (Part.tolerance job, s) of
       | (angle > 0) == (side == Carrier.LeftOf) -> ArcBand b a
       | otherwise -> ArcBand a b
     Nothing -> Sagitta (sideless a b)
+
+-- | True for a pointed tool. Its path is the contour itself, and its distance from the contour does
+-- not show on which side it is. So the smaller tolerance of a band holds on both sides.
+isPointed :: Milling -> Bool
+isPointed job = Part.radius job <= Mm 0
 
 -- | Tolerance in mm where the cutter's centre moves on the contour, so that the cutter has no side.
 -- It is the smaller one of a band's two tolerances, or the larger one if the smaller one is 0.

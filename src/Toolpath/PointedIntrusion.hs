@@ -49,7 +49,7 @@ deepest side allowed profile move = case filter ((> allowed) . depth) found of
       concatMap (Distance.intersections move) (map Part.segment elements <> endNormals profile)
     elements = NonEmpty.toList (Part.elements profile)
     samples :: Num a => a
-    samples = 16
+    samples = 128
 
 -- | The position @p@ as an intrusion if it lies in the material: on the side of the profile opposite
 -- to @side@. Nothing beyond the ends of an open profile.

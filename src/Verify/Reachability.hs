@@ -56,7 +56,7 @@ type Interval = (Double, Double)
 surroundings :: Ends -> Side -> [(Mm, Segment)] -> Surroundings
 surroundings ends side elements =
   Surroundings
-    { kept = grouped (elements <> cornerFans side corners),
+    { kept = grouped (elements <> cornerFans side corners <> endFans ends side elements),
       back = case ends of
         Closed -> []
         Open -> grouped (map (fmap Segment.reverse) elements),
@@ -88,6 +88,24 @@ cornerFans side corners =
       d /= d',
       Just fan <- [outerCorner side fanRadius s s']
   ]
+
+-- | Both ends of an open contour, each with the distance that the centre keeps from the element
+-- there. An end is represented like a corner: by half a circle about it. Empty for a closed
+-- contour.
+endFans :: Ends -> Side -> [(Mm, Segment)] -> [(Mm, Segment)]
+endFans ends side elements = case (ends, elements, reverse elements) of
+  (Open, (d, first) : _, (d', final) : _) ->
+    [ (d, around (Segment.start first) (Vec.negate (Segment.startDirection first))),
+      (d', around (Segment.end final) (Segment.endDirection final))
+    ]
+  _ -> []
+  where
+    around end outwards =
+      Segment.arc
+        (Carrier.senseAwayFrom side)
+        end
+        (Carrier.beside side fanRadius outwards end)
+        (Carrier.beside (Carrier.oppositeSide side) fanRadius outwards end)
 
 -- | The radius of the arcs that represent corners. It is negligible, and large enough for the
 -- directions of points on the arc to be exact.
