@@ -20,7 +20,7 @@ where
 import Base.LazyList (LazyList)
 import Base.LazyList qualified as LazyList
 import Base.PulseVector (Pulses3 (..))
-import Base.Quantity (Mm (..), plus)
+import Base.Quantity (Mm (..), minus, plus)
 import Base.Region (Located (..), Region)
 import Base.Result (Result (..))
 import Data.Containers.ListUtils (nubOrd)
@@ -378,11 +378,17 @@ arcSteps context@Context {machine} begin tolerance run = case tolerance of
   ArcBand inwards outwards -> ofSegment inwards outwards
   where
     m = NonEmpty.head run
-    pulse = Machine.planeResolution machine
+    pulse@(Mm p) = Machine.planeResolution machine
+    -- A rounded end lies up to half a diagonal of the grid beside the joint with the next element.
+    -- There the circle is away from that element's line by p²/(4r).
+    rounding = case segment m of
+      Segment.Arc {Segment.start = from, Segment.centre} ->
+        let Mm r = Segment.radius centre from in minus pulse (Mm (min (p / 4) (p * p / (4 * r))))
+      Straight _ _ -> pulse
     ofSegment inwards outwards =
       segmentSteps
         context
-        (ArcTolerance pulse (plus pulse inwards) (plus pulse outwards))
+        (ArcTolerance rounding (plus rounding inwards) (plus rounding outwards))
         (ChordError.raisedToRounding machine tolerance)
         m
         begin

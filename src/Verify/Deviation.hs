@@ -154,7 +154,8 @@ allowedDeviation isCurved milling
 -- travel. While the cutter goes round an outer corner, the contact point does not move, and does
 -- not show motions backwards. So single motions against the direction of travel are looked for as
 -- well. This is not necessary if the tape has exactly the planned frames, those that the compiler
--- made, and they follow the whole contour.
+-- made, and they follow the whole contour. In a slot exactly as wide as the cutter, planned frames
+-- go there and back on one line; there one of the two directions has to be right.
 orderFindings :: MotionSet -> MillingPass -> [Finding]
 orderFindings set MillingPass {job, found} = case found of
   Complete _ along -> if MotionSet.isPlanned set then [] else backward along
@@ -166,8 +167,12 @@ orderFindings set MillingPass {job, found} = case found of
   where
     backward along =
       [ NotFollowed (statement job)
-        | any (WrongSide.runsBack (MotionSet.machine set) job) along
+        | any
+            (\m -> runsBack m && not (MotionSet.isPlanned set && any (isReturnOf m) along))
+            along
       ]
+    runsBack = WrongSide.runsBack (MotionSet.machine set) job
+    isReturnOf m other = WrongSide.retraces (allowance job) m other && not (runsBack other)
 
 -- | Test that the statement allows rest material.
 allowsRest :: MillingJob -> Bool

@@ -142,12 +142,15 @@ touchAt job near p =
     Mm limit = contactLimit job
     Mm deviation = allowance job
 
--- | Allowance of an element towards a centre at @p@: its own allowance, or 0 if @p@ lies behind the
--- element.
+-- | Allowance of an element towards a centre at @p@: its own allowance if @p@ lies beside the
+-- element on the cutter's side, otherwise 0. Beyond an end of the element and behind it, the cutter
+-- need not keep the allowance.
 allowanceTowards :: MillingJob -> Point -> Edge -> Mm
 allowanceTowards job p e
-  | own > Mm 0 && any (\s -> Segment.isBehind s (shape e) p) (side job) = Mm 0
-  | otherwise = own
+  | own <= Mm 0 = own
+  | Segment.hasFootOf (shape e) p && not (any (\s -> Segment.isBehind s (shape e) p) (side job)) =
+    own
+  | otherwise = Mm 0
   where
     own = ownAllowance e
 

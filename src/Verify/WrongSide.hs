@@ -3,6 +3,7 @@
 module Verify.WrongSide
   ( wrongSide,
     runsBack,
+    retraces,
   )
 where
 
@@ -137,6 +138,17 @@ runsBack machine job m =
                 Vec.isNear vertex (Segment.start (shape e')),
                 Vec.distance p vertex <= MillingJob.contactLimit job
             ]
+
+-- | Test that a motion runs back over the middle of another one, within a distance.
+retraces :: Mm -> CutterMotion -> CutterMotion -> Bool
+retraces slack m other =
+  Distance.toPoint p (segment other) <= slack
+    && Vec.dot
+      (Segment.directionAt 0.5 (segment m))
+      (Segment.directionAt (Distance.nearestFraction p (segment other)) (segment other))
+      < negate clearly
+  where
+    p = Segment.at 0.5 (segment m)
 
 -- | Test that the unit direction @ahead@ at the centre @p@ leads against the direction of travel of
 -- an element. A centre beside the element has to move so that it keeps the element on the side
