@@ -385,10 +385,15 @@ arcSteps context@Context {machine} begin tolerance run = case tolerance of
       Segment.Arc {Segment.start = from, Segment.centre} ->
         let Mm r = Segment.radius centre from in minus pulse (Mm (min (p / 4) (p * p / (4 * r))))
       Straight _ _ -> pulse
+    -- At an inner corner the cutter comes nearer to the other element by the rounding of the joint
+    -- and by the change of the radius. Both together may reach the tolerance and one pulse.
+    changeWithin least
+      | least < pulse = Just (ChordError.remainder machine (plus least pulse))
+      | otherwise = Nothing
     ofSegment inwards outwards =
       segmentSteps
         context
-        (ArcTolerance rounding (plus rounding inwards) (plus rounding outwards))
+        (ArcTolerance rounding (plus rounding inwards) (plus rounding outwards) (changeWithin (min inwards outwards)))
         (ChordError.raisedToRounding machine tolerance)
         m
         begin
@@ -417,7 +422,7 @@ partSteps context@Context {machine} bounds m begin part = case part of
   ArcFitting.Arcs segments ->
     let allowance = ArcFitting.roundingAllowance machine bounds
         chordError = Sagitta (ChordError.remainder machine allowance)
-        tolerance = ArcTolerance allowance allowance allowance
+        tolerance = ArcTolerance allowance allowance allowance Nothing
         ends = [Rounding.rounded machine (Segment.end s, level) | s <- NonEmpty.toList segments]
         parts =
           zipWith

@@ -40,7 +40,6 @@ module Offset.LoopPath
   )
 where
 
-import Base.Crash qualified as Crash
 import Base.Quantity (Mm (..), Rad (..))
 import Data.List (find, minimumBy)
 import Data.Maybe (fromMaybe, isJust)
@@ -90,7 +89,9 @@ data LoopRegion = LoopRegion
     numbers :: PrimArray Int
   }
 
--- | The region that the cutter's centre can reach. Nothing for a contour that intersects itself.
+-- | The region that the cutter's centre can reach. Nothing for a contour that intersects itself, and
+-- when the kernel cannot certify its answer: at a cusp, two elements may cross by less than rounding
+-- permits to decide.
 region :: OffsetSource -> Maybe LoopRegion
 region source = case Kernel.offset (request source numbers) [flat] of
   Right found ->
@@ -101,7 +102,7 @@ region source = case Kernel.offset (request source numbers) [flat] of
           raw = Kernel.raw found,
           numbers
         }
-  Left Kernel.Uncertain -> Crash.bug "an equidistant failed its certificate"
+  Left Kernel.Uncertain -> Nothing
   Left (Kernel.SelfIntersecting _ _) -> Nothing
   Left Kernel.WrongNesting -> Nothing
   where

@@ -8,7 +8,6 @@ module Toolpath.Inset
   )
 where
 
-import Base.Crash qualified as Crash
 import Base.Quantity (Mm (..), minus, total)
 import Data.List.NonEmpty (NonEmpty (..))
 import Data.List.NonEmpty qualified as NonEmpty
@@ -34,7 +33,7 @@ oriented outer islands = orient (> 0) outer :| map (orient (< 0)) islands
 
 -- | The loops at a distance to the left of an outer contour and islands. Each contour must have the
 -- free space on its left, and must not intersect itself. There are no loops when the contours
--- intersect each other. To get loops at several distances, apply the function to the contours only
+-- intersect each other, or when the kernel cannot certify its answer. To get loops at several distances, apply the function to the contours only
 -- once: then they are converted only once.
 inset :: NonEmpty Polyarc -> Mm -> [Loop]
 inset contours@(outer :| _) = loopsAt
@@ -48,7 +47,7 @@ inset contours@(outer :| _) = loopsAt
       | 2 * d >= min (r - l) (t - b) = []
       | otherwise = case Kernel.offset (Kernel.roundOffset Carrier.LeftOf distance) walls of
         Right region -> loopsOf region
-        Left Kernel.Uncertain -> Crash.bug "the passes of a pocket failed their certificate"
+        Left Kernel.Uncertain -> []
         Left (Kernel.SelfIntersecting _ _) -> []
         Left Kernel.WrongNesting -> []
 

@@ -123,13 +123,19 @@ parts side distance Surroundings {kept, back, crevices} element =
     Just centres ->
       [ part element a b
         | (a, b) <- foldl' (freeOf side distance element centres) [(0, 1)] (kept <> back),
-          b - a > Tolerance.negligibleShare,
+          times (b - a) long > shortest || b - a >= 1,
           let middle = (a + b) / 2,
           not (any (isTipNear (Segment.at middle element)) crevices),
           not (isInMaterial side distance kept (Segment.at middle centres))
       ]
   where
+    long = Segment.length element
     isTipNear p tip = Vec.distance p tip <= Mm Tolerance.cuspDepth
+
+-- | The length of the shortest part of an element that counts as touched. The margin of 'roomy' makes
+-- shorter ones, where the cutter just fits in a single position.
+shortest :: Mm
+shortest = times 100 Tolerance.clearance
 
 -- | Test that a centre @p@ lies in the material: the segment nearest to it has @p@ on the side
 -- opposite to @side@, and is clearly nearer than @distance@. In the tip of a cusp the test by

@@ -75,20 +75,23 @@ mayBeWrong job demanded close around p =
 
 -- | Finding if the point @p@ of the motion @m@ is not on the side @demanded@ of the nearest of the
 -- elements @around@, by an exact comparison. Nothing if the distance of @p@ from this element is
--- within the allowed deviation, or if no normal of the element goes through @p@.
+-- within the allowed deviation, or if no normal of the element goes through @p@. Nothing also if
+-- @p@ is on the demanded side of another element that is as near within the allowed deviation.
 wrongAt :: MillingJob -> Side -> CutterMotion -> [Edge] -> Point -> Maybe Finding
 wrongAt job demanded m around p = case [(Distance.toPoint p (segmentOf e), e) | e <- around] of
   [] -> Nothing
   distances
     | d > allowance job
-        && Segment.hasFootOf (segmentOf nearest) p
-        && sideOf job p (segmentOf nearest) /= demanded ->
+        && isBeside nearest
+        && not (any isRight [e | (d', e) <- distances, d' <= plus d (allowance job)]) ->
       Just (WrongSide (number m) (Part.origin (element nearest)))
     | otherwise -> Nothing
     where
       (d, nearest) = minimumBy (comparing fst) distances
   where
     segmentOf = Part.segment . element
+    isBeside e = Segment.hasFootOf (segmentOf e) p
+    isRight e = isBeside e && sideOf job p (segmentOf e) == demanded
 
 -- | Side of the contour on which the point @p@ lies. @s@ is the element nearest to @p@. If its
 -- nearest point is a corner, both elements of the corner decide.

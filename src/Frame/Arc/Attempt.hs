@@ -175,7 +175,12 @@ attempt context arc c
       allowsFullCircle context && abs (sweep arc) >= 2 * pi - Tolerance.equal
     legs = zipWith (legBetween context arc c) starts ends
     deviations = map (Deviation.deviationOf (tolerance context) (exact arc) . arcAlong) legs
-    isNear leg d = isStraight leg || isWithinTolerance (tolerance context) d
+    isNear leg d =
+      isStraight leg || isWithinTolerance (tolerance context) d && keepsRadius (arcAlong leg)
+    keepsRadius s = case (radiusChange (tolerance context), s) of
+      (Just most, Segment.Arc {Segment.start = p, Segment.end = q, Segment.centre = m}) ->
+        let Mm change = minus (Vec.distance m q) (Vec.distance m p) in Mm (abs change) <= most
+      _ -> True
     Mm r = radius arc
     -- Largest allowed difference in radians between the sweep of the attempt and that of the exact
     -- arc. It allows for the rounding of the ends and the centre: it is the angle of four pulses

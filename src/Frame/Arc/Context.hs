@@ -60,7 +60,10 @@ data ArcTolerance = ArcTolerance
     -- of the beginning to that of the end at any point
     inwards :: Mm,
     -- | largest distance of any step away from the centre, under the same condition as 'inwards'
-    outwards :: Mm
+    outwards :: Mm,
+    -- | largest difference between the radii at the beginning and the end of a step; Nothing if only
+    -- the control limits it
+    radiusChange :: Maybe Mm
   }
   deriving stock (Eq, Show)
 
