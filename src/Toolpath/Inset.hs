@@ -45,11 +45,14 @@ inset contours@(outer :| _) = loopsAt
       -- contour, so it does not fit. Without this test the kernel would have to distinguish a
       -- cutter that covers the whole contour from one that fits.
       | 2 * d >= min (r - l) (t - b) = []
-      | otherwise = case Kernel.offset (Kernel.roundOffset Carrier.LeftOf distance) walls of
-        Right region -> loopsOf region
-        Left Kernel.Uncertain -> []
+      | otherwise = case offsetAt distance of
+        -- A slightly smaller distance avoids the coincidence that the kernel cannot decide.
+        Left Kernel.Uncertain ->
+          either (const []) loopsOf (offsetAt (minus distance Tolerance.clearance))
         Left (Kernel.SelfIntersecting _ _) -> []
         Left Kernel.WrongNesting -> []
+        Right region -> loopsOf region
+    offsetAt distance = Kernel.offset (Kernel.roundOffset Carrier.LeftOf distance) walls
 
 -- | The loops at @distance@, including loops along slots: narrow passages that are exactly twice as
 -- wide as @distance@. @loopsAt@ is 'inset' applied to the contours. @loopsAt distance@ has no loop

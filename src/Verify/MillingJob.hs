@@ -18,10 +18,11 @@ module Verify.MillingJob
   )
 where
 
-import Base.Quantity (Mm (..), plus)
+import Base.Quantity (Mm (..), minus, plus)
 import Base.Region (Region)
 import Data.List.NonEmpty qualified as NonEmpty
 import Geometry.Carrier qualified as Carrier
+import Geometry.Distance qualified as Distance
 import Geometry.Distance.Fast qualified as FastDistance
 import Geometry.Index.BoundingBox qualified as BoundingBox
 import Geometry.Index.BoxTree (BoxTree)
@@ -143,16 +144,18 @@ touchAt job near p =
     Mm deviation = allowance job
 
 -- | Allowance of an element towards a centre at @p@: its own allowance if @p@ lies beside the
--- element on the cutter's side, otherwise 0. Beyond an end of the element and behind it, the cutter
--- need not keep the allowance.
+-- element on the cutter's side, and 0 behind it. Beyond an end of the element, the cutter keeps the
+-- allowance at an outer corner only. There it is the own allowance if @p@ keeps it, and otherwise 0.
 allowanceTowards :: MillingJob -> Point -> Edge -> Mm
 allowanceTowards job p e
   | own <= Mm 0 = own
-  | Segment.hasFootOf (shape e) p && not (any (\s -> Segment.isBehind s (shape e) p) (side job)) =
-    own
+  | Segment.hasFootOf (shape e) p =
+    if any (\s -> Segment.isBehind s (shape e) p) (side job) then Mm 0 else own
+  | Mm (abs beyond) <= allowance job = own
   | otherwise = Mm 0
   where
     own = ownAllowance e
+    Mm beyond = minus (Distance.toPoint p (shape e)) (plus (reach job) own)
 
 -- | Largest distance in mm from an element with the allowance @own@ to the centre of a cutter that
 -- touches it. The allowance of the element is included.

@@ -6,10 +6,13 @@ import Base.Quantity (Mm (..), Pulses (..))
 import Base.Region (Located (..))
 import Base.Result (Result (..))
 import Base.Result qualified as Result
+import Compile (Analysis (Analysis))
+import Compile qualified
 import Data.Maybe (fromMaybe)
 import Frame.Frame (Frame, FrameMotion (..), FrameProgram)
 import Frame.Frame qualified as Frame
 import Frame.FromToolpath qualified as FromToolpath
+import Generate.MachinedText qualified as MachinedText
 import Generate.Operations qualified as Operations
 import Generate.WrongTape qualified as WrongTape
 import Geometry.Carrier (Sense)
@@ -18,6 +21,8 @@ import Machine.Machine qualified as Machine
 import Machines qualified
 import Part.Part (Part)
 import Part.Part qualified as Part
+import Project.LoadedProgram qualified as LoadedProgram
+import Project.Target qualified as Target
 import System.Environment (lookupEnv)
 import Test.Hspec
 import Test.QuickCheck
@@ -51,16 +56,34 @@ spec = do
 data Operated = Operated
   {part :: Part, machine :: Machine, path :: Toolpath, program :: FrameProgram}
 
+-- | A part with several operations, or a part from a text with any statement.
 operated :: Gen Operated
-operated = do
+operated = frequency [(3, byOperations), (2, byText)]
+
+byOperations, byText :: Gen Operated
+byOperations = do
   part <- Operations.part
   machine <- elements [m | m <- Machines.known, Machine.name m /= MachineName "kontur-2p"]
   case Toolpath.toToolpath part of
-    Result _ [] (Just path)
-      | Just program <- Result.ifSound (FromToolpath.quantise machine path),
-        length (Frame.plannedFrames program) < 2000 ->
-        pure Operated {part, machine, path, program}
-    _ -> operated
+    Result _ [] (Just path) -> maybe byOperations pure (taped part path machine)
+    _ -> byOperations
+byText = do
+  machine <- elements Machines.known
+  text <- MachinedText.program machine
+  case Result.ifSound (Compile.analyse [] (LoadedProgram.fromText "p.part" text)) of
+    Just Analysis {Compile.part = part, Compile.path = path} ->
+      maybe byText pure (taped part path (Target.setUpFor path machine))
+    Nothing -> byText
+
+-- | A part with its tape, unless the tape cannot be made or is long.
+taped :: Part -> Toolpath -> Machine -> Maybe Operated
+taped part path machine
+  | Just program <- Result.ifSound (FromToolpath.quantise machine path),
+    frames <- Frame.plannedFrames program,
+    not (null frames),
+    null (drop 2000 frames) =
+    Just Operated {part, machine, path, program}
+  | otherwise = Nothing
 
 own :: FrameProgram -> [Frame]
 own = map Frame.frame . Frame.plannedFrames
