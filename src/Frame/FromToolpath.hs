@@ -374,30 +374,44 @@ straightTo target = ArcStep {target, turnsAbout = Nothing}
 arcSteps :: Context -> Pulses3 -> ChordTolerance -> NonEmpty Move -> [ArcStep]
 arcSteps context@Context {machine} begin tolerance run = case tolerance of
   OnCurve bounds -> curveSteps context begin bounds run
-  Sagitta y -> ofSegment y y
-  ArcBand inwards outwards -> ofSegment inwards outwards
+  Sagitta y -> ofSegment (arcTolerance machine Nothing y y)
+  ArcBand inwards outwards ->
+    ofSegment (arcTolerance machine (Just (segment m)) inwards outwards)
   where
     m = NonEmpty.head run
-    pulse@(Mm p) = Machine.planeResolution machine
-    -- A rounded end lies up to half a diagonal of the grid beside the joint with the next element.
-    -- There the circle is away from that element's line by p²/(4r).
-    rounding = case segment m of
-      Segment.Arc {Segment.start = from, Segment.centre} ->
-        let Mm r = Segment.radius centre from in minus pulse (Mm (min (p / 4) (p * p / (4 * r))))
-      Straight _ _ -> pulse
-    -- At an inner corner the cutter comes nearer to the other element by the rounding of the joint
-    -- and by the change of the radius. Both together may reach the tolerance and one pulse.
-    changeWithin least
-      | least < pulse = Just (ChordError.remainder machine (plus least pulse))
-      | otherwise = Nothing
-    ofSegment inwards outwards =
+    ofSegment allowed =
       segmentSteps
         context
-        (ArcTolerance rounding (plus rounding inwards) (plus rounding outwards) (changeWithin (min inwards outwards)))
+        allowed
         (ChordError.raisedToRounding machine tolerance)
         m
         begin
         (segment m)
+
+-- | Tolerance for arcs in place of an exact segment. @inwards@ and @outwards@ are the allowed chord
+-- errors towards the centre and away from it; rounding adds up to one pulse to each.
+--
+-- @inBand@ is the segment if the program gives different tolerances for both sides. If one of them
+-- is below a pulse, the joints with the neighbours count as well. A rounded joint lies up to half a
+-- diagonal of the grid beside the neighbour. There the circle of radius r is p²/(4r) away from the
+-- neighbour's line, where p is the pulse. At an inner corner the cutter comes nearer to the
+-- neighbour by the rounding of the joint and by the change of the radius together.
+arcTolerance :: Machine -> Maybe Segment -> Mm -> Mm -> ArcTolerance
+arcTolerance machine inBand inwards outwards = case inBand of
+  Just s
+    | least < pulse ->
+      allowing
+        (minus pulse (atJoint s))
+        (Just (ChordError.remainder machine (plus least pulse)))
+  _ -> allowing pulse Nothing
+  where
+    pulse@(Mm p) = Machine.planeResolution machine
+    least = min inwards outwards
+    allowing rounding = ArcTolerance rounding (plus rounding inwards) (plus rounding outwards)
+    atJoint s = case s of
+      Segment.Arc {Segment.start = from, Segment.centre} ->
+        let Mm r = Segment.radius centre from in Mm (min (p / 4) (p * p / (4 * r)))
+      Straight _ _ -> Mm 0
 
 -- | Steps of a level run along a curve, from the position @begin@ in pulses. 'ArcFitting.divisions'
 -- divides the run into arcs and chords in several ways. The result has the steps of the division

@@ -43,12 +43,12 @@ turning before after
     w = Segment.startDirection after
     Rad angle = Vec.signedAngle v w
 
--- | The signed distance in mm of the point @p@ from a contour: positive on the left of the direction
--- of travel. @foot@ is the point of the contour that is nearest to @p@; @segments@ contains all
--- segments of the contour on which @foot@ lies. If @foot@ is a corner, the result is the sum of the
--- signed distances from the tangents of both segments; then only its sign has a meaning. At a cusp
--- the sign is opposite to that of 'turning', because @p@ lies outside of the wedge between both
--- segments.
+-- | The signed distance in mm of the point @p@ from a contour: positive on the left of the
+-- direction of travel. @foot@ is the point of the contour that is nearest to @p@; @segments@
+-- contains all segments of the contour on which @foot@ lies. If @foot@ is a corner, the result is
+-- the sum of the signed distances from the tangents of both segments; then only its sign has a
+-- meaning. At a cusp the sign is opposite to that of 'turning', because @p@ lies outside of the
+-- wedge between both segments.
 leftwardness :: [Segment] -> Point -> Point -> Double
 leftwardness segments foot p = case filter isTouching segments of
   [a, b]

@@ -89,9 +89,9 @@ data LoopRegion = LoopRegion
     numbers :: PrimArray Int
   }
 
--- | The region that the cutter's centre can reach. Nothing for a contour that intersects itself, and
--- when the kernel cannot certify its answer: at a cusp, two elements may cross by less than rounding
--- permits to decide.
+-- | The region that the cutter's centre can reach. Nothing for a contour that intersects itself,
+-- and when the kernel cannot certify its answer: at a cusp, two elements may cross by less than
+-- rounding permits to decide.
 region :: OffsetSource -> Maybe LoopRegion
 region source = case Kernel.offset (request source numbers) [flat] of
   Right found ->

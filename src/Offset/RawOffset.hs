@@ -222,7 +222,7 @@ offsetPolyarc
         | dt < 0 && abs cr <= cuspSine =
           k
             ( if uneven
-                && d * (Tolerance.cuspDepth / 2 * (curvature i + curvature j) - cr) > 0
+                && d * (Tolerance.cuspDepth / 2 * (curvature i + curvature j) - cr) > smoothness
                 then Over
                 else Outer
             )

@@ -148,7 +148,10 @@ isScreened source path = isUneven && not (null middles) && all isBehindAnother m
         | (j, s) <- BoxTree.within (BoundingBox.ofSegment (Straight foot p)) index,
           i /= j
       ]
-    index = BoxTree.index (BoundingBox.ofSegment . snd) (zip [0 ..] (Vector.toList (elements source)))
+    index =
+      BoxTree.index
+        (BoundingBox.ofSegment . snd)
+        (zip [0 ..] (Vector.toList (elements source)))
 
 -- | The segments of the offset, when the cutter reaches every element of the contour; else Nothing.
 -- The cutter reaches every element when three conditions are true: there is one path, it leaves out

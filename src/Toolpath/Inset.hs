@@ -33,8 +33,8 @@ oriented outer islands = orient (> 0) outer :| map (orient (< 0)) islands
 
 -- | The loops at a distance to the left of an outer contour and islands. Each contour must have the
 -- free space on its left, and must not intersect itself. There are no loops when the contours
--- intersect each other, or when the kernel cannot certify its answer. To get loops at several distances, apply the function to the contours only
--- once: then they are converted only once.
+-- intersect each other, or when the kernel cannot certify its answer. To get loops at several
+-- distances, apply the function to the contours only once: then they are converted only once.
 inset :: NonEmpty Polyarc -> Mm -> [Loop]
 inset contours@(outer :| _) = loopsAt
   where

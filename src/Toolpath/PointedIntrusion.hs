@@ -51,8 +51,8 @@ deepest side allowed profile move = case filter ((> allowed) . depth) found of
     samples :: Num a => a
     samples = 128
 
--- | The position @p@ as an intrusion if it lies in the material: on the side of the profile opposite
--- to @side@. Nothing beyond the ends of an open profile.
+-- | The position @p@ as an intrusion if it lies in the material: on the side of the profile
+-- opposite to @side@. Nothing beyond the ends of an open profile.
 behindAt :: Side -> Contour -> Point -> Maybe PointedIntrusion
 behindAt side profile p
   | d <= Tolerance.coincident || isBeyondEnd = Nothing

@@ -210,7 +210,8 @@ keepOutOf set job along = \m ->
           KeepOut
             { searchRadius,
               largest = plus (reach job) largestAllowance,
-              required = \e p -> plus (reach job) (Gouge.allowanceAt (side job) pulse (edges job) e p)
+              required = \e p ->
+                plus (reach job) (Gouge.allowanceAt (side job) pulse (edges job) e p)
             }
         else (Gouge.constantKeepOut tool) {searchRadius}
   where

@@ -114,7 +114,8 @@ contacts :: MillingJob -> [Edge] -> Point -> [(Int, Double)]
 contacts job near p =
   [ (rank e, startsAt e + contactOn e * long e)
     | e <- near,
-      FastDistance.distance (shape e) (Vec.x p) (Vec.y p) <= farthestContact touch (allowanceTowards job p e)
+      let own = allowanceTowards job p e,
+      FastDistance.distance (shape e) (Vec.x p) (Vec.y p) <= farthestContact touch own
   ]
   where
     contactOn e = FastDistance.footOn (shape e) (Vec.x p) (Vec.y p)
@@ -145,7 +146,8 @@ touchAt job near p =
 
 -- | Allowance of an element towards a centre at @p@: its own allowance if @p@ lies beside the
 -- element on the cutter's side, and 0 behind it. Beyond an end of the element, the cutter keeps the
--- allowance at an outer corner only. There it is the own allowance if @p@ keeps it, and otherwise 0.
+-- allowance at an outer corner only. So there the result is the own allowance if @p@ keeps it, and
+-- otherwise 0.
 allowanceTowards :: MillingJob -> Point -> Edge -> Mm
 allowanceTowards job p e
   | own <= Mm 0 = own

@@ -132,8 +132,8 @@ parts side distance Surroundings {kept, back, crevices} element =
     long = Segment.length element
     isTipNear p tip = Vec.distance p tip <= Mm Tolerance.cuspDepth
 
--- | The length of the shortest part of an element that counts as touched. The margin of 'roomy' makes
--- shorter ones, where the cutter just fits in a single position.
+-- | The length of the shortest part of an element that counts as touched. The margin of 'roomy'
+-- makes shorter ones, where the cutter just fits in a single position.
 shortest :: Mm
 shortest = times 100 Tolerance.clearance
 
@@ -142,7 +142,11 @@ shortest = times 100 Tolerance.clearance
 -- distances alone ('roomy') takes such centres for possible ones.
 isInMaterial :: Side -> Mm -> [KeptDistance] -> Point -> Bool
 isInMaterial side distance others p =
-  or [Segment.isBehind side s p | (d, s) <- take 1 (sortOn fst near), d < minus distance clearlyNearer]
+  or
+    [ Segment.isBehind side s p
+      | (d, s) <- take 1 (sortOn fst near),
+        d < minus distance clearlyNearer
+    ]
   where
     near =
       [ (Distance.toPoint p s, s)

@@ -129,8 +129,8 @@ runsBack machine job m =
           ]
         least = minimum (map fst touched)
         nearest = filter ((<= plus least (allowance job)) . fst) touched
-        -- Where the allowance changes, the cutter moves square to the contour, and may touch another
-        -- element meanwhile.
+        -- Where the allowance changes, the cutter moves square to the contour. Meanwhile it may
+        -- touch another element.
         isStep =
           or
             [ Mm (abs (Vec.cross ahead (Vec.to p vertex))) <= allowance job

@@ -108,7 +108,7 @@ notched = do
   n <- choose (1, 3)
   features <- replicateM n feature
   turns <- choose (0, 3)
-  let (edges, (x, y)) = foldl' (\(es, at) f -> let (new, at') = f at in (es <> new, at')) ([], (0, 0)) features
+  let (edges, (x, y)) = foldl' append ([], (0, 0)) features
       bottom = minimum (0 : concatMap heightsOf edges) - 20
       end = (x + 12, y)
       rest =
@@ -119,6 +119,7 @@ notched = do
         ]
   pure (map (turnedBy turns) (edges <> rest))
   where
+    append (es, at) next = let (new, at') = next at in (es <> new, at')
     heightsOf e = case e of
       Line (_, a) (_, b) -> [a, b]
       Arc (_, a) (_, m) (_, b) -> [a, m, b]
@@ -136,9 +137,9 @@ feature = do
   let step (x, y) =
         let t@(tx, ty) = (x + gap + radius, y + slope)
             end = (tx, ty + up * 2 * radius)
-         in ( [Line (x, y) t, Arc t (tx + side * radius, ty + up * radius) end, Line end (tx + radius + gap, snd end)],
-              (tx + radius + gap, snd end)
-            )
+            top = (tx + side * radius, ty + up * radius)
+            next = (tx + radius + gap, snd end)
+         in ([Line (x, y) t, Arc t top end, Line end next], next)
       slot isRound (x, y) =
         let a@(ax, ay) = (x + gap, y)
             b = (ax + slope, ay - depth)
@@ -208,7 +209,15 @@ settings :: Bool -> Text -> Gen [Text]
 settings hasZ tool = do
   feed <- elements [20, 45, 60, 120]
   tolerance <-
-    elements ["0.005", "0.02", "0.02", "0.05", "inside 0 outside 0.05", "inside 0.02 outside 0", "inside 0.01 outside 0.06"]
+    elements
+      [ "0.005",
+        "0.02",
+        "0.02",
+        "0.05",
+        "inside 0 outside 0.05",
+        "inside 0.02 outside 0",
+        "inside 0.01 outside 0.06"
+      ]
   digits <- elements [0, 4]
   x <- decimal digits (-80) 80
   y <- decimal digits (-80) 80
@@ -227,8 +236,10 @@ mill = (\d -> "mill(diameter " <> d <> ")") <$> elements ["1", "2", "4", "5.3", 
 -- | The settings that milling along a contour and clearing a pocket have in common.
 depths :: Bool -> Gen [Text]
 depths hasZ
-  | hasZ = (<>) <$> frequency [(1, pure []), (3, (: []) <$> elements ["depth 3", "depth 4 step 2", "depth 5 step 1.9"])] <*> maybeOf 1 ["plunge 20"]
+  | hasZ = (<>) <$> frequency [(1, pure []), (3, deep)] <*> maybeOf 1 ["plunge 20"]
   | otherwise = pure []
+  where
+    deep = (: []) <$> elements ["depth 3", "depth 4 step 2", "depth 5 step 1.9"]
 
 statement :: Text -> [[Text]] -> [Text]
 statement head' parts = [head' <> " {"] <> map ("  " <>) (concat parts) <> ["}"]
@@ -254,7 +265,12 @@ milling hasZ = do
   set <- settings hasZ tool
   n <- elements [1, 1, 1, 2 :: Int]
   jobs <- traverse job (take n ["a", "b"])
-  moves <- frequency [(3, pure []), (1, (: []) . ("rapid " <>) <$> stops hasZ), (1, (: []) . ("move " <>) <$> stops hasZ)]
+  moves <-
+    frequency
+      [ (3, pure []),
+        (1, (: []) . ("rapid " <>) <$> stops hasZ),
+        (1, (: []) . ("move " <>) <$> stops hasZ)
+      ]
   pure (set <> concatMap fst jobs <> moves <> concatMap snd jobs)
   where
     job name = do
@@ -270,13 +286,17 @@ milling hasZ = do
           then elements ["outside", "inside", "outside", "inside", "on"]
           else elements ["left", "right", "on"]
       sets <- millSettings hasZ isClosed
-      pure (text, statement ("mill " <> name <> " " <> side) [["rest allowed" | isRestAllowed], sets])
+      pure
+        (text, statement ("mill " <> name <> " " <> side) [["rest allowed" | isRestAllowed], sets])
 
 millSettings :: Bool -> Bool -> Gen [Text]
 millSettings hasZ isClosed = do
   deep <- depths hasZ
   allowance <- maybeOf 1 ["allowance 1, 0", "allowance 0.5", "allowance 2, 0.3, 0"]
-  leads <- maybeOf 1 ["lead in line 3 lead out line 2", "lead in arc 2 lead out arc 3", "lead out line 1.5"]
+  leads <-
+    maybeOf
+      1
+      ["lead in line 3 lead out line 2", "lead in arc 2 lead out arc 3", "lead out line 1.5"]
   corners <- maybeOf 1 ["corners sharp", "corners round"]
   sense <- if isClosed then maybeOf 1 ["climb", "conventional"] else pure []
   near <- if isClosed then startNear else pure []
@@ -316,7 +336,8 @@ drilling = do
   depth <- elements ["3", "8", "12.5"]
   peck <- maybeOf 3 ["peck 2", "peck 4.5"]
   plunge <- maybeOf 3 ["plunge 20"]
-  pure (set <> statement ("drill at [" <> Text.intercalate ", " (map point ps) <> "] depth " <> depth) [peck, plunge])
+  let points = "[" <> Text.intercalate ", " (map point ps) <> "]"
+  pure (set <> statement ("drill at " <> points <> " depth " <> depth) [peck, plunge])
 
 -- | Turning along a profile that rises or falls.
 turning :: Gen [Text]
@@ -353,7 +374,7 @@ blade = do
     ( set
         <> ["contour a " <> ends <> " {"]
         <> zipWith3
-          (\e b isLast -> "  " <> element e <> b <> (if isLast then "" else " meet near " <> point (endOf e)))
+          (\e b isLast -> "  " <> element e <> b <> if isLast then "" else meeting e)
           used
           (first bevels)
           (replicate (length used - 1) False <> [not isClosed])
@@ -361,6 +382,7 @@ blade = do
         <> statement ("mill a " <> side) [rest, leads]
     )
   where
+    meeting e = " meet near " <> point (endOf e)
     first bs = case bs of
       "" : more -> " bevel 2 deg" : more
       _ -> bs
@@ -380,7 +402,9 @@ compensation = do
     ( set <> text
         <> statement
           ("mill a " <> side)
-          [sets, ["approach " <> point (x, y), "retract " <> point (y, x), "compensation controller"]]
+          [ sets,
+            ["approach " <> point (x, y), "retract " <> point (y, x), "compensation controller"]
+          ]
     )
 
 -- | Milling along a spline, or along a piece that ciphers make of it.
@@ -406,7 +430,8 @@ curveMilling hasZ = do
   side <- elements ["left", "right", "on"]
   isRestAllowed <- frequency [(3, pure True), (1, pure False)]
   sets <- millSettings hasZ False
-  let rows = zipWith3 (\x y m -> "  " <> Text.unwords (map number [x, y, m])) (scanl (+) 0 steps) ys mus
+  let row x y m = "  " <> Text.unwords (map number [x, y, m])
+      rows = zipWith3 row (scanl (+) 0 steps) ys mus
       used = if ciphers == "" then "skin" else "edge"
   pure
     ( set

@@ -61,8 +61,8 @@ data ArcTolerance = ArcTolerance
     inwards :: Mm,
     -- | largest distance of any step away from the centre, under the same condition as 'inwards'
     outwards :: Mm,
-    -- | largest difference between the radii at the beginning and the end of a step; Nothing if only
-    -- the control limits it
+    -- | largest difference between the radii at the beginning and the end of a step; Nothing if
+    -- only the control limits it
     radiusChange :: Maybe Mm
   }
   deriving stock (Eq, Show)
