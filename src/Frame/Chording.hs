@@ -247,9 +247,9 @@ pointOn limits move t run =
       rest = if t >= 1 then drop 1 run else move {from = t} : drop 1 run
     }
 
--- | Point where two chords meet near the fraction @t@ of @move@, the first move of @run@. It lies
--- 'aside' to the right of @on@, the point of the run at this fraction. At the end of the run it is
--- the run's end.
+-- | Point where two chords meet near the fraction @t@ of @move@, the first move of @run@. @on@ is
+-- the point of the run at this fraction. The result lies to the right of @on@ by the distance that
+-- the field 'aside' gives in mm; at the end of the run it is the run's end.
 meeting :: Limits -> MoveRest -> Double -> Point -> [MoveRest] -> Point
 meeting limits move t on run
   | t >= 1 && null (drop 1 run) || aside limits == 0 = on

@@ -47,7 +47,8 @@ controlRounding :: Mm
 controlRounding = Mm 1.5e-3
 
 -- | The smallest length that an element may have if the control does the cutter compensation.
--- Rounding to pulses may rotate a shorter element so much that a corner towards the cutter arises.
+-- Rounding to pulses may rotate a shorter element so much that an inner corner arises, which the
+-- control refuses.
 controlLength :: Mm
 controlLength = Mm 0.05
 

@@ -38,10 +38,10 @@ import Verify.Proof (Witness (Witness))
 import Verify.Proof qualified as Proof
 
 -- | Deepest gouge of the motion @m@ into the material beside a contour; Nothing if there is none.
--- The tool has to stay on @side@ of the contour. @allowance@ is the allowed depth in mm. The search
--- for the deepest gouge begins with this depth, because usually no gouge is deeper.
+-- The tool has to stay on @side@ of the contour. The search for the deepest gouge begins with the
+-- depth @first@, in mm, because usually no gouge is deeper. The result may be less deep.
 gougeOf :: Side -> Contour -> BoxTree Edge -> Mm -> CutterMotion -> Maybe Witness
-gougeOf side contour edges allowance m =
+gougeOf side contour edges first m =
   Proof.deepest (concatMap onPath (NonEmpty.toList (Motion.paths m)))
   where
     onPath path =
@@ -65,7 +65,7 @@ gougeOf side contour edges allowance m =
           Coverage.pathsOf = (:| []) . shape,
           Coverage.isEligible = const True,
           Coverage.reach = Mm 0,
-          Coverage.allowance = allowance
+          Coverage.allowance = first
         }
     witness Gap {size, location, members} =
       Witness

@@ -352,8 +352,8 @@ isTooFar chain largest first _ from final _ to =
         !p = beginning chain (first + k * (final - first) `quot` n)
     isOutside a b = a > far && b > far || a < -far && b < -far
 
--- | Largest count of parts into which 'isTooFar' divides the segments between two positions. It
--- tests the vertices between neighbouring parts, which are one fewer.
+-- | 'isTooFar' divides the segments between two positions into groups, and tests the vertex at the
+-- end of each group but the last. This is the largest number of groups.
 testedVertices :: Int
 testedVertices = 8
 

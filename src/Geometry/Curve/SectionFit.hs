@@ -106,9 +106,9 @@ layers t kinds tolerance = go (IntMap.singleton 0 ()) (IntMap.singleton 0 ())
             [(k, d) | (k, d, _) <- deviationsOf [(k, Nothing) | k <- kinds] i final, d <= within]
         )
     -- Sections that begin at row @i@ and end at row @j@ or a later row, of each candidate kind.
-    -- Drops the kinds that can no longer come within the tolerance. Keeps with each kind the pair
-    -- of rows that 'bestWithin' found, for the search to the next row. Skips rows that were reached
-    -- by fewer sections.
+    -- Drops the kinds that can no longer come within the tolerance. Skips rows that were reached by
+    -- fewer sections. Each kind comes with the pair of rows that determines the deviation of its
+    -- section up to row @j − 1@, if it is known. 'bestWithin' starts its search with this pair.
     lengthen reached i j candidates
       | j > final || null candidates = []
       | reached j = lengthen reached i (j + 1) candidates

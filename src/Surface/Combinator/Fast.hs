@@ -146,7 +146,8 @@ instance MonadParsec Problem TokenStream FastParser where
      in ok () s {left = ts, room = negate stateOffset}
 
 -- | The state in megaparsec's form. Megaparsec needs an offset that grows by 1 with each token. The
--- room shrinks by 1 with each token, so the offset is the negated room.
+-- field 'room', the number of tokens that may still be read, shrinks by 1 with each token. So the
+-- offset is the negated 'room'.
 stateOf :: FastState -> Parsec.State TokenStream Problem
 stateOf s =
   Parsec.State

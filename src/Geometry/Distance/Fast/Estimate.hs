@@ -246,7 +246,7 @@ beside e t = case (e, t) of
   (Arc {}, Straight {}) -> arcBesideLine e t
   (Arc {}, Arc {}) -> arcBesideArc e t
 
--- | 'beside' for a line @e@ and an arc @t@.
+-- | The upper bound that 'beside' gives, for a line @e@ and an arc @t@.
 lineBesideArc :: Segment -> Segment -> Double
 lineBesideArc e t = case (coordinates e, coordinates t) of
   (LineAt ax ay bx by, ArcAt _ _ _ _ cx cy r s)
@@ -262,7 +262,7 @@ lineBesideArc e t = case (coordinates e, coordinates t) of
        in aside high (max (pastArc t ax ay) (pastArc t bx by)) near r
   _ -> never
 
--- | 'beside' for an arc @e@ and a line @t@.
+-- | The upper bound that 'beside' gives, for an arc @e@ and a line @t@.
 arcBesideLine :: Segment -> Segment -> Double
 arcBesideLine e t = case (coordinates e, coordinates t) of
   (ArcAt ax ay bx by cx cy r _, LineAt px py qx qy) ->
