@@ -107,7 +107,7 @@ floorFindings pocket pass allowedExcess clearing =
           ( PocketFloor.unclearedPoint
               pocket
               (plus (Part.radius (milling pocket)) allowedExcess)
-              (BoxTree.sortedIndex Motion.box clearing)
+              clearing
           )
   ]
 
