@@ -14,6 +14,7 @@ import Frame.Frame qualified as Frame
 import Frame.FromToolpath qualified as FromToolpath
 import Generate.MachinedText qualified as MachinedText
 import Generate.Operations qualified as Operations
+import Generate.RightTape qualified as RightTape
 import Generate.WrongTape qualified as WrongTape
 import Geometry.Carrier (Sense)
 import Machine.Machine (Machine, MachineName (..))
@@ -42,6 +43,13 @@ spec = do
       forAllBlind operated $ \Operated {machine, path, program} ->
         counterexample (show (Machine.name machine)) $
           map show (Proof.findings (Verify.prove machine path program (own program))) === []
+  it "tapes that cut the same in other frames are proven" $
+    withMaxSuccess (max 100 (tapes `div` 20)) $
+      -- The other parts change the tool without a command, so only their planned frames show it.
+      forAllBlind byText $ \Operated {machine, path, program} ->
+        forAllBlind (RightTape.otherwiseDivided machine program) $ \frames ->
+          counterexample (show (Machine.name machine)) $
+            map show (Proof.findings (Verify.prove machine path program frames)) === []
   it "a tape with damage by more than the proof allows is not proven" $
     withMaxSuccess tapes $
       forAllBlind operated $ \o@Operated {machine, path, program} ->
