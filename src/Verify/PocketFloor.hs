@@ -113,15 +113,15 @@ unclearedIn floor' hint isKnownInside square@Square {centreX = x, centreY = y, h
     covers paths = rangeOf x y paths + corner <= tolerantRadius floor'
     isSharedBy = isCoveredByTwo floor' square
 
--- | Test that two motions clear a square together: the motion with the paths @paths@, and the motion
--- nearest to the corner of the square that is furthest from @paths@. Where the mean of both
+-- | Test that two motions clear a square together: the motion with the paths @paths@, and the
+-- motion nearest to the corner of the square that is furthest from @paths@. Where the mean of both
 -- distances is within the radius, so is the smaller one.
 --
 -- The distance from a line is a convex function of the point, and so is the mean of two such
 -- distances: on a square it is largest at a corner. For arcs, the mean has a bound from the
--- distances and their gradients at the centre of the square ('boundAround'). That bound holds on the
--- side of each motion on which the centre lies. A point on the other side is in the square, so its
--- distance from that motion is less than the radius.
+-- distances and their gradients at the centre of the square ('boundAround'). That bound holds on
+-- the side of each motion on which the centre lies. A point on the other side is in the square, so
+-- its distance from that motion is less than the radius.
 isCoveredByTwo :: Floor -> Square -> [Segment] -> Bool
 isCoveredByTwo floor' Square {centreX, centreY, half} paths =
   case nearestMotion floor' farX farY of
@@ -151,9 +151,9 @@ isCoveredByTwo floor' Square {centreX, centreY, half} paths =
 data DistanceBound = DistanceBound {atCentre :: Double, gradient :: Vec, bend :: Double}
 
 -- | Bound of the distance from a segment, on the disc with the given centre and radius. If the feet
--- of all points of the disc lie on the segment, it is the signed distance from the carrier, positive
--- on the side of the centre. On the other side a point is nearer to the carrier than the radius.
--- Otherwise it is the distance from the nearer end; Nothing if that end lies in the disc.
+-- of all points of the disc lie on the segment, it is the signed distance from the carrier,
+-- positive on the side of the centre. On the other side a point is nearer to the carrier than the
+-- radius. Otherwise it is the distance from the nearer end; Nothing if that end lies in the disc.
 boundAround :: Point -> Double -> Segment -> Maybe DistanceBound
 boundAround p radius segment = case segment of
   Straight a b ->
