@@ -172,7 +172,7 @@ orderFindings set MillingPass {job, found} = case found of
             along
       ]
     runsBack = WrongSide.runsBack (MotionSet.machine set) job
-    isReturnOf m other = WrongSide.retraces (allowance job) m other && not (runsBack other)
+    isReturnOf m other = WrongSide.retraces job m other && not (runsBack other)
 
 -- | Test that the statement allows rest material.
 allowsRest :: MillingJob -> Bool

@@ -123,17 +123,26 @@ parts side distance Surroundings {kept, back, crevices} element =
     Just centres ->
       [ part element a b
         | (a, b) <- foldl' (freeOf side distance element centres) [(0, 1)] (kept <> back),
-          times (b - a) long > shortest || b - a >= 1,
+          b - a > Tolerance.negligibleShare,
           let middle = (a + b) / 2,
+          times (b - a) long > shortest || not (isTight (Segment.at middle centres)),
           not (any (isTipNear (Segment.at middle element)) crevices),
           not (isInMaterial side distance kept (Segment.at middle centres))
       ]
   where
     long = Segment.length element
+    isTight p =
+      or
+        [ Distance.toPoint p s < minus near clearlyNearer
+          | KeptDistance d tree <- kept,
+            let near = min d distance,
+            s <- BoxTree.within (BoundingBox.inflate near (BoundingBox.ofPoints p [])) tree
+        ]
     isTipNear p tip = Vec.distance p tip <= Mm Tolerance.cuspDepth
 
--- | The length of the shortest part of an element that counts as touched. The margin of 'roomy'
--- makes shorter ones, where the cutter just fits in a single position.
+-- | The length below which a part of an element counts as touched only if the centre there keeps
+-- its distances without the margin of 'roomy'. The margin makes such parts where the cutter just
+-- fits in a single position.
 shortest :: Mm
 shortest = times 100 Tolerance.clearance
 

@@ -118,40 +118,68 @@ runsBack machine job m =
       where
         p = Segment.at k (segment m)
         ahead = Segment.directionAt k (segment m)
-        -- Elements that the cutter touches, each with its distance less its own allowance. An
-        -- element is further away or nearer where its allowance is not in force, beyond its ends.
-        touched =
+        -- Elements that the cutter touches, each with its distance less its own allowance. Beyond
+        -- the ends of an element its allowance is not in force. If the cutter keeps its distance
+        -- from no element, as at a sharp corner, the elements within reach count.
+        touched = if null inContact then within else inContact
+        inContact = filter ((<= plus (reach job) (allowance job)) . fst) within
+        within =
           [ (d, e)
             | e <- around,
-              let d = minus (Distance.toPoint p (shape e)) (ownAllowance e),
-              d <= plus (reach job) (allowance job),
+              let away = Distance.toPoint p (shape e)
+                  d = minus away (ownAllowance e),
+              away <= MillingJob.contactLimit job,
               d >= minus (reach job) (allowance job)
           ]
         least = minimum (map fst touched)
         nearest = filter ((<= plus least (allowance job)) . fst) touched
-        -- Where the allowance changes, the cutter moves square to the contour. Meanwhile it may
-        -- touch another element.
+        -- Where the allowance changes, the cutter moves square to the contour, from one distance to
+        -- the other. Meanwhile it may touch another element.
         isStep =
           or
             [ Mm (abs (Vec.cross ahead (Vec.to p vertex))) <= allowance job
+                && all (isBetween vertex (ownAllowance e) (ownAllowance e')) bothEnds
               | e <- around,
                 e' <- around,
                 ownAllowance e /= ownAllowance e',
                 let vertex = Segment.end (shape e),
-                Vec.isNear vertex (Segment.start (shape e')),
-                Vec.distance p vertex <= MillingJob.contactLimit job
+                Vec.isNear vertex (Segment.start (shape e'))
             ]
+    bothEnds = [Segment.start (segment m), Segment.end (segment m)]
+    isBetween vertex a b q =
+      let d = Vec.distance q vertex
+       in d >= minus (plus (reach job) (min a b)) (allowance job)
+            && d <= plus (plus (reach job) (max a b)) (allowance job)
 
--- | Test that a motion runs back over the middle of another one, within a distance.
-retraces :: Mm -> CutterMotion -> CutterMotion -> Bool
-retraces slack m other =
-  Distance.toPoint p (segment other) <= slack
+-- | Test that a motion runs back over the middle of another one, within the allowed deviation, in a
+-- slot as wide as the cutter: at an end or the middle of one of them, the cutter touches elements on
+-- both sides of the motion.
+retraces :: MillingJob -> CutterMotion -> CutterMotion -> Bool
+retraces job m other =
+  Distance.toPoint p (segment other) <= allowance job
     && Vec.dot
       (Segment.directionAt 0.5 (segment m))
       (Segment.directionAt (Distance.nearestFraction p (segment other)) (segment other))
       < negate clearly
+    && (isInSlot job m || isInSlot job other)
   where
     p = Segment.at 0.5 (segment m)
+
+-- | Test that the cutter touches elements on both sides of a motion, at one of its ends or at its
+-- middle.
+isInSlot :: MillingJob -> CutterMotion -> Bool
+isInSlot job m = any touchesBoth [0, 0.5, 1]
+  where
+    touchesBoth k =
+      let p = Segment.at k (segment m)
+          sides =
+            [ Vec.cross (Segment.directionAt k (segment m)) (Vec.to p foot)
+              | e <- MillingJob.edgesAround job p,
+                let (d, foot) = Distance.nearest p (shape e)
+                    Mm off = minus d (plus (reach job) (ownAllowance e)),
+                Mm (abs off) <= allowance job
+            ]
+       in any (> 0) sides && any (< 0) sides
 
 -- | Test that the unit direction @ahead@ at the centre @p@ leads against the direction of travel of
 -- an element. A centre beside the element has to move so that it keeps the element on the side
