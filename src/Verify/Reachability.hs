@@ -120,6 +120,12 @@ parts :: Side -> Mm -> Surroundings -> Segment -> [Segment]
 parts side distance Surroundings {kept, back, crevices} element =
   case Segment.offset side distance element of
     Nothing -> []
+    -- The cutter just fits into an arc: it touches the whole arc from one position, unless another
+    -- element keeps it away from there.
+    Just centres
+      | Segment.length centres <= Tolerance.clearance,
+        isKeptFrom (Segment.start centres) ->
+        []
     Just centres ->
       [ part element a b
         | (a, b) <- foldl' (freeOf side distance element centres) [(0, 1)] (kept <> back),
@@ -131,6 +137,13 @@ parts side distance Surroundings {kept, back, crevices} element =
       ]
   where
     long = Segment.length element
+    isKeptFrom p =
+      or
+        [ Distance.toPoint p s < minus d Tolerance.clearance
+          | KeptDistance d tree <- kept,
+            d > distance,
+            s <- BoxTree.within (BoundingBox.inflate d (BoundingBox.ofPoints p [])) tree
+        ]
     isTight p =
       or
         [ Distance.toPoint p s < minus near clearlyNearer
