@@ -152,8 +152,8 @@ runsBack machine job m =
             && d <= plus (plus (reach job) (max a b)) (allowance job)
 
 -- | Test that a motion runs back over the middle of another one, within the allowed deviation, in a
--- slot as wide as the cutter: at an end or the middle of one of them, the cutter touches elements on
--- both sides of the motion.
+-- slot as wide as the cutter: at an end or the middle of one of them, the cutter touches elements
+-- on both sides of the motion.
 retraces :: MillingJob -> CutterMotion -> CutterMotion -> Bool
 retraces job m other =
   Distance.toPoint p (segment other) <= allowance job
