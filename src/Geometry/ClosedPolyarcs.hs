@@ -101,8 +101,8 @@ repeatedMark :: Word8
 repeatedMark = 2
 
 -- | The mark of a raw offset's segment that goes round a vertex of the source contour. At an outer
--- corner such a segment is an arc about the vertex, or one of the two lines of a sharp corner.
--- Where the distance of the offset changes at the vertex, it is a line square to the contour.
+-- corner such a segment is an arc about the vertex, or one of the two lines of a sharp corner. At a
+-- vertex where the distance of the offset changes, it is a line square to the contour.
 aroundMark :: Word8
 aroundMark = 4
 

@@ -220,7 +220,8 @@ tableLines reader at path name = do
       pure (if null errors then Just rows else Nothing)
 
 -- | Records an error of an import and gives a broken statement instead of the imported definitions.
--- Checking reports no undefined names in a program with such a statement.
+-- A name that the import would define is then no further error: in a program with a broken
+-- statement, checking does not report names without a definition.
 failed :: Monad m => Region -> Error -> StateT Progress m [Statement]
 failed at e =
   [Located at (Broken (Just "import") Nothing)] <$ modify' (\p -> p {found = e : found p})

@@ -133,8 +133,8 @@ runsBack machine job m =
           ]
         least = minimum (map fst touched)
         nearest = filter ((<= plus least (allowance job)) . fst) touched
-        -- Where the allowance changes, the cutter moves square to the contour, from one distance to
-        -- the other. Meanwhile it may touch another element.
+        -- Test that the motion is a step: at a vertex where the allowance changes, it leads from
+        -- one distance to the other, square to the contour. It may touch another element meanwhile.
         isStep =
           or
             [ Mm (abs (Vec.cross ahead (Vec.to p vertex))) <= allowance job
