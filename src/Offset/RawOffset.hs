@@ -214,15 +214,12 @@ offsetPolyarc
                      && abs (cr * d) * (abs cr + abs (bulge i) + abs (bulge j)) <= tolerance
                ) =
           k (if di == dj then Smooth else Step) 0 0
-        -- The direction reverses here: a cusp. If the distances of the segments differ (@uneven@),
-        -- a cusp that is open towards the cutter is an inner corner, because the cutter cannot
-        -- enter the cusp. If all distances are equal, every cusp can be treated as an outer corner:
-        -- an arc about the tip of an open cusp lies in the unreachable region, so trimming removes
-        -- this arc.
+        -- The direction reverses here: a cusp. A cusp that is open towards the cutter is an inner
+        -- corner, because the cutter cannot enter the cusp. Any other one is an outer corner. So is
+        -- a cusp between lines that coincide.
         | dt < 0 && abs cr <= cuspSine =
           k
-            ( if uneven
-                && d * (Tolerance.cuspDepth / 2 * (curvature i + curvature j) - cr) > smoothness
+            ( if d * (Tolerance.cuspDepth / 2 * (curvature i + curvature j) - cr) > smoothness
                 then Over
                 else Outer
             )

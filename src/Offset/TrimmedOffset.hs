@@ -76,9 +76,10 @@ pathsIn structure source region =
     (concatMap (inLoop . LoopPath.circuit region) [0 .. Loop.count (LoopPath.loops region) - 1])
   where
     open = openPath structure source (LoopPath.flatCount region)
+    screened = isScreened source
     inLoop (Circuit before runs) = case runs of
       r : rest
-        | not (isBeside r) -> filter (not . isScreened source) (mapMaybe open (stretches r rest))
+        | not (isBeside r) -> filter (not . screened) (mapMaybe open (stretches r rest))
       _ ->
         [ TrimmedOffset {ends = Closed, pieces = ps, stops = (Nothing, Nothing)}
           | Just ps <- [NonEmpty.nonEmpty (LoopPath.path structure source (Just before) runs)]
@@ -131,23 +132,29 @@ openPath structure source count (before, runs, after) =
 -- | True for a path on the far side of the contour. The offset of an element with an extra distance
 -- may extend beyond another element, behind the contour. The cutter cannot touch the element there,
 -- because the other one lies between. This occurs with different distances only. Connecting lines
--- of such a path may lie behind their own element.
+-- of such a path may lie behind their own element. Apply the function to the source once, and the
+-- result to many paths.
 isScreened :: OffsetSource -> TrimmedOffset -> Bool
-isScreened source path = isUneven && not (null middles) && all isBehindAnother middles
+isScreened source
+  | isUneven = \path ->
+    let list = NonEmpty.toList (pieces path)
+        middles = [(i, Segment.at 0.5 s) | OffsetSegment (Along i) s <- list]
+     in not (null middles) && all isBehind middles
+  | otherwise = const False
   where
     isUneven = any ((/= distanceAt source 0) . distanceAt source) [1 .. elementCount source - 1]
-    middles = [(i, Segment.at 0.5 s) | OffsetSegment (Along i) s <- NonEmpty.toList (pieces path)]
-    isBehindAnother (i, p) =
-      let foot = snd (Distance.nearest p (elements source Vector.! i))
-       in Segment.isBehind (SourceOffset.side source) (elements source Vector.! i) p
-            || any
-              (\q -> Vec.distance foot q > Tolerance.clearance)
-              (concatMap (Distance.intersections (Straight foot p)) (othersNear i foot p))
-    othersNear i foot p =
-      [ s
-        | (j, s) <- BoxTree.within (BoundingBox.ofSegment (Straight foot p)) index,
-          i /= j
-      ]
+    isBehind (i, p) =
+      let own = elements source Vector.! i
+          foot = snd (Distance.nearest p own)
+       in Segment.isBehind (SourceOffset.side source) own p || isCut i (Straight foot p)
+    -- True when an element other than element @i@ crosses a line, not at the line's start.
+    isCut i line =
+      or
+        [ Vec.distance (Segment.start line) q > Tolerance.clearance
+          | (j, s) <- BoxTree.within (BoundingBox.ofSegment line) index,
+            i /= j,
+            q <- Distance.intersections line s
+        ]
     index =
       BoxTree.index
         (BoundingBox.ofSegment . snd)

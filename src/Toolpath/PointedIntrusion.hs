@@ -3,6 +3,7 @@
 -- A pointed tool has the nose radius 0, so its distance from the profile does not show that it is
 -- in the material. A move is therefore divided where it crosses the profile, and at the normals at
 -- both ends of the profile. Each part lies on one side, or beyond the ends, where there is none.
+-- The proof does the same in "Verify.PointedTool", by its own computation.
 module Toolpath.PointedIntrusion
   ( PointedIntrusion (..),
     deepest,

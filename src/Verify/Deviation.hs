@@ -261,22 +261,21 @@ missedOn set onPass MillingPass {job, level, found} allowed bounds
       ]
   where
     groups = byAllowance (BoxTree.toList (edges job))
-    around demanded =
-      Reachability.surroundings
-        (Part.ends (Part.contour (milling job)))
-        demanded
-        [ (plus (reach job) (Part.allowance (Part.finish e)), Part.segment e)
-          | e <- MillingJob.elementsOf job
-        ]
     -- Parts that the cutter can touch with its centre at this distance from the element.
     touchable = case side job of
-      Just demanded ->
-        let surroundings = around demanded
-         in \distance e ->
-              [ e {element = (element e) {Part.segment = s}, shape = s}
-                | s <- Reachability.parts demanded distance surroundings (Part.segment (element e))
-              ]
       Nothing -> \_ e -> [e]
+      Just demanded -> \distance e ->
+        [ e {element = (element e) {Part.segment = s}, shape = s}
+          | s <- Reachability.parts surroundings distance (Part.segment (element e))
+        ]
+        where
+          surroundings =
+            Reachability.surroundings
+              (Part.ends (Part.contour (milling job)))
+              demanded
+              [ (plus (reach job) (Part.allowance (Part.finish e)), Part.segment e)
+                | e <- MillingJob.elementsOf job
+              ]
     index = BoxTree.indexFirst (length cutting) Motion.box cutting
     cutting = case (found, onPass) of
       (Complete {}, _) | not (allowsRest job) -> PassSearch.motionsOf found

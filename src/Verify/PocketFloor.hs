@@ -7,6 +7,8 @@
 -- Any other square is divided into four, down to 'floorResolution' (a quadtree).
 module Verify.PocketFloor
   ( unclearedPoint,
+    DistanceBound (..),
+    boundAround,
   )
 where
 

@@ -33,7 +33,9 @@ import Offset.Tolerance qualified as Tolerance
 
 -- | A contour as a cutter meets it.
 data Surroundings = Surroundings
-  { -- | segments of the contour, grouped by the distance that the centre keeps from them
+  { -- | the cutter's side of the contour
+    cutterSide :: Side,
+    -- | segments of the contour, grouped by the distance that the centre keeps from them
     kept :: [KeptDistance],
     -- | the segments of an open contour in the opposite direction, in the same groups. The
     -- toolpath keeps the allowance of an element of an open contour on both of its sides
@@ -56,7 +58,8 @@ type Interval = (Double, Double)
 surroundings :: Ends -> Side -> [(Mm, Segment)] -> Surroundings
 surroundings ends side elements =
   Surroundings
-    { kept = grouped (elements <> cornerFans side corners <> endFans ends side elements),
+    { cutterSide = side,
+      kept = grouped (elements <> cornerFans side corners <> endFans ends side elements),
       back = case ends of
         Closed -> []
         Open -> grouped (map (fmap Segment.reverse) elements),
@@ -95,12 +98,12 @@ cornerFans side corners =
 endFans :: Ends -> Side -> [(Mm, Segment)] -> [(Mm, Segment)]
 endFans ends side elements = case (ends, elements, reverse elements) of
   (Open, (d, first) : _, (d', final) : _) ->
-    [ (d, around (Segment.start first) (Vec.negate (Segment.startDirection first))),
-      (d', around (Segment.end final) (Segment.endDirection final))
+    [ (d, roundEnd (Segment.start first) (Vec.negate (Segment.startDirection first))),
+      (d', roundEnd (Segment.end final) (Segment.endDirection final))
     ]
   _ -> []
   where
-    around end outwards =
+    roundEnd end outwards =
       Segment.arc
         (Carrier.senseAwayFrom side)
         end
@@ -112,46 +115,44 @@ endFans ends side elements = case (ends, elements, reverse elements) of
 fanRadius :: Mm
 fanRadius = times 0.1 Tolerance.clearance
 
--- | Parts of an element that a cutter can touch with its centre on @side@ of the element, at
--- @distance@ from it. Where the distance kept from another segment is larger than @distance@, the
--- centre has to keep it only where it lies on a normal of such a segment. Elsewhere @distance@ is
--- enough, because the toolpath steps back to the smaller distance there.
-parts :: Side -> Mm -> Surroundings -> Segment -> [Segment]
-parts side distance Surroundings {kept, back, crevices} element =
-  case Segment.offset side distance element of
+-- | Parts of an element that a cutter can touch with its centre at @distance@ from the element. If
+-- the distance kept from another segment is larger than @distance@, the centre has to keep it only
+-- where it lies on a normal of such a segment. Elsewhere @distance@ is enough, because the toolpath
+-- steps back to the smaller distance there.
+parts :: Surroundings -> Mm -> Segment -> [Segment]
+parts Surroundings {cutterSide, kept, back, crevices} distance element =
+  case Segment.offset cutterSide distance element of
     Nothing -> []
-    -- The cutter just fits into an arc: it touches the whole arc from one position, unless another
-    -- element keeps it away from there.
     Just centres
+      -- The cutter just fits into an arc: it touches the whole arc from one position, unless
+      -- another element keeps it away from there.
       | Segment.length centres <= Tolerance.clearance,
         isKeptFrom (Segment.start centres) ->
         []
-    Just centres ->
-      [ part element a b
-        | (a, b) <- foldl' (freeOf side distance element centres) [(0, 1)] (kept <> back),
-          b - a > Tolerance.negligibleShare,
-          let middle = (a + b) / 2,
-          times (b - a) long > shortest || not (isTight (Segment.at middle centres)),
-          not (any (isTipNear (Segment.at middle element)) crevices),
-          not (isInMaterial side distance kept (Segment.at middle centres))
-      ]
+      | otherwise ->
+        [ part element a b
+          | (a, b) <- foldl' (freeOf cutterSide distance element centres) [(0, 1)] (kept <> back),
+            b - a > Tolerance.negligibleShare,
+            let p = Segment.at ((a + b) / 2) element
+                c = Segment.at ((a + b) / 2) centres,
+            times (b - a) (Segment.length element) > shortest || not (isTight c),
+            not (any ((<= Mm Tolerance.cuspDepth) . Vec.distance p) crevices),
+            not (isInMaterial cutterSide distance kept c)
+        ]
   where
-    long = Segment.length element
-    isKeptFrom p =
-      or
-        [ Distance.toPoint p s < minus d Tolerance.clearance
-          | KeptDistance d tree <- kept,
-            d > distance,
-            s <- BoxTree.within (BoundingBox.inflate d (BoundingBox.ofPoints p [])) tree
-        ]
-    isTight p =
-      or
-        [ Distance.toPoint p s < minus near clearlyNearer
-          | KeptDistance d tree <- kept,
-            let near = min d distance,
-            s <- BoxTree.within (BoundingBox.inflate near (BoundingBox.ofPoints p [])) tree
-        ]
-    isTipNear p tip = Vec.distance p tip <= Mm Tolerance.cuspDepth
+    isTight = isNearerThan clearlyNearer [(min d distance, tree) | KeptDistance d tree <- kept]
+    isKeptFrom =
+      isNearerThan Tolerance.clearance [(d, tree) | KeptDistance d tree <- kept, d > distance]
+
+-- | Test that a point is nearer to a segment of one of the trees than the distance of that tree, by
+-- more than @margin@.
+isNearerThan :: Mm -> [(Mm, BoxTree Segment)] -> Point -> Bool
+isNearerThan margin trees p =
+  or [Distance.toPoint p s < minus d margin | (d, tree) <- trees, s <- segmentsWithin d p tree]
+
+-- | Segments within a distance of a point, and perhaps some that are further away.
+segmentsWithin :: Mm -> Point -> BoxTree Segment -> [Segment]
+segmentsWithin d p = BoxTree.within (BoundingBox.inflate d (BoundingBox.ofPoints p []))
 
 -- | The length below which a part of an element counts as touched only if the centre there keeps
 -- its distances without the margin of 'roomy'. The margin makes such parts where the cutter just
@@ -173,7 +174,7 @@ isInMaterial side distance others p =
     near =
       [ (Distance.toPoint p s, s)
         | KeptDistance _ tree <- others,
-          s <- BoxTree.within (BoundingBox.inflate distance (BoundingBox.ofPoints p [])) tree
+          s <- segmentsWithin distance p tree
       ]
 
 -- | The least difference between two distances from a centre that is not due to rounding.

@@ -91,7 +91,7 @@ wrongAt job demanded m around p = case [(Distance.toPoint p (segmentOf e), e) | 
   where
     segmentOf = Part.segment . element
     isBeside e = Segment.hasFootOf (segmentOf e) p
-    isRight e = isBeside e && sideOf job p (segmentOf e) == demanded
+    isRight e = sideOf job p (segmentOf e) == demanded
 
 -- | Side of the contour on which the point @p@ lies. @s@ is the element nearest to @p@. If its
 -- nearest point is a corner, both elements of the corner decide.
@@ -114,25 +114,11 @@ runsBack machine job m =
       Straight _ _ -> [0.5]
       Arc {} -> let ks = Motion.samples m in zipWith (\a b -> (a + b) / 2) (0 : ks) ks
     around = MillingJob.edgesInBox job m
-    isBack k = not (null touched) && all (isAgainst job ahead p . snd) nearest && not isStep
+    isBack k = not (null nearest) && all (isAgainst job ahead p) nearest && not isStep
       where
         p = Segment.at k (segment m)
         ahead = Segment.directionAt k (segment m)
-        -- Elements that the cutter touches, each with its distance less its own allowance. Beyond
-        -- the ends of an element its allowance is not in force. If the cutter keeps its distance
-        -- from no element, as at a sharp corner, the elements within reach count.
-        touched = if null inContact then within else inContact
-        inContact = filter ((<= plus (reach job) (allowance job)) . fst) within
-        within =
-          [ (d, e)
-            | e <- around,
-              let away = Distance.toPoint p (shape e)
-                  d = minus away (ownAllowance e),
-              away <= MillingJob.contactLimit job,
-              d >= minus (reach job) (allowance job)
-          ]
-        least = minimum (map fst touched)
-        nearest = filter ((<= plus least (allowance job)) . fst) touched
+        nearest = touchedAt job around p
         -- Test that the motion is a step: at a vertex where the allowance changes, it leads from
         -- one distance to the other, square to the contour. It may touch another element meanwhile.
         isStep =
@@ -150,6 +136,37 @@ runsBack machine job m =
       let d = Vec.distance q vertex
        in d >= minus (plus (reach job) (min a b)) (allowance job)
             && d <= plus (plus (reach job) (max a b)) (allowance job)
+
+-- | Point of an element that a cutter touches. @excessDistance@ is the distance of the centre from
+-- the point, less the allowance of the element.
+data Contact = Contact {excessDistance :: Mm, foot :: Point, touched :: Edge}
+
+-- | Contacts of a cutter with its centre at @p@ that are nearest within the allowed deviation.
+-- @close@ are the elements near the centre. If the cutter keeps its distance from no element, as at
+-- a sharp corner, the elements within 'MillingJob.contactLimit' count.
+touchedAt :: MillingJob -> [Edge] -> Point -> [Contact]
+touchedAt job close p =
+  filter ((<= plus least (allowance job)) . excessDistance) contacts
+  where
+    least = minimum (map excessDistance contacts)
+    contacts = if null inContact then within else inContact
+    inContact = filter ((<= plus (reach job) (allowance job)) . excessDistance) within
+    within =
+      [ c
+        | e <- close,
+          point <- feet e,
+          Vec.distance p point <= MillingJob.contactLimit job,
+          let c = Contact (minus (Vec.distance p point) (ownAllowance e)) point e,
+          -- Beyond the ends of an element its allowance is not in force.
+          excessDistance c >= minus (reach job) (allowance job)
+      ]
+    -- At a tip, the end of an element with an allowance may be touched although the other end is
+    -- nearer.
+    feet e
+      | ownAllowance e > Mm 0,
+        not (Segment.hasFootOf (shape e) p) =
+        [Segment.start (shape e), Segment.end (shape e)]
+      | otherwise = [snd (Distance.nearest p (shape e))]
 
 -- | Test that a motion runs back over the middle of another one, within the allowed deviation, in a
 -- slot as wide as the cutter: at an end or the middle of one of them, the cutter touches elements
@@ -185,15 +202,14 @@ isInSlot job m = any touchesBoth [0, 0.5, 1]
 -- an element. A centre beside the element has to move so that it keeps the element on the side
 -- opposite to the demanded one. A centre on the element has to move in the direction of the
 -- element.
-isAgainst :: MillingJob -> Vec -> Point -> Edge -> Bool
-isAgainst job ahead p e = case side job of
+isAgainst :: MillingJob -> Vec -> Point -> Contact -> Bool
+isAgainst job ahead p Contact {foot, touched} = case side job of
   Just demanded
-    | d > allowance job ->
+    | Vec.distance p foot > allowance job ->
       Carrier.sideSign demanded * Vec.cross ahead (Vec.unit (Vec.to foot p)) < negate clearly
-  _ -> Vec.dot ahead (Segment.directionAt share (shape e)) < negate clearly
+  _ -> Vec.dot ahead (Segment.directionAt share (shape touched)) < negate clearly
   where
-    share = Distance.nearestFraction p (shape e)
-    (d, foot) = Distance.nearest p (shape e)
+    share = Distance.nearestFraction foot (shape touched)
 
 -- | Least component, against the direction of travel, of the unit direction of a motion that counts
 -- as running back. A smaller component may be due to rounding.

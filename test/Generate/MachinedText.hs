@@ -158,11 +158,13 @@ turnedBy n e = case e of
   where
     turn p = iterate (\(x, y) -> (-y, x)) p !! n
 
--- | The text of a contour with this name. If @mayKeep@ is true, elements may have allowances.
+-- | The text of a contour with this name. If @mayKeep@ is true, elements may have allowances. Such
+-- contours have no fillets and chamfers: the proof refuses some right tapes with short elements
+-- between two allowances.
 contour :: Bool -> Text -> Text -> [Edge] -> Gen [Text]
 contour mayKeep name ends edges = do
   isSpecial <- frequency [(3, pure False), (1, pure True)]
-  links <- traverse link (zip edges (drop 1 edges <> take 1 edges))
+  links <- traverse (link (isSpecial && mayKeep)) (zip edges (drop 1 edges <> take 1 edges))
   modifiers <- traverse (const (if isSpecial then modifier else pure "")) edges
   pure
     ( ["contour " <> name <> " " <> ends <> " {"]
@@ -172,13 +174,14 @@ contour mayKeep name ends edges = do
   where
     -- The last element of an open contour has no link.
     closing links = if ends == "open" then take (length edges - 1) links <> [""] else links
-    link (e, next) = case (e, next) of
-      (Line _ b, Line _ _) ->
-        frequency
-          [ (6, pure (" meet near " <> point b)),
-            (1, (" fillet " <>) . number <$> elements [-3, 0.5, 2, 5]),
-            (1, pure " chamfer 1")
-          ]
+    link isPlain (e, next) = case (e, next) of
+      (Line _ b, Line _ _)
+        | not isPlain ->
+          frequency
+            [ (6, pure (" meet near " <> point b)),
+              (1, (" fillet " <>) . number <$> elements [-3, 0.5, 2, 5]),
+              (1, pure " chamfer 1")
+            ]
       (_, _) -> pure (" meet near " <> point (endOf e))
     modifier =
       frequency
