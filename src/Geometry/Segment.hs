@@ -36,6 +36,7 @@ module Geometry.Segment
     -- * Changed segments
     reverse,
     cutAt,
+    between,
     offset,
     offsetRadius,
   )
@@ -223,6 +224,15 @@ cutAt t segment = (part (start segment) p t, part p (end segment) (1 - t))
     part a b share = case segment of
       Straight _ _ -> Straight a b
       Arc {centre, sweep = Rad s} -> Arc {start = a, end = b, centre, sweep = Rad (s * share)}
+
+-- | The part of a segment between two fractions of its length, of which the first is the smaller
+-- one. An end of the segment is kept exactly.
+between :: Double -> Double -> Segment -> Segment
+between a b segment
+  | a <= 0 && b >= 1 = segment
+  | a <= 0 = fst (cutAt b segment)
+  | b >= 1 = snd (cutAt a segment)
+  | otherwise = snd (cutAt (a / b) (fst (cutAt b segment)))
 
 -- | The segment moved sideways by the distance @d@ to the given side: the parallel line, or the
 -- concentric arc. Nothing for a line of length 0, for an arc of radius 0, and for an arc whose

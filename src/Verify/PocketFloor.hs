@@ -48,14 +48,13 @@ partsOf r m = case bounding of
     let Mm arcRadius = Segment.radius (Segment.centre arc) (Segment.start arc)
         widest = 4 * asin (min 1 (sqrt (r / (4 * arcRadius))))
         count = max 1 (ceiling (abs angle / widest)) :: Int
-     in [MotionPart {part = [s], whole = bounding} | s <- divided count arc]
+        share k = fromIntegral k / fromIntegral count
+     in [ MotionPart {part = [Segment.between (share k) (share (k + 1)) arc], whole = bounding}
+          | k <- [0 .. count - 1]
+        ]
   _ -> [MotionPart {part = bounding, whole = bounding}]
   where
     bounding = Motion.pathList m
-    divided n s
-      | n <= 1 = [s]
-      | otherwise =
-        let (first, rest) = Segment.cutAt (1 / fromIntegral n) s in first : divided (n - 1) rest
 
 -- | Position that the cutter's centre may take, but that is further than @radius@ from every
 -- motion; Nothing if there is none. A position whose distance exceeds @radius@ by less than

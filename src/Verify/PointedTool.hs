@@ -80,12 +80,9 @@ gougeOf side contour edges first m =
 -- | Parts into which some points on a segment divide it. Parts of negligible length are left out.
 divided :: [Point] -> Segment -> [Segment]
 divided points s =
-  [part a b | (a, b) <- zip marks (drop 1 marks), b - a > Tolerance.negligibleShare]
+  [Segment.between a b s | (a, b) <- zip marks (drop 1 marks), b - a > Tolerance.negligibleShare]
   where
     marks = 0 : sort (filter (\t -> t > 0 && t < 1) (map (Segment.fraction s) points)) <> [1]
-    part a b =
-      let upTo = if b < 1 then fst (Segment.cutAt b s) else s
-       in if a > 0 then snd (Segment.cutAt (a / b) upTo) else upTo
 
 -- | Normals of an open contour at both ends, as lines that extend by 'Tolerance.reach' to either
 -- side. Empty for a closed contour, which has no ends.

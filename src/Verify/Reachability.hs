@@ -130,7 +130,7 @@ parts Surroundings {cutterSide, kept, back, crevices} distance element =
         isKeptFrom (Segment.start centres) ->
         []
       | otherwise ->
-        [ part element a b
+        [ Segment.between a b element
           | (a, b) <- foldl' (freeOf cutterSide distance element centres) [(0, 1)] (kept <> back),
             b - a > Tolerance.negligibleShare,
             let p = Segment.at ((a + b) / 2) element
@@ -280,7 +280,7 @@ rim side distance segments contours =
       ]
     -- Parts of an offset that are not too near to any segment.
     free (i, s) =
-      [ (i, part s a b)
+      [ (i, Segment.between a b s)
         | (a, b) <-
             Distance.uncovered
               (minus distance Tolerance.clearance)
@@ -290,14 +290,6 @@ rim side distance segments contours =
       ]
 
 -- Offsets -----------------------------------------------------------------------------------------
-
--- | Part of the segment @s@ between the fractions @a@ and @b@ of its length.
-part :: Segment -> Double -> Double -> Segment
-part s a b
-  | a <= 0 && b >= 1 = s
-  | a <= 0 = fst (Segment.cutAt b s)
-  | b >= 1 = snd (Segment.cutAt a s)
-  | otherwise = snd (Segment.cutAt (a / b) (fst (Segment.cutAt b s)))
 
 -- | Smallest change of direction, in radians, at a corner that gets an arc round it.
 smallestTurn :: Double
