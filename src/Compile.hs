@@ -22,10 +22,11 @@ module Compile
     punch,
     Punched (..),
     prove,
+    proveTape,
   )
 where
 
-import Base.Result (Result (..), failed, failing, fromEither, mapErrors, thenSound)
+import Base.Result (Result (..), failed, failing, fromEither, ifSound, mapErrors, thenSound)
 import Checked.Error qualified as Checked
 import Checked.FromSurface qualified as Checked
 import Checked.Syntax qualified as Checked
@@ -35,6 +36,7 @@ import Frame.Error qualified as Frame
 import Frame.Frame qualified as Frame
 import Frame.FromToolpath qualified as Frame
 import Machine.Machine (Machine)
+import Part.ContourStart qualified as ContourStart
 import Part.Error qualified as Part
 import Part.FromChecked qualified as Part
 import Part.Part (Part)
@@ -149,3 +151,16 @@ prove :: Machine -> Toolpath -> Frame.FrameProgram -> [Frame.Frame] -> Result Re
 prove machine toolpath program frames = failing (Proof.toReports machine proof) proof
   where
     proof = Verify.prove machine toolpath program frames
+
+-- | Proves a tape that may come from elsewhere, as 'prove' does. A closed contour whose start the
+-- program leaves open may begin anywhere on it ('ContourStart.isFree'). @part@ is the evaluated
+-- program. It is needed only if the tape begins a contour elsewhere than the compiler would.
+proveTape :: Maybe Part -> Compiled -> [Frame.Frame] -> Result Report Report Proof
+proveTape part Compiled {machine, toolpath, punched} frames =
+  failing (Proof.toReports machine proof) proof
+  where
+    proof = Verify.proveFromAnyStart replanned machine toolpath (program punched) frames
+    replanned starts = do
+      path <- ifSound . Toolpath.toToolpath =<< ContourStart.moved starts =<< part
+      Punched {program} <- ifSound (punch machine path)
+      pure (withoutCuts path, program)

@@ -198,6 +198,7 @@ job c =
               (segments (contour c))
           )
           [],
+      Part.givesStart = False,
       Part.work = Part.Milled,
       Part.side = here (case side c of LeftOf -> Part.LeftSide; RightOf -> Part.RightSide),
       Part.radius = radius c,

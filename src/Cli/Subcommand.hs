@@ -146,13 +146,14 @@ verifyTape reporter given tapeName compiled rows =
     Left damage ->
       Failed <$ Output.showReports reporter tapeName (source given) [Tape.toReport damage]
     Right read' -> do
-      let result = Compile.prove machine toolpath (program punched) read'
+      let result = Compile.proveTape part compiled read'
       Progress.during ("proving " <> tapeName) (evaluated result)
       exit <- maybe (pure Done) (printResult reporter . ProofTable.proof machine) (output result)
       _ <- Output.showReports reporter (name given) (source given) (errors result)
       pure (if null (errors result) then exit else Disproven)
   where
-    Compiled {Compile.machine, Compile.toolpath, Compile.punched} = compiled
+    Compiled {Compile.machine, Compile.punched} = compiled
+    part = snd <$> output (Compile.evaluate (values given) (loaded given))
 
 -- | Prints the frames of a program: as JSON lines if @asJson@ is true, otherwise as a table.
 frames :: Reporter -> FilePath -> Maybe Text -> Bool -> IO Exit

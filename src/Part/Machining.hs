@@ -24,6 +24,7 @@ import Control.Applicative ((<|>))
 import Control.Monad (when)
 import Data.List.NonEmpty (NonEmpty (..))
 import Data.List.NonEmpty qualified as NonEmpty
+import Data.Maybe (isJust)
 import Data.Vector qualified as Vector
 import Geometry.Tolerance qualified as Tolerance
 import Part.ContourElement qualified as ContourElement
@@ -131,6 +132,7 @@ assembled context work side settings passes = do
   Just
     Milling
       { contour = path passes,
+        givesStart = isJust (Checked.startNear settings),
         work,
         side,
         radius = cutterRadius tool,

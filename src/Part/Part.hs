@@ -191,6 +191,8 @@ data Operation
 -- | The milling or turning of a contour.
 data Milling = Milling
   { contour :: Contour,
+    -- | true if the statement says where its closed contour begins
+    givesStart :: Bool,
     work :: Work,
     side :: Located Side,
     -- | the radius of the cutter where it touches the part, or of the nose of a turning tool

@@ -167,10 +167,14 @@ orderFindings set MillingPass {job, found} = case found of
   where
     backward along =
       [ NotFollowed (statement job)
-        | any
-            (\m -> runsBack m && not (MotionSet.isPlanned set && any (isReturnOf m) along))
-            along
+        | let index = BoxTree.index Motion.box along,
+          any (isBackward along index) along
+            || not (MotionSet.isPlanned set) && any (WrongSide.repeats job index) along
       ]
+    isBackward along index m =
+      runsBack m
+        && not (MotionSet.isPlanned set && any (isReturnOf m) along)
+        && not (WrongSide.isOnlyReturn job index m)
     runsBack = WrongSide.runsBack (MotionSet.machine set) job
     isReturnOf m other = WrongSide.retraces job m other && not (runsBack other)
 

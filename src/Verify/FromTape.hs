@@ -17,10 +17,11 @@
 -- cutter, feeds and commands it has.
 module Verify.FromTape
   ( prove,
+    proveFromAnyStart,
   )
 where
 
-import Base.PulseVector (Pulses3)
+import Base.PulseVector (Pulses3 (..))
 import Base.Quantity (Mm (..), times)
 import Control.Compensation qualified as Compensation
 import Control.Motion qualified as Control
@@ -29,7 +30,9 @@ import Data.IntMap.Strict qualified as IntMap
 import Data.IntSet qualified as IntSet
 import Data.List (foldl', sortOn)
 import Data.List.NonEmpty qualified as NonEmpty
-import Data.Maybe (isJust)
+import Data.Map.Strict (Map)
+import Data.Map.Strict qualified as Map
+import Data.Maybe (isJust, mapMaybe)
 import Frame.Frame (Frame (..), FrameProgram)
 import Frame.Frame qualified as Frame
 import Frame.Rounding qualified as Rounding
@@ -39,6 +42,7 @@ import Geometry.Index.BoxTree (BoxTree)
 import Geometry.Index.BoxTree qualified as BoxTree
 import Geometry.Segment (Segment)
 import Geometry.Segment qualified as Segment
+import Geometry.Vec (Point)
 import Machine.Machine (Machine)
 import Machine.Machine qualified as Machine
 import Part.Part (SpacePoint (..))
@@ -57,6 +61,8 @@ import Verify.Motion qualified as Motion
 import Verify.MotionMatch qualified as MotionMatch
 import Verify.MotionSet (MotionSet (MotionSet))
 import Verify.MotionSet qualified as MotionSet
+import Verify.StartSearch (OtherStart)
+import Verify.StartSearch qualified as StartSearch
 import Verify.PassFrames (FrameRange (..))
 import Verify.PassFrames qualified as PassFrames
 import Verify.PassLocation (Guide (Guide))
@@ -102,7 +108,11 @@ data Subject = Subject
 -- | Compare the frames of a tape with the part. The toolpath @path@ contains the part; @program@
 -- has the start position and the planned frames.
 prove :: Machine -> Toolpath -> FrameProgram -> [Frame] -> Proof
-prove machine path program frames =
+prove machine path program frames = proofOf False (subjectOf machine path program frames)
+
+-- | Proof of a subject. @isRestarted@ is true if contours begin where the tape begins them.
+proofOf :: Bool -> Subject -> Proof
+proofOf isRestarted subject =
   Proof
     { Proof.frames = TapeSummary.count (summary subject),
       Proof.contourProofs = contourProofs <> pocketProofs,
@@ -119,7 +129,6 @@ prove machine path program frames =
     -- A tape with another fault often has motions that the program does not ask for, too. So these
     -- are reported only if there is no other finding.
     unmatched = if null found then unmatchedMotions subject passes else []
-    subject = subjectOf machine path program frames
     passes = locatedPasses subject
     set = motionSetOf subject passes
     (contourProofs, contourFindings) =
@@ -143,7 +152,49 @@ prove machine path program frames =
             (isFirst, pass) <- zip (True : repeat False) (NonEmpty.toList (Pocket.passes pocket))
         ]
     deviations = concat contourFindings <> concat pocketFindings
-    closure = closureOf subject
+    closure = closureOf isRestarted subject
+
+-- | Compare the frames of a tape with the part, as 'prove' does. A closed contour whose start the
+-- program leaves open may begin anywhere on the tape. @replanned@ gives the toolpath and the
+-- planned frames of the program if the contours of some statements begin near other points. The
+-- keys are the numbers of the statements, in the order of execution from 0. It gives Nothing if the
+-- program does not leave these starts open.
+proveFromAnyStart ::
+  (Map Int Point -> Maybe (Toolpath, FrameProgram)) ->
+  Machine ->
+  Toolpath ->
+  FrameProgram ->
+  [Frame] ->
+  Proof
+proveFromAnyStart replanned machine = go Map.empty
+  where
+    go starts path program frames
+      | Proof.isProven proof = proof
+      | Just start <- elsewhere,
+        Map.notMember (StartSearch.statementNumber start) starts,
+        (_, (starts', path', program')) : _ <-
+          sortOn fst (mapMaybe (restarted start frames starts) (StartSearch.near start)) =
+        go starts' path' program' frames
+      | otherwise = proof
+      where
+        proof = proofOf (not (Map.null starts)) subject
+        elsewhere = otherStart subject
+        subject = subjectOf machine path program frames
+    -- The program with this start, and how far it is from the start on the tape.
+    restarted start frames starts p = do
+      let starts' = Map.insert (StartSearch.statementNumber start) p starts
+      (path, program) <- replanned starts'
+      let passes = locatedPasses (subjectOf machine path program frames)
+      away <- StartSearch.differenceFrom start passes
+      pure (away, (starts', path, program))
+
+-- | Start of the first contour that the tape does not begin where the toolpath does.
+otherStart :: Subject -> Maybe OtherStart
+otherStart subject =
+  StartSearch.find isAtLevel (motions subject) (locatedPasses subject)
+  where
+    isAtLevel pass m =
+      isFlat subject || MotionSet.isAtHeight (machine subject) (level pass) m
 
 -- | Subject of a proof. The frames are executed lazily, so the list of the controller model's
 -- motions is never in memory as a whole. Only the list of 'CutterMotion' stays in memory. A
@@ -314,7 +365,7 @@ unmatchedMotions :: Subject -> [MillingPass] -> [Finding]
 unmatchedMotions subject@Subject {machine, path, program, frames} passes =
   MotionMatch.mismatches
     machine
-    (not (hasSameCount subject))
+    (not (hasPlannedFeeds subject))
     begin
     ( RequiredMove.itemsOf
         machine
@@ -361,16 +412,25 @@ motionsByPocket subject = foldr insert IntMap.empty (motions subject)
               [IntMap.lookup (Pocket.passIndex pass) (passFrames subject)]
         ]
 
--- | Findings for feeds. A tape with as many frames as planned is compared with the planned frames,
--- unless it is equal to them. Any other tape is compared with the feeds that the statements demand.
+-- | Findings for feeds. A tape whose frames have the planned feeds has none. A tape with the
+-- planned motions is compared with the planned frames, any other tape with the feeds that the
+-- statements demand.
 feedFindings :: Subject -> [MillingPass] -> [Finding]
 feedFindings subject@Subject {program, frames} passes
-  | hasSameCount subject =
-    if isDifferent subject then Feed.asPlanned program frames else []
+  | not (isDifferent subject) || hasPlannedFeeds subject = []
+  | hasSameCount subject && hasPlannedMotions = Feed.asPlanned program frames
   | otherwise =
     concatMap (contourFeeds subject) passes
       <> concatMap (pocketFeeds subject) (pocketVisits subject)
       <> Feed.downwards program frames
+  where
+    hasPlannedMotions = and (zipWith isSameMotion (Frame.plannedFrames program) frames)
+    isSameMotion p f = increment (Frame.frame p) == increment f
+
+-- | Test that each frame has the feed of the planned frame with the same number.
+hasPlannedFeeds :: Subject -> Bool
+hasPlannedFeeds subject@Subject {program, frames} =
+  hasSameCount subject && null (Feed.asPlanned program frames)
 
 -- | Findings for feeds along a contour. Vertical motions are left out, because they only occur at
 -- the start and the end of the pass.
@@ -412,13 +472,26 @@ programmed subject ms =
   where
     numbers = IntSet.fromList (map number ms)
 
--- | Last position on the tape minus the rounded end of the toolpath, in pulses.
-closureOf :: Subject -> Pulses3
-closureOf subject =
-  TapeSummary.endPosition (summary subject)
-    - Rounding.rounded (machine subject) (plane end, height end)
+-- | Last position on the tape minus the rounded end of the toolpath, in pulses. If the toolpath
+-- ends on a contour that begins where the tape begins it, its end is known to one pulse only,
+-- because the start comes from a rounded position. A difference of one pulse then counts as 0.
+closureOf :: Bool -> Subject -> Pulses3
+closureOf isRestarted subject
+  | isRestarted && endsOnContour && isOnePulse = 0
+  | otherwise = difference
   where
+    difference =
+      TapeSummary.endPosition (summary subject)
+        - Rounding.rounded (machine subject) (plane end, height end)
     end = Toolpath.end (path subject)
+    isOnePulse = let Pulses3 x y z = difference in abs x <= 1 && abs y <= 1 && z == 0
+    moving = filter (not . null . Toolpath.moves) (Toolpath.blocks (path subject))
+    endsOnContour = case reverse moving of
+      Toolpath.Cutting {Toolpath.cut, Toolpath.retract} : _ ->
+        plane end == Segment.end (Toolpath.segment (NonEmpty.last cut))
+          && all (isVertical . Toolpath.segment) retract
+      _ -> False
+    isVertical s = Segment.start s == Segment.end s
 
 -- | Finding for a wrong last position; @closure@ is the difference from the right one. Empty if
 -- @deviations@ contains a finding that the cutter leaves a contour or a pocket, because the wrong

@@ -4,6 +4,8 @@ module Verify.WrongSide
   ( wrongSide,
     runsBack,
     retraces,
+    isOnlyReturn,
+    repeats,
   )
 where
 
@@ -15,6 +17,10 @@ import Geometry.Carrier (Side)
 import Geometry.Carrier qualified as Carrier
 import Geometry.Distance qualified as Distance
 import Geometry.Distance.Fast qualified as FastDistance
+import Geometry.Index.BoundingBox (BoundingBox)
+import Geometry.Index.BoundingBox qualified as BoundingBox
+import Geometry.Index.BoxTree (BoxTree)
+import Geometry.Index.BoxTree qualified as BoxTree
 import Geometry.Segment (Segment (..))
 import Geometry.Segment qualified as Segment
 import Geometry.Vec (Point, Vec)
@@ -114,28 +120,54 @@ runsBack machine job m =
       Straight _ _ -> [0.5]
       Arc {} -> let ks = Motion.samples m in zipWith (\a b -> (a + b) / 2) (0 : ks) ks
     around = MillingJob.edgesInBox job m
-    isBack k = not (null nearest) && all (isAgainst job ahead p) nearest && not isStep
+    isBack k =
+      not (null nearest)
+        && all (isAgainst job ahead p) nearest
+        && not (isStep job around m ahead p || isLengthened job around m ahead p)
       where
         p = Segment.at k (segment m)
         ahead = Segment.directionAt k (segment m)
         nearest = touchedAt job around p
-        -- Test that the motion is a step: at a vertex where the allowance changes, it leads from
-        -- one distance to the other, square to the contour. It may touch another element meanwhile.
-        isStep =
-          or
-            [ Mm (abs (Vec.cross ahead (Vec.to p vertex))) <= allowance job
-                && all (isBetween vertex (ownAllowance e) (ownAllowance e')) bothEnds
-              | e <- around,
-                e' <- around,
-                ownAllowance e /= ownAllowance e',
-                let vertex = Segment.end (shape e),
-                Vec.isNear vertex (Segment.start (shape e'))
-            ]
-    bothEnds = [Segment.start (segment m), Segment.end (segment m)]
+
+-- | Test that the motion @m@ is a step: at a vertex where the allowance changes, it leads from one
+-- distance to the other, square to the contour. It may touch another element meanwhile. @around@
+-- are the elements near the motion, @ahead@ is its direction at its point @p@.
+isStep :: MillingJob -> [Edge] -> CutterMotion -> Vec -> Point -> Bool
+isStep job around m ahead p =
+  or
+    [ Mm (abs (Vec.cross ahead (Vec.to p vertex))) <= allowance job
+        && all (isBetween vertex (ownAllowance e) (ownAllowance e')) (bothEnds m)
+      | e <- around,
+        e' <- around,
+        ownAllowance e /= ownAllowance e',
+        let vertex = Segment.end (shape e),
+        Vec.isNear vertex (Segment.start (shape e'))
+    ]
+  where
     isBetween vertex a b q =
       let d = Vec.distance q vertex
        in d >= minus (plus (reach job) (min a b)) (allowance job)
             && d <= plus (plus (reach job) (max a b)) (allowance job)
+
+-- | Test that the motion @m@ lengthens the path beside an element to a sharp corner, in the
+-- direction of the element. Another element may be nearer than the corner. @around@ are the
+-- elements near the motion, @ahead@ is its direction at its point @p@.
+isLengthened :: MillingJob -> [Edge] -> CutterMotion -> Vec -> Point -> Bool
+isLengthened job around m ahead p =
+  Part.corners (milling job) == Part.Sharp && or [isTangent k e | e <- around, k <- [0, 1]]
+  where
+    isTangent k e =
+      Vec.dot ahead tangent > 0
+        && Vec.distance p vertex <= MillingJob.contactLimit job
+        && all (\q -> Mm (abs (Vec.cross tangent (Vec.to beside q))) <= allowance job) (bothEnds m)
+      where
+        vertex = Segment.at k (shape e)
+        tangent = Segment.directionAt k (shape e)
+        keeps = plus (reach job) (ownAllowance e)
+        beside = maybe vertex (\s -> Carrier.beside s keeps tangent vertex) (side job)
+
+bothEnds :: CutterMotion -> [Point]
+bothEnds m = [Segment.start (segment m), Segment.end (segment m)]
 
 -- | Point of an element that a cutter touches. @excessDistance@ is the distance of the centre from
 -- the point, less the allowance of the element.
@@ -181,6 +213,41 @@ retraces job m other =
     && (isInSlot job m || isInSlot job other)
   where
     p = Segment.at 0.5 (segment m)
+
+-- | Test that a motion is the way back out of a slot as wide as the cutter, and that the cutter
+-- goes in and out of the slot there only once. @along@ are the motions along the contour.
+isOnlyReturn :: MillingJob -> BoxTree CutterMotion -> CutterMotion -> Bool
+isOnlyReturn job along m =
+  any (retraces job m) (BoxTree.within (boxAround job p) along)
+    && not (repeats job along m)
+    && null (drop 1 (filter (< negate clearly) (directionsOver job along m)))
+  where
+    p = Segment.at 0.5 (segment m)
+
+-- | Test that another one of the motions @along@ a contour runs over the middle of @m@ in the same
+-- direction. On an equidistant no two motions do so: the material beside one of them would lie in
+-- the way of the other.
+repeats :: MillingJob -> BoxTree CutterMotion -> CutterMotion -> Bool
+repeats job along m = not (null (drop 1 (filter (> clearly) (directionsOver job along m))))
+
+-- | Components, in the direction of the motion @m@, of the directions of the motions that run over
+-- its middle, with @m@ itself. Motions so short that they turn round within the allowed deviation
+-- are left out.
+directionsOver :: MillingJob -> BoxTree CutterMotion -> CutterMotion -> [Double]
+directionsOver job along m =
+  [ Vec.dot (Segment.directionAt 0.5 (segment m)) (Segment.directionAt k s)
+    | s <- map segment (BoxTree.within (boxAround job p) along),
+      Segment.length s > times 2 (allowance job),
+      Distance.toPoint p s <= allowance job,
+      let k = Distance.nearestFraction p s,
+      k > 0 && k < 1
+  ]
+  where
+    p = Segment.at 0.5 (segment m)
+
+-- | Box around a point that contains all points within the allowed deviation.
+boxAround :: MillingJob -> Point -> BoundingBox
+boxAround job p = BoundingBox.inflate (allowance job) (BoundingBox.ofPoints p [])
 
 -- | Test that the cutter touches elements on both sides of a motion, at one of its ends or at its
 -- middle.

@@ -107,6 +107,7 @@ pocketing before p =
     { Part.wall =
         Milling
           { Part.contour = contourOf outline,
+            Part.givesStart = False,
             Part.work = Part.Milled,
             Part.side = here Part.Inside,
             Part.radius = cutter p,
