@@ -42,27 +42,33 @@ stationsOf program = zipWith3 station starts (drop 1 starts) planned
     station (Pulses3 x y _) end p =
       let Pulses2 i j = centre (Frame.frame p) in Station end (Pulses2 (x + i) (y + j)) p
 
--- | The frames through stations from a position. A frame that does not move any more is left out,
--- unless it has commands.
-framesThrough :: Pulses3 -> [Station] -> [Frame]
-framesThrough begin stations = concat (zipWith frame' (begin : map at stations) stations)
-  where
-    frame' from@(Pulses3 x y _) s
-      | motion f == NoMotion = [f]
-      | d == 0 && not isCircle = [Frame.commandFrame (commands f) | not (null (commands f))]
-      | isCircle = [f {increment = d, centre = Pulses2 (i - x) (j - y)}]
-      | otherwise = [f {increment = d}]
-      where
-        f = Frame.frame (made s)
-        d = at s - from
-        Pulses2 i j = centreAt s
-        isCircle = case motion f of
-          Circular _ -> True
-          _ -> False
+-- | The frames through stations from a position.
+framesThrough :: Pulses3 -> [Station] -> [PlannedFrame]
+framesThrough begin stations =
+  [ (made s) {Frame.frame = f}
+    | (from, s) <- zip (begin : map at stations) stations,
+      f <- frameTo from s
+  ]
 
--- | A damaged tape of a program: the name of the damage, and the frames.
+-- | The frame from a position to a station. None if it does not move any more, unless it has
+-- commands.
+frameTo :: Pulses3 -> Station -> [Frame]
+frameTo from@(Pulses3 x y _) s
+  | motion f == NoMotion = [f]
+  | d == 0 && not isCircle = [Frame.commandFrame (commands f) | not (null (commands f))]
+  | isCircle = [f {increment = d, centre = Pulses2 (i - x) (j - y)}]
+  | otherwise = [f {increment = d}]
+  where
+    f = Frame.frame (made s)
+    d = at s - from
+    Pulses2 i j = centreAt s
+    isCircle = case motion f of
+      Circular _ -> True
+      _ -> False
+
+-- | A damaged tape of a program: the name of the damage, and the frames with their cutters.
 -- @isClearing@ is true of the number of a pass that clears a pocket: its motions may come twice.
-damaged :: Machine -> (Int -> Bool) -> FrameProgram -> Gen (String, [Frame])
+damaged :: Machine -> (Int -> Bool) -> FrameProgram -> Gen (String, [PlannedFrame])
 damaged machine isClearing program = do
   d <- elements (damages isClearing)
   stations <- change d machine (stationsOf program)

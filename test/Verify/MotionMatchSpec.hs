@@ -8,12 +8,14 @@ import Base.Result (Result (..))
 import Base.Result qualified as Result
 import Compile (Analysis (Analysis), Compiled (Compiled))
 import Compile qualified
+import Data.Foldable (for_)
+import Data.IORef (atomicModifyIORef', newIORef)
 import Data.Map.Strict (Map)
 import Data.Map.Strict qualified as Map
-import Data.Maybe (fromMaybe)
+import Data.Maybe (fromMaybe, isJust)
 import Data.Text (Text)
 import Data.Text qualified as Text
-import Frame.Frame (Frame, FrameMotion (..), FrameProgram)
+import Frame.Frame (Frame, FrameMotion (..), FrameProgram, PlannedFrame)
 import Frame.Frame qualified as Frame
 import Frame.FromToolpath qualified as FromToolpath
 import Generate.MachinedText qualified as MachinedText
@@ -26,20 +28,24 @@ import Machine.Machine (Machine, MachineName (..))
 import Machine.Machine qualified as Machine
 import Machines qualified
 import Part.ContourStart qualified as ContourStart
-import Part.Part (Part)
+import Part.Part (Milling, Part)
 import Part.Part qualified as Part
 import Project.LoadedProgram qualified as LoadedProgram
 import Project.Target qualified as Target
 import Report.Report (Report)
 import System.Environment (lookupEnv)
+import System.Exit (ExitCode (..))
 import Test.Hspec
 import Test.QuickCheck
+import Text.Printf (printf)
 import Text.Read (readMaybe)
 import Toolpath.FromPart qualified as Toolpath
 import Toolpath.Toolpath (Toolpath)
 import Toolpath.Toolpath qualified as Toolpath
 import Verify.FromTape qualified as Verify
 import Verify.Proof qualified as Proof
+import Verify.TapePair (TapePair (TapePair))
+import Verify.TapePair qualified as TapePair
 
 -- | PARTC_TAPES sets another number of damaged tapes.
 spec :: Spec
@@ -57,15 +63,48 @@ spec = do
         forAllBlind (otherTape o) $ \(starts, frames) ->
           counterexample (Text.unpack (text o) <> show starts) $
             map show (foreignFindings o frames) === []
+  folder <- runIO (lookupEnv "PARTC_WRITE_TAPES")
+  count <- runIO (newIORef (0 :: Int))
   it "a tape with damage by more than the proof allows is not proven" $
     withMaxSuccess tapes $
-      forAllBlind operated $ \o@Operated {machine, path, program} ->
-        forAllBlind (WrongTape.damaged machine (`elem` clearingPasses path) program) $
-          \(damage, frames) ->
-            isWrong o frames
-              ==> tabulate "damage" [damage]
-              $ counterexample (damage <> " on " <> show (Machine.name machine)) $
-                not (Proof.isProven (Verify.prove machine path program frames))
+      forAllWrong $ \Operated {machine, path, program} pair ->
+        tabulate "damage" [TapePair.damage pair] $
+          ioProperty $ do
+            for_ folder $ \f -> do
+              n <- atomicModifyIORef' count (\n -> (n + 1, n + 1))
+              TapePair.write f (printf "%05d" n) pair
+            let frames = map Frame.frame (TapePair.other pair)
+            pure (not (Proof.isProven (Verify.prove machine path program frames)))
+  it "a tape with damage is wrong for a check that reads only the tapes" $
+    withMaxSuccess 20 $
+      forAllWrong $ \_ pair ->
+        ioProperty $ do
+          (code, out) <- TapePair.judged pair
+          pure (counterexample out (code === ExitSuccess))
+  it "a tape that cuts the same in other frames is not wrong for that check" $
+    withMaxSuccess 5 $
+      forAllBlind byText $ \o@Operated {machine, program} ->
+        forAllBlind (RightTape.otherwiseDivided machine program) $ \frames ->
+          TapePair.isReadBack machine (Frame.start program) frames ==> ioProperty $ do
+            (code, out) <- TapePair.judged (pairOf o "none" (withOneCutter program frames))
+            pure (counterexample out (code === ExitFailure 1))
+
+-- | Property of the wrong tapes of random parts. Tapes that no reader accepts are left out.
+forAllWrong :: Testable p => (Operated -> TapePair -> p) -> Property
+forAllWrong holds =
+  forAllBlind operated $ \o@Operated {machine, path, program} ->
+    forAllBlind (WrongTape.damaged machine (`elem` clearingPasses path) program) $
+      \(damage, planned) ->
+        let frames = map Frame.frame planned
+         in isWrong o frames && TapePair.isReadBack machine (Frame.start program) frames
+              ==> counterexample (damage <> " on " <> show (Machine.name machine))
+              $ holds o (pairOf o damage planned)
+
+-- | Frames with the cutter of a program that has only one.
+withOneCutter :: FrameProgram -> [Frame] -> [PlannedFrame]
+withOneCutter program frames = [p {Frame.frame = f} | p <- take 1 moving, f <- frames]
+  where
+    moving = filter (Frame.isMoving . Frame.frame) (Frame.plannedFrames program)
 
 -- | A random part with its tape for a machine.
 data Operated = Operated
@@ -143,6 +182,24 @@ foreignFindings Operated {part, machine, path} frames =
 own :: FrameProgram -> [Frame]
 own = map Frame.frame . Frame.plannedFrames
 
+-- | The own tape of a part with another tape.
+pairOf :: Operated -> String -> [PlannedFrame] -> TapePair
+pairOf Operated {part, machine, path, program} damage other =
+  TapePair
+    { TapePair.machine = machine,
+      TapePair.start = Frame.start program,
+      TapePair.own = Frame.plannedFrames program,
+      TapePair.other = other,
+      TapePair.damage = damage,
+      TapePair.kind = kind,
+      TapePair.tolerance = largestTolerance part
+    }
+  where
+    kind
+      | Toolpath.isTurned path = "turn"
+      | any (isJust . Part.gear) (millings part) = "blade"
+      | otherwise = "mill"
+
 -- | Test that a tape surely differs from its program by more than the proof allows: in its speeds
 -- alone, or in its path. How a pocket is cleared is free.
 isWrong :: Operated -> [Frame] -> Bool
@@ -172,13 +229,18 @@ slackOf :: Operated -> Double
 slackOf Operated {part, machine} = 3 * (largest + pulse)
   where
     Mm pulse = Machine.planeResolution machine
-    Mm largest =
-      maximum
-        ( Mm 0 :
-            [ uncurry max (Part.deviationLimits (Part.tolerance m))
-              | m <- concatMap millingOf (Part.operations part)
-            ]
-        )
+    Mm largest = largestTolerance part
+
+-- | The largest deviation in mm that an operation of the part allows.
+largestTolerance :: Part -> Mm
+largestTolerance part =
+  maximum
+    (Mm 0 : [uncurry max (Part.deviationLimits (Part.tolerance m)) | m <- millings part])
+
+-- | The millings and turnings of a part, those of the walls of pockets included.
+millings :: Part -> [Milling]
+millings part = concatMap millingOf (Part.operations part)
+  where
     millingOf o = case o of
       Part.Mill (Located _ m) -> [m]
       Part.Pocket (Located _ p) -> [Part.wall p]
