@@ -21,7 +21,7 @@ import Project.Job (Job)
 import Project.LoadedProgram (LoadedProgram)
 import Project.LoadedProgram qualified as LoadedProgram
 import Report.Human qualified as Human
-import Report.Report (Report)
+import Report.Report (Report, ReportPlace (..))
 import Report.Report qualified as Report
 import Surface.Import qualified as Import
 import System.Directory (doesFileExist)
@@ -49,6 +49,15 @@ spec = do
                 <> rendered source (warnings outcome)
             )
         _ -> expectationFailure (Text.unpack (rendered source (errors outcome)))
+  describe "good programs on every machine are proven or refused at a place of the program" $
+    forM_ (kind "good") $ \file -> it file $ do
+      (values, loaded) <- loadedFrom file
+      forM_ Machines.known $ \machine -> do
+        let outcome = Compile.compile (Machines.jobFor machine values) loaded
+        case Result.ifSound outcome of
+          Just outputs ->
+            [f | Just found <- map Compile.proof outputs, f <- Proof.findings found] `shouldBe` []
+          Nothing -> [Report.title r | r <- errors outcome, not (isPlaced r)] `shouldBe` []
   describe "bad programs give their reports, and no tape" $
     forM_ (kind "bad") $ \file -> it file $ do
       (values, loaded) <- loadedFrom file
@@ -75,6 +84,13 @@ spec = do
               || Text.isPrefixOf "E10" c
               || Text.isInfixOf ("[" <> c <> "]") expectations
       filter (not . isTested) codes `shouldBe` []
+
+-- | True for a report that points at a region of the program.
+isPlaced :: Report -> Bool
+isPlaced r = case Report.place r of
+  InSource _ -> True
+  InTape _ -> False
+  InFile -> False
 
 -- | A job for the machine that the program names, or for lkp-01f if it names none.
 job :: [(Text, Text)] -> LoadedProgram -> Job

@@ -76,6 +76,7 @@ import Verify.Proof qualified as Proof
 import Verify.RequiredMove qualified as RequiredMove
 import Verify.SpindleTool (Tools, Use (..))
 import Verify.SpindleTool qualified as SpindleTool
+import Verify.Swivel (Levelled (Levelled))
 import Verify.Swivel qualified as Swivel
 import Verify.TapeSummary (TapeSummary)
 import Verify.TapeSummary qualified as TapeSummary
@@ -93,6 +94,8 @@ data Subject = Subject
     tools :: ~Tools,
     -- | motions of the cutter's centre on the tape
     motions :: ~[CutterMotion],
+    -- | test that a motion of the tape swivels a blade as its pass demands
+    isSwivelled :: CutterMotion -> Bool,
     -- | motions of the cutter's centre in the planned frames
     plannedMotions :: ~[CutterMotion],
     -- | bounding-box tree of the motions on the tape
@@ -209,8 +212,9 @@ subjectOf machine path program frames =
       summary = TapeSummary.summarize (Frame.start program) (Frame.plannedFrames program) frames,
       tools,
       motions,
+      isSwivelled,
       plannedMotions =
-        Swivel.levelled machine path (fst (run (map Frame.frame (Frame.plannedFrames program)))),
+        Swivel.motions (levelled (fst (run (map Frame.frame (Frame.plannedFrames program))))),
       motionIndex = BoxTree.index Motion.box motions,
       compensationErrors,
       pockets = Pocket.pocketsOf (Toolpath.blocks path),
@@ -219,7 +223,8 @@ subjectOf machine path program frames =
     }
   where
     tools = SpindleTool.plannedTools program
-    motions = Swivel.levelled machine path centreMotions
+    Levelled {Swivel.motions, Swivel.isSwivelled} = levelled centreMotions
+    levelled = Swivel.levelled machine path
     (centreMotions, compensationErrors) = run frames
     run =
       Compensation.runWith
@@ -252,6 +257,7 @@ locatedPasses subject@Subject {machine, path, program} =
     Guide
       { PassLocation.machine,
         PassLocation.isFlat = isFlat subject,
+        PassLocation.isSwivelled = isSwivelled subject,
         PassLocation.lastFrameOf = if hasSameCount subject then lastFrame else const Nothing,
         PassLocation.cutFramesOf =
           if isSingle || isDifferent subject

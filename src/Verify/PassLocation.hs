@@ -48,6 +48,8 @@ data Guide = Guide
   { machine :: Machine,
     -- | true if the whole toolpath is at the height of its start; heights are then not compared
     isFlat :: Bool,
+    -- | test that a motion swivels a blade as its pass demands
+    isSwivelled :: CutterMotion -> Bool,
     -- | number of the last planned frame of a pass, by the number of the pass from 0; Nothing if
     -- the tape does not have as many frames as planned
     lastFrameOf :: Int -> Maybe Int,
@@ -144,7 +146,9 @@ locateCut guide state cut =
       | otherwise = Nothing
     searched
       | isFlat guide = candidates
-      | otherwise = filter (MotionSet.isAtHeight (machine guide) level) candidates
+      | isJust (Part.gear milling) = filter (isSwivelled guide) atHeight
+      | otherwise = atHeight
+    atHeight = filter (MotionSet.isAtHeight (machine guide) level) candidates
     candidates = case cutFramesOf guide (passIndex cut) of
       Nothing -> remaining state
       Just (FrameRange a b) ->

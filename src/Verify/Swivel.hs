@@ -1,18 +1,20 @@
 -- | Motions of a swivelling blade, brought to the height of their pass.
 --
 -- The /axis/ is the machine's z axis. It does not lift a blade: its height says how far the blade
--- is swivelled. If this height agrees with the bevel of the contour, to a pulse, the motion gets
--- the height of the pass. If not, it keeps the height of the axis, so that it does not count as a
--- motion along the contour.
+-- is swivelled. If this height agrees with the bevel of the contour, within the tolerance and the
+-- rounding, the motion gets the height of the pass. If not, it keeps the height of the axis, so
+-- that it does not count as a motion along the contour.
 module Verify.Swivel
-  ( levelled,
+  ( Levelled (..),
+    levelled,
   )
 where
 
 import Base.Quantity (Mm (..), minus, plus, times)
 import Base.Region (Located (..))
+import Data.IntSet qualified as IntSet
 import Data.List.NonEmpty qualified as NonEmpty
-import Data.Maybe (fromMaybe, listToMaybe, mapMaybe)
+import Data.Maybe (catMaybes, fromMaybe, listToMaybe, mapMaybe)
 import Data.Vector (Vector)
 import Data.Vector qualified as Vector
 import Geometry.Carrier qualified as Carrier
@@ -34,16 +36,30 @@ import Verify.Motion (CutterMotion (..))
 import Verify.Motion qualified as Motion
 import Verify.Requirement qualified as Requirement
 
+-- | Motions after 'levelled'.
+data Levelled = Levelled
+  { motions :: [CutterMotion],
+    -- | test that the axis has the right height for a pass with a blade during the whole motion. A
+    -- motion without it can be at the height of a pass all the same, because the heights of the
+    -- axis lie about that height
+    isSwivelled :: CutterMotion -> Bool
+  }
+
 -- | Bring the motions along contours that are cut with a blade to the heights of their passes. If a
 -- motion fits several passes, it gets the height of the first one. Other motions stay as they are.
-levelled :: Machine -> Toolpath -> [CutterMotion] -> [CutterMotion]
-levelled machine path
-  | null passes = id
-  | otherwise = map toFirst
+levelled :: Machine -> Toolpath -> [CutterMotion] -> Levelled
+levelled machine path ms
+  | null passes = Levelled {motions = ms, isSwivelled = const False}
+  | otherwise =
+    Levelled
+      { motions = zipWith fromMaybe ms fitting,
+        isSwivelled = \m -> IntSet.member (number m) swivelled
+      }
   where
-    toFirst m = fromMaybe m (listToMaybe (mapMaybe (\pass -> levelledIn machine pass m) passes))
+    fitting = map (\m -> listToMaybe (mapMaybe (\pass -> levelledIn machine pass m) passes)) ms
+    swivelled = IntSet.fromList (map number (catMaybes fitting))
     passes =
-      [ bladePass milling pass
+      [ bladePass machine milling pass
         | Toolpath.Cutting {Toolpath.job = Located _ milling, Toolpath.pass} <-
             Toolpath.blocks path,
           Just _ <- [Part.gear milling]
@@ -57,6 +73,9 @@ data BladePass = BladePass
     maxReach :: Mm,
     -- | larger of the allowed chord errors into the part and away from it
     tolerance :: Mm,
+    -- | largest deviation of the axis along a chord, without its rounding: the smaller one of the
+    -- allowed chord errors, but at least one pulse of the plane
+    axisDeviation :: Mm,
     -- | elements of the contour with their numbers from 0
     elements :: BoxTree (Int, Segment),
     -- | heights of the axis that swivels the blade, at the start and at the end of each element, by
@@ -67,8 +86,8 @@ data BladePass = BladePass
 -- | Facts about a pass with a blade. The axis turns the blade by a wheel of diameter @D2@. For a
 -- bevel of @μ°@ the axis is above the height of the pass by @z = ∓π·μ°·D2/360@. The sign is minus
 -- on the right of the contour and plus on the left (Kolsanova, section 3).
-bladePass :: Milling -> Toolpath.Pass -> BladePass
-bladePass milling Toolpath.Pass {Toolpath.left, Toolpath.atHeight} =
+bladePass :: Machine -> Milling -> Toolpath.Pass -> BladePass
+bladePass machine milling Toolpath.Pass {Toolpath.left, Toolpath.atHeight} =
   BladePass
     { level = atHeight,
       maxReach =
@@ -77,7 +96,8 @@ bladePass milling Toolpath.Pass {Toolpath.left, Toolpath.atHeight} =
               (Requirement.centreDistance milling left)
               (maximum (fmap (Part.allowance . Part.finish) (Part.elements contour)))
           ),
-      tolerance = uncurry max (Part.deviationLimits (Part.tolerance milling)),
+      tolerance = uncurry max limits,
+      axisDeviation = max (Machine.planeResolution machine) (uncurry min limits),
       elements =
         BoxTree.index
           (BoundingBox.ofSegment . snd)
@@ -86,6 +106,7 @@ bladePass milling Toolpath.Pass {Toolpath.left, Toolpath.atHeight} =
         maybe Vector.empty (fmap (\(a, b) -> (height a, height b))) (Requirement.bevels contour)
     }
   where
+    limits = Part.deviationLimits (Part.tolerance milling)
     contour = Part.contour milling
     height bevel = plus atHeight (times (sign * bevel / 2) (fromMaybe (Mm 0) (Part.gear milling)))
     sign = maybe 1 Carrier.sideSign (Requirement.cutterSide milling)
@@ -94,7 +115,8 @@ bladePass milling Toolpath.Pass {Toolpath.left, Toolpath.atHeight} =
 -- all sample points of @m@.
 levelledIn :: Machine -> BladePass -> CutterMotion -> Maybe CutterMotion
 levelledIn machine pass m
-  | all hasRightHeight (0 : sampled) = Just m {fromHeight = level pass, toHeight = level pass}
+  | all hasRightHeight (0 : sampled <> joints pass (segment m)) =
+    Just m {fromHeight = level pass, toHeight = level pass}
   | otherwise = Nothing
   where
     hasRightHeight k =
@@ -107,6 +129,22 @@ levelledIn machine pass m
       -- The axis may have the right height at both ends of an arc and a wrong one between them. So
       -- sample points inside of the arc are tested as well.
       Arc {} -> Motion.samples m
+
+-- | Fractions of a path at which it passes the ends of elements. Between them the bevel is linear
+-- in the arc length. A path along several elements could otherwise have the right heights at its
+-- sample points and wrong ones between them, where the bevel rises and falls again.
+joints :: BladePass -> Segment -> [Double]
+joints pass path =
+  [ Distance.nearestFraction p path
+    | (_, s) <-
+        BoxTree.within
+          (BoundingBox.inflate reach (BoundingBox.ofSegment path))
+          (elements pass),
+      p <- [Segment.start s, Segment.end s],
+      Distance.toPoint p path <= reach
+  ]
+  where
+    reach = plus (maxReach pass) (tolerance pass)
 
 -- | Test that @z@ is the height of the axis that the nearest element demands, while the centre is
 -- at @p@. If several elements are equally near, any height between their demands is right.
@@ -135,8 +173,7 @@ isRightHeight machine pass p z = case demanded of
     nearest = minimum (limit : [d | (d, _, _) <- near])
     deviation = plus (tolerance pass) (Machine.planeResolution machine)
     limit = plus (maxReach pass) deviation
-    slack =
-      times 1.5 (max (Machine.planeResolution machine) (Machine.resolutionOf machine Machine.Z))
+    slack = plus (axisDeviation pass) (times 0.5 (Machine.resolutionOf machine Machine.Z))
 
 -- | Uncertainty in mm of the height that the axis has to have while the centre is at @p@, beside
 -- the element @s@ with the number @i@. The reason is that @p@ is rounded to pulses. Inside an arc

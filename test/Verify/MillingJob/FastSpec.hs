@@ -95,6 +95,7 @@ firstJob path = case PassLocation.locate guide start [] (Toolpath.blocks path) o
       Guide
         { machine = iso6983,
           isFlat = True,
+          isSwivelled = const False,
           lastFrameOf = const Nothing,
           cutFramesOf = const Nothing
         }
