@@ -8,8 +8,8 @@
 -- A shift adds a layer: it moves every point of the curve below along its normal, by a distance
 -- that is a function of the parameter. Points, directions and curvatures are computed by power
 -- series through all layers, so rounding is the only error. A shift of a curve with a corner leaves
--- a gap or an overlap at the corner. This module does not close it; "Part.Piece" refuses such a
--- shift.
+-- a gap or an overlap at the corner. Only slight corners are closed, see
+-- "Geometry.Curve.ShiftedCurve"; "Part.Piece" refuses a shift at any other corner.
 --
 -- This module is the interface of the folder "Geometry.Curve". It does not export the fields of
 -- 'BasisCurve', 'Knot', 'Column' and 'Cusp'; these are read through the modules of the types.

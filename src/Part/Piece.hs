@@ -51,6 +51,7 @@ import Part.Evaluation qualified as Evaluation
 import Part.Expression (Environment)
 import Part.Expression qualified as Expression
 import Part.Parameter qualified as Parameter
+import Part.Tolerance qualified as Tolerance
 import Part.Value (Value (..))
 import Part.Value qualified as Value
 
@@ -167,22 +168,27 @@ mentions names (Located _ e) = case e of
       Checked.Ranked _ -> False
 
 -- | The curve @lower@, shifted to a side by @distance@. Fails if the shift opens a gap at a corner,
--- or if the shifted curve turns back in a cusp.
+-- or a step at a slight corner, or if the shifted curve turns back in a cusp.
 shiftedBy :: Region -> Carrier.Side -> Distance -> Exact.Curve -> Eval Exact.Curve
 shiftedBy at side distance lower = do
   let whole = Exact.shifted side distance lower
-  case [u | u <- Exact.corners lower, gapAt whole u > Tolerance.curve] of
+  case [u | u <- Exact.corners lower, gapAt whole u > Tolerance.curve || hasStep whole u] of
     u : _ -> mistake (ShiftsCorner at (Exact.at lower u) (cornerAngle u))
     [] -> pure ()
   case Cusp.firstCusp whole of
     Just f -> mistake (Folds at (Cusp.place f) (Cusp.requested f) (Cusp.curvatureRadius f))
     Nothing -> pure whole
   where
-    cornerAngle u =
-      let before = Exact.tangentFrom Exact.Before lower u
-          after = Exact.tangentFrom Exact.After lower u
-          Rad a = Vec.signedAngle before after
-       in Rad (abs a)
+    cornerAngle u = angleBetween (Exact.tangentFrom Exact.Before lower u) (leaving lower u)
+    leaving = Exact.tangentFrom Exact.After
+    -- A curve that is shifted by d has closed the gap dθ at a slight corner of the angle θ. Along
+    -- the curve this changes nothing; across the curve it moves points if d varies.
+    hasStep whole u =
+      let Rad turn = cornerAngle u
+          Rad slope = angleBetween (leaving lower u) (leaving whole u)
+          Mm d = Exact.shiftDistance whole u
+       in Mm (abs d * turn * sin slope) > Tolerance.smoothGap
+    angleBetween v w = let Rad a = Vec.signedAngle v w in Rad (abs a)
 
 -- | The distance between the end of one span of a curve and the start of the next one, at the
 -- parameter @u@. If @u@ is 0 or less, the distance between the curve's end and its start.

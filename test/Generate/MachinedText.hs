@@ -419,29 +419,38 @@ curveMilling hasZ = do
   steps <- replicateM n (elements [10, 17, 28])
   ys <- replicateM n (decimal 1 (-6) 6)
   mus <- replicateM n (decimal 1 2 8)
-  ciphers <-
-    elements
-      [ "",
-        " cipher 2(2)",
-        " cipher 4(mu, 15)",
-        " cipher 2(1, mu), 4(mu, 10)",
-        " cipher 4(mu, 15), 1(2, 3)",
-        " cipher 4(mu, 15), 1(3, 2, mu), 1(2, 3)",
-        " cipher 6(mu / 4 deg), 2(-1)"
-      ]
+  ciphers <- frequency [(1, pure []), (2, someCiphers)]
   shiftSide <- elements [" left", " right"]
   side <- elements ["left", "right", "on"]
   isRestAllowed <- frequency [(3, pure True), (1, pure False)]
   sets <- millSettings hasZ False
   let row x y m = "  " <> Text.unwords (map number [x, y, m])
       rows = zipWith3 row (scanl (+) 0 steps) ys mus
-      used = if ciphers == "" then "skin" else "edge"
+      used = if null ciphers then "skin" else "edge"
   pure
     ( set
         <> ["table hull {", "  x y mu deg"]
         <> rows
         <> ["}", "curve skin = spline(hull)"]
-        <> ["piece edge = skin" <> ciphers <> shiftSide | ciphers /= ""]
+        <> [ "piece edge = skin cipher " <> Text.intercalate ", " ciphers <> shiftSide
+             | not (null ciphers)
+           ]
         <> ["contour a open { " <> used <> " }"]
         <> statement ("mill a " <> side) [["rest allowed" | isRestAllowed], sets]
     )
+
+-- | Up to four ciphers, which use the column @mu@.
+someCiphers :: Gen [Text]
+someCiphers = do
+  n <- choose (1, 4 :: Int)
+  replicateM n $
+    elements
+      [ "2(2)",
+        "2(1, mu)",
+        "4(mu, 15)",
+        "4(mu, 10)",
+        "1(2, 3)",
+        "1(3, 2, mu)",
+        "6(mu / 4 deg)",
+        "2(-1)"
+      ]

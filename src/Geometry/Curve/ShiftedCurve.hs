@@ -17,6 +17,10 @@ module Geometry.Curve.ShiftedCurve
   )
 where
 
+import Base.Quantity (Rad (..))
+import Data.List (zip4)
+import Data.Map.Strict (Map)
+import Data.Map.Strict qualified as Map
 import Geometry.Carrier (Side (..))
 import Geometry.Curve.BasisCurve (BasisCurve, SpanPoint (..))
 import Geometry.Curve.BasisCurve qualified as BasisCurve
@@ -28,6 +32,8 @@ import Geometry.Numeric.PowerSeries (PowerSeries)
 import Geometry.Numeric.PowerSeries qualified as PowerSeries
 import Geometry.Numeric.TaylorExpansion (Approach (..), TaylorExpansion)
 import Geometry.Numeric.TaylorExpansion qualified as TaylorExpansion
+import Geometry.Tolerance qualified as Tolerance
+import Geometry.Vec (Vec)
 import Geometry.Vec qualified as Vec
 
 -- | Curve with any number of shifts.
@@ -38,9 +44,30 @@ data Curve
     Shifted Layer Curve ~ArcLength
   deriving stock (Eq, Show)
 
--- | One shift: its side, its distance, and the interval over which the distance changes.
-data Layer = Layer {side :: Side, distance :: Distance, interval :: ~ShiftInterval}
+-- | One shift: its side, its distance, the interval over which the distance changes, and the turns
+-- of the normals beside slight corners.
+data Layer = Layer
+  { side :: Side,
+    distance :: Distance,
+    interval :: ~ShiftInterval,
+    turns :: ~NormalTurns
+  }
   deriving stock (Eq, Show)
+
+-- | Turns of the normals of a curve beside its slight corners: the smooth stretches that have such
+-- corners at their ends, by their first parameters.
+newtype NormalTurns = NormalTurns (Map Double TurnedStretch)
+
+-- | All turns compare equal: the curve whose normals they turn determines them.
+instance Eq NormalTurns where
+  _ == _ = True
+
+instance Show NormalTurns where
+  show _ = "NormalTurns"
+
+-- | Last parameter of a smooth stretch, and the angles in radians, counter-clockwise, by which the
+-- normals at its begin and at its end are turned.
+data TurnedStretch = TurnedStretch {end :: Double, atBegin :: Double, atEnd :: Double}
 
 -- | Curve @lower@ moved along its normal to a side. The distance is a function of the position on
 -- @lower@.
@@ -49,7 +76,12 @@ shifted side distance lower = whole
   where
     whole =
       Shifted
-        Layer {side, distance, interval = ShiftDistance.intervalOf (arcLength lower) distance}
+        Layer
+          { side,
+            distance,
+            interval = ShiftDistance.intervalOf (arcLength lower) distance,
+            turns = turnsOf lower
+          }
         lower
         (ArcLength.fromSpeed speed (merge (breaks whole) (knots whole)))
     speed u = Vec.norm (TaylorExpansion.velocity (expansionAt 1 whole (spanPoint After u whole)))
@@ -128,7 +160,7 @@ expansionAt n curve s = case curve of
     | otherwise ->
       let near =
             expansionAt (n + 1) lower s
-       in TaylorExpansion.offset (distanceAt n layer lower near s) near
+       in TaylorExpansion.offset (turnAt n (turns layer) s) (distanceAt n layer lower near s) near
 
 -- | Power series of a shift's distance in mm, positive to the left, about a position. The arguments
 -- are the highest power, the shift, the curve below, the expansion of that curve about the
@@ -145,3 +177,58 @@ distanceAt n layer lower near s = case side layer of
         (interval layer)
         (distance layer)
         s
+
+-- Normals beside slight corners -------------------------------------------------------------------
+
+-- | Turns of the normals of a curve. At a slight corner the normals before and after it are turned
+-- to their mean. At the start and the end of a closed curve this needs both of them to be one
+-- point.
+turnsOf :: Curve -> NormalTurns
+turnsOf curve =
+  NormalTurns
+    ( Map.fromDistinctAscList
+        [ (a, TurnedStretch {end = b, atBegin = -(before / 2), atEnd = after / 2})
+          | (a, b, before, after) <- zip4 bs (drop 1 bs) corners (drop 1 corners),
+            before /= 0 || after /= 0
+        ]
+    )
+  where
+    bs = breaks curve
+    seam = slightCorner (lastUnit, firstUnit)
+    corners = [seam] <> map (\u -> slightCorner (unit Before u, unit After u)) inner <> [seam]
+    inner = drop 1 (take (length bs - 1) bs)
+    (firstUnit, lastUnit)
+      | Vec.isNear (point After 0) (point Before (domain curve)) =
+        (unit After 0, unit Before (domain curve))
+      | otherwise = (Nothing, Nothing)
+    point approach u = TaylorExpansion.position (expansionAt 0 curve (spanPoint approach u curve))
+    unit approach u =
+      TaylorExpansion.direction approach (expansionAt 1 curve (spanPoint approach u curve))
+
+-- | Angle in radians between two directions, counter-clockwise, if it is that of a slight corner.
+-- Otherwise 0, also if there is no direction.
+slightCorner :: (Maybe Vec, Maybe Vec) -> Double
+slightCorner directions = case directions of
+  (Just before, Just after)
+    | Rad a <- Vec.signedAngle before after,
+      Rad (abs a) > Tolerance.smoothAngle,
+      Rad (abs a) <= Tolerance.kink ->
+      a
+  _ -> 0
+
+-- | Turn of the normal about a position as a power series up to the power @n@, in radians. Nothing
+-- if the normal is not turned.
+turnAt :: Int -> NormalTurns -> SpanPoint -> Maybe PowerSeries
+turnAt n (NormalTurns stretches) s
+  | Map.null stretches = Nothing
+  | otherwise = case found (parameter s) stretches of
+    Just (a, TurnedStretch {end, atBegin, atEnd})
+      | parameter s <= end ->
+        let slope = (atEnd - atBegin) / (end - a)
+         in Just (PowerSeries.fromList n [atBegin + slope * (parameter s - a), slope])
+    _ -> Nothing
+  where
+    -- A position before the start of the curve is at its start.
+    found = case approach s of
+      Before | parameter s > 0 -> Map.lookupLT
+      _ -> Map.lookupLE

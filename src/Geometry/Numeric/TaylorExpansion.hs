@@ -63,17 +63,24 @@ cross (V2 x y) (V2 x' y') =
 
 -- | The expansion of a moving point C, offset by the distance @d@ in mm to the left of its
 -- direction of travel, or to the right when @d@ is negative. The distance may change with the
--- parameter, so it is a power series too.
+-- parameter, so it is a power series too. The offset is turned from the left normal by the angle
+-- @turn@ in radians, counter-clockwise, which may change as well.
 --
--- The result is @C + d·N@ with @N = (−y′, x′)/√(x′² + y′²)@. It has one order less than the
--- expansion of C, or the order of @d@ if this is still lower. The velocity at u₀ must not be 0.
-offset :: PowerSeries -> TaylorExpansion -> TaylorExpansion
-offset d expansion@(V2 x y) =
-  V2
-    (PowerSeries.subtract x (PowerSeries.multiply share y'))
-    (PowerSeries.add y (PowerSeries.multiply share x'))
+-- Without a turn the result is @C + d·N@ with @N = (−y′, x′)/√(x′² + y′²)@. It has one order less
+-- than the expansion of C, or the order of @d@ if this is still lower. The velocity at u₀ must not
+-- be 0.
+offset :: Maybe PowerSeries -> PowerSeries -> TaylorExpansion -> TaylorExpansion
+offset turn d expansion@(V2 x y) = case turn of
+  Nothing -> V2 (PowerSeries.subtract x (left y')) (PowerSeries.add y (left x'))
+  Just angle ->
+    let aside = PowerSeries.multiply (PowerSeries.cosine angle)
+        back = PowerSeries.multiply (PowerSeries.sine angle)
+     in V2
+          (PowerSeries.subtract x (PowerSeries.add (aside (left y')) (back (left x'))))
+          (PowerSeries.add y (PowerSeries.subtract (aside (left x')) (back (left y'))))
   where
     velocities@(V2 x' y') = fmap PowerSeries.derivative expansion
+    left = PowerSeries.multiply share
     share = PowerSeries.multiply d (PowerSeries.power (-0.5) (squared velocities))
 
 -- | The direction of travel at u₀, of length 1. If the velocity is 0, the result is the limit of

@@ -27,6 +27,7 @@ import Geometry.Curve.Column qualified as Column
 import Geometry.Curve.Cusp (Cusp (..))
 import Geometry.Numeric.PowerSeries qualified as PowerSeries
 import Geometry.Segment (Segment (..))
+import Geometry.Tolerance qualified as Tolerance
 import Geometry.Vec (Point, Vec)
 import Geometry.Vec qualified as Vec
 import Linear.V2 (V2 (..))
@@ -125,6 +126,36 @@ spec = do
                     | u >= ub = h2
                     | otherwise = h1 + (h2 - h1) * chordSum c ua u / chordSum c ua ub
                in near' 1e-5 (-d) expected
+    it
+      "that varies does not tear apart a curve that was shifted twice before (catches normals that \
+      \jump at a slight corner)"
+      $ property $
+        forAll Generate.smooth $ \c ->
+          forAll (varying c >>= varying >>= \twice -> (,) twice <$> varying twice) $
+            \(twice, thrice) ->
+              let slight =
+                    [ u
+                      | u <- Curve.corners twice,
+                        Rad a <-
+                          [ Vec.signedAngle
+                              (Curve.tangentFrom Before twice u)
+                              (Curve.tangentFrom After twice u)
+                          ],
+                        Rad (abs a) <= Tolerance.kink
+                    ]
+                  arrival u = if u <= 0 then Curve.domain twice else u
+                  gap u =
+                    Vec.distance
+                      (Curve.pointFrom Before thrice (arrival u))
+                      (Curve.pointFrom After thrice u)
+                  shiftedBy u = Vec.distance (Curve.at twice u) (Curve.at thrice u)
+                  asked u = abs (let Mm d = Curve.shiftDistance thrice u in d)
+               in cover 50 (not (null slight)) "slight corners" $
+                    conjoin
+                      [ counterexample (show (u, gap u)) (gap u <= Tolerance.coincident)
+                          .&&. near' 1e-9 (let Mm d = shiftedBy u in d) (asked u)
+                        | u <- slight
+                      ]
     it "that grows between two points has corners there (catches a curve without breaks there)" $
       property $
         forAll Generate.gentle $ \c ->
@@ -525,3 +556,10 @@ close tolerance p q = counterexample (show (p, q)) (Vec.distance p q <= Mm toler
 alike :: Double -> Vec -> Vec -> Property
 alike tolerance v w =
   counterexample (show (v, w)) (Vec.norm (Vec.add v (Vec.negate w)) <= tolerance)
+
+-- | A curve, shifted by a distance with one value for each row of its table.
+varying :: Curve -> Gen Curve
+varying c = do
+  d <- Generate.columnOf c 0 (min 5 (0.3 / (1e-9 + Generate.tightest c)))
+  side <- elements [LeftOf, RightOf]
+  pure (Curve.shifted side (Pointwise d) c)
