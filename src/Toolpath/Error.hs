@@ -38,6 +38,9 @@ data Error
   = -- | @outside@ or @inside@ at an open contour: the region of the side, the side, the contour's
     -- name, the region of that name
     SideOfOpen Region Side Name Region
+  | -- | @outside@ or @inside@ at a profile that ends at the x at which it begins: the region of the
+    -- side, the side, the profile's name, the region of that name
+    SideOfFace Region Side Name Region
   | -- | a concave radius smaller than the cutter's: the statement, the cutter, the arc and its
     -- radius, the largest radius that fits
     ConcaveRadius Region Tool Element Mm (Maybe Mm)
@@ -148,6 +151,11 @@ toReport err = case err of
   SideOfOpen region side (Name name) contour ->
     (at region "E0401" ("the open contour ‘" <> name <> "’ has no " <> sideWord side))
       { others = [Label contour "this contour is open"],
+        hints = ["Say left or right of the direction of travel, or on."]
+      }
+  SideOfFace region side (Name name) contour ->
+    (at region "E0401" ("the profile ‘" <> name <> "’ has no " <> sideWord side))
+      { others = [Label contour "this profile begins and ends at the same x"],
         hints = ["Say left or right of the direction of travel, or on."]
       }
   ConcaveRadius region tool element old largest ->

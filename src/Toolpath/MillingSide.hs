@@ -32,7 +32,7 @@ import Toolpath.LinkingMove qualified as LinkingMove
 -- | The side of the contour, in the direction of travel, on which the cutter moves; Nothing when
 -- its centre moves on the contour. A profile that is turned outside lies between the tool and the
 -- spindle's axis, @y = 0@. Refuses @outside@ and @inside@ for open contours that are milled, and
--- closed contours that are turned.
+-- for profiles that end at the x at which they begin. Refuses closed contours that are turned.
 leadingSide :: Milling -> Either Error (Maybe Carrier.Side)
 leadingSide milling = case (value (side milling), Part.ends (contour milling)) of
   (_, Part.Closed)
@@ -45,18 +45,20 @@ leadingSide milling = case (value (side milling), Part.ends (contour milling)) o
     Right (Just (if counterClockwise then Carrier.RightOf else Carrier.LeftOf))
   (Inside, Part.Closed) ->
     Right (Just (if counterClockwise then Carrier.LeftOf else Carrier.RightOf))
-  (Outside, Part.Open)
-    | Part.work milling == Turned ->
-      Right (Just (if toTheRight then Carrier.LeftOf else Carrier.RightOf))
-  (Inside, Part.Open)
-    | Part.work milling == Turned ->
-      Right (Just (if toTheRight then Carrier.RightOf else Carrier.LeftOf))
-  (s, Part.Open) -> Left (SideOfOpen (region (side milling)) s (value name) (region name))
+  (s, Part.Open)
+    | Part.work milling /= Turned ->
+      Left (SideOfOpen (region (side milling)) s (value name) (region name))
+    | abs alongAxis <= slack ->
+      Left (SideOfFace (region (side milling)) s (value name) (region name))
+    | (alongAxis > 0) == (s == Outside) -> Right (Just Carrier.LeftOf)
+    | otherwise -> Right (Just Carrier.RightOf)
   where
     counterClockwise = Polyarc.areaOf Part.segment (elements (contour milling)) > 0
-    toTheRight =
+    -- Distance in mm along the spindle from the beginning of the profile to its end.
+    alongAxis =
       Vec.x (Segment.end (Part.segment (NonEmpty.last (elements (contour milling)))))
-        >= Vec.x (Segment.start (Part.segment (NonEmpty.head (elements (contour milling)))))
+        - Vec.x (Segment.start (Part.segment (NonEmpty.head (elements (contour milling)))))
+    Mm slack = Tolerance.coincident
     name = Part.contourName (contour milling)
 
 -- | Refuses a turned profile that goes below the spindle's axis, and an allowance when the centre
