@@ -30,6 +30,7 @@ import Base.Result (Result (..), failed, failing, fromEither, ifSound, mapErrors
 import Checked.Error qualified as Checked
 import Checked.FromSurface qualified as Checked
 import Checked.Syntax qualified as Checked
+import Control.CompensationCheck qualified as CompensationCheck
 import Control.Monad (when)
 import Data.Text (Text)
 import Frame.Error qualified as Frame
@@ -50,7 +51,7 @@ import Tape.Punch qualified as Tape
 import Tape.Tape (Tape)
 import Toolpath.Error qualified as Toolpath
 import Toolpath.FromPart qualified as Toolpath
-import Toolpath.Toolpath (Toolpath, withoutCuts)
+import Toolpath.Toolpath (Toolpath, isCompensated, withoutCuts)
 import Verify.FromTape qualified as Verify
 import Verify.Proof (Proof)
 import Verify.Proof qualified as Proof
@@ -136,13 +137,21 @@ makeTape verification path machine =
 data Punched = Punched {program :: Frame.FrameProgram, tape :: Tape}
 
 -- | Makes the frames and the tape of a toolpath (Toolpath → Frame → Tape). The tape is lazy, so no
--- row of it is made before it is needed.
+-- row of it is made before it is needed. Refuses frames with cutter compensation that a control
+-- would refuse.
 punch :: Machine -> Toolpath -> Result Report Report Punched
-punch machine path = do
-  program <-
-    mapErrors (Frame.warningReport machine) (Frame.toReport machine) (Frame.quantise machine path)
-  let frames = map Frame.frame (Frame.plannedFrames program)
-  pure Punched {program, tape = Tape.write machine (Frame.start program) frames}
+punch machine path =
+  -- Evaluated before the frames are made, so that the cutting moves do not stay in memory.
+  compensated `seq` do
+    program <-
+      mapErrors (Frame.warningReport machine) (Frame.toReport machine) (Frame.quantise machine path)
+    let frames = map Frame.frame (Frame.plannedFrames program)
+    -- The frames of a program without compensation need not be in memory as a whole.
+    when compensated (noneOf (CompensationCheck.reports machine program))
+    pure Punched {program, tape = Tape.write machine (Frame.start program) frames}
+  where
+    compensated = isCompensated path
+    noneOf refused = if null refused then pure () else Result [] refused Nothing
 
 -- | Runs the frames of a tape on the controller model and compares the motions with the part (Frame
 -- → Control → Verify). The errors of the result are the findings: all that the proof has found

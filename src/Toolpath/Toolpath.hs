@@ -17,6 +17,7 @@ module Toolpath.Toolpath
     curveRuns,
     isCurve,
     isFlat,
+    isCompensated,
     end,
     withoutCuts,
   )
@@ -211,6 +212,10 @@ isFlat path = all (\m -> heights m == (z, z)) (concatMap moves (blocks path))
   where
     z = height' (start path)
     height' (Located _ (SpacePoint _ h)) = h
+
+-- | True when a control does the cutter compensation in a pass of the toolpath.
+isCompensated :: Toolpath -> Bool
+isCompensated path = or [True | Cutting {sent = Just _} <- blocks path]
 
 -- | The final position of the cutter; the start if there are no moves.
 end :: Toolpath -> SpacePoint

@@ -21,7 +21,8 @@ import Base.Name (Name)
 import Base.PulseVector (Pulses3 (..))
 import Base.Quantity (Feed (..), Mm (..), Pulses (..))
 import Base.Region (Located, Region)
-import Control.Compensation (CompensationError (..))
+import Control.Compensation (CompensationError)
+import Control.CompensationCheck qualified as CompensationCheck
 import Data.List (foldl')
 import Data.Text (Text)
 import Data.Text qualified as Text
@@ -400,7 +401,7 @@ refusalWords refusal = case refusal of
         <> " its centre than it begins",
       ["The two may differ by 2 pulses."]
     )
-  NotCompensated err -> compensationWords err
+  NotCompensated err -> CompensationCheck.wordsOf err
   NoSweep n ->
     ( n,
       "is an arc without a sweep",
@@ -411,40 +412,6 @@ refusalWords refusal = case refusal of
       Machine.X -> "x"
       Machine.Y -> "y"
       Machine.Z -> "z"
-
--- | Number of a frame, the reason why cutter compensation fails in it, and further sentences. The
--- reason completes a sentence that begins with the frame.
-compensationWords :: CompensationError -> (Int, Text, [Text])
-compensationWords err = case err of
-  ShortEntry n l r ->
-    ( n,
-      "switches compensation on in a move that is too short",
-      [ "It is "
-          <> lengthOf l
-          <> " long, and has to be longer than the cutter's radius, "
-          <> lengthOf r
-          <> "."
-      ]
-    )
-  ArcEntry n -> (n, "switches compensation on in an arc", ["That takes a straight move."])
-  ArcExit n -> (n, "leaves compensation in an arc", ["That takes a straight move."])
-  TightArc n old r ->
-    ( n,
-      "is an arc of radius "
-        <> lengthOf old
-        <> " about whose inside the cutter has no room to roll",
-      ["Its radius is " <> lengthOf r <> "."]
-    )
-  CornerNotReached n ->
-    ( n,
-      "is too short for a corner into which the cutter does not fit",
-      ["The cutter would cut into the move beside it."]
-    )
-  SwitchedOnTwice n -> (n, "switches compensation on while it is on", [])
-  ToolChanged n -> (n, "changes the tool while compensation is on", [])
-  NotSwitchedOff n -> (n, "ends the tape while compensation is on", [])
-  where
-    lengthOf (Mm x) = Decimal.fixed 3 x <> " mm"
 
 -- | Speed in words.
 speed :: Machine -> Speed -> Text

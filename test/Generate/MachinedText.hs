@@ -3,6 +3,7 @@
 -- allowance of their own. Many of the programs cannot be made, and are refused before the tape.
 module Generate.MachinedText
   ( program,
+    compensatedCurve,
   )
 where
 
@@ -409,6 +410,48 @@ compensation = do
             ["approach " <> point (x, y), "retract " <> point (y, x), "compensation controller"]
           ]
     )
+
+-- | A program for iso6983 in which the control compensates along a closed spline. The cutter is not
+-- much smaller than the smallest concave radius, so that its path is much shorter than the edge.
+compensatedCurve :: Gen Text
+compensatedCurve = do
+  set <- settings False "mill(diameter d)"
+  mean <- choose (10, 40)
+  share <- choose (0, 0.35)
+  lobes <- elements [2, 3, 4, 5 :: Int]
+  spare <- elements [0.09, 0.12, 0.2, 0.5, 1, 2]
+  (side, isInside) <- elements [("outside", False), ("outside", False), ("inside", True)]
+  perLobe <- choose (3, 6)
+  offset <- choose (-1.5, 1.5)
+  leads <- maybeOf 1 ["lead in arc 1 lead out arc 1", "lead in line 2 lead out line 2"]
+  let wave = share * mean
+      n = lobes * perLobe
+      at k =
+        let a = 2 * pi * fromIntegral k / fromIntegral n
+            r = mean + wave * cos (fromIntegral lobes * a)
+         in rounded 3 (r * cos a, r * sin a)
+      -- Radius of curvature where the radius about the origin is @r@, and its second derivative is
+      -- @r''@: @r² / |r − r''|@.
+      bend = wave * fromIntegral (lobes * lobes)
+      concave
+        | isInside = (mean + wave) ^ two / (mean + wave + bend)
+        | bend > mean - wave = (mean - wave) ^ two / (bend - (mean - wave))
+        | otherwise = mean
+      cutter = roundedTo 3 (min (mean / 2) (max 0.5 (concave - spare)))
+      start
+        | isInside = (0, 0)
+        | otherwise = rounded 2 (mean + wave + 3 * cutter + 3, offset * cutter)
+  pure . Text.unlines $
+    ["part p", "machine iso6983", "let d = " <> number (2 * cutter)]
+      <> set
+      <> ["curve c = closed_spline([" <> listed (map at [0 .. n - 1]) <> "])"]
+      <> ["contour a closed { c }"]
+      <> statement
+        ("mill a " <> side)
+        [["approach " <> point start, "retract " <> point start, "compensation controller"], leads]
+  where
+    two = 2 :: Int
+    listed = Text.intercalate ", " . map point
 
 -- | Milling along a spline, or along a piece that ciphers make of it.
 curveMilling :: Bool -> Gen [Text]

@@ -12,6 +12,7 @@ import Control.Compensation qualified as Compensation
 import Data.List.NonEmpty qualified as NonEmpty
 import Data.Maybe (listToMaybe)
 import Data.Text (Text)
+import Data.Text qualified as Text
 import Files (readText)
 import Frame.Frame (Frame (..), FrameProgram, PlannedFrame, Role (..))
 import Frame.Frame qualified as Frame
@@ -19,13 +20,16 @@ import Frame.FromToolpath qualified as FromToolpath
 import Generate qualified
 import Generate.Arcs qualified as Arcs
 import Generate.ByControl qualified as ByControl
+import Generate.MachinedText qualified as MachinedText
 import Geometry.Segment (Segment)
 import Geometry.Vec qualified as Vec
 import Machine.Machine (CommandName (..))
 import Machines (iso6983)
+import Machines qualified
 import Part.Part (Milling)
 import Part.Part qualified as Part
 import Project.LoadedProgram qualified as LoadedProgram
+import Report.Report qualified as Report
 import Test.Hspec
 import Test.QuickCheck hiding (Fixed)
 import Toolpath.Toolpath (Toolpath)
@@ -99,6 +103,23 @@ spec = do
     mapM_
       programs
       ["lead-arc", "lead-arc-right", "corner", "open", "flange", "depth", "curve", "two-tools"]
+  it
+    "no tape along a random curve is refused by the control (catches frames that are not examined \
+    \before the proof)"
+    $ property $
+      forAllBlind MachinedText.compensatedCurve $ \text ->
+        let result =
+              Compile.compile
+                (Machines.jobFor iso6983 [])
+                (LoadedProgram.fromText "p.part" text)
+         in counterexample (Text.unpack text) $
+              tabulate "outcome" [outcome result] $
+                [ f
+                  | Just made' <- [Result.output result],
+                    Just proof <- map Compile.proof made',
+                    f@(Refused _) <- Proof.findings proof
+                ]
+                  === []
   it "a lost release is refused by the control" $ do
     (path, program) <- compiled "flange"
     let unreleased = map (without "release") (own program)
@@ -106,6 +127,9 @@ spec = do
     [n | Refused (NotCompensated (NotSwitchedOff n)) <- found]
       `shouldBe` [length (own program)]
   where
+    outcome result = case Result.errors result of
+      [] -> "taped"
+      e : _ -> show (Report.code e)
     programs name = it (name <> " is proven") $ do
       (path, program) <- compiled name
       findings path program (own program) `shouldBe` []
