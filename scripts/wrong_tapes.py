@@ -363,7 +363,7 @@ class Raster:
         (px, py), (qx, qy) = p, q
         length = math.dist(p, q)
         nx, ny = (radius * (qy - py) / length, radius * (px - qx) / length) if length else (0, 0)
-        edges = [(px + nx, py + ny, qx + nx, qy + ny), (px - nx, py - ny, qx - nx, qy - ny)] if py != qy else []
+        edges = [(px + nx, py + ny, qx + nx, qy + ny), (px - nx, py - ny, qx - nx, qy - ny)]
         first_row = max(0, math.ceil(min(py, qy) - radius))
         for row in range(first_row, min(self.height, math.floor(max(py, qy) + radius) + 1)):
             low, high = math.inf, -math.inf
@@ -373,7 +373,7 @@ class Raster:
                     half = math.sqrt(square)
                     low, high = min(low, x - half), max(high, x + half)
             for ax, ay, bx, by in edges:
-                if min(ay, by) <= row <= max(ay, by):
+                if ay != by and min(ay, by) <= row <= max(ay, by):
                     x = ax + (bx - ax) * (row - ay) / (by - ay)
                     low, high = min(low, x), max(high, x)
             if low > high or high < 0 or low > self.width:

@@ -269,6 +269,7 @@ straightPath x y =
     (Located nowhere (Part.SpacePoint (Vec.point 0 0) (Mm 0)))
     [ Toolpath.Travelling
         (Mm 0)
+        []
         [ Toolpath.Move
             (Straight (Vec.point 0 0) (Vec.point x y))
             (Toolpath.Manner (Mm 0, Mm 0) Part.Rapid False)

@@ -206,7 +206,7 @@ holesOf operation = case operation of
 -- | Linking moves of a block of the toolpath.
 movesBetween :: Block -> [Move]
 movesBetween block = case block of
-  Travelling _ moves -> moves
+  Travelling _ _ moves -> moves
   Cutting {approach, retract} -> approach <> retract
   Clearing {approach, cleared, retract} ->
     approach <> filter (not . isCut) (NonEmpty.toList cleared) <> retract
@@ -224,7 +224,7 @@ boxesOf contours path =
 -- | Bounding boxes, on the part, of the drawn cutters and of the drilled holes of a block.
 cutterBox :: Block -> [BoundingBox]
 cutterBox block = case block of
-  Travelling _ _ -> []
+  Travelling {} -> []
   Holing (Located _ d) _ ->
     [ BoundingBox.inflate (Part.drillRadius d) (BoundingBox.ofPoints p [])
       | Located _ p <- NonEmpty.toList (Part.holes d)
@@ -279,7 +279,7 @@ sideOf milling = case Toolpath.leadingSide milling of
 -- | Cuts of a block of the toolpath, converted to paper.
 cutsOf :: Page -> Block -> [Cut]
 cutsOf page block = case block of
-  Travelling _ _ -> []
+  Travelling {} -> []
   Holing _ _ -> []
   Commanding _ -> []
   Cutting {job = Located _ milling, cut} ->

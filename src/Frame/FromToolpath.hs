@@ -152,7 +152,7 @@ toleranceError :: Machine -> Toolpath.Block -> Maybe Error
 toleranceError machine block = case block of
   Toolpath.Cutting {Toolpath.job = Located _ job} -> tooLarge job
   Toolpath.Clearing {Toolpath.pocket = Located _ p} -> tooLarge (Part.wall p)
-  Toolpath.Travelling _ _ -> Nothing
+  Toolpath.Travelling {} -> Nothing
   Toolpath.Holing _ _ -> Nothing
   Toolpath.Commanding _ -> Nothing
   where
@@ -178,7 +178,7 @@ contourErrors machine path = case Machine.mostContours (Machine.limits machine) 
         Just (Toolpath.number pass, region (Part.side (value job)))
       Toolpath.Clearing {Toolpath.pocket, Toolpath.pass} ->
         Just (Toolpath.number pass, region (Part.side (Part.wall (value pocket))))
-      Toolpath.Travelling _ _ -> Nothing
+      Toolpath.Travelling {} -> Nothing
       Toolpath.Holing _ _ -> Nothing
       Toolpath.Commanding _ -> Nothing
 

@@ -66,7 +66,7 @@ instructions machine path =
 -- The number of its pass is @n@, from 0.
 ofBlock :: Machine -> Int -> Block -> [Instruction]
 ofBlock machine n b = case b of
-  Toolpath.Travelling radius ms -> straightRuns Linking radius ms
+  Toolpath.Travelling radius _ ms -> straightRuns Linking radius ms
   Toolpath.Holing (Located _ d) ms -> straightRuns Drilling (Part.drillRadius d) ms
   Toolpath.Commanding c -> [Words (region c) (Command.translated machine c)]
   Toolpath.Cutting

@@ -145,7 +145,8 @@ collect state operations = case operations of
 blocksOf :: State -> Operation -> Either Error [Block]
 blocksOf State {number, toolRadius, at} operation = case operation of
   Travel stops ->
-    Right [Travelling toolRadius (LinkingMove.straightMoves at (NonEmpty.toList stops))]
+    let ends = NonEmpty.toList stops
+     in Right [Travelling toolRadius ends (LinkingMove.straightMoves at ends)]
   Command c -> Right [Commanding c]
   Drill d -> Right [Holing d (DrillMove.moves at d)]
   Pocket job -> PocketMove.blocks number at job

@@ -131,7 +131,7 @@ contoursOf b = case b of
     | otherwise -> Nothing
   Clearing {pocket = Located _ p, pass} ->
     Just (number pass, Part.wall p, contour (Part.wall p) : Part.islands p)
-  Travelling _ _ -> Nothing
+  Travelling {} -> Nothing
   Holing _ _ -> Nothing
   Commanding _ -> Nothing
 
@@ -151,7 +151,7 @@ data Intruder = Intruder
 intrusionsOfBlock :: Machined -> Block -> [Error]
 intrusionsOfBlock machined b = case b of
   Commanding _ -> []
-  Travelling radius' ms -> concatMap (found (Intruder radius' Nothing Nothing)) ms
+  Travelling radius' _ ms -> concatMap (found (Intruder radius' Nothing Nothing)) ms
   Holing (Located _ d) ms ->
     map asHole (concatMap (found (Intruder (Part.drillRadius d) Nothing Nothing)) ms)
   Cutting {job = Located at milling, pass, approach, cut, retract} ->

@@ -47,7 +47,7 @@ ofBlock block = case block of
   Clearing {pocket = Located region p, pass, rests} ->
     remaining (LinkingMove.keyword 6 region) (Part.wall p) (Part.islands p) pass
       <$> NonEmpty.nonEmpty rests
-  Travelling _ _ -> Nothing
+  Travelling {} -> Nothing
   Holing _ _ -> Nothing
   Commanding _ -> Nothing
 

@@ -32,7 +32,7 @@ import Geometry.Carrier (Side)
 import Geometry.Segment (Segment)
 import Geometry.Segment qualified as Segment
 import Offset.Equidistant qualified as Equidistant
-import Part.Part (Command, Drilling, Milling, Pace, Pocketing, SpacePoint (..))
+import Part.Part (Command, Drilling, Milling, Pace, Pocketing, SpacePoint (..), Stop)
 import Part.Part qualified as Part
 
 -- | The cutter's starting position, and the blocks in the order of execution.
@@ -46,8 +46,8 @@ data Toolpath = Toolpath
 
 -- | The moves of one statement, or of one of its passes.
 data Block
-  = -- | moves from point to point, as the program lists them, with a tool of this radius
-    Travelling Mm [Move]
+  = -- | radius of the tool, the points of a statement of moves, and the moves from point to point
+    Travelling Mm [Stop] [Move]
   | -- | one pass along a contour. If the pass has several paths, because the cutter does not reach
     -- all of the contour, each path is a block
     Cutting
@@ -164,7 +164,7 @@ withoutBraking m = m {manner = (manner m) {isBraking = False}}
 -- | The moves of a block in order.
 moves :: Block -> [Move]
 moves block = case block of
-  Travelling _ ms -> ms
+  Travelling _ _ ms -> ms
   Cutting {approach, cut, retract} -> approach <> NonEmpty.toList cut <> retract
   Clearing {approach, cleared, retract} -> approach <> NonEmpty.toList cleared <> retract
   Holing _ ms -> ms
@@ -186,7 +186,7 @@ passNumbers = go 0
     isPass b = case b of
       Cutting {} -> True
       Clearing {} -> True
-      Travelling _ _ -> False
+      Travelling {} -> False
       Holing _ _ -> False
       Commanding _ -> False
 
@@ -236,7 +236,7 @@ withoutCuts path = foldr seq () abridged `seq` path {blocks = abridged}
         | isNothing (Part.gear milling) -> block {cut = endsOf cut}
       Cutting {} -> block
       Clearing {cleared} -> block {cleared = endsOf cleared}
-      Travelling _ _ -> block
+      Travelling {} -> block
       Holing _ _ -> block
       Commanding _ -> block
     endsOf cutMoves = case cutMoves of

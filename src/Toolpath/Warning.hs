@@ -93,7 +93,7 @@ intoContent path
     go cleared blocks = case blocks of
       [] -> []
       b : more -> case b of
-        Travelling _ ms -> found cleared ms <> go cleared more
+        Travelling _ _ ms -> found cleared ms <> go cleared more
         Cutting {pass, approach, retract} -> around cleared pass approach retract more
         Clearing {pass, approach, retract} -> around cleared pass approach retract more
         Holing _ _ -> go cleared more
@@ -227,7 +227,7 @@ stoppedSpindles path = if Toolpath.isTurned path then [] else go Resting (Toolpa
     go spindle blocks = case (spindle, blocks) of
       (_, []) -> []
       (_, Commanding (Located at c) : rest) -> go (commanded spindle at c) rest
-      (_, Travelling _ _ : rest) -> go spindle rest
+      (_, Travelling {} : rest) -> go spindle rest
       (Stopped at, _ : rest) -> SpindleAtRest at : go Resting rest
       (_, _ : rest) -> go spindle rest
     commanded spindle at c = case (c, spindle) of

@@ -77,6 +77,6 @@ millingOf :: Block -> [Milling]
 millingOf block = case block of
   Toolpath.Cutting {Toolpath.job = Located _ m} -> [m]
   Toolpath.Clearing {Toolpath.pocket = Located _ p} -> [Part.wall p]
-  Toolpath.Travelling _ _ -> []
+  Toolpath.Travelling {} -> []
   Toolpath.Holing _ _ -> []
   Toolpath.Commanding _ -> []

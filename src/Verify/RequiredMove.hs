@@ -13,21 +13,24 @@ where
 
 import Base.Quantity (Mm (..), minus, plus, times)
 import Base.Region (Located (..), Region)
+import Base.Region qualified as Region
 import Control.Motion (Motion)
 import Control.Motion qualified as Control
 import Data.IntSet qualified as IntSet
-import Data.List (find, foldl', mapAccumL)
+import Data.List (find, foldl', mapAccumL, zip4)
+import Data.List.NonEmpty (NonEmpty)
 import Data.List.NonEmpty qualified as NonEmpty
 import Data.Maybe (fromMaybe, isNothing)
 import Geometry.Segment (Segment (Straight))
 import Geometry.Segment qualified as Segment
 import Geometry.Tolerance qualified as Tolerance
+import Geometry.Vec (Point, Vec)
 import Geometry.Vec qualified as Vec
 import Machine.Machine (Machine)
 import Machine.Machine qualified as Machine
 import Part.Part (Drilling, Milling, Pace, SpacePoint (..))
 import Part.Part qualified as Part
-import Toolpath.Toolpath (Move, Sent, Toolpath)
+import Toolpath.Toolpath (Block, Move, Sent, Toolpath)
 import Toolpath.Toolpath qualified as Toolpath
 import Verify.Deviation (MillingPass (..))
 import Verify.Deviation qualified as Deviation
@@ -37,6 +40,9 @@ import Verify.Motion qualified as Motion
 import Verify.MotionSet qualified as MotionSet
 import Verify.Pocket (ClearingPass, Pocket)
 import Verify.Pocket qualified as Pocket
+import Verify.RequiredLink (Place (Place), RequiredLink (RequiredLink))
+import Verify.RequiredLink qualified as RequiredLink
+import Verify.Requirement qualified as Requirement
 
 -- | Move that the program asks for.
 data RequiredMove = RequiredMove
@@ -71,36 +77,118 @@ data RequiredItem
 -- | Items of a toolpath. @isFlat@ is true if the whole toolpath is at the height of its start; the
 -- heights in pockets are then not compared. @passes@ are the passes along contours as they were
 -- found on the tape, one for each block that cuts a contour; @pockets@ are the pockets of the
--- blocks. The moves of a hole come from the drilling statement, all other single moves from the
--- toolpath.
+-- blocks. All single moves come from the statements ("Verify.RequiredLink"); of the toolpath only
+-- the ends of its cuts are used. The moves for a control that compensates come from the toolpath.
 itemsOf :: Machine -> Bool -> [MillingPass] -> [Pocket] -> Toolpath -> [RequiredItem]
 itemsOf machine isFlat passes pockets toolpath =
-  concat
-    ( snd
-        ( mapAccumL
-            itemsOfBlock
-            (passes, clearings)
-            (zip (beginnings toolpath) (Toolpath.blocks toolpath))
-        )
-    )
+  concat (snd (mapAccumL (itemsOfBlock machine isFlat) (passes, clearings) visits))
   where
     clearings = [(pocket, p) | pocket <- pockets, p <- NonEmpty.toList (Pocket.passes pocket)]
+    visits = zip4 (beginnings toolpath) (Nothing : map Just blocks) blocks following
+    following = map Just (drop 1 blocks) <> [Nothing]
+    blocks = Toolpath.blocks toolpath
+
+-- | Position of the cutter before a block, the block before it, the block, and the one after it.
+type BlockVisit = (SpacePoint, Maybe Block, Block, Maybe Block)
+
+-- | Items of a block. The state has the passes and the clearings of this block and of the later
+-- ones.
+itemsOfBlock ::
+  Machine ->
+  Bool ->
+  ([MillingPass], [(Pocket, ClearingPass)]) ->
+  BlockVisit ->
+  (([MillingPass], [(Pocket, ClearingPass)]), [RequiredItem])
+itemsOfBlock machine isFlat left@(along, clearing) visit@(begin, _, block, _) = case block of
+  Toolpath.Travelling _ stops _ -> (left, links pulse (RequiredLink.stopMoves begin stops))
+  Toolpath.Holing drilling _ -> (left, map Single (holeMoves pulse begin drilling))
+  Toolpath.Commanding _ -> (left, [])
+  Toolpath.Cutting {Toolpath.job, Toolpath.sent = Just s} ->
+    ((drop 1 along, clearing), singles (slackOf machine (value job)) (edgeMoves s))
+  Toolpath.Cutting {Toolpath.job = Located region milling, Toolpath.pass, Toolpath.cut} ->
+    ( (drop 1 along, clearing),
+      around
+        milling
+        (placeOf visit region 4 milling pass)
+        cut
+        (map (Several . alongContour) (take 1 along))
+    )
+  Toolpath.Clearing {Toolpath.pocket = Located region p, Toolpath.pass, Toolpath.cleared} ->
+    let first = Segment.start (Toolpath.segment (NonEmpty.head cleared))
+        milling = overWall region block first (Part.wall p)
+     in ( (along, drop 1 clearing),
+          around
+            milling
+            (placeOf visit region 6 milling pass)
+            cleared
+            (map (Several . uncurry (inPocket machine isFlat)) (take 1 clearing))
+        )
+  where
     pulse = Machine.planeResolution machine
-    -- The state has the passes and the clearings of this block and of the later ones.
-    itemsOfBlock left@(along, clearing) (begin, block) = case block of
-      Toolpath.Travelling _ ms -> (left, singles pulse ms)
-      Toolpath.Holing drilling _ -> (left, map Single (holeMoves pulse begin drilling))
-      Toolpath.Commanding _ -> (left, [])
-      Toolpath.Cutting {Toolpath.job, Toolpath.sent = Just s} ->
-        ((drop 1 along, clearing), singles (slackOf machine (value job)) (edgeMoves s))
-      Toolpath.Cutting {Toolpath.job, Toolpath.approach, Toolpath.retract} ->
-        let around = singles (slackOf machine (value job))
-            cut = map (Several . alongContour) (take 1 along)
-         in ((drop 1 along, clearing), around approach <> cut <> around retract)
-      Toolpath.Clearing {Toolpath.pocket, Toolpath.approach, Toolpath.retract} ->
-        let around = singles (slackOf machine (Part.wall (value pocket)))
-            cleared = map (Several . uncurry (inPocket machine isFlat)) (take 1 clearing)
-         in ((along, drop 1 clearing), around approach <> cleared <> around retract)
+    around milling place cut group =
+      links (slackOf machine milling) (RequiredLink.before place begin (beginOf milling cut))
+        <> group
+        <> links (slackOf machine milling) (RequiredLink.behind place (finishOf milling cut))
+
+-- | Milling of a pocket's wall, with another stop of the approach at the clearance height, if the
+-- block @block@ has it: if a wall lies between the position where the cutter would plunge and the
+-- beginning @first@ of the first loop, the cutter goes on to this point before it plunges.
+overWall :: Region -> Block -> Point -> Milling -> Milling
+overWall region block first milling = case Part.clearance milling of
+  Just clear
+    | not (null (Part.approach milling)),
+      Toolpath.Clearing {Toolpath.approach} <- block,
+      any (endsOver clear) approach ->
+      milling {Part.approach = Part.approach milling <> [stop clear]}
+  _ -> milling
+  where
+    stop clear = Part.Stop (Located region first) (Just clear) Part.Rapid
+    endsOver clear m =
+      Segment.end (Toolpath.segment m) == first && Toolpath.heights m == (clear, clear)
+
+-- | Place of the block of a visit in its statement. @letters@ is the length of the statement's
+-- first word.
+placeOf :: BlockVisit -> Region -> Int -> Milling -> Toolpath.Pass -> Place
+placeOf (_, previous, _, next) region letters milling pass =
+  Place
+    { RequiredLink.milling,
+      RequiredLink.word = region {Region.end = Region.start region + letters},
+      RequiredLink.side = Requirement.cutterSide milling,
+      RequiredLink.level = Toolpath.atHeight pass,
+      RequiredLink.isFirst = not (any isSame previous),
+      RequiredLink.isLast = not (any isSame next)
+    }
+  where
+    isSame b = case b of
+      Toolpath.Cutting {Toolpath.pass = p} -> Toolpath.number p == Toolpath.number pass
+      Toolpath.Clearing {Toolpath.pass = p} -> Toolpath.number p == Toolpath.number pass
+      _ -> False
+
+-- | Position, unit direction and height of the cutter's centre at the beginning of a cut and at its
+-- end. If the first or the last move has no length, the direction is that of the element.
+beginOf, finishOf :: Milling -> NonEmpty Move -> (Point, Vec, Mm)
+beginOf milling cut = (Segment.start s, Segment.startDirection along, fst (Toolpath.heights m))
+  where
+    m = NonEmpty.head cut
+    s = Toolpath.segment m
+    along = alongOr s (Part.segment (NonEmpty.head (Part.elements (Part.contour milling))))
+finishOf milling cut = (Segment.end s, Segment.endDirection along, snd (Toolpath.heights m))
+  where
+    m = NonEmpty.last cut
+    s = Toolpath.segment m
+    along = alongOr s (Part.segment (NonEmpty.last (Part.elements (Part.contour milling))))
+
+-- | First segment, or the second one if the first one has no length.
+alongOr :: Segment -> Segment -> Segment
+alongOr s other = if Segment.length s > Tolerance.coincident then s else other
+
+-- | Items of linking moves. @slack@ is the largest distance in mm of a motion from its move, in the
+-- plane.
+links :: Mm -> [RequiredLink] -> [RequiredItem]
+links slack = map single
+  where
+    single (RequiredLink path between pace origin) =
+      Single RequiredMove {path, between, slack, pace, slows = False, origin}
 
 -- | Positions of the cutter at the beginnings of the blocks of a toolpath.
 beginnings :: Toolpath -> [SpacePoint]

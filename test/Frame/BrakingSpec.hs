@@ -107,7 +107,7 @@ framesFor m ms =
         m
         ( Toolpath
             (Located (Region 0 0) (SpacePoint (Segment.start (Toolpath.segment (head ms))) (Mm 0)))
-            [Travelling (Mm 0) ms]
+            [Travelling (Mm 0) [] ms]
             False
         )
     )

@@ -255,7 +255,7 @@ spec = do
               False
        in Toolpath.Toolpath
             (Located (Region 0 0) (Part.SpacePoint (Vec.point 0 0) (Mm 0)))
-            [Toolpath.Travelling (Mm 0) [down]]
+            [Toolpath.Travelling (Mm 0) [] [down]]
             False
 
 -- | Toolpath along @n@ contours.

@@ -58,6 +58,7 @@ pathAlong pace segments = case segments of
       (Located nowhere (SpacePoint (Segment.start s) (Mm 0)))
       [ Travelling
           (Mm 0)
+          []
           [Move x (Toolpath.Manner (Mm 0, Mm 0) pace False) nowhere False | x <- segments]
       ]
       False

@@ -45,7 +45,7 @@ quantise machine path =
     Located _ (SpacePoint p z) = Toolpath.start path
     begin = rounded machine (p, z)
     block n b = case b of
-      Toolpath.Travelling r ms -> map (Linking,r,) ms
+      Toolpath.Travelling r _ ms -> map (Linking,r,) ms
       Toolpath.Holing (Located _ d) ms -> map (Drilling,Part.drillRadius d,) ms
       Toolpath.Commanding _ -> []
       Toolpath.Clearing

@@ -100,6 +100,10 @@ forAllWrong holds =
               ==> counterexample (damage <> " on " <> show (Machine.name machine))
               $ holds o (pairOf o damage planned)
 
+-- | Numbers of the first frames in which two tapes differ, with both frames.
+changedFrames :: [Frame] -> [Frame] -> [(Int, Frame, Frame)]
+changedFrames own' other = take 5 [(n, a, b) | (n, a, b) <- zip3 [1 ..] own' other, a /= b]
+
 -- | Frames with the cutter of a program that has only one.
 withOneCutter :: FrameProgram -> [Frame] -> [PlannedFrame]
 withOneCutter program frames = [p {Frame.frame = f} | p <- take 1 moving, f <- frames]

@@ -51,6 +51,16 @@ spec = do
       [ ("outside", "turn shaft outside { approach (20, 20) }"),
         ("inside", "turn shaft inside { approach (20, 20) }")
       ]
+  describe "the linking moves" $
+    mapM_
+      areThoseOfThePart
+      [ ("leads on arcs", "mill c outside { depth 2  lead in arc 3  lead out arc 3 }"),
+        ("plunges at their own feed", "mill c outside { depth 2  plunge 20 }"),
+        ( "approaches of several passes",
+          "mill c outside { depth 4 step 2  approach (60, -30), (50, -10)  retract (50, 20) }"
+        ),
+        ("moves of a statement", "mill c outside { depth 2 }\nmove (90, 90, 5), (-20, 90, 5)")
+      ]
   it
     "the bevel of a blade is proven between elements of different length (catches a bevel that \
     \changes by the number of elements)"
@@ -85,6 +95,10 @@ spec = do
   where
     onItsSide (name, statement) =
       it (name <> " is that of the part (catches a toolpath on the other side)") $ do
+        (_, proof) <- proven iso6983 (millingProgram statement)
+        Proof.findings proof `shouldBe` []
+    areThoseOfThePart (name, statement) =
+      it (name <> " are those of the part (catches a toolpath with other moves)") $ do
         (_, proof) <- proven iso6983 (millingProgram statement)
         Proof.findings proof `shouldBe` []
     onItsSideOfAShaft (name, statement) =
