@@ -169,8 +169,11 @@ orderFindings set MillingPass {job, found} = case found of
       [ NotFollowed (statement job)
         | let index = BoxTree.index Motion.box along,
           any (isBackward along index) along
-            || not (MotionSet.isPlanned set) && any (WrongSide.repeats job index) along
+            || not (MotionSet.isPlanned set) && any (isUnasked index) along
       ]
+    isUnasked index m =
+      WrongSide.repeats job index m
+        || Part.corners (milling job) == Part.Sharp && WrongSide.strays job m
     isBackward along index m =
       runsBack m
         && not (MotionSet.isPlanned set && any (isReturnOf m) along)

@@ -3,6 +3,7 @@
 module Verify.WrongSide
   ( wrongSide,
     runsBack,
+    strays,
     retraces,
     isOnlyReturn,
     repeats,
@@ -165,6 +166,19 @@ isLengthened job around m ahead p =
         tangent = Segment.directionAt k (shape e)
         keeps = plus (reach job) (ownAllowance e)
         beside = maybe vertex (\s -> Carrier.beside s keeps tangent vertex) (side job)
+
+-- | Test that a motion leaves the contour at one of its ends or its middle, where the path has no
+-- sharp corner. Near such a corner a motion may be further from the contour, up to the corner.
+strays :: MillingJob -> CutterMotion -> Bool
+strays job m = any isAway [0, 0.5, 1]
+  where
+    around = MillingJob.edgesInBox job m
+    isAway k = not (any (touches p) around) && not (isLengthened job around m ahead p)
+      where
+        p = Segment.at k (segment m)
+        ahead = Segment.directionAt k (segment m)
+    touches p e =
+      minus (Distance.toPoint p (shape e)) (ownAllowance e) <= plus (reach job) (allowance job)
 
 bothEnds :: CutterMotion -> [Point]
 bothEnds m = [Segment.start (segment m), Segment.end (segment m)]

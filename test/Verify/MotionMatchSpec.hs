@@ -97,7 +97,13 @@ forAllWrong holds =
       \(damage, planned) ->
         let frames = map Frame.frame planned
          in isWrong o frames && TapePair.isReadBack machine (Frame.start program) frames
-              ==> counterexample (damage <> " on " <> show (Machine.name machine))
+              ==> counterexample
+                ( Text.unpack (text o)
+                    <> unlines (map show (changedFrames (own program) frames))
+                    <> damage
+                    <> " on "
+                    <> show (Machine.name machine)
+                )
               $ holds o (pairOf o damage planned)
 
 -- | Numbers of the first frames in which two tapes differ, with both frames.
