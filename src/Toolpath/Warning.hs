@@ -31,9 +31,11 @@ import Toolpath.Toolpath (Block (..), Toolpath)
 import Toolpath.Toolpath qualified as Toolpath
 
 -- | All warnings about a toolpath: first rapid moves through the part, then rapid moves into
--- material that is not cleared yet, then tool changes after which the spindle is not started again.
+-- material that is not cleared or drilled yet, then tool changes after which the spindle is not
+-- started again.
 warnings :: Toolpath -> [Warning]
-warnings path = throughPart path <> intoContent path <> stoppedSpindles path
+warnings path =
+  throughPart path <> intoContent path <> intoHoles path <> stoppedSpindles path
 
 -- | A closed contour. @isMaterial@ is true if the part is inside it, and false if the part is
 -- outside.
@@ -115,6 +117,49 @@ intoContent path
           | (n, b) <- firstPasses path,
             Just ofPass <- [bodiesOf b],
             body <- NonEmpty.toList ofPass
+        ]
+
+-- | Hole of a drilling statement: the number of the block, the centre, the drill's radius, the
+-- height of its bottom.
+data Hole = Hole {holeBlock :: Int, holeAt :: Located Point, holeRadius :: Mm, holeBottom :: Mm}
+
+-- | Warnings about rapid moves into the column of a hole before it is drilled down to there; at
+-- most one for each region of the program that asks for such moves. Moves that rise vertically and
+-- the moves of the drilling statements are left out.
+intoHoles :: Toolpath -> [Warning]
+intoHoles path =
+  Map.elems
+    ( Map.fromListWith
+        (\_ first -> first)
+        [ (Toolpath.origin m, RapidIntoHole (Toolpath.origin m) p z (region (holeAt hole)))
+          | (n, b) <- numbered,
+            m <- linksOf b,
+            Toolpath.pace m == Rapid,
+            Just (p, z) <- [lowestOf m],
+            hole : _ <- [filter (isSolid n p z) (holesAt p)]
+        ]
+    )
+  where
+    numbered = zip [0 ..] (Toolpath.blocks path)
+    linksOf b = case b of
+      Travelling _ _ ms -> ms
+      Cutting {approach, retract} -> approach <> retract
+      Clearing {approach, retract} -> approach <> retract
+      Holing _ _ -> []
+      Commanding _ -> []
+    -- The hole @h@ is material at the height @z@ if no block before the block @n@ drills so deep.
+    isSolid n p z h =
+      holeBottom h < z && not (any (\o -> holeBlock o < n && holeBottom o <= z) (holesAt p))
+    holesAt p =
+      filter
+        (\h -> Vec.distance p (value (holeAt h)) < holeRadius h)
+        (BoxTree.within (BoundingBox.ofPoints p []) holes)
+    holes =
+      BoxTree.index
+        (\h -> BoundingBox.inflate (holeRadius h) (BoundingBox.ofPoints (value (holeAt h)) []))
+        [ Hole n h (Part.drillRadius d) (Part.bottom d)
+          | (n, Holing (Located _ d) _) <- numbered,
+            h <- NonEmpty.toList (Part.holes d)
         ]
 
 -- | The contour that still holds material at the point @p@ and the height @z@: the innermost one

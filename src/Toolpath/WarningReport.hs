@@ -44,6 +44,9 @@ data Warning
   | -- | a rapid move into material that a pocket or a window still holds: the region of the program
     -- that asks for the move, the lowest point of the move, its height, the contour's name
     RapidIntoContent Region Point Mm (Located Name)
+  | -- | a rapid move into a hole that is not drilled yet: the region of the move, its lowest point,
+    -- its height there, the region of the hole
+    RapidIntoHole Region Point Mm Region
   | -- | a tool change after which the program does not start the spindle
     SpindleAtRest Region
   deriving stock (Eq, Show)
@@ -105,6 +108,18 @@ warningReport warning = case warning of
               <> " is not cleared down to there before."
           ],
         hints = ["Stop above the material, and let the cutter plunge at its feed."]
+      }
+  RapidIntoHole region p (Mm z) hole ->
+    (report Report.Warning "W0402" (InSource region) "this rapid move goes into material")
+      { others = [Label hole "not drilled yet"],
+        message =
+          [ "At "
+              <> Vec.toText 3 p
+              <> " it is at the height "
+              <> Decimal.mm (Mm z)
+              <> ". The hole is not drilled down to there before."
+          ],
+        hints = ["Stop above the material, and let the drill go down at its feed."]
       }
   SpindleAtRest region ->
     ( report
