@@ -17,6 +17,7 @@ import Data.Maybe (mapMaybe)
 import Geometry.Distance qualified as Distance
 import Geometry.Index.BoundingBox (BoundingBox)
 import Geometry.Index.BoundingBox qualified as BoundingBox
+import Geometry.Index.BoxTree (BoxTree)
 import Geometry.Index.BoxTree qualified as BoxTree
 import Geometry.Polyarc qualified as Polyarc
 import Geometry.Segment (Segment)
@@ -34,11 +35,13 @@ data Named = Named {mention :: Region, contour :: Contour}
 -- the contours are compared with one another.
 misfits :: Named -> [Named] -> [PocketMisfit]
 misfits outline islands = case filter isOpen numbered of
-  [] -> map meets meetings <> mapMaybe (misplaced outline islands) apart
+  [] -> map meets meetings <> mapMaybe (misplaced outline isInOutline boxes) apart
   open -> [OpenContour (mention n) (nameOf n) (definition n) | (_, n) <- open]
   where
     numbered = zip [0 ..] (outline : islands)
     isOpen (_, n) = ends (contour n) == Open
+    isInOutline = WindingNumber.encloses (Part.polyarcOf (contour outline))
+    boxes = BoxTree.index (boxOf . snd) (drop 1 numbered)
     meetings = nubBy (\(i, j, _) (k, l, _) -> (i, j) == (k, l)) (crossings numbered)
     meets (i, j, p) =
       let (a, b) = (named j, named i) in Meets (mention a) (nameOf a) (nameOf b) (i == 0) p
@@ -47,21 +50,19 @@ misfits outline islands = case filter isOpen numbered of
     apart = [(k, n) | (k, n) <- drop 1 numbered, k `notElem` met]
     met = concat [[i, j] | (i, j, _) <- meetings]
 
--- | The fault of an island that lies outside of the outline or inside another island. @k@ is the
--- number of the island, from 1; @islands@ are all islands. The island is known to meet no other
+-- | The fault of an island that lies outside of the outline or inside another island.
+-- @isInOutline@ is the test that a point lies inside the outline. @k@ is the number of the island,
+-- from 1; @islands@ are all islands with their numbers. The island is known to meet no other
 -- contour, so testing one of its points suffices.
-misplaced :: Named -> [Named] -> (Int, Named) -> Maybe PocketMisfit
-misplaced outline islands (k, island)
-  | not (encloses outline) = Just (Outside (mention island) (nameOf island) (nameOf outline))
-  | otherwise = InIsland (mention island) (nameOf island) . nameOf <$> find encloses others
+misplaced ::
+  Named -> (Point -> Bool) -> BoxTree (Int, Named) -> (Int, Named) -> Maybe PocketMisfit
+misplaced outline isInOutline islands (k, island)
+  | not (isInOutline (startOf island)) =
+    Just (Outside (mention island) (nameOf island) (nameOf outline))
+  | otherwise = InIsland (mention island) (nameOf island) . nameOf <$> find isAround others
   where
-    others =
-      [ other
-        | (l, other) <- zip [1 ..] islands,
-          l /= k,
-          BoundingBox.meets (boxOf island) (boxOf other)
-      ]
-    encloses n = WindingNumber.encloses (Part.polyarcOf (contour n)) (startOf island)
+    others = [other | (l, other) <- BoxTree.within (boxOf island) islands, l /= k]
+    isAround other = WindingNumber.encloses (Part.polyarcOf (contour other)) (startOf island)
 
 -- | The points in which two contours of the pocket cross or touch. Each result consists of the
 -- lower number of the two contours, the higher number, and the point. Each pair of segments gives

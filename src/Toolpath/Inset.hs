@@ -8,7 +8,7 @@ module Toolpath.Inset
   )
 where
 
-import Base.Quantity (Mm (..), minus, total)
+import Base.Quantity (Mm (..), minus, plus, times, total)
 import Data.List.NonEmpty (NonEmpty (..))
 import Data.List.NonEmpty qualified as NonEmpty
 import Data.Maybe (mapMaybe)
@@ -71,8 +71,8 @@ insetWithSlots loopsAt distance
 -- to compute them from the contours. Nothing when the kernel cannot decide, for instance because
 -- loops touch; then the caller computes them from the contours.
 insetOfLoops :: [Loop] -> Mm -> Maybe [Loop]
-insetOfLoops loops distance@(Mm d)
-  | 2 * d >= min (r - l) (t - b) = Just []
+insetOfLoops loops distance
+  | times 2 (plus distance (times 2 Tolerance.clearance)) >= Mm (min (r - l) (t - b)) = Just []
   | otherwise =
     case Kernel.offset
       (Kernel.roundOffset Carrier.LeftOf distance)
@@ -81,7 +81,9 @@ insetOfLoops loops distance@(Mm d)
       Left _ -> Nothing
   where
     -- The bounding box of all loops. A circle that is at least as wide or as high as the box fits
-    -- into no loop.
+    -- into no loop. If it is narrower by some clearances only, its centre has room in a spot at most.
+    -- This counts as no room: in the raw offset, all segments of a round loop cross each other there.
+    -- Loops with slots are too large by one clearance ('insetWithSlots').
     BoundingBox l b r t =
       maybe
         (BoundingBox 0 0 0 0)

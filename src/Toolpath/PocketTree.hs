@@ -13,12 +13,12 @@ module Toolpath.PocketTree
 where
 
 import Base.Quantity (Mm (..), minus, plus)
-import Data.List (partition, sortOn)
+import Data.List (partition, sort, sortOn)
 import Data.List.NonEmpty (NonEmpty (..))
 import Data.List.NonEmpty qualified as NonEmpty
 import Data.Map.Strict (Map)
 import Data.Map.Strict qualified as Map
-import Data.Maybe (fromMaybe, mapMaybe)
+import Data.Maybe (fromMaybe, listToMaybe, mapMaybe)
 import Data.Ord (Down (..))
 import Geometry.Distance qualified as Distance
 import Geometry.Index.BoundingBox (BoundingBox (..))
@@ -122,16 +122,19 @@ grouped c loops trips inside = mapMaybe part (Map.toList members)
     among n = fromMaybe n . Map.lookup n
     outerOf n = among n outer
     isOuter loop = Polyarc.signedArea (Polyarc Closed loop) > 0
-    members = Map.fromListWith (flip (<>)) [(outerOf n, [(n, loop)]) | (n, loop) <- numbered]
+    members = gathered [(outerOf n, (n, loop)) | (n, loop) <- numbered]
     innerOf =
-      Map.fromListWith
-        (flip (<>))
-        [(maybe 0 outerOf (firstHit index Nothing (beginning tree)), [tree]) | tree <- inside]
+      gathered
+        [(maybe 0 outerOf (firstHit index Nothing (beginning tree)), tree) | tree <- inside]
     part (n, found) =
       ( \some ->
           PocketTree {rings = fmap (ring c trips) some, inner = Map.findWithDefault [] n innerOf}
       )
         <$> NonEmpty.nonEmpty found
+
+-- | The values of each key, in their order.
+gathered :: Ord k => [(k, a)] -> Map k [a]
+gathered pairs = reverse <$> Map.fromListWith (<>) [(k, [a]) | (k, a) <- pairs]
 
 -- | The first point of a region's first ring.
 beginning :: PocketTree -> Point
@@ -155,14 +158,13 @@ rightmost loop =
 -- | The number of the first loop that a horizontal ray from the point @p@ to the right meets;
 -- Nothing if it meets none. The loop with the number @own@ is ignored.
 firstHit :: BoxTree (Int, Segment) -> Maybe Int -> Point -> Maybe Int
-firstHit index own p = snd <$> foldl nearer Nothing hits
+firstHit index own p = fst . snd <$> BoxTree.leastBy leftmost hit index
   where
-    nearer best (x, n) = case best of
-      Just (x', _) | x' <= x -> best
-      _ -> Just (x, n)
-    hits = [(x, n) | (n, s) <- BoxTree.select isOnRay index, Just n /= own, x <- crossings p s]
-    isOnRay box =
-      right box >= Vec.x p && bottom box <= Vec.y p + slack && top box >= Vec.y p - slack
+    leftmost box
+      | right box >= Vec.x p && bottom box <= Vec.y p + slack && top box >= Vec.y p - slack =
+        Just (left box - slack)
+      | otherwise = Nothing
+    hit (n, s) = if Just n == own then Nothing else listToMaybe (sort (crossings p s))
     Mm slack = Tolerance.coincident
 
 -- | The x coordinates, in mm, where a horizontal ray from the point @p@ to the right meets the

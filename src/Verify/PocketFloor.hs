@@ -2,22 +2,47 @@
 -- centre may take, but that is too far from every motion. A motion clears all positions within the
 -- cutter's radius, to which the allowed excess is added.
 --
--- The search starts with a square around the pocket. A square needs no division in three cases: one
--- motion clears all of it, two motions clear it together, or the centre may take no position in it.
--- Any other square is divided into four, down to 'floorResolution' (a quadtree).
+-- The search only follows curves, so its time does not depend on the area of the floor. Let A be
+-- the set of all positions that the centre may take. The border of A is the rim of the pocket. Let
+-- the /band/ of a motion be the set of all positions within the distance R of the motion. R is the
+-- radius plus 'floorResolution'. Suppose that a position P of A lies in no band. The part of A that
+-- is connected with P then has a position X that no motion clears, on a curve of one of two kinds:
+--
+-- * Rim: if this part of A meets no band, X is any point of its border.
+-- * Border of a band: otherwise a path in A leads from P into a band. X is the point where the path
+--   enters a band for the first time. Its distance from the nearest motion is R.
+--
+-- So the search examines the rim and the borders of all bands. The border of a band consists of the
+-- offsets of the motion to both sides and of arcs about its ends. Where the next motion begins at
+-- such an end, only the arc on the outer side of the corner is left of these arcs.
+--
+-- The curves are divided into pieces. A piece needs no division in two cases: it lies within the
+-- distance @reach@ of one motion, or the centre may take no position on it. Any other piece is
+-- halved, down to a quarter of 'floorResolution'. The middle of such a short piece decides for all
+-- of it. The inexact steps add up to less than 'floorResolution', so no position P is missed:
+--
+-- * @reach@ exceeds the radius by a quarter of 'floorResolution';
+-- * a point of a short piece is up to an eighth away from its middle;
+-- * the point X is up to three eighths away from the curves that are examined ('slight');
+-- * the centre may be allowed at X, and not in the middle of the short piece beside it. Then there
+--   is a point of the rim between the two, up to another eighth away from the middle of its own
+--   short piece.
 module Verify.PocketFloor
   ( unclearedPoint,
-    DistanceBound (..),
-    boundAround,
+    bordersOn,
+    floorResolution,
   )
 where
 
-import Base.Quantity (Mm (..), Rad (..), plus)
-import Data.List (foldl', maximumBy)
-import Data.Maybe (listToMaybe)
-import Data.Ord (comparing)
+import Base.Quantity (Mm (..), Rad (..), minus, over, plus, times)
+import Data.List (foldl')
+import Data.Maybe (fromMaybe, listToMaybe, maybeToList)
+import Data.Vector (Vector)
+import Data.Vector qualified as Vector
+import Geometry.Carrier (Side (..))
+import Geometry.Carrier qualified as Carrier
 import Geometry.Distance.Fast qualified as FastDistance
-import Geometry.Index.BoundingBox (BoundingBox (BoundingBox))
+import Geometry.Index.BoundingBox (BoundingBox)
 import Geometry.Index.BoundingBox qualified as BoundingBox
 import Geometry.Index.BoxTree (BoxTree)
 import Geometry.Index.BoxTree qualified as BoxTree
@@ -25,206 +50,215 @@ import Geometry.Segment (Segment (..))
 import Geometry.Segment qualified as Segment
 import Geometry.Vec (Point, Vec)
 import Geometry.Vec qualified as Vec
+import Offset.Tolerance qualified as Tolerance
+import Verify.Edge qualified as Edge
 import Verify.Motion (CutterMotion)
 import Verify.Motion qualified as Motion
 import Verify.Pocket (Pocket)
 import Verify.Pocket qualified as Pocket
 
--- | Square by its centre and half of its side, in mm.
-data Square = Square {centreX :: Double, centreY :: Double, half :: Double}
-
 -- | Floor of a pocket at one height, with the motions at that height. A motion clears all positions
--- whose distance from its path is at most @radius@, in mm.
-data Floor = Floor {pocket :: Pocket, radius :: Double, motions :: BoxTree MotionPart}
+-- whose distance from its path is at most @reach@.
+data Floor = Floor
+  { pocket :: Pocket,
+    reach :: Mm,
+    -- | bounding paths of each motion, in the order of the tape
+    paths :: Vector [Segment],
+    parts :: BoxTree MotionPart
+  }
 
--- | Part of a motion, and the bounding paths of the whole motion. The parts of an arc are so short
--- that their bounding boxes are narrow: the boxes of whole arcs about one centre all overlap.
-data MotionPart = MotionPart {part :: [Segment], whole :: [Segment]}
+-- | Part of a motion, given by parts of its bounding paths and by the number of the motion in
+-- 'paths'. The parts of an arc are so short that their bounding boxes are narrow: the boxes of
+-- whole arcs about one centre all overlap.
+data MotionPart = MotionPart {motion :: Int, part :: [Segment]}
 
--- | Parts of a motion. The sagitta of a part is at most half of the radius @r@ in mm.
-partsOf :: Double -> CutterMotion -> [MotionPart]
-partsOf r m = case bounding of
-  [arc@Arc {sweep = Rad angle}] ->
-    let Mm arcRadius = Segment.radius (Segment.centre arc) (Segment.start arc)
-        widest = 4 * asin (min 1 (sqrt (r / (4 * arcRadius))))
-        count = max 1 (ceiling (abs angle / widest)) :: Int
-        share k = fromIntegral k / fromIntegral count
-     in [ MotionPart {part = [Segment.between (share k) (share (k + 1)) arc], whole = bounding}
-          | k <- [0 .. count - 1]
-        ]
-  _ -> [MotionPart {part = bounding, whole = bounding}]
-  where
-    bounding = Motion.pathList m
-
--- | Position that the cutter's centre may take, but that is further than @radius@ from every
--- motion; Nothing if there is none. A position whose distance exceeds @radius@ by less than
--- 'floorResolution' may be missed. So may a position in a square of the smallest size, if the
--- cutter's centre may not take the middle of this square.
+-- | Position that the cutter's centre may take, but that is further than the radius from every
+-- motion; Nothing if there is none. A position whose distance exceeds the radius by no more than
+-- 'floorResolution' may be missed.
 unclearedPoint :: Pocket -> Mm -> [CutterMotion] -> Maybe Point
-unclearedPoint pocket (Mm radius) clearing =
-  listToMaybe
-    ( unclearedIn
-        Floor
-          { pocket,
-            radius,
-            motions = BoxTree.sortedIndex (boxOf . part) (concatMap (partsOf radius) clearing)
-          }
-        Nothing
-        False
-        Square
-          { centreX = (left + right) / 2,
-            centreY = (bottom + top) / 2,
-            half = max (right - left) (top - bottom) / 2
-          }
-    )
+unclearedPoint pocket radius clearing =
+  listToMaybe (unclearedOn floor' 0 (map (`Piece` Nothing) curves))
   where
-    BoundingBox left bottom right top = Pocket.bounds pocket
-    boxOf = foldr1 BoundingBox.union . map BoundingBox.ofSegment
+    curves = map snd (Pocket.rim pocket) <> concatMap borders [LeftOf, RightOf]
+    borders side = bordersOn side band (concatMap plainPaths near)
+    band = plus radius floorResolution
+    -- The bands of all other motions lie outside of the pocket.
+    near = filter (BoundingBox.meets aroundPocket . Motion.box) clearing
+    aroundPocket = BoundingBox.inflate band (Pocket.bounds pocket)
+    paths = Vector.fromList (map Motion.pathList near)
+    floor' =
+      Floor
+        { pocket,
+          reach = plus radius (times 0.25 floorResolution),
+          paths,
+          parts =
+            BoxTree.sortedIndex
+              (foldr1 BoundingBox.union . map BoundingBox.ofSegment . part)
+              (concatMap (uncurry (partsOf radius)) (zip [0 ..] (Vector.toList paths)))
+        }
 
--- | Uncleared positions in a square. @hint@ has the bounding paths of the motion nearest to the
--- centre of the larger square from which this one was divided. That motion often clears this square
--- too. @hint@ is Nothing if that motion was not looked for, or if there are no motions.
--- @isKnownInside@ is true if the square is known to lie inside the pocket.
-unclearedIn :: Floor -> Maybe [Segment] -> Bool -> Square -> [Point]
-unclearedIn floor' hint isKnownInside square@Square {centreX = x, centreY = y, half}
-  | corner < radius floor', Just paths <- hint, covers paths = []
-  | corner < radius floor', Just paths <- nearest, covers paths || isSharedBy paths = []
-  | otherwise = case Pocket.nearestWall walls p of
-    Nothing -> [p]
-    Just (w, wall)
-      -- Every position in the square is too near to this wall.
-      | plus w (Mm corner) < limit -> []
-      -- The square meets no wall, and its centre lies outside of the pocket.
-      | w > Mm corner && not isKnownInside && not (isFree wall) -> []
-      -- A square of the smallest size is not divided: its centre decides for all of it.
-      | Mm corner <= floorResolution ->
-        [p | w >= limit, isKnownInside || w > Mm corner || isFree wall]
-      | otherwise ->
-        concatMap
-          (unclearedIn floor' nearest (isKnownInside || w > Mm corner))
-          (quarters square)
+-- | Parts of the motion with the number @motion@ and the given bounding paths. The sagitta of a
+-- part is at most half of the radius @r@.
+partsOf :: Mm -> Int -> [Segment] -> [MotionPart]
+partsOf r motion bounding =
+  [ MotionPart {motion, part = map (Segment.between (share k) (share (k + 1))) bounding}
+    | k <- [0 .. count - 1]
+  ]
   where
-    p = Vec.point x y
-    walls = Pocket.walls (pocket floor')
-    limit = Pocket.rimDistance (pocket floor')
-    isFree = Pocket.isOnFreeSide (Pocket.side (pocket floor')) walls p
-    -- Distance from the centre of the square to its corners.
-    corner = half * sqrt 2
-    nearest = if corner < radius floor' then nearestMotion floor' x y else Nothing
-    covers paths = rangeOf x y paths + corner <= tolerantRadius floor'
-    isSharedBy = isCoveredByTwo floor' square
+    share k = fromIntegral k / fromIntegral count
+    count = foldl' max 1 (map countOf bounding) :: Int
+    countOf path = case path of
+      Straight _ _ -> 1
+      Arc {start, centre, sweep = Rad angle} ->
+        let ratio = over r (times 4 (Segment.radius centre start))
+         in ceiling (abs angle / (4 * asin (min 1 (sqrt ratio))))
 
--- | Test that two motions clear a square together: the motion with the paths @paths@, and the
--- motion nearest to the corner of the square that is furthest from @paths@. Where the mean of both
--- distances is within the radius, so is the smaller one.
+-- Borders of bands --------------------------------------------------------------------------------
+
+-- | Paths of a motion round which its band lies: the bounding paths. If these are two arcs that
+-- hardly differ, it is the path of the motion alone.
+plainPaths :: CutterMotion -> [Segment]
+plainPaths m
+  | Mm (FastDistance.uneven (Motion.segment m)) <= slight = [Motion.segment m]
+  | otherwise = Motion.pathList m
+
+-- | Curves of which the borders of bands consist, on one side of the paths and round their ends.
+-- @r@ is the distance of the borders from the paths.
+bordersOn :: Side -> Mm -> [Segment] -> [Segment]
+bordersOn side r paths = concat (zipWith3 border (Nothing : map Just paths) paths others)
+  where
+    others = map Just (drop 1 paths) <> [Nothing]
+    border before s next
+      | Segment.length s <= Mm 0 = [roundAbout r (Segment.start s)]
+      | otherwise =
+        [ roundEnd side r (Segment.start s) (Vec.negate (Segment.startDirection s))
+          | not (maybe False (`leadsTo` s) before)
+        ]
+          <> maybeToList (Segment.offset side r s)
+          <> case next of
+            Just s' | s `leadsTo` s' -> roundCorner side r s s'
+            _ -> [roundEnd side r (Segment.end s) (Segment.endDirection s)]
+    s `leadsTo` s' =
+      Vec.distance (Segment.end s) (Segment.start s') <= slight && Segment.length s' > Mm 0
+
+-- | Circle of the radius @r@ about a point.
+roundAbout :: Mm -> Point -> Segment
+roundAbout r p =
+  Segment.fullCircle
+    Carrier.CounterClockwise
+    (Carrier.Circle p r)
+    (Carrier.beside LeftOf r (Vec.vec 0 (-1)) p)
+
+-- | Quarter of a circle of the radius @r@ about the end of a path, on a side of the direction
+-- @outwards@. This direction leads away from the path.
+roundEnd :: Side -> Mm -> Point -> Vec -> Segment
+roundEnd side r end outwards =
+  roundSide side r end outwards (Rad (Carrier.sideSign side * (-pi / 2)))
+
+-- | Arc of the radius @r@ round the corner between two paths, if @side@ is its outer side; empty if
+-- the arc is short.
+roundCorner :: Side -> Mm -> Segment -> Segment -> [Segment]
+roundCorner side r s s' =
+  [ roundSide side r (Segment.end s) direction (Rad angle)
+    | times (negate (Carrier.sideSign side) * angle) r > slight
+  ]
+  where
+    direction = Segment.endDirection s
+    Rad angle = Vec.signedAngle direction (Segment.startDirection s')
+
+-- | Arc of the radius @r@ about a point, of the given sweep. It begins on a side of a direction.
+roundSide :: Side -> Mm -> Point -> Vec -> Rad -> Segment
+roundSide side r centre direction sweep =
+  Arc {start = from direction, end = from (Vec.rotate sweep direction), centre, sweep}
+  where
+    from v = Carrier.beside side r v centre
+
+-- | Largest length that counts as none: the distance between the bounding paths of a motion, the
+-- distance from the end of a path to the start of the next one, the length of the arc at a corner.
+slight :: Mm
+slight = times 0.125 floorResolution
+
+-- Search ------------------------------------------------------------------------------------------
+
+-- | Piece of a curve. @candidates@ are the numbers of all motions that clear a point of the piece,
+-- and perhaps of others; Nothing if they are not known yet.
+data Piece = Piece {curve :: Segment, candidates :: Maybe [Int]}
+
+-- | Uncleared positions on pieces of curves. @hint@ is the number of the motion that cleared the
+-- piece before. That motion, or its neighbour on the tape, often clears the next piece too.
 --
--- The distance from a line is a convex function of the point, and so is the mean of two such
--- distances: on a square it is largest at a corner. For arcs, the mean has a bound from the
--- distances and their gradients at the centre of the square ('boundAround'). That bound holds on
--- the side of each motion on which the centre lies. A point on the other side is in the square, so
--- its distance from that motion is less than the radius.
-isCoveredByTwo :: Floor -> Square -> [Segment] -> Bool
-isCoveredByTwo floor' Square {centreX, centreY, half} paths =
-  case nearestMotion floor' farX farY of
-    Just others ->
-      all FastDistance.isLine (paths <> others)
-        && all
-          (\(u, v) -> rangeOf u v paths + rangeOf u v others <= 2 * tolerantRadius floor')
-          corners
-        || isWithin paths others
-    Nothing -> False
+-- The motions near a long piece would be too many. Of these, only the ones that clear the middle of
+-- the piece are looked for.
+unclearedOn :: Floor -> Int -> [Piece] -> [Point]
+unclearedOn floor' hint pieces = case pieces of
+  [] -> []
+  Piece {curve, candidates} : more
+    | n : _ <- filter (clears floor' curve) ([hint, hint + 1, hint - 1] <> clearing) ->
+      unclearedOn floor' n more
+    | isShort curve, not (null clearing) -> unclearedOn floor' hint more
+    | null clearing, isOutside floor' curve middle -> unclearedOn floor' hint more
+    | isShort curve -> middle : unclearedOn floor' hint more
+    | otherwise -> unclearedOn floor' hint (map (`Piece` inherited) [first, second] <> more)
+    where
+      (first, second) = Segment.cutAt 0.5 curve
+      middle = Segment.end first
+      radius = times 0.5 (Segment.length curve)
+      isLong = radius > reach floor'
+      -- Motions that clear the middle, and those that clear points of the piece.
+      clearing = [n | (n, d) <- away, d <= reach floor']
+      clearingPoints = [n | (n, d) <- away, d <= plus (reach floor') radius]
+      inherited = if isLong then Nothing else Just clearingPoints
+      away = [(n, distanceOf floor' n middle) | n <- fromMaybe found candidates]
+      found
+        | isLong = motionsNear floor' (BoundingBox.ofPoints middle [])
+        | otherwise = motionsNear floor' (BoundingBox.ofSegment curve)
+
+-- | Test that a motion, given by its number, clears all of a piece. If the result is true, this is
+-- certain.
+clears :: Floor -> Segment -> Int -> Bool
+clears floor' piece n = maybe False (all (isWithin (reach floor') piece)) (paths floor' Vector.!? n)
+
+-- | Test that the cutter's centre may take no position on a piece. For a short piece, its middle
+-- decides.
+isOutside :: Floor -> Segment -> Point -> Bool
+isOutside floor' piece middle = case Pocket.nearestWall walls middle of
+  Nothing -> False
+  Just (w, wall) ->
+    plus w half < limit
+      || isWithin limit piece (Edge.shape wall)
+      || (w > half || isShort piece)
+      && not (Pocket.isOnFreeSide (Pocket.side (pocket floor')) walls middle wall)
+      || isShort piece
+      && w < limit
   where
-    (farX, farY) = maximumBy (comparing (\(u, v) -> rangeOf u v paths)) corners
-    corners = [(centreX + a * half, centreY + b * half) | (a, b) <- diagonals]
-    corner = half * sqrt 2
-    bound = boundAround (Vec.point centreX centreY) corner
-    isWithin [one] [other] = case (bound one, bound other) of
-      (Just a, Just b) ->
-        atCentre a + atCentre b
-          + corner * Vec.norm (Vec.add (gradient a) (gradient b))
-          + corner * corner / 2 * (bend a + bend b)
-          <= 2 * tolerantRadius floor'
-      _ -> False
-    isWithin _ _ = False
+    half = times 0.5 (Segment.length piece)
+    walls = Pocket.walls (pocket floor')
+    -- The rim may be nearer to the walls than its distance, because of rounding.
+    limit = minus (Pocket.rimDistance (pocket floor')) Tolerance.clearance
 
--- | Upper bound of the distance from a segment, on a disc. At the vector @v@ from the centre of the
--- disc it is @atCentre + gradient·v + bend·|v|²/2@, in mm.
-data DistanceBound = DistanceBound {atCentre :: Double, gradient :: Vec, bend :: Double}
+-- | Test that a piece is so short that it is not divided.
+isShort :: Segment -> Bool
+isShort piece = Segment.length piece <= times 0.25 floorResolution
 
--- | Bound of the distance from a segment, on the disc with the given centre and radius. If the feet
--- of all points of the disc lie on the segment, it is the signed distance from the carrier,
--- positive on the side of the centre. On the other side a point is nearer to the carrier than the
--- radius. Otherwise it is the distance from the nearer end; Nothing if that end lies in the disc.
-boundAround :: Point -> Double -> Segment -> Maybe DistanceBound
-boundAround p radius segment = case segment of
-  Straight a b ->
-    let l = Vec.norm (Vec.to a b)
-        u = Vec.scale (1 / l) (Vec.to a b)
-        t = Vec.dot u (Vec.to a p)
-        h = Vec.cross u (Vec.to a p)
-     in if l > 0 && t >= radius && t + radius <= l
-          then fromCarrier (if h < 0 then -1 else 1) (abs h) (Vec.left u) 0
-          else fromEnd
-  Arc {start, centre, sweep = Rad angle} ->
-    let Mm r = Segment.radius centre start
-        far = Vec.norm (Vec.to centre p)
-        t = Segment.fraction segment p
-        margin = asin (radius / far) / abs angle
-        isOver = abs angle >= 2 * pi || t >= margin && t + margin <= 1
-        sense = if far < r then -1 else 1
-     in if far > radius && isOver
-          then
-            fromCarrier
-              sense
-              (abs (far - r))
-              (Vec.scale (1 / far) (Vec.to centre p))
-              -- Inside its circle, the distance from an arc is a concave function.
-              (if sense > 0 then 1 / (far - radius) else 0)
-          else fromEnd
-  where
-    fromCarrier sense d away = Just . DistanceBound d (Vec.scale sense away)
-    fromEnd
-      | d > radius = Just (DistanceBound d (Vec.scale (1 / d) (Vec.to end p)) (1 / (d - radius)))
-      | otherwise = Nothing
-      where
-        d = Vec.norm (Vec.to end p)
-    end
-      | Vec.distance p (Segment.start segment) < Vec.distance p (Segment.end segment) =
-        Segment.start segment
-      | otherwise = Segment.end segment
+-- | Test that every point of a piece is within a distance of a path. If the result is true, this is
+-- certain.
+isWithin :: Mm -> Segment -> Segment -> Bool
+isWithin (Mm distance) = FastDistance.isWithin (distance - 2 * FastDistance.unsure)
 
--- | Four quarters of a square.
-quarters :: Square -> [Square]
-quarters Square {centreX, centreY, half} =
-  [Square {centreX = centreX + a * h, centreY = centreY + b * h, half = h} | (a, b) <- diagonals]
-  where
-    h = half / 2
+-- | Numbers of the motions that clear a point of a box, and perhaps of others.
+motionsNear :: Floor -> BoundingBox -> [Int]
+motionsNear floor' box =
+  map motion (BoxTree.within (BoundingBox.inflate (reach floor') box) (parts floor'))
 
--- | Vectors from the centre of a square to its corners, in units of half its side.
-diagonals :: [(Double, Double)]
-diagonals = [(-1, -1), (1, -1), (1, 1), (-1, 1)]
+-- | Distance of a motion, given by its number, from a point.
+distanceOf :: Floor -> Int -> Point -> Mm
+distanceOf floor' n p =
+  foldl'
+    (\d path -> max d (Mm (FastDistance.distance path (Vec.x p) (Vec.y p))))
+    (Mm 0)
+    (paths floor' Vector.! n)
 
--- | Radius plus 'floorResolution', in mm. With it, a square of the smallest size counts as cleared
--- if its centre is within the radius of a motion.
-tolerantRadius :: Floor -> Double
-tolerantRadius floor' = let Mm finest = floorResolution in radius floor' + finest
-
--- | Bounding paths of the motion nearest to the point @(x, y)@; Nothing without motions.
-nearestMotion :: Floor -> Double -> Double -> Maybe [Segment]
-nearestMotion floor' x y =
-  whole . snd
-    <$> BoxTree.closest
-      (\m -> Mm (rangeOf x y (part m)))
-      (Vec.point x y)
-      (motions floor')
-
--- | Distance in mm from the point @(x, y)@ to that one of the paths which is furthest from the
--- point.
-rangeOf :: Double -> Double -> [Segment] -> Double
-rangeOf x y = foldl' (\d path -> max d (FastDistance.distance path x y)) 0
-
--- | Distance from the centre to the corners of the smallest squares, which are not divided any
--- more. A position may also count as cleared if its distance from the nearest motion exceeds the
--- radius by no more than this length.
+-- | Length by which the distance of a position from the nearest motion may exceed the radius before
+-- the position counts as uncleared.
 floorResolution :: Mm
 floorResolution = Mm 0.02

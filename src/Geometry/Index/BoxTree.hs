@@ -33,6 +33,7 @@ module Geometry.Index.BoxTree
     each,
     select,
     closest,
+    leastBy,
     closestPair,
   )
 where
@@ -336,6 +337,25 @@ nodeBox :: Node a -> BoundingBox
 nodeBox node = case node of
   Leaf box _ -> box
   Branch box _ -> box
+
+-- | The thing with the least measure, preceded by this measure; Nothing if no thing has a measure.
+-- @measure@ gives the measure of a thing, or Nothing if it has none. @atLeast@ gives a lower bound
+-- of the measures of all things in a box, or Nothing if no such thing has a measure.
+--
+-- This is branch and bound. Of several boxes it visits the one with the least lower bound first.
+leastBy :: Ord m => (BoundingBox -> Maybe m) -> (a -> Maybe m) -> BoxTree a -> Maybe (m, a)
+leastBy atLeast measure tree = go Nothing (roots tree)
+  where
+    go best nodes =
+      List.foldl' visit best (sortOn fst [(low, n) | n <- nodes, Just low <- [atLeast (nodeBox n)]])
+    visit best (low, node)
+      | Just (m, _) <- best, m <= low = best
+      | otherwise = case node of
+        Branch _ below -> go best below
+        Leaf _ a -> case (best, measure a) of
+          (_, Nothing) -> best
+          (Just (m, _), Just m') | m <= m' -> best
+          (_, Just m') -> Just (m', a)
 
 -- | The result of @measure@ for the two things, one of each tree, that have the least distance from
 -- each other. If several pairs have this distance, it is the result for one of them. Nothing if a
