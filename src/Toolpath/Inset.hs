@@ -81,9 +81,9 @@ insetOfLoops loops distance
       Left _ -> Nothing
   where
     -- The bounding box of all loops. A circle that is at least as wide or as high as the box fits
-    -- into no loop. If it is narrower by some clearances only, its centre has room in a spot at most.
-    -- This counts as no room: in the raw offset, all segments of a round loop cross each other there.
-    -- Loops with slots are too large by one clearance ('insetWithSlots').
+    -- into no loop. If it is narrower by some clearances only, its centre has room in a spot at
+    -- most. This counts as no room: in the raw offset, all segments of a round loop cross each
+    -- other there. Loops with slots are too large by one clearance ('insetWithSlots').
     BoundingBox l b r t =
       maybe
         (BoundingBox 0 0 0 0)
