@@ -95,32 +95,22 @@ warningReport warning = case warning of
           ],
         hints = ["Lift the cutter first: a third coordinate is a height."]
       }
-  RapidIntoContent region p (Mm z) (Located named contour) ->
-    (report Report.Warning "W0402" (InSource region) "this rapid move goes into material")
-      { others = [Label named "not cleared yet inside this contour"],
-        message =
-          [ "At "
-              <> Vec.toText 3 p
-              <> " it is at the height "
-              <> Decimal.mm (Mm z)
-              <> ". The inside of "
-              <> text contour
-              <> " is not cleared down to there before."
-          ],
-        hints = ["Stop above the material, and let the cutter plunge at its feed."]
-      }
-  RapidIntoHole region p (Mm z) hole ->
-    (report Report.Warning "W0402" (InSource region) "this rapid move goes into material")
-      { others = [Label hole "not drilled yet"],
-        message =
-          [ "At "
-              <> Vec.toText 3 p
-              <> " it is at the height "
-              <> Decimal.mm (Mm z)
-              <> ". The hole is not drilled down to there before."
-          ],
-        hints = ["Stop above the material, and let the drill go down at its feed."]
-      }
+  RapidIntoContent region p z (Located named contour) ->
+    rapidIntoMaterial
+      region
+      p
+      z
+      (Label named "not cleared yet inside this contour")
+      ("The inside of " <> text contour <> " is not cleared")
+      "let the cutter plunge at its feed."
+  RapidIntoHole region p z hole ->
+    rapidIntoMaterial
+      region
+      p
+      z
+      (Label hole "not drilled yet")
+      "The hole is not drilled"
+      "let the drill go down at its feed."
   SpindleAtRest region ->
     ( report
         Report.Warning
@@ -144,6 +134,25 @@ warningReport warning = case warning of
       InCorner a _ _ -> [Label (origin a) "in the corner behind this"]
       InConcaveArc a _ _ -> [Label (origin a) "in this hollow"]
       Between a b _ _ -> [Label (origin a) "beside this", Label (origin b) "beside this"]
+
+-- | The warning about a rapid move of the region of the program into material, with the point and the
+-- height in mm at which the move is in it. The last arguments are the label of what is not cleared
+-- there, the sentence about it up to the height, and the rest of the hint.
+rapidIntoMaterial :: Region -> Point -> Mm -> Label -> Text -> Text -> Report
+rapidIntoMaterial region p z material uncleared advice =
+  (report Report.Warning "W0402" (InSource region) "this rapid move goes into material")
+    { others = [material],
+      message =
+        [ "At "
+            <> Vec.toText 3 p
+            <> " it is at the height "
+            <> Decimal.mm z
+            <> ". "
+            <> uncleared
+            <> " down to there before."
+        ],
+      hints = ["Stop above the material, and " <> advice]
+    }
 
 -- | The text for one position of rest material.
 restPositionText :: Tool -> RestPosition -> Text

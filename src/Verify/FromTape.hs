@@ -61,8 +61,6 @@ import Verify.Motion qualified as Motion
 import Verify.MotionMatch qualified as MotionMatch
 import Verify.MotionSet (MotionSet (MotionSet))
 import Verify.MotionSet qualified as MotionSet
-import Verify.StartSearch (OtherStart)
-import Verify.StartSearch qualified as StartSearch
 import Verify.PassFrames (FrameRange (..))
 import Verify.PassFrames qualified as PassFrames
 import Verify.PassLocation (Guide (Guide))
@@ -76,6 +74,8 @@ import Verify.Proof qualified as Proof
 import Verify.RequiredMove qualified as RequiredMove
 import Verify.SpindleTool (Tools, Use (..))
 import Verify.SpindleTool qualified as SpindleTool
+import Verify.StartSearch (OtherStart)
+import Verify.StartSearch qualified as StartSearch
 import Verify.Swivel (Levelled (Levelled))
 import Verify.Swivel qualified as Swivel
 import Verify.TapeSummary (TapeSummary)

@@ -3,6 +3,7 @@
 module Generate.Curve
   ( Table (..),
     anyCurve,
+    slightCorners,
     smooth,
     gentle,
     zigzag,
@@ -34,7 +35,8 @@ import GHC.Exts qualified as Exts
 import Generate.Run qualified as Run
 import Geometry.Carrier qualified as Carrier
 import Geometry.Curve
-  ( Curve,
+  ( Approach (..),
+    Curve,
     Distance (..),
     EndCondition (..),
     Growth (..),
@@ -46,6 +48,7 @@ import Geometry.Curve qualified as Curve
 import Geometry.Curve.BasisCurve qualified as BasisCurve
 import Geometry.Segment (Segment (..))
 import Geometry.Segment qualified as Segment
+import Geometry.Tolerance qualified as Tolerance
 import Geometry.Transformation (Transformation)
 import Geometry.Transformation qualified as Transformation
 import Geometry.Vec (Point)
@@ -60,9 +63,21 @@ data Table = Table EndCondition [Point]
 ok :: Show e => Either e a -> a
 ok = either (error . show) id
 
--- | A curve of any kind.
+-- | A curve of any kind, without slight corners. A shift turns the normals beside a slight corner
+-- ("Geometry.Curve.ShiftedCurve"), so the laws of other curves do not hold there.
 anyCurve :: Gen Curve
-anyCurve = frequency [(2, smooth), (1, polyline), (1, parabola), (1, toSegments), (1, pieces)]
+anyCurve =
+  frequency [(2, smooth), (1, polyline), (1, parabola), (1, toSegments), (1, pieces)]
+    `suchThat` (null . slightCorners)
+
+-- | The parameters of the corners at which a curve turns by at most 'Tolerance.kink'.
+slightCorners :: Curve -> [Double]
+slightCorners c =
+  [ u
+    | u <- Curve.corners c,
+      Rad a <- [Vec.signedAngle (Curve.tangentFrom Before c u) (Curve.tangentFrom After c u)],
+      Rad (abs a) <= Tolerance.kink
+  ]
 
 -- | A spline.
 smooth :: Gen Curve

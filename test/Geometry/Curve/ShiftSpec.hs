@@ -133,16 +133,7 @@ spec = do
         forAll Generate.smooth $ \c ->
           forAll (varying c >>= varying >>= \twice -> (,) twice <$> varying twice) $
             \(twice, thrice) ->
-              let slight =
-                    [ u
-                      | u <- Curve.corners twice,
-                        Rad a <-
-                          [ Vec.signedAngle
-                              (Curve.tangentFrom Before twice u)
-                              (Curve.tangentFrom After twice u)
-                          ],
-                        Rad (abs a) <= Tolerance.kink
-                    ]
+              let slight = Generate.slightCorners twice
                   arrival u = if u <= 0 then Curve.domain twice else u
                   gap u =
                     Vec.distance
