@@ -7,6 +7,7 @@
 module Frame.ChordError
   ( ChordTolerance (..),
     chordTolerance,
+    betweenWalls,
     raisedToRounding,
     remainder,
     ends,
@@ -113,6 +114,14 @@ segmentTolerance leading job s = case (Part.tolerance job, s) of
       | (angle > 0) == (side == Carrier.LeftOf) -> ArcBand b a
       | otherwise -> ArcBand a b
     Nothing -> Sagitta (sideless a b)
+
+-- | Tolerance of the moves in a pocket with the tolerance @t@. On both sides of the cutter there may
+-- be a wall, so the smaller one of a band's two tolerances holds on both sides. A band with a
+-- tolerance of 0 stays unchanged, because no chords of an arc keep 0 on both sides.
+betweenWalls :: Part.Accuracy -> Part.Accuracy
+betweenWalls t = case t of
+  Part.Band a b | a > Mm 0, b > Mm 0 -> let d = min a b in Part.Band d d
+  _ -> t
 
 -- | True for a pointed tool. Its path is the contour itself, and its distance from the contour does
 -- not show on which side it is. So the smaller tolerance of a band holds on both sides.

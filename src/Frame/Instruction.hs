@@ -90,7 +90,8 @@ ofBlock machine n b = case b of
       Toolpath.cleared,
       Toolpath.retract
     } ->
-      let job = Part.wall p
+      let wall = Part.wall p
+          job = wall {Part.tolerance = ChordError.betweenWalls (Part.tolerance wall)}
        in concat
             [ milled machine (Approaching n) job approach,
               concatMap (\m -> milled machine (roleInPocket n m) job [m]) (NonEmpty.toList cleared),

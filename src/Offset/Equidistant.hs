@@ -255,8 +255,9 @@ gapsOf source = concatMap gapsAlong
 -- | The gap between the consecutive segments @p@ and @q@ of a path; empty if there is none.
 gapBetween :: OffsetSource -> OffsetSegment -> OffsetSegment -> [Gap]
 gapBetween source p q =
-  [Gap c (Touching (origin p) (origin q) (Segment.end (segment p))) | c <- inTheWay]
+  [Gap c (Touching (origin p) (origin q) joint) | c <- inTheWay]
   where
+    joint = Segment.end (segment p)
     inTheWay = case (origin p, origin q) of
       (Around i, Along j) | j == next source i -> []
       (Around i, Around j) | j == i -> []
@@ -267,12 +268,11 @@ gapBetween source p q =
         | tight <- next source i,
           j == next source tight,
           Just r <- radiusOf tight,
-          r <= plus (distanceAt source tight) Tolerance.clearance ->
-          [ Concave tight r
-            | let Mm d = minus (distanceAt source tight) r,
-              Mm d > Tolerance.clearance
-          ]
-      (o, o') -> [Collision (numberOf o) (numberOf o') (Segment.end (segment p))]
+          minus (distanceAt source tight) r > Tolerance.clearance ->
+          [Concave tight r]
+        | tight <- next source i, j == next source tight, isSpent source joint [tight] -> []
+      (Along i, Around j) | j == next source i, isSpent source joint [j] -> []
+      (o, o') -> [Collision (numberOf o) (numberOf o') joint]
     radiusOf i = case elements source Vector.! i of
       Arc {start, centre} -> Just (Segment.radius centre start)
       Straight _ _ -> Nothing
@@ -293,7 +293,7 @@ isSpent source p numbers = not (null numbers) && all standsStill numbers
     standsStill i = case elements source Vector.! i of
       Arc {centre, start} ->
         let Mm d = minus (distanceAt source i) (Segment.radius centre start)
-         in Mm (abs d) <= Tolerance.clearance && Vec.distance p centre <= Tolerance.clearance
+         in Mm (abs d) <= Tolerance.clearance && Vec.distance p centre <= Tolerance.reachedCentre
       Straight _ _ -> False
 
 -- | The radius in mm of the largest cutter, smaller than the requested one, that a cause does not

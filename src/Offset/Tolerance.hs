@@ -3,6 +3,8 @@ module Offset.Tolerance
   ( clearance,
     ignoredSlot,
     smallestRest,
+    reachedCentre,
+    shortestPath,
     resolution,
     rounding,
     tangential,
@@ -28,6 +30,16 @@ ignoredSlot = Mm 0.01
 -- count as rest material: the cutter then counts as reaching the corner.
 smallestRest :: Mm
 smallestRest = Mm 1e-5
+
+-- | The largest distance in mm between the path and the centre of an arc as large as the cutter, at
+-- which the cutter counts as reaching the arc. The material left in the arc is not thicker.
+reachedCentre :: Mm
+reachedCentre = Mm 1e-3
+
+-- | The length in mm of the shortest path beside an open contour. A shorter one touches the contour
+-- in a point only, such as the tip of a crevice.
+shortestPath :: Mm
+shortestPath = Mm 1e-3
 
 -- | The length in mm of the interval at which a bisection ends. The bisections look for the largest
 -- cutter radius that fits, or for the largest excess material.

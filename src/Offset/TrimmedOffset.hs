@@ -5,8 +5,8 @@
 -- out a part of the contour. A run is one segment of a loop, or several consecutive ones on one
 -- arc; each comes from one element or corner of the contour, its origin. A stretch is a sequence of
 -- consecutive runs on the cutter's side of an open contour. The runs before and after a stretch are
--- not on that side. A shrunk element is one that the cutter reaches without moving along it: an arc
--- into which the cutter just fits, or an element of length 0.
+-- not on that side. A shrunk element is one that the cutter can reach without moving along it: an
+-- arc into which the cutter just fits, or an element of length 0.
 --
 -- As in "Offset.LoopPath", @structure@ is the offset that the kernel computed, and @source@ the one
 -- whose coordinates are wanted. The radius of @source@ may be a little larger. The flat contour is
@@ -19,9 +19,11 @@ module Offset.TrimmedOffset
   )
 where
 
-import Base.Quantity (Mm (..), minus)
+import Base.Quantity (Mm (..), minus, plus)
+import Data.IntMap.Strict (IntMap)
+import Data.IntMap.Strict qualified as IntMap
 import Data.IntSet qualified as IntSet
-import Data.List (sortOn)
+import Data.List (foldl', sortOn)
 import Data.List.NonEmpty (NonEmpty (..))
 import Data.List.NonEmpty qualified as NonEmpty
 import Data.Maybe (mapMaybe)
@@ -35,6 +37,7 @@ import Geometry.Polyarc (Ends (..))
 import Geometry.Polyarc qualified as Polyarc
 import Geometry.Segment (Segment (..))
 import Geometry.Segment qualified as Segment
+import Geometry.Vec (Point)
 import Geometry.Vec qualified as Vec
 import Offset.Loop qualified as Loop
 import Offset.LoopPath (Circuit (Circuit), Run (flat, isBeside))
@@ -107,13 +110,19 @@ stretches first = go first
           (before, r :| more, after) : go after (drop 1 others)
         | otherwise -> go r rest
 
--- | The open path along the stretch @runs@; Nothing when the path has no segments. @count@ is the
+-- | The open path along the stretch @runs@; Nothing when the path has no segments, or is shorter
+-- than 'Tolerance.shortestPath'. @count@ is the
 -- number of segments of the flat contour; @before@ and @after@ are the runs before and after the
 -- stretch.
 openPath :: OffsetSource -> OffsetSource -> Int -> (Run, NonEmpty Run, Run) -> Maybe TrimmedOffset
 openPath structure source count (before, runs, after) =
-  pathOf <$> NonEmpty.nonEmpty (LoopPath.path structure source Nothing (NonEmpty.toList runs))
+  pathOf <$> NonEmpty.nonEmpty (if isLong (Mm 0) found then found else [])
   where
+    found = LoopPath.path structure source Nothing (NonEmpty.toList runs)
+    isLong soFar ps = case ps of
+      _ | soFar >= Tolerance.shortestPath -> True
+      p : more -> isLong (plus soFar (Segment.length (segment p))) more
+      [] -> False
     pathOf ps =
       TrimmedOffset
         { ends = Open,
@@ -172,7 +181,7 @@ whole structure source = case LoopPath.region structure of
     path : _ | isUncut region -> Just (NonEmpty.toList (pieces path))
     [path]
       | SourceOffset.ends source == ends path,
-        isInOrder structure (map origin (NonEmpty.toList (pieces path))),
+        isInOrder structure path,
         isOpenAtEnds path ->
         Just (NonEmpty.toList (pieces path))
     [] -> nothingLeft
@@ -201,16 +210,33 @@ isUncut region =
     count = sizeofPrimArray (Loop.raws loops)
     loops = LoopPath.loops region
 
--- | True when the numbers of @origins@, which a path has in order, do not decrease, and every
--- element along which the path does not run has shrunk.
-isInOrder :: OffsetSource -> [Origin] -> Bool
-isInOrder source origins =
+-- | True when the element numbers of a path's segments do not decrease, and every element along
+-- which the path does not run is a shrunk one that the cutter reaches.
+isInOrder :: OffsetSource -> TrimmedOffset -> Bool
+isInOrder source path =
   and (zipWith (<=) numbers (drop 1 numbers))
-    && all (hasShrunk source) (IntSet.toList (IntSet.difference everything found))
+    && all isReached (IntSet.toList (IntSet.difference everything found))
   where
-    numbers = map numberOf origins
+    numbers = map (numberOf . origin) (NonEmpty.toList (pieces path))
     everything = IntSet.fromList [0 .. elementCount source - 1]
-    found = IntSet.fromList [i | Along i <- origins]
+    found = IntSet.fromList [i | OffsetSegment (Along i) _ <- NonEmpty.toList (pieces path)]
+    isReached i = hasShrunk source i && isOnCentre i (elements source Vector.! i)
+    isOnCentre i s = case s of
+      Straight _ _ -> True
+      Arc {centre} -> any (\p -> Vec.distance p centre <= Tolerance.reachedCentre) (pointsAt i)
+    -- The ends of the path's segments at the place of an element along which it does not run.
+    pointsAt i = case (IntMap.lookupGT i joints, ends path) of
+      (Just (_, points), Open) -> points
+      (Just (_, points), Closed) -> points <> final
+      (Nothing, _) -> final
+    Joints joints final = foldl' joined (Joints IntMap.empty []) (NonEmpty.toList (pieces path))
+    joined (Joints known points) (OffsetSegment o s) = case o of
+      Along i -> Joints (IntMap.insertWith (<>) i (Segment.start s : points) known) [Segment.end s]
+      Around _ -> Joints known (Segment.end s : Segment.start s : points)
+
+-- | The ends of a path's segments between the elements along which it runs, by the number of the
+-- element after them, and the ends after the last element.
+data Joints = Joints (IntMap [Point]) [Point]
 
 -- | True of a shrunk element. An arc counts as shrunk when its radius is the offset's distance,
 -- within 'Tolerance.clearance'; the side on which its centre lies is not examined.

@@ -9,10 +9,12 @@ module Toolpath.Inset
 where
 
 import Base.Quantity (Mm (..), minus, plus, times, total)
+import Control.Applicative ((<|>))
 import Data.List.NonEmpty (NonEmpty (..))
 import Data.List.NonEmpty qualified as NonEmpty
-import Data.Maybe (mapMaybe)
+import Data.Maybe (fromMaybe, mapMaybe)
 import Geometry.Carrier qualified as Carrier
+import Geometry.FlatPolyarc (FlatPolyarc)
 import Geometry.FlatPolyarc qualified as FlatPolyarc
 import Geometry.Index.BoundingBox (BoundingBox (..))
 import Geometry.Index.BoundingBox qualified as BoundingBox
@@ -45,14 +47,11 @@ inset contours@(outer :| _) = loopsAt
       -- contour, so it does not fit. Without this test the kernel would have to distinguish a
       -- cutter that covers the whole contour from one that fits.
       | 2 * d >= min (r - l) (t - b) = []
-      | otherwise = case offsetAt distance of
-        -- A slightly smaller distance avoids the coincidence that the kernel cannot decide.
-        Left Kernel.Uncertain ->
-          either (const []) loopsOf (offsetAt (minus distance Tolerance.clearance))
-        Left (Kernel.SelfIntersecting _ _) -> []
-        Left Kernel.WrongNesting -> []
-        Right region -> loopsOf region
-    offsetAt distance = Kernel.offset (Kernel.roundOffset Carrier.LeftOf distance) walls
+      -- A slightly smaller distance avoids the coincidence that the kernel cannot decide.
+      | otherwise =
+        fromMaybe
+          []
+          (decided walls distance <|> decided walls (minus distance Tolerance.clearance))
 
 -- | The loops at @distance@, including loops along slots: narrow passages that are exactly twice as
 -- wide as @distance@. @loopsAt@ is 'inset' applied to the contours. @loopsAt distance@ has no loop
@@ -73,12 +72,7 @@ insetWithSlots loopsAt distance
 insetOfLoops :: [Loop] -> Mm -> Maybe [Loop]
 insetOfLoops loops distance
   | times 2 (plus distance (times 2 Tolerance.clearance)) >= Mm (min (r - l) (t - b)) = Just []
-  | otherwise =
-    case Kernel.offset
-      (Kernel.roundOffset Carrier.LeftOf distance)
-      (map (fst . FlatPolyarc.fromPolyarc . Polyarc Closed) loops) of
-      Right region -> Just (loopsOf region)
-      Left _ -> Nothing
+  | otherwise = decided (map (fst . FlatPolyarc.fromPolyarc . Polyarc Closed) loops) distance
   where
     -- The bounding box of all loops. A circle that is at least as wide or as high as the box fits
     -- into no loop. If it is narrower by some clearances only, its centre has room in a spot at
@@ -89,6 +83,21 @@ insetOfLoops loops distance
         (BoundingBox 0 0 0 0)
         (foldr1 BoundingBox.union)
         (NonEmpty.nonEmpty (map boundingBox loops))
+
+-- | The loops at a distance to the left of contours, as the kernel gives them. Nothing when it
+-- cannot decide. Nothing also when it gives no loops, but gives some at a slightly larger distance,
+-- because then there must be loops. This happens at single distances, where segments of the raw
+-- offset coincide by chance.
+decided :: [FlatPolyarc] -> Mm -> Maybe [Loop]
+decided walls distance = case loopsAt distance of
+  Just [] | Just (_ : _) <- loopsAt (plus distance Tolerance.clearance) -> Nothing
+  found -> found
+  where
+    loopsAt d =
+      either
+        (const Nothing)
+        (Just . loopsOf)
+        (Kernel.offset (Kernel.roundOffset Carrier.LeftOf d) walls)
 
 -- | The bounding box of segments.
 boundingBox :: NonEmpty Segment -> BoundingBox

@@ -41,6 +41,7 @@ import Toolpath.MillingSide (keyword, leadingSide)
 import Toolpath.PointedIntrusion (PointedIntrusion (PointedIntrusion))
 import Toolpath.PointedIntrusion qualified as PointedIntrusion
 import Toolpath.Swivel qualified as Swivel
+import Toolpath.Tolerance qualified as PathTolerance
 import Toolpath.Toolpath (Block (..), Move, Pass (..), Toolpath)
 import Toolpath.Toolpath qualified as Toolpath
 
@@ -195,16 +196,20 @@ throughProfile milling m
   | radius milling <= Mm 0,
     Right (Just side') <- leadingSide milling,
     Just (PointedIntrusion element deep p) <-
-      PointedIntrusion.deepest side' (allowedDepth milling) (contour milling) path =
+      PointedIntrusion.deepest side' (allowedDepth milling path) (contour milling) path =
     Just (CutsPart (Toolpath.origin m) path element deep CutsContour p)
   | otherwise = Nothing
   where
     path = Toolpath.segment m
 
--- | The depth in mm to which a move may cut into a contour: the tolerance, and rounding.
-allowedDepth :: Milling -> Mm
-allowedDepth milling =
-  plus (fst (Part.deviationLimits (Part.tolerance milling))) Tolerance.clearance
+-- | The depth in mm to which a move may cut into a contour: the tolerance, and rounding. An arc may
+-- cut less deep ('PathTolerance.arcIntrusion'), because its chords need the tolerance, too.
+allowedDepth :: Milling -> Segment -> Mm
+allowedDepth milling path = plus Tolerance.clearance $ case path of
+  Straight _ _ -> inwards
+  Arc {} -> min inwards PathTolerance.arcIntrusion
+  where
+    inwards = fst (Part.deviationLimits (Part.tolerance milling))
 
 -- | The deepest intrusion of a move into the contours of each statement. If several of these are at
 -- one point, only the first is listed, because the statements then mill the same contour.
@@ -262,7 +267,7 @@ hit tool kept milling m element
     path = Toolpath.segment m
     wall = Part.segment element
     ClosestPoint d p = Distance.segments path wall
-    allowed = allowedDepth milling
+    allowed = allowedDepth milling path
     how
       | d <= Tolerance.coincident = Crossing
       | plus d allowed < tool = CutsContour

@@ -1,5 +1,5 @@
--- | The tolerances of toolpaths: the smallest cutter that is suggested, and what a modern control
--- needs for cutter compensation.
+-- | The tolerances of toolpaths: the smallest cutter that is suggested, how deep an approach may cut
+-- into the part, and what a modern control needs for cutter compensation.
 --
 -- The program for a control is rounded to pulses, and the control computes the offset of the
 -- rounded contour. With these tolerances the control refuses nothing in the rounded program, and
@@ -7,6 +7,7 @@
 -- LinuxCNC's interpreter.
 module Toolpath.Tolerance
   ( smallestCutter,
+    arcIntrusion,
 
     -- * Cutter compensation
     controlMargin,
@@ -24,6 +25,11 @@ import Base.Quantity (Mm (..), Rad (..))
 -- | The smallest radius of a cutter that a report suggests.
 smallestCutter :: Mm
 smallestCutter = Mm 0.05
+
+-- | The largest depth that an arc of an approach, a retract or a lead may cut into the part. It
+-- allows for coordinates of the program that are rounded to a few thousandths of a millimetre.
+arcIntrusion :: Mm
+arcIntrusion = Mm 1e-3
 
 -- | The margin by which the first and the last straight move under compensation must exceed the
 -- cutter's radius. With this margin they also exceed the radius after rounding to pulses.

@@ -135,9 +135,9 @@ warningReport warning = case warning of
       InConcaveArc a _ _ -> [Label (origin a) "in this hollow"]
       Between a b _ _ -> [Label (origin a) "beside this", Label (origin b) "beside this"]
 
--- | The warning about a rapid move of the region of the program into material, with the point and the
--- height in mm at which the move is in it. The last arguments are the label of what is not cleared
--- there, the sentence about it up to the height, and the rest of the hint.
+-- | The warning about a rapid move into material. The arguments are the region of the program that
+-- asks for the move, the point and the height in mm at which the move is in the material, the label
+-- of the material, the sentence about it up to the height, and the rest of the hint.
 rapidIntoMaterial :: Region -> Point -> Mm -> Label -> Text -> Text -> Report
 rapidIntoMaterial region p z material uncleared advice =
   (report Report.Warning "W0402" (InSource region) "this rapid move goes into material")

@@ -14,9 +14,9 @@ module Verify.PassSearch
   )
 where
 
-import Base.Quantity (Mm (..))
+import Base.Quantity (Mm (..), plus)
 import Control.Applicative ((<|>))
-import Data.List (sortOn)
+import Data.List (dropWhileEnd, sortOn)
 import Data.Maybe (maybeToList)
 import Geometry.Distance.Fast qualified as FastDistance
 import Geometry.Index.BoxTree qualified as BoxTree
@@ -26,7 +26,7 @@ import Geometry.Vec (Point)
 import Geometry.Vec qualified as Vec
 import Verify.ContactMeasure (Measure (..))
 import Verify.ContactMeasure qualified as ContactMeasure
-import Verify.Edge (Edge (long, shape))
+import Verify.Edge (Edge (long, ownAllowance, shape, startsAt))
 import Verify.MillingJob (MillingJob (..))
 import Verify.MillingJob qualified as MillingJob
 import Verify.MillingJob.Fast qualified as FastContact
@@ -101,10 +101,15 @@ arrivalsIn job at = go Nothing
 -- the motions after an arrival. False, for example, if the cutter arrived here at the end of
 -- another cut and now moves away.
 staysBeside :: MillingJob -> [CutterMotion] -> Bool
-staysBeside job rest =
-  not (null along) && and (zipWith touches along (MillingJob.edgesNearEach job along))
+staysBeside job rest = not (null along) && length (besideFrom job along) == length along
   where
     along = untilExit job rest
+
+-- | First motions of a list, up to the first one in which the cutter does not touch the contour.
+besideFrom :: MillingJob -> [CutterMotion] -> [CutterMotion]
+besideFrom job motions =
+  map fst (takeWhile (uncurry touches) (zip motions (MillingJob.edgesNearEach job motions)))
+  where
     touches m near = all (\k -> isTouched job near (Segment.at k (segment m))) (sampled m)
     -- A line may cut a corner, so only its end is tested.
     sampled m = case segment m of
@@ -155,12 +160,19 @@ unbroken motions = case motions of
 
 -- | Motions up to the first one that ends at the end of the cut, and the motions after it that stay
 -- at that end. Motions that stay at the start of the cut are skipped in the search for the end,
--- because the start and the end of a closed contour may be the same point.
+-- because the start and the end of a closed contour may be the same point. Beside an open contour,
+-- in a slot as wide as the cutter, the cutter may pass the end of the cut on its way in. Therefore
+-- later motions are added, up to the last one that ends there, if the cutter touches the contour in
+-- all of them.
 untilExit :: MillingJob -> [CutterMotion] -> [CutterMotion]
-untilExit job motions = leaving <> along <> takeWhile (endsAtExit job) (unbroken back)
+untilExit job motions = leaving <> along <> staying <> again
   where
     (leaving, away) = span staysAtEntry motions
     (along, back) = break (endsAtExit job) away
+    (staying, later) = span (endsAtExit job) (unbroken back)
+    again
+      | MillingJob.isClosed job || isPartialCut job = []
+      | otherwise = dropWhileEnd (not . endsAtExit job) (besideFrom job later)
     staysAtEntry m =
       endsNear job (entry job) m
         && not (isFullCircle m)
@@ -242,13 +254,31 @@ data Sample = Sample Int Double
 
 -- | Signed step in mm along the contour, from @arcLength@ to a contact point of a cutter with its
 -- centre at @p@; negative for a step back. Steps back by more than the slack are ignored. Of the
--- other steps, the result is the one with the least absolute value; ∞ if there is none.
+-- other steps, the result is the one with the least absolute value; ∞ if there is none. The step is
+-- 0 while the cutter stays within reach of its contact point on an element with an allowance of its
+-- own ('stays').
 smallestStep :: MillingJob -> Measure -> [Edge] -> Double -> Point -> Double
-smallestStep job measure near arcLength p = FastContact.foldContacts job near p smaller (1 / 0)
+smallestStep job measure near arcLength p
+  | any (stays job measure arcLength p) near = 0
+  | otherwise = FastContact.foldContacts job near p smaller (1 / 0)
   where
     smaller least _ s =
       let d = stepTo measure arcLength s
        in if d >= negate (slack measure) && abs d < abs least then d else least
+
+-- | Test that the contact point at @arcLength@ lies, within the slack, on the element @e@ with an
+-- allowance of its own, and that the distance of the centre @p@ from this point is at most the one
+-- that the cutter keeps from the element. The cutter then comes from this distance to the smaller
+-- one of the next element. On the way, elements further along the contour may be nearer to it.
+stays :: MillingJob -> Measure -> Double -> Point -> Edge -> Bool
+stays job measure arcLength p e =
+  ownAllowance e > Mm 0
+    && abs (along - onElement) <= slack measure
+    && Vec.distance p (Segment.at (onElement / long e) (shape e)) <= farthest
+  where
+    along = arcLength - startsAt e
+    onElement = max 0 (min (long e) along)
+    farthest = plus (plus (reach job) (ownAllowance e)) (allowance job)
 
 -- | Contact points at the present position. Each is given by the signed step in mm along the
 -- contour that leads to it from the contact point so far, and by the number of its element, from 0.
