@@ -115,8 +115,8 @@ segmentTolerance leading job s = case (Part.tolerance job, s) of
       | otherwise -> ArcBand a b
     Nothing -> Sagitta (sideless a b)
 
--- | Tolerance of the moves in a pocket with the tolerance @t@. On both sides of the cutter there may
--- be a wall, so the smaller one of a band's two tolerances holds on both sides. A band with a
+-- | Tolerance of the moves in a pocket with the tolerance @t@. There may be a wall on both sides of
+-- the cutter, so the smaller one of a band's two tolerances holds on both sides. A band with a
 -- tolerance of 0 stays unchanged, because no chords of an arc keep 0 on both sides.
 betweenWalls :: Part.Accuracy -> Part.Accuracy
 betweenWalls t = case t of

@@ -1,5 +1,5 @@
--- | The tolerances of toolpaths: the smallest cutter that is suggested, how deep an approach may cut
--- into the part, and what a modern control needs for cutter compensation.
+-- | The tolerances of toolpaths: the smallest cutter that is suggested, the depth to which the arc
+-- of a lead may cut into the part, and what a modern control needs for cutter compensation.
 --
 -- The program for a control is rounded to pulses, and the control computes the offset of the
 -- rounded contour. With these tolerances the control refuses nothing in the rounded program, and
