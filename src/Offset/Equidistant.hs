@@ -285,16 +285,11 @@ gapBetween source p q =
        in abs turned > smooth
 
 -- | True when the cutter, with its centre at the point @p@, touches the elements @numbers@ along
--- their whole length, so that their absence from a path is no gap. Such elements are arcs about @p@
--- whose radius is the offset's distance. The result is False when @numbers@ is empty.
+-- their whole length, so that their absence from a path is no gap. The result is False when
+-- @numbers@ is empty.
 isSpent :: OffsetSource -> Point -> [Int] -> Bool
-isSpent source p numbers = not (null numbers) && all standsStill numbers
-  where
-    standsStill i = case elements source Vector.! i of
-      Arc {centre, start} ->
-        let Mm d = minus (distanceAt source i) (Segment.radius centre start)
-         in Mm (abs d) <= Tolerance.clearance && Vec.distance p centre <= Tolerance.reachedCentre
-      Straight _ _ -> False
+isSpent source p numbers =
+  not (null numbers) && all (\i -> TrimmedOffset.touchesWhole source i p) numbers
 
 -- | The radius in mm of the largest cutter, smaller than the requested one, that a cause does not
 -- stop. The cause is given by its number from 0 in @causes@. Nothing when the cause stops even a

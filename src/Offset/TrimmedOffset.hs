@@ -16,6 +16,7 @@ module Offset.TrimmedOffset
     along,
     whole,
     untrimmed,
+    touchesWhole,
   )
 where
 
@@ -111,9 +112,8 @@ stretches first = go first
         | otherwise -> go r rest
 
 -- | The open path along the stretch @runs@; Nothing when the path has no segments, or is shorter
--- than 'Tolerance.shortestPath'. @count@ is the
--- number of segments of the flat contour; @before@ and @after@ are the runs before and after the
--- stretch.
+-- than 'Tolerance.shortestPath'. @count@ is the number of segments of the flat contour; @before@ and
+-- @after@ are the runs before and after the stretch.
 openPath :: OffsetSource -> OffsetSource -> Int -> (Run, NonEmpty Run, Run) -> Maybe TrimmedOffset
 openPath structure source count (before, runs, after) =
   pathOf <$> NonEmpty.nonEmpty (if isLong (Mm 0) found then found else [])
@@ -220,10 +220,9 @@ isInOrder source path =
     numbers = map (numberOf . origin) (NonEmpty.toList (pieces path))
     everything = IntSet.fromList [0 .. elementCount source - 1]
     found = IntSet.fromList [i | OffsetSegment (Along i) _ <- NonEmpty.toList (pieces path)]
-    isReached i = hasShrunk source i && isOnCentre i (elements source Vector.! i)
-    isOnCentre i s = case s of
-      Straight _ _ -> True
-      Arc {centre} -> any (\p -> Vec.distance p centre <= Tolerance.reachedCentre) (pointsAt i)
+    isReached i = case elements source Vector.! i of
+      Straight a b -> Vec.isNear a b
+      Arc {} -> any (touchesWhole source i) (pointsAt i)
     -- The ends of the path's segments at the place of an element along which it does not run.
     pointsAt i = case (IntMap.lookupGT i joints, ends path) of
       (Just (_, points), Open) -> points
@@ -237,6 +236,13 @@ isInOrder source path =
 -- | The ends of a path's segments between the elements along which it runs, by the number of the
 -- element after them, and the ends after the last element.
 data Joints = Joints (IntMap [Point]) [Point]
+
+-- | True when the cutter, with its centre at the point @p@, touches all of element @i@: an arc about
+-- @p@ whose radius is the offset's distance.
+touchesWhole :: OffsetSource -> Int -> Point -> Bool
+touchesWhole source i p = case elements source Vector.! i of
+  Straight _ _ -> False
+  Arc {centre} -> hasShrunk source i && Vec.distance p centre <= Tolerance.reachedCentre
 
 -- | True of a shrunk element. An arc counts as shrunk when its radius is the offset's distance,
 -- within 'Tolerance.clearance'; the side on which its centre lies is not examined.

@@ -296,12 +296,16 @@ contactsAhead job measure progress =
     p = position progress
 
 -- | Test that each two successive contacts are on the same element or on neighbouring elements. The
--- contacts are those of 'contactsAhead'.
+-- first and the last element are neighbours on a closed contour only. The contacts are those of
+-- 'contactsAhead'.
 areNeighbours :: MillingJob -> [(Double, Int)] -> Bool
 areNeighbours job found =
   and
     ( zipWith
-        (\(_, m) (_, n) -> abs (n - m) <= 1 || abs (n - m) == BoxTree.size (edges job) - 1)
+        ( \(_, m) (_, n) ->
+            abs (n - m) <= 1
+              || MillingJob.isClosed job && abs (n - m) == BoxTree.size (edges job) - 1
+        )
         found
         (drop 1 found)
     )
