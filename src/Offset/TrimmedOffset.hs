@@ -112,8 +112,8 @@ stretches first = go first
         | otherwise -> go r rest
 
 -- | The open path along the stretch @runs@; Nothing when the path has no segments, or is shorter
--- than 'Tolerance.shortestPath'. @count@ is the number of segments of the flat contour; @before@ and
--- @after@ are the runs before and after the stretch.
+-- than 'Tolerance.shortestPath'. @count@ is the number of segments of the flat contour. @before@
+-- and @after@ are the runs before and after the stretch.
 openPath :: OffsetSource -> OffsetSource -> Int -> (Run, NonEmpty Run, Run) -> Maybe TrimmedOffset
 openPath structure source count (before, runs, after) =
   pathOf <$> NonEmpty.nonEmpty (if isLong (Mm 0) found then found else [])
@@ -237,7 +237,7 @@ isInOrder source path =
 -- element after them, and the ends after the last element.
 data Joints = Joints (IntMap [Point]) [Point]
 
--- | True when the cutter, with its centre at the point @p@, touches all of element @i@: an arc about
+-- | True when the cutter with its centre at the point @p@ touches all of element @i@: an arc about
 -- @p@ whose radius is the offset's distance.
 touchesWhole :: OffsetSource -> Int -> Point -> Bool
 touchesWhole source i p = case elements source Vector.! i of
