@@ -163,10 +163,14 @@ unbroken motions = case motions of
 -- because the start and the end of a closed contour may be the same point. Beside an open contour,
 -- in a slot as wide as the cutter, the cutter may pass the end of the cut on its way in. Therefore
 -- later motions are added, up to the last one that ends there, if the cutter touches the contour in
--- all of them.
+-- all of them. If a partial cut ends where it starts and is shorter than a pulse, the cutter may
+-- leave the height after the motions that stay at the start; these are then the whole cut.
 untilExit :: MillingJob -> [CutterMotion] -> [CutterMotion]
-untilExit job motions = leaving <> along <> staying <> again
+untilExit job motions
+  | isPartialCut job && isAtExit job (entry job) && leavesHeight = leaving
+  | otherwise = leaving <> along <> staying <> again
   where
+    leavesHeight = not (null leaving) && length (unbroken motions) <= length leaving
     (leaving, away) = span staysAtEntry motions
     (along, back) = break (endsAtExit job) away
     (staying, later) = span (endsAtExit job) (unbroken back)

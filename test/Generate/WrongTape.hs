@@ -395,9 +395,7 @@ difference machine zFactor begin one other =
     arcSense m = case motion (Control.frame m) of
       Circular s -> Just s
       _ -> Nothing
-    startOf = case (ones, drop same ones) of
-      (_, m : _) -> [pointAt 0 m]
-      _ -> []
+    startOf = [pointAt 0 m | m <- take 1 (drop same ones <> drop same others)]
     sampled ms = case startOf <> concatMap samples ms of
       [] -> [(0, 0, 0)]
       ps -> ps

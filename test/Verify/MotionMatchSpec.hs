@@ -113,9 +113,14 @@ forAllWrong holds =
                 )
               $ holds o (pairOf o damage planned)
 
--- | Numbers of the first frames in which two tapes differ, with both frames.
-changedFrames :: [Frame] -> [Frame] -> [(Int, Frame, Frame)]
-changedFrames own' other = take 5 [(n, a, b) | (n, a, b) <- zip3 [1 ..] own' other, a /= b]
+-- | Numbers of the first frames in which two tapes differ, with both frames. Nothing where a tape
+-- has ended.
+changedFrames :: [Frame] -> [Frame] -> [(Int, Maybe Frame, Maybe Frame)]
+changedFrames own' other =
+  take 5 [(n, a, b) | (n, a, b) <- zip3 [1 .. longer] (filled own') (filled other), a /= b]
+  where
+    longer = max (length own') (length other)
+    filled frames = map Just frames <> repeat Nothing
 
 -- | Frames with the cutter of a program that has only one.
 withOneCutter :: FrameProgram -> [Frame] -> [PlannedFrame]

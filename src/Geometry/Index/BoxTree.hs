@@ -168,6 +168,11 @@ boundingBox tree = case levels tree of
   top : _ | boxCount top > 0 -> boxAt top 0
   _ -> BoundingBox (1 / 0) (1 / 0) (-1 / 0) (-1 / 0)
 
+-- | The thing with the index @i@.
+thing :: BoxTree a -> Int -> a
+thing tree = Vector.unsafeIndex (things tree)
+{-# INLINE thing #-}
+
 -- Boxes that meet a box ---------------------------------------------------------------------
 
 -- | All things whose boxes meet a box, in order.
@@ -180,7 +185,7 @@ within (BoundingBox l b r t) =
 -- every box that contains this box: the search skips the contents of a box that does not satisfy
 -- it.
 select :: (BoundingBox -> Bool) -> BoxTree a -> [a]
-select holds tree = selectWith (Vector.unsafeIndex (things tree)) holds tree
+select holds tree = selectWith (thing tree) holds tree
 {-# INLINE select #-}
 
 -- | The indices of all things whose boxes meet a box, in order.
@@ -258,7 +263,7 @@ among tree holds box = go
       [] -> []
       i : more
         | BoundingBox.meets box (boxAt (lowest tree) i),
-          a <- Vector.unsafeIndex (things tree) i,
+          a <- thing tree i,
           holds a ->
           let rest = go more in rest `seq` (a : rest)
         | otherwise -> go more
@@ -289,30 +294,29 @@ groupLimit = 128
 -- Because of rounding, this distance may be less than that of the thing's box, by at most
 -- 'Tolerance.coincident'.
 --
--- This is branch and bound. A first descent, always into the nearest box, gives the bound.
+-- This is branch and bound. Of the boxes in a box it visits the nearest one first.
 closest :: (a -> Mm) -> Point -> BoxTree a -> Maybe (Mm, a)
 closest distanceTo p tree = case levels tree of
   [] -> Nothing
-  top : below -> go top below 0 (boxCount top) Nothing
+  top : below -> fmap (thing tree) <$> inside top below 0 (boxCount top) Nothing
     where
-      bound0 = guess top below 0 (boxCount top)
-      -- Visits the boxes of @level@ from @i@ to @end − 1@; @best@ is the nearest thing so far.
-      go level below' i end best
-        | i >= end = best
-        | away level i > maybe bound0 fst best = go level below' (i + 1) end best
-        | otherwise = go level below' (i + 1) end $ case below' of
-          [] -> let a = Vector.unsafeIndex (things tree) i in better a (distanceTo a) best
-          next : lower -> go next lower (fan * i) (childrenEnd next i) best
-      better a d best = case best of
-        Nothing -> if d <= bound0 then Just (d, a) else Nothing
-        Just (e, _) -> if d < e then Just (d, a) else best
-      guess level below' i end
-        | i >= end = Mm (1 / 0)
-        | otherwise = case below' of
-          [] -> distanceTo (Vector.unsafeIndex (things tree) k)
-          next : lower -> guess next lower (fan * k) (childrenEnd next k)
+      -- Visits the boxes of @level@ from @first@ to @end − 1@. @best@ has the distance and the
+      -- index of the nearest thing so far.
+      inside level below' first end best = others first (visit nearest best)
         where
-          k = nearestBox level i end
+          nearest = nearestBox level first end
+          others i found
+            | i >= end = found
+            | i == nearest = others (i + 1) found
+            | otherwise = others (i + 1) (visit i found)
+          visit i found
+            | i >= end || maybe False ((away level i >) . fst) found = found
+            | otherwise = case below' of
+              [] -> better i (distanceTo (thing tree i)) found
+              next : lower -> inside next lower (fan * i) (childrenEnd next i) found
+      better i d best = case best of
+        Just (e, j) | e < d || (e == d && j < i) -> best
+        _ -> Just (d, i)
       nearestBox level i end =
         fst (List.foldl' (nearerBox level) (i, away level i) [i + 1 .. end - 1])
       nearerBox level (k, d) j = let e = away level j in if e < d then (j, e) else (k, d)
@@ -329,7 +333,7 @@ roots tree = case levels tree of
   where
     nodes level below i end = map (node level below) [i .. end - 1]
     node level below i = case below of
-      [] -> Leaf (boxAt level i) (Vector.unsafeIndex (things tree) i)
+      [] -> Leaf (boxAt level i) (thing tree i)
       next : lower -> Branch (boxAt level i) (nodes next lower (fan * i) (childrenEnd next i))
 
 -- | The box of a node.
