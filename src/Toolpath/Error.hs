@@ -119,6 +119,9 @@ data Error
   | -- | an element of a pocket's walls whose own allowance exceeds that of the pocket's last pass:
     -- the statement's first word, the element
     KeepsMore Region Element
+  | -- | a pass of a pocket whose loops have too many segments: the statement's first word, the
+    -- largest number
+    TooManyLoops Region Int
   deriving stock (Eq, Show)
 
 -- | The kinds of intrusion: cuts of a move into a contour, or into the allowance on a contour.
@@ -495,6 +498,17 @@ toReport err = case err of
         others = [Label region "cleared here" | region /= origin element],
         hints =
           ["Leave so much at all walls, by allowance in the pocket. Then mill the contour inside."]
+      }
+  TooManyLoops region limit ->
+    ( at
+        region
+        "E0423"
+        ("clearing this pocket takes more than " <> Decimal.whole limit <> " motions at one depth")
+    )
+      { hints =
+          [ "Take a larger step or a larger cutter; look for a coordinate in a wrong unit; or make \
+            \several pockets of it."
+          ]
       }
 
 -- | The reason why a control's input cannot express a request.

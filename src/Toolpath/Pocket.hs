@@ -21,6 +21,7 @@ module Toolpath.Pocket
     PocketMove (..),
     clear,
     finishWalls,
+    mostSegments,
     linked,
     startPoint,
     endPoint,
@@ -79,20 +80,16 @@ data PocketMove
 
 -- | The sections that clear a pocket with the stepover @step@, which is above 0 and at most the
 -- cutter's diameter. @from@ is the cutter's plunge position; Nothing if the cutter plunges at the
--- beginning of the first loop. The result is empty when the cutter fits nowhere.
-clear :: PocketRoom -> Mm -> Maybe Point -> [PocketMove]
+-- beginning of the first loop. The result is empty when the cutter fits nowhere, and Nothing if the
+-- loops have more than 'mostSegments'.
+clear :: PocketRoom -> Mm -> Maybe Point -> Maybe [PocketMove]
 clear room step from =
-  along
+  loopsAt
     room
     from
-    ( PocketTree.passTrees
-        (offsetBy room)
-        (insetOfLoops room)
-        (radius room)
-        ( takeWhile
-            (<= deepest)
-            [plus (nearest' room) (times (fromIntegral k) step) | k <- [0 :: Int ..]]
-        )
+    ( takeWhile
+        (<= deepest)
+        [plus (nearest' room) (times (fromIntegral k) step) | k <- [0 :: Int ..]]
     )
   where
     -- An upper bound: no point of the pocket is further from the walls.
@@ -103,23 +100,35 @@ clear room step from =
 -- | The sections that finish the walls of a pocket after it was cleared with the larger allowance
 -- @before@. The distance between loops is at most the stepover @step@ and at most the radius.
 -- @from@ is the cutter's plunge position; Nothing if the cutter plunges at the beginning of the
--- first loop.
-finishWalls :: PocketRoom -> Mm -> Mm -> Maybe Point -> [PocketMove]
+-- first loop. Nothing if the loops have more than 'mostSegments'.
+finishWalls :: PocketRoom -> Mm -> Mm -> Maybe Point -> Maybe [PocketMove]
 finishWalls room step before from =
-  along
+  loopsAt
     room
     from
-    ( PocketTree.passTrees
-        (offsetBy room)
-        (insetOfLoops room)
-        (radius room)
-        [ plus (nearest' room) (times (fromIntegral k / fromIntegral count) more)
-          | k <- [0 .. count - 1]
-        ]
-    )
+    [ plus (nearest' room) (times (fromIntegral k / fromIntegral count) more)
+      | k <- [0 .. count - 1]
+    ]
   where
     more = minus before (leaves room)
     count = max 1 (ceiling (over more (min step (radius room)) - Tolerance.equal)) :: Int
+
+-- | The sections along the loops at increasing distances from the walls. @from@ is the cutter's
+-- plunge position, as in 'clear'. Nothing if the loops have more than 'mostSegments'.
+loopsAt :: PocketRoom -> Maybe Point -> [Mm] -> Maybe [PocketMove]
+loopsAt room from distances =
+  along room from
+    <$> PocketTree.passTrees
+      mostSegments
+      (offsetBy room)
+      (insetOfLoops room)
+      (radius room)
+      distances
+
+-- | The largest number of segments that the loops of one pass of a pocket may have. A tape has no
+-- more frames than this.
+mostSegments :: Int
+mostSegments = 1000000
 
 -- | The least distance of the cutter's centre from the walls.
 nearest' :: PocketRoom -> Mm

@@ -50,7 +50,7 @@ import Toolpath.Toolpath qualified as Toolpath
 -- next one. @number@ is the statement's number in the order of execution, from 0; @at@ is the
 -- position of the cutter before the pocket. Refuses pockets into which the cutter does not fit, and
 -- pockets without a depth in which the cutter would have to rise. Refuses also elements that have a
--- larger allowance than the last pass.
+-- larger allowance than the last pass, and pockets with too many loops.
 blocks :: Int -> SpacePoint -> Located Pocketing -> Either Error [Block]
 blocks number at (Located region given) = do
   for_
@@ -88,8 +88,8 @@ data PocketPass = PocketPass
     -- | height of the pass
     level :: Mm,
     -- | the sections of the pass from a plunge position; for Nothing, the cutter plunges at the
-    -- beginning of the first loop
-    sectionsFrom :: Maybe Point -> [PocketMove]
+    -- beginning of the first loop. The result is Nothing if there are too many loops
+    sectionsFrom :: Maybe Point -> Maybe [PocketMove]
   }
 
 -- | All passes of a pocket: all depths for the first allowance, then all depths for the next one.
@@ -158,10 +158,11 @@ passOf ::
   Visit ->
   Maybe Mm ->
   (Mm, Mm) ->
-  (Maybe Point -> [PocketMove]) ->
+  (Maybe Point -> Maybe [PocketMove]) ->
   Either Error ([Move], NonEmpty Move, [Move])
 passOf visit travelHeight (left, z) sectionsFrom = do
-  sections <- fitting (NonEmpty.nonEmpty (sectionsFrom from))
+  found <- maybe (Left (TooManyLoops word Pocket.mostSegments)) Right (sectionsFrom from)
+  sections <- fitting (NonEmpty.nonEmpty found)
   (visit', sections') <- case (sections, travelHeight) of
     -- A wall lies between the plunge position and the first loop, so the cutter moves over it at
     -- the clearance height.
@@ -225,8 +226,8 @@ moves word milling z travelHeight section = case section of
 
 -- | The sections of the passes for each allowance, in the order of the allowances, as functions of
 -- the plunge position. The passes with the first allowance clear the floor, the others finish the
--- walls.
-sectionsFor :: Pocketing -> NonEmpty (Maybe Point -> [PocketMove])
+-- walls. The result of a function is Nothing if there are too many loops.
+sectionsFor :: Pocketing -> NonEmpty (Maybe Point -> Maybe [PocketMove])
 sectionsFor pocket =
   (\from -> Pocket.clear (room first) step from)
     :| zipWith (\before a -> Pocket.finishWalls (room a) step before) (first : more) more

@@ -56,25 +56,37 @@ data RingSegment = RingSegment {segment :: Segment, detours :: [NonEmpty Segment
 -- without loops. @offsetBy@ gives the loops at a distance from the walls. @further@ gives the loops
 -- at a distance inside other loops, or Nothing when they have to be computed from the walls. Where
 -- two distances differ by more than the cutter's @radius@, detours clear the residue between the
--- passes. Inside the pass at the last distance of the list, nothing is cleared.
-passTrees :: (Mm -> [Loop]) -> ([Loop] -> Mm -> Maybe [Loop]) -> Mm -> [Mm] -> [PocketTree]
-passTrees offsetBy further radius distances = case distances of
-  [] -> []
-  c : more -> from c (offsetBy c) Map.empty more
+-- passes. Inside the pass at the last distance of the list, nothing is cleared. The result is
+-- Nothing if all loops together have more than @most@ segments.
+passTrees ::
+  Int ->
+  (Mm -> [Loop]) ->
+  ([Loop] -> Mm -> Maybe [Loop]) ->
+  Mm ->
+  [Mm] ->
+  Maybe [PocketTree]
+passTrees most offsetBy further radius distances = case distances of
+  [] -> Just []
+  c : more -> from most c (offsetBy c) Map.empty more
   where
-    from c loops trips more = case (loops, more) of
-      ([], _) -> []
-      (_, []) -> grouped c loops trips []
-      (_, next : others) ->
-        let loops' = inwards c loops (minus next c)
-            residue = residueOf c loops next loops'
-         in grouped
-              c
-              loops
-              trips
-              ( from next loops' (StepoverResidue.detours residue) others
-                  <> map (leaf (plus c radius)) (StepoverResidue.isolated residue)
-              )
+    from left c loops trips more
+      | remaining < 0 = Nothing
+      | otherwise = case (loops, more) of
+        ([], _) -> Just []
+        (_, []) -> Just (grouped c loops trips [])
+        (_, next : others) -> do
+          let loops' = inwards c loops (minus next c)
+              residue = residueOf c loops next loops'
+          inside <- from remaining next loops' (StepoverResidue.detours residue) others
+          Just
+            ( grouped
+                c
+                loops
+                trips
+                (inside <> map (leaf (plus c radius)) (StepoverResidue.isolated residue))
+            )
+      where
+        remaining = left - sum (map NonEmpty.length loops)
     inwards c loops d = fromMaybe (offsetBy (plus c d)) (further loops d)
     residueOf c loops next loops'
       | minus next c <= plus radius Tolerance.coincident = StepoverResidue.none

@@ -6,6 +6,7 @@ import Base.Quantity (Mm (..), Rad (..), plus)
 import Data.List (tails)
 import Data.List.NonEmpty (NonEmpty (..))
 import Data.List.NonEmpty qualified as NonEmpty
+import Data.Maybe (fromMaybe)
 import Generate.Pocket (Pocket (..))
 import Generate.Pocket qualified as Generate
 import Geometry.Distance (ClosestPoint (..))
@@ -49,7 +50,7 @@ spec = modifyMaxSuccess (const 60) $ do
       \reversed)"
       $ forAll Generate.pocket $ \p ->
         let sections = cleared p
-            back = Pocket.clear (Generate.roomOf p) {isReversed = True} (step p) Nothing
+            back = clear (Generate.roomOf p) {isReversed = True} (step p) Nothing
          in counterexample "joined" (conjoin (zipWith joined back (drop 1 back)))
               .&&. counterexample
                 (show (area sections, area back))
@@ -82,10 +83,12 @@ spec = modifyMaxSuccess (const 60) $ do
     it "begin at the given plunge position" $
       fmap
         Pocket.startPoint
-        (take 1 (Pocket.clear (Generate.roomOf plain) (Mm 5) (Just (Vec.point 30 20))))
+        (take 1 (clear (Generate.roomOf plain) (Mm 5) (Just (Vec.point 30 20))))
         `shouldBe` [Vec.point 30 20]
     it "are missing if the cutter does not fit into the pocket" $
-      Pocket.clear (Generate.roomOf plain {cutter = Mm 21}) (Mm 5) Nothing `shouldBe` []
+      Pocket.clear (Generate.roomOf plain {cutter = Mm 21}) (Mm 5) Nothing `shouldBe` Just []
+    it "are not computed if there are too many (catches a pocket that takes all memory)" $
+      Pocket.clear (Generate.roomOf plain {cutter = Mm 1}) (Mm 5e-5) Nothing `shouldBe` Nothing
   describe "the passes made of loops of the kernel" $ do
     prop
       "sweep every point of the floor that the cutter can reach (catches a loop whose free space \
@@ -102,8 +105,9 @@ spec = modifyMaxSuccess (const 60) $ do
     prop "sweep the allowance of the first passes (catches a pass too few)" $
       forAll Generate.pocket $ \p -> forAll (choose (0, 6)) $ \more ->
         let room = Generate.roomOf p
-            rough = Pocket.clear room {leaves = plus (left p) (Mm more)} (step p) Nothing
-            sections = rough <> Pocket.finishWalls room (step p) (plus (left p) (Mm more)) Nothing
+            leaving = plus (left p) (Mm more)
+            rough = clear room {leaves = leaving} (step p) Nothing
+            sections = rough <> fromMaybe [] (Pocket.finishWalls room (step p) leaving Nothing)
          in forAllBlind (floorPoints p sections) $ \ps -> conjoin (map (swept p sections) ps)
   where
     plain = Pocket {loops = rectangle 60 40 :| [], cutter = Mm 5, left = Mm 0, step = Mm 5}
@@ -146,7 +150,7 @@ isLong p section = or [Segment.length s > plus (step p) (Mm 1e-6) | DirectLink s
 -- the opposite sense, so that it has to orient them.
 byKernel :: Pocket -> [PocketMove]
 byKernel p =
-  Pocket.clear
+  clear
     (Generate.roomOf p)
       { offsetBy = Inset.inset (Inset.oriented outline islands),
         insetOfLoops = Inset.insetOfLoops
@@ -158,7 +162,11 @@ byKernel p =
 
 -- | The sections that clear a pocket, with the simple and slow offset of "Generate.Pocket".
 cleared :: Pocket -> [PocketMove]
-cleared p = Pocket.clear (Generate.roomOf p) (step p) Nothing
+cleared p = clear (Generate.roomOf p) (step p) Nothing
+
+-- | The sections that clear a pocket whose loops are not too many.
+clear :: PocketRoom -> Mm -> Maybe Point -> [PocketMove]
+clear room by from = fromMaybe [] (Pocket.clear room by from)
 
 isLifted :: PocketMove -> Bool
 isLifted section = case section of

@@ -294,32 +294,32 @@ groupLimit = 128
 -- Because of rounding, this distance may be less than that of the thing's box, by at most
 -- 'Tolerance.coincident'.
 --
--- This is branch and bound. Of the boxes in a box it visits the nearest one first.
+-- This is branch and bound. It visits the boxes in a box in the order of their distances.
 closest :: (a -> Mm) -> Point -> BoxTree a -> Maybe (Mm, a)
 closest distanceTo p tree = case levels tree of
   [] -> Nothing
   top : below -> fmap (thing tree) <$> inside top below 0 (boxCount top) Nothing
     where
-      -- Visits the boxes of @level@ from @first@ to @end − 1@. @best@ has the distance and the
-      -- index of the nearest thing so far.
-      inside level below' first end best = others first (visit nearest best)
-        where
-          nearest = nearestBox level first end
-          others i found
-            | i >= end = found
-            | i == nearest = others (i + 1) found
-            | otherwise = others (i + 1) (visit i found)
-          visit i found
-            | i >= end || maybe False ((away level i >) . fst) found = found
-            | otherwise = case below' of
-              [] -> better i (distanceTo (thing tree i)) found
-              next : lower -> inside next lower (fan * i) (childrenEnd next i) found
+      -- Visits the boxes of @level@ from @i@ to @end − 1@. @best@ has the distance and the index of
+      -- the nearest thing so far.
+      inside level below' i end best = case below' of
+        [] -> among' level i end best
+        next : lower ->
+          List.foldl'
+            (visit next lower)
+            best
+            (sortOn fst [(away level k, k) | k <- [i .. end - 1]])
+      visit next lower best (d, k)
+        | isFurther d best = best
+        | otherwise = inside next lower (fan * k) (childrenEnd next k) best
+      among' level i end best
+        | i >= end = best
+        | isFurther (away level i) best = among' level (i + 1) end best
+        | otherwise = among' level (i + 1) end (better i (distanceTo (thing tree i)) best)
+      isFurther d = maybe False ((d >) . fst)
       better i d best = case best of
         Just (e, j) | e < d || (e == d && j < i) -> best
         _ -> Just (d, i)
-      nearestBox level i end =
-        fst (List.foldl' (nearerBox level) (i, away level i) [i + 1 .. end - 1])
-      nearerBox level (k, d) j = let e = away level j in if e < d then (j, e) else (k, d)
       away level i = minus (BoundingBox.distance p (boxAt level i)) Tolerance.coincident
 
 -- | A subtree: its box, and either the one thing in it or its own subtrees.
