@@ -38,6 +38,12 @@ data Kind
     CornersFile
   | -- | a hole at each row of a file, 3 mm apart
     HolesFile
+  | -- | a round pocket, cleared by as many loops
+    RoundPocket
+  | -- | a pocket with as many slots along one side
+    Comb
+  | -- | a square pocket with as many round islands
+    Islands
   deriving stock (Eq, Show, Read, Enum, Bounded)
 
 -- | The name of a kind in the tables.
@@ -52,11 +58,18 @@ name kind = case kind of
   LinesFile -> "lines, csv"
   CornersFile -> "corners, csv"
   HolesFile -> "holes, csv"
+  RoundPocket -> "round pocket"
+  Comb -> "comb"
+  Islands -> "islands"
 
 -- | The largest number of elements. With ten times as many, the program would need more than a
--- million frames, or coordinates beyond the largest one; programs written by hand are smaller.
+-- million frames or ten thousand passes, or coordinates beyond the largest one, or pockets that
+-- take minutes; programs written by hand are smaller.
 most :: Kind -> Int
-most kind = if kind `elem` [Rows, Wavy, LinesFile] then 1000000 else 100000
+most kind
+  | kind `elem` [Rows, Wavy, LinesFile] = 1000000
+  | kind `elem` [RoundPocket, Comb, Islands] = 10000
+  | otherwise = 100000
 
 -- | The text of a program, and the files that it reads, by their names.
 data Written = Written {text :: Text, files :: [(FilePath, Text)]}
@@ -81,6 +94,9 @@ written kind n = case kind of
           <> "clearance 5 mm\ntable t from \"rows.csv\"\ndrill at points_of(t) depth 3 mm\n"
       )
       [("rows.csv", Text.unlines ("x,y" : rows "," n 1 0.5))]
+  RoundPocket -> Written (roundPocket n) []
+  Comb -> Written (comb n) []
+  Islands -> Written (islands n) []
   where
     cornered side more =
       Written
@@ -138,6 +154,51 @@ rows separator n scale noise = map row [0 .. n - 1]
             0.5 * scale * count * (1 + 0.1 * sin (5 * a))
               + noise * (2 * Noise.uniform 7 (fromIntegral k) - 1)
        in coordinate (d * cos a) <> separator <> coordinate (d * sin a)
+
+-- | A round pocket that @n@ loops clear.
+roundPocket :: Int -> Text
+roundPocket n =
+  header "round" 1 (r + 20)
+    <> ("clearance 5 mm\ncontour c closed { ccw circle((0, 0), " <> coordinate r <> ") }\n")
+    <> "pocket c step 0.8 { depth 1 mm }\n"
+  where
+    r = 0.8 * fromIntegral n + 0.5
+
+-- | A pocket with @n@ slots, 2 mm wide and 5 mm deep, along one side.
+comb :: Int -> Text
+comb n =
+  header "comb" 1 20
+    <> "clearance 5 mm\ncontour c closed {\n"
+    <> Text.unlines
+      ( map point ([(4 * n, 0), (0, 0), (0, -10)] <> concatMap slot [0 .. n - 1] <> [(4 * n, -10)])
+      )
+    <> "}\npocket c step 0.8 { depth 1 mm  rest allowed }\n"
+  where
+    slot k = [(4 * k + 1, -10), (4 * k + 1, -15), (4 * k + 3, -15), (4 * k + 3, -10)]
+
+-- | A square pocket with @n@ round islands.
+islands :: Int -> Text
+islands n =
+  header "islands" 1 20
+    <> "clearance 5 mm\ncontour c closed {\n"
+    <> Text.unlines (map point [(0, 0), (3 * side, 0), (3 * side, 3 * side), (0, 3 * side)])
+    <> "}\n"
+    <> Text.unlines [island k (k `div` side) (k `mod` side) | k <- [0 .. n - 1]]
+    <> "pocket c step 0.8 { depth 1 mm  rest allowed  islands "
+    <> Text.intercalate ", " ["i" <> Decimal.whole k | k <- [0 .. n - 1]]
+    <> " }\n"
+  where
+    side = ceiling (sqrt (fromIntegral n :: Double)) :: Int
+    island k row column =
+      Text.concat
+        [ "contour i" <> Decimal.whole k <> " closed { ccw circle((",
+          coordinate (3 * fromIntegral column + 1.5) <> ", ",
+          coordinate (3 * fromIntegral row + 1.5) <> "), 0.5) }"
+        ]
+
+-- | A point with whole coordinates in mm.
+point :: (Int, Int) -> Text
+point (x, y) = "  (" <> Decimal.whole x <> ", " <> Decimal.whole y <> ")"
 
 header :: Text -> Int -> Double -> Text
 header part diameter away =
