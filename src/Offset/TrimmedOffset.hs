@@ -147,11 +147,16 @@ isScreened :: OffsetSource -> TrimmedOffset -> Bool
 isScreened source
   | isUneven = \path ->
     let list = NonEmpty.toList (pieces path)
-        middles = [(i, Segment.at 0.5 s) | OffsetSegment (Along i) s <- list]
+        middles =
+          filter (uncurry isOffset) [(i, Segment.at 0.5 s) | OffsetSegment (Along i) s <- list]
      in not (null middles) && all isBehind middles
   | otherwise = const False
   where
     isUneven = any ((/= distanceAt source 0) . distanceAt source) [1 .. elementCount source - 1]
+    -- False on the connecting line from the offset of element @i@ to that of the next element.
+    isOffset i p =
+      minus (distanceAt source i) (Distance.toPoint p (elements source Vector.! i))
+        <= Tolerance.clearance
     isBehind (i, p) =
       let own = elements source Vector.! i
           foot = snd (Distance.nearest p own)

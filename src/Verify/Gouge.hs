@@ -69,17 +69,20 @@ gougeOf KeepOut {searchRadius, required} edges m = Proof.deepest gouges
 -- allowance changes is rounded to pulses. If one of these elements is nearer to @p@ than @e@ is,
 -- the result is 0, because that element is examined with its own allowance. It is 0, too, if @p@
 -- lies beside @e@ on the side opposite to @side@, that of the cutter: beyond a thin wall nothing is
--- left on @e@. If the allowance of @e@ is not positive, it is the result in every case.
+-- left on @e@. The same holds if @p@ lies beyond an end of @e@, and on that side of an element that
+-- is joined there. If the allowance of @e@ is not positive, it is the result in every case.
 allowanceAt :: Maybe Side -> Mm -> BoxTree Edge -> Element -> Point -> Mm
 allowanceAt side pulse edges e p
   | own <= Mm 0 = own
-  | any (\s -> Segment.isBehind s (Part.segment e) p) side = Mm 0
+  | isBehind e = Mm 0
+  | not (Segment.hasFootOf (Part.segment e) p), any isBehind joined = Mm 0
   | any (\other -> plus (Distance.toPoint p (Part.segment other)) Tolerance.resolution < d) joined =
     Mm 0
   | otherwise = minimum (own : map allowanceOf joined)
   where
     own = allowanceOf e
     allowanceOf = Part.allowance . Part.finish
+    isBehind element' = any (\s -> Segment.isBehind s (Part.segment element') p) side
     (d, foot) = Distance.nearest p (Part.segment e)
     joined =
       [ other

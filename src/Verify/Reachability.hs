@@ -13,7 +13,7 @@ module Verify.Reachability
   )
 where
 
-import Base.Quantity (Mm (..), Rad (..), minus, times)
+import Base.Quantity (Mm (..), Rad (..), minus, over, times)
 import Data.Containers.ListUtils (nubOrd)
 import Data.List (foldl', sort, sortOn)
 import Geometry.Carrier (Side)
@@ -80,17 +80,20 @@ surroundings ends side elements =
       Closed -> drop 1 elements <> take 1 elements
       Open -> drop 1 elements
 
--- | Corners at which the centre keeps the larger one of two distances, each with that distance. An
--- outer corner is represented by an arc about the vertex, of the radius 'fanRadius': its normals
--- fill the space between the normals of both elements. Corners between equal distances are not
--- listed, because there the distance from the vertex decides.
+-- | Corners of a contour, each with the larger one of the distances that the centre keeps from its
+-- two elements. An outer corner is represented by an arc about the vertex, of the radius
+-- 'fanRadius': its normals fill the space between the normals of both elements. Where this distance
+-- is the smallest one of the contour, the corner is not listed, because there the distance from the
+-- vertex decides.
 cornerFans :: Side -> [((Mm, Segment), (Mm, Segment))] -> [(Mm, Segment)]
 cornerFans side corners =
   [ (max d d', fan)
     | ((d, s), (d', s')) <- corners,
-      d /= d',
+      max d d' > smallest,
       Just fan <- [outerCorner side fanRadius s s']
   ]
+  where
+    smallest = minimum (Mm (1 / 0) : concat [[d, d'] | ((d, _), (d', _)) <- corners])
 
 -- | Both ends of an open contour, each with the distance that the centre keeps from the element
 -- there. An end is represented like a corner: by half a circle about it. Empty for a closed
@@ -234,24 +237,55 @@ withoutNormals :: Side -> Mm -> [Segment] -> Segment -> Interval -> [Interval]
 withoutNormals side kept near centres (a, b) =
   [ (from, to)
     | (from, to) <- dividedAt marks (a, b),
-      not (any (isAbove (Segment.at ((from + to) / 2) centres)) near)
+      not (any (isAbove (Segment.at ((from + to) / 2) centres)) lengths)
   ]
   where
+    lengths = concatMap (normals side kept) near
     marks =
       [ Segment.fraction centres p
-        | s <- near,
-          border <- bordersOf s,
+        | border <- concatMap (bordersOf side) lengths,
           p <- Distance.intersections centres border
       ]
-    -- Border of the region in which centres are too near to @s@: its offset and its end normals.
-    bordersOf s = case Segment.offset side kept s of
-      Nothing -> []
-      Just offset ->
-        [ offset,
-          Straight (Segment.start s) (Segment.start offset),
-          Straight (Segment.end s) (Segment.end offset)
+    isAbove p (Normals long s) = Segment.hasFootOf s p && Distance.toPoint p s < roomy long
+
+-- | The normals of a segment on the cutter's side, up to a length.
+data Normals = Normals Mm Segment
+
+-- | The normals of a segment, of the length @kept@ on @side@. The normals of an arc may be longer
+-- than its radius. They then continue beyond its centre, like the normals of a small arc about the
+-- centre.
+normals :: Side -> Mm -> Segment -> [Normals]
+normals side kept s =
+  Normals kept s : case s of
+    Arc {start, end, centre, sweep = Rad angle}
+      | Carrier.sideSign side * angle > 0,
+        r <- Segment.radius centre start,
+        kept > r ->
+        [ Normals
+            (minus kept r)
+            Arc
+              { start = beyond end,
+                end = beyond start,
+                centre,
+                sweep = Rad (negate angle)
+              }
         ]
-    isAbove p s = Segment.hasFootOf s p && Distance.toPoint p s < roomy kept
+      where
+        beyond p =
+          Vec.shift (Vec.scale (fanRadius `over` Segment.radius centre p) (Vec.to p centre)) centre
+    _ -> []
+
+-- | Border of the region that normals fill: the offset at their ends, and the first and the last
+-- normal.
+bordersOf :: Side -> Normals -> [Segment]
+bordersOf side (Normals long s) = case (Segment.offset side long s, s) of
+  (Just offset, _) ->
+    [ offset,
+      Straight (Segment.start s) (Segment.start offset),
+      Straight (Segment.end s) (Segment.end offset)
+    ]
+  (Nothing, Arc {start, end, centre}) -> [Straight start centre, Straight end centre]
+  (Nothing, Straight _ _) -> []
 
 -- | Intervals into which the marks inside an interval divide it. A mark is a fraction like the
 -- interval's ends.
