@@ -82,7 +82,7 @@ allowanceAt side pulse edges e p
   where
     own = allowanceOf e
     allowanceOf = Part.allowance . Part.finish
-    isBehind element' = any (\s -> Segment.isBehind s (Part.segment element') p) side
+    isBehind other = any (\s -> Segment.isBehind s (Part.segment other) p) side
     (d, foot) = Distance.nearest p (Part.segment e)
     joined =
       [ other

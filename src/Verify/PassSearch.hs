@@ -170,7 +170,7 @@ untilExit job motions
   | isPartialCut job && isAtExit job (entry job) && leavesHeight = leaving
   | otherwise = leaving <> along <> staying <> again
   where
-    leavesHeight = not (null leaving) && length (unbroken motions) <= length leaving
+    leavesHeight = not (null leaving) && null (drop (length leaving) (unbroken motions))
     (leaving, away) = span staysAtEntry motions
     (along, back) = break (endsAtExit job) away
     (staying, later) = span (endsAtExit job) (unbroken back)

@@ -237,13 +237,13 @@ withoutNormals :: Side -> Mm -> [Segment] -> Segment -> Interval -> [Interval]
 withoutNormals side kept near centres (a, b) =
   [ (from, to)
     | (from, to) <- dividedAt marks (a, b),
-      not (any (isAbove (Segment.at ((from + to) / 2) centres)) lengths)
+      not (any (isAbove (Segment.at ((from + to) / 2) centres)) forbidden)
   ]
   where
-    lengths = concatMap (normals side kept) near
+    forbidden = concatMap (normals side kept) near
     marks =
       [ Segment.fraction centres p
-        | border <- concatMap (bordersOf side) lengths,
+        | border <- concatMap (bordersOf side) forbidden,
           p <- Distance.intersections centres border
       ]
     isAbove p (Normals long s) = Segment.hasFootOf s p && Distance.toPoint p s < roomy long

@@ -303,7 +303,7 @@ closest distanceTo p tree = case levels tree of
       -- Visits the boxes of @level@ from @i@ to @end − 1@. @best@ has the distance and the index of
       -- the nearest thing so far.
       inside level below' i end best = case below' of
-        [] -> among' level i end best
+        [] -> nearest level i end best
         next : lower ->
           List.foldl'
             (visit next lower)
@@ -312,10 +312,10 @@ closest distanceTo p tree = case levels tree of
       visit next lower best (d, k)
         | isFurther d best = best
         | otherwise = inside next lower (fan * k) (childrenEnd next k) best
-      among' level i end best
+      nearest level i end best
         | i >= end = best
-        | isFurther (away level i) best = among' level (i + 1) end best
-        | otherwise = among' level (i + 1) end (better i (distanceTo (thing tree i)) best)
+        | isFurther (away level i) best = nearest level (i + 1) end best
+        | otherwise = nearest level (i + 1) end (better i (distanceTo (thing tree i)) best)
       isFurther d = maybe False ((d >) . fst)
       better i d best = case best of
         Just (e, j) | e < d || (e == d && j < i) -> best

@@ -390,21 +390,21 @@ kinkLaw (FitCase c tolerance) =
 -- curve. On a chain of lines and arcs, the joint in the middle of a biarc may have them, too;
 -- segments are counted there, two for each biarc. Joints after very short segments do not count.
 --
--- The fit may need two biarcs more. It takes one biarc after the other, each as long as possible.
--- If a biarc fits up to some end, does not fit up to later ends, and fits again up to still later
--- ones, the search may stop at the first of these ends. And the last biarc may be very short.
+-- The fit looks for the longest biarc. If a biarc fits up to some end, does not fit up to later
+-- ends, and fits again up to still later ones, the search may stop at the first of these ends. So
+-- the comparison is with biarcs that fit up to all ends before their own.
 fewLaw :: FitCase -> Property
 fewLaw w@(FitCase c tolerance) =
   corners c == 0
     && not (hasKinks c)
-    && length ss <= 40 ==> fewerLaw found (fewestOf size tolerance t) 2
+    && length ss <= 40 ==> fewerLaw found (fewest tolerance t) slack
   where
     ss = arcsOf w
     t = parametricCurve c
     near = nearest t
-    (found, size) = case c of
-      Bends _ -> (length ss, length)
-      _ -> (1 + length (filter ends (zip ss (drop 1 ss))), const 1)
+    (found, fewest, slack) = case c of
+      Bends _ -> (length ss, fewestOf length, 2)
+      _ -> (1 + length (filter ends (zip ss (drop 1 ss))), fewestWithoutGaps, 1)
     ends (previous, s) =
       let (_, u) = near (Segment.start s)
           Rad off = Vec.signedAngle (Segment.startDirection s) (direction t Leaving u)
@@ -451,16 +451,40 @@ fewerLaw found fewest slack =
 -- | Least total cost of a chain of biarcs between 65 points of a curve, with a given cost of each
 -- biarc.
 fewestOf :: (NonEmpty Segment -> Int) -> Double -> ParametricCurve -> Int
-fewestOf size tolerance t = best ! n
+fewestOf size tolerance t = leastCost (cheapest size tolerance t)
+
+-- | Least number of biarcs in a chain between 65 points of a curve. Between the same points, every
+-- biarc with the same start and an earlier end fits too.
+fewestWithoutGaps :: Double -> ParametricCurve -> Int
+fewestWithoutGaps tolerance t = leastCost (\i j -> if j <= reach ! i then Just 1 else Nothing)
   where
-    n = 64 :: Int
-    us = IntMap.fromList (zip [0 ..] (parameters n t))
-    best = IntMap.fromList (zip [0 ..] (0 : map upTo [1 .. n])) :: IntMap Int
-    upTo j = minimum (1000 : [best ! i + cost | i <- [0 .. j - 1], Just cost <- [cheapest i j]])
-    cheapest i j =
+    fits i j = isJust (cheapest (const 1) tolerance t i j)
+    reach =
+      IntMap.fromList
+        [(i, last (i : takeWhile (fits i) [i + 1 .. joints])) | i <- [0 .. joints - 1]]
+
+-- | Number of the last one of the points between which biarcs are compared; the first one is 0.
+joints :: Int
+joints = 64
+
+-- | Least total cost of a chain from point 0 to the last point. The function gives the cost from a
+-- point to a later one, by their numbers; Nothing if no biarc joins them.
+leastCost :: (Int -> Int -> Maybe Int) -> Int
+leastCost costOf = best ! joints
+  where
+    best = IntMap.fromList (zip [0 ..] (0 : map upTo [1 .. joints])) :: IntMap Int
+    upTo j = minimum (1000 : [best ! i + cost | i <- [0 .. j - 1], Just cost <- [costOf i j]])
+
+-- | Least cost of a biarc between two of the points, which are given by their numbers. Nothing if
+-- no biarc between them is within the tolerance.
+cheapest :: (NonEmpty Segment -> Int) -> Double -> ParametricCurve -> Int -> Int -> Maybe Int
+cheapest size tolerance t = between
+  where
+    us = IntMap.fromList (zip [0 ..] (parameters joints t))
+    between i j =
       let from = (place t (us ! i), direction t Leaving (us ! i))
           to = (place t (us ! j), direction t Arriving (us ! j))
-          between =
+          inside =
             [ place t (us ! i + (us ! j - us ! i) * fromIntegral m / parts)
               | (parts, most) <- [(24, 23), (199, 198)],
                 m <- [1 .. most :: Int]
@@ -469,6 +493,6 @@ fewestOf size tolerance t = best ! n
             [ size b
               | r <- [0.5, 0.7, 1, 1.4, 2],
                 Just b <- [Biarc.joinWith r from to],
-                all (\p -> minimum (fmap (`apart` p) b) <= tolerance) between
+                all (\p -> minimum (fmap (`apart` p) b) <= tolerance) inside
             ]
        in if null sizes then Nothing else Just (minimum sizes)
