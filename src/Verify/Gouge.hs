@@ -18,6 +18,7 @@ import Geometry.Index.BoxTree (BoxTree)
 import Geometry.Index.BoxTree qualified as BoxTree
 import Geometry.Segment qualified as Segment
 import Geometry.Vec (Point)
+import Geometry.Vec qualified as Vec
 import Offset.Tolerance qualified as Tolerance
 import Part.Part (Element)
 import Part.Part qualified as Part
@@ -64,13 +65,14 @@ gougeOf KeepOut {searchRadius, required} edges m = Proof.deepest gouges
 
 -- | Allowance that a motion has to leave on the element @e@ while the centre is at the point @p@.
 -- Usually it is the allowance of @e@. It may be smaller near another element. Take the point of @e@
--- nearest to @p@, and the other elements within @pulse@, the length of a pulse, of that point. The
--- result is the smallest allowance of @e@ and these elements, because the position at which the
--- allowance changes is rounded to pulses. If one of these elements is nearer to @p@ than @e@ is,
--- the result is 0, because that element is examined with its own allowance. It is 0, too, if @p@
--- lies beside @e@ on the side opposite to @side@, that of the cutter: beyond a thin wall nothing is
--- left on @e@. The same holds if @p@ lies beyond an end of @e@, and on that side of an element that
--- is joined there. If the allowance of @e@ is not positive, it is the result in every case.
+-- nearest to @p@, and each end of @e@ whose normal is within @pulse@, the length of a pulse, of
+-- @p@. Take also the other elements within @pulse@ of these points. The result is the smallest
+-- allowance of @e@ and these elements, because the position at which the allowance changes is
+-- rounded to pulses. If one of these elements is nearer to @p@ than @e@ is, the result is 0,
+-- because that element is examined with its own allowance. It is 0, too, if @p@ lies beside @e@ on
+-- the side opposite to @side@, that of the cutter: beyond a thin wall nothing is left on @e@. The
+-- same holds if @p@ lies beyond an end of @e@, and on that side of an element that is joined there.
+-- If the allowance of @e@ is not positive, it is the result in every case.
 allowanceAt :: Maybe Side -> Mm -> BoxTree Edge -> Element -> Point -> Mm
 allowanceAt side pulse edges e p
   | own <= Mm 0 = own
@@ -84,11 +86,16 @@ allowanceAt side pulse edges e p
     allowanceOf = Part.allowance . Part.finish
     isBehind other = any (\s -> Segment.isBehind s (Part.segment other) p) side
     (d, foot) = Distance.nearest p (Part.segment e)
+    isOnNormalAt k =
+      let q = Segment.at k (Part.segment e)
+       in Mm (abs (Vec.dot (Segment.directionAt k (Part.segment e)) (Vec.to q p))) <= pulse
+            && Vec.distance q p <= plus d pulse
     joined =
       [ other
-        | other <-
+        | q <- foot : [Segment.at k (Part.segment e) | k <- [0, 1], isOnNormalAt k],
+          other <-
             map
               element
-              (BoxTree.within (BoundingBox.inflate pulse (BoundingBox.ofPoints foot [])) edges),
-          Distance.toPoint foot (Part.segment other) <= pulse
+              (BoxTree.within (BoundingBox.inflate pulse (BoundingBox.ofPoints q [])) edges),
+          Distance.toPoint q (Part.segment other) <= pulse
       ]

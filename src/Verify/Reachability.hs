@@ -37,8 +37,8 @@ data Surroundings = Surroundings
     cutterSide :: Side,
     -- | segments of the contour, grouped by the distance that the centre keeps from them
     kept :: [KeptDistance],
-    -- | the segments of an open contour in the opposite direction, in the same groups. The
-    -- toolpath keeps the allowance of an element of an open contour on both of its sides
+    -- | the segments and corners of an open contour in the opposite direction, in the same groups.
+    -- The toolpath keeps the allowance of an element of an open contour on both of its sides
     back :: [KeptDistance],
     -- | tips of the cusps that are open towards the cutter. The cutter cannot enter them
     crevices :: [Point]
@@ -62,7 +62,9 @@ surroundings ends side elements =
       kept = grouped (elements <> cornerFans side corners <> endFans ends side elements),
       back = case ends of
         Closed -> []
-        Open -> grouped (map (fmap Segment.reverse) elements),
+        Open ->
+          let reversed = reverse (map (fmap Segment.reverse) elements)
+           in grouped (reversed <> cornerFans side (zip reversed (drop 1 reversed))),
       crevices =
         [ Segment.end s
           | ((_, s), (_, s')) <- corners,

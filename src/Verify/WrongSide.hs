@@ -124,19 +124,19 @@ runsBack machine job m =
     isBack k =
       not (null nearest)
         && all (isAgainst job ahead p) nearest
-        && not (isStep job around m ahead p || isLengthened job around m ahead p)
+        && not (isStep job around m ahead || isLengthened job around m ahead p)
       where
         p = Segment.at k (segment m)
         ahead = Segment.directionAt k (segment m)
         nearest = touchedAt job around p
 
 -- | Test that the motion @m@ is a step: at a vertex where the allowance changes, it leads from one
--- distance to the other, square to the contour. It may touch another element meanwhile. @around@
--- are the elements near the motion, @ahead@ is its direction at its point @p@.
-isStep :: MillingJob -> [Edge] -> CutterMotion -> Vec -> Point -> Bool
-isStep job around m ahead p =
+-- distance to the other along the normal of one of the two elements. It may touch another element
+-- meanwhile. @around@ are the elements near the motion, @ahead@ is its direction.
+isStep :: MillingJob -> [Edge] -> CutterMotion -> Vec -> Bool
+isStep job around m ahead =
   or
-    [ Mm (abs (Vec.cross ahead (Vec.to p vertex))) <= allowance job
+    [ any (isAlongNormal vertex) [Segment.endDirection (shape e), Segment.startDirection (shape e')]
         && all (isBetween vertex (ownAllowance e) (ownAllowance e')) (bothEnds m)
       | e <- around,
         e' <- around,
@@ -145,6 +145,9 @@ isStep job around m ahead p =
         Vec.isNear vertex (Segment.start (shape e'))
     ]
   where
+    isAlongNormal vertex direction =
+      abs (Vec.dot direction ahead) < clearly
+        && all (\q -> Mm (abs (Vec.dot direction (Vec.to vertex q))) <= allowance job) (bothEnds m)
     isBetween vertex a b q =
       let d = Vec.distance q vertex
        in d >= minus (plus (reach job) (min a b)) (allowance job)
