@@ -138,35 +138,44 @@ openPath structure source count (before, runs, after) =
       Around _ | flat other == end, endsThere -> Nothing
       o -> Just (numberOf o)
 
--- | True for a path on the far side of the contour. The offset of an element with an extra distance
--- may extend beyond another element, behind the contour. The cutter cannot touch the element there,
--- because the other one lies between. This occurs with different distances only. Connecting lines
--- of such a path may lie behind their own element. Apply the function to the source once, and the
--- result to many paths.
+-- | True for a path on the far side of the contour. The offset of an element or a corner with an
+-- extra distance may extend beyond another element, behind the contour. The cutter cannot touch the
+-- element or corner there, because the other element lies between. This occurs with different
+-- distances only. Connecting lines of such a path may lie behind their own element. Apply the
+-- function to the source once, and the result to many paths.
 isScreened :: OffsetSource -> TrimmedOffset -> Bool
 isScreened source
   | isUneven = \path ->
-    let list = NonEmpty.toList (pieces path)
-        middles =
-          filter (uncurry isOffset) [(i, Segment.at 0.5 s) | OffsetSegment (Along i) s <- list]
-     in not (null middles) && all isBehind middles
+    let touching = mapMaybe contact (NonEmpty.toList (pieces path))
+     in not (null touching) && all isBehind touching
   | otherwise = const False
   where
     isUneven = any ((/= distanceAt source 0) . distanceAt source) [1 .. elementCount source - 1]
-    -- False on the connecting line from the offset of element @i@ to that of the next element.
-    isOffset i p =
-      minus (distanceAt source i) (Distance.toPoint p (elements source Vector.! i))
-        <= Tolerance.clearance
-    isBehind (i, p) =
-      let own = elements source Vector.! i
-          foot = snd (Distance.nearest p own)
-       in Segment.isBehind (SourceOffset.side source) own p || isCut i (Straight foot p)
-    -- True when an element other than element @i@ crosses a line, not at the line's start.
-    isCut i line =
+    -- The middle of a segment, with the point that the cutter touches there. Nothing on the
+    -- connecting line between two offsets.
+    contact (OffsetSegment o s) = case o of
+      Along i -> atDistance (distanceAt source i) (snd (Distance.nearest middle (element i)))
+      Around i ->
+        atDistance
+          (max (distanceAt source i) (distanceAt source (SourceOffset.next source i)))
+          (Segment.end (element i))
+      where
+        middle = Segment.at 0.5 s
+        atDistance d foot
+          | minus d (Vec.distance middle foot) <= Tolerance.clearance = Just (o, foot, middle)
+          | otherwise = Nothing
+    element i = elements source Vector.! i
+    isBehind (o, foot, p) = case o of
+      Along i ->
+        Segment.isBehind (SourceOffset.side source) (element i) p
+          || isCut (/= i) (Straight foot p)
+      Around _ -> isCut (const True) (Straight foot p)
+    -- True when one of the elements, by number, crosses a line, not at the line's start.
+    isCut among line =
       or
         [ Vec.distance (Segment.start line) q > Tolerance.clearance
           | (j, s) <- BoxTree.within (BoundingBox.ofSegment line) index,
-            i /= j,
+            among j,
             q <- Distance.intersections line s
         ]
     index =
