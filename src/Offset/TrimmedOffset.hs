@@ -152,18 +152,21 @@ isScreened source
   where
     isUneven = any ((/= distanceAt source 0) . distanceAt source) [1 .. elementCount source - 1]
     -- The middle of a segment, with the point that the cutter touches there. Nothing on the
-    -- connecting line between two offsets.
+    -- connecting line between two offsets. A sharp corner is further away than an arc round it.
     contact (OffsetSegment o s) = case o of
-      Along i -> atDistance (distanceAt source i) (snd (Distance.nearest middle (element i)))
-      Around i ->
-        atDistance
-          (max (distanceAt source i) (distanceAt source (SourceOffset.next source i)))
-          (Segment.end (element i))
+      Along i
+        | foot <- snd (Distance.nearest middle (element i)),
+          Mm gap <- minus (distanceAt source i) (Vec.distance middle foot),
+          Mm (abs gap) <= Tolerance.clearance ->
+          Just (o, foot, middle)
+      Around i
+        | tip <- Segment.end (element i),
+          wide <- max (distanceAt source i) (distanceAt source (SourceOffset.next source i)),
+          minus wide (Vec.distance middle tip) <= Tolerance.clearance ->
+          Just (o, tip, middle)
+      _ -> Nothing
       where
         middle = Segment.at 0.5 s
-        atDistance d foot
-          | minus d (Vec.distance middle foot) <= Tolerance.clearance = Just (o, foot, middle)
-          | otherwise = Nothing
     element i = elements source Vector.! i
     isBehind (o, foot, p) = case o of
       Along i ->

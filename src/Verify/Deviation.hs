@@ -18,6 +18,7 @@ import Data.IntSet qualified as IntSet
 import Data.List (sortOn)
 import Data.Maybe (fromMaybe, isNothing, mapMaybe, maybeToList)
 import Data.Primitive.PrimArray (PrimArray)
+import Geometry.Distance.Fast qualified as FastDistance
 import Geometry.Index.BoundingBox (BoundingBox)
 import Geometry.Index.BoundingBox qualified as BoundingBox
 import Geometry.Index.BoxTree qualified as BoxTree
@@ -218,10 +219,12 @@ keepOutOf set job along = \m ->
             { searchRadius,
               largest = plus (reach job) largestAllowance,
               required = \e p ->
-                plus (reach job) (Gouge.allowanceAt (side job) pulse (edges job) e p)
+                plus (reach job) (Gouge.allowanceAt (side job) (roundingOf m) (edges job) e p)
             }
         else (Gouge.constantKeepOut tool) {searchRadius}
   where
+    -- The bounding paths of an arc lie beside its real path by the difference of its radii.
+    roundingOf m = plus pulse (Mm (FastDistance.uneven (Motion.segment m)))
     pulse = Machine.planeResolution (MotionSet.machine set)
     ownFrames = IntSet.fromDistinctAscList (ascending (map number along))
     largestAllowance = max (Mm 0) (Edge.largestAllowance (edges job))

@@ -9,13 +9,16 @@ module Verify.Gouge
   )
 where
 
-import Base.Quantity (Mm (..), minus, plus)
+import Base.Quantity (Mm (..), Rad (..), minus, plus)
 import Data.List.NonEmpty qualified as NonEmpty
 import Geometry.Carrier (Side)
+import Geometry.Carrier qualified as Carrier
+import Geometry.Corner qualified as Corner
 import Geometry.Distance qualified as Distance
 import Geometry.Index.BoundingBox qualified as BoundingBox
 import Geometry.Index.BoxTree (BoxTree)
 import Geometry.Index.BoxTree qualified as BoxTree
+import Geometry.Segment (Segment)
 import Geometry.Segment qualified as Segment
 import Geometry.Vec (Point)
 import Geometry.Vec qualified as Vec
@@ -65,19 +68,20 @@ gougeOf KeepOut {searchRadius, required} edges m = Proof.deepest gouges
 
 -- | Allowance that a motion has to leave on the element @e@ while the centre is at the point @p@.
 -- Usually it is the allowance of @e@. It may be smaller near another element. Take the point of @e@
--- nearest to @p@, and each end of @e@ whose normal is within @pulse@, the length of a pulse, of
--- @p@. Take also the other elements within @pulse@ of these points. The result is the smallest
--- allowance of @e@ and these elements, because the position at which the allowance changes is
--- rounded to pulses. If one of these elements is nearer to @p@ than @e@ is, the result is 0,
--- because that element is examined with its own allowance. It is 0, too, if @p@ lies beside @e@ on
--- the side opposite to @side@, that of the cutter: beyond a thin wall nothing is left on @e@. The
--- same holds if @p@ lies beyond an end of @e@, and on that side of an element that is joined there.
--- If the allowance of @e@ is not positive, it is the result in every case.
+-- nearest to @p@, and each end of @e@ whose normal is within @rounding@ of @p@. Take also the other
+-- elements within @rounding@ of these points. The result is the smallest allowance of @e@ and these
+-- elements, because the position at which the allowance changes is rounded; @rounding@ is the
+-- largest deviation of the motion that rounding causes. If one of these elements is nearer to @p@
+-- than @e@ is, the result is 0, because that element is examined with its own allowance. It is 0,
+-- too, if @p@ lies beside @e@ on the side opposite to @side@, that of the cutter: beyond a thin
+-- wall nothing is left on @e@. The same holds if @p@ lies beyond an end of @e@, and either on that
+-- side of an element that is joined there, or behind an inner corner. If the allowance of @e@ is
+-- not positive, it is the result in every case.
 allowanceAt :: Maybe Side -> Mm -> BoxTree Edge -> Element -> Point -> Mm
-allowanceAt side pulse edges e p
+allowanceAt side rounding edges e p
   | own <= Mm 0 = own
   | isBehind e = Mm 0
-  | not (Segment.hasFootOf (Part.segment e) p), any isBehind joined = Mm 0
+  | not (Segment.hasFootOf (Part.segment e) p), any (\o -> isBehind o || meetsInside o) joined = Mm 0
   | any (\other -> plus (Distance.toPoint p (Part.segment other)) Tolerance.resolution < d) joined =
     Mm 0
   | otherwise = minimum (own : map allowanceOf joined)
@@ -85,17 +89,26 @@ allowanceAt side pulse edges e p
     own = allowanceOf e
     allowanceOf = Part.allowance . Part.finish
     isBehind other = any (\s -> Segment.isBehind s (Part.segment other) p) side
+    meetsInside other = any (\s -> isInnerCorner s (Part.segment e) (Part.segment other)) side
     (d, foot) = Distance.nearest p (Part.segment e)
     isOnNormalAt k =
       let q = Segment.at k (Part.segment e)
-       in Mm (abs (Vec.dot (Segment.directionAt k (Part.segment e)) (Vec.to q p))) <= pulse
-            && Vec.distance q p <= plus d pulse
+       in Mm (abs (Vec.dot (Segment.directionAt k (Part.segment e)) (Vec.to q p))) <= rounding
+            && Vec.distance q p <= plus d rounding
     joined =
       [ other
         | q <- foot : [Segment.at k (Part.segment e) | k <- [0, 1], isOnNormalAt k],
           other <-
             map
               element
-              (BoxTree.within (BoundingBox.inflate pulse (BoundingBox.ofPoints q [])) edges),
-          Distance.toPoint q (Part.segment other) <= pulse
+              (BoxTree.within (BoundingBox.inflate rounding (BoundingBox.ofPoints q [])) edges),
+          Distance.toPoint q (Part.segment other) <= rounding
       ]
+
+-- | Test that two segments meet, in any order, at a corner that turns towards the cutter on @side@.
+isInnerCorner :: Side -> Segment -> Segment -> Bool
+isInnerCorner side s s' = any turnsTowards [(s, s'), (s', s)]
+  where
+    turnsTowards (before, after) =
+      Vec.isNear (Segment.end before) (Segment.start after)
+        && let Rad angle = Corner.turning before after in Carrier.sideSign side * angle > 0

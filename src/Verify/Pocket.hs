@@ -193,8 +193,8 @@ isOnFreeSide side walls p e = (Edge.leftwardness walls foot p > 0) == (side == L
 
 -- | Test that the depths of a pocket are cut one after the other, in the order of its passes. A
 -- depth is cut by a horizontal motion in the pocket at that depth. The next depth has to be cut by
--- a later motion. If the cutter has less than a pulse of room at a depth, there is no such
--- horizontal motion. Then a vertical motion down to the depth counts.
+-- a later motion. If the cutter has less than a pulse of room in a pass, there is no such horizontal
+-- motion. Then a motion down to the depth counts that a motion upwards follows.
 isInOrder :: Machine -> Pocket -> [CutterMotion] -> Bool
 isInOrder machine pocket motions =
   go (map NonEmpty.head (NonEmpty.group (map level (NonEmpty.toList (passes pocket))))) motions
@@ -203,10 +203,11 @@ isInOrder machine pocket motions =
       ([], _) -> True
       (_, []) -> False
       (z : more, m : others)
-        | cutsAt z m || goesDownTo z m && not (any (cutsAt z) motions) -> go more others
+        | cutsAt z m || goesDownTo z m && all goesUp (take 1 others) -> go more others
         | otherwise -> go levels others
     cutsAt z m = isHorizontal m && isThere z m
     goesDownTo z m = Motion.isVertical m && uncurry (>) (Motion.heights m) && isThere z m
+    goesUp m = Motion.isVertical m && uncurry (<) (Motion.heights m)
     isHorizontal m = uncurry (==) (Motion.heights m) && not (Motion.isVertical m)
     isThere z m =
       MotionSet.isSameHeight machine z (snd (Motion.heights m))

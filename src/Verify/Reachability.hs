@@ -140,7 +140,8 @@ parts Surroundings {cutterSide, kept, back, crevices} distance element =
             b - a > Tolerance.negligibleShare,
             let p = Segment.at ((a + b) / 2) element
                 c = Segment.at ((a + b) / 2) centres,
-            times (b - a) (Segment.length element) > shortest || not (isTight c),
+            times (b - a) (Segment.length element) > shortest
+              || (a <= 0 || b >= 1) && not (isTight c),
             not (any ((<= Mm Tolerance.cuspDepth) . Vec.distance p) crevices),
             not (isInMaterial cutterSide distance kept c)
         ]
@@ -159,9 +160,10 @@ isNearerThan margin trees p =
 segmentsWithin :: Mm -> Point -> BoxTree Segment -> [Segment]
 segmentsWithin d p = BoxTree.within (BoundingBox.inflate d (BoundingBox.ofPoints p []))
 
--- | The length below which a part of an element counts as touched only if the centre there keeps
--- its distances without the margin of 'roomy'. The margin makes such parts where the cutter just
--- fits in a single position.
+-- | The length below which a part of an element counts as touched only if it is at an end of the
+-- element, and the centre there keeps its distances without the margin of 'roomy'. The margin makes
+-- such parts where the cutter just fits in a single position. Between the ends, other elements
+-- enclose such a part, so the cutter has no way to it.
 shortest :: Mm
 shortest = times 100 Tolerance.clearance
 

@@ -8,6 +8,7 @@ module Verify.StartSearch
 where
 
 import Base.Quantity (Mm (..), minus, plus)
+import Data.Containers.ListUtils (nubOrdOn)
 import Data.Function (on)
 import Data.List (minimumBy, sortOn)
 import Data.List qualified as List
@@ -17,6 +18,7 @@ import Data.Map.Strict qualified as Map
 import Data.Maybe (listToMaybe, mapMaybe)
 import Data.Ord (comparing)
 import Geometry.Distance qualified as Distance
+import Geometry.Index.BoundingBox qualified as BoundingBox
 import Geometry.Index.BoxTree qualified as BoxTree
 import Geometry.Segment qualified as Segment
 import Geometry.Vec (Point)
@@ -111,19 +113,29 @@ startOfLoop job run = List.find (\p -> counts Map.! key p > (1 :: Int) && isAtRe
         wanted = plus (reach job) (ownAllowance e)
 
 -- | Points near which a contour may begin if the cutter's centre is at @p@: the ends of the
--- elements that the cutter touches there, the nearest one first, and the point nearest to @p@.
--- Rounding may hide which of them it is, and at an inner corner the cutter does not reach the end
--- of an element.
+-- elements that the cutter touches there, those of the elements before and after them, and @p@
+-- itself, the nearest end first. Rounding may hide which of them it is, and the cutter does not
+-- reach the end of an element at an inner corner or in a part of the contour that it leaves out.
 startsAround :: MillingJob -> Point -> [Point]
-startsAround job p = sortOn (Vec.distance p) (concatMap ends touched) <> [p]
+startsAround job p = sortOn (Vec.distance p) (nubOrdOn coordinates (concatMap ends beside)) <> [p]
   where
+    coordinates q = (Vec.x q, Vec.y q)
     ends e = [Segment.start (shape e), Segment.end (shape e)]
-    touched =
+    beside =
       [ e
-        | Just (least, _) <- [nearestEdge job p],
-          e <- MillingJob.edgesAround job p,
-          Distance.toPoint p (shape e) <= plus least (allowance job)
+        | q <- concatMap ends touched,
+          e <- BoxTree.within (BoundingBox.ofPoints q []) (edges job),
+          any (Vec.isNear q) (ends e)
       ]
+    touched = filter isTouched around
+    isTouched e = any (\(own, least) -> excess own e <= plus least (allowance job)) bounds
+    bounds =
+      [ (own, minimum (map (excess own) around))
+        | not (null around),
+          own <- [const (Mm 0), ownAllowance]
+      ]
+    excess own e = minus (Distance.toPoint p (shape e)) (own e)
+    around = MillingJob.edgesAround job p
 
 -- | Element nearest to a point, with its distance.
 nearestEdge :: MillingJob -> Point -> Maybe (Mm, Edge)

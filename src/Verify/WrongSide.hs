@@ -210,12 +210,26 @@ touchedAt job close p =
           excessDistance c >= minus (reach job) (allowance job)
       ]
     -- At a tip, the end of an element with an allowance may be touched although the other end is
-    -- nearer.
+    -- nearer. An end is touched only between the normals of the two elements at the tip.
     feet e
       | ownAllowance e > Mm 0,
         not (Segment.hasFootOf (shape e) p) =
-        [Segment.start (shape e), Segment.end (shape e)]
+        filter isBetweenNormals [Segment.start (shape e), Segment.end (shape e)]
       | otherwise = [snd (Distance.nearest p (shape e))]
+    isBetweenNormals vertex =
+      and
+        [ along (Segment.endDirection (shape o)) >= negate deviation
+          | o <- close,
+            Vec.isNear vertex (Segment.end (shape o))
+        ]
+        && and
+          [ along (Segment.startDirection (shape o)) <= deviation
+            | o <- close,
+              Vec.isNear vertex (Segment.start (shape o))
+          ]
+      where
+        along direction = Vec.dot direction (Vec.to vertex p)
+    Mm deviation = allowance job
 
 -- | Test that a motion runs back over the middle of another one, within the allowed deviation, in a
 -- slot as wide as the cutter: at an end or the middle of one of them, the cutter touches elements

@@ -68,7 +68,7 @@ laws tapes = do
       -- The other parts change the tool without a command, so only their planned frames show it.
       forAllBlind byText $ \o ->
         forAllBlind (otherTape o) $ \(starts, frames) ->
-          counterexample (Text.unpack (text o) <> show starts) $
+          counterexample (Text.unpack (text o) <> show starts <> "\nFRAMES\n" <> unlines (zipWith (\i f -> show (i :: Int) <> " " <> show f) [1 ..] frames)) $
             map show (foreignFindings o frames) === []
   folder <- runIO (lookupEnv "PARTC_WRITE_TAPES")
   count <- runIO (newIORef (0 :: Int))
@@ -151,7 +151,7 @@ byOperations = do
     _ -> byOperations
 byText = do
   machine <- elements Machines.known
-  text <- MachinedText.program machine
+  text <- MachinedText.programWithAllowances machine
   case Result.ifSound (Compile.analyse [] (LoadedProgram.fromText "p.part" text)) of
     Just Analysis {Compile.part = part, Compile.path = path} ->
       maybe byText pure (taped text part path (Target.setUpFor path machine))
