@@ -16,6 +16,7 @@ where
 
 import Base.Quantity (Mm (..), plus)
 import Control.Applicative ((<|>))
+import Data.IntSet qualified as IntSet
 import Data.List (dropWhileEnd, sortOn)
 import Data.Maybe (maybeToList)
 import Geometry.Distance.Fast qualified as FastDistance
@@ -163,11 +164,11 @@ unbroken motions = case motions of
 -- because the start and the end of a closed contour may be the same point. Beside an open contour,
 -- in a slot as wide as the cutter, the cutter may pass the end of the cut on its way in. Therefore
 -- later motions are added, up to the last one that ends there, if the cutter touches the contour in
--- all of them. If a partial cut ends where it starts and is shorter than a pulse, the cutter may
+-- all of them. If a cut in a room hardly larger than the cutter ends where it starts, the cutter may
 -- leave the height after the motions that stay at the start; these are then the whole cut.
 untilExit :: MillingJob -> [CutterMotion] -> [CutterMotion]
 untilExit job motions
-  | isPartialCut job && isAtExit job (entry job) && leavesHeight = leaving
+  | isAtExit job (entry job) && leavesHeight = leaving
   | otherwise = leaving <> along <> staying <> again
   where
     leavesHeight = not (null leaving) && null (drop (length leaving) (unbroken motions))
@@ -299,20 +300,16 @@ contactsAhead job measure progress =
   where
     p = position progress
 
--- | Test that each two successive contacts are on the same element or on neighbouring elements. The
--- first and the last element are neighbours on a closed contour only. The contacts are those of
--- 'contactsAhead'.
+-- | Test that the elements of the contacts follow one another along the contour without a gap. On a
+-- closed contour the first element follows the last one. The contacts are those of 'contactsAhead'.
 areNeighbours :: MillingJob -> [(Double, Int)] -> Bool
-areNeighbours job found =
-  and
-    ( zipWith
-        ( \(_, m) (_, n) ->
-            abs (n - m) <= 1
-              || MillingJob.isClosed job && abs (n - m) == BoxTree.size (edges job) - 1
-        )
-        found
-        (drop 1 found)
-    )
+areNeighbours job contacts
+  | MillingJob.isClosed job = length gaps <= 1
+  | otherwise = all (<= 1) (zipWith subtract ranks (drop 1 ranks))
+  where
+    ranks = IntSet.toAscList (IntSet.fromList (map snd contacts))
+    gaps = filter (> 1) (zipWith subtract ranks (drop 1 ranks <> map (+ count) (take 1 ranks)))
+    count = BoxTree.size (edges job)
 
 -- | Signed step between two arc lengths, in mm. On a closed contour there are two steps, one in
 -- each direction; the result is the shorter one.
