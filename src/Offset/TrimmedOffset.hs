@@ -76,9 +76,12 @@ along source = maybe [] (map chained . pathsIn source source) (LoopPath.region s
 pathsIn :: OffsetSource -> OffsetSource -> LoopPath.LoopRegion -> [TrimmedOffset]
 pathsIn structure source region =
   sortOn
-    (origin . NonEmpty.head . pieces)
+    (beginning . NonEmpty.head . pieces)
     (concatMap (inLoop . LoopPath.circuit region) [0 .. Loop.count (LoopPath.loops region) - 1])
   where
+    -- Several paths may begin beside the same element.
+    beginning (OffsetSegment o s) =
+      (o, Distance.nearestFraction (Segment.start s) (elements source Vector.! numberOf o))
     open = openPath structure source (LoopPath.flatCount region)
     screened = isScreened source
     inLoop (Circuit before runs) = case runs of

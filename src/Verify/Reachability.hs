@@ -141,7 +141,7 @@ parts Surroundings {cutterSide, kept, back, crevices} distance element =
             let p = Segment.at ((a + b) / 2) element
                 c = Segment.at ((a + b) / 2) centres,
             times (b - a) (Segment.length element) > shortest
-              || (a <= 0 || b >= 1) && not (isTight c),
+              || not (any (isTight . (`Segment.at` centres)) [(3 * a + b) / 4, (a + 3 * b) / 4]),
             not (any ((<= Mm Tolerance.cuspDepth) . Vec.distance p) crevices),
             not (isInMaterial cutterSide distance kept c)
         ]
@@ -160,10 +160,9 @@ isNearerThan margin trees p =
 segmentsWithin :: Mm -> Point -> BoxTree Segment -> [Segment]
 segmentsWithin d p = BoxTree.within (BoundingBox.inflate d (BoundingBox.ofPoints p []))
 
--- | The length below which a part of an element counts as touched only if it is at an end of the
--- element, and the centre there keeps its distances without the margin of 'roomy'. The margin makes
--- such parts where the cutter just fits in a single position. Between the ends, other elements
--- enclose such a part, so the cutter has no way to it.
+-- | The length below which a part of an element counts as touched only if the centre keeps its
+-- distances without the margin of 'roomy' at both quarters of the part. The margin makes such parts
+-- where the cutter just fits in a single position.
 shortest :: Mm
 shortest = times 100 Tolerance.clearance
 
