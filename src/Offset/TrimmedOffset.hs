@@ -21,13 +21,14 @@ module Offset.TrimmedOffset
 where
 
 import Base.Quantity (Mm (..), minus, plus)
+import Control.Monad ((>=>))
 import Data.IntMap.Strict (IntMap)
 import Data.IntMap.Strict qualified as IntMap
 import Data.IntSet qualified as IntSet
 import Data.List (foldl', sortOn)
 import Data.List.NonEmpty (NonEmpty (..))
 import Data.List.NonEmpty qualified as NonEmpty
-import Data.Maybe (mapMaybe)
+import Data.Maybe (isJust, isNothing, listToMaybe, mapMaybe)
 import Data.Primitive.PrimArray (indexPrimArray, sizeofPrimArray)
 import Data.Vector qualified as Vector
 import Geometry.ClosedPolyarcs qualified as ClosedPolyarcs
@@ -38,6 +39,7 @@ import Geometry.Polyarc (Ends (..))
 import Geometry.Polyarc qualified as Polyarc
 import Geometry.Segment (Segment (..))
 import Geometry.Segment qualified as Segment
+import Geometry.Tolerance qualified as Tolerance
 import Geometry.Vec (Point)
 import Geometry.Vec qualified as Vec
 import Offset.Loop qualified as Loop
@@ -83,10 +85,10 @@ pathsIn structure source region =
     beginning (OffsetSegment o s) =
       (o, Distance.nearestFraction (Segment.start s) (elements source Vector.! numberOf o))
     open = openPath structure source (LoopPath.flatCount region)
-    screened = isScreened source
+    free = withoutScreened source
     inLoop (Circuit before runs) = case runs of
       r : rest
-        | not (isBeside r) -> filter (not . screened) (mapMaybe open (stretches r rest))
+        | not (isBeside r) -> mapMaybe (open >=> free) (stretches r rest)
       _ ->
         [ TrimmedOffset {ends = Closed, pieces = ps, stops = (Nothing, Nothing)}
           | Just ps <- [NonEmpty.nonEmpty (LoopPath.path structure source (Just before) runs)]
@@ -141,48 +143,90 @@ openPath structure source count (before, runs, after) =
       Around _ | flat other == end, endsThere -> Nothing
       o -> Just (numberOf o)
 
--- | True for a path on the far side of the contour. The offset of an element or a corner with an
--- extra distance may extend beyond another element, behind the contour. The cutter cannot touch the
--- element or corner there, because the other element lies between. This occurs with different
--- distances only. Connecting lines of such a path may lie behind their own element. Apply the
--- function to the source once, and the result to many paths.
-isScreened :: OffsetSource -> TrimmedOffset -> Bool
-isScreened source
+-- | The part of an open path that is not screened; Nothing if all of it is. The offset of an element
+-- or a corner with an extra distance may extend beyond another element, behind the contour. There
+-- it is /screened/: the cutter cannot touch the element or corner, because the other element lies
+-- between. This occurs with different distances only. Screened segments at both ends of the path
+-- are left out, with the connecting lines before and after them. Apply the function to the source
+-- once, and the result to many paths.
+withoutScreened :: OffsetSource -> TrimmedOffset -> Maybe TrimmedOffset
+withoutScreened source
   | isUneven = \path ->
-    let touching = mapMaybe contact (NonEmpty.toList (pieces path))
-     in not (null touching) && all isBehind touching
-  | otherwise = const False
+    if all (isNothing . screensAt) (pieces path) then Just path else freeOf path
+  | otherwise = Just
   where
     isUneven = any ((/= distanceAt source 0) . distanceAt source) [1 .. elementCount source - 1]
-    -- The middle of a segment, with the point that the cutter touches there. Nothing on the
-    -- connecting line between two offsets. A sharp corner is further away than an arc round it.
-    contact (OffsetSegment o s) = case o of
-      Along i
-        | foot <- snd (Distance.nearest middle (element i)),
-          Mm gap <- minus (distanceAt source i) (Vec.distance middle foot),
-          Mm (abs gap) <= Tolerance.clearance ->
-          Just (o, foot, middle)
-      Around i
-        | tip <- Segment.end (element i),
-          wide <- max (distanceAt source i) (distanceAt source (SourceOffset.next source i)),
-          minus wide (Vec.distance middle tip) <= Tolerance.clearance ->
-          Just (o, tip, middle)
-      _ -> Nothing
+    freeOf path = do
+      (atStart, front) <- freeFrom screensAt (fst (stops path)) (NonEmpty.toList (pieces path))
+      (atEnd, back) <- freeFrom screensAt (snd (stops path)) (map backwards (reverse front))
+      kept <- NonEmpty.nonEmpty (map backwards (reverse back))
+      Just path {pieces = kept, stops = (atStart, atEnd)}
+    backwards p = p {segment = Segment.reverse (segment p)}
+    screensAt = screens source
+
+-- | The segments of a path without the screened ones at its start, and the element that stops the
+-- cutter at the start of these segments; Nothing if all segments are screened. @screensAt@ is
+-- 'screens', @stop@ the element that stops the cutter at the start of the whole path. The first
+-- segment may be partly screened; bisection then finds the fraction at which its free part begins.
+freeFrom ::
+  (OffsetSegment -> Maybe (Double -> Maybe Int)) ->
+  Maybe Int ->
+  [OffsetSegment] ->
+  Maybe (Maybe Int, [OffsetSegment])
+freeFrom screensAt stop path = case span isConnecting path of
+  (_, []) -> Nothing
+  (connecting, p : rest) -> do
+    screen <- screensAt p
+    case span (isJust . screen) [(k + 0.5) / fineness | k <- [0 .. fineness - 1]] of
+      ([], _) -> Just (stop, connecting <> (p : rest))
+      (covered, []) -> freeFrom screensAt (screen (last covered)) (dropWhile isConnecting rest)
+      (covered, k : _) ->
+        let begin = bisected screen (last covered) k
+         in Just
+              ( screen (last covered),
+                p {segment = Segment.between begin 1 (segment p)} : rest
+              )
+  where
+    isConnecting = isNothing . screensAt
+    fineness = 16
+    bisected screen low high
+      | high - low <= Tolerance.negligibleShare = high
+      | isJust (screen middle) = bisected screen middle high
+      | otherwise = bisected screen low middle
       where
-        middle = Segment.at 0.5 s
+        middle = (low + high) / 2
+
+-- | For a segment of the offset of an element or a corner: the element, by its number from 0, that
+-- screens the point at a fraction of the segment's length. It is Nothing if none does. Nothing for
+-- the connecting line between two offsets. A point on the wrong side of its own element counts as
+-- screened by this element.
+screens :: OffsetSource -> OffsetSegment -> Maybe (Double -> Maybe Int)
+screens source = \(OffsetSegment o s) -> case o of
+  Along i
+    | Mm gap <- minus (distanceAt source i) (Distance.toPoint (Segment.at 0.5 s) (element i)),
+      Mm (abs gap) <= Tolerance.clearance ->
+      Just $ \k ->
+        let p = Segment.at k s
+         in if Segment.isBehind (SourceOffset.side source) (element i) p
+              then Just i
+              else crossed (/= i) (Straight (snd (Distance.nearest p (element i))) p)
+  -- A sharp corner is further from the vertex than an arc round it.
+  Around i
+    | tip <- Segment.end (element i),
+      wide <- max (distanceAt source i) (distanceAt source (SourceOffset.next source i)),
+      minus wide (Vec.distance (Segment.at 0.5 s) tip) <= Tolerance.clearance ->
+      Just (\k -> crossed (const True) (Straight tip (Segment.at k s)))
+  _ -> Nothing
+  where
     element i = elements source Vector.! i
-    isBehind (o, foot, p) = case o of
-      Along i ->
-        Segment.isBehind (SourceOffset.side source) (element i) p
-          || isCut (/= i) (Straight foot p)
-      Around _ -> isCut (const True) (Straight foot p)
-    -- True when one of the elements, by number, crosses a line, not at the line's start.
-    isCut among line =
-      or
-        [ Vec.distance (Segment.start line) q > Tolerance.clearance
+    -- One of the elements, by number, that cross a line, not at the line's start.
+    crossed among line =
+      listToMaybe
+        [ j
           | (j, s) <- BoxTree.within (BoundingBox.ofSegment line) index,
             among j,
-            q <- Distance.intersections line s
+            q <- Distance.intersections line s,
+            Vec.distance (Segment.start line) q > Tolerance.clearance
         ]
     index =
       BoxTree.index

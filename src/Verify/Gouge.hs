@@ -81,7 +81,7 @@ allowanceAt :: Maybe Side -> Mm -> BoxTree Edge -> Element -> Point -> Mm
 allowanceAt side rounding edges e p
   | own <= Mm 0 = own
   | isBehind e = Mm 0
-  | not (Segment.hasFootOf (Part.segment e) p), any (\o -> isBehind o || meetsInside o) joined = Mm 0
+  | not (Segment.hasFootOf (Part.segment e) p), any isHidden joined = Mm 0
   | any (\other -> plus (Distance.toPoint p (Part.segment other)) Tolerance.resolution < d) joined =
     Mm 0
   | otherwise = minimum (own : map allowanceOf joined)
@@ -89,6 +89,7 @@ allowanceAt side rounding edges e p
     own = allowanceOf e
     allowanceOf = Part.allowance . Part.finish
     isBehind other = any (\s -> Segment.isBehind s (Part.segment other) p) side
+    isHidden other = isBehind other || meetsInside other
     meetsInside other = any (\s -> isInnerCorner s (Part.segment e) (Part.segment other)) side
     (d, foot) = Distance.nearest p (Part.segment e)
     isOnNormalAt k =

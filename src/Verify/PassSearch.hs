@@ -164,8 +164,8 @@ unbroken motions = case motions of
 -- because the start and the end of a closed contour may be the same point. Beside an open contour,
 -- in a slot as wide as the cutter, the cutter may pass the end of the cut on its way in. Therefore
 -- later motions are added, up to the last one that ends there, if the cutter touches the contour in
--- all of them. If a cut in a room hardly larger than the cutter ends where it starts, the cutter may
--- leave the height after the motions that stay at the start; these are then the whole cut.
+-- all of them. In a room hardly larger than the cutter, a cut may end where it starts. The cutter
+-- may then leave the height after the motions that stay at the start; these are the whole cut.
 untilExit :: MillingJob -> [CutterMotion] -> [CutterMotion]
 untilExit job motions
   | isAtExit job (entry job) && leavesHeight = leaving

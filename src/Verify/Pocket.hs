@@ -193,8 +193,8 @@ isOnFreeSide side walls p e = (Edge.leftwardness walls foot p > 0) == (side == L
 
 -- | Test that the depths of a pocket are cut one after the other, in the order of its passes. A
 -- depth is cut by a horizontal motion in the pocket at that depth. The next depth has to be cut by
--- a later motion. If the cutter has less than a pulse of room in a pass, there is no such horizontal
--- motion. Then a motion down to the depth counts that a motion upwards follows.
+-- a later motion. If the cutter has less than a pulse of room in a pass, there is no such
+-- horizontal motion. Then a motion down to the depth counts if the next motion goes up.
 isInOrder :: Machine -> Pocket -> [CutterMotion] -> Bool
 isInOrder machine pocket motions =
   go (map NonEmpty.head (NonEmpty.group (map level (NonEmpty.toList (passes pocket))))) motions

@@ -222,7 +222,10 @@ onThisSide element centres near (a, b) =
     marks =
       concat
         [ [ Segment.fraction element p
-            | p <- [Segment.start s, Segment.end s] <> Distance.intersections element s
+            | p <-
+                [Segment.start s, Segment.end s]
+                  <> Distance.intersections element s
+                  <> touchedByNormals element s
           ]
             <> [Segment.fraction centres p | p <- Distance.intersections centres s]
           | s <- near
@@ -232,6 +235,28 @@ onThisSide element centres near (a, b) =
        in any
             (\p -> Vec.distance foot p > Tolerance.clearance)
             (Distance.intersections (Straight foot (Segment.at t centres)) s)
+
+-- | Points at which normals of an element touch the circle of an arc. Normals on one side of such a
+-- point cross the circle, those on the other side do not. Empty for a line.
+touchedByNormals :: Segment -> Segment -> [Point]
+touchedByNormals element s = case (s, element) of
+  (Straight _ _, _) -> []
+  (Arc {start, centre}, Straight _ _) ->
+    [ Vec.shift (Vec.scale (k * r) along) centre
+      | let Mm r = Segment.radius centre start,
+        k <- [-1, 1]
+    ]
+    where
+      along = Vec.unit (Segment.startDirection element)
+  (Arc {start, centre}, Arc {centre = origin}) ->
+    [ Vec.shift (Vec.scale (r / d) (Vec.rotate (Rad (k * acos (r / d))) away)) centre
+      | let Mm r = Segment.radius centre start,
+        let d = Vec.norm away,
+        r < d,
+        k <- [-1, 1]
+    ]
+    where
+      away = Vec.to centre origin
 
 -- | Parts of an interval in which each centre keeps the distance @kept@ from all segments on whose
 -- normals it lies. @near@ are the segments from which the centre keeps the distance @kept@. @kept@
