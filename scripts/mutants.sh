@@ -35,10 +35,17 @@ try() {
     mutants apply "$name" "$copy"
     if ! stack build --fast --test --no-run-tests >build.log 2>&1; then
       echo "$name: does not build"; tail -n 20 build.log; survivors=$((survivors + 1))
-    elif out=$(timeout 300 stack --verbosity error test --fast --test-arguments "--match '$law'" 2>&1); then
-      echo "$name: SURVIVED ($law)"; printf '%s\n' "$out" | tail -n 5; survivors=$((survivors + 1))
     else
-      echo "$name: noticed ($law)"
+      # The arguments of a test know double quotes only.
+      out=$(timeout 300 stack --verbosity error test --fast --test-arguments "--match \"$law\"" 2>&1)
+      status=$?
+      if [ $status = 124 ] || grep -qE '^[0-9]+ examples?, [1-9][0-9]* failures?' <<<"$out"; then
+        echo "$name: noticed ($law)"
+      elif grep -qE '^[1-9][0-9]* examples?, 0 failures' <<<"$out"; then
+        echo "$name: SURVIVED ($law)"; survivors=$((survivors + 1))
+      else
+        echo "$name: its law did not run ($law)"; printf '%s\n' "$out" | tail -n 5; survivors=$((survivors + 1))
+      fi
     fi
     cp "$file.sound" "$file"; rm -f "$file.sound"
   done

@@ -143,12 +143,12 @@ openPath structure source count (before, runs, after) =
       Around _ | flat other == end, endsThere -> Nothing
       o -> Just (numberOf o)
 
--- | The part of an open path that is not screened; Nothing if all of it is. The offset of an element
--- or a corner with an extra distance may extend beyond another element, behind the contour. There
--- it is /screened/: the cutter cannot touch the element or corner, because the other element lies
--- between. This occurs with different distances only. Screened segments at both ends of the path
--- are left out, with the connecting lines before and after them. Apply the function to the source
--- once, and the result to many paths.
+-- | The part of an open path that is not screened; Nothing if all of it is. The offset of an
+-- element or a corner with an extra distance may extend beyond another element, behind the contour.
+-- There it is /screened/: the cutter cannot touch the element or corner, because the other element
+-- lies between. This occurs with different distances only. Screened segments at both ends of the
+-- path are left out, with the connecting lines before and after them. Apply the function to the
+-- source once, and the result to many paths.
 withoutScreened :: OffsetSource -> TrimmedOffset -> Maybe TrimmedOffset
 withoutScreened source
   | isUneven = \path ->

@@ -18,8 +18,9 @@ import Geometry.Distance qualified as Distance
 import Geometry.Index.BoundingBox qualified as BoundingBox
 import Geometry.Index.BoxTree (BoxTree)
 import Geometry.Index.BoxTree qualified as BoxTree
-import Geometry.Segment (Segment)
+import Geometry.Segment (Segment (..))
 import Geometry.Segment qualified as Segment
+import Geometry.Tolerance qualified as Tolerance
 import Geometry.Vec (Point)
 import Geometry.Vec qualified as Vec
 import Offset.Tolerance qualified as Tolerance
@@ -68,15 +69,16 @@ gougeOf KeepOut {searchRadius, required} edges m = Proof.deepest gouges
 
 -- | Allowance that a motion has to leave on the element @e@ while the centre is at the point @p@.
 -- Usually it is the allowance of @e@. It may be smaller near another element. Take the point of @e@
--- nearest to @p@, and each end of @e@ whose normal is within @rounding@ of @p@. Take also the other
--- elements within @rounding@ of these points. The result is the smallest allowance of @e@ and these
--- elements, because the position at which the allowance changes is rounded; @rounding@ is the
--- largest deviation of the motion that rounding causes. If one of these elements is nearer to @p@
--- than @e@ is, the result is 0, because that element is examined with its own allowance. It is 0,
--- too, if @p@ lies beside @e@ on the side opposite to @side@, that of the cutter: beyond a thin
--- wall nothing is left on @e@. The same holds if @p@ lies beyond an end of @e@, and either on that
--- side of an element that is joined there, or behind an inner corner. If the allowance of @e@ is
--- not positive, it is the result in every case.
+-- nearest to @p@, and each end of @e@ whose normal is within @rounding@ of @p@; if @e@ is an arc,
+-- also such ends of other arcs of its circle. Take also the other elements within @rounding@ of
+-- these points. The result is the smallest allowance of @e@ and these elements, because the
+-- position at which the allowance changes is rounded; @rounding@ is the largest deviation of the
+-- motion that rounding causes. If one of these elements is nearer to @p@ than @e@ is, the result is
+-- 0, because that element is examined with its own allowance. It is 0, too, if @p@ lies beside @e@
+-- on the side opposite to @side@, that of the cutter: beyond a thin wall nothing is left on @e@.
+-- The same holds if @p@ lies beyond an end of @e@, and either on that side of an element that is
+-- joined there, or behind an inner corner. If the allowance of @e@ is not positive, it is the
+-- result in every case.
 allowanceAt :: Maybe Side -> Mm -> BoxTree Edge -> Element -> Point -> Mm
 allowanceAt side rounding edges e p
   | own <= Mm 0 = own
@@ -92,19 +94,29 @@ allowanceAt side rounding edges e p
     isHidden other = isBehind other || meetsInside other
     meetsInside other = any (\s -> isInnerCorner s (Part.segment e) (Part.segment other)) side
     (d, foot) = Distance.nearest p (Part.segment e)
-    isOnNormalAt k =
-      let q = Segment.at k (Part.segment e)
-       in Mm (abs (Vec.dot (Segment.directionAt k (Part.segment e)) (Vec.to q p))) <= rounding
-            && Vec.distance q p <= plus d rounding
     joined =
       [ other
-        | q <- foot : [Segment.at k (Part.segment e) | k <- [0, 1], isOnNormalAt k],
-          other <-
-            map
-              element
-              (BoxTree.within (BoundingBox.inflate rounding (BoundingBox.ofPoints q [])) edges),
+        | q <- foot : [end | o <- onSameCircle, (end, along) <- bothEnds o, isAbove end along],
+          other <- elementsAround rounding q,
           Distance.toPoint q (Part.segment other) <= rounding
       ]
+    isAbove end along =
+      Mm (abs (Vec.dot along (Vec.to end p))) <= rounding
+        && Vec.distance end p <= plus d rounding
+    onSameCircle = e : filter (isOnCircleOf (Part.segment e) . Part.segment) (elementsAround d p)
+    elementsAround far q =
+      map element (BoxTree.within (BoundingBox.inflate far (BoundingBox.ofPoints q [])) edges)
+    bothEnds o =
+      [(Segment.at k s, Segment.directionAt k s) | let s = Part.segment o, k <- [0, 1]]
+
+-- | Test that two arcs have the same centre and radius. A contour that begins on an arc has two such
+-- arcs.
+isOnCircleOf :: Segment -> Segment -> Bool
+isOnCircleOf s s' = case (s, s') of
+  (Arc {start, centre}, Arc {start = start', centre = centre'}) ->
+    let Mm gap = minus (Segment.radius centre start) (Segment.radius centre' start')
+     in Vec.isNear centre centre' && Mm (abs gap) <= Tolerance.coincident
+  _ -> False
 
 -- | Test that two segments meet, in any order, at a corner that turns towards the cutter on @side@.
 isInnerCorner :: Side -> Segment -> Segment -> Bool
