@@ -109,8 +109,8 @@ allowanceAt side rounding edges e p
     bothEnds o =
       [(Segment.at k s, Segment.directionAt k s) | let s = Part.segment o, k <- [0, 1]]
 
--- | Test that two arcs have the same centre and radius. A contour that begins on an arc has two such
--- arcs.
+-- | Test that two arcs have the same centre and radius. A contour that begins on an arc has two
+-- such arcs.
 isOnCircleOf :: Segment -> Segment -> Bool
 isOnCircleOf s s' = case (s, s') of
   (Arc {start, centre}, Arc {start = start', centre = centre'}) ->
