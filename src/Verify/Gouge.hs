@@ -74,24 +74,21 @@ gougeOf KeepOut {searchRadius, required} edges m = Proof.deepest gouges
 -- these points. The result is the smallest allowance of @e@ and these elements, because the
 -- position at which the allowance changes is rounded; @rounding@ is the largest deviation of the
 -- motion that rounding causes. If one of these elements is nearer to @p@ than @e@ is, the result is
--- 0, because that element is examined with its own allowance. It is 0, too, if @p@ lies beside @e@
--- on the side opposite to @side@, that of the cutter: beyond a thin wall nothing is left on @e@.
--- The same holds if @p@ lies beyond an end of @e@, and either on that side of an element that is
--- joined there, or behind an inner corner. If the allowance of @e@ is not positive, it is the
--- result in every case.
+-- 0, because that element is examined with its own allowance. It is 0, too, if @p@ lies beyond the
+-- end of @e@ at an inner corner, and if it lies on the side of @e@ opposite to @side@, that of the
+-- cutter: beyond a thin wall nothing is left on @e@. If the allowance of @e@ is not positive, it is
+-- the result in every case.
 allowanceAt :: Maybe Side -> Mm -> BoxTree Edge -> Element -> Point -> Mm
 allowanceAt side rounding edges e p
   | own <= Mm 0 = own
-  | isBehind e = Mm 0
-  | not (Segment.hasFootOf (Part.segment e) p), any isHidden joined = Mm 0
+  | any (\s -> Segment.isBehind s (Part.segment e) p) side = Mm 0
+  | not (Segment.hasFootOf (Part.segment e) p), any meetsInside joined = Mm 0
   | any (\other -> plus (Distance.toPoint p (Part.segment other)) Tolerance.resolution < d) joined =
     Mm 0
   | otherwise = minimum (own : map allowanceOf joined)
   where
     own = allowanceOf e
     allowanceOf = Part.allowance . Part.finish
-    isBehind other = any (\s -> Segment.isBehind s (Part.segment other) p) side
-    isHidden other = isBehind other || meetsInside other
     meetsInside other = any (\s -> isInnerCorner s (Part.segment e) (Part.segment other)) side
     (d, foot) = Distance.nearest p (Part.segment e)
     joined =

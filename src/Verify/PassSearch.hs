@@ -14,7 +14,7 @@ module Verify.PassSearch
   )
 where
 
-import Base.Quantity (Mm (..), plus)
+import Base.Quantity (Mm (..), plus, total)
 import Control.Applicative ((<|>))
 import Data.IntSet qualified as IntSet
 import Data.List (dropWhileEnd, sortOn)
@@ -161,11 +161,12 @@ unbroken motions = case motions of
 
 -- | Motions up to the first one that ends at the end of the cut, and the motions after it that stay
 -- at that end. Motions that stay at the start of the cut are skipped in the search for the end,
--- because the start and the end of a closed contour may be the same point. Beside an open contour,
--- in a slot as wide as the cutter, the cutter may pass the end of the cut on its way in. Therefore
--- later motions are added, up to the last one that ends there, if the cutter touches the contour in
--- all of them. In a room hardly larger than the cutter, a cut may end where it starts. The cutter
--- may then leave the height after the motions that stay at the start; these are the whole cut.
+-- because the start and the end of a closed contour may be the same point. In a slot as wide as the
+-- cutter, the cutter may pass the end of the cut on its way. Beside an open contour, later motions
+-- are therefore added, up to the last one that ends there, if the cutter touches the contour in all
+-- of them. Beside a closed contour, the cut goes on if the motions so far lead out and back on the
+-- same path. In a room hardly larger than the cutter, a cut may end where it starts. The cutter may
+-- then leave the height after the motions that stay at the start; these are the whole cut.
 untilExit :: MillingJob -> [CutterMotion] -> [CutterMotion]
 untilExit job motions
   | isAtExit job (entry job) && leavesHeight = leaving
@@ -176,12 +177,24 @@ untilExit job motions
     (along, back) = break (endsAtExit job) away
     (staying, later) = span (endsAtExit job) (unbroken back)
     again
-      | MillingJob.isClosed job || isPartialCut job = []
+      | isPartialCut job = []
+      | MillingJob.isClosed job =
+        if not (null later) && goThereAndBack job (along <> staying) then untilExit job later else []
       | otherwise = dropWhileEnd (not . endsAtExit job) (besideFrom job later)
     staysAtEntry m =
       endsNear job (entry job) m
         && not (isFullCircle m)
         && isNear job (entry job) (Segment.at 0.5 (segment m))
+
+-- | Test that motions lead out and back on the same path, within the allowed deviation: they
+-- enclose an area of less than that deviation times their length.
+goThereAndBack :: MillingJob -> [CutterMotion] -> Bool
+goThereAndBack job motions = abs (sum (zipWith area points (drop 1 points))) <= deviation * long
+  where
+    Mm deviation = allowance job
+    Mm long = total (map (Segment.length . segment) motions)
+    points = entry job : concatMap (\m -> map (`Segment.at` segment m) (Motion.samples m)) motions
+    area p q = Vec.cross (Vec.to (entry job) p) (Vec.to (entry job) q) / 2
 
 -- Following the contact point ---------------------------------------------------------------------
 
