@@ -177,9 +177,9 @@ untilExit job motions
     (along, back) = break (endsAtExit job) away
     (staying, later) = span (endsAtExit job) (unbroken back)
     again
-      | isPartialCut job = []
+      | isPartialCut job || null later = []
       | MillingJob.isClosed job =
-        if not (null later) && goThereAndBack job (along <> staying) then untilExit job later else []
+        if goThereAndBack job (along <> staying) then untilExit job later else []
       | otherwise = dropWhileEnd (not . endsAtExit job) (besideFrom job later)
     staysAtEntry m =
       endsNear job (entry job) m
