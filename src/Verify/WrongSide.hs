@@ -110,8 +110,8 @@ sideOf job p s
 -- | Test that a motion runs against the direction of travel at one of its test points. The test
 -- point of a line is its middle. The test points of an arc lie midway between neighbouring sample
 -- points. At a test point the motion has to run against all elements that the cutter touches there
--- and that are nearest within the allowed deviation; there has to be at least one. False for a
--- motion so short that rounding decides its direction.
+-- and that are nearest within twice the allowed deviation; there has to be at least one. False for
+-- a motion so short that rounding decides its direction.
 runsBack :: Machine -> MillingJob -> CutterMotion -> Bool
 runsBack machine job m =
   Segment.length (segment m) > times 4 pulse && any isBack fractions
@@ -190,12 +190,13 @@ bothEnds m = [Segment.start (segment m), Segment.end (segment m)]
 -- the point, less the allowance of the element.
 data Contact = Contact {excessDistance :: Mm, foot :: Point, touched :: Edge}
 
--- | Contacts of a cutter with its centre at @p@ that are nearest within the allowed deviation.
--- @close@ are the elements near the centre. If the cutter keeps its distance from no element, as at
--- a sharp corner, the elements within 'MillingJob.contactLimit' count.
+-- | Contacts of a cutter with its centre at @p@ that are nearest within twice the allowed
+-- deviation: the distances from two touched elements may deviate in opposite directions. @close@
+-- are the elements near the centre. If the cutter keeps its distance from no element, as at a sharp
+-- corner, the elements within 'MillingJob.contactLimit' count.
 touchedAt :: MillingJob -> [Edge] -> Point -> [Contact]
 touchedAt job close p =
-  filter ((<= plus least (allowance job)) . excessDistance) contacts
+  filter ((<= plus least (times 2 (allowance job))) . excessDistance) contacts
   where
     least = minimum (map excessDistance contacts)
     contacts = if null inContact then within else inContact
