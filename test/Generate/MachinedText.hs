@@ -3,7 +3,6 @@
 -- allowance of their own. Many of the programs cannot be made, and are refused before the tape.
 module Generate.MachinedText
   ( program,
-    programWithAllowances,
     compensatedCurve,
   )
 where
@@ -25,20 +24,10 @@ data Edge = Line Vertex Vertex | Arc Vertex Vertex Vertex
 
 -- | A random program for this machine.
 program :: Machine -> Gen Text
-program = programWith not
-
--- | A random program for this machine, in which elements may have allowances of their own where
--- rest material is allowed.
-programWithAllowances :: Machine -> Gen Text
-programWithAllowances = programWith (const True)
-
--- | A random program for a machine. The first argument tells if elements may have allowances of
--- their own in a milling, given whether it allows rest material.
-programWith :: (Bool -> Bool) -> Machine -> Gen Text
-programWith mayKeep machine =
+program machine =
   Text.unlines . (["part p", "machine " <> name] <>)
     <$> frequency
-      ( [(8, milling mayKeep hasZ), (2, pocket hasZ), (2, curveMilling hasZ), (1, turning)]
+      ( [(8, milling hasZ), (2, pocket hasZ), (2, curveMilling hasZ), (1, turning)]
           <> [(1, drilling) | hasZ]
           <> [(1, blade) | hasZ]
           <> [(2, compensation) | name == "iso6983"]
@@ -273,10 +262,9 @@ stops hasZ = do
 
 -- Statements --------------------------------------------------------------------------------------
 
--- | Milling along one or two closed or open contours, and moves. The first argument is that of
--- 'programWith'.
-milling :: (Bool -> Bool) -> Bool -> Gen [Text]
-milling mayKeep hasZ = do
+-- | Milling along one or two closed or open contours, and moves.
+milling :: Bool -> Gen [Text]
+milling hasZ = do
   tool <- frequency [(6, mill), (1, pure "cone(diameter 6, bevel 5 deg, height 4)")]
   set <- settings hasZ tool
   n <- elements [1, 1, 1, 2 :: Int]
@@ -293,7 +281,7 @@ milling mayKeep hasZ = do
       edges <- outline
       isClosed <- frequency [(3, pure True), (1, pure False)]
       isRestAllowed <- frequency [(3, pure True), (1, pure False)]
-      let written = contour (mayKeep isRestAllowed) name
+      let written = contour True name
       text <- if isClosed then written "closed" edges else opened edges >>= written "open"
       side <-
         if isClosed

@@ -151,7 +151,7 @@ byOperations = do
     _ -> byOperations
 byText = do
   machine <- elements Machines.known
-  text <- MachinedText.programWithAllowances machine
+  text <- MachinedText.program machine
   case Result.ifSound (Compile.analyse [] (LoadedProgram.fromText "p.part" text)) of
     Just Analysis {Compile.part = part, Compile.path = path} ->
       maybe byText pure (taped text part path (Target.setUpFor path machine))

@@ -28,7 +28,7 @@ spec = do
       "a program that the compiler's passes accept is not refused by its own proof"
     $ withMaxSuccess programs $
       forAllBlind (elements Machines.known) $ \machine ->
-        forAllBlind (MachinedText.programWithAllowances machine) $ \text ->
+        forAllBlind (MachinedText.program machine) $ \text ->
           let result =
                 Compile.compile
                   (Machines.jobFor machine [])
