@@ -8,6 +8,7 @@ module Frame.ChordError
   ( ChordTolerance (..),
     chordTolerance,
     betweenWalls,
+    onBothSides,
     raisedToRounding,
     remainder,
     ends,
@@ -122,6 +123,16 @@ betweenWalls :: Part.Accuracy -> Part.Accuracy
 betweenWalls t = case t of
   Part.Band a b | a > Mm 0, b > Mm 0 -> let d = min a b in Part.Band d d
   _ -> t
+
+-- | The chord tolerance @tolerance@ with the chord error @least@ in mm on both sides. If @least@ is
+-- smaller than rounding makes sense of, the result is the least value of 'raisedToRounding'.
+onBothSides :: Machine -> Mm -> ChordTolerance -> ChordTolerance
+onBothSides machine least tolerance = raisedToRounding machine $ case tolerance of
+  Sagitta y -> Sagitta (min y least)
+  ArcBand _ _ -> ArcBand least least
+  OnCurve bounds ->
+    let d = max (Mm 0) (minus least Tolerance.curve)
+     in OnCurve bounds {Chording.left = d, Chording.right = d}
 
 -- | True for a pointed tool. Its path is the contour itself, and its distance from the contour does
 -- not show on which side it is. So the smaller tolerance of a band holds on both sides.

@@ -5,6 +5,7 @@
 -- convert pulses to mm. Passes are numbered from 0, and frames from 1.
 module Frame.Frame
   ( Frame (..),
+    mostFrames,
     FrameMotion (..),
     commandFrame,
     isMoving,
@@ -33,6 +34,11 @@ import Geometry.Vec (Point)
 import Geometry.Vec qualified as Vec
 import Machine.Machine (Arcs (..), Axis (..), AxisMeasure (..), CommandName, FeedCode (..), Machine)
 import Machine.Machine qualified as Machine
+
+-- | Largest number of frames of a program. With 15 rows of 2.54 mm for each frame, so many frames
+-- need 38 km of tape.
+mostFrames :: Int
+mostFrames = 1000000
 
 -- | One frame in the machine's own numbers: pulses, the feed code and the numbers of commands. Even
 -- if the tape holds absolute positions, a frame here has increments.

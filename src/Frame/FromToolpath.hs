@@ -120,7 +120,7 @@ errorsOf tooCoarse tooMany made =
     bounds = InstructionCheck.boundErrors (instructionFindings made)
     ofFrames
       | null bounds = case tooManyFrom made of
-        Just region -> [TooManyFrames region InstructionCheck.mostFrames]
+        Just region -> [TooManyFrames region Frame.mostFrames]
         Nothing -> FrameCheck.errors (frameFindings made)
       | otherwise = []
 
@@ -321,7 +321,7 @@ addFrame Context {frameContext} feed end p@(PlannedFrame _ _ asked _) made =
       latest = p : latest made,
       count = count made + 1,
       tooManyFrom =
-        if count made == InstructionCheck.mostFrames
+        if count made == Frame.mostFrames
           then Just asked
           else tooManyFrom made,
       frameFindings = FrameCheck.check frameContext feed end p (frameFindings made)
@@ -462,7 +462,7 @@ segmentSteps Context {machine, grid} tolerance chordError m =
               machine
               at
               chord
-              (ChordError.ends InstructionCheck.mostFrames machine chordError chord)
+              (ChordError.ends Frame.mostFrames machine chordError chord)
     )
     (fst (heights m))
 
@@ -471,7 +471,7 @@ segmentSteps Context {machine, grid} tolerance chordError m =
 chordEndsOf :: Machine -> ChordTolerance -> NonEmpty Move -> [PathPosition]
 chordEndsOf machine tolerance =
   ChordError.ends
-    InstructionCheck.mostFrames
+    Frame.mostFrames
     machine
     (ChordError.raisedToRounding machine tolerance)
 

@@ -14,6 +14,7 @@ where
 
 import Base.Quantity (Feed, Mm (..), minus)
 import Base.Region (Located (..), Region)
+import Data.List (mapAccumL)
 import Data.List.NonEmpty (NonEmpty (..))
 import Data.List.NonEmpty qualified as NonEmpty
 import Data.Maybe (fromMaybe)
@@ -22,6 +23,8 @@ import Frame.ChordError qualified as ChordError
 import Frame.Command (Translation)
 import Frame.Command qualified as Command
 import Frame.Frame (Role (..))
+import Frame.Passage (Walls)
+import Frame.Passage qualified as Passage
 import Frame.Rounding qualified as Rounding
 import Geometry.Segment qualified as Segment
 import Machine.Machine (Machine)
@@ -58,44 +61,68 @@ data FeedMode
 -- | Instructions for a toolpath, in the order of the toolpath.
 instructions :: Machine -> Toolpath -> [Instruction]
 instructions machine path =
-  concat (zipWith (ofBlock machine) (Toolpath.passNumbers blocks) blocks)
+  concat
+    ( zipWith3
+        (ofBlock machine)
+        (Toolpath.passNumbers blocks)
+        (wallsOf blocks)
+        blocks
+    )
   where
     blocks = Toolpath.blocks path
 
+-- | Walls beside the passes of a toolpath, for each block. The passes of a statement share them.
+wallsOf :: [Block] -> [Walls]
+wallsOf = snd . mapAccumL next (-1, Passage.walls [])
+  where
+    next (n, walls) b = case b of
+      Toolpath.Cutting {Toolpath.job, Toolpath.pass} -> at pass [Part.contour (value job)]
+      Toolpath.Clearing {Toolpath.pocket = Located _ p, Toolpath.pass} ->
+        at pass (Part.contour (Part.wall p) : Part.islands p)
+      _ -> ((n, walls), walls)
+      where
+        at pass contours
+          | Toolpath.number pass == n = ((n, walls), walls)
+          | otherwise = let new = Passage.walls contours in ((Toolpath.number pass, new), new)
+
 -- | Instructions for the block @b@, which has the moves of one statement or of one of its passes.
--- The number of its pass is @n@, from 0.
-ofBlock :: Machine -> Int -> Block -> [Instruction]
-ofBlock machine n b = case b of
+-- The number of its pass is @n@, from 0. @walls@ are the walls beside the pass.
+ofBlock :: Machine -> Int -> Walls -> Block -> [Instruction]
+ofBlock machine n walls b = case b of
   Toolpath.Travelling radius _ ms -> straightRuns Linking radius ms
   Toolpath.Holing (Located _ d) ms -> straightRuns Drilling (Part.drillRadius d) ms
   Toolpath.Commanding c -> [Words (region c) (Command.translated machine c)]
   Toolpath.Cutting
     { Toolpath.job = Located region' job,
+      Toolpath.pass,
       Toolpath.approach,
       Toolpath.cut,
       Toolpath.retract,
       Toolpath.sent
     } ->
-      fromMaybe
-        ( concat
-            [ milled machine (Approaching n) job approach,
-              milled machine (Cutting n) job (NonEmpty.toList cut),
-              milled machine (Retracting n) job retract
-            ]
-        )
-        (compensated machine n (fromMaybe region' (Part.controlCompensation job)) job <$> sent)
+      let along = milled machine job (Passage.tolerance machine job pass walls)
+       in fromMaybe
+            ( concat
+                [ along (Approaching n) approach,
+                  along (Cutting n) (NonEmpty.toList cut),
+                  along (Retracting n) retract
+                ]
+            )
+            (compensated machine n (fromMaybe region' (Part.controlCompensation job)) job <$> sent)
   Toolpath.Clearing
     { Toolpath.pocket = Located _ p,
+      Toolpath.pass,
       Toolpath.approach,
       Toolpath.cleared,
       Toolpath.retract
     } ->
       let wall = Part.wall p
           job = wall {Part.tolerance = ChordError.betweenWalls (Part.tolerance wall)}
+          along = milled machine job (Passage.tolerance machine job pass walls)
        in concat
-            [ milled machine (Approaching n) job approach,
-              concatMap (\m -> milled machine (roleInPocket n m) job [m]) (NonEmpty.toList cleared),
-              milled machine (Retracting n) job retract
+            [ along (Approaching n) approach,
+              concatMap (\m -> along (roleInPocket n m) [m]) (NonEmpty.toList cleared),
+              along (Retracting n) retract
             ]
 
 -- | Runs outside of milling, one for each move, with the cutter's radius in mm. All moves are
@@ -103,10 +130,18 @@ ofBlock machine n b = case b of
 straightRuns :: Role -> Mm -> [Move] -> [Instruction]
 straightRuns r radius = map (Run r (Sagitta (Mm 0)) radius AsProgrammed . (:| []))
 
--- | Runs along the moves of a milling job, all with the role @r@.
-milled :: Machine -> Role -> Milling -> [Move] -> [Instruction]
-milled machine r job =
-  map (\ms -> Run r (tolerance ms) (Part.radius job) AsProgrammed ms) . Toolpath.curveRuns
+-- | Runs along the moves of a milling job, all with the role @r@. The function @limited@ may reduce
+-- the chord tolerance of a run.
+milled ::
+  Machine ->
+  Milling ->
+  (NonEmpty Move -> ChordTolerance -> ChordTolerance) ->
+  Role ->
+  [Move] ->
+  [Instruction]
+milled machine job limited r =
+  map (\ms -> Run r (limited ms (tolerance ms)) (Part.radius job) AsProgrammed ms)
+    . Toolpath.curveRuns
   where
     tolerance = ChordError.chordTolerance machine job
 
@@ -126,18 +161,19 @@ compensated :: Machine -> Int -> Region -> Milling -> Sent -> [Instruction]
 compensated machine n asked job edge
   | null (Command.errors on) =
     concat
-      [ milled machine (Approaching n) job (Toolpath.before edge),
+      [ along (Approaching n) (Toolpath.before edge),
         [Words asked on],
         single (Approaching n) (Toolpath.entry edge),
         concatMap (single (Cutting n)) (Toolpath.edge edge),
         [Words asked (Command.compensationOff machine)],
         single (Retracting n) (Toolpath.exit edge),
-        milled machine (Retracting n) job (Toolpath.behind edge)
+        along (Retracting n) (Toolpath.behind edge)
       ]
   | otherwise = [Words asked on]
   where
     on = Command.compensationOn machine asked (Toolpath.side edge) (Part.radius job)
-    single r m = milled machine r job [m {continues = False}]
+    single r m = along r [m {continues = False}]
+    along = milled machine job (const id)
 
 -- | Length of a move in space, in mm.
 lengthOf :: Move -> Mm

@@ -12,7 +12,6 @@ module Frame.InstructionCheck
     feedErrors,
     boundErrors,
     heightWarnings,
-    mostFrames,
   )
 where
 
@@ -25,6 +24,7 @@ import Data.Maybe (listToMaybe, mapMaybe, maybeToList)
 import Frame.ChordError (ChordTolerance)
 import Frame.ChordError qualified as ChordError
 import Frame.Error (Error (..), Warning (..))
+import Frame.Frame (mostFrames)
 import Frame.Instruction (FeedMode (..), Instruction (..))
 import Frame.Rounding (PathPosition)
 import Frame.Rounding qualified as Rounding
@@ -38,11 +38,6 @@ import Machine.Machine (Arcs (..), Axis (..), FeedMeasure (..), Machine)
 import Machine.Machine qualified as Machine
 import Part.Part (Pace (..))
 import Toolpath.Toolpath (Move (..), heights, pace)
-
--- | Largest number of frames of a program. With 15 rows of 2.54 mm for each frame, so many frames
--- need 38 km of tape.
-mostFrames :: Int
-mostFrames = 1000000
 
 -- | Facts that are the same for all instructions.
 data InstructionContext = InstructionContext
