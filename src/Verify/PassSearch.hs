@@ -17,8 +17,8 @@ where
 import Base.Quantity (Mm (..), plus, total)
 import Control.Applicative ((<|>))
 import Data.IntSet qualified as IntSet
-import Data.List (dropWhileEnd, sortOn)
-import Data.Maybe (maybeToList)
+import Data.List (dropWhileEnd, inits, sortOn, tails)
+import Data.Maybe (fromMaybe, listToMaybe, mapMaybe, maybeToList)
 import Geometry.Distance.Fast qualified as FastDistance
 import Geometry.Index.BoxTree qualified as BoxTree
 import Geometry.Segment (Segment (..))
@@ -61,7 +61,9 @@ type Arrival = ([CutterMotion], [CutterMotion])
 -- the first motion; Nothing if the cutter is not yet at that height. The contact points of a
 -- partial cut are not followed: if two partial cuts almost touch, contact points do not show where
 -- one ends. A partial cut begins at the first arrival after which the cutter stays beside the
--- contour, or at the first arrival if there is no such one.
+-- contour, or at the first arrival if there is no such one. If a closed contour begins in a slot as
+-- wide as the cutter or at a step between allowances, the cut may first go there and back on the
+-- same path.
 find :: MillingJob -> Maybe Point -> [CutterMotion] -> FoundPass
 find job at motions = case (complete, filter (staysBeside job . snd) arrivals <> arrivals) of
   (found : _, _) -> found
@@ -71,11 +73,29 @@ find job at motions = case (complete, filter (staysBeside job . snd) arrivals <>
     measure = ContactMeasure.measureOf job
     arrivals = arrivalsIn job at motions
     complete =
-      [ Complete arrival (take count rest)
+      [ Complete arrival (out <> take count rest)
         | isResolved measure && not (isPartialCut job),
-          (arrival, rest) <- arrivals,
+          (before, later@(_, rest) : _) <- zip (inits arrivals) (tails arrivals),
+          let (arrival, out) = firstArrival job before later,
           count <- maybeToList (countFollowing job measure rest)
       ]
+
+-- | Arrival at which a cut begins that follows the contour after the arrival @chosen@, and the
+-- motions from the one arrival to the other. It is the first of the arrivals @before@ from which
+-- the cutter goes out and back to @chosen@ on the same path beside a closed contour; if there is
+-- none, it is @chosen@ itself.
+firstArrival :: MillingJob -> [Arrival] -> Arrival -> ([CutterMotion], [CutterMotion])
+firstArrival job before chosen =
+  fromMaybe (fst chosen, []) (listToMaybe (mapMaybe fromArrival before))
+  where
+    fromArrival (arrival, rest)
+      | MillingJob.isClosed job,
+        goThereAndBack job between,
+        length (besideFrom job (unbroken between)) == length between =
+        Just (arrival, between)
+      | otherwise = Nothing
+      where
+        between = take (length rest - length (snd chosen)) rest
 
 -- | Arrivals at the start of a cut, in the order of the tape. The arriving motion is unknown if the
 -- cutter was at the start already, or came from another height. A line that begins near the start
