@@ -23,7 +23,8 @@ import Geometry.Index.BoxTree qualified as BoxTree
 import Geometry.Segment (Segment (Straight))
 import Geometry.Segment qualified as Segment
 import Geometry.Tolerance qualified as Tolerance
-import Machine.Machine (Machine)
+import Machine.Machine (Arcs (..), Machine)
+import Machine.Machine qualified as Machine
 import Part.Part (Contour, Element, Milling)
 import Part.Part qualified as Part
 import Toolpath.Toolpath (Move (..), Pass)
@@ -52,7 +53,8 @@ walls contours =
 tolerance ::
   Machine -> Milling -> Pass -> Walls -> NonEmpty Move -> ChordTolerance -> ChordTolerance
 tolerance machine job pass Walls {elements, largestAllowance} moves wide
-  | inside < outside && any comesTooNear chords = ChordError.onBothSides machine inside wide
+  | Machine.arcs machine == NoArcs && inside < outside && any comesTooNear chords =
+    ChordError.onBothSides machine inside wide
   | otherwise = wide
   where
     (inside, outside) = widths job
@@ -72,7 +74,8 @@ tolerance machine job pass Walls {elements, largestAllowance} moves wide
           | e <- BoxTree.within (BoundingBox.inflate largest (BoundingBox.ofSegment chord)) elements
         ]
     required e = plus (Toolpath.reach pass) (Part.allowance (Part.finish e))
-    slack = plus inside Tolerance.coincident
+    -- The path of a curve consists of arcs that are approximations themselves.
+    slack = plus inside (plus Tolerance.curve Tolerance.coincident)
     largest = plus (Toolpath.reach pass) largestAllowance
 
 -- | Permitted chord errors in mm into the material and away from it.
