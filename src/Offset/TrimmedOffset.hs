@@ -74,7 +74,8 @@ along :: OffsetSource -> [TrimmedOffset]
 along source = maybe [] (map chained . pathsIn source source) (LoopPath.region source)
 
 -- | The paths in a region, which the kernel computed for @structure@. Where two segments join,
--- their ends may differ by rounding.
+-- their ends may differ by rounding. No path beside an open contour is shorter than
+-- 'Tolerance.shortestPath'.
 pathsIn :: OffsetSource -> OffsetSource -> LoopPath.LoopRegion -> [TrimmedOffset]
 pathsIn structure source region =
   sortOn
@@ -91,7 +92,8 @@ pathsIn structure source region =
         | not (isBeside r) -> mapMaybe (open >=> free) (stretches r rest)
       _ ->
         [ TrimmedOffset {ends = Closed, pieces = ps, stops = (Nothing, Nothing)}
-          | Just ps <- [NonEmpty.nonEmpty (LoopPath.path structure source (Just before) runs)]
+          | Just ps <- [NonEmpty.nonEmpty (LoopPath.path structure source (Just before) runs)],
+            SourceOffset.ends source == Closed || isLong (NonEmpty.toList ps)
         ]
 
 -- | A path with exact joints: each segment starts where the one before ends.
@@ -121,13 +123,9 @@ stretches first = go first
 -- and @after@ are the runs before and after the stretch.
 openPath :: OffsetSource -> OffsetSource -> Int -> (Run, NonEmpty Run, Run) -> Maybe TrimmedOffset
 openPath structure source count (before, runs, after) =
-  pathOf <$> NonEmpty.nonEmpty (if isLong (Mm 0) found then found else [])
+  pathOf <$> NonEmpty.nonEmpty (if isLong found then found else [])
   where
     found = LoopPath.path structure source Nothing (NonEmpty.toList runs)
-    isLong soFar ps = case ps of
-      _ | soFar >= Tolerance.shortestPath -> True
-      p : more -> isLong (plus soFar (Segment.length (segment p))) more
-      [] -> False
     pathOf ps =
       TrimmedOffset
         { ends = Open,
@@ -143,7 +141,17 @@ openPath structure source count (before, runs, after) =
       Around _ | flat other == end, endsThere -> Nothing
       o -> Just (numberOf o)
 
--- | The part of an open path that is not screened; Nothing if all of it is. The offset of an
+-- | Test that the segments of a path are at least 'Tolerance.shortestPath' long together.
+isLong :: [OffsetSegment] -> Bool
+isLong = go (Mm 0)
+  where
+    go soFar path = case path of
+      _ | soFar >= Tolerance.shortestPath -> True
+      p : more -> go (plus soFar (Segment.length (segment p))) more
+      [] -> False
+
+-- | The part of an open path that is not screened; Nothing if it is shorter than
+-- 'Tolerance.shortestPath'. The offset of an
 -- element or a corner with an extra distance may extend beyond another element, behind the contour.
 -- There it is /screened/: the cutter cannot touch the element or corner, because the other element
 -- lies between. This occurs with different distances only. Screened segments at both ends of the
@@ -159,7 +167,7 @@ withoutScreened source
     freeOf path = do
       (atStart, front) <- freeFrom screensAt (fst (stops path)) (NonEmpty.toList (pieces path))
       (atEnd, back) <- freeFrom screensAt (snd (stops path)) (map backwards (reverse front))
-      kept <- NonEmpty.nonEmpty (map backwards (reverse back))
+      kept <- NonEmpty.nonEmpty (map backwards (reverse (if isLong back then back else [])))
       Just path {pieces = kept, stops = (atStart, atEnd)}
     backwards p = p {segment = Segment.reverse (segment p)}
     screensAt = screens source
