@@ -66,8 +66,8 @@ data Allowed = Allowed {allowedGouge :: Mm, allowedExcess :: Mm}
 -- | Compare the motions of a tape with a cut along a contour. If @isFirst@ is true, the cut is the
 -- first one of its statement. Then all motions near the contour are examined for gouges; otherwise
 -- only those of the cut. Excess on the elements is examined once for all cuts of a pass, with the
--- first cut. For that cut, @onPass@ has the motions of the tape from there to the next pass. For
--- later cuts it is Nothing.
+-- first cut. For that cut, @onPass@ has the motions of all cuts of the pass. For later cuts it is
+-- Nothing.
 examine :: MotionSet -> Bool -> Maybe [CutterMotion] -> MillingPass -> (ContourProof, [Finding])
 examine set isFirst onPass pass =
   (contourProof, if null findings then orderFindings set pass else findings)
@@ -161,9 +161,8 @@ orderFindings :: MotionSet -> MillingPass -> [Finding]
 orderFindings set MillingPass {job, found} = case found of
   Complete _ along -> if MotionSet.isPlanned set then [] else backward along
   Incomplete _ along
-    -- If rest material is allowed, a cut need not go along the whole contour.
-    | allowsRest job || not (ContactMeasure.isMeasurable job) -> backward along
-    | otherwise -> [NotFollowed (statement job)]
+    | isUnfollowed job found -> [NotFollowed (statement job)]
+    | otherwise -> backward along
   Missing -> [Proof.NeverBegun (statement job)]
   where
     backward along =
@@ -181,6 +180,14 @@ orderFindings set MillingPass {job, found} = case found of
         && not (WrongSide.isOnlyReturn job index m)
     runsBack = WrongSide.runsBack (MotionSet.machine set) job
     isReturnOf m other = WrongSide.retraces job m other && not (runsBack other)
+
+-- | Test that a cut does not follow the contour to its end, as it would have to. If rest material is
+-- allowed, a cut need not go along the whole contour.
+isUnfollowed :: MillingJob -> FoundPass -> Bool
+isUnfollowed job found = case found of
+  Complete _ _ -> False
+  Incomplete _ _ -> not (allowsRest job) && ContactMeasure.isMeasurable job
+  Missing -> True
 
 -- | Test that the statement allows rest material.
 allowsRest :: MillingJob -> Bool
@@ -251,9 +258,10 @@ piercedBy job allowed motions =
 
 -- Excess ------------------------------------------------------------------------------------------
 
--- | Excess on the elements of a contour; @allowed@ is the largest allowed one. If rest material is
--- allowed, the elements are compared with all motions of the pass at its height, @onPass@. It is
--- Nothing for the later cuts of a pass: these are examined with the first one. @bounds@ is the
+-- | Excess on the elements of a contour; @allowed@ is the largest allowed one. The elements are
+-- compared with the motions of all cuts of the pass, @onPass@. It is Nothing for the later cuts of a
+-- pass: these are examined with the first one. If the contour is not followed to its end, which is a
+-- finding of its own, all motions at the height of the pass count. @bounds@ is the
 -- array that 'ContourScan.scan' returns: for each element, by its number from 0, an upper bound in
 -- mm of the distance of its points from the motions along the contour.
 missedOn :: MotionSet -> Maybe [CutterMotion] -> MillingPass -> Mm -> PrimArray Double -> [Witness]
@@ -287,10 +295,9 @@ missedOn set onPass MillingPass {job, level, found} allowed bounds
                 | e <- MillingJob.elementsOf job
               ]
     index = BoxTree.indexFirst (length cutting) Motion.box cutting
-    cutting = case (found, onPass) of
-      (Complete {}, _) | not (allowsRest job) -> PassSearch.motionsOf found
-      (_, Just ms) -> MotionSet.atHeight set {MotionSet.motions = ms} level
-      (_, Nothing) -> MotionSet.atHeight set level
+    cutting
+      | isUnfollowed job found = MotionSet.atHeight set level
+      | otherwise = fromMaybe (PassSearch.motionsOf found) onPass
 
 -- | Elements in groups of equal allowance, each with that allowance.
 byAllowance :: [Edge] -> [(Mm, [Edge])]

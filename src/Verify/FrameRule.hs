@@ -70,12 +70,14 @@ impossibleArc machine n at f =
 -- | Commands of a frame: the name of each and the number that is given with it.
 type Commands = [(CommandName, Int)]
 
--- | Findings for frames whose commands differ from those of the planned frames. A tape with as many
--- frames as planned is compared frame by frame. On any other tape, the first frame with commands is
--- compared with the first such planned frame, the second with the second, and so on. The positions
--- at which the two frames of a pair begin may differ by at most two pulses on each axis.
-wrongCommands :: FrameProgram -> [Frame] -> [Finding]
-wrongCommands program frames =
+-- | Findings for frames whose commands differ from those of the planned frames. If @isAligned@ is
+-- true, each frame ends where the planned frame of the same number ends, and they are compared frame
+-- by frame. On any other tape, the first frame with commands is compared with the first such planned
+-- frame, the second with the second, and so on. The positions at which the two frames of a pair
+-- begin may differ by at most two pulses on each axis. @isSamePlace@ tells of a planned frame and of
+-- a frame of the tape, both given by their numbers, whether the same motions come before them.
+wrongCommands :: Bool -> (Int -> Int -> Bool) -> FrameProgram -> [Frame] -> [Finding]
+wrongCommands isAligned isSamePlace program frames =
   [ WrongCommand n name (lookup name found) (lookup name wanted)
     | (n, wanted, found) <- differences,
       name <- nub (map fst (wanted <> found)),
@@ -85,8 +87,8 @@ wrongCommands program frames =
     planned = map Frame.frame (Frame.plannedFrames program)
     commanded = map Frame.commands planned
     differences
-      | length frames == length commanded = frameByFrame 1 commanded (map Frame.commands frames)
-      | otherwise = inOrder (length frames) (positioned planned) (positioned frames)
+      | isAligned = frameByFrame 1 commanded (map Frame.commands frames)
+      | otherwise = inOrder isSamePlace (length frames) (positioned planned) (positioned frames)
 
 -- | Frames with different commands. @n@ is the number of the first frame in both lists. @own@ has
 -- the commands of the planned frames, @found@ those of the frames on the tape. Each entry of the
@@ -112,19 +114,22 @@ positioned fs =
 -- compared in pairs. An entry of both lists has the number of a frame from 1, the position in
 -- pulses where the frame begins, and its commands. An entry of the result has the number of a frame
 -- on the tape, the planned commands, and those of the tape. If the positions of a pair differ by
--- more than two pulses, the planned frame counts as one without commands. Planned commands that are
+-- more than two pulses, or if 'isSamePlace' as in 'wrongCommands' is false for the pair, the planned
+-- frame counts as one without commands. Planned commands that are
 -- missing at the end of the tape get the number of their planned frame, but at least @frameCount@,
 -- the count of frames on the tape.
 inOrder ::
+  (Int -> Int -> Bool) ->
   Int ->
   [(Int, Pulses3, Commands)] ->
   [(Int, Pulses3, Commands)] ->
   [(Int, Commands, Commands)]
-inOrder frameCount = go
+inOrder isSamePlace frameCount = go
   where
     go own found = case (own, found) of
-      ((_, p, a) : as, (n, q, b) : bs) ->
-        [(n, if isNear p q then a else [], b) | a /= b || not (isNear p q)] <> go as bs
+      ((k, p, a) : as, (n, q, b) : bs)
+        | isNear p q && isSamePlace k n -> [(n, a, b) | a /= b] <> go as bs
+        | otherwise -> (n, [], b) : go as bs
       (_, []) -> [(max k frameCount, a, []) | (k, _, a) <- own]
       ([], _) -> [(n, [], b) | (n, _, b) <- found]
 

@@ -58,6 +58,7 @@ import Verify.HoleCheck qualified as HoleCheck
 import Verify.MillingJob (MillingJob (milling))
 import Verify.Motion (CutterMotion (number, segment))
 import Verify.Motion qualified as Motion
+import Verify.MotionMatch (ClearingFrames (..))
 import Verify.MotionMatch qualified as MotionMatch
 import Verify.MotionSet (MotionSet (MotionSet))
 import Verify.MotionSet qualified as MotionSet
@@ -68,9 +69,11 @@ import Verify.PassLocation qualified as PassLocation
 import Verify.PassSearch qualified as PassSearch
 import Verify.Pocket (ClearingPass, Pocket)
 import Verify.Pocket qualified as Pocket
+import Verify.PocketDeviation (PassMotions (..))
 import Verify.PocketDeviation qualified as PocketDeviation
 import Verify.Proof (Finding (..), Proof (Proof), Refusal (NotCompensated))
 import Verify.Proof qualified as Proof
+import Verify.RequiredMove (MotionGroup, RequiredItem)
 import Verify.RequiredMove qualified as RequiredMove
 import Verify.SpindleTool (Tools, Use (..))
 import Verify.SpindleTool qualified as SpindleTool
@@ -131,7 +134,11 @@ proofOf isRestarted subject =
     found = deviations <> otherFindings subject passes
     -- A tape with another fault often has motions that the program does not ask for, too. So these
     -- are reported only if there is no other finding.
-    unmatched = if null found then unmatchedMotions subject passes else []
+    unmatched
+      | not (null found) = []
+      | otherwise = case unmatchedMotions subject passes of
+        [] -> displacedCommands subject passes
+        findings -> findings
     passes = locatedPasses subject
     set = motionSetOf subject passes
     (contourProofs, contourFindings) =
@@ -139,21 +146,24 @@ proofOf isRestarted subject =
         ( zipWith3
             (Deviation.examine set)
             (PassLocation.areFirst passes)
-            (PassLocation.motionsOfPasses (motions subject) passes)
+            (PassLocation.motionsOfPasses passes)
             passes
         )
     (pocketProofs, pocketFindings) =
       unzip
         [ PocketDeviation.examine
             set
-            (isInFrames subject (passFrames subject) pass)
-            (isInFrames subject (cutFrames subject) pass)
+            passMotions
             pocket
             isFirst
             pass
           | pocket <- pockets subject,
             (isFirst, pass) <- zip (True : repeat False) (NonEmpty.toList (Pocket.passes pocket))
         ]
+    passMotions = case clearingFrames subject passes of
+      Nothing -> PassMotions False (\_ _ -> False) (\_ _ -> False)
+      Just ClearingFrames {MotionMatch.inPass, MotionMatch.withMoves} ->
+        PassMotions True (isInFrames inPass) (isInFrames withMoves)
     deviations = concat contourFindings <> concat pocketFindings
     closure = closureOf isRestarted subject
 
@@ -233,11 +243,10 @@ subjectOf machine path program frames =
         (SpindleTool.toolInFrame tools)
         (Frame.start program)
 
--- | Test that the tape has as many frames as planned. If it has, the callers compare each frame
--- with the planned frame of the same number.
-hasSameCount :: Subject -> Bool
-hasSameCount subject =
-  SpindleTool.toolCount (tools subject) == TapeSummary.count (summary subject)
+-- | Test that each frame of the tape ends where the planned frame of the same number ends. If so, the
+-- callers compare each frame with that planned frame.
+isAligned :: Subject -> Bool
+isAligned subject = TapeSummary.isAligned (summary subject)
 
 -- | Test that the frames of the tape differ from the planned ones.
 isDifferent :: Subject -> Bool
@@ -258,7 +267,7 @@ locatedPasses subject@Subject {machine, path, program} =
       { PassLocation.machine,
         PassLocation.isFlat = isFlat subject,
         PassLocation.isSwivelled = isSwivelled subject,
-        PassLocation.lastFrameOf = if hasSameCount subject then lastFrame else const Nothing,
+        PassLocation.lastFrameOf = (`IntMap.lookup` lastFrames),
         PassLocation.cutFramesOf =
           if isSingle || isDifferent subject
             then const Nothing
@@ -269,20 +278,60 @@ locatedPasses subject@Subject {machine, path, program} =
     (Toolpath.blocks path)
   where
     begin = Frame.start program
-    lastFrame n = (\(FrameRange _ b) -> b) <$> IntMap.lookup n (passFrames subject)
+    lastFrames = (\(FrameRange _ b) -> b) <$> clearing
+    clearing
+      | isDifferent subject =
+        maybe
+          IntMap.empty
+          MotionMatch.inPass
+          (matchingFrames subject (RequiredMove.atLevels machine (isFlat subject) path))
+      | otherwise = passFrames subject
     -- A single cut cannot be mistaken for another cut, so its planned frames are not needed.
     isSingle = null (drop 1 [() | Toolpath.Cutting {} <- Toolpath.blocks path])
 
--- | Test that a motion is in the planned frames of a pass of a pocket. @framesOf@ has the ranges of
--- planned frames, by the number of the pass. False if the tape does not have as many frames as
--- planned: then the frames of the pass are unknown.
-isInFrames :: Subject -> IntMap FrameRange -> ClearingPass -> CutterMotion -> Bool
-isInFrames subject framesOf pass m =
-  hasSameCount subject
-    && maybe
-      False
-      (`PassFrames.includes` number m)
-      (IntMap.lookup (Pocket.passIndex pass) framesOf)
+-- | Test that a motion is in the frames of a pass of a pocket. @framesOf@ has the ranges of frames,
+-- by the number of the pass.
+isInFrames :: IntMap FrameRange -> ClearingPass -> CutterMotion -> Bool
+isInFrames framesOf pass m =
+  maybe False (`PassFrames.includes` number m) (IntMap.lookup (Pocket.passIndex pass) framesOf)
+
+-- | Frames of each pass of each pocket. Nothing if the tape has other frames than planned, and its
+-- motions do not match what the program asks for.
+clearingFrames :: Subject -> [MillingPass] -> Maybe ClearingFrames
+clearingFrames subject passes
+  | isDifferent subject = matchingFrames subject (map RequiredMove.alongContour passes)
+  | otherwise =
+    Just
+      ClearingFrames
+        { MotionMatch.inPass = cutFrames subject,
+          MotionMatch.withMoves = passFrames subject
+        }
+
+-- | Frames of each pass of each pocket on a tape with other frames than planned. @along@ are the
+-- groups of motions along contours. Nothing if the motions do not match what the program asks for,
+-- or if there is no pocket.
+matchingFrames :: Subject -> [MotionGroup] -> Maybe ClearingFrames
+matchingFrames subject along
+  | null (pockets subject) = Nothing
+  | otherwise =
+    MotionMatch.clearingFrames
+      (machine subject)
+      begin
+      (requiredItems subject along)
+      (Control.run begin (frames subject))
+  where
+    begin = Frame.start (program subject)
+
+-- | Moves and groups of motions that the program asks for, in order. @along@ are the groups of
+-- motions along contours.
+requiredItems :: Subject -> [MotionGroup] -> [RequiredItem]
+requiredItems subject along =
+  RequiredMove.itemsOf
+    (machine subject)
+    (isFlat subject)
+    along
+    (pockets subject)
+    (path subject)
 
 -- | Motions of the tape for the comparisons. If only one contour or pocket is compared,
 -- 'MotionSet.nearby' returns all motions: a bounding-box tree would cost more time than it saves.
@@ -307,12 +356,14 @@ motionSetOf subject passes =
     queries = [() | True <- PassLocation.areFirst passes] <> map (const ()) (pockets subject)
     largestTool = foldl' (\most m -> max most (toolOf m)) (Mm 0) (motions subject)
 
--- | Radius of the cutter in a motion. If the tape has as many frames as planned, it is the radius
--- in the planned frame of the same number. Otherwise 'SpindleTool.supposedTool' infers it from the
--- passes.
+-- | Radius of the cutter in a motion. If each frame ends where the planned frame of the same number
+-- ends, it is the radius in that planned frame. Otherwise the commands that change the tool show it
+-- ('SpindleTool.toolsByCommands'). Where no command shows it, 'SpindleTool.supposedTool' infers it
+-- from the passes.
 toolIn :: Subject -> [MillingPass] -> CutterMotion -> Mm
 toolIn subject passes
-  | hasSameCount subject = SpindleTool.toolInFrame (tools subject) . number
+  | isAligned subject = SpindleTool.toolInFrame (tools subject) . number
+  | Just radius <- SpindleTool.toolsByCommands (program subject) (frames subject) = radius . number
   | otherwise = SpindleTool.supposedTool uses smallest . number
   where
     uses = concatMap useAlong passes <> concatMap useIn (pocketVisits subject)
@@ -336,13 +387,18 @@ pocketVisits subject =
       pass,
       [ m
         | m <- BoxTree.within (Pocket.bounds pocket) (motionIndex subject),
-          isFlat subject || MotionSet.isAtHeight (machine subject) (Pocket.level pass) m,
+          isAtDepth subject pass m,
           Pocket.contains pocket (Segment.at 0.5 (segment m))
       ]
     )
     | pocket <- pockets subject,
       pass <- NonEmpty.toList (Pocket.passes pocket)
   ]
+
+-- | Test that a motion is at the height of a pass of a pocket.
+isAtDepth :: Subject -> ClearingPass -> CutterMotion -> Bool
+isAtDepth subject pass m =
+  isFlat subject || MotionSet.isAtHeight (machine subject) (Pocket.level pass) m
 
 -- Findings ----------------------------------------------------------------------------------------
 
@@ -356,7 +412,7 @@ otherFindings subject@Subject {machine, path, program, frames} passes =
     <> take 1 foreign'
     <> feedFindings subject passes
     <> Feed.tooFast machine begin frames
-    <> (if isDifferent subject then FrameRule.wrongCommands program frames else [])
+    <> commandFindings subject (\_ _ -> True)
     <> FrameRule.refused machine begin frames
     <> map (Refused . NotCompensated) (compensationErrors subject)
   where
@@ -365,21 +421,43 @@ otherFindings subject@Subject {machine, path, program, frames} passes =
       | isFlat subject || not (isDifferent subject) = []
       | otherwise = ForeignCut.foreignCuts machine path (plannedMotions subject) (motions subject)
 
+-- | Findings for commands that differ from those of the planned frames. @isSamePlace@ is as in
+-- 'FrameRule.wrongCommands'.
+commandFindings :: Subject -> (Int -> Int -> Bool) -> [Finding]
+commandFindings subject@Subject {program, frames} isSamePlace
+  | isDifferent subject =
+    FrameRule.wrongCommands (isAligned subject) isSamePlace program frames
+  | otherwise = []
+
+-- | Findings for commands that do not come at their place in the order of the motions.
+displacedCommands :: Subject -> [MillingPass] -> [Finding]
+displacedCommands subject@Subject {machine, path, program} passes =
+  commandFindings subject isSamePlace
+  where
+    isSamePlace k n = case (IntMap.lookup k plannedPlaces, IntMap.lookup n places) of
+      (Just a, Just b) -> a == b
+      _ -> True
+    places = placesOn subject passes
+    plannedPlaces = placesOn planned (locatedPasses planned)
+    planned =
+      subjectOf machine path program (map Frame.frame (Frame.plannedFrames program))
+    placesOn tape@Subject {frames} found =
+      MotionMatch.commandPlaces
+        machine
+        (Frame.start program)
+        (requiredItems tape (map RequiredMove.alongContour found))
+        [n | (n, f) <- zip [1 ..] frames, not (null (Frame.commands f))]
+        (Control.run (Frame.start program) frames)
+
 -- | Finding for the first motion that the program does not ask for at its place in the order, or
 -- for the first move that is missing.
 unmatchedMotions :: Subject -> [MillingPass] -> [Finding]
-unmatchedMotions subject@Subject {machine, path, program, frames} passes =
+unmatchedMotions subject@Subject {machine, program, frames} passes =
   MotionMatch.mismatches
     machine
     (not (hasPlannedFeeds subject))
     begin
-    ( RequiredMove.itemsOf
-        machine
-        (isFlat subject)
-        passes
-        (pockets subject)
-        path
-    )
+    (requiredItems subject (map RequiredMove.alongContour passes))
     (Control.run begin frames)
   where
     begin = Frame.start program
@@ -394,7 +472,7 @@ pocketOrder subject =
   ]
   where
     motionsFor k
-      | hasSameCount subject = IntMap.findWithDefault [] k byPocket
+      | isAligned subject = IntMap.findWithDefault [] k byPocket
       | otherwise = motions subject
     byPocket = motionsByPocket subject
 
@@ -424,10 +502,10 @@ motionsByPocket subject = foldr insert IntMap.empty (motions subject)
 feedFindings :: Subject -> [MillingPass] -> [Finding]
 feedFindings subject@Subject {program, frames} passes
   | not (isDifferent subject) || hasPlannedFeeds subject = []
-  | hasSameCount subject && hasPlannedMotions = Feed.asPlanned program frames
+  | isAligned subject && hasPlannedMotions = Feed.asPlanned program frames
   | otherwise =
     concatMap (contourFeeds subject) passes
-      <> concatMap (pocketFeeds subject) (pocketVisits subject)
+      <> pocketFeeds subject passes
       <> Feed.downwards program frames
   where
     hasPlannedMotions = and (zipWith isSameMotion (Frame.plannedFrames program) frames)
@@ -436,7 +514,7 @@ feedFindings subject@Subject {program, frames} passes
 -- | Test that each frame has the feed of the planned frame with the same number.
 hasPlannedFeeds :: Subject -> Bool
 hasPlannedFeeds subject@Subject {program, frames} =
-  hasSameCount subject && null (Feed.asPlanned program frames)
+  isAligned subject && null (Feed.asPlanned program frames)
 
 -- | Findings for feeds along a contour. Vertical motions are left out, because they only occur at
 -- the start and the end of the pass.
@@ -447,18 +525,29 @@ contourFeeds subject pass =
     (job pass)
     (programmed subject (filter (not . Motion.isVertical) (Deviation.motionsAlong (found pass))))
 
--- | Findings for feeds in a pass of a pocket, without its linking moves.
-pocketFeeds :: Subject -> (Pocket, ClearingPass, [CutterMotion]) -> [Finding]
-pocketFeeds subject (pocket, pass, ms) =
-  Feed.atFeed
-    (machine subject)
-    (Part.feed (Pocket.milling pocket))
-    []
-    (programmed subject (filter isClearing ms))
+-- | Findings for feeds in the passes of pockets, without their linking moves. If the frames of the
+-- passes are unknown, the linking moves are those that run where the program asks for them.
+pocketFeeds :: Subject -> [MillingPass] -> [Finding]
+pocketFeeds subject passes = case clearingFrames subject passes of
+  Just ClearingFrames {MotionMatch.inPass = framesOf} ->
+    concat
+      [ ofPass
+          pocket
+          [m | m <- motions subject, isInFrames framesOf pass m, isAtDepth subject pass m]
+        | pocket <- pockets subject,
+          pass <- NonEmpty.toList (Pocket.passes pocket)
+      ]
+  Nothing ->
+    concat
+      [ ofPass pocket (filter (not . isLinking pass) ms)
+        | (pocket, pass, ms) <- pocketVisits subject
+      ]
   where
-    isClearing m =
-      not (Motion.isVertical m)
-        && not (any (isAlong (machine subject) (segment m)) (Pocket.linkingMoves pass))
+    ofPass pocket =
+      Feed.atFeed (machine subject) (Part.feed (Pocket.milling pocket)) []
+        . programmed subject
+        . filter (not . Motion.isVertical)
+    isLinking pass m = any (isAlong (machine subject) (segment m)) (Pocket.linkingMoves pass)
 
 -- | Test that both ends of the segment @s@ are within two pulses of the linking move @move@.
 isAlong :: Machine -> Segment -> Segment -> Bool

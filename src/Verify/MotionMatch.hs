@@ -13,6 +13,10 @@
 -- Compilers, section 3.7).
 module Verify.MotionMatch
   ( mismatches,
+    ClearingFrames (..),
+    clearingFrames,
+    Place,
+    commandPlaces,
   )
 where
 
@@ -23,8 +27,9 @@ import Control.Motion (Motion (..))
 import Control.Motion qualified as Control
 import Data.IntMap.Strict (IntMap)
 import Data.IntMap.Strict qualified as IntMap
+import Data.IntSet qualified as IntSet
 import Data.List (minimumBy)
-import Data.Maybe (isJust, maybeToList)
+import Data.Maybe (fromMaybe, isJust, maybeToList)
 import Data.Ord (comparing)
 import Data.Vector (Vector)
 import Data.Vector qualified as Vector
@@ -37,6 +42,7 @@ import Machine.Machine (Axis (Z), Machine)
 import Machine.Machine qualified as Machine
 import Verify.Feed qualified as Feed
 import Verify.MotionSet qualified as MotionSet
+import Verify.PassFrames (FrameRange (..))
 import Verify.Proof (Finding (MoveMissing, NotAsked))
 import Verify.RequiredMove (MotionGroup (..), RequiredItem (..), RequiredMove (..))
 
@@ -44,40 +50,119 @@ import Verify.RequiredMove (MotionGroup (..), RequiredItem (..), RequiredMove (.
 data Position = Position Point Mm
 
 -- | Items that the last motion may match, by their indices from 0. The index of the last item plus
--- one means that all items are done. The value is the fraction of a single move that is made, from
--- 0 to 1; for a group it is 0.
-type States = IntMap Double
+-- one means that all items are done.
+type States = IntMap Progress
+
+-- | How far an item is done.
+data Progress = Progress
+  { -- | fraction of a single move that is made; of a group, 1 if a motion belongs to it, else 0
+    made :: Double,
+    -- | items to which the motions so far belong, each with the number of its first frame; the last
+    -- one comes first
+    begun :: [(Int, Int)]
+  }
+
+-- | State before the first motion of a tape.
+firstStates :: States
+firstStates = IntMap.singleton 0 (Progress 0 [])
+
+-- | Of two ways to the same item, the one in which more of the item is done; the first one if there
+-- is no difference.
+further :: Progress -> Progress -> Progress
+further a b = if made b > made a then b else a
 
 -- | Findings for the first motion of a tape that matches no item, or else for the first move that
 -- no motion makes. Empty if all motions match and all moves are made. @begin@ is the position
 -- before the first frame, in pulses. If @comparesFeeds@ is true, each motion along a single move
 -- also needs the speed of the move.
 mismatches :: Machine -> Bool -> Pulses3 -> [RequiredItem] -> [Motion] -> [Finding]
-mismatches machine comparesFeeds begin list = go begin (IntMap.singleton 0 0)
+mismatches machine comparesFeeds begin list motions =
+  either pure (const []) (matched machine comparesFeeds begin (Vector.fromList list) motions)
+
+-- | Frames of the passes of pockets on a tape, by the number of the pass.
+data ClearingFrames = ClearingFrames
+  { -- | frames in each pass; a pass without such frames is missing
+    inPass :: IntMap FrameRange,
+    -- | frames in each pass and in the moves before and after it
+    withMoves :: IntMap FrameRange
+  }
+
+-- | Frames of the passes of pockets; Nothing if the motions do not match the items. @begin@ is the
+-- position before the first frame, in pulses.
+clearingFrames :: Machine -> Pulses3 -> [RequiredItem] -> [Motion] -> Maybe ClearingFrames
+clearingFrames machine begin list motions = case matched machine False begin items motions of
+  Left _ -> Nothing
+  Right found ->
+    let firsts = IntMap.fromList found
+        beginOf = maybe maxBound snd
+        ranges lower upper =
+          IntMap.fromList
+            [ (k, FrameRange (beginOf (lower i)) (beginOf (upper i) - 1))
+              | (i, Several MotionGroup {clearingPass = Just k}) <- zip [0 ..] list
+            ]
+        groups = IntSet.fromList [i | (i, Several _) <- zip [0 ..] list]
+        own i = (\n -> (i, n)) <$> IntMap.lookup i firsts
+        afterGroupBefore i = IntMap.lookupGT (fromMaybe (-1) (IntSet.lookupLT i groups)) firsts
+        ofGroupAfter i = (`IntMap.lookupGE` firsts) =<< IntSet.lookupGT i groups
+     in Just
+          ClearingFrames
+            { inPass = ranges own (`IntMap.lookupGT` firsts),
+              withMoves = ranges afterGroupBefore ofGroupAfter
+            }
   where
     items = Vector.fromList list
+
+-- | The items that the motions match, in order, each with the number of its first frame; or a
+-- finding for the first motion that matches no item, or for the first move that is missing.
+matched ::
+  Machine -> Bool -> Pulses3 -> Vector RequiredItem -> [Motion] -> Either Finding [(Int, Int)]
+matched machine comparesFeeds begin items = go begin firstStates
+  where
     go at states motions = case motions of
-      []
-        | IntMap.member (Vector.length items) final -> []
-        | otherwise -> take 1 (missingFrom items final)
+      [] -> case missingFrom items final of
+        missing : _ | IntMap.notMember (Vector.length items) final -> Left missing
+        _ -> Right (maybe [] (reverse . begun . snd) (IntMap.lookupMax final))
         where
           final = withSkipped machine items (positionOf machine at) maxBound states
       m : more
-        | IntMap.null states' -> [NotAsked (number m) (Frame.position machine (to m))]
-        | comparesFeeds, wrong : _ <- wrongFeeds states' m -> [wrong]
+        | IntMap.null states' -> Left (NotAsked (number m) (Frame.position machine (to m)))
+        | comparesFeeds, wrong : _ <- wrongFeeds states' m -> Left wrong
         | otherwise -> go (to m) states' more
         where
           states' = statesAfter machine items m states
     -- A motion at the joint of two moves may have the feed of either.
     wrongFeeds states m = case [items Vector.! i | i <- IntMap.keys states] of
-      matched
-        | moves@(_ : _) <- [r | Single r <- matched],
-          length moves == length matched,
+      them
+        | moves@(_ : _) <- [r | Single r <- them],
+          length moves == length them,
           faults@(fault : _) <-
             [Feed.atPace machine (pace r) (slows r) (origin r) m | r <- moves],
           all isJust faults ->
           maybeToList fault
       _ -> []
+
+-- | Place of a command in the order of a program: the index of the item that comes next, and true
+-- if that item is a group of which a motion came before.
+type Place = (Int, Bool)
+
+-- | Places of the commands on a tape, by the numbers of their frames. @commanded@ are these numbers,
+-- in order. Frames after the first motion that matches no item are missing. @begin@ is the position
+-- before the first frame, in pulses.
+commandPlaces :: Machine -> Pulses3 -> [RequiredItem] -> [Int] -> [Motion] -> IntMap Place
+commandPlaces machine begin list = \commanded -> IntMap.fromList . go begin firstStates commanded
+  where
+    items = Vector.fromList list
+    go at states commanded motions
+      | IntMap.null states = []
+      | otherwise = case motions of
+        [] -> map (placed at states maxBound) commanded
+        m : more ->
+          let (before, others) = span (<= number m) commanded
+           in map (placed at states (number m)) before
+                <> go (to m) (statesAfter machine items m states) others more
+    placed at states next n =
+      let skipped = withSkipped machine items (positionOf machine at) next states
+       in (n, maybe (0, False) (fmap ((> 0) . made)) (IntMap.lookupMax skipped))
 
 -- | Findings for the moves that remain at the end of the tape: from the last item that the motions
 -- match, this item included, to the last item of the program.
@@ -92,18 +177,21 @@ missingFrom items states =
 statesAfter :: Machine -> Vector RequiredItem -> Motion -> States -> States
 statesAfter machine items m states =
   IntMap.fromListWith
-    max
-    [ (i, made')
-      | (i, made) <- IntMap.toList (withSkipped machine items at (number m) states),
-        Just made' <- [madeAfter i made =<< items Vector.!? i]
+    (flip further)
+    [ (i, Progress made' (withItem i (begun progress)))
+      | (i, progress) <- IntMap.toList (withSkipped machine items at (number m) states),
+        Just made' <- [madeAfter i (made progress) =<< items Vector.!? i]
     ]
   where
     at = positionOf machine (from m)
-    madeAfter i made item = case item of
-      Single r -> fractionAfter machine r m made
+    madeAfter i before item = case item of
+      Single r -> fractionAfter machine r m before
       Several g
-        | includes g m && (IntMap.member i states || number m <= latestBegin g) -> Just 0
+        | includes g m && (IntMap.member i states || number m <= latestBegin g) -> Just 1
         | otherwise -> Nothing
+    withItem i known = case known of
+      (j, _) : _ | j == i -> known
+      _ -> (i, number m) : known
 
 -- | Position in mm, from a position in pulses.
 positionOf :: Machine -> Pulses3 -> Position
@@ -113,36 +201,42 @@ positionOf machine p = Position (Frame.position machine p) (Frame.height machine
 -- before it are done. @next@ is the number of the frame that comes next.
 withSkipped :: Machine -> Vector RequiredItem -> Position -> Int -> States -> States
 withSkipped machine items at next states =
-  IntMap.unionWith max states (IntMap.fromList (concatMap later (IntMap.toList states)))
+  IntMap.unionWith
+    further
+    states
+    (IntMap.fromListWith (flip further) (concatMap later (IntMap.toList states)))
   where
-    later (i, made) = case items Vector.!? i of
-      Just item | isDone item made -> (i + 1, 0) : later (i + 1, 0)
+    later (i, progress) = case items Vector.!? i of
+      Just item
+        | isDone item (made progress),
+          let next' = progress {made = 0} ->
+          (i + 1, next') : later (i + 1, next')
       _ -> []
-    isDone item made = case item of
-      Single r -> isMade machine r at made
+    isDone item before = case item of
+      Single r -> isMade machine r at before
       Several g -> next >= earliestEnd g
 
 -- Single moves ------------------------------------------------------------------------------------
 
 -- | Test that the move @r@ is completely made when the cutter is at a position. The 'slack' of the
--- move and one pulse in height are allowed. @made@ is the fraction of the move that is made. A move
+-- move and one pulse in height are allowed. @share@ is the fraction of the move that is made. A move
 -- so short that rounding may leave nothing of it counts as made once the cutter is at its end.
 isMade :: Machine -> RequiredMove -> Position -> Double -> Bool
-isMade machine r (Position p z) made =
+isMade machine r (Position p z) share =
   Vec.distance p (Segment.end (path r)) <= slack r
     && MotionSet.isSameHeight machine z (snd (between r))
-    && (times (1 - made) long <= largest || long <= times 2 largest)
+    && (times (1 - share) long <= largest || long <= times 2 largest)
   where
     long = lengthOf r
     largest = plus (slack r) (Machine.resolutionOf machine Z)
 
--- | Fraction of a move that is made after the motion @m@, if it was @made@ before. Nothing if the
+-- | Fraction of a move that is made after the motion @m@, if it was @share@ before. Nothing if the
 -- motion does not run along the move in its direction. A step back by no more than the 'slack' of
 -- the move is allowed, because it may be due to rounding.
 fractionAfter :: Machine -> RequiredMove -> Motion -> Double -> Maybe Double
-fractionAfter machine r m made = foldM further made (samplesOf machine m)
+fractionAfter machine r m share = foldM onwards share (samplesOf machine m)
   where
-    further before at@(Position p z)
+    onwards before at@(Position p z)
       | Vec.distance p (Segment.at t (path r)) <= sideways
           && MotionSet.isSameHeight machine z (heightAt r t)
           && times (before - t) (lengthOf r) <= slack r =

@@ -15,6 +15,7 @@ where
 
 import Base.Quantity (Mm (..), plus, times)
 import Base.Region (Located (..), Region)
+import Data.Function (on)
 import Data.List (foldl')
 import Data.List.NonEmpty (NonEmpty)
 import Data.List.NonEmpty qualified as NonEmpty
@@ -50,8 +51,8 @@ data Guide = Guide
     isFlat :: Bool,
     -- | test that a motion swivels a blade as its pass demands
     isSwivelled :: CutterMotion -> Bool,
-    -- | number of the last planned frame of a pass, by the number of the pass from 0; Nothing if
-    -- the tape does not have as many frames as planned
+    -- | number of the last frame of a pass of a pocket, by the number of the pass from 0; Nothing if
+    -- it is unknown
     lastFrameOf :: Int -> Maybe Int,
     -- | planned frames of a cut, by the number of its pass from 0. Only these frames, and the one
     -- before them, are searched, because another cut may lie within the tolerance of this one, and
@@ -238,26 +239,14 @@ areFirst :: [MillingPass] -> [Bool]
 areFirst passes =
   zipWith (/=) (map (Just . passNumber) passes) (Nothing : map (Just . passNumber) passes)
 
--- | For the first cut of each pass, the motions of the tape from there up to the first cut of the
--- next pass; Nothing for the later cuts of a pass. A pass is one allowance at one height. The
--- motions before the first pass are listed with that pass.
-motionsOfPasses :: [CutterMotion] -> [MillingPass] -> [Maybe [CutterMotion]]
-motionsOfPasses motions passes = go motions (zip areNew passes)
+-- | For the first cut of each pass, the motions of all its cuts; Nothing for the later cuts. A pass
+-- is one allowance at one height.
+motionsOfPasses :: [MillingPass] -> [Maybe [CutterMotion]]
+motionsOfPasses = concatMap ofPass . NonEmpty.groupBy ((==) `on` key)
   where
-    areNew = zipWith (/=) (map Just keys) (Nothing : map Just keys)
-    keys = map (\MillingPass {job, passNumber, level} -> (passNumber, level, reach job)) passes
-    go left numbered = case numbered of
-      [] -> []
-      (False, _) : more -> Nothing : go left more
-      (True, _) : more ->
-        let (own, others) = maybe (left, []) (\n -> span ((< n) . number) left) (nextBegin more)
-         in Just own : go others more
-    -- Frame number of the first motion of the next pass. A pass without motions on the tape is
-    -- skipped.
-    nextBegin numbered = case numbered of
-      [] -> Nothing
-      (True, pass) : _ | m : _ <- PassSearch.motionsOf (found pass) -> Just (number m)
-      _ : more -> nextBegin more
+    key MillingPass {job, passNumber, level} = (passNumber, level, reach job)
+    ofPass cuts =
+      Just (concatMap (PassSearch.motionsOf . found) cuts) : map (const Nothing) (NonEmpty.tail cuts)
 
 -- | Last element of a list, if there is one.
 lastOf :: [a] -> Maybe a

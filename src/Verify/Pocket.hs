@@ -6,6 +6,7 @@ module Verify.Pocket
   ( Pocket (..),
     ClearingPass (..),
     pocketsOf,
+    withRimOf,
     contains,
     nearestWall,
     isOnFreeSide,
@@ -62,6 +63,8 @@ data Pocket = Pocket
     -- | distance of the rim from the walls: that of the cutter's centre in the final pass, plus
     -- 'spareRoom'
     rimDistance :: Mm,
+    -- | rim at another distance from the walls
+    rimAt :: Mm -> [(Element, Segment)],
     passes :: NonEmpty ClearingPass
   }
 
@@ -104,7 +107,7 @@ pocketsOf blocks = map pocketOf (NonEmpty.groupBy ((==) `on` statementNumber) cl
 -- | Pocket that one statement clears, from the blocks of its passes.
 pocketOf :: NonEmpty Clearing -> Pocket
 pocketOf clearings@(Clearing _ (Located statement pocketing) _ _ :| _) =
-  Pocket {statement, milling, side, walls, bounds, rim, rimDistance, passes}
+  Pocket {statement, milling, side, walls, bounds, rim, rimDistance, rimAt, passes}
   where
     milling = Part.wall pocketing
     side = fromMaybe LeftOf (Requirement.cutterSide milling)
@@ -119,7 +122,8 @@ pocketOf clearings@(Clearing _ (Located statement pocketing) _ _ :| _) =
         (fmap (BoundingBox.ofSegment . Part.segment) (Part.elements (Part.contour milling)))
     rimDistance = plus (Requirement.centreDistance milling lastAllowance) spareRoom
     lastAllowance = NonEmpty.last (Part.allowances milling)
-    rim = rimOf side rimDistance walls contours
+    rim = rimAt rimDistance
+    rimAt distance = rimOf side distance walls contours
     passes = fmap passOf clearings
     passOf (Clearing passIndex _ pass linkingMoves) =
       ClearingPass
@@ -129,6 +133,14 @@ pocketOf clearings@(Clearing _ (Located statement pocketing) _ _ :| _) =
           isFinal = Toolpath.left pass == lastAllowance,
           linkingMoves
         }
+
+-- | Pocket with the rim of one of its passes in place of that of the final pass.
+withRimOf :: ClearingPass -> Pocket -> Pocket
+withRimOf pass pocket
+  | isFinal pass = pocket
+  | otherwise = pocket {rim = rimAt pocket distance, rimDistance = distance}
+  where
+    distance = plus (reach pass) spareRoom
 
 -- | Bounding-box tree of the elements of the walls. The proof of a pocket needs neither their arc
 -- lengths nor their allowances; these are 0.

@@ -2,9 +2,9 @@
 -- cuts into the walls, and that no material remains that the cutter can reach.
 --
 -- Let A be the set of all positions of the cutter's centre in the pocket whose distance from the
--- walls is at least the cutter's radius plus the allowance that the final pass leaves. The cutter
--- reaches a point if A has a position within the radius of that point. Two facts are shown about
--- the final pass at each depth:
+-- walls is at least the cutter's radius plus the allowance that a pass leaves. The cutter reaches a
+-- point if A has a position within the radius of that point. Two facts are shown about this pass and
+-- the passes before it at its depth, together:
 --
 -- * Rim: each point of the border of A is within the allowed excess of a motion. So the walls are
 --   cut wherever the cutter can touch them. A point outside of A that the cutter reaches, for
@@ -13,12 +13,14 @@
 -- * Floor: each point of A is within the radius, plus the allowed excess, of a motion; see
 --   "Verify.PocketFloor".
 module Verify.PocketDeviation
-  ( examine,
+  ( PassMotions (..),
+    examine,
   )
 where
 
 import Base.Quantity (Mm (..), minus, plus)
 import Data.List (foldl', minimumBy, sortOn)
+import Data.List.NonEmpty qualified as NonEmpty
 import Data.Maybe (mapMaybe, maybeToList)
 import Data.Ord (comparing)
 import Geometry.Distance.Fast qualified as FastDistance
@@ -48,38 +50,43 @@ import Verify.PocketFloor qualified as PocketFloor
 import Verify.Proof (ContourProof (ContourProof), Finding (NotCleared), Witness (Witness))
 import Verify.Proof qualified as Proof
 
--- | Compare the tape with one pass of a pocket. @isInPass@ is true of the motions of this pass,
--- with its approach and its retract; @isClearing@ is true of those that clear the floor. If
--- @isFirst@ is true, it is the first pass of the pocket, and all motions near the pocket are
--- examined for gouges. Otherwise only the motions of the pass are.
-examine ::
-  MotionSet ->
-  (CutterMotion -> Bool) ->
-  (CutterMotion -> Bool) ->
-  Pocket ->
-  Bool ->
-  ClearingPass ->
-  (ContourProof, [Finding])
-examine set isInPass isClearing pocket isFirst pass = (contourProof, findings)
+-- | Motions in the passes of pockets.
+data PassMotions = PassMotions
+  { -- | false if it is unknown which motions are in the passes; both tests are then always false
+    isKnown :: Bool,
+    -- | test that a motion is in a pass
+    clears :: ClearingPass -> CutterMotion -> Bool,
+    -- | test that a motion is in a pass, or is one of the moves before and after it
+    isIn :: ClearingPass -> CutterMotion -> Bool
+  }
+
+-- | Compare the tape with one pass of a pocket. If @isFirst@ is true, it is the first pass of the
+-- pocket, and all motions near the pocket are examined for gouges. Otherwise only the motions of the
+-- pass are.
+examine :: MotionSet -> PassMotions -> Pocket -> Bool -> ClearingPass -> (ContourProof, [Finding])
+examine set PassMotions {isKnown, clears, isIn} pocket isFirst pass = (contourProof, findings)
   where
+    isInPass = isIn pass
+    isClearing = clears pass
     (allowedGouge, allowedExcess) = allowedIn set pocket
     -- Gouges
     examined =
       filter
         (\m -> MotionSet.isBelowTop m && (isFirst || isInPass m))
         (MotionSet.nearby set (BoundingBox.inflate (reach pass) (bounds pocket)))
-    -- Linking moves only have to keep the distance of the final pass from the walls.
+    -- Linking moves only have to keep the distance of the final pass from the walls. On a tape with
+    -- other frames than planned, they may also belong to the next statement.
     keepOut m
       | isClearing m = Gouge.constantKeepOut (reach pass)
-      | isInPass m = Gouge.constantKeepOut (minus (rimDistance pocket) Pocket.spareRoom)
+      | MotionSet.isPlanned set && isInPass m =
+        Gouge.constantKeepOut (minus (rimDistance pocket) Pocket.spareRoom)
       | otherwise = Gouge.constantKeepOut (MotionSet.toolOf set m)
     gouges = mapMaybe (\m -> Gouge.gougeOf (keepOut m) (walls pocket) m) examined
     deepest = deepestGouge keepOut pocket examined
     -- Excess
-    clearing = clearingMotions set pocket pass
-    missed
-      | isFinal pass = unreached allowedExcess (BoxTree.index Motion.box clearing) (rim pocket)
-      | otherwise = []
+    clearing = clearingMotions set (\p m -> not isKnown || isIn p m) pocket pass
+    withRim = Pocket.withRimOf pass pocket
+    missed = unreached allowedExcess (BoxTree.index Motion.box clearing) (rim withRim)
     largest = Proof.deepest missed
     tooMuch = sortOn Proof.frame (filter ((> allowedExcess) . Proof.amount) missed)
     -- Result
@@ -94,15 +101,14 @@ examine set isInPass isClearing pocket isFirst pass = (contourProof, findings)
     findings =
       Deviation.gougeFindings allowedGouge gouges deepest
         <> Deviation.excessFindings allowedExcess tooMuch largest
-        <> (if null tooMuch then floorFindings pocket pass allowedExcess clearing else [])
+        <> (if null tooMuch then floorFindings withRim pass allowedExcess clearing else [])
 
--- | Finding for a position on the floor that the final pass leaves uncleared; empty if there is
--- none or if the pass is not final. @clearing@ are the motions that clear the floor.
+-- | Finding for a position on the floor that a pass leaves uncleared; empty if there is none. The
+-- pocket has the rim of the pass. @clearing@ are the motions that clear the floor.
 floorFindings :: Pocket -> ClearingPass -> Mm -> [CutterMotion] -> [Finding]
 floorFindings pocket pass allowedExcess clearing =
   [ NotCleared (statement pocket) (level pass) p
-    | isFinal pass,
-      p <-
+    | p <-
         maybeToList
           ( PocketFloor.unclearedPoint
               pocket
@@ -123,12 +129,18 @@ allowedIn set pocket =
     (inside, outside) = Deviation.allowedDeviation isCurved (milling pocket)
     isCurved = any Part.continues (Part.elements (Part.contour (milling pocket)))
 
--- | Motions that clear the floor in a pass: the motions at the height of the pass, with a cutter at
--- least as large as that of the pocket. If one of them starts in the bounding box of the pocket,
+-- | Motions that have cleared the floor after a pass: the motions of this pass and of the passes
+-- before it at its height, with a cutter at least as large as that of the pocket. @isIn@ tells
+-- whether a motion is in a pass. If one of them starts in the bounding box of the pocket,
 -- the motions whose distance from the box exceeds the box's diagonal are left out. The motion in
 -- the box is nearer than they are to each point of the box.
-clearingMotions :: MotionSet -> Pocket -> ClearingPass -> [CutterMotion]
-clearingMotions set pocket pass
+clearingMotions ::
+  MotionSet ->
+  (ClearingPass -> CutterMotion -> Bool) ->
+  Pocket ->
+  ClearingPass ->
+  [CutterMotion]
+clearingMotions set isIn pocket pass
   | any (startsInBounds . segment) around = around
   | otherwise = filter isClearing (MotionSet.motions set)
   where
@@ -138,7 +150,14 @@ clearingMotions set pocket pass
         (MotionSet.nearby set (BoundingBox.inflate (diagonal (bounds pocket)) (bounds pocket)))
     isClearing m =
       (MotionSet.isFlat set || MotionSet.isAtHeight (MotionSet.machine set) (level pass) m)
+        && any (`isIn` m) passesUpToThis
         && MotionSet.toolOf set m >= Part.radius (milling pocket)
+    passesUpToThis =
+      [ p
+        | p <- NonEmpty.toList (passes pocket),
+          passIndex p <= passIndex pass,
+          level p == level pass
+      ]
     startsInBounds s =
       BoundingBox.meets (BoundingBox.ofPoints (Segment.start s) []) (bounds pocket)
     diagonal (BoundingBox left bottom right top) =

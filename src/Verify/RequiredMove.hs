@@ -7,6 +7,8 @@ module Verify.RequiredMove
   ( RequiredMove (..),
     MotionGroup (..),
     RequiredItem (..),
+    alongContour,
+    atLevels,
     itemsOf,
   )
 where
@@ -20,7 +22,8 @@ import Data.IntSet qualified as IntSet
 import Data.List (find, foldl', mapAccumL, zip4)
 import Data.List.NonEmpty (NonEmpty)
 import Data.List.NonEmpty qualified as NonEmpty
-import Data.Maybe (fromMaybe, isNothing)
+import Data.Maybe (fromMaybe, isJust, isNothing)
+import Frame.Frame qualified as Frame
 import Geometry.Segment (Segment (Straight))
 import Geometry.Segment qualified as Segment
 import Geometry.Tolerance qualified as Tolerance
@@ -66,7 +69,9 @@ data MotionGroup = MotionGroup
     -- | number of the last frame with which the group may begin
     latestBegin :: Int,
     -- | number of the first frame with which the group may end
-    earliestEnd :: Int
+    earliestEnd :: Int,
+    -- | number of the pocket's pass among all passes of the toolpath, from 0; Nothing along a contour
+    clearingPass :: Maybe Int
   }
 
 -- | Item of the sequence that the program asks for.
@@ -75,13 +80,12 @@ data RequiredItem
   | Several MotionGroup
 
 -- | Items of a toolpath. @isFlat@ is true if the whole toolpath is at the height of its start; the
--- heights in pockets are then not compared. @passes@ are the passes along contours as they were
--- found on the tape, one for each block that cuts a contour; @pockets@ are the pockets of the
--- blocks. All single moves come from the statements ("Verify.RequiredLink"); of the toolpath only
+-- heights in pockets are then not compared. @alongContours@ has a group for each block that cuts a
+-- contour: 'alongContour' or 'atLevels'. @pockets@ are the pockets of the blocks. All single moves come from the statements ("Verify.RequiredLink"); of the toolpath only
 -- the ends of its cuts are used. The moves for a control that compensates come from the toolpath.
-itemsOf :: Machine -> Bool -> [MillingPass] -> [Pocket] -> Toolpath -> [RequiredItem]
-itemsOf machine isFlat passes pockets toolpath =
-  concat (snd (mapAccumL (itemsOfBlock machine isFlat) (passes, clearings) visits))
+itemsOf :: Machine -> Bool -> [MotionGroup] -> [Pocket] -> Toolpath -> [RequiredItem]
+itemsOf machine isFlat alongContours pockets toolpath =
+  concat (snd (mapAccumL (itemsOfBlock machine isFlat) (alongContours, clearings) visits))
   where
     clearings = [(pocket, p) | pocket <- pockets, p <- NonEmpty.toList (Pocket.passes pocket)]
     visits = zip4 (beginnings toolpath) (Nothing : map Just blocks) blocks following
@@ -91,14 +95,14 @@ itemsOf machine isFlat passes pockets toolpath =
 -- | Position of the cutter before a block, the block before it, the block, and the one after it.
 type BlockVisit = (SpacePoint, Maybe Block, Block, Maybe Block)
 
--- | Items of a block. The state has the passes and the clearings of this block and of the later
--- ones.
+-- | Items of a block. The state has the groups along contours and the clearings of this block and
+-- of the later ones.
 itemsOfBlock ::
   Machine ->
   Bool ->
-  ([MillingPass], [(Pocket, ClearingPass)]) ->
+  ([MotionGroup], [(Pocket, ClearingPass)]) ->
   BlockVisit ->
-  (([MillingPass], [(Pocket, ClearingPass)]), [RequiredItem])
+  (([MotionGroup], [(Pocket, ClearingPass)]), [RequiredItem])
 itemsOfBlock machine isFlat left@(along, clearing) visit@(begin, _, block, _) = case block of
   Toolpath.Travelling _ stops _ -> (left, links pulse (RequiredLink.stopMoves begin stops))
   Toolpath.Holing drilling _ -> (left, map Single (holeMoves pulse begin drilling))
@@ -111,7 +115,7 @@ itemsOfBlock machine isFlat left@(along, clearing) visit@(begin, _, block, _) = 
         milling
         (placeOf visit region 4 milling pass)
         cut
-        (map (Several . alongContour) (take 1 along))
+        (map Several (take 1 along))
     )
   Toolpath.Clearing {Toolpath.pocket = Located region p, Toolpath.pass, Toolpath.cleared} ->
     let first = Segment.start (Toolpath.segment (NonEmpty.head cleared))
@@ -274,7 +278,8 @@ alongContour MillingPass {job, found} =
   MotionGroup
     { includes = \m -> IntSet.member (Control.number m) members,
       latestBegin = maybe maxBound Motion.number (find isAwayFromEntry along),
-      earliestEnd = maybe 0 ((+ 1) . Motion.number) (find isAwayFromExit (reverse along))
+      earliestEnd = maybe 0 ((+ 1) . Motion.number) (find isAwayFromExit (reverse along)),
+      clearingPass = Nothing
     }
   where
     along = filter (not . Motion.isVertical) (Deviation.motionsAlong found)
@@ -286,12 +291,36 @@ alongContour MillingPass {job, found} =
         (\k -> Vec.distance p (Segment.at k (Motion.segment m)) > limit)
         [0, 0.5, 1]
 
+-- | For each block that cuts a contour, the group of all motions at its height that are not rapid.
+-- These groups serve as long as it is unknown which motions go along the contours.
+atLevels :: Machine -> Bool -> Toolpath -> [MotionGroup]
+atLevels machine isFlat toolpath =
+  [ MotionGroup
+      { includes = isCutting (Toolpath.atHeight pass) (isJust (Part.gear milling)),
+        latestBegin = maxBound,
+        earliestEnd = 0,
+        clearingPass = Nothing
+      }
+    | Toolpath.Cutting {Toolpath.job = Located _ milling, Toolpath.pass} <- Toolpath.blocks toolpath
+  ]
+  where
+    isCutting level swivels m =
+      not (Frame.motion (Control.frame m) == Frame.Rapid)
+        && (isFlat || swivels || all (MotionSet.isSameHeight machine level) [from, to])
+      where
+        (from, to) = Control.height machine m
+
 -- | Group of the motions in one pass of a pocket: those at the height of the pass, and the linking
 -- moves over walls and islands. A linking move rises to the clearance height, goes there to another
 -- position in the pocket, and plunges.
 inPocket :: Machine -> Bool -> Pocket -> ClearingPass -> MotionGroup
 inPocket machine isFlat pocket pass =
-  MotionGroup {includes, latestBegin = maxBound, earliestEnd = 0}
+  MotionGroup
+    { includes,
+      latestBegin = maxBound,
+      earliestEnd = 0,
+      clearingPass = Just (Pocket.passIndex pass)
+    }
   where
     milling = Pocket.milling pocket
     clear = Part.clearance milling

@@ -3,17 +3,19 @@
 module Verify.SpindleTool
   ( Tools,
     plannedTools,
-    toolCount,
     toolInFrame,
+    toolsByCommands,
     Use (..),
     supposedTool,
   )
 where
 
 import Base.Quantity (Mm (..))
+import Data.IntMap.Strict qualified as IntMap
+import Data.List (nub)
 import Data.Vector.Unboxed (Vector)
 import Data.Vector.Unboxed qualified as Vector
-import Frame.Frame (FrameProgram)
+import Frame.Frame (Frame, FrameProgram)
 import Frame.Frame qualified as Frame
 
 -- | Radius of the cutter in mm, for each planned frame in order.
@@ -24,19 +26,44 @@ plannedTools :: FrameProgram -> Tools
 plannedTools program =
   Vector.fromList [r | p <- Frame.plannedFrames program, let Mm r = Frame.cutterRadius p]
 
--- | Number of planned frames: 'Tools' has one radius for each of them.
-toolCount :: Tools -> Int
-toolCount = Vector.length
-
 -- | Radius of the cutter in the planned frame with the number @n@, counted from 1; 0 if there is no
 -- such frame.
 toolInFrame :: Tools -> Int -> Mm
 toolInFrame tools n = maybe (Mm 0) Mm (tools Vector.!? (n - 1))
 
+-- | Radius of the cutter in each frame of a tape, by the number of the frame from 1. The first frame
+-- with commands corresponds to the first such planned frame, the second to the second, and so on.
+-- From one such frame to the next, the cutter stays the same. Nothing if the cutter in the planned
+-- frames changes elsewhere.
+toolsByCommands :: FrameProgram -> [Frame] -> Maybe (Int -> Mm)
+toolsByCommands program frames = do
+  radii <- traverse (onlyRadius . filter (Frame.isMoving . Frame.frame)) plannedSections
+  let begins = IntMap.fromList (zip (1 : numbersOf frames) (radii <> repeat (Mm 0)))
+  Just (\n -> maybe (Mm 0) snd (IntMap.lookupLE n begins))
+  where
+    planned = Frame.plannedFrames program
+    plannedSections = divided (numbersOf (map Frame.frame planned)) planned
+    onlyRadius section = case nub (map Frame.cutterRadius section) of
+      [] -> Just (Mm 0)
+      [r] -> Just r
+      _ -> Nothing
+
+-- | Numbers of the frames with commands after the first frame, counted from 1.
+numbersOf :: [Frame] -> [Int]
+numbersOf fs = [n | (n, f) <- zip [1 ..] fs, n > 1, not (null (Frame.commands f))]
+
+-- | Sections of a list, each of which begins at one of the numbers, counted from 1.
+divided :: [Int] -> [a] -> [[a]]
+divided numbers = go (zipWith (-) numbers (1 : numbers))
+  where
+    go counts left = case counts of
+      [] -> [left]
+      n : more -> let (section, later) = splitAt n left in section : go more later
+
 -- | Use of a cutter in a pass on the tape: the numbers of the first and the last frame, the radius.
 data Use = Use Int Int Mm
 
--- | Radius of the cutter in frame @n@ of a tape that has more or fewer frames than planned. @uses@
+-- | Radius of the cutter in frame @n@ of a tape that has other frames than planned. @uses@
 -- are the passes that were found, in the order of the tape. A frame in a pass has the cutter of the
 -- pass. A frame between two passes has the smaller cutter of the two. A frame before the first pass
 -- or after the last one has the cutter of that pass. If no pass was found, the result is

@@ -7,7 +7,7 @@ module Verify.TapeSummary
 where
 
 import Base.PulseVector (Pulses3 (..))
-import Base.Quantity (Pulses)
+import Base.Quantity (Pulses (..))
 import Control.Applicative ((<|>))
 import Data.List (foldl')
 import Frame.Frame (Frame (..), PlannedFrame)
@@ -26,7 +26,10 @@ data TapeSummary = TapeSummary
     firstRisen :: Maybe Int,
     -- | number of the first frame that differs from the planned frame of the same number, or that
     -- exists only on the tape or only in the plan; Nothing if there is no difference
-    firstDifference :: Maybe Int
+    firstDifference :: Maybe Int,
+    -- | true if the tape has as many frames as planned, and each of them ends where the planned
+    -- frame of the same number ends. A difference of two pulses on each axis is due to rounding
+    isAligned :: Bool
   }
 
 -- | Summarize the frames of a tape that begins at the position @begin@. The planned frames are
@@ -34,29 +37,41 @@ data TapeSummary = TapeSummary
 summarize :: Pulses3 -> [PlannedFrame] -> [Frame] -> TapeSummary
 summarize begin@(Pulses3 _ _ startHeight) planned frames = case missing of
   [] -> summary
-  _ -> summary {firstDifference = firstDifference summary <|> Just (count summary + 1)}
+  _ ->
+    summary
+      { firstDifference = firstDifference summary <|> Just (count summary + 1),
+        isAligned = False
+      }
   where
-    Comparison summary missing = foldl' (withFrame startHeight) (Comparison empty planned) frames
-    empty = TapeSummary 0 begin 0 Nothing Nothing
+    Comparison summary _ missing =
+      foldl' (withFrame startHeight) (Comparison empty begin planned) frames
+    empty = TapeSummary 0 begin 0 Nothing Nothing True
 
--- | Summary of the frames of a tape that are already compared, and the planned frames that are not
--- yet compared.
-data Comparison = Comparison TapeSummary [PlannedFrame]
+-- | Summary of the frames of a tape that are already compared, the position after the planned frames
+-- that are already compared, and the planned frames that are not yet compared.
+data Comparison = Comparison TapeSummary Pulses3 [PlannedFrame]
 
 -- | Comparison after the next frame @f@ of the tape. @startHeight@ is the height of the start
 -- position, in pulses.
 withFrame :: Pulses -> Comparison -> Frame -> Comparison
-withFrame startHeight (Comparison summary planned) f =
+withFrame startHeight (Comparison summary plannedEnd planned) f =
   Comparison
     TapeSummary
       { count = number,
         endPosition = Pulses3 (x + dx) (y + dy) height,
         largestIncrement = Pulses3 (max a (abs dx)) (max b (abs dy)) (max c (abs dz)),
         firstRisen = firstRisen summary <|> if height == startHeight then Nothing else Just number,
-        firstDifference = firstDifference summary <|> if isPlanned then Nothing else Just number
+        firstDifference = firstDifference summary <|> if isPlanned then Nothing else Just number,
+        isAligned = isAligned summary && not (null planned) && isNear
       }
+    plannedEnd'
     (drop 1 planned)
   where
+    plannedEnd' = case planned of
+      p : _ -> plannedEnd + increment (Frame.frame p)
+      [] -> plannedEnd
+    isNear = maximum [ex, ey, ez] <= Pulses 2
+    Pulses3 ex ey ez = abs (Pulses3 (x + dx) (y + dy) height - plannedEnd')
     number = count summary + 1
     Pulses3 x y z = endPosition summary
     Pulses3 dx dy dz = increment f
