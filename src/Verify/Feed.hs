@@ -5,9 +5,9 @@
 -- by the most pulses.
 module Verify.Feed
   ( asPlanned,
-    alongContour,
     atFeed,
     atPace,
+    notSlow,
     downwards,
     tooFast,
   )
@@ -27,7 +27,6 @@ import Machine.Machine (BrakingForm (..), FeedCode (..), FeedMeasure (..), Machi
 import Machine.Machine qualified as Machine
 import Part.Part (Pace)
 import Part.Part qualified as Part
-import Verify.MillingJob (MillingJob (..), elementsOf)
 import Verify.Proof (Finding (..), Speed (..))
 
 -- | Speed that a frame asks for: rapid or a feed code, and with braking or without.
@@ -49,12 +48,6 @@ asPlanned program frames =
       Frame.feedCode a /= Frame.feedCode b
         || Frame.braking a /= Frame.braking b
         || (Frame.motion a == Rapid) /= (Frame.motion b == Rapid)
-
--- | Findings for motions along a contour with a feed that neither the milling statement nor an
--- element of the contour demands.
-alongContour :: Machine -> MillingJob -> [Motion] -> [Finding]
-alongContour machine job =
-  atFeed machine (Part.feed (milling job)) (map Part.finish (elementsOf job))
 
 -- | Findings for motions with a wrong feed. Allowed are @demanded@, the feed of the statement, and
 -- the feeds of single elements, which are in @finishes@. If the cutter has to slow down at the end
@@ -99,6 +92,13 @@ atPace machine pace slows asked m = case pace of
     hasRapid = Machine.hasRapidMotion machine
     rapidCode = if hasRapid then FeedCode 0 else Machine.rapidCode machine
     isRapid = rapidly found == hasRapid && code found == rapidCode
+
+-- | Finding for a motion that has to run at the lowest feed of the machine; @asked@ is the region
+-- that gives the feed before.
+notSlow :: Machine -> Region -> Motion -> Finding
+notSlow machine asked m = WrongFeed (number m) (speedOf (frame m)) lowest asked
+  where
+    lowest = Speed {rapidly = False, code = fst (Machine.slowest machine), braking = False}
 
 -- | Findings for vertical motions into solid material with a speed that no planned motion into
 -- solid material has. If the planned frames contain no such motion, there is nothing to compare

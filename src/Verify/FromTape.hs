@@ -49,6 +49,7 @@ import Part.Part (SpacePoint (..))
 import Part.Part qualified as Part
 import Toolpath.Toolpath (Toolpath)
 import Toolpath.Toolpath qualified as Toolpath
+import Verify.ContourFeed qualified as ContourFeed
 import Verify.Deviation (MillingPass (..))
 import Verify.Deviation qualified as Deviation
 import Verify.Feed qualified as Feed
@@ -520,10 +521,9 @@ hasPlannedFeeds subject@Subject {program, frames} =
 -- the start and the end of the pass.
 contourFeeds :: Subject -> MillingPass -> [Finding]
 contourFeeds subject pass =
-  Feed.alongContour
-    (machine subject)
-    (job pass)
-    (programmed subject (filter (not . Motion.isVertical) (Deviation.motionsAlong (found pass))))
+  ContourFeed.findings (machine subject) (job pass) (zip along (programmed subject along))
+  where
+    along = filter (not . Motion.isVertical) (Deviation.motionsAlong (found pass))
 
 -- | Findings for feeds in the passes of pockets, without their linking moves. If the frames of the
 -- passes are unknown, the linking moves are those that run where the program asks for them.

@@ -331,7 +331,10 @@ inPocket machine isFlat pocket pass =
     includes m
       | isVertical = isInside && any isBetween clear && hasPace verticalPace
       | isFlat || isAt level from && isAt level to = isInside && not isRapid
-      | otherwise = any (\z -> isAt z from && isAt z to) clear && hasPace Part.Rapid
+      | otherwise =
+        any (\z -> isAt z from && isAt z to) clear
+          && hasPace Part.Rapid
+          && all (Pocket.contains pocket) [Segment.start s, Segment.end s]
       where
         s = Control.segment machine m
         (from, to) = Control.height machine m

@@ -7,6 +7,7 @@ module Generate.WrongTape
   ( Damage (..),
     damages,
     damaged,
+    withFrameCount,
     difference,
   )
 where
@@ -73,6 +74,42 @@ damaged machine isClearing program = do
   d <- elements (damages isClearing)
   stations <- change d machine (stationsOf program)
   pure (name d, framesThrough (Frame.start program) stations)
+
+-- | A tape that makes the same motions in @wanted@ frames, or in a count as near to it as possible.
+-- Lines are divided in the middle, or two lines are joined that follow one another in the same
+-- direction, at the same speed.
+withFrameCount :: Int -> [PlannedFrame] -> Gen [PlannedFrame]
+withFrameCount wanted frames = case compare (length frames) wanted of
+  EQ -> pure frames
+  LT -> changedAt [i | (i, p) <- zip [0 ..] frames, isLong p] divide
+  GT -> changedAt [i | (i, (p, q)) <- zip [0 ..] (zip frames (drop 1 frames)), goesOn p q] join
+  where
+    changedAt places edit
+      | null places = pure frames
+      | otherwise = do
+        i <- elements places
+        withFrameCount wanted (take i frames <> edit (drop i frames))
+    isLong p = isLine p && maximum (map abs (components p)) > 20
+    isLine p = motion (Frame.frame p) == Linear && null (commands (Frame.frame p))
+    goesOn p q =
+      isLine p && isLine q && speed p == speed q && isSameDirection (components p) (components q)
+    speed p = (feedCode (Frame.frame p), braking (Frame.frame p))
+    isSameDirection u v =
+      sum (zipWith (*) u v) > 0 && and [a * e == b * d | (a, d) <- zip u v, (b, e) <- zip u v]
+    divide list = case list of
+      p : more ->
+        let half = Pulses3 (Pulses a) (Pulses b) (Pulses c)
+            (a, b, c) = case map (`div` 2) (components p) of
+              [x, y, z] -> (x, y, z)
+              _ -> (0, 0, 0)
+         in along half p : along (increment (Frame.frame p) - half) p : more
+      [] -> []
+    join list = case list of
+      p : q : more -> along (increment (Frame.frame p) + increment (Frame.frame q)) p : more
+      _ -> list
+    along d p = p {Frame.frame = (Frame.frame p) {increment = d}}
+    components p =
+      let Pulses3 (Pulses a) (Pulses b) (Pulses c) = increment (Frame.frame p) in [a, b, c]
 
 -- Kinds of damage ---------------------------------------------------------------------------------
 

@@ -101,17 +101,22 @@ forAllWrong :: Testable p => (Operated -> TapePair -> p) -> Property
 forAllWrong holds =
   forAllBlind operated $ \o@Operated {machine, path, program} ->
     forAllBlind (WrongTape.damaged machine (`elem` clearingPasses path) program) $
-      \(damage, planned) ->
-        let frames = map Frame.frame planned
-         in isWrong o frames && TapePair.isReadBack machine (Frame.start program) frames
-              ==> counterexample
-                ( Text.unpack (text o)
-                    <> unlines (map show (changedFrames (own program) frames))
-                    <> damage
-                    <> " on "
-                    <> show (Machine.name machine)
-                )
-              $ holds o (pairOf o damage planned)
+      \(damage, changed) ->
+        forAllBlind (oneof [pure changed, recounted program changed]) $ \planned ->
+          let frames = map Frame.frame planned
+           in isWrong o (map Frame.frame changed)
+                && TapePair.isReadBack machine (Frame.start program) frames
+                ==> counterexample
+                  ( Text.unpack (text o)
+                      <> unlines (map show (changedFrames (own program) frames))
+                      <> damage
+                      <> " on "
+                      <> show (Machine.name machine)
+                  )
+                $ holds o (pairOf o damage planned)
+  where
+    -- As many frames as planned must not hide a damage.
+    recounted program = WrongTape.withFrameCount (length (Frame.plannedFrames program))
 
 -- | Numbers of the first frames in which two tapes differ, with both frames. Nothing where a tape
 -- has ended.
