@@ -49,8 +49,9 @@ walls contours =
 
 -- | Chord tolerance of the run @moves@ in the pass @pass@ of the milling @job@. It is @wide@, or
 -- the smaller tolerance on both sides if chords with the tolerance @wide@ come too near to the
--- walls. A chord may come nearer to them than the path by the tolerance into the material. A machine
--- with arcs keeps the tolerance @wide@: it makes chords only of arcs that fit into no frame.
+-- walls. A chord may come nearer to them than the path by the tolerance into the material. A
+-- machine with arcs keeps the tolerance @wide@: it makes chords only of arcs that fit into no
+-- frame.
 tolerance ::
   Machine -> Milling -> Pass -> Walls -> NonEmpty Move -> ChordTolerance -> ChordTolerance
 tolerance machine job pass Walls {elements, largestAllowance} moves wide

@@ -1,11 +1,9 @@
 -- | Comparison of the feeds along a contour with those that the program asks for, on a tape with
 -- other frames than planned.
 --
--- A motion has the feed of an element that the cutter touches, at every point that is examined: a
--- little after its start and before its end, in its middle, and where it is nearest to the middle
--- of an element. Where the cutter touches several elements, as at a corner, each of their feeds is
--- allowed. Where it touches none, as on the way around a sharp corner, the feeds of all elements
--- are.
+-- A motion has the feed of an element that the cutter may touch, at every point that is examined: a
+-- little after its start and before its end, in its middle, and where it is nearest to the middle of
+-- an element. At a corner, the feed of the statement is allowed, too.
 --
 -- At the end of an element with @slow@, a machine that slows down by slow frames has to run at its
 -- lowest feed for the length that it needs to slow down.
@@ -18,9 +16,9 @@ import Base.Quantity (Feed (..), Mm (..), minus, times, total)
 import Base.Region (Located (..))
 import Control.Motion (Motion)
 import Control.Motion qualified as Control
-import Data.IntMap.Strict qualified as IntMap
 import Data.List (nub, tails)
-import Data.Maybe (fromMaybe, listToMaybe, mapMaybe)
+import Data.Map.Strict qualified as Map
+import Data.Maybe (fromMaybe, isNothing)
 import Frame.Frame qualified as Frame
 import Geometry.Distance qualified as Distance
 import Geometry.Index.BoxTree qualified as BoxTree
@@ -29,7 +27,7 @@ import Machine.Machine (BrakingForm (..), Machine)
 import Machine.Machine qualified as Machine
 import Part.Part (Element)
 import Part.Part qualified as Part
-import Verify.Edge (Edge (element, rank, shape))
+import Verify.Edge (Edge (element, shape))
 import Verify.Feed qualified as Feed
 import Verify.MillingJob (MillingJob (..))
 import Verify.MillingJob qualified as MillingJob
@@ -49,71 +47,89 @@ findings machine job motions
     demanded = Part.feed (milling job)
     everywhere = map Part.finish (MillingJob.elementsOf job)
     isUniform = all (\f -> null (Part.ownFeed f) && not (Part.slow f)) everywhere
-    ofMotion (c, m) =
-      take 1 (mapMaybe (wrongAmong . map Part.finish) (nub (map (touchedAt job c) (examined job c))))
+    ofMotion (c, m) = take 1 (concatMap wrongAt (nub (map (contactAt job c) (examined job c))))
       where
-        wrongAmong finishes
-          | null finishes = listToMaybe (Feed.atFeed machine demanded everywhere [m])
-          | otherwise = allOf [Feed.atFeed machine (feedOf f) [plainly f] [m] | f <- finishes]
+        wrongAt (Contact isBesideEnds es)
+          | null es = Feed.atFeed machine demanded everywhere [m]
+          | any null ways = []
+          | otherwise = concat ways
+          where
+            ways =
+              [Feed.atFeed machine demanded [] [m] | isBesideEnds]
+                <> [ Feed.atFeed machine (feedOf f) [f {Part.ownFeed = Nothing}] [m]
+                     | f <- map Part.finish es
+                   ]
     feedOf f = fromMaybe demanded (Part.ownFeed f)
-    plainly f = f {Part.ownFeed = Nothing}
-    allOf ways = if any null ways then Nothing else listToMaybe (concat ways)
 
--- | Elements that the cutter touches at a fraction of a motion.
-touchedAt :: MillingJob -> CutterMotion -> Double -> [Element]
-touchedAt job c k = [element e | e <- near, rank e `elem` map fst (MillingJob.contacts job near p)]
+-- | What the cutter may touch at a point of a motion: true if it is beside no element except near
+-- the end of this element, and the elements within the largest distance that the cutter may have
+-- from one.
+data Contact = Contact Bool [Element]
+  deriving stock (Eq)
+
+-- | What the cutter may touch at a fraction of a motion.
+contactAt :: MillingJob -> CutterMotion -> Double -> Contact
+contactAt job c k = Contact (all isNearEnd near) (map element near)
   where
     p = Segment.at k (segment c)
     near = MillingJob.edgesAround job p
+    isNearEnd e =
+      let share = Distance.nearestFraction p (shape e)
+       in times (min share (1 - share)) (Segment.length (shape e)) <= margin job
 
--- | Fractions of a motion at which the feed is compared. The margin at both ends, three times the
--- allowed deviation, is where rounding may move a joint between two elements.
+-- | Length in mm by which rounding may move a joint between two elements.
+margin :: MillingJob -> Mm
+margin job = times 3 (allowance job)
+
+-- | Fractions of a motion at which the feed is compared. They are at least the 'margin' away from
+-- both ends.
 examined :: MillingJob -> CutterMotion -> [Double]
 examined job c
-  | margin >= 0.5 = [0.5]
-  | otherwise = [margin, 0.5, 1 - margin] <> filter isInside (map nearestToMiddle near)
+  | first >= 0.5 = [0.5]
+  | otherwise = [first, 0.5, 1 - first] <> filter isInside (map nearestToMiddle near)
   where
     Mm long = Segment.length (segment c)
-    Mm deviation = allowance job
-    margin = if long > 0 then 3 * deviation / long else 1
+    first = let Mm l = margin job in if long > 0 then l / long else 1
     near = MillingJob.edgesNear job c
     nearestToMiddle e = Distance.nearestFraction (Segment.at 0.5 (shape e)) (segment c)
-    isInside k = k > margin && k < 1 - margin
+    isInside k = k > first && k < 1 - first
 
 -- | Findings for missing slow frames at the ends of elements. An element counts with the motions in
--- whose middle the cutter touches only this element. The last of them, or the motion after it, has
--- to be slow, and the slow ones have to be as long as the machine needs to slow down.
+-- whose middle the cutter touches only this element. From the last of them to the first motion along
+-- another element, a motion has to be slow. The slow motions have to be as long as the machine needs
+-- to slow down; the 'margin' may be missing.
 slowFindings :: Machine -> MillingJob -> [ContourMotion] -> [Finding]
 slowFindings machine job motions = case Machine.brakingForm (Machine.braking machine) of
   SlowFrames -> concatMap ofElement (BoxTree.toList (edges job))
   ByControl -> []
   BrakedFrames _ -> []
   where
-    ofElement e = case (Part.slow finish, IntMap.lookup (rank e) beside) of
-      (True, Just pairs@((final, next) : _))
-        | any isSlow (final : next),
-          lengthOf (filter isSlow (next <> map fst pairs)) >= minus wanted margin ->
+    ofElement e = case (Part.slow finish, Map.lookup (Part.origin (element e), shape e) beside) of
+      (True, Just ends@((final, after) : _))
+        | wanted <= margin job -> []
+        | any isSlow (final : after),
+          lengthOf (filter isSlow (after <> map fst ends)) >= minus wanted (margin job) ->
           []
         | otherwise -> [Feed.notSlow machine (region asked) (snd final)]
         where
-          wanted = min (slowLength (value asked)) (lengthOf (map fst pairs))
+          wanted = min (slowLength (value asked)) (lengthOf (map fst ends))
       _ -> []
       where
         finish = Part.finish (element e)
         asked = fromMaybe (Part.feed (milling job)) (Part.ownFeed finish)
-    -- For each element, its motions and the motion after each of them, the last motion first.
+    -- For each element, its motions, and after each of them those along no single element. The last
+    -- motion comes first.
     beside =
-      IntMap.fromListWith
+      Map.fromListWith
         (<>)
-        [ (i, [(m, take 1 later)])
-          | m@(c, _) : later <- tails motions,
-            [i] <- [map fst (MillingJob.contacts job (near c) (middle c))]
+        [ (i, [(m, map fst (takeWhile (isNothing . snd) later))])
+          | (m, Just i) : later <- tails (map (\m -> (m, alongOnly (fst m))) motions)
         ]
-    near = MillingJob.edgesAround job . middle
-    middle = Segment.at 0.5 . segment
+    alongOnly c = case contactAt job c 0.5 of
+      Contact False [e] -> Just (Part.origin e, Part.segment e)
+      _ -> Nothing
     isSlow (_, m) = Frame.feedCode (Control.frame m) == fst (Machine.slowest machine)
     lengthOf = total . map (Segment.length . segment . fst)
-    margin = times 3 (allowance job)
     slowLength (Feed v) =
       let perSecond = v / 60
        in Mm (perSecond * perSecond / (2 * Machine.deceleration (Machine.braking machine)))

@@ -181,8 +181,8 @@ orderFindings set MillingPass {job, found} = case found of
     runsBack = WrongSide.runsBack (MotionSet.machine set) job
     isReturnOf m other = WrongSide.retraces job m other && not (runsBack other)
 
--- | Test that a cut does not follow the contour to its end, as it would have to. If rest material is
--- allowed, a cut need not go along the whole contour.
+-- | Test that a cut does not follow the contour to its end, as it would have to. If rest material
+-- is allowed, a cut need not go along the whole contour.
 isUnfollowed :: MillingJob -> FoundPass -> Bool
 isUnfollowed job found = case found of
   Complete _ _ -> False
@@ -259,11 +259,11 @@ piercedBy job allowed motions =
 -- Excess ------------------------------------------------------------------------------------------
 
 -- | Excess on the elements of a contour; @allowed@ is the largest allowed one. The elements are
--- compared with the motions of all cuts of the pass, @onPass@. It is Nothing for the later cuts of a
--- pass: these are examined with the first one. If the contour is not followed to its end, which is a
--- finding of its own, all motions at the height of the pass count. @bounds@ is the
--- array that 'ContourScan.scan' returns: for each element, by its number from 0, an upper bound in
--- mm of the distance of its points from the motions along the contour.
+-- compared with the motions of all cuts of the pass, @onPass@. It is Nothing for the later cuts of
+-- a pass: these are examined with the first one. If the contour is not followed to its end, which
+-- is a finding of its own, all motions at the height of the pass count. @bounds@ is the array that
+-- 'ContourScan.scan' returns: for each element, by its number from 0, an upper bound in mm of the
+-- distance of its points from the motions along the contour.
 missedOn :: MotionSet -> Maybe [CutterMotion] -> MillingPass -> Mm -> PrimArray Double -> [Witness]
 missedOn set onPass MillingPass {job, level, found} allowed bounds
   | allowsRest job && isNothing onPass = []

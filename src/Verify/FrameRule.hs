@@ -71,11 +71,12 @@ impossibleArc machine n at f =
 type Commands = [(CommandName, Int)]
 
 -- | Findings for frames whose commands differ from those of the planned frames. If @isAligned@ is
--- true, each frame ends where the planned frame of the same number ends, and they are compared frame
--- by frame. On any other tape, the first frame with commands is compared with the first such planned
--- frame, the second with the second, and so on. The positions at which the two frames of a pair
--- begin may differ by at most two pulses on each axis. @isSamePlace@ tells of a planned frame and of
--- a frame of the tape, both given by their numbers, whether the same motions come before them.
+-- true, each frame ends where the planned frame of the same number ends, and they are compared
+-- frame by frame. On any other tape, the first frame with commands is compared with the first such
+-- planned frame, the second with the second, and so on. The positions at which the two frames of a
+-- pair begin may differ by at most two pulses on each axis. @isSamePlace@ tells of a planned frame
+-- and of a frame of the tape, both given by their numbers, whether the same motions come before
+-- them.
 wrongCommands :: Bool -> (Int -> Int -> Bool) -> FrameProgram -> [Frame] -> [Finding]
 wrongCommands isAligned isSamePlace program frames =
   [ WrongCommand n name (lookup name found) (lookup name wanted)
@@ -114,10 +115,10 @@ positioned fs =
 -- compared in pairs. An entry of both lists has the number of a frame from 1, the position in
 -- pulses where the frame begins, and its commands. An entry of the result has the number of a frame
 -- on the tape, the planned commands, and those of the tape. If the positions of a pair differ by
--- more than two pulses, or if 'isSamePlace' as in 'wrongCommands' is false for the pair, the planned
--- frame counts as one without commands. Planned commands that are
--- missing at the end of the tape get the number of their planned frame, but at least @frameCount@,
--- the count of frames on the tape.
+-- more than two pulses, or if 'isSamePlace' as in 'wrongCommands' is false for the pair, the
+-- planned frame counts as one without commands. Planned commands that are missing at the end of the
+-- tape get the number of their planned frame, but at least @frameCount@, the count of frames on the
+-- tape.
 inOrder ::
   (Int -> Int -> Bool) ->
   Int ->

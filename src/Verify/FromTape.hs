@@ -133,13 +133,7 @@ proofOf isRestarted subject =
     }
   where
     found = deviations <> otherFindings subject passes
-    -- A tape with another fault often has motions that the program does not ask for, too. So these
-    -- are reported only if there is no other finding.
-    unmatched
-      | not (null found) = []
-      | otherwise = case unmatchedMotions subject passes of
-        [] -> displacedCommands subject passes
-        findings -> findings
+    unmatched = if null found then orderFindings subject passes else []
     passes = locatedPasses subject
     set = motionSetOf subject passes
     (contourProofs, contourFindings) =
@@ -152,21 +146,20 @@ proofOf isRestarted subject =
         )
     (pocketProofs, pocketFindings) =
       unzip
-        [ PocketDeviation.examine
-            set
-            passMotions
-            pocket
-            isFirst
-            pass
+        [ PocketDeviation.examine set passMotions pocket isFirst pass
           | pocket <- pockets subject,
             (isFirst, pass) <- zip (True : repeat False) (NonEmpty.toList (Pocket.passes pocket))
         ]
-    passMotions = case clearingFrames subject passes of
-      Nothing -> PassMotions False (\_ _ -> False) (\_ _ -> False)
-      Just ClearingFrames {MotionMatch.inPass, MotionMatch.withMoves} ->
-        PassMotions True (isInFrames inPass) (isInFrames withMoves)
+    passMotions = passMotionsOf subject passes
     deviations = concat contourFindings <> concat pocketFindings
     closure = closureOf isRestarted subject
+
+-- | Motions in the passes of the pockets.
+passMotionsOf :: Subject -> [MillingPass] -> PassMotions
+passMotionsOf subject passes = case clearingFrames subject passes of
+  Nothing -> PassMotions False (\_ _ -> False) (\_ _ -> False)
+  Just ClearingFrames {MotionMatch.inPass, MotionMatch.withMoves} ->
+    PassMotions True (isInFrames inPass) (isInFrames withMoves)
 
 -- | Compare the frames of a tape with the part, as 'prove' does. A closed contour whose start the
 -- program leaves open may begin anywhere on the tape. @replanned@ gives the toolpath and the
@@ -244,8 +237,8 @@ subjectOf machine path program frames =
         (SpindleTool.toolInFrame tools)
         (Frame.start program)
 
--- | Test that each frame of the tape ends where the planned frame of the same number ends. If so, the
--- callers compare each frame with that planned frame.
+-- | Test that each frame of the tape ends where the planned frame of the same number ends. If so,
+-- the callers compare each frame with that planned frame.
 isAligned :: Subject -> Bool
 isAligned subject = TapeSummary.isAligned (summary subject)
 
@@ -449,6 +442,14 @@ displacedCommands subject@Subject {machine, path, program} passes =
         (requiredItems tape (map RequiredMove.alongContour found))
         [n | (n, f) <- zip [1 ..] frames, not (null (Frame.commands f))]
         (Control.run (Frame.start program) frames)
+
+-- | Findings for motions, moves and commands that do not follow one another as the program asks. A
+-- tape with another fault often has motions that the program does not ask for, too. So these
+-- findings serve only if there is no other one.
+orderFindings :: Subject -> [MillingPass] -> [Finding]
+orderFindings subject passes = case unmatchedMotions subject passes of
+  [] -> displacedCommands subject passes
+  findings -> findings
 
 -- | Finding for the first motion that the program does not ask for at its place in the order, or
 -- for the first move that is missing.

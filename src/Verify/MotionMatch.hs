@@ -15,7 +15,7 @@ module Verify.MotionMatch
   ( mismatches,
     ClearingFrames (..),
     clearingFrames,
-    Place,
+    CommandPlace,
     commandPlaces,
   )
 where
@@ -101,7 +101,7 @@ clearingFrames machine begin list motions = case matched machine False begin ite
               | (i, Several MotionGroup {clearingPass = Just k}) <- zip [0 ..] list
             ]
         groups = IntSet.fromList [i | (i, Several _) <- zip [0 ..] list]
-        own i = (\n -> (i, n)) <$> IntMap.lookup i firsts
+        own i = (i,) <$> IntMap.lookup i firsts
         afterGroupBefore i = IntMap.lookupGT (fromMaybe (-1) (IntSet.lookupLT i groups)) firsts
         ofGroupAfter i = (`IntMap.lookupGE` firsts) =<< IntSet.lookupGT i groups
      in Just
@@ -143,12 +143,12 @@ matched machine comparesFeeds begin items = go begin firstStates
 
 -- | Place of a command in the order of a program: the index of the item that comes next, and true
 -- if that item is a group of which a motion came before.
-type Place = (Int, Bool)
+type CommandPlace = (Int, Bool)
 
--- | Places of the commands on a tape, by the numbers of their frames. @commanded@ are these numbers,
--- in order. Frames after the first motion that matches no item are missing. @begin@ is the position
--- before the first frame, in pulses.
-commandPlaces :: Machine -> Pulses3 -> [RequiredItem] -> [Int] -> [Motion] -> IntMap Place
+-- | Places of the commands on a tape, by the numbers of their frames. @commanded@ are these
+-- numbers, in order. Frames after the first motion that matches no item are missing. @begin@ is the
+-- position before the first frame, in pulses.
+commandPlaces :: Machine -> Pulses3 -> [RequiredItem] -> [Int] -> [Motion] -> IntMap CommandPlace
 commandPlaces machine begin list = \commanded -> IntMap.fromList . go begin firstStates commanded
   where
     items = Vector.fromList list
@@ -198,11 +198,12 @@ positionOf :: Machine -> Pulses3 -> Position
 positionOf machine p = Position (Frame.position machine p) (Frame.height machine p)
 
 -- | Adds to the states each item that the cutter may begin at the position @at@, because the items
--- before it are done. @next@ is the number of the frame that comes next.
+-- before it are done. @next@ is the number of the frame that comes next. If no move separates two
+-- groups, the second one begins as late as possible.
 withSkipped :: Machine -> Vector RequiredItem -> Position -> Int -> States -> States
 withSkipped machine items at next states =
-  IntMap.unionWith
-    further
+  IntMap.unionWithKey
+    (\i known begins -> if followsGroup i then begins else further known begins)
     states
     (IntMap.fromListWith (flip further) (concatMap later (IntMap.toList states)))
   where
@@ -212,6 +213,10 @@ withSkipped machine items at next states =
           let next' = progress {made = 0} ->
           (i + 1, next') : later (i + 1, next')
       _ -> []
+    followsGroup i = all isGroup [items Vector.!? (i - 1), items Vector.!? i]
+    isGroup item = case item of
+      Just (Several _) -> True
+      _ -> False
     isDone item before = case item of
       Single r -> isMade machine r at before
       Several g -> next >= earliestEnd g
@@ -219,8 +224,8 @@ withSkipped machine items at next states =
 -- Single moves ------------------------------------------------------------------------------------
 
 -- | Test that the move @r@ is completely made when the cutter is at a position. The 'slack' of the
--- move and one pulse in height are allowed. @share@ is the fraction of the move that is made. A move
--- so short that rounding may leave nothing of it counts as made once the cutter is at its end.
+-- move and one pulse in height are allowed. @share@ is the fraction of the move that is made. A
+-- move so short that rounding may leave nothing of it counts as made once the cutter is at its end.
 isMade :: Machine -> RequiredMove -> Position -> Double -> Bool
 isMade machine r (Position p z) share =
   Vec.distance p (Segment.end (path r)) <= slack r

@@ -51,8 +51,8 @@ data Guide = Guide
     isFlat :: Bool,
     -- | test that a motion swivels a blade as its pass demands
     isSwivelled :: CutterMotion -> Bool,
-    -- | number of the last frame of a pass of a pocket, by the number of the pass from 0; Nothing if
-    -- it is unknown
+    -- | number of the last frame of a pass of a pocket, by the number of the pass from 0; Nothing
+    -- if it is unknown
     lastFrameOf :: Int -> Maybe Int,
     -- | planned frames of a cut, by the number of its pass from 0. Only these frames, and the one
     -- before them, are searched, because another cut may lie within the tolerance of this one, and
@@ -246,7 +246,8 @@ motionsOfPasses = concatMap ofPass . NonEmpty.groupBy ((==) `on` key)
   where
     key MillingPass {job, passNumber, level} = (passNumber, level, reach job)
     ofPass cuts =
-      Just (concatMap (PassSearch.motionsOf . found) cuts) : map (const Nothing) (NonEmpty.tail cuts)
+      Just (concatMap (PassSearch.motionsOf . found) cuts) :
+      map (const Nothing) (NonEmpty.tail cuts)
 
 -- | Last element of a list, if there is one.
 lastOf :: [a] -> Maybe a

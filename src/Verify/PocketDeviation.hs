@@ -3,8 +3,8 @@
 --
 -- Let A be the set of all positions of the cutter's centre in the pocket whose distance from the
 -- walls is at least the cutter's radius plus the allowance that a pass leaves. The cutter reaches a
--- point if A has a position within the radius of that point. Two facts are shown about this pass and
--- the passes before it at its depth, together:
+-- point if A has a position within the radius of that point. Two facts are shown about this pass
+-- and the passes before it at its depth, together:
 --
 -- * Rim: each point of the border of A is within the allowed excess of a motion. So the walls are
 --   cut wherever the cutter can touch them. A point outside of A that the cutter reaches, for
@@ -21,9 +21,8 @@ where
 import Base.Quantity (Mm (..), minus, plus)
 import Data.List (foldl', minimumBy, sortOn)
 import Data.List.NonEmpty qualified as NonEmpty
-import Data.Maybe (isJust, mapMaybe, maybeToList)
+import Data.Maybe (mapMaybe, maybeToList)
 import Data.Ord (comparing)
-import Geometry.Distance qualified as Distance
 import Geometry.Distance.Fast qualified as FastDistance
 import Geometry.Index.BoundingBox (BoundingBox (BoundingBox))
 import Geometry.Index.BoundingBox qualified as BoundingBox
@@ -38,7 +37,6 @@ import Part.Part qualified as Part
 import Verify.Coverage (Cover (Cover), Gap (..))
 import Verify.Coverage qualified as Coverage
 import Verify.Deviation qualified as Deviation
-import Verify.Edge qualified as Edge
 import Verify.Gouge (KeepOut (searchRadius))
 import Verify.Gouge qualified as Gouge
 import Verify.Gouge.Fast qualified as FastGouge
@@ -49,7 +47,11 @@ import Verify.MotionSet qualified as MotionSet
 import Verify.Pocket (ClearingPass (..), Pocket (..))
 import Verify.Pocket qualified as Pocket
 import Verify.PocketFloor qualified as PocketFloor
-import Verify.Proof (ContourProof (ContourProof), Finding (NotCleared, NotFollowed), Witness (Witness))
+import Verify.Proof
+  ( ContourProof (ContourProof),
+    Finding (NotCleared),
+    Witness (Witness),
+  )
 import Verify.Proof qualified as Proof
 
 -- | Motions in the passes of pockets.
@@ -63,8 +65,8 @@ data PassMotions = PassMotions
   }
 
 -- | Compare the tape with one pass of a pocket. If @isFirst@ is true, it is the first pass of the
--- pocket, and all motions near the pocket are examined for gouges. Otherwise only the motions of the
--- pass are.
+-- pocket, and all motions near the pocket are examined for gouges. Otherwise only the motions of
+-- the pass are.
 examine :: MotionSet -> PassMotions -> Pocket -> Bool -> ClearingPass -> (ContourProof, [Finding])
 examine set PassMotions {isKnown, clears, isIn} pocket isFirst pass = (contourProof, findings)
   where
@@ -104,31 +106,6 @@ examine set PassMotions {isKnown, clears, isIn} pocket isFirst pass = (contourPr
       Deviation.gougeFindings allowedGouge gouges deepest
         <> Deviation.excessFindings allowedExcess tooMuch largest
         <> (if null tooMuch then floorFindings withRim pass allowedExcess clearing else [])
-        <> take
-          1
-          [ NotFollowed (statement pocket)
-            | not (MotionSet.isPlanned set),
-              isJust (Part.sense (milling pocket)),
-              any (\m -> isClearing m && runsBackAlong pocket (plus (reach pass) allowedExcess) m) examined
-          ]
-
--- | Test that a motion runs along a wall against the direction of travel: its middle is at most the
--- distance @far@ from this wall, and from no wall along which it runs in that direction.
-runsBackAlong :: Pocket -> Mm -> CutterMotion -> Bool
-runsBackAlong pocket far m =
-  not (Motion.isVertical m) && any (< negate parallel) cosines && all (< parallel) cosines
-  where
-    s = segment m
-    middle = Segment.at 0.5 s
-    around = BoundingBox.inflate far (BoundingBox.ofPoints middle [])
-    cosines =
-      [ Vec.dot (Segment.directionAt 0.5 s) (Segment.directionAt (fraction e) (Edge.shape e))
-        | e <- BoxTree.within around (walls pocket),
-          Distance.toPoint middle (Edge.shape e) <= far
-      ]
-    fraction e = Distance.nearestFraction middle (Edge.shape e)
-    -- Cosine from which two directions count as the same one.
-    parallel = 0.9
 
 -- | Finding for a position on the floor that a pass leaves uncleared; empty if there is none. The
 -- pocket has the rim of the pass. @clearing@ are the motions that clear the floor.

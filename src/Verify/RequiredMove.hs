@@ -24,6 +24,7 @@ import Data.List.NonEmpty (NonEmpty)
 import Data.List.NonEmpty qualified as NonEmpty
 import Data.Maybe (fromMaybe, isJust, isNothing)
 import Frame.Frame qualified as Frame
+import Geometry.Index.BoundingBox qualified as BoundingBox
 import Geometry.Segment (Segment (Straight))
 import Geometry.Segment qualified as Segment
 import Geometry.Tolerance qualified as Tolerance
@@ -70,7 +71,8 @@ data MotionGroup = MotionGroup
     latestBegin :: Int,
     -- | number of the first frame with which the group may end
     earliestEnd :: Int,
-    -- | number of the pocket's pass among all passes of the toolpath, from 0; Nothing along a contour
+    -- | number of the pocket's pass among all passes of the toolpath, from 0; Nothing along a
+    -- contour
     clearingPass :: Maybe Int
   }
 
@@ -81,8 +83,9 @@ data RequiredItem
 
 -- | Items of a toolpath. @isFlat@ is true if the whole toolpath is at the height of its start; the
 -- heights in pockets are then not compared. @alongContours@ has a group for each block that cuts a
--- contour: 'alongContour' or 'atLevels'. @pockets@ are the pockets of the blocks. All single moves come from the statements ("Verify.RequiredLink"); of the toolpath only
--- the ends of its cuts are used. The moves for a control that compensates come from the toolpath.
+-- contour: 'alongContour' or 'atLevels'. @pockets@ are the pockets of the blocks. All single moves
+-- come from the statements ("Verify.RequiredLink"); of the toolpath only the ends of its cuts are
+-- used. The moves for a control that compensates come from the toolpath.
 itemsOf :: Machine -> Bool -> [MotionGroup] -> [Pocket] -> Toolpath -> [RequiredItem]
 itemsOf machine isFlat alongContours pockets toolpath =
   concat (snd (mapAccumL (itemsOfBlock machine isFlat) (alongContours, clearings) visits))
@@ -305,14 +308,15 @@ atLevels machine isFlat toolpath =
   ]
   where
     isCutting level swivels m =
-      not (Frame.motion (Control.frame m) == Frame.Rapid)
+      Frame.motion (Control.frame m) /= Frame.Rapid
         && (isFlat || swivels || all (MotionSet.isSameHeight machine level) [from, to])
       where
         (from, to) = Control.height machine m
 
 -- | Group of the motions in one pass of a pocket: those at the height of the pass, and the linking
 -- moves over walls and islands. A linking move rises to the clearance height, goes there to another
--- position in the pocket, and plunges.
+-- position in the pocket, and plunges. It stays in the bounding box of the pocket. Without heights, only the allowance of a pass shows where it
+-- ends: a motion into the allowance belongs to the next pass.
 inPocket :: Machine -> Bool -> Pocket -> ClearingPass -> MotionGroup
 inPocket machine isFlat pocket pass =
   MotionGroup
@@ -330,11 +334,12 @@ inPocket machine isFlat pocket pass =
     plungeFeed = Part.At (fromMaybe (Part.feed milling) (Part.plunge milling))
     includes m
       | isVertical = isInside && any isBetween clear && hasPace verticalPace
-      | isFlat || isAt level from && isAt level to = isInside && not isRapid
+      | isFlat = isInside && not isRapid && (Pocket.isFinal pass || leavesAllowance s)
+      | isAt level from && isAt level to = isInside && not isRapid
       | otherwise =
         any (\z -> isAt z from && isAt z to) clear
           && hasPace Part.Rapid
-          && all (Pocket.contains pocket) [Segment.start s, Segment.end s]
+          && all isOver [Segment.start s, Segment.end s]
       where
         s = Control.segment machine m
         (from, to) = Control.height machine m
@@ -344,3 +349,10 @@ inPocket machine isFlat pocket pass =
         verticalPace = if from < to then Part.Rapid else plungeFeed
         isRapid = hasPace Part.Rapid && not (hasPace (Part.At (Part.feed milling)))
         hasPace pace = isNothing (Feed.atPace machine pace False (Pocket.statement pocket) m)
+    isOver q = BoundingBox.distance q (Pocket.bounds pocket) <= pulse
+    leavesAllowance s =
+      and
+        [ plus d (slackOf machine milling) >= Pocket.reach pass
+          | p <- [Segment.at 0.5 s, Segment.end s],
+            Just (d, _) <- [Pocket.nearestWall (Pocket.walls pocket) p]
+        ]

@@ -31,10 +31,10 @@ plannedTools program =
 toolInFrame :: Tools -> Int -> Mm
 toolInFrame tools n = maybe (Mm 0) Mm (tools Vector.!? (n - 1))
 
--- | Radius of the cutter in each frame of a tape, by the number of the frame from 1. The first frame
--- with commands corresponds to the first such planned frame, the second to the second, and so on.
--- From one such frame to the next, the cutter stays the same. Nothing if the cutter in the planned
--- frames changes elsewhere.
+-- | Radius of the cutter in each frame of a tape, by the number of the frame from 1. The first
+-- frame with commands corresponds to the first such planned frame, the second to the second, and so
+-- on. From one such frame to the next, the cutter stays the same. Nothing if the cutter in the
+-- planned frames changes elsewhere.
 toolsByCommands :: FrameProgram -> [Frame] -> Maybe (Int -> Mm)
 toolsByCommands program frames = do
   radii <- traverse (onlyRadius . filter (Frame.isMoving . Frame.frame)) plannedSections

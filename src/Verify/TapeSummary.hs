@@ -47,8 +47,8 @@ summarize begin@(Pulses3 _ _ startHeight) planned frames = case missing of
       foldl' (withFrame startHeight) (Comparison empty begin planned) frames
     empty = TapeSummary 0 begin 0 Nothing Nothing True
 
--- | Summary of the frames of a tape that are already compared, the position after the planned frames
--- that are already compared, and the planned frames that are not yet compared.
+-- | Summary of the frames of a tape that are already compared, the position after the planned
+-- frames that are already compared, and the planned frames that are not yet compared.
 data Comparison = Comparison TapeSummary Pulses3 [PlannedFrame]
 
 -- | Comparison after the next frame @f@ of the tape. @startHeight@ is the height of the start
