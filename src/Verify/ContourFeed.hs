@@ -12,7 +12,7 @@ module Verify.ContourFeed
   )
 where
 
-import Base.Quantity (Feed (..), Mm (..), minus, times, total)
+import Base.Quantity (Feed (..), Mm (..), minus, plus, times, total)
 import Base.Region (Located (..))
 import Control.Motion (Motion)
 import Control.Motion qualified as Control
@@ -27,7 +27,7 @@ import Machine.Machine (BrakingForm (..), Machine)
 import Machine.Machine qualified as Machine
 import Part.Part (Element)
 import Part.Part qualified as Part
-import Verify.Edge (Edge (element, shape))
+import Verify.Edge (Edge (element, ownAllowance, shape))
 import Verify.Feed qualified as Feed
 import Verify.MillingJob (MillingJob (..))
 import Verify.MillingJob qualified as MillingJob
@@ -61,18 +61,22 @@ findings machine job motions
                    ]
     feedOf f = fromMaybe demanded (Part.ownFeed f)
 
--- | What the cutter may touch at a point of a motion: true if it is beside no element except near
--- the end of this element, and the elements within the largest distance that the cutter may have
--- from one.
+-- | What the cutter may touch at a point of a motion: true if it touches no element except near the
+-- end of this element, and the elements within the largest distance that the cutter may have from
+-- one.
 data Contact = Contact Bool [Element]
   deriving stock (Eq)
 
 -- | What the cutter may touch at a fraction of a motion.
 contactAt :: MillingJob -> CutterMotion -> Double -> Contact
-contactAt job c k = Contact (all isNearEnd near) (map element near)
+contactAt job c k = Contact (all isNearEnd (filter isAtReach near)) (map element near)
   where
     p = Segment.at k (segment c)
-    near = MillingJob.edgesAround job p
+    near = filter isTouched (MillingJob.edgesAround job p)
+    isTouched e = Distance.toPoint p (shape e) <= MillingJob.contactLimit job
+    isAtReach e =
+      let Mm away = minus (Distance.toPoint p (shape e)) (plus (reach job) (ownAllowance e))
+       in Mm (abs away) <= allowance job
     isNearEnd e =
       let share = Distance.nearestFraction p (shape e)
        in times (min share (1 - share)) (Segment.length (shape e)) <= margin job
