@@ -75,6 +75,14 @@ spec = do
     it "zero: the offset by 0 is the contour itself (catches a joint that adds a segment)" $
       property . forAll Generate.simple $ \o -> forAll (elements [LeftOf, RightOf]) $ \s ->
         fmap (map FlatPolyarc.vertices) (loopsOf s 0 [o]) === Right [FlatPolyarc.vertices o]
+    it
+      "zero: the offset by 0 of a square with a narrow slit is the contour itself (catches two \
+      \nearly parallel lines that are cut at their intersection)"
+      $ let o =
+              Generate.loop
+                [(10, 0, 0), (10, 10, 0), (0, 10, 0), (0, 0, 0), (5, 5, 0), (1.001, 1, 0)]
+         in [fmap (map FlatPolyarc.vertices) (loopsOf s 0 [o]) | s <- [LeftOf, RightOf]]
+              `shouldBe` replicate 2 (Right [FlatPolyarc.vertices o])
     each
       (count `div` 3)
       "zero, for all contours: the offset by 0 keeps area and length (catches an arc that is lost \
