@@ -155,8 +155,7 @@ allowedDeviation isCurved milling
 -- travel. While the cutter goes round an outer corner, the contact point does not move, and does
 -- not show motions backwards. So single motions against the direction of travel are looked for as
 -- well. This is not necessary if the tape has exactly the planned frames, those that the compiler
--- made, and they follow the whole contour. In a slot exactly as wide as the cutter, planned frames
--- go there and back on one line; there one of the two directions has to be right.
+-- made, and they follow the whole contour.
 orderFindings :: MotionSet -> MillingPass -> [Finding]
 orderFindings set MillingPass {job, found} = case found of
   Complete _ along -> if MotionSet.isPlanned set then [] else backward along
@@ -168,18 +167,13 @@ orderFindings set MillingPass {job, found} = case found of
     backward along =
       [ NotFollowed (statement job)
         | let index = BoxTree.index Motion.box along,
-          any (isBackward along index) along
+          any runsBack along
             || not (MotionSet.isPlanned set) && any (isUnasked index) along
       ]
     isUnasked index m =
       WrongSide.repeats job index m
         || Part.corners (milling job) == Part.Sharp && WrongSide.strays job m
-    isBackward along index m =
-      runsBack m
-        && not (MotionSet.isPlanned set && any (isReturnOf m) along)
-        && not (WrongSide.isOnlyReturn job index m)
     runsBack = WrongSide.runsBack (MotionSet.machine set) job
-    isReturnOf m other = WrongSide.retraces job m other && not (runsBack other)
 
 -- | Test that a cut does not follow the contour to its end, as it would have to. If rest material
 -- is allowed, a cut need not go along the whole contour.

@@ -4,8 +4,6 @@ module Verify.WrongSide
   ( wrongSide,
     runsBack,
     strays,
-    retraces,
-    isOnlyReturn,
     repeats,
   )
 where
@@ -232,30 +230,6 @@ touchedAt job close p =
         along direction = Vec.dot direction (Vec.to vertex p)
     Mm deviation = allowance job
 
--- | Test that a motion runs back over the middle of another one, within the allowed deviation, in a
--- slot as wide as the cutter: at an end or the middle of one of them, the cutter touches elements
--- on both sides of the motion.
-retraces :: MillingJob -> CutterMotion -> CutterMotion -> Bool
-retraces job m other =
-  Distance.toPoint p (segment other) <= allowance job
-    && Vec.dot
-      (Segment.directionAt 0.5 (segment m))
-      (Segment.directionAt (Distance.nearestFraction p (segment other)) (segment other))
-      < negate clearly
-    && (isInSlot job m || isInSlot job other)
-  where
-    p = Segment.at 0.5 (segment m)
-
--- | Test that a motion is the way back out of a slot as wide as the cutter, and that the cutter
--- goes in and out of the slot there only once. @along@ are the motions along the contour.
-isOnlyReturn :: MillingJob -> BoxTree CutterMotion -> CutterMotion -> Bool
-isOnlyReturn job along m =
-  any (retraces job m) (BoxTree.within (boxAround job p) along)
-    && not (repeats job along m)
-    && null (drop 1 (filter (< negate clearly) (directionsOver job along m)))
-  where
-    p = Segment.at 0.5 (segment m)
-
 -- | Test that another one of the motions @along@ a contour runs over the middle of @m@ in the same
 -- direction. On an equidistant no two motions do so: the material beside one of them would lie in
 -- the way of the other.
@@ -280,22 +254,6 @@ directionsOver job along m =
 -- | Box around a point that contains all points within the allowed deviation.
 boxAround :: MillingJob -> Point -> BoundingBox
 boxAround job p = BoundingBox.inflate (allowance job) (BoundingBox.ofPoints p [])
-
--- | Test that the cutter touches elements on both sides of a motion, at one of its ends or at its
--- middle.
-isInSlot :: MillingJob -> CutterMotion -> Bool
-isInSlot job m = any touchesBoth [0, 0.5, 1]
-  where
-    touchesBoth k =
-      let p = Segment.at k (segment m)
-          sides =
-            [ Vec.cross (Segment.directionAt k (segment m)) (Vec.to p foot)
-              | e <- MillingJob.edgesAround job p,
-                let (d, foot) = Distance.nearest p (shape e)
-                    Mm off = minus d (plus (reach job) (ownAllowance e)),
-                Mm (abs off) <= allowance job
-            ]
-       in any (> 0) sides && any (< 0) sides
 
 -- | Test that the unit direction @ahead@ at the centre @p@ leads against the direction of travel of
 -- an element. A centre beside the element has to move so that it keeps the element on the side
