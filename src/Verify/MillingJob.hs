@@ -145,26 +145,19 @@ touchAt job near p =
     Mm deviation = allowance job
 
 -- | Allowance of an element towards a centre at @p@: its own allowance if @p@ lies beside the
--- element on the cutter's side, and 0 behind it. Because of rounding, the normals at both ends are
--- as wide as the allowed deviation. Beyond an end of the element, the cutter keeps the allowance at
--- an outer corner only. So there the result is the own allowance if @p@ keeps it, and otherwise 0.
+-- element on the cutter's side, and 0 behind it. Beyond an end of the element, the cutter keeps the
+-- allowance at an outer corner only. So there the result is the own allowance if @p@ keeps it,
+-- and otherwise 0.
 allowanceTowards :: MillingJob -> Point -> Edge -> Mm
 allowanceTowards job p e
   | own <= Mm 0 = own
   | Segment.hasFootOf (shape e) p =
     if any (\s -> Segment.isBehind s (shape e) p) (side job) then Mm 0 else own
-  | isOnNormal (Segment.start (shape e)) (Segment.startDirection (shape e)) = own
-  | isOnNormal (Segment.end (shape e)) (Segment.endDirection (shape e)) = own
   | Mm (abs beyond) <= allowance job = own
   | otherwise = Mm 0
   where
     own = ownAllowance e
     Mm beyond = minus (Distance.toPoint p (shape e)) (plus (reach job) own)
-    isOnNormal q direction =
-      Mm (abs (Vec.dot direction v)) <= allowance job
-        && all (\s -> Carrier.sideSign s * Vec.cross direction v > 0) (side job)
-      where
-        v = Vec.to q p
 
 -- | Largest distance in mm from an element with the allowance @own@ to the centre of a cutter that
 -- touches it. The allowance of the element is included.
