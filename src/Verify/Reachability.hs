@@ -13,7 +13,7 @@ module Verify.Reachability
   )
 where
 
-import Base.Quantity (Mm (..), Rad (..), minus, over, times)
+import Base.Quantity (Mm (..), Rad (..), minus, times)
 import Data.Containers.ListUtils (nubOrd)
 import Data.List (foldl', sort, sortOn)
 import Geometry.Carrier (Side)
@@ -265,48 +265,20 @@ withoutNormals :: Side -> Mm -> [Segment] -> Segment -> Interval -> [Interval]
 withoutNormals side kept near centres (a, b) =
   [ (from, to)
     | (from, to) <- dividedAt marks (a, b),
-      not (any (isAbove (Segment.at ((from + to) / 2) centres)) forbidden)
+      not (any (isAbove (Segment.at ((from + to) / 2) centres)) near)
   ]
   where
-    forbidden = concatMap (normals side kept) near
     marks =
       [ Segment.fraction centres p
-        | border <- concatMap (bordersOf side) forbidden,
+        | border <- concatMap (bordersOf side kept) near,
           p <- Distance.intersections centres border
       ]
-    isAbove p (Normals long s) = Segment.hasFootOf s p && Distance.toPoint p s < roomy long
+    isAbove p s = Segment.hasFootOf s p && Distance.toPoint p s < roomy kept
 
--- | The normals of a segment on the cutter's side, up to a length.
-data Normals = Normals Mm Segment
-
--- | The normals of a segment, of the length @kept@ on @side@. The normals of an arc may be longer
--- than its radius. They then continue beyond its centre, like the normals of a small arc about the
--- centre.
-normals :: Side -> Mm -> Segment -> [Normals]
-normals side kept s =
-  Normals kept s : case s of
-    Arc {start, end, centre, sweep = Rad angle}
-      | Carrier.sideSign side * angle > 0,
-        r <- Segment.radius centre start,
-        kept > r ->
-        [ Normals
-            (minus kept r)
-            Arc
-              { start = beyond end,
-                end = beyond start,
-                centre,
-                sweep = Rad (negate angle)
-              }
-        ]
-      where
-        beyond p =
-          Vec.shift (Vec.scale (fanRadius `over` Segment.radius centre p) (Vec.to p centre)) centre
-    _ -> []
-
--- | Border of the region that normals fill: the offset at their ends, and the first and the last
--- normal.
-bordersOf :: Side -> Normals -> [Segment]
-bordersOf side (Normals long s) = case (Segment.offset side long s, s) of
+-- | Border of the region that the normals of a segment fill on @side@, up to the length @kept@: the
+-- offset at their ends, and the first and the last normal. The normals of an arc end at its centre.
+bordersOf :: Side -> Mm -> Segment -> [Segment]
+bordersOf side kept s = case (Segment.offset side kept s, s) of
   (Just offset, _) ->
     [ offset,
       Straight (Segment.start s) (Segment.start offset),
