@@ -2,8 +2,8 @@
 -- other frames than planned.
 --
 -- A motion has the feed of an element that the cutter may touch, at every point that is examined: a
--- little after its start and before its end, in its middle, and where it is nearest to the middle of
--- an element. At a corner, the feed of the statement is allowed, too.
+-- little after its start and before its end, in its middle, and where it is nearest to the middle
+-- of an element. At a corner, the feed of the statement is allowed, too.
 --
 -- At the end of an element with @slow@, a machine that slows down by slow frames has to run at its
 -- lowest feed for the length that it needs to slow down.
@@ -99,9 +99,9 @@ examined job c
     isInside k = k > first && k < 1 - first
 
 -- | Findings for missing slow frames at the ends of elements. An element counts with the motions in
--- whose middle the cutter touches only this element. From the last of them to the first motion along
--- another element, a motion has to be slow. The slow motions have to be as long as the machine needs
--- to slow down; the 'margin' may be missing.
+-- whose middle the cutter touches only this element. From the last of them to the first motion
+-- along another element, a motion has to be slow. The slow motions have to be as long as the
+-- machine needs to slow down; the 'margin' may be missing.
 slowFindings :: Machine -> MillingJob -> [ContourMotion] -> [Finding]
 slowFindings machine job motions = case Machine.brakingForm (Machine.braking machine) of
   SlowFrames -> concatMap ofElement (BoxTree.toList (edges job))

@@ -315,8 +315,9 @@ atLevels machine isFlat toolpath =
 
 -- | Group of the motions in one pass of a pocket: those at the height of the pass, and the linking
 -- moves over walls and islands. A linking move rises to the clearance height, goes there to another
--- position in the pocket, and plunges. It stays in the bounding box of the pocket. Without heights, only the allowance of a pass shows where it
--- ends: a motion into the allowance belongs to the next pass.
+-- position in the pocket, and plunges. It stays in the bounding box of the pocket. Without heights,
+-- only the allowance of a pass shows where it ends: a motion into the allowance belongs to the next
+-- pass.
 inPocket :: Machine -> Bool -> Pocket -> ClearingPass -> MotionGroup
 inPocket machine isFlat pocket pass =
   MotionGroup
