@@ -76,7 +76,7 @@ import Verify.Proof (Finding (..), Proof (Proof), Refusal (NotCompensated))
 import Verify.Proof qualified as Proof
 import Verify.RequiredMove (MotionGroup, RequiredItem)
 import Verify.RequiredMove qualified as RequiredMove
-import Verify.SpindleTool (Tools, Use (..))
+import Verify.SpindleTool (Tools)
 import Verify.SpindleTool qualified as SpindleTool
 import Verify.StartSearch (OtherStart)
 import Verify.StartSearch qualified as StartSearch
@@ -154,10 +154,15 @@ proofOf isRestarted subject =
     deviations = concat contourFindings <> concat pocketFindings
     closure = closureOf isRestarted subject
 
--- | Motions in the passes of the pockets.
+-- | Motions in the passes of the pockets. If the tape does not match what the program asks for, it
+-- is refused. With as many frames as planned, the planned frames of a pass then show where its
+-- allowance is cut.
 passMotionsOf :: Subject -> [MillingPass] -> PassMotions
 passMotionsOf subject passes = case clearingFrames subject passes of
-  Nothing -> PassMotions False (\_ _ -> False) (\_ _ -> False)
+  Nothing
+    | TapeSummary.count (summary subject) == length (Frame.plannedFrames (program subject)) ->
+      PassMotions False (isInFrames (cutFrames subject)) (isInFrames (passFrames subject))
+    | otherwise -> PassMotions False (\_ _ -> False) (\_ _ -> False)
   Just ClearingFrames {MotionMatch.inPass, MotionMatch.withMoves} ->
     PassMotions True (isInFrames inPass) (isInFrames withMoves)
 
@@ -361,17 +366,10 @@ toolIn subject passes
   | otherwise = SpindleTool.supposedTool uses smallest . number
   where
     uses = concatMap useAlong passes <> concatMap useIn (pocketVisits subject)
-    useAlong pass = useOf (radiusOf pass) (PassSearch.motionsOf (found pass))
-    useIn (pocket, _, visit) = useOf (Part.radius (Pocket.milling pocket)) visit
+    useAlong pass = SpindleTool.useOf (radiusOf pass) (PassSearch.motionsOf (found pass))
+    useIn (pocket, _, visit) = SpindleTool.useOf (Part.radius (Pocket.milling pocket)) visit
     radiusOf = Part.radius . milling . job
     smallest = if null passes then Mm 0 else minimum (map radiusOf passes)
-
--- | Use of a cutter in a pass: the numbers of the first and the last frame of the motions @pass@,
--- and the @radius@ of the cutter. Empty if there are no motions.
-useOf :: Mm -> [CutterMotion] -> [Use]
-useOf radius pass = case pass of
-  [] -> []
-  first : later -> [Use (number first) (number (foldl' (\_ m -> m) first later)) radius]
 
 -- | Motions in each pass of each pocket, found by their positions. An entry has the pocket, the
 -- pass, and its motions. This serves for a tape on which the frames of the passes are unknown.
@@ -524,7 +522,7 @@ contourFeeds :: Subject -> MillingPass -> [Finding]
 contourFeeds subject pass =
   ContourFeed.findings (machine subject) (job pass) (zip along (programmed subject along))
   where
-    along = filter (not . Motion.isVertical) (Deviation.motionsAlong (found pass))
+    along = filter (not . Motion.changesHeight) (Deviation.motionsAlong (found pass))
 
 -- | Findings for feeds in the passes of pockets, without their linking moves. If the frames of the
 -- passes are unknown, the linking moves are those that run where the program asks for them.

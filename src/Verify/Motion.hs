@@ -14,6 +14,7 @@ module Verify.Motion
     box,
     isSame,
     isVertical,
+    changesHeight,
     samples,
     sampleCount,
   )
@@ -110,6 +111,11 @@ isVertical :: CutterMotion -> Bool
 isVertical m = case segment m of
   Straight a b -> a == b
   Arc {} -> False
+
+-- | Test that a motion is vertical and leads to another height. False where a blade swivels without
+-- moving in the plane: its motions along a contour are at the height of the pass ("Verify.Swivel").
+changesHeight :: CutterMotion -> Bool
+changesHeight m = isVertical m && fromHeight m /= toHeight m
 
 -- | Sample points of a motion, as fractions of its length. They are equally spaced; 0 is left out
 -- and 1 is included.

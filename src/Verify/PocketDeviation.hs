@@ -56,7 +56,7 @@ import Verify.Proof qualified as Proof
 
 -- | Motions in the passes of pockets.
 data PassMotions = PassMotions
-  { -- | false if it is unknown which motions are in the passes; both tests are then always false
+  { -- | false if it is unknown which motions are in the passes; both tests are then a guess
     isKnown :: Bool,
     -- | test that a motion is in a pass
     clears :: ClearingPass -> CutterMotion -> Bool,

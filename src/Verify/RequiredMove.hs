@@ -285,7 +285,7 @@ alongContour MillingPass {job, found} =
       clearingPass = Nothing
     }
   where
-    along = filter (not . Motion.isVertical) (Deviation.motionsAlong found)
+    along = filter (not . Motion.changesHeight) (Deviation.motionsAlong found)
     members = IntSet.fromList (map Motion.number along)
     isAwayFromEntry = isAwayFrom (entry job) (allowance job)
     isAwayFromExit = isAwayFrom (exit job) (exitTolerance job)

@@ -5,18 +5,20 @@ module Verify.SpindleTool
     plannedTools,
     toolInFrame,
     toolsByCommands,
-    Use (..),
+    Use,
+    useOf,
     supposedTool,
   )
 where
 
 import Base.Quantity (Mm (..))
 import Data.IntMap.Strict qualified as IntMap
-import Data.List (nub)
+import Data.List (foldl', nub)
 import Data.Vector.Unboxed (Vector)
 import Data.Vector.Unboxed qualified as Vector
 import Frame.Frame (Frame, FrameProgram)
 import Frame.Frame qualified as Frame
+import Verify.Motion (CutterMotion (number))
 
 -- | Radius of the cutter in mm, for each planned frame in order.
 type Tools = Vector Double
@@ -62,6 +64,13 @@ divided numbers = go (zipWith (-) numbers (1 : numbers))
 
 -- | Use of a cutter in a pass on the tape: the numbers of the first and the last frame, the radius.
 data Use = Use Int Int Mm
+
+-- | Use of a cutter in a pass: the numbers of the first and the last frame of the motions @pass@,
+-- and the @radius@ of the cutter. Empty if there are no motions.
+useOf :: Mm -> [CutterMotion] -> [Use]
+useOf radius pass = case pass of
+  [] -> []
+  first : later -> [Use (number first) (number (foldl' (\_ m -> m) first later)) radius]
 
 -- | Radius of the cutter in frame @n@ of a tape that has other frames than planned. @uses@
 -- are the passes that were found, in the order of the tape. A frame in a pass has the cutter of the
