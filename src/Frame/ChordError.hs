@@ -163,17 +163,16 @@ raisedToRounding machine tolerance = case tolerance of
 -- the list is incomplete but has at least @limit@ entries.
 ends :: Int -> Machine -> ChordTolerance -> NonEmpty Move -> [PathPosition]
 ends limit machine tolerance run = case tolerance of
-  Sagitta y -> withHeights (chords machine y (segment m))
-  ArcBand toward away -> withHeights (bandChords machine toward away (segment m))
+  Sagitta y ->
+    let points = chords machine y (segment m)
+     in withHeights [fromIntegral k / fromIntegral (length points) | k <- [1 .. length points]] points
+  ArcBand toward away ->
+    let points = bandChords machine toward away (segment m)
+     in withHeights (map (Segment.fraction (segment m)) (init points) <> [1]) points
   OnCurve bounds -> Chording.chordEnds limit bounds run
   where
     m = NonEmpty.head run
-    withHeights points =
-      zip
-        points
-        [ Rounding.heightAt (fromIntegral k / fromIntegral (length points)) m
-          | k <- [1 .. length points]
-        ]
+    withHeights fractions points = zip points (map (`Rounding.heightAt` m) fractions)
 
 -- | Ends of the chords of a segment, the last of which is the end of the segment. The chords are
 -- equal, and each stays within @sagitta@ (y, in mm) of the segment. A chord of an arc of radius R
