@@ -165,7 +165,8 @@ ends :: Int -> Machine -> ChordTolerance -> NonEmpty Move -> [PathPosition]
 ends limit machine tolerance run = case tolerance of
   Sagitta y ->
     let points = chords machine y (segment m)
-     in withHeights [fromIntegral k / fromIntegral (length points) | k <- [1 .. length points]] points
+        count = length points
+     in withHeights [fromIntegral k / fromIntegral count | k <- [1 .. count]] points
   ArcBand toward away ->
     let points = bandChords machine toward away (segment m)
      in withHeights (map (Segment.fraction (segment m)) (init points) <> [1]) points
