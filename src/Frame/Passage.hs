@@ -59,7 +59,7 @@ tolerance machine job pass Walls {elements, largestAllowance} moves wide
     ChordError.onBothSides machine inside wide
   | otherwise = wide
   where
-    (inside, outside) = widths job
+    (inside, outside) = Part.deviationLimits (Part.tolerance job)
     chords = zipWith Straight (Segment.start (segment (NonEmpty.head moves)) : ends) ends
     ends =
       map
@@ -79,9 +79,3 @@ tolerance machine job pass Walls {elements, largestAllowance} moves wide
     -- The path of a curve consists of arcs that are approximations themselves.
     slack = plus inside (plus Tolerance.curve Tolerance.coincident)
     largest = plus (Toolpath.reach pass) largestAllowance
-
--- | Permitted chord errors in mm into the material and away from it.
-widths :: Milling -> (Mm, Mm)
-widths job = case Part.tolerance job of
-  Part.Band inside outside -> (inside, outside)
-  Part.OnPath d -> (d, d)

@@ -49,25 +49,28 @@ findings machine job motions
     isUniform = all (\f -> null (Part.ownFeed f) && not (Part.slow f)) everywhere
     ofMotion (c, m) = take 1 (concatMap wrongAt (nub (map (contactAt job c) (examined job c))))
       where
-        wrongAt (Contact isBesideEnds es)
-          | null es = Feed.atFeed machine demanded everywhere [m]
+        wrongAt Contact {isAtEnds, touchable}
+          | null touchable = Feed.atFeed machine demanded everywhere [m]
           | any null ways = []
           | otherwise = concat ways
           where
             ways =
-              [Feed.atFeed machine demanded [] [m] | isBesideEnds]
+              [Feed.atFeed machine demanded [] [m] | isAtEnds]
                 <> [ Feed.atFeed machine (feedOf f) [f {Part.ownFeed = Nothing}] [m]
-                     | f <- map Part.finish es
+                     | f <- map Part.finish touchable
                    ]
     feedOf f = fromMaybe demanded (Part.ownFeed f)
 
--- | What the cutter may touch at a point of a motion: true if it touches no element except near the
--- end of this element, and the elements within the largest distance that the cutter may have from
--- one.
-data Contact = Contact Bool [Element]
+-- | Elements that the cutter may touch at a point of a motion: those within the largest distance
+-- that its centre may have from an element.
+data Contact = Contact
+  { -- | true if the cutter touches elements only near their ends, as at a corner
+    isAtEnds :: Bool,
+    touchable :: [Element]
+  }
   deriving stock (Eq)
 
--- | What the cutter may touch at a fraction of a motion.
+-- | Contact of the cutter at a fraction of a motion, from 0 to 1.
 contactAt :: MillingJob -> CutterMotion -> Double -> Contact
 contactAt job c k = Contact (all isNearEnd (filter isAtReach near)) (map element near)
   where

@@ -6,8 +6,8 @@ module Verify.FrameRule
   )
 where
 
-import Base.PulseVector (Pulses3 (..))
-import Base.Quantity (Mm (..), Pulses (..), minus, plus, times)
+import Base.PulseVector (Pulses3)
+import Base.Quantity (Mm (..), minus, plus, times)
 import Control.Motion (Motion (..))
 import Control.Motion qualified as Control
 import Data.List (nub)
@@ -17,6 +17,7 @@ import Geometry.Tolerance qualified as Tolerance
 import Machine.Machine (CommandName, Machine)
 import Machine.Machine qualified as Machine
 import Verify.Proof (Finding (..), Refusal (..))
+import Verify.TapeSummary (isNear)
 
 -- Frames that a control refuses -------------------------------------------------------------------
 
@@ -133,9 +134,3 @@ inOrder isSamePlace frameCount = go
         | otherwise -> (n, [], b) : go as bs
       (_, []) -> [(max k frameCount, a, []) | (k, _, a) <- own]
       ([], _) -> [(n, [], b) | (n, _, b) <- found]
-
--- | Test that two positions differ by no more than two pulses on any axis.
-isNear :: Pulses3 -> Pulses3 -> Bool
-isNear p q = maximum [x, y, z] <= Pulses 2
-  where
-    Pulses3 x y z = abs (p - q)

@@ -133,7 +133,7 @@ proofOf isRestarted subject =
     }
   where
     found = deviations <> otherFindings subject passes
-    unmatched = if null found then orderFindings subject passes else []
+    unmatched = if null found then sequenceFindings subject passes else []
     passes = locatedPasses subject
     set = motionSetOf subject passes
     (contourProofs, contourFindings) =
@@ -444,8 +444,8 @@ displacedCommands subject@Subject {machine, path, program} passes =
 -- | Findings for motions, moves and commands that do not follow one another as the program asks. A
 -- tape with another fault often has motions that the program does not ask for, too. So these
 -- findings serve only if there is no other one.
-orderFindings :: Subject -> [MillingPass] -> [Finding]
-orderFindings subject passes = case unmatchedMotions subject passes of
+sequenceFindings :: Subject -> [MillingPass] -> [Finding]
+sequenceFindings subject passes = case unmatchedMotions subject passes of
   [] -> displacedCommands subject passes
   findings -> findings
 

@@ -53,7 +53,7 @@ data Position = Position Point Mm
 -- one means that all items are done.
 type States = IntMap Progress
 
--- | How far an item is done.
+-- | Progress along the items: the part of the present item that is done, and the items so far.
 data Progress = Progress
   { -- | fraction of a single move that is made; of a group, 1 if a motion belongs to it, else 0
     made :: Double,
@@ -66,7 +66,7 @@ data Progress = Progress
 firstStates :: States
 firstStates = IntMap.singleton 0 (Progress 0 [])
 
--- | Of two ways to the same item, the one in which more of the item is done; the first one if there
+-- | Greater progress of two ways to the same item: more of the item is done. The first way if there
 -- is no difference.
 further :: Progress -> Progress -> Progress
 further a b = if made b > made a then b else a

@@ -3,6 +3,7 @@
 module Verify.TapeSummary
   ( TapeSummary (..),
     summarize,
+    isNear,
   )
 where
 
@@ -58,11 +59,11 @@ withFrame startHeight (Comparison summary plannedEnd planned) f =
   Comparison
     TapeSummary
       { count = number,
-        endPosition = Pulses3 (x + dx) (y + dy) height,
+        endPosition = end,
         largestIncrement = Pulses3 (max a (abs dx)) (max b (abs dy)) (max c (abs dz)),
         firstRisen = firstRisen summary <|> if height == startHeight then Nothing else Just number,
         firstDifference = firstDifference summary <|> if isPlanned then Nothing else Just number,
-        isAligned = isAligned summary && not (null planned) && isNear
+        isAligned = isAligned summary && not (null planned) && isNear end plannedEnd'
       }
     plannedEnd'
     (drop 1 planned)
@@ -70,8 +71,7 @@ withFrame startHeight (Comparison summary plannedEnd planned) f =
     plannedEnd' = case planned of
       p : _ -> plannedEnd + increment (Frame.frame p)
       [] -> plannedEnd
-    isNear = maximum [ex, ey, ez] <= Pulses 2
-    Pulses3 ex ey ez = abs (Pulses3 (x + dx) (y + dy) height - plannedEnd')
+    end = Pulses3 (x + dx) (y + dy) height
     number = count summary + 1
     Pulses3 x y z = endPosition summary
     Pulses3 dx dy dz = increment f
@@ -80,3 +80,9 @@ withFrame startHeight (Comparison summary plannedEnd planned) f =
     isPlanned = case planned of
       p : _ -> Frame.frame p == f
       [] -> False
+
+-- | Test that two positions differ by no more than two pulses on any axis.
+isNear :: Pulses3 -> Pulses3 -> Bool
+isNear p q = maximum [x, y, z] <= Pulses 2
+  where
+    Pulses3 x y z = abs (p - q)
