@@ -27,11 +27,11 @@ import Data.Int (Int32)
 import Data.IntMap.Strict (IntMap)
 import Data.IntMap.Strict qualified as IntMap
 import Data.IntSet qualified as IntSet
-import Data.List (foldl', maximumBy, sortBy, sortOn)
+import Data.List (foldl', sortOn)
+import Data.List.NonEmpty (NonEmpty (..))
 import Data.List.NonEmpty qualified as NonEmpty
 import Data.Map.Strict qualified as Map
 import Data.Maybe (listToMaybe)
-import Data.Ord (comparing)
 import Data.Primitive.MutVar
 import Data.Primitive.PrimArray
 import Data.Vector (Vector)
@@ -41,25 +41,12 @@ import Geometry.ClosedPolyarcs (ClosedPolyarcs)
 import Geometry.ClosedPolyarcs qualified as ClosedPolyarcs
 import Geometry.Index.SegmentBoxTree (SegmentBoxTree)
 import Geometry.Index.SegmentBoxTree qualified as SegmentBoxTree
+import Offset.HalfEdge (ArrangementEdge (..))
+import Offset.HalfEdge qualified as HalfEdge
 import Offset.Loop (OffsetLoops (OffsetLoops))
 import Offset.SegmentIntersection (Visitor (..))
 import Offset.SegmentIntersection qualified as SegmentIntersection
 import Offset.WindingNumber qualified as WindingNumber
-
--- | A directed edge between two nodes.
-data Edge = Edge
-  { -- | the node at which the edge begins
-    from :: Int,
-    -- | the node at which the edge ends
-    to :: Int,
-    -- | the multiplicity: the number of segments that run along the edge in its direction, less the
-    -- number of those that run in the opposite direction
-    times :: Int,
-    -- | @tan(sweep/4)@, 0 for a line
-    bulge :: Double,
-    -- | the least number of the segments of the polyarcs that run along the edge in its direction
-    segment :: Int
-  }
 
 -- | An arrangement of closed polyarcs. Nodes and edges are numbered from 0.
 data Arrangement = Arrangement
@@ -69,7 +56,7 @@ data Arrangement = Arrangement
     nodes :: Vector (Double, Double),
     -- | the node of every vertex of the polyarcs
     vertexNodes :: PrimArray Int,
-    edges :: Vector Edge,
+    edges :: Vector ArrangementEdge,
     -- | the half-edges that leave each node, counter-clockwise; half-edge @2e@ leaves the node at
     -- which edge @e@ begins, and @2e + 1@ leaves the node at which edge @e@ ends
     rings :: IntMap (Vector Int),
@@ -90,9 +77,7 @@ arrange tolerance c boxes
     (cuts, pairs) = intersections tolerance c boxes
     (coordinates, nodeOf, cutNodes) = nodesOf tolerance c cuts
     found = Vector.fromList (merged tolerance coordinates (slices c coordinates nodeOf cutNodes))
-    outgoing = IntMap.fromListWith (<>) (concatMap halfEdges (Vector.indexed found))
-    halfEdges (i, e) = [(from e, [2 * i]), (to e, [2 * i + 1])]
-    ordered = fmap (Vector.fromList . ring coordinates found) outgoing
+    ordered = HalfEdge.halfEdgesAround coordinates found
     arrangement =
       Arrangement
         { chain = c,
@@ -105,8 +90,7 @@ arrange tolerance c boxes
         }
 
 -- | The points at which segments are cut, and the pairs of segments that cross between their ends.
--- Each cut has the number of the segment, and x and y of the point in mm. Arcs are also cut at
--- their leftmost points, so that the leftmost point of every connected component is a node.
+-- Each cut has the number of the segment, and x and y of the point in mm.
 intersections ::
   Double ->
   ClosedPolyarcs ->
@@ -126,26 +110,7 @@ intersections tolerance c boxes = runST $ do
   SegmentBoxTree.pairs boxes (pure True :: ST s Bool) (SegmentIntersection.meet tolerance c visitor)
   found <- readMutVar cuts
   crossings <- readMutVar pairs
-  pure
-    ( found <> concatMap leftmost [0 .. sizeofPrimArray (ClosedPolyarcs.xs c) - 2],
-      reverse crossings
-    )
-  where
-    leftmost i
-      | b == 0
-          || ClosedPolyarcs.hasMark
-            ClosedPolyarcs.repeatedMark
-            (indexPrimArray (ClosedPolyarcs.marks c) i) =
-        []
-      | otherwise = ClosedPolyarcs.chord c i $ \dx dy ->
-        let co = 1 - b * b
-            si = 2 * b
-            r = sqrt (dx * dx + dy * dy) * (1 + b * b) / (4 * abs b)
-            cx = indexPrimArray (ClosedPolyarcs.xs c) i + 0.5 * dx - co / (4 * b) * dy
-            cy = indexPrimArray (ClosedPolyarcs.ys c) i + 0.5 * dy + co / (4 * b) * dx
-         in [(i, cx - r, cy) | dx * co + dy * si < 0, dx * co - dy * si > 0]
-      where
-        b = indexPrimArray (ClosedPolyarcs.bulges c) i
+  pure (found, reverse crossings)
 
 -- | The coordinates of the nodes in mm; the node of every vertex; and for each segment the nodes at
 -- its cuts, in any order. Each of @cuts@ has the segment's number, and x and y of the point in mm.
@@ -256,7 +221,7 @@ alongChord c coordinates i node =
 
 -- | Merges slices (first node, last node, segment, bulge) between the same nodes with the same
 -- sagitta into one edge. Slices cancel and give no edge if equally many run in both directions.
-merged :: Double -> Vector (Double, Double) -> [(Int, Int, Int, Double)] -> [Edge]
+merged :: Double -> Vector (Double, Double) -> [(Int, Int, Int, Double)] -> [ArrangementEdge]
 merged tolerance coordinates cut =
   concatMap
     edgesOf
@@ -280,7 +245,9 @@ merged tolerance coordinates cut =
     chordOf a b =
       let ((x, y), (x', y')) = (coordinates Vector.! a, coordinates Vector.! b)
        in sqrt ((x' - x) * (x' - x) + (y' - y) * (y' - y))
-    edge a b m (forth, i, g) = if forth then Edge a b m g i else Edge b a m (-g) i
+    edge a b m (forth, i, g)
+      | forth = ArrangementEdge a b m g i
+      | otherwise = ArrangementEdge b a m (-g) i
     bundle a b list = case compare net 0 of
       EQ -> []
       -- The bulge and the number are those of the first coinciding segment in the edge's direction.
@@ -290,114 +257,29 @@ merged tolerance coordinates cut =
         second (_, i, _) = i
         net = sum [if forth then 1 else -1 | (forth, _, _) <- list] :: Int
 
--- | A half-edge at the node that it leaves.
-data Leaving = Leaving
-  { halfEdge :: Int,
-    -- | the direction in which the half-edge leaves the node, as an angle in radians
-    angle :: Double,
-    -- | the direction in which the half-edge leaves the node, as a vector of length 1
-    directionX, directionY :: Double,
-    -- | the length of the half-edge's chord in mm
-    chordLength :: Double,
-    -- | the half-edge's curvature in 1/mm, positive to the left
-    curvature :: Double
-  }
-
--- | The half-edges of a node, given and returned by number, sorted counter-clockwise. The order
--- begins after the widest angle between two neighbours. At the leftmost node of a component this is
--- the angle that contains the direction to the left.
-ring :: Vector (Double, Double) -> Vector Edge -> [Int] -> [Int]
-ring coordinates es halves = case halves of
-  [_] -> halves
-  _ -> map halfEdge (sortBy counterClockwise [h {angle = angleFrom cut (angle h)} | h <- aimed])
-  where
-    aimed = sortOn angle (map (leaving coordinates es) halves)
-    angles = map angle aimed
-    gaps =
-      zipWith
-        (\a b -> (b - a, (a + b) / 2))
-        angles
-        (drop 1 angles <> map (+ 2 * pi) (take 1 angles))
-    -- The direction in the middle of the widest gap, an angle between two neighbours. When two
-    -- half-edges leave straight up and straight down, the gaps on the left and on the right are
-    -- equally wide. The left one is the last of @gaps@, so the last one is preferred.
-    cut =
-      snd
-        ( maximumBy
-            (comparing fst)
-            ( zipWith
-                (\k (gap, middle) -> (if k == length gaps then gap + tie else gap, middle))
-                [1 ..]
-                gaps
-            )
-        )
-    angleFrom :: Double -> Double -> Double
-    angleFrom from' a =
-      let t = a - from' in t - 2 * pi * fromIntegral (floor (t / (2 * pi)) :: Int)
-
--- | Half-edge number @h@ with its direction, length and curvature.
-leaving :: Vector (Double, Double) -> Vector Edge -> Int -> Leaving
-leaving coordinates es h =
-  Leaving
-    { halfEdge = h,
-      angle = atan2 directionY directionX,
-      directionX,
-      directionY,
-      chordLength = l,
-      curvature = 4 * g * q / l
-    }
-  where
-    e = es Vector.! (h `div` 2)
-    (a, b, g) = if even h then (from e, to e, bulge e) else (to e, from e, -(bulge e))
-    (x, y) = coordinates Vector.! a
-    (x', y') = coordinates Vector.! b
-    l = sqrt ((x' - x) * (x' - x) + (y' - y) * (y' - y))
-    ux = (x' - x) / l
-    uy = (y' - y) / l
-    q = 1 / (1 + g * g)
-    co = (1 - g * g) * q
-    si = 2 * g * q
-    directionX = ux * co + uy * si
-    directionY = uy * co - ux * si
-
--- | The order of half-edges by their angles, counter-clockwise. Rounding can exchange two
--- directions that are nearly equal. Such half-edges are compared a short distance from the node:
--- the one further to the left comes later.
-counterClockwise :: Leaving -> Leaving -> Ordering
-counterClockwise first second
-  | abs (angle first - angle second) > tie = compare (angle first) (angle second)
-  | otherwise = compare 0 (lean + (curvature second - curvature first) * step / 2)
-  where
-    step = 0.25 * min (chordLength first) (chordLength second)
-    lean = asin (max (-1) (min 1 cross))
-    cross = directionX first * directionY second - directionY first * directionX second
-
--- | The difference of two directions (radians) below which rounding may exchange them.
-tie :: Double
-tie = 1e-3
-
 -- | The winding number on the left of every edge. It is propagated over each connected component
--- from the component's leftmost node, on whose left is the outside of the component. @ordered@ has
--- the sorted half-edges of each node.
-propagated :: Vector (Double, Double) -> Vector Edge -> IntMap (Vector Int) -> IntMap Int
-propagated coordinates es ordered =
-  foldl'
-    component
-    IntMap.empty
-    (map snd (sortOn fst [(coordinates Vector.! k, k) | k <- IntMap.keys ordered]))
+-- from the component's outer face. @ordered@ has the sorted half-edges of each node.
+propagated :: Vector (Double, Double) -> Vector ArrangementEdge -> IntMap (Vector Int) -> IntMap Int
+propagated coordinates es ordered = foldl' labelled IntMap.empty (IntMap.elems outerFaces)
   where
-    component known k = case ordered IntMap.!? k of
-      Just halves
-        | h <- Vector.head halves,
-          IntMap.notMember (h `div` 2) known ->
-          spread es ordered known [(h, outside k)]
-      _ -> known
-    outside = outsideNumber coordinates es (componentsOf es ordered)
+    labelled known (_, h) =
+      spread es ordered known [(HalfEdge.twin h, outside (HalfEdge.startNode es h))]
+    components = HalfEdge.componentsOf es ordered
+    outside = outsideNumber coordinates es components
+    -- For each component the signed area of its outer face, the only negative one, and a half-edge
+    -- with this face on its left.
+    outerFaces =
+      IntMap.fromListWith
+        min
+        [ (component, (HalfEdge.faceArea coordinates es face, h))
+          | face@(h :| _) <- HalfEdge.faces es ordered,
+            component <- maybe [] pure (IntMap.lookup (HalfEdge.startNode es h) components)
+        ]
 
 -- | The winding number at a node, counting all components except the node's own. @components@ has
 -- the component of every node, and the last argument is the node's number. The first three
 -- arguments are applied once, so that all nodes share one bounding-box tree of the edges.
-outsideNumber :: Vector (Double, Double) -> Vector Edge -> IntMap Int -> Int -> Int
+outsideNumber :: Vector (Double, Double) -> Vector ArrangementEdge -> IntMap Int -> Int -> Int
 outsideNumber coordinates es components =
   \k ->
     let (x, y) = coordinates Vector.! k
@@ -420,7 +302,7 @@ outsideNumber coordinates es components =
 -- | Adds to @known@ the winding number on the left of every edge that is connected with the
 -- half-edges in @todo@. Each pair in @todo@ is a half-edge and the winding number on its right,
 -- seen in the direction in which it leaves its node. Edges in @known@ are not visited again.
-spread :: Vector Edge -> IntMap (Vector Int) -> IntMap Int -> [(Int, Int)] -> IntMap Int
+spread :: Vector ArrangementEdge -> IntMap (Vector Int) -> IntMap Int -> [(Int, Int)] -> IntMap Int
 spread es ordered known todo = case todo of
   [] -> known
   (h, right) : rest
@@ -454,25 +336,6 @@ spread es ordered known todo = case todo of
     go _ [] = []
     go right (h : more) = (h, right) : go (right + gain h) more
     gain h = let m = times (es Vector.! (h `div` 2)) in if even h then m else -m
-
--- | The connected component of every node, named by the least number of the component's nodes.
-componentsOf :: Vector Edge -> IntMap (Vector Int) -> IntMap Int
-componentsOf es ordered =
-  foldl'
-    (\known k -> if IntMap.member k known then known else reach k known [k])
-    IntMap.empty
-    (IntMap.keys ordered)
-  where
-    reach name known todo = case todo of
-      [] -> known
-      k : rest
-        | IntMap.member k known -> reach name known rest
-        | otherwise ->
-          reach
-            name
-            (IntMap.insert k name known)
-            (maybe [] (map other . Vector.toList) (IntMap.lookup k ordered) <> rest)
-    other h = let e = es Vector.! (h `div` 2) in if even h then to e else from e
 
 -- | True when the winding numbers agree around every node: the number on the left of each half-edge
 -- is that on the right of the next one counter-clockwise.
@@ -555,11 +418,7 @@ loops sense wanted a =
     -- half-edge on the face's side. Nothing when no edge that is kept begins with this half-edge.
     next e = do
       halves <- IntMap.lookup (to (edges a Vector.! e)) (rings a)
-      k <- Vector.elemIndex (2 * e + 1) halves
-      let n = Vector.length halves
-          h = case sense of
-            CounterClockwise -> halves Vector.! ((k - 1) `mod` n)
-            Clockwise -> halves Vector.! ((k + 1) `mod` n)
+      h <- HalfEdge.neighbour (if sense == CounterClockwise then -1 else 1) (2 * e + 1) halves
       if even h && isKept (h `div` 2) then Just (h `div` 2) else Nothing
     -- Consecutive edges on the same segment become one segment again.
     vertices loop = map (loopVertex a) (NonEmpty.groupBy onSameSegment (rotated loop))

@@ -85,19 +85,13 @@ insetOfLoops loops distance
         (NonEmpty.nonEmpty (map boundingBox loops))
 
 -- | The loops at a distance to the left of contours, as the kernel gives them. Nothing when it
--- cannot decide. Nothing also when it gives no loops, but gives some at a slightly larger distance,
--- because then there must be loops. This happens at single distances, where segments of the raw
--- offset coincide by chance.
+-- cannot decide.
 decided :: [FlatPolyarc] -> Mm -> Maybe [Loop]
-decided walls distance = case loopsAt distance of
-  Just [] | Just (_ : _) <- loopsAt (plus distance Tolerance.clearance) -> Nothing
-  found -> found
-  where
-    loopsAt d =
-      either
-        (const Nothing)
-        (Just . loopsOf)
-        (Kernel.offset (Kernel.roundOffset Carrier.LeftOf d) walls)
+decided walls distance =
+  either
+    (const Nothing)
+    (Just . loopsOf)
+    (Kernel.offset (Kernel.roundOffset Carrier.LeftOf distance) walls)
 
 -- | The bounding box of segments.
 boundingBox :: NonEmpty Segment -> BoundingBox

@@ -99,7 +99,7 @@ spec = do
       "of a square beside a line traversed there and back has the numbers 0 and 1 (catches lines \
       \that cancel out and remain)"
       $ numbersOf [square 5 (-1) 2, Generate.loop [(0, 0, 0), (4, 0, 0)]] `shouldBe` Just (0, 1)
-    it "whose leftmost node is smooth has the right numbers (catches an order that begins right)" $
+    it "whose leftmost node is smooth has the right numbers" $
       numbersOf
         [ Generate.loop [(0, 0, 1), (2, 0, 0), (2, 1, 0), (0, 1, 0)],
           Generate.loop [(0, 0, 1), (2, 0, 0), (2, 1, 0), (0, 1, 0)]
