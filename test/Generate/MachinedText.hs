@@ -3,6 +3,7 @@
 -- allowance of their own. Many of the programs cannot be made, and are refused before the tape.
 module Generate.MachinedText
   ( program,
+    commanded,
     compensatedCurve,
   )
 where
@@ -25,16 +26,30 @@ data Edge = Line Vertex Vertex | Arc Vertex Vertex Vertex
 -- | A random program for this machine.
 program :: Machine -> Gen Text
 program machine =
-  Text.unlines . (["part p", "machine " <> name] <>)
-    <$> frequency
+  headed machine $
+    frequency
       ( [(8, milling hasZ), (2, pocket hasZ), (2, curveMilling hasZ), (1, turning)]
+          <> [(2, atOneContour machine)]
           <> [(1, drilling) | hasZ]
           <> [(1, blade) | hasZ]
           <> [(2, compensation) | name == "iso6983"]
       )
   where
-    MachineName name = Machine.name machine
-    hasZ = name /= "kontur-2p"
+    name = nameOf machine
+    hasZ = movesZ machine
+
+-- | A random program for this machine with several statements at one contour, and with commands.
+commanded :: Machine -> Gen Text
+commanded machine = headed machine (atOneContour machine)
+
+headed :: Machine -> Gen [Text] -> Gen Text
+headed machine = fmap (Text.unlines . (["part p", "machine " <> nameOf machine] <>))
+
+nameOf :: Machine -> Text
+nameOf machine = let MachineName name = Machine.name machine in name
+
+movesZ :: Machine -> Bool
+movesZ machine = nameOf machine /= "kontur-2p"
 
 -- Numbers -----------------------------------------------------------------------------------------
 
@@ -329,6 +344,43 @@ pocket hasZ = do
           ("pocket a step " <> stepover)
           [deep, allowance, sense, ["rest allowed"], ["islands i" | not (null island)]]
     )
+
+-- | Several statements that cut at the same contour, with feeds, cutters and allowances of their
+-- own, and with commands and moves between them. Some statements are written twice.
+atOneContour :: Machine -> Gen [Text]
+atOneContour machine = do
+  set <- mill >>= settings hasZ
+  edges <- outline
+  text <- contour False "a" "closed" edges
+  isInside <- arbitrary
+  written <- choose (2, 3 :: Int) >>= \n -> replicateM n (job isInside)
+  copies <- traverse (const (frequency [(3, pure 1), (1, pure 2)])) written
+  between <- traverse (const (listOf' 2 change)) written
+  pure (set <> text <> concat (zipWith (<>) (concat <$> zipWith replicate copies written) between))
+  where
+    hasZ = movesZ machine
+    listOf' most one = choose (0, most) >>= \n -> concat <$> replicateM n one
+    job isInside = do
+      isPocket <- frequency [(2, pure False), (1, pure isInside)]
+      if isPocket then clearing else along (if isInside then "inside" else "outside")
+    along side = do
+      sets <- millSettings hasZ True
+      pure (statement ("mill a " <> side) [["rest allowed"], sets])
+    clearing = do
+      deep <- depths hasZ
+      stepover <- elements ["0.7", "1.5", "3"]
+      allowance <- maybeOf 1 ["allowance 1, 0", "allowance 0.5"]
+      pure (statement ("pocket a step " <> stepover) [deep, allowance, ["rest allowed"]])
+    change =
+      oneof
+        [ (: []) . ("feed " <>) <$> elements ["20", "30", "60"],
+          (: []) . ("change 2 " <>) <$> mill,
+          (: []) <$> elements commands,
+          (: []) . ("rapid " <>) <$> stops hasZ
+        ]
+    commands =
+      ["coolant on", "coolant off", "spindle cw 800 rpm", "spindle off"]
+        <> ["aux 3" | nameOf machine `elem` ["lkp-01f", "kontur-2p", "kontur-3p"]]
 
 drilling :: Gen [Text]
 drilling = do

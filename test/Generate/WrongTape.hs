@@ -8,6 +8,8 @@ module Generate.WrongTape
     damages,
     damaged,
     withFrameCount,
+    withOtherCommands,
+    commandsApart,
     difference,
   )
 where
@@ -110,6 +112,70 @@ withFrameCount wanted frames = case compare (length frames) wanted of
     along d p = p {Frame.frame = (Frame.frame p) {increment = d}}
     components p =
       let Pulses3 (Pulses a) (Pulses b) (Pulses c) = increment (Frame.frame p) in [a, b, c]
+
+-- | A tape with the same motions, on which some commands are left out, repeated, moved to another
+-- frame, or exchanged with those of another frame.
+withOtherCommands :: FrameProgram -> Gen (String, [PlannedFrame])
+withOtherCommands program = case [k | (k, p) <- zip [0 ..] frames, hasCommands p] of
+  [] -> discard
+  places -> do
+    k <- elements places
+    far <- choose (0, length frames)
+    near <- choose (max 0 (k - 4), min (length frames) (k + 4))
+    other <- elements places
+    let given = commandsAt k
+    elements
+      [ ("a command left out", without k),
+        ("a command repeated", inserted far given frames),
+        ("a command in another place", moved k far given),
+        ("a command some frames away", moved k near given),
+        ("commands exchanged", setAt other given (setAt k (commandsAt other) frames))
+      ]
+  where
+    frames = Frame.plannedFrames program
+    hasCommands = not . null . commands . Frame.frame
+    commandsAt k = concat [commands (Frame.frame p) | p <- take 1 (drop k frames)]
+    without k = filter (isUsed . Frame.frame) (setAt k [] frames)
+    isUsed f = Frame.isMoving f || not (null (commands f))
+    setAt k given list =
+      [ if n == k then p {Frame.frame = (Frame.frame p) {commands = given}} else p
+        | (n, p) <- zip [0 ..] list
+      ]
+    moved k to given =
+      let fewer = length frames - length (without k)
+       in inserted (if to > k then to - fewer else to) given (without k)
+    -- Some tapes can hold commands beside a motion, others in a frame of their own.
+    inserted n given list = case splitAt n list of
+      (a, p : b)
+        | not (hasCommands p) && even n ->
+          a <> [p {Frame.frame = (Frame.frame p) {commands = given}}] <> b
+      (a, b) -> a <> [p {Frame.frame = Frame.commandFrame given} | p <- take 1 list] <> b
+
+-- | Test that two tapes with the same motions surely have other commands: commands are missing or
+-- repeated, or there are more than @slack@ mm of the path between the places of a command.
+commandsApart :: Machine -> Double -> Pulses3 -> [Frame] -> [Frame] -> Bool
+commandsApart machine slack begin one other =
+  Map.keys ones /= Map.keys others || or (Map.intersectionWith isApart ones others)
+  where
+    (ones, others) = (places one, places other)
+    isApart as bs = length as /= length bs || or (zipWith (\a b -> abs (a - b) > slack) as bs)
+    places frames =
+      Map.fromListWith
+        (flip (<>))
+        [(show c, [at']) | (f, at') <- zip frames (travels frames), c <- commands f]
+    -- The length of the path before each frame.
+    travels frames = scanl (+) 0 (map lengthOf (motionsOf begin frames))
+    motionsOf from frames = case frames of
+      [] -> []
+      f : more
+        | Frame.isMoving f -> Control.run from [f] : motionsOf (from + increment f) more
+        | otherwise -> [] : motionsOf from more
+    lengthOf motions =
+      sum [spaceLength m | m <- motions]
+    spaceLength m =
+      let Mm l = Control.travel machine m
+          (Mm z, Mm z') = Control.height machine m
+       in sqrt (l * l + (z' - z) * (z' - z))
 
 -- Kinds of damage ---------------------------------------------------------------------------------
 

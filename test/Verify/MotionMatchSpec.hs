@@ -82,6 +82,17 @@ laws tapes = do
               TapePair.write f (printf "%05d" n) pair
             let frames = map Frame.frame (TapePair.other pair)
             pure (not (Proof.isProven (Verify.prove machine path program frames)))
+  it "a tape with a command elsewhere is not proven" $
+    withMaxSuccess (max 300 (tapes `div` 20)) $
+      forAllBlind commanded $ \o@Operated {machine, path, program} ->
+        forAllBlind (WrongTape.withOtherCommands program) $ \(damage, planned) ->
+          let frames = map Frame.frame planned
+              begin = Frame.start program
+              isWrong' = WrongTape.commandsApart machine (slackOf o) begin (own program) frames
+           in TapePair.isReadBack machine begin frames && isWrong'
+                ==> tabulate "damage" [damage]
+                $ counterexample (difference o frames <> damage) $
+                  not (Proof.isProven (Verify.prove machine path program frames))
   it "a tape with damage is wrong for a check that reads only the tapes" $
     withMaxSuccess 20 $
       forAllWrong $ \_ pair ->
@@ -107,16 +118,16 @@ forAllWrong holds =
            in isWrong o (map Frame.frame changed)
                 && TapePair.isReadBack machine (Frame.start program) frames
                 ==> counterexample
-                  ( Text.unpack (text o)
-                      <> unlines (map show (changedFrames (own program) frames))
-                      <> damage
-                      <> " on "
-                      <> show (Machine.name machine)
-                  )
+                  (difference o frames <> damage <> " on " <> show (Machine.name machine))
                 $ holds o (pairOf o damage planned)
   where
     -- As many frames as planned must not hide a damage.
     recounted program = WrongTape.withFrameCount (length (Frame.plannedFrames program))
+
+-- | The text of a program, and the first frames in which another tape differs from its own one.
+difference :: Operated -> [Frame] -> String
+difference o frames =
+  Text.unpack (text o) <> unlines (map show (changedFrames (own (program o)) frames))
 
 -- | Numbers of the first frames in which two tapes differ, with both frames. Nothing where a tape
 -- has ended.
@@ -147,20 +158,29 @@ data Operated = Operated
 operated :: Gen Operated
 operated = frequency [(3, byOperations), (2, byText)]
 
-byOperations, byText :: Gen Operated
+byOperations, byText, commanded :: Gen Operated
 byOperations = do
   part <- Operations.part
   machine <- elements [m | m <- Machines.known, Machine.name m /= MachineName "kontur-2p"]
   case Toolpath.toToolpath part of
     Result _ [] (Just path) -> maybe byOperations pure (taped "" part path machine)
     _ -> byOperations
-byText = do
-  machine <- elements Machines.known
-  text <- MachinedText.program machine
+byText = elements Machines.known >>= fromText MachinedText.program
+commanded = elements machines >>= fromText MachinedText.commanded
+  where
+    machines = [m | m <- Machines.known, Machine.name m `notElem` map MachineName byHand]
+    byHand = ["lki-fm", "lki-u", "lki-un"]
+
+-- | A part from a random text for a machine. Texts without a tape are left out.
+fromText :: (Machine -> Gen Text) -> Machine -> Gen Operated
+fromText programFor machine = do
+  text <- programFor machine
   case Result.ifSound (Compile.analyse [] (LoadedProgram.fromText "p.part" text)) of
     Just Analysis {Compile.part = part, Compile.path = path} ->
-      maybe byText pure (taped text part path (Target.setUpFor path machine))
-    Nothing -> byText
+      maybe another pure (taped text part path (Target.setUpFor path machine))
+    Nothing -> another
+  where
+    another = fromText programFor machine
 
 -- | A part with its tape, unless the tape cannot be made or is long.
 taped :: Text -> Part -> Toolpath -> Machine -> Maybe Operated
