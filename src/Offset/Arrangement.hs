@@ -22,7 +22,9 @@ module Offset.Arrangement
   )
 where
 
+import Control.Monad (forM_)
 import Control.Monad.ST (ST, runST)
+import Data.Bifunctor qualified as Bifunctor
 import Data.Int (Int32)
 import Data.IntMap.Strict (IntMap)
 import Data.IntMap.Strict qualified as IntMap
@@ -30,7 +32,6 @@ import Data.IntSet qualified as IntSet
 import Data.List (foldl', sortOn)
 import Data.List.NonEmpty (NonEmpty (..))
 import Data.List.NonEmpty qualified as NonEmpty
-import Data.Map.Strict qualified as Map
 import Data.Maybe (listToMaybe)
 import Data.Primitive.MutVar
 import Data.Primitive.PrimArray
@@ -41,7 +42,7 @@ import Geometry.ClosedPolyarcs (ClosedPolyarcs)
 import Geometry.ClosedPolyarcs qualified as ClosedPolyarcs
 import Geometry.Index.SegmentBoxTree (SegmentBoxTree)
 import Geometry.Index.SegmentBoxTree qualified as SegmentBoxTree
-import Offset.HalfEdge (ArrangementEdge (..))
+import Offset.HalfEdge (ArrangementEdge (..), Rings)
 import Offset.HalfEdge qualified as HalfEdge
 import Offset.Loop (OffsetLoops (OffsetLoops))
 import Offset.SegmentIntersection (Visitor (..))
@@ -57,11 +58,9 @@ data Arrangement = Arrangement
     -- | the node of every vertex of the polyarcs
     vertexNodes :: PrimArray Int,
     edges :: Vector ArrangementEdge,
-    -- | the half-edges that leave each node, counter-clockwise; half-edge @2e@ leaves the node at
-    -- which edge @e@ begins, and @2e + 1@ leaves the node at which edge @e@ ends
-    rings :: IntMap (Vector Int),
+    rings :: Rings,
     -- | the winding number on the left of every edge
-    lefts :: IntMap Int,
+    lefts :: PrimArray Int,
     -- | pairs of segments that cross between their ends
     proper :: [(Int, Int)]
   }
@@ -77,7 +76,7 @@ arrange tolerance c boxes
     (cuts, pairs) = intersections tolerance c boxes
     (coordinates, nodeOf, cutNodes) = nodesOf tolerance c cuts
     found = Vector.fromList (merged tolerance coordinates (slices c coordinates nodeOf cutNodes))
-    ordered = HalfEdge.halfEdgesAround coordinates found
+    ordered = HalfEdge.ringsOf coordinates found
     arrangement =
       Arrangement
         { chain = c,
@@ -224,14 +223,17 @@ alongChord c coordinates i node =
 merged :: Double -> Vector (Double, Double) -> [(Int, Int, Int, Double)] -> [ArrangementEdge]
 merged tolerance coordinates cut =
   concatMap
-    edgesOf
-    ( Map.toList
-        ( Map.fromListWith
+    (edgesOf . Bifunctor.first (`divMod` nodeCount))
+    ( IntMap.toList
+        ( IntMap.fromListWith
             (<>)
-            [((min a b, max a b), [(a < b, i, if a < b then g else -g)]) | (a, b, i, g) <- cut]
+            [ (min a b * nodeCount + max a b, [(a < b, i, if a < b then g else -g)])
+              | (a, b, i, g) <- cut
+            ]
         )
     )
   where
+    nodeCount = Vector.length coordinates
     edgesOf ((a, b), list) = case list of
       [one] -> [edge a b 1 one]
       _ -> concatMap (bundle a b) (bySagitta (sortOn rise list))
@@ -258,12 +260,15 @@ merged tolerance coordinates cut =
         net = sum [if forth then 1 else -1 | (forth, _, _) <- list] :: Int
 
 -- | The winding number on the left of every edge. It is propagated over each connected component
--- from the component's outer face. @ordered@ has the sorted half-edges of each node.
-propagated :: Vector (Double, Double) -> Vector ArrangementEdge -> IntMap (Vector Int) -> IntMap Int
-propagated coordinates es ordered = foldl' labelled IntMap.empty (IntMap.elems outerFaces)
+-- from the component's outer face.
+propagated :: Vector (Double, Double) -> Vector ArrangementEdge -> Rings -> PrimArray Int
+propagated coordinates es ordered = runPrimArray $ do
+  known <- newPrimArray (Vector.length es)
+  setPrimArray known 0 (Vector.length es) unknown
+  forM_ (IntMap.elems outerFaces) $ \(_, h) ->
+    spread es ordered known [(HalfEdge.twin h, outside (HalfEdge.startNode es h))]
+  pure known
   where
-    labelled known (_, h) =
-      spread es ordered known [(HalfEdge.twin h, outside (HalfEdge.startNode es h))]
     components = HalfEdge.componentsOf es ordered
     outside = outsideNumber coordinates es components
     -- For each component the signed area of its outer face, the only negative one, and a half-edge
@@ -271,21 +276,26 @@ propagated coordinates es ordered = foldl' labelled IntMap.empty (IntMap.elems o
     outerFaces =
       IntMap.fromListWith
         min
-        [ (component, (HalfEdge.faceArea coordinates es face, h))
-          | face@(h :| _) <- HalfEdge.faces es ordered,
-            component <- maybe [] pure (IntMap.lookup (HalfEdge.startNode es h) components)
+        [ ( indexPrimArray components (HalfEdge.startNode es h),
+            (HalfEdge.faceArea coordinates es face, h)
+          )
+          | face@(h :| _) <- HalfEdge.faces es ordered
         ]
+
+-- | The winding number of an edge to which none has been propagated yet.
+unknown :: Int
+unknown = minBound
 
 -- | The winding number at a node, counting all components except the node's own. @components@ has
 -- the component of every node, and the last argument is the node's number. The first three
 -- arguments are applied once, so that all nodes share one bounding-box tree of the edges.
-outsideNumber :: Vector (Double, Double) -> Vector ArrangementEdge -> IntMap Int -> Int -> Int
+outsideNumber :: Vector (Double, Double) -> Vector ArrangementEdge -> PrimArray Int -> Int -> Int
 outsideNumber coordinates es components =
   \k ->
     let (x, y) = coordinates Vector.! k
-        own = IntMap.lookup k components
+        own = indexPrimArray components k
         add total i
-          | IntMap.lookup (from edge) components == own = total
+          | indexPrimArray components (from edge) == own = total
           | otherwise = total + times edge * WindingNumber.contribution edgePolyarcs x y i
           where
             edge = es Vector.! (i `div` 2)
@@ -299,64 +309,51 @@ outsideNumber coordinates es components =
         ]
     tree = SegmentBoxTree.build 0 edgePolyarcs
 
--- | Adds to @known@ the winding number on the left of every edge that is connected with the
+-- | Writes into @known@ the winding number on the left of every edge that is connected with the
 -- half-edges in @todo@. Each pair in @todo@ is a half-edge and the winding number on its right,
--- seen in the direction in which it leaves its node. Edges in @known@ are not visited again.
-spread :: Vector ArrangementEdge -> IntMap (Vector Int) -> IntMap Int -> [(Int, Int)] -> IntMap Int
+-- seen in the direction in which it leaves its node. Edges whose number is known are not visited
+-- again.
+spread :: Vector ArrangementEdge -> Rings -> MutablePrimArray s Int -> [(Int, Int)] -> ST s ()
 spread es ordered known todo = case todo of
-  [] -> known
-  (h, right) : rest
-    | IntMap.member e known -> spread es ordered known rest
-    | otherwise ->
-      spread
-        es
-        ordered
-        (IntMap.insert e left known)
-        ( othersAround (from edge) (2 * e) left
-            <> othersAround (to edge) (2 * e + 1) (left - times edge)
-            <> rest
-        )
-    where
-      e = h `div` 2
-      edge = es Vector.! e
-      left = if even h then right + times edge else right
+  [] -> pure ()
+  (h, right) : rest -> do
+    let e = h `div` 2
+        edge = es Vector.! e
+        left = if even h then right + times edge else right
+    before <- readPrimArray known e
+    if before /= unknown
+      then spread es ordered known rest
+      else do
+        writePrimArray known e left
+        spread
+          es
+          ordered
+          known
+          (othersAround (2 * e) left (othersAround (2 * e + 1) (left - times edge) rest))
   where
-    -- The other half-edges of node @k@, counter-clockwise from half-edge @h@ on, each with the
-    -- winding number on its right. @leftward@ is the winding number on the left of @h@. The winding
-    -- number on the left of each is the one on the right of the next.
-    othersAround k h leftward = case ordered IntMap.!? k of
-      Nothing -> []
-      Just halves ->
-        go
-          leftward
-          ( take
-              (Vector.length halves - 1)
-              (drop 1 (dropWhile (/= h) (Vector.toList halves <> Vector.toList halves)))
-          )
-    go _ [] = []
-    go right (h : more) = (h, right) : go (right + gain h) more
+    -- Adds to a list the other half-edges of the node of half-edge @h@, counter-clockwise from @h@
+    -- on, each with the winding number on its right. @leftward@ is the winding number on the left
+    -- of @h@. The winding number on the left of each is the one on the right of the next.
+    othersAround h = from' (HalfEdge.neighbour es ordered 1 h)
+      where
+        from' h' right more
+          | h' == h = more
+          | otherwise =
+            (h', right) : from' (HalfEdge.neighbour es ordered 1 h') (right + gain h') more
     gain h = let m = times (es Vector.! (h `div` 2)) in if even h then m else -m
 
 -- | True when the winding numbers agree around every node: the number on the left of each half-edge
 -- is that on the right of the next one counter-clockwise.
 isConsistent :: Arrangement -> Bool
-isConsistent a =
-  all
-    ( \halves ->
-        and
-          ( Vector.toList
-              (Vector.zipWith fits halves (Vector.drop 1 halves <> Vector.take 1 halves))
-          )
-    )
-    (IntMap.elems (rings a))
+isConsistent a = all fits [0 .. 2 * Vector.length (edges a) - 1]
   where
-    fits h h' = fst (sides a h) == snd (sides a h')
+    fits h = fst (sides a h) == snd (sides a (HalfEdge.neighbour (edges a) (rings a) 1 h))
 
 -- | The winding numbers on the left and on the right of half-edge @h@ as it leaves its node.
 sides :: Arrangement -> Int -> (Int, Int)
 sides a h = if even h then (left, left - m) else (left - m, left)
   where
-    left = IntMap.findWithDefault 0 (h `div` 2) (lefts a)
+    left = indexPrimArray (lefts a) (h `div` 2)
     m = times (edges a Vector.! (h `div` 2))
 
 -- | The least and the largest winding number of all faces, among them the unbounded one with 0.
@@ -381,7 +378,7 @@ intersectingSegments (low, high) a =
                max l r > high || min l r < low,
                let i = segment e,
                node <- [from e, to e],
-               h <- maybe [] Vector.toList (IntMap.lookup node (rings a)),
+               h <- HalfEdge.ringAt (rings a) node,
                let j = segment (edges a Vector.! (h `div` 2)),
                abs (i - j) > 1
            ]
@@ -416,10 +413,12 @@ loops sense wanted a =
       _ -> Nothing
     -- The edge after edge @e@ around the reachable face: at the node where @e@ ends, the next
     -- half-edge on the face's side. Nothing when no edge that is kept begins with this half-edge.
-    next e = do
-      halves <- IntMap.lookup (to (edges a Vector.! e)) (rings a)
-      h <- HalfEdge.neighbour (if sense == CounterClockwise then -1 else 1) (2 * e + 1) halves
-      if even h && isKept (h `div` 2) then Just (h `div` 2) else Nothing
+    next e
+      | even h && isKept (h `div` 2) = Just (h `div` 2)
+      | otherwise = Nothing
+      where
+        turn = if sense == CounterClockwise then -1 else 1
+        h = HalfEdge.neighbour (edges a) (rings a) turn (2 * e + 1)
     -- Consecutive edges on the same segment become one segment again.
     vertices loop = map (loopVertex a) (NonEmpty.groupBy onSameSegment (rotated loop))
     onSameSegment e e' = segment (edges a Vector.! e) == segment (edges a Vector.! e')

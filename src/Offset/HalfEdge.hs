@@ -9,7 +9,9 @@
 -- and @2e + 1@: the first leaves the node at which the edge begins. Coordinates are in mm.
 module Offset.HalfEdge
   ( ArrangementEdge (..),
-    halfEdgesAround,
+    Rings,
+    ringsOf,
+    ringAt,
     twin,
     edgeOf,
     startNode,
@@ -20,15 +22,15 @@ module Offset.HalfEdge
   )
 where
 
-import Data.IntMap.Strict (IntMap)
-import Data.IntMap.Strict qualified as IntMap
-import Data.IntSet qualified as IntSet
-import Data.List (foldl', maximumBy, sortBy, sortOn)
+import Control.Monad (foldM, forM_)
+import Control.Monad.ST (runST)
+import Data.Int (Int8)
+import Data.List (maximumBy, sortBy, sortOn)
+import Data.List qualified as List
 import Data.List.NonEmpty (NonEmpty (..))
 import Data.List.NonEmpty qualified as NonEmpty
-import Data.Maybe (fromMaybe)
 import Data.Ord (comparing)
-import Data.Primitive.PrimArray (primArrayFromList)
+import Data.Primitive.PrimArray
 import Data.Vector (Vector)
 import Data.Vector qualified as Vector
 import Geometry.FlatPolyarc (FlatPolyarc (FlatPolyarc))
@@ -51,11 +53,56 @@ data ArrangementEdge = ArrangementEdge
   }
 
 -- | The half-edges that leave each node, counter-clockwise.
-halfEdgesAround :: Vector (Double, Double) -> Vector ArrangementEdge -> IntMap (Vector Int)
-halfEdgesAround coordinates es = fmap (Vector.fromList . ring coordinates es) outgoing
+data Rings = Rings
+  { -- | the index in 'items' of each node's first half-edge, and the count of all half-edges
+    starts :: PrimArray Int,
+    -- | the half-edges of the first node, then those of the second, and so on
+    items :: PrimArray Int,
+    -- | the index in 'items' of each half-edge
+    places :: PrimArray Int
+  }
+
+-- | The half-edges around the nodes, which are given by their coordinates.
+ringsOf :: Vector (Double, Double) -> Vector ArrangementEdge -> Rings
+ringsOf coordinates es = Rings {starts, items, places}
   where
-    outgoing = IntMap.fromListWith (<>) (concatMap leavingBoth (Vector.indexed es))
-    leavingBoth (i, e) = [(from e, [2 * i]), (to e, [2 * i + 1])]
+    nodeCount = Vector.length coordinates
+    halves = 2 * Vector.length es
+    starts = runPrimArray $ do
+      a <- newPrimArray (nodeCount + 1)
+      setPrimArray a 0 (nodeCount + 1) 0
+      forM_ [0 .. halves - 1] $ \h -> increment a (startNode es h + 1)
+      forM_ [1 .. nodeCount] $ \k -> do
+        before <- readPrimArray a (k - 1)
+        own <- readPrimArray a k
+        writePrimArray a k (before + own)
+      pure a
+    unsorted = runPrimArray $ do
+      a <- newPrimArray halves
+      next <- thawPrimArray starts 0 nodeCount
+      forM_ [0 .. halves - 1] $ \h -> do
+        let k = startNode es h
+        readPrimArray next k >>= \i -> writePrimArray a i h
+        increment next k
+      pure a
+    items =
+      primArrayFromListN
+        halves
+        (concatMap (ring coordinates es . range starts unsorted) [0 .. nodeCount - 1])
+    places = runPrimArray $ do
+      a <- newPrimArray halves
+      forM_ [0 .. halves - 1] $ \i -> writePrimArray a (indexPrimArray items i) i
+      pure a
+    increment a k = readPrimArray a k >>= writePrimArray a k . (+ 1)
+
+-- | The half-edges that leave a node, counter-clockwise.
+ringAt :: Rings -> Int -> [Int]
+ringAt rings = range (starts rings) (items rings)
+
+-- | The items of a node, given the indices of all nodes' first items, and the items.
+range :: PrimArray Int -> PrimArray Int -> Int -> [Int]
+range firsts array k =
+  map (indexPrimArray array) [indexPrimArray firsts k .. indexPrimArray firsts (k + 1) - 1]
 
 -- | A half-edge at the node that it leaves.
 data Leaving = Leaving
@@ -75,7 +122,10 @@ data Leaving = Leaving
 -- that are nearly equal.
 ring :: Vector (Double, Double) -> Vector ArrangementEdge -> [Int] -> [Int]
 ring coordinates es halves = case halves of
+  -- Up to two half-edges have only one order.
+  [] -> halves
   [_] -> halves
+  [_, _] -> halves
   _ -> map halfEdge (sortBy counterClockwise [h {angle = angleFrom cut (angle h)} | h <- aimed])
   where
     aimed = sortOn angle (map (leaving coordinates es) halves)
@@ -144,45 +194,58 @@ edgeOf es h = es Vector.! (h `div` 2)
 startNode :: Vector ArrangementEdge -> Int -> Int
 startNode es h = (if even h then from else to) (edgeOf es h)
 
--- | The half-edge that is @steps@ places further counter-clockwise around a node than half-edge
--- @h@. @halves@ are the half-edges that leave the node. Nothing if @h@ does not leave it.
-neighbour :: Int -> Int -> Vector Int -> Maybe Int
-neighbour steps h halves = do
-  k <- Vector.elemIndex h halves
-  pure (halves Vector.! ((k + steps) `mod` Vector.length halves))
+-- | The half-edge that is @steps@ places further counter-clockwise around the node that half-edge
+-- @h@ leaves.
+neighbour :: Vector ArrangementEdge -> Rings -> Int -> Int -> Int
+neighbour es rings steps h =
+  indexPrimArray (items rings) (first + (indexPrimArray (places rings) h - first + steps) `mod` n)
+  where
+    k = startNode es h
+    first = indexPrimArray (starts rings) k
+    n = indexPrimArray (starts rings) (k + 1) - first
 
 -- | The connected component of every node, named by the least number of the component's nodes.
-componentsOf :: Vector ArrangementEdge -> IntMap (Vector Int) -> IntMap Int
-componentsOf es ordered =
-  foldl'
-    (\known k -> if IntMap.member k known then known else reach k known [k])
-    IntMap.empty
-    (IntMap.keys ordered)
+componentsOf :: Vector ArrangementEdge -> Rings -> PrimArray Int
+componentsOf es rings = runPrimArray $ do
+  names <- newPrimArray count
+  setPrimArray names 0 count unnamed
+  let reach name todo = case todo of
+        [] -> pure ()
+        k : rest -> do
+          known <- readPrimArray names k
+          if known /= unnamed
+            then reach name rest
+            else do
+              writePrimArray names k name
+              reach name (map (startNode es . twin) (ringAt rings k) <> rest)
+  forM_ [0 .. count - 1] $ \k -> reach k [k]
+  pure names
   where
-    reach name known todo = case todo of
-      [] -> known
-      k : rest
-        | IntMap.member k known -> reach name known rest
-        | otherwise ->
-          reach
-            name
-            (IntMap.insert k name known)
-            (maybe [] (map other . Vector.toList) (IntMap.lookup k ordered) <> rest)
-    other h = let e = es Vector.! (h `div` 2) in if even h then to e else from e
+    count = sizeofPrimArray (starts rings) - 1
+    unnamed = -1
 
 -- | The faces, each with the half-edges around it that have it on their left. A face with holes
 -- comes once for each connected component of its boundary.
-faces :: Vector ArrangementEdge -> IntMap (Vector Int) -> [NonEmpty Int]
-faces es ordered = from' (IntSet.fromDistinctAscList [0 .. 2 * Vector.length es - 1])
+faces :: Vector ArrangementEdge -> Rings -> [NonEmpty Int]
+faces es rings = runST $ do
+  visited <- newPrimArray count
+  setPrimArray visited 0 count (0 :: Int8)
+  let around h others first
+        | next == first = pure (h : others)
+        | otherwise = around next (h : others) first
+        where
+          next = neighbour es rings (-1) (twin h)
+      step found h = do
+        v <- readPrimArray visited h
+        if v /= 0
+          then pure found
+          else do
+            face <- NonEmpty.fromList . List.reverse <$> around h [] h
+            forM_ face $ \g -> writePrimArray visited g 1
+            pure (face : found)
+  foldM step [] [0 .. count - 1]
   where
-    from' left = case IntSet.minView left of
-      Nothing -> []
-      Just (h, rest) ->
-        let others = takeWhile (/= h) (drop 1 (iterate next h))
-         in (h :| others) : from' (foldl' (flip IntSet.delete) rest others)
-    next h = fromMaybe h $ do
-      halves <- IntMap.lookup (startNode es (twin h)) ordered
-      neighbour (-1) (twin h) halves
+    count = sizeofPrimArray (items rings)
 
 -- | The signed area in mm² of a face, negative if the half-edges round it run clockwise.
 faceArea :: Vector (Double, Double) -> Vector ArrangementEdge -> NonEmpty Int -> Double
