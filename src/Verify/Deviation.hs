@@ -72,7 +72,7 @@ examine :: MotionSet -> Bool -> Maybe [CutterMotion] -> MillingPass -> (ContourP
 examine set isFirst onPass pass =
   (contourProof, if null findings then orderFindings set pass else findings)
   where
-    MillingPass {job, found} = pass
+    MillingPass {job, level, found} = pass
     Allowed {allowedGouge, allowedExcess} = allowedOf set job
     along = motionsAlong found
     keepingOut = motionsKeepingOut set isFirst job along
@@ -84,7 +84,11 @@ examine set isFirst onPass pass =
     deepest = foldl (\best w -> Just (Proof.deeper best w)) (gouge scan) pierced
     -- Excess
     strayed = reverse (strays scan)
-    missed = missedOn set onPass pass allowedExcess bounds
+    cutting = motionsOf set onPass pass
+    missedBy = missedOn onPass pass allowedExcess bounds
+    missed = if null cutting then [] else missedBy cutting
+    -- Without a motion, a pass can only leave the height at its start.
+    isNeverCut = null cutting && any isTooMuch (missedBy [Motion.standingAt (entry job) level])
     largest = Proof.deepest (missed <> strayed)
     isTooMuch w = Proof.amount w > allowedExcess
     tooMuch
@@ -105,6 +109,7 @@ examine set isFirst onPass pass =
       gougeFindings allowedGouge gouges deepest
         <> excessFindings allowedExcess tooMuch largest
         <> maybeToList (wrongSide scan)
+        <> [Proof.NeverBegun (statement job) | isNeverCut]
 
 -- | Finding for the @gouges@ that are deeper than @allowed@; empty if there are none. The finding
 -- names the first such gouge of the list, and @deepest@.
@@ -252,14 +257,22 @@ piercedBy job allowed motions =
 
 -- Excess ------------------------------------------------------------------------------------------
 
--- | Excess on the elements of a contour; @allowed@ is the largest allowed one. The elements are
--- compared with the motions of all cuts of the pass, @onPass@. It is Nothing for the later cuts of
--- a pass: these are examined with the first one. If the contour is not followed to its end, which
--- is a finding of its own, all motions at the height of the pass count. @bounds@ is the array that
--- 'ContourScan.scan' returns: for each element, by its number from 0, an upper bound in mm of the
--- distance of its points from the motions along the contour.
-missedOn :: MotionSet -> Maybe [CutterMotion] -> MillingPass -> Mm -> PrimArray Double -> [Witness]
-missedOn set onPass MillingPass {job, level, found} allowed bounds
+-- | Motions that may cut the elements of a contour: those of all cuts of the pass, @onPass@. It is
+-- Nothing for the later cuts of a pass: these are examined with the first one. If the contour is
+-- not followed to its end, which is a finding of its own, all motions at the height of the pass
+-- count.
+motionsOf :: MotionSet -> Maybe [CutterMotion] -> MillingPass -> [CutterMotion]
+motionsOf set onPass MillingPass {job, level, found}
+  | isUnfollowed job found = MotionSet.atHeight set level
+  | otherwise = fromMaybe (PassSearch.motionsOf found) onPass
+
+-- | Excess that the motions @cutting@ leave on the elements of a contour; @allowed@ is the largest
+-- allowed one. @onPass@ is as in 'motionsOf'. @bounds@ is the array that 'ContourScan.scan'
+-- returns: for each element, by its number from 0, an upper bound in mm of the distance of its
+-- points from the motions along the contour.
+missedOn ::
+  Maybe [CutterMotion] -> MillingPass -> Mm -> PrimArray Double -> [CutterMotion] -> [Witness]
+missedOn onPass MillingPass {job} allowed bounds cutting
   | allowsRest job && isNothing onPass = []
   | otherwise =
     concat
@@ -289,9 +302,6 @@ missedOn set onPass MillingPass {job, level, found} allowed bounds
                 | e <- MillingJob.elementsOf job
               ]
     index = BoxTree.indexFirst (length cutting) Motion.box cutting
-    cutting
-      | isUnfollowed job found = MotionSet.atHeight set level
-      | otherwise = fromMaybe (PassSearch.motionsOf found) onPass
 
 -- | Elements in groups of equal allowance, each with that allowance.
 byAllowance :: [Edge] -> [(Mm, [Edge])]

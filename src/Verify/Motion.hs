@@ -6,6 +6,7 @@
 module Verify.Motion
   ( CutterMotion (..),
     motionsOf,
+    standingAt,
     heights,
     endPosition,
     paths,
@@ -67,6 +68,18 @@ motionsOf machine moved later = go 0 (Compensation.centrePath moved)
           fromHeight = from,
           toHeight = end
         }
+
+-- | Motion of length 0 at a position and a height: a cutter that stands there. It has the frame
+-- number 0.
+standingAt :: Point -> Mm -> CutterMotion
+standingAt p height =
+  CutterMotion
+    { number = 0,
+      part = 0,
+      segment = Straight p p,
+      fromHeight = height,
+      toHeight = height
+    }
 
 -- | Heights of a motion at its start and at its end, in mm.
 heights :: CutterMotion -> (Mm, Mm)

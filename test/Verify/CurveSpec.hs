@@ -82,7 +82,8 @@ spec = do
     accuracy =
       oneof
         [ Part.OnPath . Mm <$> elements [0.005, 0.02, 0.1],
-          Part.Band <$> (Mm <$> elements [0.01, 0.03]) <*> (Mm <$> elements [0.01, 0.06])
+          Part.Band <$> (Mm <$> elements [0.01, 0.03]) <*> (Mm <$> elements [0.01, 0.06]),
+          pure (Part.Band (Mm 0.01) (Mm 0.06))
         ]
     proven path program =
       let found =
