@@ -411,7 +411,15 @@ otherFindings subject@Subject {machine, path, program, frames} passes =
     begin = Frame.start program
     foreign'
       | isFlat subject || not (isDifferent subject) = []
-      | otherwise = ForeignCut.foreignCuts machine path (plannedMotions subject) (motions subject)
+      | otherwise =
+        ForeignCut.foreignCuts
+          machine
+          path
+          (plannedMotions subject)
+          (filter (not . isClearing) (motions subject))
+    -- Another comparison examines the motions in the passes of pockets.
+    isClearing m = any (`PassFrames.includes` number m) clearing
+    clearing = maybe [] (IntMap.elems . MotionMatch.inPass) (clearingFrames subject passes)
 
 -- | Findings for commands that differ from those of the planned frames. @isSamePlace@ is as in
 -- 'FrameRule.wrongCommands'.

@@ -29,7 +29,7 @@ import Data.IntMap.Strict (IntMap)
 import Data.IntMap.Strict qualified as IntMap
 import Data.IntSet qualified as IntSet
 import Data.List (minimumBy)
-import Data.Maybe (fromMaybe, isJust, maybeToList)
+import Data.Maybe (fromMaybe, isNothing, mapMaybe)
 import Data.Ord (comparing)
 import Data.Vector (Vector)
 import Data.Vector qualified as Vector
@@ -125,21 +125,17 @@ matched machine comparesFeeds begin items = go begin firstStates
         where
           final = withSkipped machine items (positionOf machine at) maxBound states
       m : more
-        | IntMap.null states' -> Left (NotAsked (number m) (Frame.position machine (to m)))
-        | comparesFeeds, wrong : _ <- wrongFeeds states' m -> Left wrong
-        | otherwise -> go (to m) states' more
+        | not (IntMap.null right) -> go (to m) right more
+        | wrong : _ <- mapMaybe (wrongFeed m) (IntMap.keys states') -> Left wrong
+        | otherwise -> Left (NotAsked (number m) (Frame.position machine (to m)))
         where
           states' = statesAfter machine items m states
-    -- A motion at the joint of two moves may have the feed of either.
-    wrongFeeds states m = case [items Vector.! i | i <- IntMap.keys states] of
-      them
-        | moves@(_ : _) <- [r | Single r <- them],
-          length moves == length them,
-          faults@(fault : _) <-
-            [Feed.atPace machine (pace r) (slows r) (origin r) m | r <- moves],
-          all isJust faults ->
-          maybeToList fault
-      _ -> []
+          -- A motion at the joint of two moves may have the feed of either, but then it belongs to
+          -- that move.
+          right = IntMap.filterWithKey (\i _ -> isNothing (wrongFeed m i)) states'
+    wrongFeed m i = case items Vector.! i of
+      Single r | comparesFeeds -> Feed.atPace machine (pace r) (slows r) (origin r) m
+      _ -> Nothing
 
 -- | Place of a command in the order of a program: the index of the item that comes next, and true
 -- if that item is a group of which a motion came before.
@@ -235,9 +231,9 @@ isMade machine r (Position p z) share =
     long = lengthOf r
     largest = plus (slack r) (Machine.resolutionOf machine Z)
 
--- | Fraction of a move that is made after the motion @m@, if it was @share@ before. Nothing if the
--- motion does not run along the move in its direction. A step back by no more than the 'slack' of
--- the move is allowed, because it may be due to rounding.
+-- | Largest fraction of a move that is made after the motion @m@, if it was @share@ before. Nothing
+-- if the motion does not run along the move in its direction. Rounding may lead back from the
+-- furthest position, by no more than the 'slack' of the move.
 fractionAfter :: Machine -> RequiredMove -> Motion -> Double -> Maybe Double
 fractionAfter machine r m share = foldM onwards share (samplesOf machine m)
   where
@@ -245,7 +241,7 @@ fractionAfter machine r m share = foldM onwards share (samplesOf machine m)
       | Vec.distance p (Segment.at t (path r)) <= sideways
           && MotionSet.isSameHeight machine z (heightAt r t)
           && times (before - t) (lengthOf r) <= slack r =
-        Just t
+        Just (max before t)
       | otherwise = Nothing
       where
         t = fractionAt r before at
