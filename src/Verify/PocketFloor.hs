@@ -51,6 +51,7 @@ import Geometry.Segment qualified as Segment
 import Geometry.Vec (Point, Vec)
 import Geometry.Vec qualified as Vec
 import Offset.Tolerance qualified as Tolerance
+import Verify.Edge (Edge)
 import Verify.Edge qualified as Edge
 import Verify.Motion (CutterMotion)
 import Verify.Motion qualified as Motion
@@ -77,7 +78,7 @@ data MotionPart = MotionPart {motion :: Int, part :: [Segment]}
 -- 'floorResolution' may be missed.
 unclearedPoint :: Pocket -> Mm -> [CutterMotion] -> Maybe Point
 unclearedPoint pocket radius clearing =
-  listToMaybe (unclearedOn floor' 0 (map (`Piece` Nothing) curves))
+  listToMaybe (unclearedOn floor' (Hint 0 Nothing) (map (`Piece` Nothing) curves))
   where
     curves = map snd (Pocket.rim pocket) <> concatMap borders [LeftOf, RightOf]
     borders side = bordersOn side band (concatMap plainPaths near)
@@ -184,22 +185,32 @@ slight = times 0.125 floorResolution
 -- and perhaps of others; Nothing if they are not known yet.
 data Piece = Piece {curve :: Segment, candidates :: Maybe [Int]}
 
--- | Uncleared positions on pieces of curves. @hint@ is the number of the motion that cleared the
--- piece before. That motion, or its neighbour on the tape, often clears the next piece too.
+-- | What decided a piece before; it often decides the next piece too: the number of the motion that
+-- cleared it, or else that of a neighbour on the tape, and the wall that was too near.
+data Hint = Hint {clearedBy :: Int, screenedBy :: Maybe Segment}
+
+-- | Uncleared positions on pieces of curves.
 --
 -- The motions near a long piece would be too many. Of these, only the ones that clear the middle of
 -- the piece are looked for.
-unclearedOn :: Floor -> Int -> [Piece] -> [Point]
+unclearedOn :: Floor -> Hint -> [Piece] -> [Point]
 unclearedOn floor' hint pieces = case pieces of
   [] -> []
   Piece {curve, candidates} : more
-    | n : _ <- filter (clears floor' curve) ([hint, hint + 1, hint - 1] <> clearing) ->
-      unclearedOn floor' n more
+    | n : _ <- filter (clears floor' curve) [known, known + 1, known - 1] -> cleared n
+    | any (screens floor' curve) (screenedBy hint) -> unclearedOn floor' hint more
+    | n : _ <- filter (clears floor' curve) clearing -> cleared n
     | isShort curve, not (null clearing) -> unclearedOn floor' hint more
-    | null clearing, isOutside floor' curve middle -> unclearedOn floor' hint more
+    | null clearing,
+      Just (w, wall) <- nearest,
+      isOutside floor' curve middle w wall ->
+      unclearedOn floor' hint {screenedBy = Just (Edge.shape wall)} more
     | isShort curve -> middle : unclearedOn floor' hint more
     | otherwise -> unclearedOn floor' hint (map (`Piece` inherited) [first, second] <> more)
     where
+      known = clearedBy hint
+      cleared n = unclearedOn floor' hint {clearedBy = n} more
+      nearest = Pocket.nearestWall (Pocket.walls (pocket floor')) middle
       (first, second) = Segment.cutAt 0.5 curve
       middle = Segment.end first
       radius = times 0.5 (Segment.length curve)
@@ -218,23 +229,29 @@ unclearedOn floor' hint pieces = case pieces of
 clears :: Floor -> Segment -> Int -> Bool
 clears floor' piece n = maybe False (all (isWithin (reach floor') piece)) (paths floor' Vector.!? n)
 
+-- | Test that a wall is too near to all of a piece. If the result is true, this is certain.
+screens :: Floor -> Segment -> Segment -> Bool
+screens floor' piece = isWithin (wallLimit floor') piece
+
+-- | Distance below which the cutter's centre may take no position. The rim may be nearer to the
+-- walls than its distance, because of rounding.
+wallLimit :: Floor -> Mm
+wallLimit floor' = minus (Pocket.rimDistance (pocket floor')) Tolerance.clearance
+
 -- | Test that the cutter's centre may take no position on a piece. For a short piece, its middle
--- decides.
-isOutside :: Floor -> Segment -> Point -> Bool
-isOutside floor' piece middle = case Pocket.nearestWall walls middle of
-  Nothing -> False
-  Just (w, wall) ->
-    plus w half < limit
-      || isWithin limit piece (Edge.shape wall)
-      || (w > half || isShort piece)
-      && not (Pocket.isOnFreeSide (Pocket.side (pocket floor')) walls middle wall)
-      || isShort piece
-      && w < limit
+-- decides. @wall@ is the wall nearest to the middle, at the distance @w@.
+isOutside :: Floor -> Segment -> Point -> Mm -> Edge -> Bool
+isOutside floor' piece middle w wall =
+  plus w half < limit
+    || screens floor' piece (Edge.shape wall)
+    || (w > half || isShort piece)
+    && not (Pocket.isOnFreeSide (Pocket.side (pocket floor')) walls middle wall)
+    || isShort piece
+    && w < limit
   where
     half = times 0.5 (Segment.length piece)
     walls = Pocket.walls (pocket floor')
-    -- The rim may be nearer to the walls than its distance, because of rounding.
-    limit = minus (Pocket.rimDistance (pocket floor')) Tolerance.clearance
+    limit = wallLimit floor'
 
 -- | Test that a piece is so short that it is not divided.
 isShort :: Segment -> Bool
