@@ -23,6 +23,7 @@ import Frame.Frame qualified as Frame
 import Geometry.Distance qualified as Distance
 import Geometry.Index.BoxTree qualified as BoxTree
 import Geometry.Segment qualified as Segment
+import Geometry.Vec (Point)
 import Machine.Machine (BrakingForm (..), Machine)
 import Machine.Machine qualified as Machine
 import Part.Part (Element)
@@ -72,17 +73,21 @@ data Contact = Contact
 
 -- | Contact of the cutter at a fraction of a motion, from 0 to 1.
 contactAt :: MillingJob -> CutterMotion -> Double -> Contact
-contactAt job c k = Contact (all isNearEnd (filter isAtReach near)) (map element near)
+contactAt job c k =
+  Contact (all isNearEnd (filter (isAtReach job p) near)) (map element near)
   where
     p = Segment.at k (segment c)
     near = filter isTouched (MillingJob.edgesAround job p)
     isTouched e = Distance.toPoint p (shape e) <= MillingJob.contactLimit job
-    isAtReach e =
-      let Mm away = minus (Distance.toPoint p (shape e)) (plus (reach job) (ownAllowance e))
-       in Mm (abs away) <= allowance job
     isNearEnd e =
       let share = Distance.nearestFraction p (shape e)
        in times (min share (1 - share)) (Segment.length (shape e)) <= margin job
+
+-- | Test that the cutter's centre is at the distance from an element that it keeps beside it.
+isAtReach :: MillingJob -> Point -> Edge -> Bool
+isAtReach job p e = Mm (abs away) <= allowance job
+  where
+    Mm away = minus (Distance.toPoint p (shape e)) (plus (reach job) (ownAllowance e))
 
 -- | Length in mm by which rounding may move a joint between two elements.
 margin :: MillingJob -> Mm
@@ -101,10 +106,11 @@ examined job c
     nearestToMiddle e = Distance.nearestFraction (Segment.at 0.5 (shape e)) (segment c)
     isInside k = k > first && k < 1 - first
 
--- | Findings for missing slow frames at the ends of elements. An element counts with the motions in
--- whose middle the cutter touches only this element. From the last of them to the first motion
--- along another element, a motion has to be slow. The slow motions have to be as long as the
--- machine needs to slow down; the 'margin' may be missing.
+-- | Findings for missing slow frames at the ends of elements, and for slow frames elsewhere. An
+-- element counts with the motions in whose middle the cutter touches only this element, and with
+-- those that run beside it from the last of them to the first motion along another element. At the
+-- end it has to be slow for the length that the machine needs to slow down, and nowhere else; the
+-- 'margin' may be missing or too much.
 slowFindings :: Machine -> MillingJob -> [ContourMotion] -> [Finding]
 slowFindings machine job motions = case Machine.brakingForm (Machine.braking machine) of
   SlowFrames -> concatMap ofElement (BoxTree.toList (edges job))
@@ -112,18 +118,25 @@ slowFindings machine job motions = case Machine.brakingForm (Machine.braking mac
   BrakedFrames _ -> []
   where
     ofElement e = case (Part.slow finish, Map.lookup (Part.origin (element e), shape e) beside) of
-      (True, Just ends@((final, after) : _))
-        | wanted <= margin job -> []
-        | any isSlow (final : after),
-          lengthOf (filter isSlow (after <> map fst ends)) >= minus wanted (margin job) ->
-          []
-        | otherwise -> [Feed.notSlow machine (region asked) (snd final)]
-        where
-          wanted = min (slowLength (value asked)) (lengthOf (map fst ends))
+      (True, Just ends@((final, after) : _)) ->
+        let own = reverse (filter isBeside after) <> map fst ends
+            -- The last motion comes first. Then the length from the start of each to the end.
+            far = drop 1 (scanl plus (Mm 0) (map lengthOf own))
+            slowLast = takeWhile isSlow own
+            long = slowLength (value asked)
+            needed = min long (total (map lengthOf own))
+            needless = [m | (m, l) <- zip own far, isSlow m, l > plus long (margin job)]
+         in [ Feed.notSlow machine (region asked) (snd final)
+              | needed > margin job,
+                total (map lengthOf slowLast) < minus needed (margin job)
+            ]
+              <> take 1 (Feed.atFeed machine asked [] (map snd (reverse needless)))
       _ -> []
       where
         finish = Part.finish (element e)
         asked = fromMaybe (Part.feed (milling job)) (Part.ownFeed finish)
+        isBeside (c, _) =
+          let p = Segment.at 0.5 (segment c) in Segment.hasFootOf (shape e) p && isAtReach job p e
     -- For each element, its motions, and after each of them those along no single element. The last
     -- motion comes first.
     beside =
@@ -136,7 +149,7 @@ slowFindings machine job motions = case Machine.brakingForm (Machine.braking mac
       Contact False [e] -> Just (Part.origin e, Part.segment e)
       _ -> Nothing
     isSlow (_, m) = Frame.feedCode (Control.frame m) == fst (Machine.slowest machine)
-    lengthOf = total . map (Segment.length . segment . fst)
+    lengthOf = Segment.length . segment . fst
     slowLength (Feed v) =
       let perSecond = v / 60
        in Mm (perSecond * perSecond / (2 * Machine.deceleration (Machine.braking machine)))

@@ -23,7 +23,6 @@ where
 
 import Base.PulseVector (Pulses3 (..))
 import Base.Quantity (Mm (..), times)
-import Control.Compensation qualified as Compensation
 import Control.Motion qualified as Control
 import Data.IntMap.Strict (IntMap)
 import Data.IntMap.Strict qualified as IntMap
@@ -32,13 +31,12 @@ import Data.List (foldl', sortOn)
 import Data.List.NonEmpty qualified as NonEmpty
 import Data.Map.Strict (Map)
 import Data.Map.Strict qualified as Map
-import Data.Maybe (isJust, mapMaybe)
+import Data.Maybe (mapMaybe)
 import Frame.Frame (Frame (..), FrameProgram)
 import Frame.Frame qualified as Frame
 import Frame.Rounding qualified as Rounding
 import Geometry.Distance qualified as Distance
 import Geometry.Index.BoundingBox qualified as BoundingBox
-import Geometry.Index.BoxTree (BoxTree)
 import Geometry.Index.BoxTree qualified as BoxTree
 import Geometry.Segment (Segment)
 import Geometry.Segment qualified as Segment
@@ -56,7 +54,6 @@ import Verify.Feed qualified as Feed
 import Verify.ForeignCut qualified as ForeignCut
 import Verify.FrameRule qualified as FrameRule
 import Verify.HoleCheck qualified as HoleCheck
-import Verify.MillingJob (MillingJob (milling))
 import Verify.Motion (CutterMotion (number, segment))
 import Verify.Motion qualified as Motion
 import Verify.MotionMatch (ClearingFrames (..))
@@ -65,57 +62,23 @@ import Verify.MotionSet (MotionSet (MotionSet))
 import Verify.MotionSet qualified as MotionSet
 import Verify.PassFrames (FrameRange (..))
 import Verify.PassFrames qualified as PassFrames
-import Verify.PassLocation (Guide (Guide))
 import Verify.PassLocation qualified as PassLocation
-import Verify.PassSearch qualified as PassSearch
-import Verify.Pocket (ClearingPass, Pocket)
 import Verify.Pocket qualified as Pocket
 import Verify.PocketDeviation (PassMotions (..))
 import Verify.PocketDeviation qualified as PocketDeviation
 import Verify.Proof (Finding (..), Proof (Proof), Refusal (NotCompensated))
 import Verify.Proof qualified as Proof
-import Verify.RequiredMove (MotionGroup, RequiredItem)
 import Verify.RequiredMove qualified as RequiredMove
-import Verify.SpindleTool (Tools)
-import Verify.SpindleTool qualified as SpindleTool
 import Verify.StartSearch (OtherStart)
 import Verify.StartSearch qualified as StartSearch
-import Verify.Swivel (Levelled (Levelled))
-import Verify.Swivel qualified as Swivel
-import Verify.TapeSummary (TapeSummary)
+import Verify.Subject (Subject (..))
+import Verify.Subject qualified as Subject
 import Verify.TapeSummary qualified as TapeSummary
-
--- | Tape, the program that it is compared with, and values that are computed once for all
--- comparisons.
-data Subject = Subject
-  { machine :: Machine,
-    path :: Toolpath,
-    program :: FrameProgram,
-    -- | frames of the tape
-    frames :: [Frame],
-    summary :: ~TapeSummary,
-    -- | radius of the cutter in each planned frame
-    tools :: ~Tools,
-    -- | motions of the cutter's centre on the tape
-    motions :: ~[CutterMotion],
-    -- | test that a motion of the tape swivels a blade as its pass demands
-    isSwivelled :: CutterMotion -> Bool,
-    -- | motions of the cutter's centre in the planned frames
-    plannedMotions :: ~[CutterMotion],
-    -- | bounding-box tree of the motions on the tape
-    motionIndex :: ~(BoxTree CutterMotion),
-    compensationErrors :: ~[Compensation.CompensationError],
-    pockets :: ~[Pocket],
-    -- | numbers of the planned frames of each pass, by the number of the pass, from 0
-    passFrames :: ~(IntMap FrameRange),
-    -- | the same without the frames of linking moves
-    cutFrames :: ~(IntMap FrameRange)
-  }
 
 -- | Compare the frames of a tape with the part. The toolpath @path@ contains the part; @program@
 -- has the start position and the planned frames.
 prove :: Machine -> Toolpath -> FrameProgram -> [Frame] -> Proof
-prove machine path program frames = proofOf False (subjectOf machine path program frames)
+prove machine path program frames = proofOf False (Subject.subjectOf machine path program frames)
 
 -- | Proof of a subject. @isRestarted@ is true if contours begin where the tape begins them.
 proofOf :: Bool -> Subject -> Proof
@@ -134,7 +97,7 @@ proofOf isRestarted subject =
   where
     found = deviations <> otherFindings subject passes
     unmatched = if null found then sequenceFindings subject passes else []
-    passes = locatedPasses subject
+    passes = Subject.locatedPasses subject
     set = motionSetOf subject passes
     (contourProofs, contourFindings) =
       unzip
@@ -158,13 +121,13 @@ proofOf isRestarted subject =
 -- is refused. With as many frames as planned, the planned frames of a pass then show where its
 -- allowance is cut.
 passMotionsOf :: Subject -> [MillingPass] -> PassMotions
-passMotionsOf subject passes = case clearingFrames subject passes of
+passMotionsOf subject passes = case Subject.clearingFrames subject passes of
   Nothing
     | TapeSummary.count (summary subject) == length (Frame.plannedFrames (program subject)) ->
-      PassMotions False (isInFrames (cutFrames subject)) (isInFrames (passFrames subject))
+      PassMotions False (Subject.isInFrames (cutFrames subject)) (Subject.isInFrames (passFrames subject))
     | otherwise -> PassMotions False (\_ _ -> False) (\_ _ -> False)
   Just ClearingFrames {MotionMatch.inPass, MotionMatch.withMoves} ->
-    PassMotions True (isInFrames inPass) (isInFrames withMoves)
+    PassMotions True (Subject.isInFrames inPass) (Subject.isInFrames withMoves)
 
 -- | Compare the frames of a tape with the part, as 'prove' does. A closed contour whose start the
 -- program leaves open may begin anywhere on the tape. @replanned@ gives the toolpath and the
@@ -191,146 +154,22 @@ proveFromAnyStart replanned machine = go Map.empty
       where
         proof = proofOf (not (Map.null starts)) subject
         elsewhere = otherStart subject
-        subject = subjectOf machine path program frames
+        subject = Subject.subjectOf machine path program frames
     -- The program with this start, and how far it is from the start on the tape.
     restarted start frames starts p = do
       let starts' = Map.insert (StartSearch.statementNumber start) p starts
       (path, program) <- replanned starts'
-      let passes = locatedPasses (subjectOf machine path program frames)
+      let passes = Subject.locatedPasses (Subject.subjectOf machine path program frames)
       away <- StartSearch.differenceFrom start passes
       pure (away, (starts', path, program))
 
 -- | Start of the first contour that the tape does not begin where the toolpath does.
 otherStart :: Subject -> Maybe OtherStart
 otherStart subject =
-  StartSearch.find isAtLevel (motions subject) (locatedPasses subject)
+  StartSearch.find isAtLevel (motions subject) (Subject.locatedPasses subject)
   where
     isAtLevel pass m =
-      isFlat subject || MotionSet.isAtHeight (machine subject) (level pass) m
-
--- | Subject of a proof. The frames are executed lazily, so the list of the controller model's
--- motions is never in memory as a whole. Only the list of 'CutterMotion' stays in memory. A
--- 'CutterMotion' is much smaller than a motion of the model.
-subjectOf :: Machine -> Toolpath -> FrameProgram -> [Frame] -> Subject
-subjectOf machine path program frames =
-  Subject
-    { machine,
-      path,
-      program,
-      frames,
-      summary = TapeSummary.summarize (Frame.start program) (Frame.plannedFrames program) frames,
-      tools,
-      motions,
-      isSwivelled,
-      plannedMotions =
-        Swivel.motions (levelled (fst (run (map Frame.frame (Frame.plannedFrames program))))),
-      motionIndex = BoxTree.index Motion.box motions,
-      compensationErrors,
-      pockets = Pocket.pocketsOf (Toolpath.blocks path),
-      passFrames = PassFrames.framesOfPasses program,
-      cutFrames = PassFrames.framesOfCuts program
-    }
-  where
-    tools = SpindleTool.plannedTools program
-    Levelled {Swivel.motions, Swivel.isSwivelled} = levelled centreMotions
-    levelled = Swivel.levelled machine path
-    (centreMotions, compensationErrors) = run frames
-    run =
-      Compensation.runWith
-        (Motion.motionsOf machine)
-        machine
-        (SpindleTool.toolInFrame tools)
-        (Frame.start program)
-
--- | Test that each frame of the tape ends where the planned frame of the same number ends. If so,
--- the callers compare each frame with that planned frame.
-isAligned :: Subject -> Bool
-isAligned subject = TapeSummary.isAligned (summary subject)
-
--- | Test that the frames of the tape differ from the planned ones.
-isDifferent :: Subject -> Bool
-isDifferent subject = isJust (TapeSummary.firstDifference (summary subject))
-
--- | Test that the whole toolpath is at the height of its start.
-isFlat :: Subject -> Bool
-isFlat subject = Toolpath.isFlat (path subject)
-
--- Passes on the tape ------------------------------------------------------------------------------
-
--- | Passes along contours on the tape. If the frames of the tape are exactly the planned ones, each
--- pass is searched among its own frames only.
-locatedPasses :: Subject -> [MillingPass]
-locatedPasses subject@Subject {machine, path, program} =
-  PassLocation.locate
-    Guide
-      { PassLocation.machine,
-        PassLocation.isFlat = isFlat subject,
-        PassLocation.isSwivelled = isSwivelled subject,
-        PassLocation.lastFrameOf = (`IntMap.lookup` lastFrames),
-        PassLocation.cutFramesOf =
-          if isSingle || isDifferent subject
-            then const Nothing
-            else (`IntMap.lookup` cutFrames subject)
-      }
-    (Frame.position machine begin, Frame.height machine begin)
-    (motions subject)
-    (Toolpath.blocks path)
-  where
-    begin = Frame.start program
-    lastFrames = (\(FrameRange _ b) -> b) <$> clearing
-    clearing
-      | isDifferent subject =
-        maybe
-          IntMap.empty
-          MotionMatch.inPass
-          (matchingFrames subject (RequiredMove.atLevels machine (isFlat subject) path))
-      | otherwise = passFrames subject
-    -- A single cut cannot be mistaken for another cut, so its planned frames are not needed.
-    isSingle = null (drop 1 [() | Toolpath.Cutting {} <- Toolpath.blocks path])
-
--- | Test that a motion is in the frames of a pass of a pocket. @framesOf@ has the ranges of frames,
--- by the number of the pass.
-isInFrames :: IntMap FrameRange -> ClearingPass -> CutterMotion -> Bool
-isInFrames framesOf pass m =
-  maybe False (`PassFrames.includes` number m) (IntMap.lookup (Pocket.passIndex pass) framesOf)
-
--- | Frames of each pass of each pocket. Nothing if the tape has other frames than planned, and its
--- motions do not match what the program asks for.
-clearingFrames :: Subject -> [MillingPass] -> Maybe ClearingFrames
-clearingFrames subject passes
-  | isDifferent subject = matchingFrames subject (map RequiredMove.alongContour passes)
-  | otherwise =
-    Just
-      ClearingFrames
-        { MotionMatch.inPass = cutFrames subject,
-          MotionMatch.withMoves = passFrames subject
-        }
-
--- | Frames of each pass of each pocket on a tape with other frames than planned. @along@ are the
--- groups of motions along contours. Nothing if the motions do not match what the program asks for,
--- or if there is no pocket.
-matchingFrames :: Subject -> [MotionGroup] -> Maybe ClearingFrames
-matchingFrames subject along
-  | null (pockets subject) = Nothing
-  | otherwise =
-    MotionMatch.clearingFrames
-      (machine subject)
-      begin
-      (requiredItems subject along)
-      (Control.run begin (frames subject))
-  where
-    begin = Frame.start (program subject)
-
--- | Moves and groups of motions that the program asks for, in order. @along@ are the groups of
--- motions along contours.
-requiredItems :: Subject -> [MotionGroup] -> [RequiredItem]
-requiredItems subject along =
-  RequiredMove.itemsOf
-    (machine subject)
-    (isFlat subject)
-    along
-    (pockets subject)
-    (path subject)
+      Subject.isFlat subject || MotionSet.isAtHeight (machine subject) (level pass) m
 
 -- | Motions of the tape for the comparisons. If only one contour or pocket is compared,
 -- 'MotionSet.nearby' returns all motions: a bounding-box tree would cost more time than it saves.
@@ -338,14 +177,14 @@ motionSetOf :: Subject -> [MillingPass] -> MotionSet
 motionSetOf subject passes =
   MotionSet
     { MotionSet.machine = machine subject,
-      MotionSet.isFlat = isFlat subject,
-      MotionSet.isPlanned = not (isDifferent subject),
+      MotionSet.isFlat = Subject.isFlat subject,
+      MotionSet.isPlanned = not (Subject.isDifferent subject),
       MotionSet.toolOf,
       MotionSet.motions = motions subject,
       MotionSet.nearby
     }
   where
-    toolOf = toolIn subject passes
+    toolOf = Subject.toolIn subject passes
     nearby box
       | isAskedOnce = motions subject
       | otherwise = BoxTree.within (BoundingBox.inflate largestTool box) (motionIndex subject)
@@ -355,43 +194,6 @@ motionSetOf subject passes =
     queries = [() | True <- PassLocation.areFirst passes] <> map (const ()) (pockets subject)
     largestTool = foldl' (\most m -> max most (toolOf m)) (Mm 0) (motions subject)
 
--- | Radius of the cutter in a motion. If each frame ends where the planned frame of the same number
--- ends, it is the radius in that planned frame. Otherwise the commands that change the tool show it
--- ('SpindleTool.toolsByCommands'). Where no command shows it, 'SpindleTool.supposedTool' infers it
--- from the passes.
-toolIn :: Subject -> [MillingPass] -> CutterMotion -> Mm
-toolIn subject passes
-  | isAligned subject = SpindleTool.toolInFrame (tools subject) . number
-  | Just radius <- SpindleTool.toolsByCommands (program subject) (frames subject) = radius . number
-  | otherwise = SpindleTool.supposedTool uses smallest . number
-  where
-    uses = concatMap useAlong passes <> concatMap useIn (pocketVisits subject)
-    useAlong pass = SpindleTool.useOf (radiusOf pass) (PassSearch.motionsOf (found pass))
-    useIn (pocket, _, visit) = SpindleTool.useOf (Part.radius (Pocket.milling pocket)) visit
-    radiusOf = Part.radius . milling . job
-    smallest = if null passes then Mm 0 else minimum (map radiusOf passes)
-
--- | Motions in each pass of each pocket, found by their positions. An entry has the pocket, the
--- pass, and its motions. This serves for a tape on which the frames of the passes are unknown.
-pocketVisits :: Subject -> [(Pocket, ClearingPass, [CutterMotion])]
-pocketVisits subject =
-  [ ( pocket,
-      pass,
-      [ m
-        | m <- BoxTree.within (Pocket.bounds pocket) (motionIndex subject),
-          isAtDepth subject pass m,
-          Pocket.contains pocket (Segment.at 0.5 (segment m))
-      ]
-    )
-    | pocket <- pockets subject,
-      pass <- NonEmpty.toList (Pocket.passes pocket)
-  ]
-
--- | Test that a motion is at the height of a pass of a pocket.
-isAtDepth :: Subject -> ClearingPass -> CutterMotion -> Bool
-isAtDepth subject pass m =
-  isFlat subject || MotionSet.isAtHeight (machine subject) (Pocket.level pass) m
-
 -- Findings ----------------------------------------------------------------------------------------
 
 -- | Findings of all comparisons, without those of "Verify.Deviation", "Verify.PocketDeviation" and
@@ -399,7 +201,7 @@ isAtDepth subject pass m =
 otherFindings :: Subject -> [MillingPass] -> [Finding]
 otherFindings subject@Subject {machine, path, program, frames} passes =
   pocketOrder subject
-    <> [OffPlane n | isFlat subject, Just n <- [TapeSummary.firstRisen (summary subject)]]
+    <> [OffPlane n | Subject.isFlat subject, Just n <- [TapeSummary.firstRisen (summary subject)]]
     <> HoleCheck.missingHoles machine path (motions subject)
     <> take 1 foreign'
     <> feedFindings subject passes
@@ -410,7 +212,7 @@ otherFindings subject@Subject {machine, path, program, frames} passes =
   where
     begin = Frame.start program
     foreign'
-      | isFlat subject || not (isDifferent subject) = []
+      | Subject.isFlat subject || not (Subject.isDifferent subject) = []
       | otherwise =
         ForeignCut.foreignCuts
           machine
@@ -419,14 +221,14 @@ otherFindings subject@Subject {machine, path, program, frames} passes =
           (filter (not . isClearing) (motions subject))
     -- Another comparison examines the motions in the passes of pockets.
     isClearing m = any (`PassFrames.includes` number m) clearing
-    clearing = maybe [] (IntMap.elems . MotionMatch.inPass) (clearingFrames subject passes)
+    clearing = maybe [] (IntMap.elems . MotionMatch.inPass) (Subject.clearingFrames subject passes)
 
 -- | Findings for commands that differ from those of the planned frames. @isSamePlace@ is as in
 -- 'FrameRule.wrongCommands'.
 commandFindings :: Subject -> (Int -> Int -> Bool) -> [Finding]
 commandFindings subject@Subject {program, frames} isSamePlace
-  | isDifferent subject =
-    FrameRule.wrongCommands (isAligned subject) isSamePlace program frames
+  | Subject.isDifferent subject =
+    FrameRule.wrongCommands (Subject.isAligned subject) isSamePlace program frames
   | otherwise = []
 
 -- | Findings for commands that do not come at their place in the order of the motions.
@@ -438,14 +240,14 @@ displacedCommands subject@Subject {machine, path, program} passes =
       (Just a, Just b) -> a == b
       _ -> True
     places = placesOn subject passes
-    plannedPlaces = placesOn planned (locatedPasses planned)
+    plannedPlaces = placesOn planned (Subject.locatedPasses planned)
     planned =
-      subjectOf machine path program (map Frame.frame (Frame.plannedFrames program))
+      Subject.subjectOf machine path program (map Frame.frame (Frame.plannedFrames program))
     placesOn tape@Subject {frames} found =
       MotionMatch.commandPlaces
         machine
         (Frame.start program)
-        (requiredItems tape (map RequiredMove.alongContour found))
+        (Subject.requiredItems tape (map RequiredMove.alongContour found))
         [n | (n, f) <- zip [1 ..] frames, not (null (Frame.commands f))]
         (Control.run (Frame.start program) frames)
 
@@ -465,7 +267,7 @@ unmatchedMotions subject@Subject {machine, program, frames} passes =
     machine
     (not (hasPlannedFeeds subject))
     begin
-    (requiredItems subject (map RequiredMove.alongContour passes))
+    (Subject.requiredItems subject (map RequiredMove.alongContour passes))
     (Control.run begin frames)
   where
     begin = Frame.start program
@@ -474,13 +276,13 @@ unmatchedMotions subject@Subject {machine, program, frames} passes =
 pocketOrder :: Subject -> [Finding]
 pocketOrder subject =
   [ NotInOrder (Pocket.statement pocket)
-    | not (isFlat subject),
+    | not (Subject.isFlat subject),
       (k, pocket) <- zip [0 ..] (pockets subject),
       not (Pocket.isInOrder (machine subject) pocket (motionsFor k))
   ]
   where
     motionsFor k
-      | isAligned subject = IntMap.findWithDefault [] k byPocket
+      | Subject.isAligned subject = IntMap.findWithDefault [] k byPocket
       | otherwise = motions subject
     byPocket = motionsByPocket subject
 
@@ -509,8 +311,8 @@ motionsByPocket subject = foldr insert IntMap.empty (motions subject)
 -- statements demand.
 feedFindings :: Subject -> [MillingPass] -> [Finding]
 feedFindings subject@Subject {program, frames} passes
-  | not (isDifferent subject) || hasPlannedFeeds subject = []
-  | isAligned subject && hasPlannedMotions = Feed.asPlanned program frames
+  | not (Subject.isDifferent subject) || hasPlannedFeeds subject = []
+  | Subject.isAligned subject && hasPlannedMotions = Feed.asPlanned program frames
   | otherwise =
     concatMap (contourFeeds subject) passes
       <> pocketFeeds subject passes
@@ -522,7 +324,7 @@ feedFindings subject@Subject {program, frames} passes
 -- | Test that each frame has the feed of the planned frame with the same number.
 hasPlannedFeeds :: Subject -> Bool
 hasPlannedFeeds subject@Subject {program, frames} =
-  isAligned subject && null (Feed.asPlanned program frames)
+  Subject.isAligned subject && null (Feed.asPlanned program frames)
 
 -- | Findings for feeds along a contour. Vertical motions are left out, because they only occur at
 -- the start and the end of the pass.
@@ -535,19 +337,19 @@ contourFeeds subject pass =
 -- | Findings for feeds in the passes of pockets, without their linking moves. If the frames of the
 -- passes are unknown, the linking moves are those that run where the program asks for them.
 pocketFeeds :: Subject -> [MillingPass] -> [Finding]
-pocketFeeds subject passes = case clearingFrames subject passes of
+pocketFeeds subject passes = case Subject.clearingFrames subject passes of
   Just ClearingFrames {MotionMatch.inPass = framesOf} ->
     concat
       [ ofPass
           pocket
-          [m | m <- motions subject, isInFrames framesOf pass m, isAtDepth subject pass m]
+          [m | m <- motions subject, Subject.isInFrames framesOf pass m, Subject.isAtDepth subject pass m]
         | pocket <- pockets subject,
           pass <- NonEmpty.toList (Pocket.passes pocket)
       ]
   Nothing ->
     concat
       [ ofPass pocket (filter (not . isLinking pass) ms)
-        | (pocket, pass, ms) <- pocketVisits subject
+        | (pocket, pass, ms) <- Subject.pocketVisits subject
       ]
   where
     ofPass pocket =

@@ -25,6 +25,7 @@ import Base.Quantity (Mm (..), Rad (..), minus, plus, times)
 import Control.Monad (foldM)
 import Control.Motion (Motion (..))
 import Control.Motion qualified as Control
+import Data.Either (fromRight)
 import Data.IntMap.Strict (IntMap)
 import Data.IntMap.Strict qualified as IntMap
 import Data.IntSet qualified as IntSet
@@ -137,15 +138,27 @@ matched machine comparesFeeds begin items = go begin firstStates
       Single r | comparesFeeds -> Feed.atPace machine (pace r) (slows r) (origin r) m
       _ -> Nothing
 
--- | Place of a command in the order of a program: the index of the item that comes next, and true
--- if that item is a group of which a motion came before.
-type CommandPlace = (Int, Bool)
+-- | Place of a command in the order of a program.
+data CommandPlace = CommandPlace
+  { -- | index of the item that comes next
+    nextItem :: Int,
+    -- | true if that item is a group of which a motion came before
+    isBegun :: Bool,
+    -- | true if motions of the same item come before the command and after it
+    isWithin :: Bool
+  }
+  deriving stock (Eq)
 
 -- | Places of the commands on a tape, by the numbers of their frames. @commanded@ are these
 -- numbers, in order. Frames after the first motion that matches no item are missing. @begin@ is the
 -- position before the first frame, in pulses.
 commandPlaces :: Machine -> Pulses3 -> [RequiredItem] -> [Int] -> [Motion] -> IntMap CommandPlace
-commandPlaces machine begin list = \commanded -> IntMap.fromList . go begin firstStates commanded
+commandPlaces machine begin list = \commanded motions ->
+  let isWithin = withinItem machine begin items motions
+   in IntMap.fromList
+        [ (n, CommandPlace {nextItem, isBegun, isWithin = isWithin n})
+          | (n, (nextItem, isBegun)) <- go begin firstStates commanded motions
+        ]
   where
     items = Vector.fromList list
     go at states commanded motions
@@ -159,6 +172,17 @@ commandPlaces machine begin list = \commanded -> IntMap.fromList . go begin firs
     placed at states next n =
       let skipped = withSkipped machine items (positionOf machine at) next states
        in (n, maybe (0, False) (fmap ((> 0) . made)) (IntMap.lookupMax skipped))
+
+-- | Test that motions of the same item come before the frame of a command and after it. False on a
+-- tape whose motions do not match the items.
+withinItem :: Machine -> Pulses3 -> Vector RequiredItem -> [Motion] -> Int -> Bool
+withinItem machine begin items motions = \n ->
+  case (IntSet.lookupLT n firsts, IntSet.lookupGE n numbers) of
+    (Just _, Just following) -> maybe True (following <) (IntSet.lookupGE n firsts)
+    _ -> False
+  where
+    firsts = IntSet.fromList (map snd (fromRight [] (matched machine False begin items motions)))
+    numbers = IntSet.fromDistinctAscList (map number motions)
 
 -- | Findings for the moves that remain at the end of the tape: from the last item that the motions
 -- match, this item included, to the last item of the program.

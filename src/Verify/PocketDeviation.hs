@@ -18,20 +18,22 @@ module Verify.PocketDeviation
   )
 where
 
-import Base.Quantity (Mm (..), minus, plus)
+import Base.Quantity (Mm (..), minus, plus, times)
 import Data.List (foldl', minimumBy, sortOn)
 import Data.List.NonEmpty qualified as NonEmpty
 import Data.Maybe (mapMaybe, maybeToList)
 import Data.Ord (comparing)
+import Geometry.Distance qualified as Distance
 import Geometry.Distance.Fast qualified as FastDistance
 import Geometry.Index.BoundingBox (BoundingBox (BoundingBox))
 import Geometry.Index.BoundingBox qualified as BoundingBox
 import Geometry.Index.BoxTree (BoxTree)
 import Geometry.Index.BoxTree qualified as BoxTree
-import Geometry.Segment (Segment)
+import Geometry.Segment (Segment (Straight))
 import Geometry.Segment qualified as Segment
 import Geometry.Vec qualified as Vec
 import Machine.Machine qualified as Machine
+import Offset.Tolerance qualified as Tolerance
 import Part.Part (Element)
 import Part.Part qualified as Part
 import Verify.Coverage (Cover (Cover), Gap (..))
@@ -90,7 +92,7 @@ examine set PassMotions {isKnown, clears, isIn} pocket isFirst pass = (contourPr
     -- Excess
     clearing = clearingMotions set (\p m -> not isKnown || isIn p m) pocket pass
     withRim = Pocket.withRimOf pass pocket
-    missed = unreached allowedExcess (BoxTree.index Motion.box clearing) (rim withRim)
+    missed = unreached withRim allowedGouge allowedExcess (BoxTree.index Motion.box clearing)
     largest = Proof.deepest missed
     tooMuch = sortOn Proof.frame (filter ((> allowedExcess) . Proof.amount) missed)
     -- Result
@@ -105,29 +107,30 @@ examine set PassMotions {isKnown, clears, isIn} pocket isFirst pass = (contourPr
     findings =
       Deviation.gougeFindings allowedGouge gouges deepest
         <> Deviation.excessFindings allowedExcess tooMuch largest
-        <> (if null tooMuch then floorFindings withRim pass allowedExcess clearing else [])
+        <> (if null tooMuch then floorFindings withRim pass floorExcess clearing else [])
+    floorExcess = max allowedGouge allowedExcess
 
 -- | Finding for a position on the floor that a pass leaves uncleared; empty if there is none. The
--- pocket has the rim of the pass. @clearing@ are the motions that clear the floor.
+-- pocket has the rim of the pass. The floor is compared to the distance @allowed@, the larger one
+-- of allowed gouge and allowed excess: motions that deviate into the wall deviate from the floor.
+-- @clearing@ are the motions that clear it.
 floorFindings :: Pocket -> ClearingPass -> Mm -> [CutterMotion] -> [Finding]
-floorFindings pocket pass allowedExcess clearing =
+floorFindings pocket pass allowed clearing =
   [ NotCleared (statement pocket) (level pass) p
     | p <-
         maybeToList
           ( PocketFloor.unclearedPoint
               pocket
-              (plus (Part.radius (milling pocket)) allowedExcess)
+              (plus (Part.radius (milling pocket)) allowed)
               clearing
           )
   ]
 
 -- | Allowed gouge and allowed excess of a pocket. The allowed gouge is the allowed chord error into
--- the part plus one pulse. The allowed excess is one pulse plus the larger of the two allowed chord
--- errors, into the part and away from it. It also includes 'Pocket.spareRoom', the extra distance
--- of the rim from the walls.
+-- the part plus one pulse. The allowed excess is the allowed chord error away from the part plus
+-- one pulse. It also includes 'Pocket.spareRoom', the extra distance of the rim from the walls.
 allowedIn :: MotionSet -> Pocket -> (Mm, Mm)
-allowedIn set pocket =
-  (plus inside pulse, plus (plus (max inside outside) pulse) Pocket.spareRoom)
+allowedIn set pocket = (plus inside pulse, plus (plus outside pulse) Pocket.spareRoom)
   where
     pulse = Machine.planeResolution (MotionSet.machine set)
     (inside, outside) = Deviation.allowedDeviation isCurved (milling pocket)
@@ -181,20 +184,35 @@ deepestGouge keepOut pocket = foldl' orDeeper Nothing
         (BoundingBox.inflate (searchRadius (keepOut m)) (Motion.box m))
         (walls pocket)
 
--- | Excess on the segments of a rim: the largest distance of each segment's points from the
--- motions. Each excess above @allowance@, the allowed excess, is listed. An excess within the
--- allowance is listed only if it is larger than all earlier ones within the allowance.
-unreached :: Mm -> BoxTree CutterMotion -> [(Element, Segment)] -> [Witness]
-unreached allowance motions = go (Mm 0)
+-- | Curve that has to be cut: each of its points needs a motion within a distance. @reached@ is this
+-- distance without the allowed excess.
+data Demand = Demand {wall :: Element, reached :: Mm, curve :: Segment}
+
+-- | Excess on the walls of a pocket, as far as the cutter can touch them: the largest distance of
+-- the wall's points from the motions, minus the distance of the pocket's rim. A motion that
+-- deviates into the wall leaves nothing there, so a point of the rim within the allowed gouge of a
+-- motion only counts if the wall beside it is too far. Each excess above @allowance@, the allowed
+-- excess, is listed. An excess within the allowance is listed only if it is larger than all earlier
+-- ones within the allowance.
+unreached :: Pocket -> Mm -> Mm -> BoxTree CutterMotion -> [Witness]
+unreached pocket allowedGouge allowance motions =
+  go (Mm 0) (concat [demandsOf e s | (e, s) <- rim pocket])
   where
-    go least parts = case parts of
+    -- If the tolerances are the same on both sides, the rim itself is compared.
+    demandsOf e s
+      | allowedGouge <= allowance = [Demand e (Mm 0) s]
+      | otherwise = case besideRim (rimDistance pocket) (Part.segment e) s of
+        [] -> [Demand e (minus allowedGouge allowance) s]
+        parts -> map (Demand e (rimDistance pocket)) parts
+    go least demands = case demands of
       [] -> []
-      (e, s) : rest
-        | isSurelyCovered least s -> go least rest
-        | otherwise -> case Coverage.largestGap cover Nothing least s of
+      demand : rest
+        | isSurelyCovered least demand -> go least rest
+        | otherwise -> case Coverage.largestGap (coverOf demand) Nothing least (curve demand) of
           Nothing -> go least rest
           Just gap ->
-            witness e gap : go (if size gap > allowance then least else size gap) rest
+            witness (wall demand) gap :
+            go (if size gap > allowance then least else size gap) rest
     witness e Gap {size, location, members} =
       Witness
         { Proof.amount = size,
@@ -203,18 +221,43 @@ unreached allowance motions = go (Mm 0)
           Proof.element = Part.origin e,
           Proof.location
         }
-    isSurelyCovered least@(Mm d) s =
-      FastDistance.isCovered
-        d
-        Motion.pathList
-        (const True)
-        (BoxTree.within (BoundingBox.inflate least (BoundingBox.ofSegment s)) motions)
-        s
-    cover =
+    isSurelyCovered least Demand {reached, curve} =
+      let far@(Mm d) = plus reached least
+       in FastDistance.isCovered
+            d
+            Motion.pathList
+            (const True)
+            (BoxTree.within (BoundingBox.inflate far (BoundingBox.ofSegment curve)) motions)
+            curve
+    coverOf Demand {reached} =
       Cover
         { Coverage.index = motions,
           Coverage.pathsOf = Motion.paths,
           Coverage.isEligible = const True,
-          Coverage.reach = Mm 0,
+          Coverage.reach = reached,
           Coverage.allowance = allowance
         }
+
+-- | Parts of a wall beside a segment of the rim that runs parallel to it at a distance, or round one
+-- of its ends. There are two if the segment passes the point at which a circle begins. None if the
+-- segment does not run parallel, as beside an arc too narrow for the cutter.
+besideRim :: Mm -> Segment -> Segment -> [Segment]
+besideRim distance wall s
+  | any (isFar . (`Segment.at` s)) [0, 0.5, 1] || not isInStep = []
+  | otherwise = case [Segment.between a b wall | (a, b) <- intervals, a < b] of
+    [] -> [let p = Segment.at low wall in Straight p p]
+    parts -> parts
+  where
+    isFar p =
+      let Mm away = minus (Distance.toPoint p wall) distance in Mm (abs away) > Tolerance.clearance
+    share k = Distance.nearestFraction (Segment.at k s) wall
+    (low, high) = (min (share 0) (share 1), max (share 0) (share 1))
+    middle = (low + high) / 2
+    isAcross = share 0.5 < low || share 0.5 > high
+    -- The foot of the middle lies in the middle between the feet of the ends.
+    isInStep =
+      let off = abs (share 0.5 - middle) - (if isAcross then 0.5 else 0)
+       in times (abs off) (Segment.length wall) <= Tolerance.ignoredSlot
+    intervals
+      | isAcross = [(0, low), (high, 1)]
+      | otherwise = [(low, high)]

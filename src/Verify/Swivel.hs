@@ -10,13 +10,14 @@ module Verify.Swivel
   )
 where
 
-import Base.Quantity (Mm (..), minus, plus, times)
+import Base.Quantity (Mm (..), Rad (..), minus, plus, times)
 import Base.Region (Located (..))
 import Data.IntSet qualified as IntSet
 import Data.List.NonEmpty qualified as NonEmpty
 import Data.Maybe (catMaybes, fromMaybe, listToMaybe, mapMaybe)
 import Data.Vector (Vector)
 import Data.Vector qualified as Vector
+import Geometry.Carrier (Side)
 import Geometry.Carrier qualified as Carrier
 import Geometry.Distance qualified as Distance
 import Geometry.Index.BoundingBox qualified as BoundingBox
@@ -76,6 +77,8 @@ data BladePass = BladePass
     -- | largest deviation of the axis along a chord, without its rounding: the smaller one of the
     -- allowed chord errors, but at least one pulse of the plane
     axisDeviation :: Mm,
+    -- | side of the contour on which the blade moves, if it goes round outer corners on arcs
+    roundSide :: Maybe Side,
     -- | elements of the contour with their numbers from 0
     elements :: BoxTree (Int, Segment),
     -- | heights of the axis that swivels the blade, at the start and at the end of each element, by
@@ -98,6 +101,10 @@ bladePass machine milling Toolpath.Pass {Toolpath.left, Toolpath.atHeight} =
           ),
       tolerance = uncurry max limits,
       axisDeviation = max (Machine.planeResolution machine) (uncurry min limits),
+      roundSide =
+        if Part.corners milling == Part.Round
+          then Requirement.cutterSide milling
+          else Nothing,
       elements =
         BoxTree.index
           (BoundingBox.ofSegment . snd)
@@ -147,20 +154,30 @@ joints pass path =
     reach = plus (maxReach pass) (tolerance pass)
 
 -- | Test that @z@ is the height of the axis that the nearest element demands, while the centre is
--- at @p@. If several elements are equally near, any height between their demands is right.
+-- at @p@. If several elements are equally near, any height between their demands is right. Round an
+-- outer corner the demand changes evenly from that of the one element to that of the other.
 isRightHeight :: Machine -> BladePass -> Point -> Mm -> Bool
 isRightHeight machine pass p z = case demanded of
   [] -> False
   _ ->
     minus z (maximum (map snd demanded)) <= slack && minus (minimum (map fst demanded)) z <= slack
   where
-    demanded =
+    demanded = map snd corners <> concat [range i s | (i, s) <- closest, not (isAtCorner i s)]
+    range i s =
       [ (minus h uncertainty, plus h uncertainty)
-        | (d, i, s) <- near,
-          d <= plus nearest (times 2 deviation),
-          let uncertainty = heightUncertainty machine pass i s p,
+        | let uncertainty = heightUncertainty machine pass i s p,
           Just h <- [axisAt pass i s p]
       ]
+    closest = [(i, s) | (d, i, s) <- near, d <= plus nearest (times 2 deviation)]
+    corners =
+      [ ([i, j], demand)
+        | (i, s) <- closest,
+          (j, s') <- closest,
+          j == (i + 1) `mod` BoxTree.size (elements pass),
+          Just demand <- [heightAtCorner machine pass p (i, s) (j, s')]
+      ]
+    isAtCorner i s =
+      any ((i `elem`) . fst) corners && Distance.nearestFraction p s `elem` [0, 1]
     near =
       [ (d, i, s)
         | (i, s) <-
@@ -174,6 +191,37 @@ isRightHeight machine pass p z = case demanded of
     deviation = plus (tolerance pass) (Machine.planeResolution machine)
     limit = plus (maxReach pass) deviation
     slack = plus (axisDeviation pass) (times 0.5 (Machine.resolutionOf machine Machine.Z))
+
+-- | Range of the heights that the axis may have while the centre is at @p@, by its direction from
+-- the outer corner between two elements; they are given with their numbers. Nothing if the elements
+-- do not meet at an outer corner with a nearest point at @p@, or if the blade does not go round it
+-- on an arc.
+heightAtCorner ::
+  Machine -> BladePass -> Point -> (Int, Segment) -> (Int, Segment) -> Maybe (Mm, Mm)
+heightAtCorner machine pass p (i, s) (j, s') = do
+  side <- roundSide pass
+  (_, from) <- axisHeights pass Vector.!? i
+  (to, _) <- axisHeights pass Vector.!? j
+  let corner = Segment.end s
+      Rad turn = Vec.signedAngle (Segment.endDirection s) (Segment.startDirection s')
+      normal = Vec.to corner (Carrier.beside side (Mm 1) (Segment.endDirection s) corner)
+      Rad angle = Vec.signedAngle normal (Vec.to corner p)
+      share = max 0 (min 1 (angle / turn))
+      Mm away = Vec.distance corner p
+      Mm pulse = Machine.planeResolution machine
+      rise = minus to from
+      uncertainty = times (1.5 * pulse / (away * abs turn)) (max rise (minus (Mm 0) rise))
+      height = plus from (times share rise)
+  if Vec.isNear corner (Segment.start s')
+    && Carrier.sideSign side * turn < negate leastTurn
+    && away > 0
+    && (Distance.nearestFraction p s == 1 || Distance.nearestFraction p s' == 0)
+    then Just (minus height uncertainty, plus height uncertainty)
+    else Nothing
+
+-- | Angle in radians below which a joint between two elements does not count as an outer corner.
+leastTurn :: Double
+leastTurn = 1e-3
 
 -- | Uncertainty in mm of the height that the axis has to have while the centre is at @p@, beside
 -- the element @s@ with the number @i@. The reason is that @p@ is rounded to pulses. Inside an arc
