@@ -68,11 +68,11 @@ import Verify.PocketDeviation (PassMotions (..))
 import Verify.PocketDeviation qualified as PocketDeviation
 import Verify.Proof (Finding (..), Proof (Proof), Refusal (NotCompensated))
 import Verify.Proof qualified as Proof
+import Verify.ProofSubject (ProofSubject (..))
+import Verify.ProofSubject qualified as Subject
 import Verify.RequiredMove qualified as RequiredMove
 import Verify.StartSearch (OtherStart)
 import Verify.StartSearch qualified as StartSearch
-import Verify.Subject (Subject (..))
-import Verify.Subject qualified as Subject
 import Verify.TapeSummary qualified as TapeSummary
 
 -- | Compare the frames of a tape with the part. The toolpath @path@ contains the part; @program@
@@ -81,7 +81,7 @@ prove :: Machine -> Toolpath -> FrameProgram -> [Frame] -> Proof
 prove machine path program frames = proofOf False (Subject.subjectOf machine path program frames)
 
 -- | Proof of a subject. @isRestarted@ is true if contours begin where the tape begins them.
-proofOf :: Bool -> Subject -> Proof
+proofOf :: Bool -> ProofSubject -> Proof
 proofOf isRestarted subject =
   Proof
     { Proof.frames = TapeSummary.count (summary subject),
@@ -120,11 +120,14 @@ proofOf isRestarted subject =
 -- | Motions in the passes of the pockets. If the tape does not match what the program asks for, it
 -- is refused. With as many frames as planned, the planned frames of a pass then show where its
 -- allowance is cut.
-passMotionsOf :: Subject -> [MillingPass] -> PassMotions
+passMotionsOf :: ProofSubject -> [MillingPass] -> PassMotions
 passMotionsOf subject passes = case Subject.clearingFrames subject passes of
   Nothing
     | TapeSummary.count (summary subject) == length (Frame.plannedFrames (program subject)) ->
-      PassMotions False (Subject.isInFrames (cutFrames subject)) (Subject.isInFrames (passFrames subject))
+      PassMotions
+        False
+        (Subject.isInFrames (cutFrames subject))
+        (Subject.isInFrames (passFrames subject))
     | otherwise -> PassMotions False (\_ _ -> False) (\_ _ -> False)
   Just ClearingFrames {MotionMatch.inPass, MotionMatch.withMoves} ->
     PassMotions True (Subject.isInFrames inPass) (Subject.isInFrames withMoves)
@@ -164,7 +167,7 @@ proveFromAnyStart replanned machine = go Map.empty
       pure (away, (starts', path, program))
 
 -- | Start of the first contour that the tape does not begin where the toolpath does.
-otherStart :: Subject -> Maybe OtherStart
+otherStart :: ProofSubject -> Maybe OtherStart
 otherStart subject =
   StartSearch.find isAtLevel (motions subject) (Subject.locatedPasses subject)
   where
@@ -173,7 +176,7 @@ otherStart subject =
 
 -- | Motions of the tape for the comparisons. If only one contour or pocket is compared,
 -- 'MotionSet.nearby' returns all motions: a bounding-box tree would cost more time than it saves.
-motionSetOf :: Subject -> [MillingPass] -> MotionSet
+motionSetOf :: ProofSubject -> [MillingPass] -> MotionSet
 motionSetOf subject passes =
   MotionSet
     { MotionSet.machine = machine subject,
@@ -198,8 +201,8 @@ motionSetOf subject passes =
 
 -- | Findings of all comparisons, without those of "Verify.Deviation", "Verify.PocketDeviation" and
 -- 'notClosed'.
-otherFindings :: Subject -> [MillingPass] -> [Finding]
-otherFindings subject@Subject {machine, path, program, frames} passes =
+otherFindings :: ProofSubject -> [MillingPass] -> [Finding]
+otherFindings subject@ProofSubject {machine, path, program, frames} passes =
   pocketOrder subject
     <> [OffPlane n | Subject.isFlat subject, Just n <- [TapeSummary.firstRisen (summary subject)]]
     <> HoleCheck.missingHoles machine path (motions subject)
@@ -225,15 +228,15 @@ otherFindings subject@Subject {machine, path, program, frames} passes =
 
 -- | Findings for commands that differ from those of the planned frames. @isSamePlace@ is as in
 -- 'FrameRule.wrongCommands'.
-commandFindings :: Subject -> (Int -> Int -> Bool) -> [Finding]
-commandFindings subject@Subject {program, frames} isSamePlace
+commandFindings :: ProofSubject -> (Int -> Int -> Bool) -> [Finding]
+commandFindings subject@ProofSubject {program, frames} isSamePlace
   | Subject.isDifferent subject =
     FrameRule.wrongCommands (Subject.isAligned subject) isSamePlace program frames
   | otherwise = []
 
 -- | Findings for commands that do not come at their place in the order of the motions.
-displacedCommands :: Subject -> [MillingPass] -> [Finding]
-displacedCommands subject@Subject {machine, path, program} passes =
+displacedCommands :: ProofSubject -> [MillingPass] -> [Finding]
+displacedCommands subject@ProofSubject {machine, path, program} passes =
   commandFindings subject isSamePlace
   where
     isSamePlace k n = case (IntMap.lookup k plannedPlaces, IntMap.lookup n places) of
@@ -243,7 +246,7 @@ displacedCommands subject@Subject {machine, path, program} passes =
     plannedPlaces = placesOn planned (Subject.locatedPasses planned)
     planned =
       Subject.subjectOf machine path program (map Frame.frame (Frame.plannedFrames program))
-    placesOn tape@Subject {frames} found =
+    placesOn tape@ProofSubject {frames} found =
       MotionMatch.commandPlaces
         machine
         (Frame.start program)
@@ -254,15 +257,15 @@ displacedCommands subject@Subject {machine, path, program} passes =
 -- | Findings for motions, moves and commands that do not follow one another as the program asks. A
 -- tape with another fault often has motions that the program does not ask for, too. So these
 -- findings serve only if there is no other one.
-sequenceFindings :: Subject -> [MillingPass] -> [Finding]
+sequenceFindings :: ProofSubject -> [MillingPass] -> [Finding]
 sequenceFindings subject passes = case unmatchedMotions subject passes of
   [] -> displacedCommands subject passes
   findings -> findings
 
 -- | Finding for the first motion that the program does not ask for at its place in the order, or
 -- for the first move that is missing.
-unmatchedMotions :: Subject -> [MillingPass] -> [Finding]
-unmatchedMotions subject@Subject {machine, program, frames} passes =
+unmatchedMotions :: ProofSubject -> [MillingPass] -> [Finding]
+unmatchedMotions subject@ProofSubject {machine, program, frames} passes =
   MotionMatch.mismatches
     machine
     (not (hasPlannedFeeds subject))
@@ -273,7 +276,7 @@ unmatchedMotions subject@Subject {machine, program, frames} passes =
     begin = Frame.start program
 
 -- | Findings for pockets whose depths are not cut in order.
-pocketOrder :: Subject -> [Finding]
+pocketOrder :: ProofSubject -> [Finding]
 pocketOrder subject =
   [ NotInOrder (Pocket.statement pocket)
     | not (Subject.isFlat subject),
@@ -287,7 +290,7 @@ pocketOrder subject =
     byPocket = motionsByPocket subject
 
 -- | Motions of the tape in the planned frames of each pocket, by the number of the pocket from 0.
-motionsByPocket :: Subject -> IntMap [CutterMotion]
+motionsByPocket :: ProofSubject -> IntMap [CutterMotion]
 motionsByPocket subject = foldr insert IntMap.empty (motions subject)
   where
     insert m known =
@@ -309,8 +312,8 @@ motionsByPocket subject = foldr insert IntMap.empty (motions subject)
 -- | Findings for feeds. A tape whose frames have the planned feeds has none. A tape with the
 -- planned motions is compared with the planned frames, any other tape with the feeds that the
 -- statements demand.
-feedFindings :: Subject -> [MillingPass] -> [Finding]
-feedFindings subject@Subject {program, frames} passes
+feedFindings :: ProofSubject -> [MillingPass] -> [Finding]
+feedFindings subject@ProofSubject {program, frames} passes
   | not (Subject.isDifferent subject) || hasPlannedFeeds subject = []
   | Subject.isAligned subject && hasPlannedMotions = Feed.asPlanned program frames
   | otherwise =
@@ -322,13 +325,13 @@ feedFindings subject@Subject {program, frames} passes
     isSameMotion p f = increment (Frame.frame p) == increment f
 
 -- | Test that each frame has the feed of the planned frame with the same number.
-hasPlannedFeeds :: Subject -> Bool
-hasPlannedFeeds subject@Subject {program, frames} =
+hasPlannedFeeds :: ProofSubject -> Bool
+hasPlannedFeeds subject@ProofSubject {program, frames} =
   Subject.isAligned subject && null (Feed.asPlanned program frames)
 
 -- | Findings for feeds along a contour. Vertical motions are left out, because they only occur at
 -- the start and the end of the pass.
-contourFeeds :: Subject -> MillingPass -> [Finding]
+contourFeeds :: ProofSubject -> MillingPass -> [Finding]
 contourFeeds subject pass =
   ContourFeed.findings (machine subject) (job pass) (zip along (programmed subject along))
   where
@@ -336,13 +339,17 @@ contourFeeds subject pass =
 
 -- | Findings for feeds in the passes of pockets, without their linking moves. If the frames of the
 -- passes are unknown, the linking moves are those that run where the program asks for them.
-pocketFeeds :: Subject -> [MillingPass] -> [Finding]
+pocketFeeds :: ProofSubject -> [MillingPass] -> [Finding]
 pocketFeeds subject passes = case Subject.clearingFrames subject passes of
   Just ClearingFrames {MotionMatch.inPass = framesOf} ->
     concat
       [ ofPass
           pocket
-          [m | m <- motions subject, Subject.isInFrames framesOf pass m, Subject.isAtDepth subject pass m]
+          [ m
+            | m <- motions subject,
+              Subject.isInFrames framesOf pass m,
+              Subject.isAtDepth subject pass m
+          ]
         | pocket <- pockets subject,
           pass <- NonEmpty.toList (Pocket.passes pocket)
       ]
@@ -368,7 +375,7 @@ isAlong machine s move =
 -- | Programmed motions, which are those before cutter compensation. They are the motions of the
 -- frames to which the cutter's motions @ms@ belong. The frames are executed again instead of being
 -- stored as motions, because few tapes need this.
-programmed :: Subject -> [CutterMotion] -> [Control.Motion]
+programmed :: ProofSubject -> [CutterMotion] -> [Control.Motion]
 programmed subject ms =
   filter
     (\m -> IntSet.member (Control.number m) numbers)
@@ -379,7 +386,7 @@ programmed subject ms =
 -- | Last position on the tape minus the rounded end of the toolpath, in pulses. If the toolpath
 -- ends on a contour that begins where the tape begins it, its end is known to one pulse only,
 -- because the start comes from a rounded position. A difference of one pulse then counts as 0.
-closureOf :: Bool -> Subject -> Pulses3
+closureOf :: Bool -> ProofSubject -> Pulses3
 closureOf isRestarted subject
   | isRestarted && endsOnContour && isOnePulse = 0
   | otherwise = difference

@@ -184,8 +184,8 @@ deepestGouge keepOut pocket = foldl' orDeeper Nothing
         (BoundingBox.inflate (searchRadius (keepOut m)) (Motion.box m))
         (walls pocket)
 
--- | Curve that has to be cut: each of its points needs a motion within a distance. @reached@ is this
--- distance without the allowed excess.
+-- | Curve that has to be cut: each of its points needs a motion within a distance. @reached@ is
+-- this distance without the allowed excess.
 data Demand = Demand {wall :: Element, reached :: Mm, curve :: Segment}
 
 -- | Excess on the walls of a pocket, as far as the cutter can touch them: the largest distance of
@@ -196,14 +196,8 @@ data Demand = Demand {wall :: Element, reached :: Mm, curve :: Segment}
 -- ones within the allowance.
 unreached :: Pocket -> Mm -> Mm -> BoxTree CutterMotion -> [Witness]
 unreached pocket allowedGouge allowance motions =
-  go (Mm 0) (concat [demandsOf e s | (e, s) <- rim pocket])
+  go (Mm 0) (concatMap (uncurry (demandsOf pocket allowedGouge allowance)) (rim pocket))
   where
-    -- If the tolerances are the same on both sides, the rim itself is compared.
-    demandsOf e s
-      | allowedGouge <= allowance = [Demand e (Mm 0) s]
-      | otherwise = case besideRim (rimDistance pocket) (Part.segment e) s of
-        [] -> [Demand e (minus allowedGouge allowance) s]
-        parts -> map (Demand e (rimDistance pocket)) parts
     go least demands = case demands of
       [] -> []
       demand : rest
@@ -238,9 +232,18 @@ unreached pocket allowedGouge allowance motions =
           Coverage.allowance = allowance
         }
 
--- | Parts of a wall beside a segment of the rim that runs parallel to it at a distance, or round one
--- of its ends. There are two if the segment passes the point at which a circle begins. None if the
--- segment does not run parallel, as beside an arc too narrow for the cutter.
+-- | Demands of the segment @s@ of the rim of a pocket, beside the wall @e@. The rim itself is
+-- compared if the tolerance into the wall is not the larger one.
+demandsOf :: Pocket -> Mm -> Mm -> Element -> Segment -> [Demand]
+demandsOf pocket allowedGouge allowance e s
+  | allowedGouge <= allowance = [Demand e (Mm 0) s]
+  | otherwise = case besideRim (rimDistance pocket) (Part.segment e) s of
+    [] -> [Demand e (minus allowedGouge allowance) s]
+    parts -> map (Demand e (rimDistance pocket)) parts
+
+-- | Parts of a wall beside a segment of the rim that runs parallel to it at a distance, or round
+-- one of its ends. There are two if the segment passes the point at which a circle begins. None if
+-- the segment does not run parallel, as beside an arc too narrow for the cutter.
 besideRim :: Mm -> Segment -> Segment -> [Segment]
 besideRim distance wall s
   | any (isFar . (`Segment.at` s)) [0, 0.5, 1] || not isInStep = []

@@ -191,14 +191,14 @@ data Hint = Hint {clearedBy :: Int, screenedBy :: Maybe Segment}
 
 -- | Uncleared positions on pieces of curves.
 --
--- The motions near a long piece would be too many. Of these, only the ones that clear the middle of
--- the piece are looked for.
+-- The motions near a long piece would be too many, so they are not looked for.
 unclearedOn :: Floor -> Hint -> [Piece] -> [Point]
 unclearedOn floor' hint pieces = case pieces of
   [] -> []
   Piece {curve, candidates} : more
     | n : _ <- filter (clears floor' curve) [known, known + 1, known - 1] -> cleared n
     | any (screens floor' curve) (screenedBy hint) -> unclearedOn floor' hint more
+    | isLong -> unclearedOn floor' hint (halves Nothing <> more)
     | n : _ <- filter (clears floor' curve) clearing -> cleared n
     | isShort curve, not (null clearing) -> unclearedOn floor' hint more
     | null clearing,
@@ -206,7 +206,7 @@ unclearedOn floor' hint pieces = case pieces of
       isOutside floor' curve middle w wall ->
       unclearedOn floor' hint {screenedBy = Just (Edge.shape wall)} more
     | isShort curve -> middle : unclearedOn floor' hint more
-    | otherwise -> unclearedOn floor' hint (map (`Piece` inherited) [first, second] <> more)
+    | otherwise -> unclearedOn floor' hint (halves (Just clearingPoints) <> more)
     where
       known = clearedBy hint
       cleared n = unclearedOn floor' hint {clearedBy = n} more
@@ -214,15 +214,13 @@ unclearedOn floor' hint pieces = case pieces of
       (first, second) = Segment.cutAt 0.5 curve
       middle = Segment.end first
       radius = times 0.5 (Segment.length curve)
-      isLong = radius > reach floor'
+      isLong = radius > times 0.5 (reach floor')
       -- Motions that clear the middle, and those that clear points of the piece.
       clearing = [n | (n, d) <- away, d <= reach floor']
       clearingPoints = [n | (n, d) <- away, d <= plus (reach floor') radius]
-      inherited = if isLong then Nothing else Just clearingPoints
+      halves numbers = map (`Piece` numbers) [first, second]
       away = [(n, distanceOf floor' n middle) | n <- fromMaybe found candidates]
-      found
-        | isLong = motionsNear floor' (BoundingBox.ofPoints middle [])
-        | otherwise = motionsNear floor' (BoundingBox.ofSegment curve)
+      found = motionsNear floor' (BoundingBox.ofSegment curve)
 
 -- | Test that a motion, given by its number, clears all of a piece. If the result is true, this is
 -- certain.

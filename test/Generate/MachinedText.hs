@@ -361,7 +361,8 @@ atOneContour machine = do
     hasZ = movesZ machine
     listOf' most one = choose (0, most) >>= \n -> concat <$> replicateM n one
     job isInside = do
-      isPocket <- frequency [(2, pure False), (1, pure isInside)]
+      -- Without heights, nothing on the tape shows where one pocket ends and the next begins.
+      isPocket <- frequency [(2, pure False), (1, pure (isInside && hasZ))]
       if isPocket then clearing else along (if isInside then "inside" else "outside")
     along side = do
       sets <- millSettings hasZ True

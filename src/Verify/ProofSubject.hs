@@ -1,8 +1,8 @@
 -- | The subject of a proof: a tape, the program that it is compared with, and what all comparisons
 -- have in common: the motions, the passes along contours, the frames of the passes of pockets, and
 -- the cutters.
-module Verify.Subject
-  ( Subject (..),
+module Verify.ProofSubject
+  ( ProofSubject (..),
     subjectOf,
     isAligned,
     isDifferent,
@@ -58,7 +58,7 @@ import Verify.TapeSummary qualified as TapeSummary
 
 -- | Tape, the program that it is compared with, and values that are computed once for all
 -- comparisons.
-data Subject = Subject
+data ProofSubject = ProofSubject
   { machine :: Machine,
     path :: Toolpath,
     program :: FrameProgram,
@@ -86,9 +86,9 @@ data Subject = Subject
 -- | Subject of a proof. The frames are executed lazily, so the list of the controller model's
 -- motions is never in memory as a whole. Only the list of 'CutterMotion' stays in memory. A
 -- 'CutterMotion' is much smaller than a motion of the model.
-subjectOf :: Machine -> Toolpath -> FrameProgram -> [Frame] -> Subject
+subjectOf :: Machine -> Toolpath -> FrameProgram -> [Frame] -> ProofSubject
 subjectOf machine path program frames =
-  Subject
+  ProofSubject
     { machine,
       path,
       program,
@@ -119,23 +119,23 @@ subjectOf machine path program frames =
 
 -- | Test that each frame of the tape ends where the planned frame of the same number ends. If so,
 -- the callers compare each frame with that planned frame.
-isAligned :: Subject -> Bool
+isAligned :: ProofSubject -> Bool
 isAligned subject = TapeSummary.isAligned (summary subject)
 
 -- | Test that the frames of the tape differ from the planned ones.
-isDifferent :: Subject -> Bool
+isDifferent :: ProofSubject -> Bool
 isDifferent subject = isJust (TapeSummary.firstDifference (summary subject))
 
 -- | Test that the whole toolpath is at the height of its start.
-isFlat :: Subject -> Bool
+isFlat :: ProofSubject -> Bool
 isFlat subject = Toolpath.isFlat (path subject)
 
 -- Passes on the tape ------------------------------------------------------------------------------
 
 -- | Passes along contours on the tape. If the frames of the tape are exactly the planned ones, each
 -- pass is searched among its own frames only.
-locatedPasses :: Subject -> [MillingPass]
-locatedPasses subject@Subject {machine, path, program} =
+locatedPasses :: ProofSubject -> [MillingPass]
+locatedPasses subject@ProofSubject {machine, path, program} =
   PassLocation.locate
     Guide
       { PassLocation.machine,
@@ -171,7 +171,7 @@ isInFrames framesOf pass m =
 
 -- | Frames of each pass of each pocket. Nothing if the tape has other frames than planned, and its
 -- motions do not match what the program asks for.
-clearingFrames :: Subject -> [MillingPass] -> Maybe ClearingFrames
+clearingFrames :: ProofSubject -> [MillingPass] -> Maybe ClearingFrames
 clearingFrames subject passes
   | isDifferent subject = matchingFrames subject (map RequiredMove.alongContour passes)
   | otherwise =
@@ -184,7 +184,7 @@ clearingFrames subject passes
 -- | Frames of each pass of each pocket on a tape with other frames than planned. @along@ are the
 -- groups of motions along contours. Nothing if the motions do not match what the program asks for,
 -- or if there is no pocket.
-matchingFrames :: Subject -> [MotionGroup] -> Maybe ClearingFrames
+matchingFrames :: ProofSubject -> [MotionGroup] -> Maybe ClearingFrames
 matchingFrames subject along
   | null (pockets subject) = Nothing
   | otherwise =
@@ -198,7 +198,7 @@ matchingFrames subject along
 
 -- | Moves and groups of motions that the program asks for, in order. @along@ are the groups of
 -- motions along contours.
-requiredItems :: Subject -> [MotionGroup] -> [RequiredItem]
+requiredItems :: ProofSubject -> [MotionGroup] -> [RequiredItem]
 requiredItems subject along =
   RequiredMove.itemsOf
     (machine subject)
@@ -211,7 +211,7 @@ requiredItems subject along =
 -- ends, it is the radius in that planned frame. Otherwise the commands that change the tool show it
 -- ('SpindleTool.toolsByCommands'). Where no command shows it, 'SpindleTool.supposedTool' infers it
 -- from the passes.
-toolIn :: Subject -> [MillingPass] -> CutterMotion -> Mm
+toolIn :: ProofSubject -> [MillingPass] -> CutterMotion -> Mm
 toolIn subject passes
   | isAligned subject = SpindleTool.toolInFrame (tools subject) . number
   | Just radius <- SpindleTool.toolsByCommands (program subject) (frames subject) = radius . number
@@ -225,7 +225,7 @@ toolIn subject passes
 
 -- | Motions in each pass of each pocket, found by their positions. An entry has the pocket, the
 -- pass, and its motions. This serves for a tape on which the frames of the passes are unknown.
-pocketVisits :: Subject -> [(Pocket, ClearingPass, [CutterMotion])]
+pocketVisits :: ProofSubject -> [(Pocket, ClearingPass, [CutterMotion])]
 pocketVisits subject =
   [ ( pocket,
       pass,
@@ -240,6 +240,6 @@ pocketVisits subject =
   ]
 
 -- | Test that a motion is at the height of a pass of a pocket.
-isAtDepth :: Subject -> ClearingPass -> CutterMotion -> Bool
+isAtDepth :: ProofSubject -> ClearingPass -> CutterMotion -> Bool
 isAtDepth subject pass m =
   isFlat subject || MotionSet.isAtHeight (machine subject) (Pocket.level pass) m
