@@ -373,15 +373,17 @@ atOneContour machine = do
       allowance <- maybeOf 1 ["allowance 1, 0", "allowance 0.5"]
       pure (statement ("pocket a step " <> stepover) [deep, allowance, ["rest allowed"]])
     change =
-      oneof
-        [ (: []) . ("feed " <>) <$> elements ["20", "30", "60"],
-          (: []) . ("change 2 " <>) <$> mill,
-          (: []) <$> elements commands,
-          (: []) . ("rapid " <>) <$> stops hasZ
+      fmap (: []) . oneof $
+        [ ("feed " <>) <$> elements ["20", "30", "60"],
+          elements commands,
+          ("rapid " <>) <$> stops hasZ
         ]
+          -- The other tapes do not show where the tool is changed.
+          <> [("change 2 " <>) <$> mill | name `elem` ["kontur-2p", "kontur-3p", "n55", "iso6983"]]
     commands =
       ["coolant on", "coolant off", "spindle cw 800 rpm", "spindle off"]
-        <> ["aux 3" | nameOf machine `elem` ["lkp-01f", "kontur-2p", "kontur-3p"]]
+        <> ["aux 3" | name `elem` ["lkp-01f", "kontur-2p", "kontur-3p"]]
+    name = nameOf machine
 
 drilling :: Gen [Text]
 drilling = do
