@@ -16,7 +16,7 @@ import Base.Quantity (Feed (..), Mm (..), minus, plus, times, total)
 import Base.Region (Located (..))
 import Control.Motion (Motion)
 import Control.Motion qualified as Control
-import Data.List (nub, tails)
+import Data.List (nub, partition, tails)
 import Data.Map.Strict qualified as Map
 import Data.Maybe (fromMaybe, isNothing)
 import Frame.Frame qualified as Frame
@@ -122,15 +122,16 @@ slowFindings machine job motions = case Machine.brakingForm (Machine.braking mac
         let own = reverse (filter isBeside after) <> map fst ends
             -- The last motion comes first. Then the length from the start of each to the end.
             far = drop 1 (scanl plus (Mm 0) (map lengthOf own))
-            slowLast = takeWhile isSlow own
             long = slowLength (value asked)
             needed = min long (total (map lengthOf own))
-            needless = [m | (m, l) <- zip own far, isSlow m, l > plus long (margin job)]
+            (slowLast, needless) = partition ((<= plus long (margin job)) . snd) slows
+            slows = [(m, l) | (m, l) <- zip own far, isSlow m]
          in [ Feed.notSlow machine (region asked) (snd final)
-              | needed > margin job,
-                total (map lengthOf slowLast) < minus needed (margin job)
+              | null needless,
+                needed > margin job,
+                total (map (lengthOf . fst) slowLast) < minus needed (margin job)
             ]
-              <> take 1 (Feed.atFeed machine asked [] (map snd (reverse needless)))
+              <> take 1 (Feed.atFeed machine asked [] (map (snd . fst) (reverse needless)))
       _ -> []
       where
         finish = Part.finish (element e)

@@ -52,20 +52,18 @@ data DistanceBounds = DistanceBounds {atLeast :: Mm, atMost :: Mm}
 -- | Size of a gap in mm, the point of the segment with this gap, and the members near the segment.
 data Gap a = Gap {size :: Mm, location :: Point, members :: [a]}
 
--- | Gap of a segment, if it is larger than @least@; otherwise Nothing. Nothing also if no member
--- lies within the reach plus 'unlimited', because the result has to name a member. A gap that is
--- larger than 'unlimited' gets the size 'unlimited'. @known@ are bounds of the Hausdorff distance;
--- they save exact comparisons.
+-- | Gap of a segment, if it is larger than @least@; otherwise Nothing. The real gap may be larger by
+-- 'Tolerance.resolution'. Nothing also if no member lies within the reach plus 'unlimited', because
+-- the result has to name a member. A gap that is larger than 'unlimited' gets the size 'unlimited'.
+-- @known@ are bounds of the Hausdorff distance; they save exact comparisons.
 largestGap :: Cover a -> Maybe DistanceBounds -> Mm -> Segment -> Maybe (Gap a)
 largestGap cover known least segment
   | isClosedBy least = Nothing
   | otherwise = case dropWhile (not . isClosedBy) sizes of
     [] -> gapOf cover segment unlimited
     enough : _ ->
-      gapOf
-        cover
-        segment
-        (snd (BinarySearch.bisect Tolerance.resolution (not . isClosedBy) least enough))
+      let (low, high) = BinarySearch.bisect Tolerance.resolution (not . isClosedBy) least enough
+       in (\gap -> gap {size = low}) <$> gapOf cover segment high
   where
     isClosedBy m = case known of
       Just DistanceBounds {atMost} | plus (reach cover) m > plus atMost touching -> True

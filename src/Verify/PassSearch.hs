@@ -77,7 +77,10 @@ find job at motions = case (complete, filter (staysBeside job . snd) arrivals <>
         | isResolved measure && not (isPartialCut job),
           (before, later@(_, rest) : _) <- zip (inits arrivals) (tails arrivals),
           let (arrival, out) = firstArrival job before later,
-          count <- maybeToList (countFollowing job measure rest)
+          -- The same contour may be cut at the same height later on, after a lift.
+          count <-
+            maybeToList
+              (countFollowing job measure (unbroken rest) <|> countFollowing job measure rest)
       ]
 
 -- | Arrival at which a cut begins that follows the contour after the arrival @chosen@, and the
