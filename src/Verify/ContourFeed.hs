@@ -119,7 +119,7 @@ slowFindings machine job motions = case Machine.brakingForm (Machine.braking mac
   where
     ofElement e = case (Part.slow finish, Map.lookup (Part.origin (element e), shape e) beside) of
       (True, Just ends@((final, after) : _)) ->
-        let own = reverse (filter isBeside after) <> map fst ends
+        let own = dropWhile (not . isSlow) (reverse (filter isBeside after)) <> map fst ends
             -- The last motion comes first. Then the length from the start of each to the end.
             far = drop 1 (scanl plus (Mm 0) (map lengthOf own))
             long = slowLength (value asked)

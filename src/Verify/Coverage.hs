@@ -52,7 +52,7 @@ data DistanceBounds = DistanceBounds {atLeast :: Mm, atMost :: Mm}
 -- | Size of a gap in mm, the point of the segment with this gap, and the members near the segment.
 data Gap a = Gap {size :: Mm, location :: Point, members :: [a]}
 
--- | Gap of a segment, if it is larger than @least@; otherwise Nothing. The real gap may be larger by
+-- | Gap of a segment, if it is larger than @least@; otherwise Nothing. The gap may be larger by
 -- 'Tolerance.resolution'. Nothing also if no member lies within the reach plus 'unlimited', because
 -- the result has to name a member. A gap that is larger than 'unlimited' gets the size 'unlimited'.
 -- @known@ are bounds of the Hausdorff distance; they save exact comparisons.

@@ -72,15 +72,14 @@ find job at motions = case (complete, filter (staysBeside job . snd) arrivals <>
   where
     measure = ContactMeasure.measureOf job
     arrivals = arrivalsIn job at motions
-    complete =
+    -- The same contour may be cut at the same height before and after a lift.
+    complete = completeIn unbroken <> completeIn id
+    completeIn part =
       [ Complete arrival (out <> take count rest)
         | isResolved measure && not (isPartialCut job),
           (before, later@(_, rest) : _) <- zip (inits arrivals) (tails arrivals),
           let (arrival, out) = firstArrival job before later,
-          -- The same contour may be cut at the same height later on, after a lift.
-          count <-
-            maybeToList
-              (countFollowing job measure (unbroken rest) <|> countFollowing job measure rest)
+          count <- maybeToList (countFollowing job measure (part rest))
       ]
 
 -- | Arrival at which a cut begins that follows the contour after the arrival @chosen@, and the
@@ -94,7 +93,8 @@ firstArrival job before chosen =
     fromArrival (arrival, rest)
       | MillingJob.isClosed job,
         goThereAndBack job between,
-        length (besideFrom job (unbroken between)) == length between =
+        length (unbroken (between <> take 1 (snd chosen))) == length between + 1,
+        length (besideFrom job between) == length between =
         Just (arrival, between)
       | otherwise = Nothing
       where
