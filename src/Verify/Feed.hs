@@ -8,7 +8,6 @@ module Verify.Feed
     atFeed,
     atPace,
     notSlow,
-    downwards,
     tooFast,
   )
 where
@@ -18,8 +17,6 @@ import Base.Quantity (Feed (..), Mm (..), Pulses (..))
 import Base.Region (Located (..), Region)
 import Control.Motion (Motion (..))
 import Control.Motion qualified as Control
-import Data.List (nub)
-import Data.Map.Strict qualified as Map
 import Data.Maybe (fromMaybe, listToMaybe, mapMaybe)
 import Frame.Frame (Frame, FrameMotion (..), FrameProgram)
 import Frame.Frame qualified as Frame
@@ -99,42 +96,6 @@ notSlow :: Machine -> Region -> Motion -> Finding
 notSlow machine asked m = WrongFeed (number m) (speedOf (frame m)) lowest asked
   where
     lowest = Speed {rapidly = False, code = fst (Machine.slowest machine), braking = False}
-
--- | Findings for vertical motions into solid material with a speed that no planned motion into
--- solid material has. If the planned frames contain no such motion, there is nothing to compare
--- with, and the result is empty.
-downwards :: FrameProgram -> [Frame] -> [Finding]
-downwards program frames = case plunges (map Frame.frame (Frame.plannedFrames program)) of
-  [] -> []
-  planned@(m : _) ->
-    [ WrongFeed
-        (number p)
-        (speedOf (frame p))
-        (speedOf (frame m))
-        (Frame.origin (Frame.plannedFrames program !! (number m - 1)))
-      | p <- plunges frames,
-        speedOf (frame p) `notElem` allowed
-    ]
-    where
-      allowed = nub (map (speedOf . frame) planned)
-  where
-    plunges = intoSolid Map.empty . Control.run (Frame.start program)
-
--- | Vertical motions into solid material: below the top of the part, and deeper than all earlier
--- motions at the same position in the plane. @lowest@ has the lowest height so far at each position
--- (x and y). Heights are in pulses; the top of the part is 0.
-intoSolid :: Map.Map (Pulses, Pulses) Pulses -> [Motion] -> [Motion]
-intoSolid lowest motions = case motions of
-  [] -> []
-  m : more
-    | x == x',
-      y == y',
-      z' < min 0 (min z (Map.findWithDefault 0 (x, y) lowest)) ->
-      m : intoSolid reached more
-    | otherwise -> intoSolid reached more
-    where
-      (Pulses3 x y z, Pulses3 x' y' z') = (from m, to m)
-      reached = Map.insertWith min (x', y') z' lowest
 
 -- Codes and speeds --------------------------------------------------------------------------------
 

@@ -319,7 +319,6 @@ feedFindings subject@ProofSubject {program, frames} passes
   | otherwise =
     concatMap (contourFeeds subject) passes
       <> pocketFeeds subject passes
-      <> Feed.downwards program frames
   where
     hasPlannedMotions = and (zipWith isSameMotion (Frame.plannedFrames program) frames)
     isSameMotion p f = increment (Frame.frame p) == increment f

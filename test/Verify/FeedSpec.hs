@@ -90,18 +90,6 @@ spec = do
           `shouldBe` [[], [1], [1]]
         map (wrongFeeds along) [ahead 43, ahead 42]
           `shouldBe` [[], [1]]
-    it
-      "goes down into the material at the feed of the program (catches a plunge in rapid on a tape \
-      \with another number of frames)"
-      $ [ [n | WrongFeed n _ _ _ <- prove lki resting [over, down 15, up] fs]
-          | fs <-
-              [ [over, down 15, up],
-                halves <> [down 15, up],
-                halves <> [down 40, up],
-                halves <> [down 15, up, down 40, up]
-              ]
-        ]
-        `shouldBe` [[], [], [3], []]
   describe "commands" $ do
     it
       "are compared one after the other on a tape with another number of frames (catches a \
@@ -166,10 +154,6 @@ spec = do
           braking = False,
           commands = []
         }
-    over = go 40 10
-    halves = [go 40 5, go 40 5]
-    down code = (go code 0) {increment = Pulses3 0 0 (-200)}
-    up = (go 40 0) {increment = Pulses3 0 0 200}
     slower code mm = (go code mm) {braking = True}
     along = edge (Vec.point 30 0)
     slanted = edge (Vec.point 30 40)
