@@ -78,8 +78,10 @@ spec = do
                   classify (not gouges && not leaves) "within" $
                     counterexample
                       (show (what, deepestGouge, largestExcess, found))
-                      ( (not gouges || any isGouge found)
-                          && (not leaves || any (\f -> isExcess f || isNeverBegun f) found)
+                      -- The control does not run a tape that it refuses.
+                      ( any isRefused found
+                          || (not gouges || any isGouge found)
+                            && (not leaves || any (\f -> isExcess f || isNeverBegun f) found)
                       )
   it
     "a wrong diameter on the tape is found if its effect is more than the tolerance (catches a \
@@ -177,17 +179,17 @@ exchanged (o, v)
 switchesOn :: CommandName -> Bool
 switchesOn o = o == CommandName "left" || o == CommandName "right"
 
-isExcess, isGouge, isExcessOrRefused, isLost, isNeverBegun :: Finding -> Bool
+isExcess, isGouge, isRefused, isExcessOrRefused, isLost, isNeverBegun :: Finding -> Bool
 isExcess f = case f of
   Excess {} -> True
   _ -> False
 isGouge f = case f of
   Gouge {} -> True
   _ -> False
-isExcessOrRefused f = case f of
-  Excess {} -> True
+isRefused f = case f of
   Refused _ -> True
-  _ -> isLost f
+  _ -> False
+isExcessOrRefused f = isExcess f || isRefused f || isLost f
 isLost f = case f of
   NotFollowed _ -> True
   _ -> isNeverBegun f
