@@ -187,9 +187,10 @@ spec = modifyMaxSuccess (const 60) $ do
     isInWall p path at =
       Frame.height iso at < Mm 0
         && all (\s -> Distance.toPoint (Frame.position iso at) s > Mm 0.1) (cuts iso path)
-        && any
-          (\s -> plus (Distance.toPoint (Frame.position iso at) s) (Mm 0.1) < plus (cutter p) (left p))
-          (concatMap NonEmpty.toList (loops p))
+        && any isNear (concatMap NonEmpty.toList (loops p))
+      where
+        isNear s =
+          plus (Distance.toPoint (Frame.position iso at) s) (Mm 0.1) < plus (cutter p) (left p)
     moved k f = f {increment = increment f + Pulses3 k k 0}
 
 -- | Toolpath of three pockets side by side, each with its own statement.
