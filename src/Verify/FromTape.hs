@@ -61,7 +61,6 @@ import Verify.MotionMatch qualified as MotionMatch
 import Verify.MotionSet (MotionSet (MotionSet))
 import Verify.MotionSet qualified as MotionSet
 import Verify.PassFrames (FrameRange (..))
-import Verify.PassFrames qualified as PassFrames
 import Verify.PassLocation qualified as PassLocation
 import Verify.Pocket qualified as Pocket
 import Verify.PocketDeviation (PassMotions (..))
@@ -217,14 +216,7 @@ otherFindings subject@ProofSubject {machine, path, program, frames} passes =
     foreign'
       | Subject.isFlat subject || not (Subject.isDifferent subject) = []
       | otherwise =
-        ForeignCut.foreignCuts
-          machine
-          path
-          (plannedMotions subject)
-          (filter (not . isClearing) (motions subject))
-    -- Another comparison examines the motions in the passes of pockets.
-    isClearing m = any (`PassFrames.includes` number m) clearing
-    clearing = maybe [] (IntMap.elems . MotionMatch.inPass) (Subject.clearingFrames subject passes)
+        ForeignCut.foreignCuts machine path (plannedMotions subject) (motions subject)
 
 -- | Findings for commands that differ from those of the planned frames. @isSamePlace@ is as in
 -- 'FrameRule.wrongCommands'.

@@ -7,6 +7,7 @@ import Base.Quantity (Feed (..), Mm (..), Pulses (..))
 import Base.Region (Located (..), Region (Region))
 import Base.Result qualified as Result
 import Data.List.NonEmpty (NonEmpty (..))
+import Data.Maybe (fromMaybe)
 import Frame.Frame
   ( Frame (..),
     FrameMotion (..),
@@ -15,6 +16,7 @@ import Frame.Frame
     Role (..),
   )
 import Frame.Frame qualified as Frame
+import Frame.FromToolpath qualified as FromToolpath
 import Generate (Case (..))
 import Generate qualified
 import Geometry.Carrier (Side (..))
@@ -90,6 +92,22 @@ spec = do
           `shouldBe` [[], [1], [1]]
         map (wrongFeeds along) [ahead 43, ahead 42]
           `shouldBe` [[], [1]]
+    it
+      "goes down into the material at the feed of the program (catches a plunge in rapid on a tape \
+      \with another number of frames)"
+      $ case map Frame.frame . Frame.plannedFrames <$> plunge of
+        Just (over : down : more) ->
+          let halves = replicate 2 over {increment = Pulses3 500 0 0}
+              rapid = down {motion = Rapid, feedCode = FeedCode 0}
+           in map
+                plungeFaults
+                [ over : down : more,
+                  halves <> (down : more),
+                  halves <> (rapid : more),
+                  halves <> (down {feedCode = FeedCode 60} : more)
+                ]
+                `shouldBe` [[], [], [3], [3]]
+        other -> expectationFailure (show other)
   describe "commands" $ do
     it
       "are compared one after the other on a tape with another number of frames (catches a \
@@ -160,6 +178,13 @@ spec = do
     cut code = go code 30
     ahead code = (go code 30) {increment = Pulses3 3000 0 0}
     aslant code = (go code 0) {increment = Pulses3 3000 4000 0}
+    n55 = Machines.named "n55"
+    plunge = Result.output (FromToolpath.quantise n55 plunging)
+    plungeFaults fs =
+      [ n
+        | Just program <- [plunge],
+          WrongFeed n _ _ _ <- Proof.findings (Verify.prove n55 plunging program fs)
+      ]
 
 -- | Findings for a tape, with the toolpath and the program's own frames.
 prove :: Machine -> Toolpath -> [Frame] -> [Frame] -> [Finding]
@@ -179,6 +204,17 @@ prove machine path own fs =
 -- | Toolpath without moves.
 resting :: Toolpath
 resting = Toolpath.Toolpath (Located (Region 0 0) (Part.SpacePoint (Vec.point 0 0) (Mm 0))) [] False
+
+-- | Toolpath 10 mm along x in rapid, 4 mm down at 30 mm/min, and up again in rapid.
+plunging :: Toolpath
+plunging =
+  fromMaybe
+    (error "no path")
+    (Result.output (Toolpath.toToolpath (Generate.partOf (Vec.point 0 0) (Part.Travel stops))))
+  where
+    stops = stop Nothing Part.Rapid :| [stop (Just (Mm (-4))) slowly, stop (Just (Mm 0)) Part.Rapid]
+    slowly = Part.At (Located (Region 0 0) (Feed 30))
+    stop = Part.Stop (Located (Region 0 0) (Vec.point 10 0))
 
 -- | Toolpath along a line from (0, 0) to a point, with a cutter of radius 5 on its left; the cutter
 -- is at the start of the cut.

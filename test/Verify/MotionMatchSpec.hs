@@ -2,7 +2,7 @@
 module Verify.MotionMatchSpec (spec) where
 
 import Base.PulseVector (Pulses3 (..))
-import Base.Quantity (Mm (..))
+import Base.Quantity (Mm (..), Pulses (..))
 import Base.Region (Located (..))
 import Base.Result (Result (..))
 import Base.Result qualified as Result
@@ -294,12 +294,10 @@ millings part = concatMap millingOf (Part.operations part)
       _ -> []
 
 -- | Test that a tape differs from its program only in level motions of a pass that clears a pocket,
--- with its approach and its retract. The vertical motions between them have to be the same.
+-- with its approach and its retract.
 isInPocket :: Toolpath -> FrameProgram -> [Frame] -> Bool
 isInPocket path program frames =
-  all (isClearing . Frame.role) changed
-    && all isLevelOrVertical (window frames)
-    && rises (window frames) == rises (window (own program))
+  all (isClearing . Frame.role) changed && all ((== Pulses 0) . rise) (window frames)
   where
     planned = Frame.plannedFrames program
     same = length (takeWhile id (zipWith (==) (own program) frames))
@@ -313,8 +311,7 @@ isInPocket path program frames =
     changed = case window planned of
       [] -> take 1 (drop (same - 1) planned)
       some -> some
-    isLevelOrVertical f = let Pulses3 x y z = Frame.increment f in z == 0 || x == 0 && y == 0
-    rises fs = filter (/= 0) [z | f <- fs, let Pulses3 _ _ z = Frame.increment f]
+    rise f = let Pulses3 _ _ z = Frame.increment f in z
     isClearing = maybe False (`elem` clearingPasses path) . Frame.passNumber
 
 -- | The numbers of the passes that clear pockets.

@@ -99,8 +99,7 @@ spec = modifyMaxSuccess (const 60) $ do
                           ("doubled", done <> (f : f : next : later))
                         ]
                           <> [ ("shifted", done <> (moved 300 f : moved (-300) next : later))
-                               | isInWall
-                                   p
+                               | isAside
                                    path
                                    ( Frame.start program
                                        + sum (map increment (done <> [moved 300 f]))
@@ -182,15 +181,11 @@ spec = modifyMaxSuccess (const 60) $ do
             foldr1 BoundingBox.union (fmap BoundingBox.ofSegment (walls (Generate.roomOf p)))
        in Mm (min (r - l) (t - b))
             > plus (times 4 (cutter p)) (plus (times 2 (left p)) (times 2 (plus d (Mm 2))))
-    -- Test that a position is below the top of the part, off all cuts, and too near to a wall. A
-    -- frame that is shifted along its neighbour does no harm, nor does one inside of the pocket.
-    isInWall p path at =
+    -- Test that a position is below the top of the part and off all cuts. A frame that is shifted
+    -- along its neighbour does no harm.
+    isAside path at =
       Frame.height iso at < Mm 0
         && all (\s -> Distance.toPoint (Frame.position iso at) s > Mm 0.1) (cuts iso path)
-        && any isNear (concatMap NonEmpty.toList (loops p))
-      where
-        isNear s =
-          plus (Distance.toPoint (Frame.position iso at) s) (Mm 0.1) < plus (cutter p) (left p)
     moved k f = f {increment = increment f + Pulses3 k k 0}
 
 -- | Toolpath of three pockets side by side, each with its own statement.
