@@ -271,8 +271,8 @@ propagated coordinates es ordered = runPrimArray $ do
   where
     components = HalfEdge.componentsOf es ordered
     outside = outsideNumber coordinates es components
-    -- For each component the signed area of its outer face, the only negative one, and a half-edge
-    -- with this face on its left.
+    -- The signed area of each component's outer face, the only negative one, and a half-edge that
+    -- has this face on its left.
     outerFaces =
       IntMap.fromListWith
         min

@@ -13,7 +13,6 @@ module Offset.HalfEdge
     ringsOf,
     ringAt,
     twin,
-    edgeOf,
     startNode,
     neighbour,
     componentsOf,
@@ -59,12 +58,12 @@ data Rings = Rings
     -- | the half-edges of the first node, then those of the second, and so on
     items :: PrimArray Int,
     -- | the index in 'items' of each half-edge
-    places :: PrimArray Int
+    indices :: PrimArray Int
   }
 
 -- | The half-edges around the nodes, which are given by their coordinates.
 ringsOf :: Vector (Double, Double) -> Vector ArrangementEdge -> Rings
-ringsOf coordinates es = Rings {starts, items, places}
+ringsOf coordinates es = Rings {starts, items, indices}
   where
     nodeCount = Vector.length coordinates
     halves = 2 * Vector.length es
@@ -89,7 +88,7 @@ ringsOf coordinates es = Rings {starts, items, places}
       primArrayFromListN
         halves
         (concatMap (ring coordinates es . range starts unsorted) [0 .. nodeCount - 1])
-    places = runPrimArray $ do
+    indices = runPrimArray $ do
       a <- newPrimArray halves
       forM_ [0 .. halves - 1] $ \i -> writePrimArray a (indexPrimArray items i) i
       pure a
@@ -122,7 +121,7 @@ data Leaving = Leaving
 -- that are nearly equal.
 ring :: Vector (Double, Double) -> Vector ArrangementEdge -> [Int] -> [Int]
 ring coordinates es halves = case halves of
-  -- Up to two half-edges have only one order.
+  -- One order exists of up to two half-edges.
   [] -> halves
   [_] -> halves
   [_, _] -> halves
@@ -198,7 +197,7 @@ startNode es h = (if even h then from else to) (edgeOf es h)
 -- @h@ leaves.
 neighbour :: Vector ArrangementEdge -> Rings -> Int -> Int -> Int
 neighbour es rings steps h =
-  indexPrimArray (items rings) (first + (indexPrimArray (places rings) h - first + steps) `mod` n)
+  indexPrimArray (items rings) (first + (indexPrimArray (indices rings) h - first + steps) `mod` n)
   where
     k = startNode es h
     first = indexPrimArray (starts rings) k

@@ -120,7 +120,7 @@ slowFindings machine job motions = case Machine.brakingForm (Machine.braking mac
     ofElement e = case (Part.slow finish, Map.lookup (Part.origin (element e), shape e) beside) of
       (True, Just ends@((final, after) : _)) ->
         let own = dropWhile (not . isSlow) (reverse (filter isBeside after)) <> map fst ends
-            -- The last motion comes first. Then the length from the start of each to the end.
+            -- Lengths from the starts of these motions to the end of the last, which is first here.
             far = drop 1 (scanl plus (Mm 0) (map lengthOf own))
             long = slowLength (value asked)
             needed = min long (total (map lengthOf own))

@@ -87,8 +87,8 @@ examine set isFirst onPass pass =
     cutting = motionsOf set onPass pass
     missedBy = missedOn onPass pass allowedExcess bounds
     missed = if null cutting then [] else missedBy cutting
-    -- Without a motion, a pass can only leave the height at its start.
-    isNeverCut = null cutting && any isTooMuch (missedBy [Motion.standingAt (entry job) level])
+    -- A pass without motions cuts at most what the cutter touches at its start.
+    isNeverCut = null cutting && any isTooMuch (missedBy [Motion.ofNoLength (entry job) level])
     largest = Proof.deepest (missed <> strayed)
     isTooMuch w = Proof.amount w > allowedExcess
     tooMuch

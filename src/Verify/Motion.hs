@@ -6,7 +6,7 @@
 module Verify.Motion
   ( CutterMotion (..),
     motionsOf,
-    standingAt,
+    ofNoLength,
     heights,
     endPosition,
     paths,
@@ -69,10 +69,9 @@ motionsOf machine moved later = go 0 (Compensation.centrePath moved)
           toHeight = end
         }
 
--- | Motion of length 0 at a position and a height: a cutter that stands there. It has the frame
--- number 0.
-standingAt :: Point -> Mm -> CutterMotion
-standingAt p height =
+-- | Motion of length 0 at a position and a height. It belongs to no frame, so its number is 0.
+ofNoLength :: Point -> Mm -> CutterMotion
+ofNoLength p height =
   CutterMotion
     { number = 0,
       part = 0,

@@ -72,7 +72,8 @@ find job at motions = case (complete, filter (staysBeside job . snd) arrivals <>
   where
     measure = ContactMeasure.measureOf job
     arrivals = arrivalsIn job at motions
-    -- The same contour may be cut at the same height before and after a lift.
+    -- A cut that ends before the first lift comes first, because a later statement may cut the same
+    -- contour at the same height.
     complete = completeIn unbroken <> completeIn id
     completeIn part =
       [ Complete arrival (out <> take count rest)

@@ -185,9 +185,14 @@ slight = times 0.125 floorResolution
 -- and perhaps of others; Nothing if they are not known yet.
 data Piece = Piece {curve :: Segment, candidates :: Maybe [Int]}
 
--- | What decided a piece before; it often decides the next piece too: the number of the motion that
--- cleared it, or else that of a neighbour on the tape, and the wall that was too near.
-data Hint = Hint {clearedBy :: Int, screenedBy :: Maybe Segment}
+-- | Motion and wall that decided earlier pieces. They or a neighbouring motion often decide the
+-- next piece, too.
+data Hint = Hint
+  { -- | number of the last motion that cleared a piece; 0 if none did
+    clearedBy :: Int,
+    -- | last wall that was too near to a piece
+    screenedBy :: Maybe Segment
+  }
 
 -- | Uncleared positions on pieces of curves.
 --

@@ -361,7 +361,7 @@ atOneContour machine = do
     hasZ = movesZ machine
     listOf' most one = choose (0, most) >>= \n -> concat <$> replicateM n one
     job isInside = do
-      -- Without heights, nothing on the tape shows where one pocket ends and the next begins.
+      -- Only heights show on a tape where one pocket ends and the next begins.
       isPocket <- frequency [(2, pure False), (1, pure (isInside && hasZ))]
       if isPocket then clearing else along (if isInside then "inside" else "outside")
     along side = do

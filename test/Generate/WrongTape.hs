@@ -152,18 +152,18 @@ withOtherCommands program = case [k | (k, p) <- zip [0 ..] frames, hasCommands p
       (a, b) -> a <> [p {Frame.frame = Frame.commandFrame given} | p <- take 1 list] <> b
 
 -- | Test that two tapes with the same motions surely have other commands: commands are missing or
--- repeated, or there are more than @slack@ mm of the path between the places of a command.
+-- repeated, or more than @slack@ mm of the path lie between the positions of a command.
 commandsApart :: Machine -> Double -> Pulses3 -> [Frame] -> [Frame] -> Bool
 commandsApart machine slack begin one other =
   Map.keys ones /= Map.keys others || or (Map.intersectionWith isApart ones others)
   where
-    (ones, others) = (places one, places other)
+    (ones, others) = (travelsTo one, travelsTo other)
     isApart as bs = length as /= length bs || or (zipWith (\a b -> abs (a - b) > slack) as bs)
-    places frames =
+    travelsTo frames =
       Map.fromListWith
         (flip (<>))
         [(show c, [at']) | (f, at') <- zip frames (travels frames), c <- commands f]
-    -- The length of the path before each frame.
+    -- Length of the path before each frame.
     travels frames = scanl (+) 0 (map lengthOf (motionsOf begin frames))
     motionsOf from frames = case frames of
       [] -> []
