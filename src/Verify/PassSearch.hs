@@ -169,6 +169,13 @@ isAtExit job p = Vec.distance (exit job) p <= exitTolerance job
 endsAtExit :: MillingJob -> CutterMotion -> Bool
 endsAtExit job = isAtExit job . Segment.end . segment
 
+-- | Test that a motion is a line that goes away from the end of the cut. Such a line near that end
+-- belongs to the next link, which was divided.
+isLeaving :: MillingJob -> CutterMotion -> Bool
+isLeaving job m = case segment m of
+  Straight a b -> Vec.distance b (exit job) > Vec.distance a (exit job)
+  Arc {} -> False
+
 -- | Test that a motion is a full circle.
 isFullCircle :: CutterMotion -> Bool
 isFullCircle m = case segment m of
@@ -199,12 +206,13 @@ untilExit job motions
     leavesHeight = not (null leaving) && null (drop (length leaving) (unbroken motions))
     (leaving, away) = span staysAtEntry motions
     (along, back) = break (endsAtExit job) away
-    (staying, later) = span (endsAtExit job) (unbroken back)
+    (staying, later) = span staysAtExit (unbroken back)
     again
       | isPartialCut job || null later = []
       | MillingJob.isClosed job =
         if goThereAndBack job (along <> staying) then untilExit job later else []
       | otherwise = dropWhileEnd (not . endsAtExit job) (besideFrom job later)
+    staysAtExit m = endsAtExit job m && not (isLeaving job m)
     staysAtEntry m =
       endsNear job (entry job) m
         && not (isFullCircle m)
@@ -256,7 +264,7 @@ follow job measure progress motions near
         && travelled progress + furthest >= contourLength measure - slack measure
     ended = Just (count progress + length (takeWhile staysAtExit later))
     later = drop (length (latest progress)) (unbroken (latest progress <> motions))
-    staysAtExit m = endsAtExit job m && not (isFullCircle m)
+    staysAtExit m = endsAtExit job m && not (isFullCircle m) && not (isLeaving job m)
     onwards = case (motions, near) of
       (m : rest, edges' : others)
         | Just travelled' <- afterMotion job measure edges' m (travelled progress) ->
