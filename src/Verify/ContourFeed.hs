@@ -24,6 +24,7 @@ import Geometry.Distance qualified as Distance
 import Geometry.Index.BoxTree qualified as BoxTree
 import Geometry.Segment qualified as Segment
 import Geometry.Vec (Point)
+import Geometry.Vec qualified as Vec
 import Machine.Machine (BrakingForm (..), Machine)
 import Machine.Machine qualified as Machine
 import Part.Part (Element)
@@ -108,8 +109,8 @@ examined job c
 
 -- | Findings for missing slow frames at the ends of elements, and for slow frames elsewhere. An
 -- element counts with the motions in whose middle the cutter touches only this element, and with
--- those that run beside it from the last of them to the first motion along another element. At the
--- end it has to be slow for the length that the machine needs to slow down, and nowhere else; the
+-- those that run beside it from the last of them to the first motion along another element, in its
+-- direction. At the end it has to be slow for the length that the machine needs to slow down, and nowhere else; the
 -- 'margin' may be missing or too much.
 slowFindings :: Machine -> MillingJob -> [ContourMotion] -> [Finding]
 slowFindings machine job motions = case Machine.brakingForm (Machine.braking machine) of
@@ -137,7 +138,12 @@ slowFindings machine job motions = case Machine.brakingForm (Machine.braking mac
         finish = Part.finish (element e)
         asked = fromMaybe (Part.feed (milling job)) (Part.ownFeed finish)
         isBeside (c, _) =
-          let p = Segment.at 0.5 (segment c) in Segment.hasFootOf (shape e) p && isAtReach job p e
+          let p = Segment.at 0.5 (segment c)
+              foot = Distance.nearestFraction p (shape e)
+              along = Segment.directionAt 0.5 (segment c)
+           in Segment.hasFootOf (shape e) p
+                && isAtReach job p e
+                && Vec.dot along (Segment.directionAt foot (shape e)) > 0
     -- For each element, its motions, and after each of them those along no single element. The last
     -- motion comes first.
     beside =

@@ -64,7 +64,7 @@ laws tapes = do
         counterexample (show (Machine.name machine)) $
           map show (Proof.findings (Verify.prove machine path program (own program))) === []
   it "tapes that cut the same in another way are proven" $
-    withMaxSuccess (max 100 (tapes `div` 10)) $
+    withMaxSuccess (max 1000 (tapes `div` 10)) $
       -- The other parts change the tool without a command, so only their planned frames show it.
       forAllBlind byText $ \o ->
         forAllBlind (otherTape o) $ \(starts, frames) ->
