@@ -90,6 +90,16 @@ isAtReach job p e = Mm (abs away) <= allowance job
   where
     Mm away = minus (Distance.toPoint p (shape e)) (plus (reach job) (ownAllowance e))
 
+-- | Test that a motion, in its middle, runs beside an element and in its direction.
+runsAlong :: MillingJob -> Edge -> CutterMotion -> Bool
+runsAlong job e c =
+  Segment.hasFootOf (shape e) p
+    && isAtReach job p e
+    && Vec.dot (Segment.directionAt 0.5 (segment c)) (Segment.directionAt foot (shape e)) > 0
+  where
+    p = Segment.at 0.5 (segment c)
+    foot = Distance.nearestFraction p (shape e)
+
 -- | Length in mm by which rounding may move a joint between two elements.
 margin :: MillingJob -> Mm
 margin job = times 3 (allowance job)
@@ -110,8 +120,8 @@ examined job c
 -- | Findings for missing slow frames at the ends of elements, and for slow frames elsewhere. An
 -- element counts with the motions in whose middle the cutter touches only this element, and with
 -- those that run beside it from the last of them to the first motion along another element, in its
--- direction. At the end it has to be slow for the length that the machine needs to slow down, and nowhere else; the
--- 'margin' may be missing or too much.
+-- direction. At the end it has to be slow for the length that the machine needs to slow down, and
+-- nowhere else; the 'margin' may be missing or too much.
 slowFindings :: Machine -> MillingJob -> [ContourMotion] -> [Finding]
 slowFindings machine job motions = case Machine.brakingForm (Machine.braking machine) of
   SlowFrames -> concatMap ofElement (BoxTree.toList (edges job))
@@ -137,13 +147,7 @@ slowFindings machine job motions = case Machine.brakingForm (Machine.braking mac
       where
         finish = Part.finish (element e)
         asked = fromMaybe (Part.feed (milling job)) (Part.ownFeed finish)
-        isBeside (c, _) =
-          let p = Segment.at 0.5 (segment c)
-              foot = Distance.nearestFraction p (shape e)
-              along = Segment.directionAt 0.5 (segment c)
-           in Segment.hasFootOf (shape e) p
-                && isAtReach job p e
-                && Vec.dot along (Segment.directionAt foot (shape e)) > 0
+        isBeside = runsAlong job e . fst
     -- For each element, its motions, and after each of them those along no single element. The last
     -- motion comes first.
     beside =

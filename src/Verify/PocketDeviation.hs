@@ -21,7 +21,7 @@ where
 import Base.Quantity (Mm (..), minus, plus, times)
 import Data.List (foldl', minimumBy, sortOn)
 import Data.List.NonEmpty qualified as NonEmpty
-import Data.Maybe (mapMaybe, maybeToList)
+import Data.Maybe (isNothing, mapMaybe, maybeToList)
 import Data.Ord (comparing)
 import Geometry.Distance qualified as Distance
 import Geometry.Distance.Fast qualified as FastDistance
@@ -192,8 +192,8 @@ data Demand = Demand {wall :: Element, reached :: Mm, curve :: Segment}
 -- the wall's points from the motions, minus the distance of the pocket's rim. A motion that
 -- deviates into the wall leaves nothing there, so a point of the rim within the allowed gouge of a
 -- motion only counts if the wall beside it is too far. Each excess above @allowance@, the allowed
--- excess, is listed. An excess within the allowance is listed only if it is larger than all earlier
--- ones within the allowance.
+-- excess, is listed. An excess within the allowance is listed only if it exceeds all earlier ones
+-- within the allowance by the resolution of the search.
 unreached :: Pocket -> Mm -> Mm -> BoxTree CutterMotion -> [Witness]
 unreached pocket allowedGouge allowance motions =
   go (Mm 0) (concatMap (uncurry (demandsOf pocket allowedGouge allowance)) (rim pocket))
@@ -201,12 +201,15 @@ unreached pocket allowedGouge allowance motions =
     go least demands = case demands of
       [] -> []
       demand : rest
-        | isSurelyCovered least demand -> go least rest
-        | otherwise -> case Coverage.largestGap (coverOf demand) Nothing least (curve demand) of
+        | all (isNothing . gapIn demand known) (doubtful known demand) -> go least rest
+        | otherwise -> case gapIn demand least (curve demand) of
           Nothing -> go least rest
           Just gap ->
             witness (wall demand) gap :
             go (if size gap > allowance then least else size gap) rest
+        where
+          known = max least (min allowance (plus least Tolerance.resolution))
+    gapIn demand = Coverage.largestGap (coverOf demand) Nothing
     witness e Gap {size, location, members} =
       Witness
         { Proof.amount = size,
@@ -215,9 +218,10 @@ unreached pocket allowedGouge allowance motions =
           Proof.element = Part.origin e,
           Proof.location
         }
-    isSurelyCovered least Demand {reached, curve} =
+    -- The parts of a curve that may have a larger gap than @least@.
+    doubtful least Demand {reached, curve} =
       let far@(Mm d) = plus reached least
-       in FastDistance.isCovered
+       in FastDistance.doubtful
             d
             Motion.pathList
             (const True)

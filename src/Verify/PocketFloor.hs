@@ -201,8 +201,8 @@ unclearedOn :: Floor -> Hint -> [Piece] -> [Point]
 unclearedOn floor' hint pieces = case pieces of
   [] -> []
   Piece {curve, candidates} : more
-    | n : _ <- filter (clears floor' curve) [known, known + 1, known - 1] -> cleared n
     | any (screens floor' curve) (screenedBy hint) -> unclearedOn floor' hint more
+    | n : _ <- filter (clears floor' curve) [known, known + 1, known - 1] -> cleared n
     | isLong -> unclearedOn floor' hint (halves Nothing <> more)
     | n : _ <- filter (clears floor' curve) clearing -> cleared n
     | isShort curve, not (null clearing) -> unclearedOn floor' hint more

@@ -29,6 +29,7 @@ module Geometry.Distance.Fast
     begin,
     isWithin,
     isCovered,
+    doubtful,
     isAccompanied,
     range,
     isLeftOf,
@@ -60,24 +61,32 @@ furthestFrom most e ts
       ArcAt ax ay bx by _ _ _ _ -> distance t ax ay <= most && distance t bx by <= most
 
 -- | True only if every point of the segment @e@ lies within @reach@, in mm, of one of the things
--- @others@. A thing consists of the segments that @segmentsOf@ gives. A point lies within @reach@
--- of a thing if it lies within @reach@ of every one of the thing's segments. Only things for which
--- @counts@ is true are used; this condition is tested last.
+-- @others@. See 'doubtful'.
 isCovered :: Double -> (a -> [Segment]) -> (a -> Bool) -> [a] -> Segment -> Bool
-isCovered reach segmentsOf counts others e =
-  any (covers e) others || go others (parts e (concatMap segmentsOf others))
+isCovered reach segmentsOf counts others e = null (doubtful reach segmentsOf counts others e)
+{-# INLINE isCovered #-}
+
+-- | Parts of the segment @e@ outside of which every point surely lies within @reach@, in mm, of one
+-- of the things @others@. A thing consists of the segments that @segmentsOf@ gives. A point lies
+-- within @reach@ of a thing if it lies within @reach@ of every one of the thing's segments. Only
+-- things for which @counts@ is true are used; this condition is tested last.
+doubtful :: Double -> (a -> [Segment]) -> (a -> Bool) -> [a] -> Segment -> [Segment]
+doubtful reach segmentsOf counts others e
+  | any (covers e) others = []
+  | otherwise = case parts e (concatMap segmentsOf others) of
+    [] -> [e]
+    some -> go others some
   where
     covers part other = all (isWithin (reach - 2 * unsure) part) (segmentsOf other) && counts other
     -- The things @others@ usually come in the order of the parts of @e@. So the search for each
     -- part begins where the search for the previous part succeeded.
     go ahead ps = case ps of
-      [] -> False
-      [part] -> covered ahead part
+      [] -> []
       part : more -> case dropWhile (not . covers part) ahead of
-        [] -> any (covers part) others && go ahead more
+        [] | any (covers part) others -> go ahead more
+        [] -> part : go ahead more
         found -> go found more
-    covered ahead part = any (covers part) ahead || any (covers part) others
-{-# INLINE isCovered #-}
+{-# INLINE doubtful #-}
 
 -- | True only if every point of the segment @t@ lies within @most@, in mm, of one of the segments
 -- @others@. Always false for an arc with a sweep above 'largestSweep'.

@@ -294,33 +294,45 @@ groupLimit = 128
 -- Because of rounding, this distance may be less than that of the thing's box, by at most
 -- 'Tolerance.coincident'.
 --
--- This is branch and bound. It visits the boxes in a box in the order of their distances.
+-- This is branch and bound. Of the boxes in a box it visits the nearest one first.
 closest :: (a -> Mm) -> Point -> BoxTree a -> Maybe (Mm, a)
 closest distanceTo p tree = case levels tree of
   [] -> Nothing
-  top : below -> fmap (thing tree) <$> inside top below 0 (boxCount top) Nothing
+  top : below -> case inside top below 0 (boxCount top) (Nearest (Mm (1 / 0)) (-1)) of
+    Nearest d i
+      | i < 0 -> Nothing
+      | otherwise -> Just (d, thing tree i)
     where
-      -- Visits the boxes of @level@ from @i@ to @end − 1@. @best@ has the distance and the index of
-      -- the nearest thing so far.
+      -- Visits the boxes of @level@ from @i@ to @end − 1@. @best@ is the nearest thing so far.
       inside level below' i end best = case below' of
         [] -> nearest level i end best
         next : lower ->
-          List.foldl'
-            (visit next lower)
-            best
-            (sortOn fst [(away level k, k) | k <- [i .. end - 1]])
-      visit next lower best (d, k)
+          let first = nearestBox level (i + 1) end i (away level i)
+           in others next lower level first i end (visit next lower first (away level first) best)
+      others next lower level first i end best
+        | i >= end = best
+        | i == first = others next lower level first (i + 1) end best
+        | otherwise =
+          others next lower level first (i + 1) end (visit next lower i (away level i) best)
+      visit next lower k d best
         | isFurther d best = best
         | otherwise = inside next lower (fan * k) (childrenEnd next k) best
+      nearestBox level i end k d
+        | i >= end = k
+        | away level i < d = nearestBox level (i + 1) end i (away level i)
+        | otherwise = nearestBox level (i + 1) end k d
       nearest level i end best
         | i >= end = best
         | isFurther (away level i) best = nearest level (i + 1) end best
         | otherwise = nearest level (i + 1) end (better i (distanceTo (thing tree i)) best)
-      isFurther d = maybe False ((d >) . fst)
-      better i d best = case best of
-        Just (e, j) | e < d || (e == d && j < i) -> best
-        _ -> Just (d, i)
+      isFurther d (Nearest e _) = d > e
+      better i d best@(Nearest e j)
+        | j < 0 || d < e || (d == e && i < j) = Nearest d i
+        | otherwise = best
       away level i = minus (BoundingBox.distance p (boxAt level i)) Tolerance.coincident
+
+-- | Index of the nearest thing so far, preceded by its distance; a negative index if there is none.
+data Nearest = Nearest Mm Int
 
 -- | A subtree: its box, and either the one thing in it or its own subtrees.
 data Node a = Leaf BoundingBox a | Branch BoundingBox ~[Node a]
