@@ -20,7 +20,7 @@ where
 import Base.LazyList (LazyList)
 import Base.LazyList qualified as LazyList
 import Base.PulseVector (Pulses3 (..))
-import Base.Quantity (Mm (..), minus, plus)
+import Base.Quantity (Mm (..), plus)
 import Base.Region (Located (..), Region)
 import Base.Result (Result (..))
 import Data.Containers.ListUtils (nubOrd)
@@ -374,9 +374,8 @@ straightTo target = ArcStep {target, turnsAbout = Nothing}
 arcSteps :: Context -> Pulses3 -> ChordTolerance -> NonEmpty Move -> [ArcStep]
 arcSteps context@Context {machine} begin tolerance run = case tolerance of
   OnCurve bounds -> curveSteps context begin bounds run
-  Sagitta y -> ofSegment (arcTolerance machine Nothing y y)
-  ArcBand inwards outwards ->
-    ofSegment (arcTolerance machine (Just (segment m)) inwards outwards)
+  Sagitta y -> ofSegment (arcTolerance machine y y) {radiusChange = Nothing}
+  ArcBand inwards outwards -> ofSegment (arcTolerance machine inwards outwards)
   where
     m = NonEmpty.head run
     ofSegment allowed =
@@ -388,30 +387,27 @@ arcSteps context@Context {machine} begin tolerance run = case tolerance of
         begin
         (segment m)
 
--- | Tolerance for arcs in place of an exact segment. @inwards@ and @outwards@ are the allowed chord
--- errors towards the centre and away from it; rounding adds up to one pulse to each.
+-- | Tolerance for arcs in place of an exact segment whose sides have tolerances of their own.
+-- @inwards@ and @outwards@ are the allowed chord errors towards the centre and away from it;
+-- rounding adds up to one pulse to each.
 --
--- @inBand@ is the segment if the program gives different tolerances for both sides. If one of them
--- is below a pulse, the joints with the neighbours count as well. A rounded joint lies up to half a
--- diagonal of the grid beside the neighbour. There the circle of radius r is p²/(4r) away from the
--- neighbour's line, where p is the pulse. At an inner corner the cutter comes nearer to the
--- neighbour by the rounding of the joint and by the change of the radius together.
-arcTolerance :: Machine -> Maybe Segment -> Mm -> Mm -> ArcTolerance
-arcTolerance machine inBand inwards outwards = case inBand of
-  Just s
-    | least < pulse ->
-      allowing
-        (minus pulse (atJoint s))
-        (Just (ChordError.remainder machine (plus least pulse)))
-  _ -> allowing pulse Nothing
+-- If one of them is below a pulse, the joints with the neighbours count as well: at a joint, the
+-- cutter comes nearer to the neighbour by the rounding of the joint and by the change of the radius
+-- together. The rounding counts for at most half a diagonal of the grid: if its part along a smooth
+-- neighbour is b, the circle of radius r leaves the neighbour's line by b²/(2r) there, and the part
+-- across is at most √(p²/2 − b²), where p is the pulse. For r ≥ p/√2 the sum is at most p/√2.
+arcTolerance :: Machine -> Mm -> Mm -> ArcTolerance
+arcTolerance machine inwards outwards =
+  ArcTolerance
+    { linearError = pulse,
+      inwards = plus pulse inwards,
+      outwards = plus pulse outwards,
+      radiusChange =
+        if least < pulse then Just (ChordError.remainder machine (plus least pulse)) else Nothing
+    }
   where
-    pulse@(Mm p) = Machine.planeResolution machine
+    pulse = Machine.planeResolution machine
     least = min inwards outwards
-    allowing rounding = ArcTolerance rounding (plus rounding inwards) (plus rounding outwards)
-    atJoint s = case s of
-      Segment.Arc {Segment.start = from, Segment.centre} ->
-        let Mm r = Segment.radius centre from in Mm (min (p / 4) (p * p / (4 * r)))
-      Straight _ _ -> Mm 0
 
 -- | Steps of a level run along a curve, from the position @begin@ in pulses. 'ArcFitting.divisions'
 -- divides the run into arcs and chords in several ways. The result has the steps of the division
