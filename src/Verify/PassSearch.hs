@@ -231,20 +231,18 @@ goThereAndBack job motions = abs (sum (zipWith area points (drop 1 points))) <= 
 -- Following the contact point ---------------------------------------------------------------------
 
 -- | Progress of the cutter along a contour: the count of motions so far, the arc length in mm from
--- the start of the contour to the contact point, and the position of the centre. @latest@ is the
--- last motion, or empty before the first one.
+-- the start of the contour to the contact point, and the position of the centre.
 data Progress = Progress
   { count :: Int,
     travelled :: Double,
-    position :: Point,
-    latest :: [CutterMotion]
+    position :: Point
   }
 
 -- | Number of motions, from the beginning of the list, that follow the contour to its end. Nothing
 -- if the motions leave the contour, reverse on it, or stop before its end.
 countFollowing :: MillingJob -> Measure -> [CutterMotion] -> Maybe Int
 countFollowing job measure motions =
-  follow job measure (Progress 0 0 (entry job) []) motions (MillingJob.edgesNearEach job motions)
+  follow job measure (Progress 0 0 (entry job)) motions (MillingJob.edgesNearEach job motions)
 
 -- | Follow the contact point through the motions that remain. @near@ has, for each of them, the
 -- elements that the cutter may touch. The result is the count of all motions up to the end of the
@@ -262,8 +260,7 @@ follow job measure progress motions near
     hasArrived =
       isAtExit job (position progress)
         && travelled progress + furthest >= contourLength measure - slack measure
-    ended = Just (count progress + length (takeWhile staysAtExit later))
-    later = drop (length (latest progress)) (unbroken (latest progress <> motions))
+    ended = Just (count progress + length (takeWhile staysAtExit motions))
     staysAtExit m = endsAtExit job m && not (isFullCircle m) && not (isLeaving job m)
     onwards = case (motions, near) of
       (m : rest, edges' : others)
@@ -274,8 +271,7 @@ follow job measure progress motions near
             Progress
               { count = count progress + 1,
                 travelled = travelled',
-                position = Segment.end (segment m),
-                latest = [m]
+                position = Segment.end (segment m)
               }
             rest
             others
