@@ -8,7 +8,7 @@ module Verify.WrongSide
   )
 where
 
-import Base.Quantity (Mm (..), minus, plus, times)
+import Base.Quantity (Mm (..), Rad (..), minus, plus, times)
 import Data.List (minimumBy)
 import Data.Maybe (listToMaybe, mapMaybe)
 import Data.Ord (comparing)
@@ -128,17 +128,19 @@ runsBack machine job m =
         ahead = Segment.directionAt k (segment m)
         nearest = touchedAt job around p
 
--- | Test that the motion @m@ is a step: at a vertex where the allowance changes, it leads from one
--- distance to the other along the normal of one of the two elements. It may touch another element
--- meanwhile. @around@ are the elements near the motion, @ahead@ is its direction.
+-- | Test that the motion @m@ is a step along the normal of one of the two elements at a vertex: from
+-- the distance of the one to that of the other where the allowance changes, or where one of them is
+-- an arc too narrow for the distance. The normals at the ends of such an arc cross, so its allowance
+-- ends beyond their crossing. The step may touch another element meanwhile. @around@ are the
+-- elements near the motion, @ahead@ is its direction.
 isStep :: MillingJob -> [Edge] -> CutterMotion -> Vec -> Bool
 isStep job around m ahead =
   or
     [ any (isAlongNormal vertex) [Segment.endDirection (shape e), Segment.startDirection (shape e')]
-        && all (isBetween vertex (ownAllowance e) (ownAllowance e')) (bothEnds m)
+        && all (isBetween vertex (lowest e e') (max (ownAllowance e) (ownAllowance e'))) (bothEnds m)
       | e <- around,
         e' <- around,
-        ownAllowance e /= ownAllowance e',
+        ownAllowance e /= ownAllowance e' || any isTooNarrow [e, e'],
         let vertex = Segment.end (shape e),
         Vec.isNear vertex (Segment.start (shape e'))
     ]
@@ -146,10 +148,19 @@ isStep job around m ahead =
     isAlongNormal vertex direction =
       abs (Vec.dot direction ahead) < clearly
         && all (\q -> Mm (abs (Vec.dot direction (Vec.to vertex q))) <= allowance job) (bothEnds m)
+    lowest e e'
+      | any isTooNarrow [e, e'] = Mm 0
+      | otherwise = min (ownAllowance e) (ownAllowance e')
     isBetween vertex a b q =
       let d = Vec.distance q vertex
-       in d >= minus (plus (reach job) (min a b)) (allowance job)
-            && d <= plus (plus (reach job) (max a b)) (allowance job)
+       in d >= minus (plus (reach job) a) (allowance job)
+            && d <= plus (plus (reach job) b) (allowance job)
+    isTooNarrow e =
+      ownAllowance e > Mm 0 && case shape e of
+        Arc {start, centre, sweep = Rad angle} ->
+          maybe False (\s -> Carrier.sideSign s * angle > 0) (side job)
+            && Segment.radius centre start < plus (reach job) (ownAllowance e)
+        Straight _ _ -> False
 
 -- | Test that the motion @m@ lengthens the path beside an element to a sharp corner, in the
 -- direction of the element. Another element may be nearer than the corner. @around@ are the
