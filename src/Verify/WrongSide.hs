@@ -128,16 +128,16 @@ runsBack machine job m =
         ahead = Segment.directionAt k (segment m)
         nearest = touchedAt job around p
 
--- | Test that the motion @m@ is a step along the normal of one of the two elements at a vertex: from
--- the distance of the one to that of the other where the allowance changes, or where one of them is
--- an arc too narrow for the distance. The normals at the ends of such an arc cross, so its allowance
--- ends beyond their crossing. The step may touch another element meanwhile. @around@ are the
--- elements near the motion, @ahead@ is its direction.
+-- | Test that the motion @m@ is a step along the normal of one of the two elements at a vertex. A
+-- step leads from the distance of the one to that of the other, where the allowance changes or
+-- where one of them is an arc too narrow for the distance. The normals at the ends of such an arc
+-- cross, and its allowance ends beyond their crossing. The step may touch another element
+-- meanwhile. @around@ are the elements near the motion, @ahead@ is its direction.
 isStep :: MillingJob -> [Edge] -> CutterMotion -> Vec -> Bool
 isStep job around m ahead =
   or
     [ any (isAlongNormal vertex) [Segment.endDirection (shape e), Segment.startDirection (shape e')]
-        && all (isBetween vertex (lowest e e') (max (ownAllowance e) (ownAllowance e'))) (bothEnds m)
+        && all (isBetween vertex (lowest e e') (largest e e')) (bothEnds m)
       | e <- around,
         e' <- around,
         ownAllowance e /= ownAllowance e' || any isTooNarrow [e, e'],
@@ -148,6 +148,7 @@ isStep job around m ahead =
     isAlongNormal vertex direction =
       abs (Vec.dot direction ahead) < clearly
         && all (\q -> Mm (abs (Vec.dot direction (Vec.to vertex q))) <= allowance job) (bothEnds m)
+    largest e e' = max (ownAllowance e) (ownAllowance e')
     lowest e e'
       | any isTooNarrow [e, e'] = Mm 0
       | otherwise = min (ownAllowance e) (ownAllowance e')

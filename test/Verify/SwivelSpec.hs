@@ -23,11 +23,12 @@ spec =
     \alone, where the blade may have any bevel between two)"
     $ do
       text <- readText "test/programs/tool/good/blade-upright-ends.part"
-      -- Round the corners, the direction of the cutter shows the bevel. At sharp ones, nothing does.
-      forM_ [text, Text.replace "left {" "left { corners sharp" text] $ \program' -> do
+      -- At round corners the direction of the cutter shows the bevel. At sharp ones, nothing does.
+      forM_ [text, Text.replace "left {" "left { corners sharp" text] $ \source -> do
+        let analysis = Compile.analyse [] (LoadedProgram.fromText "blade.part" source)
         (toolpath, program) <-
           maybe (fail "the program has errors") pure . Result.ifSound $
-            Compile.analyse [] (LoadedProgram.fromText "blade.part" program') `Result.thenSound` \a ->
+            analysis `Result.thenSound` \a ->
               Compile.punch iso6983 (path a) `Result.thenSound` \p -> pure (path a, program p)
         let frames = map Frame.frame (Frame.plannedFrames program)
             (onto, along) = break rises frames
