@@ -18,13 +18,12 @@ module Verify.ContactMeasure
   )
 where
 
-import Base.Quantity (Mm (..), Rad (..), total)
+import Base.Quantity (Mm (..), total)
 import Data.List (foldl')
 import Data.List.NonEmpty (NonEmpty (..))
 import Data.List.NonEmpty qualified as NonEmpty
 import Data.Vector.Unboxed (Vector, (!))
 import Data.Vector.Unboxed qualified as Vector
-import Geometry.Carrier qualified as Carrier
 import Geometry.Distance.Fast qualified as FastDistance
 import Geometry.Index.BoxTree qualified as BoxTree
 import Geometry.Segment (Segment (..))
@@ -156,12 +155,11 @@ largestGrowth window firsts seconds = go 0 0 0
 -- uncertainty is multiplied by this factor, and by 2 as a margin.
 uncertaintyOn :: MillingJob -> Segment -> Double
 uncertaintyOn job s = case s of
-  Arc {start, centre, sweep = Rad angle}
-    | isInside angle ->
+  Arc {start, centre, sweep}
+    | MillingJob.isInsideArc job sweep ->
       let Mm old = Segment.radius centre start
        in 4 * a * old / max 1e-9 (abs (old - r))
   _ -> 2 * a
   where
     Mm a = allowance job
     Mm r = reach job
-    isInside angle = maybe False (\s' -> Carrier.sideSign s' * angle > 0) (side job)

@@ -8,6 +8,7 @@ module Verify.MillingJob
   ( MillingJob (..),
     elementsOf,
     isClosed,
+    isInsideArc,
     contactLimit,
     edgesAround,
     edgesNear,
@@ -18,7 +19,7 @@ module Verify.MillingJob
   )
 where
 
-import Base.Quantity (Mm (..), minus, plus)
+import Base.Quantity (Mm (..), Rad (..), minus, plus)
 import Base.Region (Region)
 import Data.List.NonEmpty qualified as NonEmpty
 import Geometry.Carrier qualified as Carrier
@@ -71,6 +72,11 @@ elementsOf = NonEmpty.toList . Part.elements . Part.contour . milling
 -- | Test that the contour is closed.
 isClosed :: MillingJob -> Bool
 isClosed job = Part.ends (Part.contour (milling job)) == Part.Closed
+
+-- | Test that the cutter moves on the inside of the arcs of the contour that have a sweep of this
+-- sign. False if the cutter has no side.
+isInsideArc :: MillingJob -> Rad -> Bool
+isInsideArc job (Rad sweep) = maybe False (\s -> Carrier.sideSign s * sweep > 0) (side job)
 
 -- | Largest distance, with the allowed deviation, from an element to the centre of a cutter that
 -- touches it.

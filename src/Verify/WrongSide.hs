@@ -8,7 +8,7 @@ module Verify.WrongSide
   )
 where
 
-import Base.Quantity (Mm (..), Rad (..), minus, plus, times)
+import Base.Quantity (Mm (..), minus, plus, times)
 import Data.List (minimumBy)
 import Data.Maybe (listToMaybe, mapMaybe)
 import Data.Ord (comparing)
@@ -158,8 +158,8 @@ isStep job around m ahead =
             && d <= plus (plus (reach job) b) (allowance job)
     isTooNarrow e =
       ownAllowance e > Mm 0 && case shape e of
-        Arc {start, centre, sweep = Rad angle} ->
-          maybe False (\s -> Carrier.sideSign s * angle > 0) (side job)
+        Arc {start, centre, sweep} ->
+          MillingJob.isInsideArc job sweep
             && Segment.radius centre start < plus (reach job) (ownAllowance e)
         Straight _ _ -> False
 
